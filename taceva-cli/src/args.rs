@@ -3,6 +3,7 @@
 mod bench;
 mod cache;
 mod dataset;
+mod live;
 mod model;
 mod plugin;
 mod renamed;
@@ -16,6 +17,7 @@ use clap::{Args, Parser, Subcommand};
 pub(crate) use self::bench::{Bench, BenchDecode, BenchKernels, BenchModels, BenchSubject};
 pub(crate) use self::cache::{CacheCommand, CacheList, CachePrune, CacheSubject};
 pub(crate) use self::dataset::{Check, Import, Reseal};
+pub(crate) use self::live::{Capture, LiveArgs, Preview};
 pub(crate) use self::model::{Evaluate, Fit, Merge, Predict, Score};
 pub(crate) use self::plugin::{
     Plugin, PluginAllow, PluginArgs, PluginCheck, PluginDeny, PluginHeaders, PluginInfo,
@@ -97,6 +99,10 @@ pub(crate) enum Command {
     Cache(CacheCommand),
     /// Benchmarks: run time against error, with the Pareto front marked
     Bench(Bench),
+    /// Record a sensor without a robot: frames, and the force of presses by hand
+    Capture(Capture),
+    /// Look at a sensor in a browser: live frames, force, focus and saturation; nothing is recorded
+    Preview(Preview),
     /// Plan, acquire, fit, evaluate and report a scene; without one, four sensors on the simulated bench
     Run(Run),
     /// Print what `run` would do with a scene, keep and skip, and why; opens no device

@@ -2,8 +2,10 @@
 
 pub(crate) mod accept;
 mod attachments;
+mod attended;
 pub(crate) mod bench;
 pub(crate) mod cache;
+pub(crate) mod capture;
 pub(crate) mod catalogue;
 pub(crate) mod check;
 pub(crate) mod choose;
@@ -17,11 +19,13 @@ pub(crate) mod evaluate;
 pub(crate) mod fit;
 pub(crate) mod import;
 pub(crate) mod merge;
+mod on_page;
 mod operator;
 pub(crate) mod plan;
 pub(crate) mod plugin;
 mod plugins;
 pub(crate) mod predict;
+pub(crate) mod preview;
 pub(crate) mod reseal;
 mod results;
 pub(crate) mod rig;

@@ -68,6 +68,8 @@ fn run(command: &Command, context: &Context) -> anyhow::Result<u8> {
         Command::Catalogue(args) => cmd::catalogue::run(args, context),
         Command::Cache(args) => cmd::cache::run(args, context),
         Command::Bench(args) => cmd::bench::run(args, context),
+        Command::Capture(args) => cmd::capture::run(args, context),
+        Command::Preview(args) => cmd::preview::run(args, context),
         Command::Run(args) => cmd::run::run(args, context),
         Command::Plan(args) => cmd::plan::run(args, context),
         Command::Rig(args) => cmd::rig::run(args, context),

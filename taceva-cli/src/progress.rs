@@ -31,6 +31,13 @@ pub(crate) fn listen_for_signals() {
     drop(listening);
 }
 
+/// Stops work as a signal does, for a page: asked twice, a robot is halted where it is, and the program ends as the run does.
+pub(crate) fn stop() {
+    if STOPPED.swap(true, Ordering::SeqCst) {
+        INSISTED.store(true, Ordering::SeqCst);
+    }
+}
+
 /// Whether a signal came.
 pub(crate) fn is_stopped() -> bool {
     STOPPED.load(Ordering::SeqCst)
@@ -185,6 +192,58 @@ impl Progress for TerminalProgress {
 
     fn is_insisted(&self) -> bool {
         INSISTED.load(Ordering::SeqCst)
+    }
+}
+
+/// One line of standard error that says how something without a known end is going: anew in its place on a terminal, every half minute
+/// otherwise.
+pub(crate) struct StatusLine {
+    mode: Mode,
+    bar: ProgressBar,
+    said: Mutex<Option<Instant>>,
+}
+
+impl StatusLine {
+    pub(crate) fn new(quiet: bool) -> StatusLine {
+        let mode = TerminalProgress::new(quiet).mode;
+        let bar = match mode {
+            Mode::Bar => ProgressBar::new_spinner(),
+            Mode::Quiet | Mode::Lines => ProgressBar::hidden(),
+        };
+        if let Ok(style) = ProgressStyle::with_template("{msg}") {
+            bar.set_style(style);
+        }
+        bar.set_draw_target(match mode {
+            Mode::Bar => ProgressDrawTarget::stderr_with_hz(5),
+            Mode::Quiet | Mode::Lines => ProgressDrawTarget::hidden(),
+        });
+        StatusLine {
+            mode,
+            bar,
+            said: Mutex::new(None),
+        }
+    }
+
+    pub(crate) fn show(&self, line: &str) {
+        match self.mode {
+            Mode::Quiet => {}
+            Mode::Bar => self.bar.set_message(shown(line).to_string()),
+            Mode::Lines => {
+                let Ok(mut said) = self.said.lock() else {
+                    return;
+                };
+                let now = Instant::now();
+                let began = *said.get_or_insert(now);
+                if now.duration_since(began) >= EVERY {
+                    *said = Some(now);
+                    stderr::say(format_args!("{line}"));
+                }
+            }
+        }
+    }
+
+    pub(crate) fn clear(&self) {
+        self.bar.finish_and_clear();
     }
 }
 

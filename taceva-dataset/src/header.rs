@@ -2,6 +2,7 @@
 
 mod facts;
 mod footprint;
+mod stream;
 #[cfg(test)]
 mod tests;
 
@@ -22,6 +23,7 @@ use taceva_seal::{Opened, SealError};
 
 pub use facts::{FramesInfo, Known, ReferenceInfo, SensorFacts, Source, TableInfo};
 pub use footprint::{Footprint, Shape};
+pub use stream::StreamFacts;
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 struct ChannelInfo {
@@ -73,6 +75,8 @@ pub struct Header {
     pub frames: Option<FramesInfo>,
     /// How many presses ended in which way, those without a sample too; empty where no protocol pressed, and before format 1.2.
     pub presses: BTreeMap<PressOutcome, u64>,
+    /// What was lost of a stream that was recorded as it came; `None` of anything else, and before format 1.5.
+    pub stream: Option<StreamFacts>,
     /// What the table must be.
     pub table: TableInfo,
     /// The digest of the dataset.
@@ -100,6 +104,8 @@ struct Written {
     frames: Option<FramesInfo>,
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     presses: BTreeMap<PressOutcome, u64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    stream: Option<StreamFacts>,
     table: TableInfo,
     channels: Vec<ChannelInfo>,
 }
@@ -157,6 +163,7 @@ impl Header {
             unmentioned_columns: written.unmentioned_columns,
             frames: written.frames,
             presses: written.presses,
+            stream: written.stream,
             table: written.table,
             digest: written.digest,
             seal,
@@ -182,6 +189,7 @@ impl Header {
             settings: self.settings.clone(),
             frames: self.frames.clone(),
             presses: self.presses.clone(),
+            stream: self.stream,
             table: self.table,
             channels: self
                 .channels

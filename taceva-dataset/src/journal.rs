@@ -34,6 +34,8 @@ pub(crate) enum RecordKind {
     Reference = 3,
     /// All samples of one press.
     Press = 4,
+    /// Frames of a stream that came together.
+    Stream = 5,
 }
 
 impl RecordKind {
@@ -43,6 +45,7 @@ impl RecordKind {
             RecordKind::Sample,
             RecordKind::Reference,
             RecordKind::Press,
+            RecordKind::Stream,
         ]
         .into_iter()
         .find(|kind| *kind as u8 == byte)

@@ -45,7 +45,8 @@ pub use error::{DatasetError, Place};
 pub use export::export_csv;
 pub use header::reseal_header;
 pub use header::{
-    Footprint, FramesInfo, Header, Known, ReferenceInfo, SensorFacts, Shape, Source, TableInfo,
+    Footprint, FramesInfo, Header, Known, ReferenceInfo, SensorFacts, Shape, Source, StreamFacts,
+    TableInfo,
 };
 pub use import::{
     ArrayFrames, ColumnMap, Conversion, DropRules, FrameMap, FrameNames, IdMap, ImportMap,
@@ -54,7 +55,7 @@ pub use import::{
 };
 pub use pack::Span;
 pub use quality::names_quality;
-pub use recorder::{Recorder, RecordingSpec};
+pub use recorder::{Recorder, RecordingSpec, Streamed};
 pub use replaced::settle;
 pub use scaled::DecodeScale;
 pub use sensor_file::SensorFile;

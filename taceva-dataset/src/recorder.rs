@@ -12,23 +12,25 @@ use taceva_durable::parent_of;
 use crate::digest::Digest;
 use crate::error::DatasetError;
 use crate::file::make_names_durable;
-use crate::header::{Header, ReferenceInfo};
+use crate::header::{Header, ReferenceInfo, StreamFacts};
 use crate::journal::{Journal, JournalRecord, RecordKind};
 use crate::layout;
 use crate::pack::{PackEnd, PackWriter, cut_behind};
 use crate::samples::from_parquet;
 use crate::staged::lock_folder;
-use crate::store::{RecordingFacts, write_table_and_header};
+use crate::store::{Beside, RecordingFacts, write_table_and_header};
 use crate::table::{FrameEntry, Row, Table};
 
 mod check;
 mod folder;
 mod frames;
 mod press;
+mod stream;
 mod written;
 
 use folder::{empty_folder, remove_journal};
-use written::{WrittenFrame, WrittenPress, WrittenSample, WrittenStart};
+pub use stream::Streamed;
+use written::{WrittenFrame, WrittenPress, WrittenSample, WrittenStart, WrittenStream};
 
 /// What a recording is of.
 ///
@@ -83,6 +85,7 @@ pub struct Recorder {
     table: Table,
     finished: HashSet<String>,
     presses: BTreeMap<String, PressOutcome>,
+    stream: Option<StreamFacts>,
     frame_info: Option<FrameInfo>,
     reference: Option<ReferenceInfo>,
     cut_bytes: u64,
@@ -188,6 +191,7 @@ impl Recorder {
             table: Table::new(spec.channels, Vec::new()),
             finished: HashSet::new(),
             presses: BTreeMap::new(),
+            stream: None,
             frame_info: None,
             reference: None,
             cut_bytes: 0,
@@ -269,7 +273,11 @@ impl Recorder {
             &header_path,
             &self.facts,
             (&self.table, self.frames_info()),
-            (self.press_counts(), Vec::new()),
+            Beside {
+                presses: self.press_counts(),
+                stream: self.stream,
+                ..Beside::default()
+            },
         )?;
         self.verify(&samples, &header)?;
         self.put_in_place(&samples, layout::SAMPLES)?;
@@ -292,6 +300,7 @@ impl Recorder {
                 Ok(())
             }
             RecordKind::Press => self.replay_press(WrittenPress::parse(&record.payload)?),
+            RecordKind::Stream => self.replay_stream(WrittenStream::parse(&record.payload)?),
         }
     }
 

@@ -8,7 +8,7 @@ use taceva_core::{Clock, PressOutcome};
 use crate::digest::{Digest, PartsDigest};
 use crate::error::DatasetError;
 use crate::file::write_durable;
-use crate::header::{Footprint, FramesInfo, Header, SensorFacts, Source, TableInfo};
+use crate::header::{Footprint, FramesInfo, Header, SensorFacts, Source, StreamFacts, TableInfo};
 use crate::samples::to_parquet;
 use crate::table::Table;
 use crate::version::Version;
@@ -67,13 +67,24 @@ impl RecordingFacts {
     }
 }
 
+/// What a header says beside the table: of how it came to be.
+#[derive(Debug, Default)]
+pub(crate) struct Beside {
+    /// How many presses ended in which way.
+    pub(crate) presses: BTreeMap<PressOutcome, u64>,
+    /// Columns that no key of an import names.
+    pub(crate) unmentioned_columns: Vec<String>,
+    /// What was lost of a stream.
+    pub(crate) stream: Option<StreamFacts>,
+}
+
 /// Writes the table and the header to the given files, durable but for their names.
 pub(crate) fn write_table_and_header(
     samples: &Path,
     header: &Path,
     facts: &RecordingFacts,
     (table, frames): (&Table, Option<FramesInfo>),
-    (presses, unmentioned_columns): (BTreeMap<PressOutcome, u64>, Vec<String>),
+    beside: Beside,
 ) -> Result<Header, DatasetError> {
     let bytes = to_parquet(table).map_err(|problem| DatasetError::Damaged {
         path: samples.to_owned(),
@@ -82,7 +93,7 @@ pub(crate) fn write_table_and_header(
     write_durable(samples, &bytes)?;
     let table_digest = table.digest();
     let mut written = Header {
-        format: match facts.settings.is_empty() {
+        format: match facts.settings.is_empty() && beside.stream.is_none() {
             true => Version::WITHOUT_SETTINGS,
             false => Version::CURRENT,
         },
@@ -93,10 +104,11 @@ pub(crate) fn write_table_and_header(
         settings: facts.settings.clone(),
         channels: table.channels().clone(),
         attributes: table.attribute_names().to_vec(),
-        unmentioned_columns,
+        unmentioned_columns: beside.unmentioned_columns,
         digest: dataset_digest(table_digest, frames.as_ref()),
         frames,
-        presses,
+        presses: beside.presses,
+        stream: beside.stream,
         table: TableInfo {
             rows: table.rows() as u64,
             digest: table_digest,

@@ -13,7 +13,7 @@ use crate::file::write_durable;
 use crate::header::{FramesInfo, Header, ReferenceInfo};
 use crate::layout;
 use crate::staged::{Place, StagedFolder};
-use crate::store::{RecordingFacts, write_table_and_header};
+use crate::store::{Beside, RecordingFacts, write_table_and_header};
 use crate::table::FrameEntry;
 
 /// Writes `dataset` to a new folder at `path` with each frame as a JPEG of `quality`, from 1 to 100: what a camera with a JPEG stream
@@ -94,7 +94,11 @@ pub fn write_as_jpeg(
         &staged.path().join(layout::HEADER),
         &facts,
         (&table, frames),
-        (header.presses.clone(), header.unmentioned_columns.clone()),
+        Beside {
+            presses: header.presses.clone(),
+            unmentioned_columns: header.unmentioned_columns.clone(),
+            stream: header.stream,
+        },
     )?;
     staged.put_in_place(&folders)?;
     Ok(written)

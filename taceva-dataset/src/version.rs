@@ -29,7 +29,7 @@ impl Version {
     /// The newest that this crate writes.
     pub const CURRENT: Version = Version { major: 1, minor: 5 };
 
-    /// The version of a header that says nothing of what was set of the camera, so that it is what it was before 1.5.
+    /// The version of a header that says nothing of what was set of the camera or of a stream, so that it is what it was before 1.5.
     pub(crate) const WITHOUT_SETTINGS: Version = Version { major: 1, minor: 4 };
 
     /// The first version whose headers are sealed.

@@ -34,6 +34,7 @@ mod trip;
 mod way;
 mod zero;
 
+pub use align::wrench_between;
 pub use devices::{Devices, SpecimenChanger};
 pub use error::{Left, RunError, StopCause};
 pub use event::Event;

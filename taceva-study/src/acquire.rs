@@ -8,10 +8,12 @@ mod key;
 mod latency;
 mod log;
 mod of_file;
+mod opened;
 mod registered;
 mod rehearse;
 pub(crate) mod retried;
 mod schedule;
+mod seen;
 pub(crate) mod sessions;
 mod workshop;
 
@@ -22,7 +24,7 @@ use taceva_dataset::{
     Dataset, DatasetError, Footprint, Known, Recorder, RecordingFacts, RecordingSpec, SensorFacts,
     Source,
 };
-use taceva_protocol::{Cancel, Event, Mode, Plan, RunSpec, StopCause};
+use taceva_protocol::{Cancel, Event, Mode, Plan, PressLog, RunSpec, StopCause};
 
 use crate::error::StudyError;
 use crate::scene::{PlannedStudy, RigSpec};
@@ -32,6 +34,8 @@ pub use held::HeldRigs;
 pub(crate) use key::key;
 use log::RecordedPresses;
 pub(crate) use of_file::{FileDevices, FileOpener};
+pub(crate) use opened::Opened;
+pub(crate) use registered::Turned;
 pub use rehearse::{AIR_MM, rehearse_scene};
 use schedule::Schedule;
 pub use sessions::RecordedSessions;
@@ -123,9 +127,15 @@ fn acquire_unit(
         log.relive(plan, unit);
     }
     let schedule = Schedule::of(plan);
+    if let Some(viewer) = workshop.viewer {
+        viewer.begins(plan, unit, &|press| log.is_finished(press));
+    }
     let mut retried = 0_u64;
     let mut upcoming = open.surroundings.upcoming.take();
     let mut events = |event: &Event| {
+        if let Some(viewer) = workshop.viewer {
+            viewer.event(event);
+        }
         match event {
             Event::Started { finished, .. } => progress.advance(*finished as u64),
             Event::Approaching { press, number } => {

@@ -11,6 +11,7 @@ mod facts;
 mod finding;
 mod label_outliers;
 mod leakage;
+mod lost_frames;
 mod missing_labels;
 mod placeholder;
 mod pressed_reference;
@@ -26,7 +27,7 @@ pub use finding::{Check, CheckReport, Finding, Severity};
 pub use run::{CheckRequest, check, check_plan};
 
 /// Every check, in the order of its code.
-pub static ALL: [&Check; 15] = [
+pub static ALL: [&Check; 16] = [
     &units::CHECK,
     &duplicate_frames::CHECK,
     &channel_order::CHECK,
@@ -42,4 +43,5 @@ pub static ALL: [&Check; 15] = [
     &damaged_frames::CHECK,
     &label_outliers::CHECK,
     &unmentioned_columns::CHECK,
+    &lost_frames::CHECK,
 ];

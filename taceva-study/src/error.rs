@@ -1,6 +1,6 @@
 //! Why a study cannot be run.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use taceva_core::{DriverError, ErrorKind, ModelError};
 use taceva_dataset::DatasetError;
@@ -76,7 +76,7 @@ pub enum StudyError {
         /// Why.
         source: Box<OpenError>,
     },
-    /// A device of a rig that is set up failed.
+    /// A device failed while a rig was set up or looked at, or before a capture had kept anything.
     #[error(transparent)]
     Device(#[from] DriverError),
     /// A rig that stopped before its end; every press before is recorded, and the same study goes on from there.
@@ -86,6 +86,34 @@ pub enum StudyError {
         study: String,
         /// Why, and how the tip was left.
         source: Box<RunError>,
+    },
+    /// A device of a capture or a preview that did not open.
+    #[error(transparent)]
+    OpenLive(Box<OpenError>),
+    /// A device that failed while a capture was recorded; what came before is whole.
+    #[error(
+        "{source}; the {frames} frames before are a whole recording in {}",
+        taceva_core::shown(path)
+    )]
+    CaptureEnded {
+        /// The recording.
+        path: PathBuf,
+        /// Frames in it.
+        frames: u64,
+        /// What ended it.
+        source: Box<DriverError>,
+    },
+    /// A capture that cannot be written any more.
+    #[error("{source}; {}", kept(path, *frames, *is_whole))]
+    CaptureBroken {
+        /// The recording.
+        path: PathBuf,
+        /// Frames that are durable.
+        frames: u64,
+        /// Whether what is durable could be closed.
+        is_whole: bool,
+        /// What could not be written.
+        source: Box<DatasetError>,
     },
     /// A folder of a run that cannot be made, read or gone on with.
     #[error("{}: {problem}", taceva_core::shown(path))]
@@ -112,6 +140,17 @@ pub enum StudyError {
     Request(String),
 }
 
+/// What is left of a capture that could not be written on, and what makes it whole.
+fn kept(path: &Path, frames: u64, is_whole: bool) -> String {
+    let path = taceva_core::shown(path);
+    match is_whole {
+        true => format!("the {frames} frames before are a whole recording in {path}"),
+        false => format!(
+            "the {frames} frames before are kept: make room, then run taceva capture {path} --close"
+        ),
+    }
+}
+
 impl StudyError {
     /// What kind of failure it was, by the closed list that every part shares.
     pub fn kind(&self) -> ErrorKind {
@@ -121,8 +160,10 @@ impl StudyError {
             StudyError::Tables { .. } | StudyError::State { .. } | StudyError::Scores(_) => {
                 ErrorKind::Protocol
             }
-            StudyError::Open { source, .. } => source.kind(),
+            StudyError::Open { source, .. } | StudyError::OpenLive(source) => source.kind(),
             StudyError::Device(error) => error.kind(),
+            StudyError::CaptureEnded { source, .. } => source.kind(),
+            StudyError::CaptureBroken { source, .. } => source.kind(),
             StudyError::Acquisition { source, .. } => match &source.cause {
                 StopCause::Cancelled => ErrorKind::Interrupted,
                 StopCause::Device(error) => error.kind(),
@@ -137,8 +178,10 @@ impl StudyError {
     /// Whether a device failed, rather than what was typed, read or written.
     pub fn is_of_device(&self) -> bool {
         match self {
-            StudyError::Device(_) => true,
-            StudyError::Open { source, .. } => matches!(**source, OpenError::Device(_)),
+            StudyError::Open { source, .. } | StudyError::OpenLive(source) => {
+                matches!(**source, OpenError::Device(_))
+            }
+            StudyError::Device(_) | StudyError::CaptureEnded { .. } => true,
             StudyError::Acquisition { source, .. } => {
                 let cause = &source.cause;
                 // A rig file that is wrong is a file that is wrong.

@@ -6,6 +6,7 @@ pub mod bench;
 mod bounded;
 mod cache;
 mod calibration;
+mod capture;
 pub mod check;
 mod classifier;
 mod effort;
@@ -31,6 +32,7 @@ mod stage;
 mod state_file;
 mod subject;
 mod taken_rows;
+mod viewer;
 mod work;
 
 pub use acquire::{
@@ -39,6 +41,10 @@ pub use acquire::{
 };
 pub use cache::{
     Cache, CacheEntry, CachedStage, Pruning, StageRecord, cache_entries, pruned, remove_entry,
+};
+pub use capture::{
+    CaptureRequest, CaptureStage, CaptureState, Captured, LiveDevices, LiveSpec, capture,
+    close_capture, preview,
 };
 pub use check::{CheckReport, CheckRequest, Finding, Severity, check, check_plan};
 pub use effort::Effort;
@@ -58,4 +64,5 @@ pub use scene::{Instead, PlannedScene, PlannedStudy, SceneText};
 pub use score::{ScoreRequest, Scored, Scoring};
 pub use state_file::{STATE_SCHEMA, StateFile, merge};
 pub use subject::Subject;
+pub use viewer::Viewer;
 pub use work::Work;

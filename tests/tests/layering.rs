@@ -115,8 +115,7 @@ fn every_crate_states_the_oldest_compiler_it_promises() {
 }
 
 #[test]
-fn lints_are_never_switched_off_and_unsafe_code_stands_where_the_architecture_says_alone()
- {
+fn lints_are_never_switched_off_and_unsafe_code_stands_where_the_architecture_says_alone() {
     for package in metadata().packages {
         let folder = package
             .manifest_path

@@ -28,7 +28,7 @@ use taceva_core::{Args, DriverError, DriverKey, DriverKind, ErrorKind};
 use self::probe::Probe;
 pub(crate) use self::run::run;
 use self::subject::{Ending, Subject};
-use crate::child::{Child, ChildError, ChildSpec};
+use crate::child::{Child, ChildError, ChildSpec, no_port};
 use crate::grant::{self, Grant};
 use crate::host::PluginHost;
 use crate::library::Image;
@@ -106,6 +106,9 @@ impl Default for CheckRequest {
         }
     }
 }
+
+/// In the message of a device that did not open.
+const NOT_OPENED: &str = ": cannot open the device: ";
 
 /// How a check ended.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -219,6 +222,9 @@ impl PluginHost {
         spec.files.extend(files);
         spec.program = self.children().program.clone();
         spec.confinement.needs = grant.reached.iter().cloned().collect();
+        if let Some(why) = no_port(&spec.confinement.needs) {
+            return CheckOutcome::Failed(why);
+        }
         spec.confinement.is_trusted = self.config().trust(plugin).is_some();
         spec.patience.start = limit;
         let child = match Child::start(spec) {
@@ -227,14 +233,14 @@ impl PluginHost {
                 let outcome = ended(error);
                 // A plugin may take what it may not reach for what is not there, which would be no failure.
                 return match &outcome {
-                    // What its arguments name is not allowed, so the name of a machine was not looked up for it either.
-                    CheckOutcome::Failed(why) if grant.lacks_bound() => {
-                        CheckOutcome::Failed(format!("{why}; {}", grant.withheld))
-                    }
-                    CheckOutcome::Skipped(why)
-                        if grant.lacks_bound() && why.starts_with(subject::NO_DEVICE) =>
+                    // What its arguments name is not allowed, so the name of a machine was not looked up for it either: one cause, whatever it is
+                    // that the plugin noticed.
+                    CheckOutcome::Failed(why) | CheckOutcome::Skipped(why)
+                        if grant.lacks_bound()
+                            && (why.starts_with(subject::NO_DEVICE)
+                                || why.contains(NOT_OPENED)) =>
                     {
-                        CheckOutcome::Failed(format!("{why}; {}", grant.withheld))
+                        CheckOutcome::Failed(format!("{}; {}", grant::NOT_ALLOWED, grant.withheld))
                     }
                     CheckOutcome::Failed(why) | CheckOutcome::Skipped(why) => {
                         let explained = grant.withheld.explain(why);

@@ -11,6 +11,9 @@ use crate::config::{Delivery, PluginConfig};
 use crate::manifest::{DeclaredNeed, Need};
 use crate::search::{Place, Plugin};
 
+/// Why a device is not opened whose arguments name what its plugin may not reach.
+pub(crate) const NOT_ALLOWED: &str = "its user does not allow what its arguments name";
+
 /// What a session may reach.
 #[derive(Clone, Debug)]
 pub(crate) struct Grant {

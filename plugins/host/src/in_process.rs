@@ -13,7 +13,8 @@ use crate::device::{
     open,
 };
 use crate::estimator;
-use crate::library::{Library, Offer, Place};
+use crate::library::{Library, Place};
+use crate::offer::Offer;
 use crate::session::{FitRequest, Saved, SavedRegressor, Session};
 
 /// A session in this process: one rig of a loaded library.

@@ -16,6 +16,7 @@ mod in_process;
 mod library;
 mod log;
 mod manifest;
+mod offer;
 mod package;
 mod search;
 mod session;
@@ -40,11 +41,12 @@ pub use grant::Withheld;
 pub use host::{Children, Keeping, PluginDriver, PluginHost, PluginLog};
 pub use id::{PluginId, PluginIdError};
 pub use in_process::InProcess;
-pub use library::{Image, Level, Library, LoadError, LoadProblem, Log, Offer, libraries_loaded};
+pub use library::{Image, Level, Library, LoadError, LoadProblem, Log, libraries_loaded};
 pub use manifest::{
     AbiVersion, DeclaredNeed, EstimatorInfo, LibraryFile, Manifest, ManifestError, Need, NeedError,
     Provided, Sha256Digest, UsbId, platform,
 };
+pub use offer::Offer;
 pub use package::{PackageError, pack, unpack};
 pub use search::{
     NotFound, Place, Plugin, Plugins, Reason, ReasonKind, Rejection, SearchPath, user_config_file,

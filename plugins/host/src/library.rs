@@ -33,7 +33,6 @@ pub use self::host::{Level, Log};
 pub use self::image::Image;
 pub(crate) use self::image::LENGTH_MAX;
 use self::mapped::Mapped;
-pub use self::offer::Offer;
 use crate::call::{call, table};
 use crate::id::PluginId;
 use crate::manifest::Manifest;

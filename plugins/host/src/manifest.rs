@@ -1,7 +1,6 @@
 //! The manifest of a plugin: everything that listing and planning need, as data. No code of the plugin runs for it.
 
 mod argument;
-mod edit;
 mod error;
 mod facts;
 mod library;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::library::Offer;
+use crate::offer::Offer;
 use taceva_core::{
     Args, Descriptor, DriverError, DriverKey, ForceTransducer, Found, Lighting, ModelError, Robot,
     Sensor, SimulatedBench,

@@ -49,6 +49,13 @@ pub(crate) struct Run {
     /// Remove the run in that folder, or the last one, and start again
     #[arg(long)]
     pub(crate) force: bool,
+    /// Show the run on a page of this machine, whose address is printed: frames, force against its limits, presses, questions and a stop button. It is
+    /// no safety function
+    #[arg(long)]
+    pub(crate) page: bool,
+    /// The port of that page on 127.0.0.1, 0 for any that is free
+    #[arg(long, value_name = "N", default_value_t = 0, requires = "page")]
+    pub(crate) port: u16,
     #[command(flatten)]
     pub(crate) cache: CacheArgs,
     /// The format of the reports on standard output

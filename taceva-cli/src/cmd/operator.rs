@@ -1,7 +1,9 @@
 //! The person at a rig, asked at the terminal.
 
 use std::io::{BufRead, BufReader, IsTerminal, Read, Stdin};
+use std::time::Duration;
 
+use taceva_live::Live;
 use taceva_protocol::{Answer, Cancel, Operator, Question};
 
 use taceva_core::shown;
@@ -13,18 +15,21 @@ pub(in crate::cmd) struct Terminal<I: Read> {
     input: BufReader<I>,
     say: fn(&str),
     is_stopped: fn() -> bool,
+    /// The page that shows each question too, whichever is answered first.
+    page: Option<Live>,
 }
 
 /// Whoever is at the terminal of this program.
 pub(in crate::cmd) type AtTerminal = Terminal<Stdin>;
 
-/// The terminal of this program, if there is somebody at it.
-pub(in crate::cmd) fn terminal() -> Option<AtTerminal> {
+/// The terminal of this program, if there is somebody at it; what it asks stands on `page` too.
+pub(in crate::cmd) fn terminal(page: Option<Live>) -> Option<AtTerminal> {
     let is_there = std::io::stdin().is_terminal() && std::io::stderr().is_terminal();
     is_there.then(|| Terminal {
         input: BufReader::new(std::io::stdin()),
         say: |words| stderr::say(format_args!("{words}")),
         is_stopped: progress::is_stopped,
+        page,
     })
 }
 
@@ -43,7 +48,14 @@ impl<I: Read + Waits> Operator for Terminal<I> {
     fn ask(&mut self, question: &Question, cancel: &Cancel) -> Answer {
         let keys = keys(question);
         (self.say)(&format!("{question} ({keys})"));
+        let asked = self.page.as_ref().map(|page| page.ask(question));
         loop {
+            if let Some(answer) = asked
+                .as_ref()
+                .and_then(|asked| asked.answer(Duration::ZERO))
+            {
+                return answer;
+            }
             if cancel.is_cancelled() || (self.is_stopped)() {
                 return Answer::Stop;
             }
@@ -129,6 +141,7 @@ mod tests {
             input: BufReader::new(input),
             say: |_| {},
             is_stopped: || false,
+            page: None,
         };
         (0..count)
             .map(|_| terminal.ask(question, &Cancel::new()))
@@ -163,6 +176,7 @@ mod tests {
             input: BufReader::new(input),
             say: |_| {},
             is_stopped: || false,
+            page: None,
         };
         let cancel = Cancel::new();
         let answer = std::thread::scope(|scope| {

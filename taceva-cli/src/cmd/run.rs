@@ -4,7 +4,6 @@ pub(super) mod bench;
 mod stages;
 
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 use taceva_core::shown;
 
 use anyhow::Context as _;
@@ -16,7 +15,8 @@ use taceva_study::{
     run_scene,
 };
 
-use super::{Context, Usage, cache, operator, scene};
+use super::attended::Attended;
+use super::{Context, Usage, cache, scene};
 use crate::args::{Format, Run};
 use crate::{exit, output, progress, report};
 
@@ -31,8 +31,8 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     let (drivers, models) = context.equipment(Path::new(&args.scene.scene))?;
     let planned = scene::to_run(args, &drivers)?;
     planned.check_models(&models)?;
-    let terminal = operator::terminal().map(Mutex::new);
-    if terminal.is_none() {
+    let attended = Attended::open(args, &planned.scene.name)?;
+    if attended.operator().is_none() {
         planned.check_unattended(&drivers)?;
     }
     let formats = formats(&planned)?;
@@ -43,7 +43,7 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
         )));
     }
     if args.air {
-        return rehearse(&planned, (&drivers, &models), terminal.as_ref(), context);
+        return rehearse(&planned, (&drivers, &models), &attended, context);
     }
     let existing = match (args.resume, args.force) {
         (true, _) => Existing::Resume,
@@ -66,12 +66,15 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
         surroundings: &bench::surroundings,
         cache: cache.as_ref(),
         progress: &context.progress,
-        operator: match &terminal {
-            Some(terminal) => Some(terminal),
-            None => None,
-        },
+        operator: attended.operator(),
+        viewer: attended.viewer(),
     };
     let reports = run_scene(&planned, &folder, workshop, context.jobs);
+    attended.ended(&match &reports {
+        Ok(_) => "finished: its report is being written".to_owned(),
+        Err(_) if progress::is_stopped() => "stopped; the terminal says how to go on".to_owned(),
+        Err(error) => error.to_string(),
+    });
     let mut reports = reports.with_context(|| match progress::is_stopped() {
         true => format!(
             "stopped; continue with taceva run {} --resume --out {}",
@@ -110,7 +113,7 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
 fn rehearse(
     planned: &PlannedScene,
     (drivers, models): (&Drivers, &Models),
-    terminal: Option<&Mutex<operator::AtTerminal>>,
+    attended: &Attended,
     context: &Context,
 ) -> anyhow::Result<u8> {
     scene::print_rigs(planned, drivers, context);
@@ -121,12 +124,15 @@ fn rehearse(
         surroundings: &bench::surroundings,
         cache: None,
         progress: &context.progress,
-        operator: match terminal {
-            Some(terminal) => Some(terminal),
-            None => None,
-        },
+        operator: attended.operator(),
+        viewer: attended.viewer(),
     };
-    let visited = rehearse_scene(planned, workshop)?;
+    let visited = rehearse_scene(planned, workshop);
+    attended.ended(&match &visited {
+        Ok(_) => "finished: nothing was pressed".to_owned(),
+        Err(error) => error.to_string(),
+    });
+    let visited = visited?;
     context.say(format_args!(
         "visited {visited} places, {AIR_MM} mm above the height of travel; nothing was pressed or recorded"
     ));

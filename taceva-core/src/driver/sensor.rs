@@ -59,6 +59,18 @@ pub trait Sensor: Send {
     /// - `Disconnected` or `EndOfStream` if none will come any more.
     fn capture(&mut self, into: FrameMut<'_>, deadline: Deadline) -> Result<Stamp, DriverError>;
 
+    /// The number of the last frame, where the device or its link counts them from anywhere: frames whose numbers are missing between two came,
+    /// and nobody took them in time.
+    fn sequence(&self) -> Option<u64> {
+        None
+    }
+
+    /// The file, PNG or JPEG, that the last frame was sent as and decoded from, where the device sends files: whoever keeps frames may keep it
+    /// as it is.
+    fn sent(&self) -> Option<&[u8]> {
+        None
+    }
+
     /// Ends what [`start`](Sensor::start) began; may be called in every state.
     ///
     /// # Errors

@@ -35,6 +35,7 @@ fn header() -> Header {
             channel_order: ChannelOrder::Bgr,
             reference: None,
         }),
+        stream: None,
         presses: BTreeMap::from([
             (PressOutcome::Complete, 2),
             (PressOutcome::Limited(Limit::NormalForce), 1),

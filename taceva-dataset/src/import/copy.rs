@@ -1,6 +1,5 @@
 //! Running an import: every frame is read, verified and copied, and the dataset appears whole.
 
-use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
@@ -19,7 +18,7 @@ use crate::layout;
 use crate::limits;
 use crate::parallel::ordered_map;
 use crate::staged::{Place, StagedFolder};
-use crate::store::write_table_and_header;
+use crate::store::{Beside, write_table_and_header};
 use crate::table::{FrameEntry, Table};
 
 /// What an import did.
@@ -106,7 +105,10 @@ impl ImportPlan {
             &staged.path().join(layout::HEADER),
             &self.facts,
             (&table, frames),
-            (BTreeMap::new(), self.summary.columns_left_behind()),
+            Beside {
+                unmentioned_columns: self.summary.columns_left_behind(),
+                ..Beside::default()
+            },
         )?;
         staged.put_in_place(&folders)?;
         Ok(ImportReport {

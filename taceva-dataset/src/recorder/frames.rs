@@ -3,7 +3,7 @@
 use taceva_core::{Frame, FrameError, Sample};
 use taceva_durable::parent_of;
 
-use super::Recorder;
+use super::{Recorder, Streamed};
 use crate::decode::{ChannelOrder, decode};
 use crate::difference;
 use crate::digest::Digest;
@@ -21,8 +21,27 @@ impl Recorder {
         &mut self,
         samples: &[Sample],
     ) -> Result<Vec<Option<FrameEntry>>, DatasetError> {
-        if samples.iter().all(|sample| sample.frame.is_none()) {
-            return Ok(vec![None; samples.len()]);
+        let frames = samples.iter().map(|sample| (sample.frame.as_ref(), None));
+        self.write_each(frames.collect())
+    }
+
+    /// As [`write_frames`](Recorder::write_frames); what a camera sent as a file is kept as it is.
+    pub(super) fn write_streamed(
+        &mut self,
+        stream: &[Streamed],
+    ) -> Result<Vec<Option<FrameEntry>>, DatasetError> {
+        let frames = stream
+            .iter()
+            .map(|streamed| (streamed.sample.frame.as_ref(), streamed.sent.as_deref()));
+        self.write_each(frames.collect())
+    }
+
+    fn write_each(
+        &mut self,
+        frames: Vec<(Option<&Frame>, Option<&[u8]>)>,
+    ) -> Result<Vec<Option<FrameEntry>>, DatasetError> {
+        if frames.iter().all(|(frame, _)| frame.is_none()) {
+            return Ok(vec![None; frames.len()]);
         }
         // After an error it is opened anew, and what nobody acknowledged is cut.
         let mut pack = match self.pack.take() {
@@ -33,10 +52,12 @@ impl Recorder {
                 PackWriter::open(&self.path, self.pack_end)?
             }
         };
-        let mut entries = Vec::with_capacity(samples.len());
-        for sample in samples {
-            let entry = sample.frame.as_ref();
-            let entry = entry.map(|frame| self.append_frame(&mut pack, frame));
+        let mut entries = Vec::with_capacity(frames.len());
+        for (frame, sent) in frames {
+            let entry = frame.map(|frame| match sent {
+                Some(sent) => self.append_sent(&mut pack, sent),
+                None => self.append_frame(&mut pack, frame),
+            });
             entries.push(entry.transpose()?);
         }
         pack.sync()?;
@@ -77,6 +98,25 @@ impl Recorder {
             path,
             span: Some(span),
             digest,
+        })
+    }
+
+    /// Appends the file that a camera sent.
+    fn append_sent(
+        &mut self,
+        pack: &mut PackWriter,
+        sent: &[u8],
+    ) -> Result<FrameEntry, DatasetError> {
+        pack.roll()?;
+        if pack.end().length == 0 {
+            // A frame that is encoded in this pack is stored whole: nobody decodes this one just to differ from it.
+            self.first = None;
+        }
+        let (path, span) = pack.append(sent, false)?;
+        Ok(FrameEntry {
+            path,
+            span: Some(span),
+            digest: Digest::of(sent),
         })
     }
 

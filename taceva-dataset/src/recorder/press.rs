@@ -83,15 +83,26 @@ impl Recorder {
         if press.is_empty() || self.has_press(press) {
             return refused(press, "the name of the press is empty or taken".to_owned());
         }
+        self.check_together(samples)
+    }
+
+    /// Whether `samples` can be recorded at once.
+    pub(super) fn check_together<'a>(
+        &self,
+        samples: impl IntoIterator<Item = &'a Sample>,
+    ) -> Result<(), DatasetError> {
+        let refused = |id: &str, problem: String| {
+            Err(DatasetError::Sample {
+                id: id.to_owned(),
+                problem,
+            })
+        };
         let mut names = BTreeSet::new();
         let mut expected = self.frame_info;
         for sample in samples {
             self.check(sample)?;
             if !names.insert(&sample.id) {
-                return refused(
-                    &sample.id,
-                    "the press has two samples of this name".to_owned(),
-                );
+                return refused(&sample.id, "two samples have this name".to_owned());
             }
             let found = sample.frame.as_ref().map(Frame::info);
             match (expected, found) {

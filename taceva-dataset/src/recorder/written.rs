@@ -12,7 +12,7 @@ use super::RecordingSpec;
 use crate::digest::Digest;
 use crate::error::DatasetError;
 use crate::file::check_relative;
-use crate::header::{Footprint, SensorFacts, Source};
+use crate::header::{Footprint, SensorFacts, Source, StreamFacts};
 use crate::store::RecordingFacts;
 use crate::table::{FrameEntry, Row};
 use crate::toml_file::{parse_toml, toml_error};
@@ -121,6 +121,28 @@ impl WrittenPress {
     }
 
     pub(super) fn parse(payload: &[u8]) -> Result<WrittenPress, String> {
+        from_toml(payload)
+    }
+}
+
+/// Frames of a stream, and what was lost of it so far.
+#[derive(Serialize, Deserialize)]
+pub(super) struct WrittenStream {
+    pub(super) stream: StreamFacts,
+    #[serde(default)]
+    pub(super) samples: Vec<WrittenSample>,
+}
+
+impl WrittenStream {
+    pub(super) fn new(stream: StreamFacts, samples: Vec<WrittenSample>) -> WrittenStream {
+        WrittenStream { stream, samples }
+    }
+
+    pub(super) fn to_toml(&self) -> String {
+        to_toml(self)
+    }
+
+    pub(super) fn parse(payload: &[u8]) -> Result<WrittenStream, String> {
         from_toml(payload)
     }
 }

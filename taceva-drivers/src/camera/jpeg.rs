@@ -92,6 +92,12 @@ impl Pictures {
         self.crop.of(self.sent)
     }
 
+    /// The file that stands for a frame by itself: none where a part of the picture is kept, or its tables of codes are left out.
+    pub(super) fn as_sent<'a>(&self, picture: &'a [u8]) -> Option<&'a [u8]> {
+        let is_frame = self.room.is_empty() && has_tables(picture) != Some(false);
+        is_frame.then(|| whole(picture))
+    }
+
     /// Writes a picture into a frame of [`info`](Pictures::info); `losses` says what went wrong before.
     ///
     /// # Errors

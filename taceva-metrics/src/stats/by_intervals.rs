@@ -102,7 +102,7 @@ impl Pair {
                 above >= -apart
             }
         };
-        if !(apart.abs() > 0.0) {
+        if apart.is_nan() || apart.abs() <= 0.0 {
             return 1.0;
         }
         let (mut held, mut rejected) = (LEAST_P, 1.0_f64);

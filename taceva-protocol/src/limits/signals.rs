@@ -71,7 +71,8 @@ impl Signals {
         if let Some((descriptor, facts)) = force {
             signals.force_noise_n = facts.noise.map_or(0.0, |noise| noise.0);
             signals.stale_s = stale_s(facts);
-            signals.equality_is_frozen = tells_equal(facts);
+            // One that states no step is taken to show it: a halt too many harms nobody.
+            signals.equality_is_frozen = facts.seldom_repeats();
             signals.host_zero = descriptor.source() == DriverSource::Real;
             let who = || format!("the force transducer `{}`", descriptor.key());
             if let (false, false, Some(step)) =
@@ -178,13 +179,6 @@ fn pose_noise_mm(robot: &Descriptor) -> f64 {
 fn stale_s(facts: &ForceFacts) -> f64 {
     let of_rate = facts.rate.map(|rate| STALE_READINGS / rate.0);
     of_rate.map_or(STALE_S, |stale_s| stale_s.max(STALE_S))
-}
-
-/// Whether two readings of a live transducer are hardly ever equal. One that states no step is taken to: a halt too many harms nobody.
-fn tells_equal(facts: &ForceFacts) -> bool {
-    facts
-        .resolution
-        .is_none_or(|step| facts.noise.is_some_and(|noise| step.0 < noise.0))
 }
 
 #[cfg(test)]

@@ -30,6 +30,20 @@ pub(crate) fn between(before: &Look, after: &Look, at_s: f64) -> (Wrench, Pose) 
     )
 }
 
+/// What a transducer would have said at `at_s`, on the straight line between two readings and the times in s at which they were true; a time
+/// outside is that of the nearer reading.
+///
+/// ```
+/// use taceva_core::{Newton, Wrench};
+/// use taceva_protocol::wrench_between;
+/// let pressed = Wrench { force: [Newton(0.0), Newton(0.0), Newton(2.0)], ..Wrench::default() };
+/// let wrench = wrench_between((&Wrench::default(), 1.0), (&pressed, 1.2), 1.05);
+/// assert!((wrench.force[2].0 - 0.5).abs() < 1e-9);
+/// ```
+pub fn wrench_between(before: (&Wrench, f64), after: (&Wrench, f64), at_s: f64) -> Wrench {
+    Mix::new(before.1, after.1, at_s).wrench(before.0, after.0)
+}
+
 /// How much of the later value there is.
 struct Mix(f64);
 

@@ -124,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tip_that_is_low_is_raised_before_hands_are_asked_for_and_does_not_move_before_their_yes() {
+    fn a_tip_that_is_low_is_raised_before_somebody_is_asked_and_does_not_move_before_a_yes() {
         for answer in [Answer::Done, Answer::Skip, Answer::Stop] {
             // The gel pushes back below the contact; readings differ.
             let mut rig = Rig::new(CONTACT_MM + 0.5, |question, height_mm| {

@@ -32,7 +32,8 @@ impl Halt for SimulatedHalt {
     fn halt(&self) -> Result<(), DriverError> {
         let mut world = self.0.world();
         world.link();
-        if world.sabotage == Sabotage::SlowHalt {
+        // One that is halted already stands: a guard that halts again and again costs it no time.
+        if world.sabotage == Sabotage::SlowHalt && !world.halted {
             world.pass(0.06);
         }
         world.halted = true;
@@ -259,10 +260,7 @@ impl Sensor for SimulatedSensor {
     ) -> Result<Stamp, DriverError> {
         self.0.survive();
         self.0.look_on();
-        let (wait_s, exposed) = self
-            .0
-            .world()
-            .expose(deadline.remaining().as_secs_f64());
+        let (wait_s, exposed) = self.0.world().expose(deadline.remaining().as_secs_f64());
         self.0.elapse(wait_s);
         let mut world = self.0.world();
         let valid_s = exposed

@@ -7,9 +7,9 @@ use taceva_core::Fault;
 pub(super) use super::gel::Gel;
 
 use super::fault::{FaultKind, Faults, fraction};
+use super::guard::Guard;
 use super::oracle::{Ended, Oracle, SILENCE, TOO_HARD};
 use crate::draw::Draws;
-use super::guard::Guard;
 use crate::run::{Cancel, Timekeeper};
 
 /// How a call to a device travels, in s each way.

@@ -5,7 +5,7 @@ use std::process::Command;
 
 use serde_json::{Value, json};
 
-use crate::cdp::Browser;
+use taceva_needs::Browser;
 
 /// The source of axe-core: the file that `TACEVA_AXE` names, or the one that node finds; why there is none.
 pub(crate) fn source() -> Result<String, String> {

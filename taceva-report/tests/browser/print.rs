@@ -2,7 +2,7 @@
 
 use serde_json::json;
 
-use crate::cdp::Browser;
+use taceva_needs::{Browser, from_base64};
 
 /// How many sheets of A4 the page that is open takes.
 pub(crate) fn pages(browser: &mut Browser) -> usize {
@@ -18,30 +18,4 @@ pub(crate) fn pages(browser: &mut Browser) -> usize {
         !rest.starts_with('s')
     });
     pages.count()
-}
-
-/// The bytes that a text of base64 stands for.
-fn from_base64(text: &str) -> Vec<u8> {
-    let value = |letter: u8| match letter {
-        b'A'..=b'Z' => letter - b'A',
-        b'a'..=b'z' => letter - b'a' + 26,
-        b'0'..=b'9' => letter - b'0' + 52,
-        b'+' => 62,
-        b'/' => 63,
-        other => panic!("`{other}` is no letter of base64"),
-    };
-    let letters: Vec<u8> = text
-        .bytes()
-        .filter(|letter| *letter != b'=')
-        .map(value)
-        .collect();
-    let mut bytes = Vec::with_capacity(letters.len() * 3 / 4);
-    for four in letters.chunks(4) {
-        let bits = four
-            .iter()
-            .fold(0_u32, |bits, six| bits << 6 | u32::from(*six));
-        let bits = bits << (6 * (4 - four.len()));
-        bytes.extend(&bits.to_be_bytes()[1..four.len()]);
-    }
-    bytes
 }

@@ -30,9 +30,7 @@ impl Changes {
                 specimens += mounted.len();
             }
             if is_lit_by_hand {
-                let mut lit: Vec<_> = of_unit
-                    .filter_map(|press| press.light.as_ref())
-                    .collect();
+                let mut lit: Vec<_> = of_unit.filter_map(|press| press.light.as_ref()).collect();
                 lit.dedup();
                 lights += lit.len();
             }
@@ -68,7 +66,7 @@ impl PlannedScene {
             }
             if !needed.is_empty() {
                 return Err(StudyError::Request(format!(
-                    "study `{}`: this rig needs a person: {}; run it from a terminal, where somebody can be asked",
+                    "study `{}`: this rig needs a person: {}; run it from a terminal, or with a page, where somebody can be asked",
                     taceva_core::shown(&study.plan.name),
                     needed.join(", ")
                 )));

@@ -5,18 +5,19 @@ use std::sync::{Arc, PoisonError};
 use std::time::Duration;
 
 use taceva_core::{
-    Deadline, Descriptor, Device, DriverError, DriverKey, DriverSource, ErrorKind, ForceTransducer,
-    Lighting, Registry, Rig, Robot, Sensor,
+    Deadline, Device, DriverError, DriverKey, DriverSource, ErrorKind, ForceTransducer, Lighting,
+    Registry, Rig, Robot, Sensor,
 };
-use taceva_drivers::{Drivers, OnBench, OpenError, Selector, open};
+use taceva_drivers::{Drivers, OnBench, OpenError, Selector};
 use taceva_protocol::{
     Cancel, Controls, Devices, Event, PressLog, ReferenceTouch, RigFile, RunError, RunReport,
     RunSpec, SessionSpec, Setting, SharedSupervisor, StopCause, run, run_guarded, run_session,
 };
 
 use super::guardian::Guarded;
-use super::latency::{IntoDevice, Late};
+use super::opened::Opened;
 use super::registered::{Registered, Turned};
+use super::seen::Seen;
 use super::workshop::{Surroundings, Workshop};
 use crate::error::StudyError;
 use crate::scene::{PlannedStudy, RigSpec};
@@ -98,6 +99,13 @@ impl OpenRig {
             }
             _ => sensor.timely(|facts| sensor_latency.or(facts.sensor()?.latency_ms)),
         });
+        let sensor = match (sensor, workshop.viewer) {
+            (Some(sensor), Some(viewer)) => {
+                let seen = Seen::new(sensor, Arc::clone(viewer));
+                Some(Box::new(seen) as Box<dyn Sensor>)
+            }
+            (sensor, _) => sensor,
+        };
         let force_driver = force.descriptor.key().clone();
         let mut robot = robot.timely(|facts| facts.robot()?.latency_ms);
         if let Some(registered) = rig_file.and_then(|rig| rig.robot.as_ref()) {
@@ -205,6 +213,7 @@ impl OpenRig {
                 limits,
                 cancel,
                 progress: workshop.progress,
+                viewer: workshop.viewer.map(|viewer| &**viewer),
             }
             .conduct(|robot, force, guard| act(robot, force, Some(guard))),
         }
@@ -231,39 +240,7 @@ impl Opener<'_> {
             .rig
             .selector(registry, device, self.unit)
             .expect("the selector was read when the scene was planned");
-        let device = open(registry, &selector, shared)?;
-        let factory = registry
-            .get(selector.driver())
-            .expect("it was opened by this key");
-        let arguments = factory.descriptor().args(selector.arguments());
-        let described = arguments
-            .ok()
-            .and_then(|arguments| factory.describe(&arguments).ok());
-        Ok(Some(Opened {
-            device,
-            descriptor: described.unwrap_or_else(|| factory.descriptor().clone()),
-            selector,
-        }))
-    }
-}
-
-/// A device that is open, with what is known about it.
-pub(super) struct Opened<D: ?Sized> {
-    pub(super) device: Box<D>,
-    pub(super) descriptor: Descriptor,
-    selector: Selector,
-}
-
-impl<D: ?Sized + 'static> Opened<D>
-where
-    Late<D>: IntoDevice<D>,
-{
-    /// The device with stamps of when observations were true, where `latency_ms` of its facts says that they come later.
-    pub(super) fn timely(self, latency_ms: impl Fn(&Descriptor) -> Option<f64>) -> Box<D> {
-        match latency_ms(&self.descriptor) {
-            Some(latency_ms) if latency_ms > 0.0 => Late::new(self.device, latency_ms).boxed(),
-            _ => self.device,
-        }
+        Opened::open(registry, selector, shared).map(Some)
     }
 }
 

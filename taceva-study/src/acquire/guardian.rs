@@ -17,6 +17,7 @@ use taceva_core::{Deadline, DriverKey, ForceTransducer, Pose, Progress, Robot, R
 use taceva_drivers::MonotonicClock;
 use taceva_protocol::{Cancel, Observation, RigLimits, SharedSupervisor, Supervisor};
 
+use crate::viewer::Viewer;
 use mailbox::Mailbox;
 
 /// From one look at the robot to the next.
@@ -33,6 +34,8 @@ pub(super) struct Guarded<'a> {
     pub(super) limits: RigLimits,
     pub(super) cancel: &'a Cancel,
     pub(super) progress: &'a dyn Progress,
+    /// Who sees every force and every pose too, if anybody.
+    pub(super) viewer: Option<&'a dyn Viewer>,
 }
 
 impl Guarded<'_> {
@@ -48,6 +51,7 @@ impl Guarded<'_> {
             limits,
             cancel,
             progress,
+            viewer,
         } = self;
         let supervisor = Supervisor::new(limits, robot.halt_handle());
         let supervisor = SharedSupervisor::new(supervisor);
@@ -58,11 +62,12 @@ impl Guarded<'_> {
             last: None,
             cancel,
             progress,
+            viewer,
             was_cancelled: false,
         };
         let is_over = AtomicBool::new(false);
         std::thread::scope(|scope| {
-            scope.spawn(|| reader.serve(force, &supervisor));
+            scope.spawn(|| reader.serve(force, &supervisor, viewer));
             scope.spawn(|| watcher.look_on(&is_over));
             let _over = Over(&is_over);
             // Dropped here, so that the reader ends even if the conduct panics.
@@ -89,6 +94,7 @@ struct Watcher<'a> {
     last: Option<(Pose, Stamp)>,
     cancel: &'a Cancel,
     progress: &'a dyn Progress,
+    viewer: Option<&'a dyn Viewer>,
     was_cancelled: bool,
 }
 
@@ -116,7 +122,12 @@ impl Watcher<'_> {
     fn look(&mut self) {
         if let Some(watch) = &self.watch {
             match watch.pose(LOOK_DEADLINE) {
-                Ok(seen) => self.last = Some(seen),
+                Ok(seen) => {
+                    self.last = Some(seen);
+                    if let Some(viewer) = self.viewer {
+                        viewer.pose(&seen.0);
+                    }
+                }
                 Err(error) => {
                     if let Some(fault) = error.fault() {
                         self.supervisor.lock().fail(fault);

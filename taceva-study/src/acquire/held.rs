@@ -60,8 +60,11 @@ impl HeldRigs {
         HeldRigs::take(&std::env::temp_dir(), devices.collect())
     }
 
-    /// Takes `devices`, each with the rig file that names it.
-    fn take(folder: &Path, devices: BTreeMap<String, String>) -> Result<HeldRigs, StudyError> {
+    /// Takes `devices`, each with the rig file or the option that names it.
+    pub(crate) fn take(
+        folder: &Path,
+        devices: BTreeMap<String, String>,
+    ) -> Result<HeldRigs, StudyError> {
         let locks = devices.into_iter().map(|(device, rig)| {
             let path = lock_path(folder, &device);
             take(&path, (&device, &rig))

@@ -10,7 +10,7 @@ use taceva_core::{
 };
 
 /// A device that stamps what was true so long before.
-pub(super) struct Late<D: ?Sized> {
+pub(crate) struct Late<D: ?Sized> {
     latency_s: f64,
     device: Box<D>,
 }
@@ -159,6 +159,14 @@ impl Sensor for Late<dyn Sensor> {
         Ok(self.true_stamp(stamp))
     }
 
+    fn sequence(&self) -> Option<u64> {
+        self.device.sequence()
+    }
+
+    fn sent(&self) -> Option<&[u8]> {
+        self.device.sent()
+    }
+
     fn stop(&mut self) -> Result<(), DriverError> {
         self.device.stop()
     }
@@ -177,7 +185,7 @@ impl Sensor for Late<dyn Sensor> {
 }
 
 /// A device of its own kind again.
-pub(super) trait IntoDevice<D: ?Sized> {
+pub(crate) trait IntoDevice<D: ?Sized> {
     fn boxed(self) -> Box<D>;
 }
 

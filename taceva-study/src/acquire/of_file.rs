@@ -8,16 +8,20 @@ use taceva_core::{
 use taceva_drivers::{Drivers, OpenError};
 use taceva_protocol::{RigFile, SceneProblem, Setting};
 
-use super::devices::{FIRST_POSE, Opened, Opener};
+use super::devices::{FIRST_POSE, Opener};
+use super::opened::Opened;
 use super::registered::{Registered, Turned};
 use crate::error::StudyError;
 use crate::scene::RigSpec;
 
+/// A device that is open, and what is known about it.
+type Described<D> = (Box<D>, Descriptor);
+
 /// Devices of a rig file that are open, in the frame of the sensor.
 pub(crate) struct FileDevices {
-    pub(crate) robot: Option<(Box<dyn Robot>, Descriptor)>,
-    pub(crate) force: Option<(Box<dyn ForceTransducer>, Descriptor)>,
-    pub(crate) sensor: Option<(Box<dyn Sensor>, Descriptor)>,
+    pub(crate) robot: Option<Described<dyn Robot>>,
+    pub(crate) force: Option<Described<dyn ForceTransducer>>,
+    pub(crate) sensor: Option<Described<dyn Sensor>>,
 }
 
 /// Opens devices that a rig file names.
@@ -79,7 +83,7 @@ impl<'a> FileOpener<'a> {
     ///
     /// # Errors
     /// As [`all`](FileOpener::all).
-    pub(crate) fn base_robot(&self) -> Result<Option<(Box<dyn Robot>, Descriptor)>, StudyError> {
+    pub(crate) fn base_robot(&self) -> Result<Option<Described<dyn Robot>>, StudyError> {
         let robot = self.open(&self.drivers.robots, self.spec.robot.as_ref())?;
         Ok(robot.map(|robot| {
             let descriptor = robot.descriptor.clone();

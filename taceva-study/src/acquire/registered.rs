@@ -121,14 +121,14 @@ impl RobotWatch for RegisteredWatch {
 }
 
 /// A transducer whose readings are turned into the sensor's frame.
-pub(super) struct Turned {
+pub(crate) struct Turned {
     axes: SignedAxes,
     force: Box<dyn ForceTransducer>,
 }
 
 impl Turned {
     /// `force`, whose axes lie so.
-    pub(super) fn new(force: Box<dyn ForceTransducer>, axes: SignedAxes) -> Turned {
+    pub(crate) fn new(force: Box<dyn ForceTransducer>, axes: SignedAxes) -> Turned {
         Turned { axes, force }
     }
 }

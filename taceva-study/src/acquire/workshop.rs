@@ -9,6 +9,7 @@ use taceva_models::Models;
 use taceva_protocol::{ContentId, Operator, SpecimenChanger, Timekeeper};
 
 use crate::cache::Cache;
+use crate::viewer::Viewer;
 
 /// What a rig has beside its devices.
 pub struct Surroundings {
@@ -85,4 +86,6 @@ pub struct Workshop<'a> {
     pub progress: &'a dyn Progress,
     /// Who is asked for what no device of a real rig can do; without one a scene that needs hands is refused before anything is opened.
     pub operator: Option<&'a Mutex<dyn Operator + Send>>,
+    /// Who looks on, if anybody: of a simulated bench at its frames and its presses, of a real rig at its force and its tip too.
+    pub viewer: Option<&'a Arc<dyn Viewer>>,
 }

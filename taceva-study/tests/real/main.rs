@@ -83,6 +83,7 @@ fn record_on(
         cache: None,
         progress,
         operator,
+        viewer: None,
     };
     run_scene(&planned, &run, workshop, NonZeroUsize::MIN)?;
     Ok(Dataset::open(&run.recording(0, "wall"))?)

@@ -1,9 +1,13 @@
 //! What tests need that a machine may not have. A test that finds one of them absent calls [`skip`] and returns: the skip is written
 //! into the list that `.ci/test` prints at its end, or fails the test where `TACEVA_REQUIRE` names the need.
 
+#[cfg(feature = "browser")]
+mod browser;
 mod need;
 mod record;
 
+#[cfg(feature = "browser")]
+pub use browser::{Browser, from_base64};
 pub use need::{Need, UnknownNeed, required};
 pub use record::LIST;
 

@@ -4,7 +4,7 @@
 //! this machine as busy as it is, and of an arm that has no braking way: the tip may go on by no more than its speed makes of the time that
 //! 999 trips of 1,000 need. `chrt -f 10 target/debug/examples/trips 1000` asks for the priority that docs/rig.md names.
 //!
-//! Ends with 1 if more than 1 trip of 1,000 takes longer than 50 ms, or goes further than that.
+//! Ends with 1 if a trip ended otherwise than by a halt, if more than 1 trip of 1,000 takes longer than 50 ms, or goes further than that.
 
 use std::error::Error;
 use std::net::Ipv4Addr;
@@ -51,6 +51,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     let (home, _) = robot.pose(PATIENCE)?;
     transducer.start(PATIENCE)?;
     let [fast, slow] = [Speed::try_new(50.0)?, Speed::try_new(speed_mm_s)?];
+    let mut unhalted = 0_u32;
     let (mut took_ms, mut went_mm) = (Vec::new(), Vec::new());
     for trip in 0..trips {
         robot.move_to(at(home, 0.3), fast, PATIENCE)?;
@@ -78,7 +79,8 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
             moved
         });
         if !moved.is_err_and(|error| error.kind() == ErrorKind::Interrupted) {
-            return Err("a trip that was not halted".into());
+            // It came to the end of its way first, or was given up because nothing was heard of it.
+            unhalted += 1;
         }
         let truth = bench.truth();
         // A reading that errs upwards halts the arm before the limit is truly passed.
@@ -112,9 +114,11 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
             all[last]
         );
     }
-    println!("v·t = {bound_mm:.3} mm");
-    Ok(match late_ms <= LATEST_MS && far_mm <= bound_mm {
-        true => ExitCode::SUCCESS,
-        false => ExitCode::FAILURE,
-    })
+    println!("v·t = {bound_mm:.3} mm; {unhalted} trips ended before anybody halted them");
+    Ok(
+        match unhalted == 0 && late_ms <= LATEST_MS && far_mm <= bound_mm {
+            true => ExitCode::SUCCESS,
+            false => ExitCode::FAILURE,
+        },
+    )
 }

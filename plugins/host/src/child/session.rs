@@ -22,8 +22,8 @@ use super::socket::{LinkError, Socket};
 use super::spec::ChildSpec;
 use super::start::Child;
 use super::wire::{Failure, ModelOrder, Order, OrderAnswer};
-use crate::library::Offer;
 use crate::manifest::Manifest;
+use crate::offer::Offer;
 use crate::session::{FitRequest, Saved, SavedRegressor, Session};
 
 /// The devices that one plugin has in one rig, all in one child.

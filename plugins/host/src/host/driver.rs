@@ -76,7 +76,7 @@ impl PluginDriver {
                 .is_some_and(|bound| withheld.contains(&bound))
         }) {
             let denied = DriverError::new(ErrorKind::PermissionDenied, key, "open the device")
-                .because("its user does not allow what its arguments name");
+                .because(grant::NOT_ALLOWED);
             return Err(grant.withheld.explained(denied));
         }
         let args = grant::resolved(plugin, key, self.descriptor.arguments(), args)?;

@@ -81,9 +81,6 @@ mod tests {
     fn a_table_that_does_not_read_is_refused_by_its_own_line() {
         let text = Model::GelSight.table();
         let broken = text.replace("thickness_mm", "thikness_mm");
-        assert_eq!(
-            Parameters::parse_quiet(&broken),
-            Parameters::parse(&broken)
-        );
+        assert_eq!(Parameters::parse_quiet(&broken), Parameters::parse(&broken));
     }
 }

@@ -84,6 +84,7 @@ impl Pressed {
             cache: None,
             progress: &context.progress,
             operator: None,
+            viewer: None,
         };
         run_scene(&planned, &run, workshop, context.jobs)?;
         let study = &planned.studies[0].plan.name;

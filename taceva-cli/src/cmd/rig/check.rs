@@ -16,7 +16,7 @@ pub(super) fn run(args: &RigCheckArgs, context: &Context) -> anyhow::Result<u8> 
     let drivers = Drivers::builtin()?.with_plugins(&host)?;
     let rig = read_rig(&args.rig)?;
     let _held = HeldRigs::of_file(&rig)?;
-    let mut terminal = operator::terminal();
+    let mut terminal = operator::terminal(None);
     if terminal.is_none() && !rig.simulated && rig.robot.is_some() {
         context.say(format_args!(
             "nobody is at a terminal to let the robot move: it is not halted on its way"

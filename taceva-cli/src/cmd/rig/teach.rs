@@ -17,7 +17,7 @@ pub(super) fn run(args: &RigTeachArgs, context: &Context) -> anyhow::Result<u8> 
     let host = context.plugins(None)?;
     let drivers = Drivers::builtin()?.with_plugins(&host)?;
     let rig = read_rig(&args.rig)?;
-    let Some(mut terminal) = operator::terminal() else {
+    let Some(mut terminal) = operator::terminal(None) else {
         return Err(Usage::error(
             "somebody must jog the robot and say so at a terminal: start taceva rig teach from one",
         ));

@@ -87,4 +87,18 @@ impl ForceFacts {
         self.tare = tare;
         self
     }
+
+    /// Whether two readings of a live transducer are hardly ever equal to the last bit: its step, if one is stated, is below its noise.
+    ///
+    /// ```
+    /// use taceva_core::{ForceFacts, Newton};
+    /// let mut scale = ForceFacts::default();
+    /// assert!(scale.seldom_repeats());
+    /// scale.resolution = Some(Newton(0.01));
+    /// assert!(!scale.seldom_repeats());
+    /// ```
+    pub fn seldom_repeats(&self) -> bool {
+        self.resolution
+            .is_none_or(|step| self.noise.is_some_and(|noise| step.0 < noise.0))
+    }
 }

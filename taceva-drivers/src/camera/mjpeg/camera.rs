@@ -29,6 +29,8 @@ pub(super) struct Camera {
     is_running: bool,
     /// The number of the last picture that was given.
     last: u64,
+    /// The picture that was given last, once one was.
+    given: Option<Arc<[u8]>>,
     /// Pictures that came while nobody asked, or too late.
     missed: u64,
 }
@@ -80,6 +82,7 @@ impl Camera {
             frames,
             is_running: false,
             last: first.number,
+            given: None,
             missed: 0,
         })
     }
@@ -139,11 +142,21 @@ impl Sensor for Camera {
         let seen = next(&self.pictures, self.last, deadline.remaining())?;
         self.missed += seen.number - self.last - 1;
         self.last = seen.number;
+        self.given = None;
         let (missed, broken) = (self.missed, seen.what.broken);
         self.frames.decode(&seen.what.bytes, into, || {
             format!("{missed} frames were missed and {broken} were broken")
         })?;
+        self.given = Some(seen.what.bytes);
         Ok(Stamp::new(seen.what.began, Some(seen.at)))
+    }
+
+    fn sequence(&self) -> Option<u64> {
+        Some(self.last)
+    }
+
+    fn sent(&self) -> Option<&[u8]> {
+        self.frames.as_sent(self.given.as_deref()?)
     }
 
     fn stop(&mut self) -> Result<(), DriverError> {

@@ -4,19 +4,35 @@ use taceva_core::Frame;
 
 /// Parts along each side of a picture whose mean brightness is compared: small enough for a gentle touch, large enough to average noise.
 const PARTS: usize = 8;
+/// Frames whose mean is one picture: a gentle touch changes little, and small cameras hiss.
+pub(super) const FRAMES: u32 = 4;
 /// A touch changes some part by so many times what changes in the air.
-const CHANGES: f64 = 3.0;
+const CHANGES: f64 = 2.0;
 /// And by so much of the numbers of a pixel, of 255.
 const LEAST: f64 = 0.25;
 
-/// The greatest change of the mean of a part between two frames of one sensor, in steps of a pixel of 8 bits.
-pub(super) fn change(one: &Frame, other: &Frame) -> f64 {
-    let means = [one, other].map(means);
-    let [one, other] = &means;
-    let changes = one
-        .iter()
-        .zip(other)
-        .map(|(one, other)| (one - other).abs());
+/// The mean brightness of every part over a few frames, row by row, in steps of a pixel of 8 bits.
+pub(super) struct Picture(Vec<f64>);
+
+impl Picture {
+    /// Of `frames`, which come from one sensor.
+    pub(super) fn of(frames: &[Frame]) -> Picture {
+        let mut sums = vec![0.0; PARTS * PARTS];
+        let mut count = 0.0_f64;
+        for frame in frames {
+            count += 1.0;
+            for (sum, mean) in sums.iter_mut().zip(means(frame)) {
+                *sum += mean;
+            }
+        }
+        Picture(sums.into_iter().map(|sum| sum / count.max(1.0)).collect())
+    }
+}
+
+/// The greatest change of a part between two pictures.
+pub(super) fn change(one: &Picture, other: &Picture) -> f64 {
+    let changes = one.0.iter().zip(&other.0);
+    let changes = changes.map(|(one, other)| (one - other).abs());
     changes.fold(0.0, f64::max)
 }
 
@@ -60,7 +76,7 @@ mod tests {
     use super::*;
 
     /// A picture of 40 by 32 pixels whose pixels hiss, with a bright spot of so many steps.
-    fn picture(seed: u32, spot: u8) -> Frame {
+    fn picture(seed: u32, spot: u8) -> Picture {
         let info = FrameInfo {
             width: 40,
             height: 32,
@@ -75,7 +91,7 @@ mod tests {
             let is_spot = (18..23).contains(&x) && (14..18).contains(&y);
             100 + hiss(place) + if is_spot { spot } else { 0 }
         });
-        Frame::new(info, bytes.collect()).expect("its size")
+        Picture::of(&[Frame::new(info, bytes.collect()).expect("its size")])
     }
 
     #[test]

@@ -1,9 +1,9 @@
 //! A gentle touch at the middle of the gel: down to the first force, on to three times that, sideways a little, and out again.
 
-use taceva_core::{Axis, Degree, Frame};
+use taceva_core::{Axis, Degree};
 
 use super::Reaction;
-use super::picture::{change, shows};
+use super::picture::{FRAMES, Picture, change, shows};
 use super::signs::Felt;
 use crate::plan::PlannedPress;
 use crate::run::align::Look;
@@ -161,7 +161,7 @@ impl Run<'_> {
     }
 
     /// Presses on until the picture shows it; the change that it shows, or `None` where no picture is taken.
-    fn show_touch(&mut self, height_mm: f64, in_air: &[Option<Frame>; 2]) -> Step<Option<f64>> {
+    fn show_touch(&mut self, height_mm: f64, in_air: &[Option<Picture>; 2]) -> Step<Option<f64>> {
         let [Some(one), Some(other)] = in_air else {
             return Ok(None);
         };
@@ -184,16 +184,21 @@ impl Run<'_> {
         }
     }
 
-    /// A picture from now on, where pictures are taken.
-    fn picture(&mut self) -> Step<Option<Frame>> {
-        let now_s = self.tip.clock.now_s();
+    /// A picture of the next frames, where pictures are taken.
+    fn picture(&mut self) -> Step<Option<Picture>> {
         let Some(camera) = &mut self.camera else {
             return Ok(None);
         };
-        let (frame, _) = camera.frame(now_s, &self.tip, self.events)?;
-        // The force has been silent for as long as the picture took.
-        self.tip.look()?;
-        Ok(Some(frame))
+        let mut frames = Vec::new();
+        let mut from_s = self.tip.clock.now_s();
+        for _ in 0..FRAMES {
+            let (frame, _) = camera.frame(from_s, &self.tip, self.events)?;
+            frames.push(frame);
+            from_s = self.tip.clock.now_s();
+            // The force has been silent for as long as the frame took.
+            self.tip.look()?;
+        }
+        Ok(Some(Picture::of(&frames)))
     }
 }
 

@@ -10,6 +10,8 @@ use taceva_core::{
 use taceva_drivers::MonotonicClock;
 use taceva_protocol::{Observation, SharedSupervisor};
 
+use crate::viewer::Viewer;
+
 /// A transducer that says nothing for so long is asked again.
 const READ_DEADLINE: Deadline = Deadline::after(Duration::from_millis(20));
 /// Before a transducer that fails at once is asked again.
@@ -156,7 +158,12 @@ impl Tare for Mailbox {
 impl Reader {
     /// Reads `force` from its start to its stop, shows every reading to `supervisor`, and does what it is asked to between two of them; until
     /// the mailbox is gone.
-    pub(super) fn serve(self, force: &mut dyn ForceTransducer, supervisor: &SharedSupervisor) {
+    pub(super) fn serve(
+        self,
+        force: &mut dyn ForceTransducer,
+        supervisor: &SharedSupervisor,
+        viewer: Option<&dyn Viewer>,
+    ) {
         let mut is_started = false;
         loop {
             let request = match is_started {
@@ -176,13 +183,18 @@ impl Reader {
                     // Who asked waits for it, or is gone with everything else.
                     let _ = outcome.send(carry_out(task, force));
                 }
-                Err(TryRecvError::Empty) => self.read(force, supervisor),
+                Err(TryRecvError::Empty) => self.read(force, supervisor, viewer),
                 Err(TryRecvError::Disconnected) => return,
             }
         }
     }
 
-    fn read(&self, force: &mut dyn ForceTransducer, supervisor: &SharedSupervisor) {
+    fn read(
+        &self,
+        force: &mut dyn ForceTransducer,
+        supervisor: &SharedSupervisor,
+        viewer: Option<&dyn Viewer>,
+    ) {
         match force.read(READ_DEADLINE) {
             Ok((wrench, stamp)) => {
                 let number = force.sequence();
@@ -191,9 +203,13 @@ impl Reader {
                     None => Observation::Force(wrench, stamp),
                 };
                 // What it halts for, the run learns from the supervisor.
-                let _ = supervisor
-                    .lock()
-                    .observe(&observation, MonotonicClock.now_s());
+                let mut held = supervisor.lock();
+                let _ = held.observe(&observation, MonotonicClock.now_s());
+                let presses = held.zeroed(&wrench);
+                drop(held);
+                if let Some(viewer) = viewer {
+                    viewer.force(&presses);
+                }
                 self.slot.put(|latest| {
                     latest.count += 1;
                     latest.reading = Some((wrench, stamp, number));
@@ -295,7 +311,7 @@ mod tests {
         let mut force = Script(script);
         let (mailbox, reader) = Mailbox::of(&mut force, KEY);
         let seen = std::thread::scope(|scope| {
-            scope.spawn(|| reader.serve(&mut force, &supervisor));
+            scope.spawn(|| reader.serve(&mut force, &supervisor, None));
             let mut mailbox = mailbox;
             mailbox.start(Deadline::PASSED).expect("started");
             act(&mut mailbox, &supervisor)

@@ -8,7 +8,7 @@ use taceva_core::{Access, ArgValue, Descriptor, DriverKey, DriverKind, ErrorKind
 
 use super::{Malformed, ModelOrder, OpenedDevice, Reader, Wire, fields, messages};
 use crate::child::sandbox::{Confinement, Isolation};
-use crate::library::Offer;
+use crate::offer::Offer;
 
 /// The first word: what the child must do before it loads anything. The files to serve come beside it.
 #[derive(Debug, PartialEq)]

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 const NAMES: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
 
 /// A browser with one page.
-pub(crate) struct Browser {
+pub struct Browser {
     child: Child,
     to: ChildStdin,
     from: BufReader<ChildStdout>,
@@ -22,7 +22,10 @@ pub(crate) struct Browser {
 
 impl Browser {
     /// A browser that keeps its files in `folder`; none where there is no browser.
-    pub(crate) fn start(folder: &Path) -> Option<Browser> {
+    ///
+    /// # Panics
+    /// If a browser that is there does not start, or does not answer, as in every call of it.
+    pub fn start(folder: &Path) -> Option<Browser> {
         let paths = std::env::var_os("PATH")?;
         let found = std::env::split_paths(&paths).find_map(|path| {
             let mut names = NAMES.iter().map(|name| path.join(name));
@@ -70,7 +73,10 @@ impl Browser {
     }
 
     /// Opens `address` and waits until it is there.
-    pub(crate) fn open(&mut self, address: &str) {
+    ///
+    /// # Panics
+    /// If the browser ends.
+    pub fn open(&mut self, address: &str) {
         let before = self.events.len();
         self.call("Page.navigate", json!({"url": address}));
         while !self.events[before..]
@@ -83,7 +89,10 @@ impl Browser {
     }
 
     /// What a script gives, or what its promise does.
-    pub(crate) fn evaluate(&mut self, script: &str) -> Value {
+    ///
+    /// # Panics
+    /// If the script throws.
+    pub fn evaluate(&mut self, script: &str) -> Value {
         let answer = self.call(
             "Runtime.evaluate",
             json!({"expression": script, "returnByValue": true, "awaitPromise": true}),
@@ -93,7 +102,10 @@ impl Browser {
     }
 
     /// The answer to a call; what comes in between is kept.
-    pub(crate) fn call(&mut self, method: &str, parameters: Value) -> Value {
+    ///
+    /// # Panics
+    /// If the browser refuses it.
+    pub fn call(&mut self, method: &str, parameters: Value) -> Value {
         self.next += 1;
         let id = self.next;
         let mut message = json!({"id": id, "method": method, "params": parameters});
@@ -113,6 +125,16 @@ impl Browser {
         }
     }
 
+    /// Writes what is on the screen into `path`, as PNG.
+    ///
+    /// # Panics
+    /// If it cannot be written.
+    pub fn screenshot(&mut self, path: &Path) {
+        let taken = self.call("Page.captureScreenshot", json!({"format": "png"}));
+        let text = taken["data"].as_str().expect("a picture");
+        std::fs::write(path, from_base64(text)).expect("written");
+    }
+
     fn read(&mut self) -> Value {
         let mut bytes = Vec::new();
         self.from
@@ -122,8 +144,11 @@ impl Browser {
         serde_json::from_slice(&bytes).expect("JSON")
     }
 
-    /// Fails if anything was said on the console, asked of anybody but the page itself, or shown as a dialog.
-    pub(crate) fn assert_quiet(&mut self) {
+    /// Fails if anything was said on the console, asked of an address that is not `is_own`, or shown as a dialog.
+    ///
+    /// # Panics
+    /// If so.
+    pub fn assert_quiet(&mut self, is_own: impl Fn(&str) -> bool) {
         // Whatever is still on its way comes before this answer.
         self.evaluate("1");
         for event in &self.events {
@@ -139,9 +164,7 @@ impl Browser {
                 let url = event["params"]["request"]["url"]
                     .as_str()
                     .unwrap_or_default();
-                let is_own = url.starts_with("data:")
-                    || (url.starts_with("file:") && url.ends_with("/report.html"));
-                assert!(is_own, "{url}");
+                assert!(is_own(url), "{url}");
             }
         }
     }
@@ -153,4 +176,33 @@ impl Drop for Browser {
         drop(self.child.kill());
         drop(self.child.wait());
     }
+}
+
+/// The bytes that base64 stands for, as the browser writes files.
+///
+/// # Panics
+/// If it is none.
+pub fn from_base64(text: &str) -> Vec<u8> {
+    let value = |letter: u8| match letter {
+        b'A'..=b'Z' => letter - b'A',
+        b'a'..=b'z' => letter - b'a' + 26,
+        b'0'..=b'9' => letter - b'0' + 52,
+        b'+' => 62,
+        b'/' => 63,
+        other => panic!("`{other}` is no letter of base64"),
+    };
+    let letters: Vec<u8> = text
+        .bytes()
+        .filter(|letter| *letter != b'=')
+        .map(value)
+        .collect();
+    let mut bytes = Vec::with_capacity(letters.len() * 3 / 4);
+    for four in letters.chunks(4) {
+        let bits = four
+            .iter()
+            .fold(0_u32, |bits, six| bits << 6 | u32::from(*six));
+        let bits = bits << (6 * (4 - four.len()));
+        bytes.extend(&bits.to_be_bytes()[1..four.len()]);
+    }
+    bytes
 }

@@ -3,9 +3,9 @@
 use toml::Value as Plain;
 use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, Value, value};
 
-use super::{LibraryFile, Manifest, ManifestError, Provided, platform};
+use super::Offer;
 use crate::descriptor::{arguments, difference};
-use crate::library::Offer;
+use crate::manifest::{LibraryFile, Manifest, ManifestError, Provided, platform};
 
 /// What the manifest says and the library does not know.
 const OF_MANIFEST: [&str; 1] = ["usb"];

@@ -1,0 +1,32 @@
+//! A library is asked what it offers, in a process that reaches nothing.
+
+use std::collections::BTreeMap;
+
+use taceva_core::{DriverError, DriverKey, ErrorKind};
+
+use super::Offer;
+use crate::child::{ChildSession, ChildSpec};
+use crate::host::Children;
+use crate::library::Image;
+use crate::session::Session;
+
+impl Offer {
+    /// What the library of `image` says, asked in a process that reaches nothing.
+    ///
+    /// # Errors
+    /// [`DriverError`] if it cannot be loaded, or says what cannot be read.
+    pub fn of(image: &Image, children: &Children) -> Result<Offer, DriverError> {
+        const DOING: &str = "ask the library what it offers";
+        let nameless = DriverKey::fixed("plugin");
+        let spec = ChildSpec::of_library(image).map_err(|error| {
+            DriverError::new(ErrorKind::Internal, &nameless, DOING).because(error)
+        })?;
+        let spec = ChildSpec {
+            program: children.program.clone(),
+            ..spec
+        };
+        let session = ChildSession::start(spec, nameless.clone(), BTreeMap::new())
+            .map_err(|error| error.of(&nameless, DOING))?;
+        session.offer()
+    }
+}

@@ -1,0 +1,63 @@
+//! Who is there while a run goes on: somebody at the terminal, at a page, or nobody.
+
+use std::sync::{Arc, Mutex};
+
+use taceva_live::{Live, PageOperator};
+use taceva_protocol::Operator;
+use taceva_study::Viewer;
+
+use super::on_page::OnPage;
+use super::operator;
+use crate::args::Run;
+use crate::stderr;
+
+/// The page of a run, if one was asked for, and whoever can be asked.
+pub(super) struct Attended {
+    page: Option<OnPage>,
+    operator: Option<Box<Mutex<dyn Operator + Send>>>,
+    viewer: Option<Arc<dyn Viewer>>,
+}
+
+impl Attended {
+    /// Opens the page that `args` asks for and prints its address, even if nothing else is to be said: without it nobody finds the page.
+    pub(super) fn open(args: &Run, scene: &str) -> anyhow::Result<Attended> {
+        let page = args
+            .page
+            .then(|| OnPage::open(&format!("run of {scene}"), args.port))
+            .transpose()?;
+        if let Some(page) = &page {
+            stderr::say(format_args!("page: {}", page.url()));
+        }
+        let live = page.as_ref().map(OnPage::live);
+        let operator: Option<Box<Mutex<dyn Operator + Send>>> =
+            match (operator::terminal(live.clone()), live) {
+                (Some(terminal), _) => Some(Box::new(Mutex::new(terminal))),
+                (None, Some(live)) => Some(Box::new(Mutex::new(PageOperator::new(live)))),
+                (None, None) => None,
+            };
+        let viewer = page.as_ref().map(OnPage::viewer);
+        Ok(Attended {
+            page,
+            operator,
+            viewer,
+        })
+    }
+
+    /// Who can be asked.
+    pub(super) fn operator(&self) -> Option<&Mutex<dyn Operator + Send>> {
+        self.operator.as_deref()
+    }
+
+    /// Who looks on.
+    pub(super) fn viewer(&self) -> Option<&Arc<dyn Viewer>> {
+        self.viewer.as_ref()
+    }
+
+    /// Says on the page how it ended.
+    pub(super) fn ended(&self, words: &str) {
+        let live: Option<Live> = self.page.as_ref().map(OnPage::live);
+        if let Some(live) = live {
+            live.ended(words);
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! Frames of a stream: some are recorded at once, so that what is made durable is so for all of them.
+
+use taceva_core::{Frame, Sample};
+
+use super::Recorder;
+use super::written::{WrittenSample, WrittenStream};
+use crate::decode::{check_to_the_end, kind_of_whole};
+use crate::error::DatasetError;
+use crate::header::StreamFacts;
+use crate::journal::RecordKind;
+
+/// A sample of a stream, and the file that its frame was sent as, where a camera sends files.
+///
+/// ```
+/// use taceva_core::Sample;
+/// use taceva_dataset::Streamed;
+///
+/// let decoded = Streamed::new(Sample::new("frame 1"));
+/// assert_eq!(decoded.sent, None);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Streamed {
+    /// What is known, with the frame.
+    pub sample: Sample,
+    /// The PNG or JPEG file of which the frame was decoded: it is kept as it is, and not encoded again.
+    pub sent: Option<Vec<u8>>,
+}
+
+impl Streamed {
+    /// A sample whose frame, if it has one, is to be encoded.
+    pub fn new(sample: Sample) -> Streamed {
+        Streamed { sample, sent: None }
+    }
+
+    /// The same with the file that its frame was sent as.
+    ///
+    /// # Errors
+    /// What is wrong with the file, in words: neither PNG nor JPEG, cut, or damaged inside.
+    pub fn with_sent(self, sent: Vec<u8>) -> Result<Streamed, String> {
+        let kind = kind_of_whole(&sent)?;
+        check_to_the_end(&sent, kind)?;
+        Ok(Streamed {
+            sent: Some(sent),
+            ..self
+        })
+    }
+}
+
+impl Recorder {
+    /// Records frames of a stream, and what was lost of it so far; returns their number in the journal once all of them are durable.
+    ///
+    /// # Errors
+    /// As [`append_press`](Recorder::append_press): nothing is recorded then.
+    pub fn append_stream(
+        &mut self,
+        stream: &[Streamed],
+        facts: StreamFacts,
+    ) -> Result<u64, DatasetError> {
+        let samples = || stream.iter().map(|streamed| &streamed.sample);
+        self.check_together(samples())?;
+        let entries = self.write_streamed(stream)?;
+        let rows: Vec<_> = samples()
+            .zip(entries)
+            .map(|(sample, entry)| {
+                let info = sample.frame.as_ref().map(Frame::info);
+                (self.row(sample, entry), info)
+            })
+            .collect();
+        let channels = self.table().channels();
+        let written = rows
+            .iter()
+            .map(|(row, info)| WrittenSample::new(row, channels, *info));
+        let written = WrittenStream::new(facts, written.collect());
+        let sequence = self
+            .journal
+            .append(RecordKind::Stream, written.to_toml().as_bytes())?;
+        for (row, info) in rows {
+            self.take(row, info);
+        }
+        self.stream = Some(facts);
+        Ok(sequence)
+    }
+
+    pub(super) fn replay_stream(&mut self, written: WrittenStream) -> Result<(), String> {
+        for sample in written.samples {
+            let (row, info) = sample.into_row(self.table.channels())?;
+            self.take(row, info);
+        }
+        self.stream = Some(written.stream);
+        Ok(())
+    }
+}

@@ -1,0 +1,44 @@
+//! Who may ask: the page that this server gave out, opened by the address that was printed.
+
+use crate::request::Request;
+use crate::response::Status;
+use crate::token::Token;
+
+/// What a request must say.
+#[derive(Debug)]
+pub(crate) struct Access {
+    /// What `Host` may be.
+    hosts: [String; 2],
+    pub(crate) token: Token,
+}
+
+impl Access {
+    /// To a page on `port` of this machine.
+    pub(crate) fn new(port: u16, token: Token) -> Access {
+        let hosts = ["127.0.0.1", "localhost"].map(|host| format!("{host}:{port}"));
+        Access { hosts, token }
+    }
+
+    /// Refuses a request that came by another name, or from a page of another origin.
+    pub(crate) fn check_origin(&self, request: &Request) -> Result<(), Status> {
+        let is_own = |host: &[u8]| self.hosts.iter().any(|own| own.as_bytes() == host);
+        if !request.host.as_deref().is_some_and(is_own) {
+            return Err(Status::Misdirected);
+        }
+        match &request.origin {
+            None => Ok(()),
+            // That of the name it came by: to a browser the two names are two origins.
+            Some(origin) if origin.strip_prefix(b"http://") == request.host.as_deref() => Ok(()),
+            Some(_) => Err(Status::Forbidden),
+        }
+    }
+
+    /// Refuses a request that does not know the token.
+    pub(crate) fn check_token(&self, request: &Request) -> Result<(), Status> {
+        let given = request.token.as_deref();
+        match given.is_some_and(|given| self.token.is(given)) {
+            true => Ok(()),
+            false => Err(Status::Unauthorized),
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! From the newest frame to the newest JPEG, on a thread that may be slow.
+
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use image::codecs::jpeg::JpegEncoder;
+use image::{ExtendedColorType, ImageEncoder};
+use taceva_core::Frame;
+
+use crate::sight::Sight;
+
+/// Pictures a second, at most: what a person sees move.
+const PICTURES_HZ: u32 = 15;
+/// The greatest side of a picture that is shown.
+const SIDE_MAX: usize = 960;
+const QUALITY: u8 = 80;
+
+/// The newest frame, and the newest picture of one.
+#[derive(Default)]
+pub(crate) struct Frames {
+    newest: Mutex<Newest>,
+    came: Condvar,
+    shown: Mutex<Shown>,
+    encoded: Condvar,
+}
+
+#[derive(Default)]
+struct Newest {
+    frame: Option<Frame>,
+    /// When the last was taken away to be encoded.
+    taken: Option<Instant>,
+}
+
+#[derive(Default)]
+struct Shown {
+    number: u64,
+    jpeg: Option<Arc<[u8]>>,
+    sight: Option<Sight>,
+}
+
+impl Frames {
+    /// Leaves `frame` for the encoder, unless that has had enough of them.
+    pub(crate) fn offer(&self, frame: &Frame) {
+        let mut newest = lock(&self.newest);
+        let period = Duration::from_secs(1) / PICTURES_HZ;
+        if newest.taken.is_some_and(|taken| taken.elapsed() < period) {
+            return;
+        }
+        newest.frame = Some(frame.clone());
+        drop(newest);
+        self.came.notify_one();
+    }
+
+    /// Encodes the newest frame, if one comes within `patience`.
+    pub(crate) fn encode_next(&self, patience: Duration) {
+        let waited = self
+            .came
+            .wait_timeout_while(lock(&self.newest), patience, |newest| {
+                newest.frame.is_none()
+            });
+        let (mut newest, _) = waited.unwrap_or_else(PoisonError::into_inner);
+        let Some(frame) = newest.frame.take() else {
+            return;
+        };
+        newest.taken = Some(Instant::now());
+        drop(newest);
+        let sight = Sight::of(&frame);
+        let jpeg = encode(&frame);
+        let mut shown = lock(&self.shown);
+        shown.number += 1;
+        shown.sight = Some(sight);
+        shown.jpeg = jpeg.map(Arc::from);
+        drop(shown);
+        self.encoded.notify_all();
+    }
+
+    /// A picture newer than number `after`, waited for as long as `patience`, with its number.
+    pub(crate) fn next(&self, after: u64, patience: Duration) -> Option<(u64, Arc<[u8]>)> {
+        let waited = self
+            .encoded
+            .wait_timeout_while(lock(&self.shown), patience, |shown| shown.number <= after);
+        let (shown, _) = waited.unwrap_or_else(PoisonError::into_inner);
+        let jpeg = shown.jpeg.clone().filter(|_| shown.number > after)?;
+        Some((shown.number, jpeg))
+    }
+
+    /// What the last picture showed of its camera.
+    pub(crate) fn sight(&self) -> Option<Sight> {
+        lock(&self.shown).sight
+    }
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The frame as JPEG, every so many pixels of a great one; none if it cannot be encoded.
+fn encode(frame: &Frame) -> Option<Vec<u8>> {
+    let info = frame.info();
+    let [width, height] = [info.width, info.height].map(|side| side as usize);
+    let step = width.max(height).div_ceil(SIDE_MAX).max(1);
+    let (depth, bytes) = (info.format.samples(), info.format.bytes_per_sample());
+    let row = width * depth * bytes;
+    let mut pixels = Vec::with_capacity(frame.bytes().len() / (step * step * bytes));
+    for line in frame.bytes().chunks_exact(row.max(1)).step_by(step) {
+        for pixel in line.chunks_exact(depth * bytes).step_by(step) {
+            // Numbers of 16 bits are little-endian: the high byte is the last.
+            pixels.extend(pixel.iter().skip(bytes - 1).step_by(bytes));
+        }
+    }
+    let sides = [width, height].map(|side| u32::try_from(side.div_ceil(step)).ok());
+    let [Some(width), Some(height)] = sides else {
+        return None;
+    };
+    let colour = match depth {
+        1 => ExtendedColorType::L8,
+        _ => ExtendedColorType::Rgb8,
+    };
+    let mut jpeg = Vec::new();
+    JpegEncoder::new_with_quality(&mut jpeg, QUALITY)
+        .write_image(&pixels, width, height, colour)
+        .ok()?;
+    Some(jpeg)
+}
+
+#[cfg(test)]
+mod tests {
+    use taceva_core::{FrameInfo, PixelFormat};
+
+    use super::*;
+
+    #[test]
+    fn frames_of_every_format_and_size_become_pictures_that_a_screen_has_room_for() {
+        for (format, width, height, expected) in [
+            (PixelFormat::Gray8, 7, 5, (7, 5)),
+            (PixelFormat::Rgb16, 6, 4, (6, 4)),
+            (PixelFormat::Rgb8, 1921, 4, (641, 2)),
+        ] {
+            let info = FrameInfo {
+                width,
+                height,
+                format,
+            };
+            let pixels = vec![77; info.byte_len().expect("small")];
+            let frame = Frame::new(info, pixels).expect("whole");
+            let jpeg = encode(&frame).expect("encoded");
+            let read = image::load_from_memory(&jpeg).expect("a picture");
+            assert_eq!((read.width(), read.height()), expected);
+        }
+    }
+
+    #[test]
+    fn whoever_offers_never_waits_and_whoever_looks_gets_the_newest_once() {
+        let frames = Frames::default();
+        let info = FrameInfo {
+            width: 2,
+            height: 2,
+            format: PixelFormat::Gray8,
+        };
+        for level in 0..5 {
+            frames.offer(&Frame::new(info, vec![level; 4]).expect("whole"));
+        }
+        frames.encode_next(Duration::ZERO);
+        let (number, _) = frames.next(0, Duration::ZERO).expect("one");
+        assert_eq!(number, 1);
+        assert!(frames.next(number, Duration::ZERO).is_none());
+        frames.encode_next(Duration::ZERO);
+        assert!(frames.next(number, Duration::ZERO).is_none());
+    }
+}

@@ -1,0 +1,21 @@
+#![doc = include_str!("../README.md")]
+
+mod access;
+mod error;
+mod frames;
+mod live;
+mod operator;
+mod page;
+mod picture;
+mod request;
+mod response;
+mod route;
+mod sight;
+mod state;
+mod token;
+
+pub use error::PageError;
+pub use live::{Live, Open};
+pub use operator::PageOperator;
+pub use page::Page;
+pub use state::{Limits, Place, PlaceState};

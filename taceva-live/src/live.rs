@@ -1,0 +1,291 @@
+//! What whoever runs the devices says, and what a page reads: the newest of everything, and no more.
+
+use std::sync::atomic::{AtomicBool, AtomicUsize};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use taceva_core::{Frame, Pose, Wrench};
+use taceva_protocol::{Answer, Question};
+
+use crate::frames::Frames;
+use crate::state::{Asked, Limits, Place, PlaceState, State};
+
+/// What a page shows. Clones share one; every call returns at once, whoever reads.
+#[derive(Clone)]
+pub struct Live {
+    pub(crate) shared: Arc<Shared>,
+}
+
+pub(crate) struct Shared {
+    state: Mutex<Inside>,
+    answered: Condvar,
+    pub(crate) frames: Frames,
+    /// Streams that somebody reads: without any nothing is encoded.
+    pub(crate) viewers: AtomicUsize,
+    pub(crate) is_over: AtomicBool,
+}
+
+#[derive(Default)]
+struct Inside {
+    state: State,
+    places: Vec<Place>,
+    /// Grows whenever a place changes.
+    places_version: u64,
+    questions: u64,
+    /// When frames came lately, for their rate.
+    recent: std::collections::VecDeque<Instant>,
+}
+
+/// The rate of frames is that of so long.
+const RATE_OVER: Duration = Duration::from_secs(2);
+
+impl Live {
+    /// Nothing is known yet of what is called `title`.
+    pub fn new(title: &str) -> Live {
+        let state = State {
+            title: title.to_owned(),
+            ..State::default()
+        };
+        let inside = Inside {
+            state,
+            ..Inside::default()
+        };
+        Live {
+            shared: Arc::new(Shared {
+                state: Mutex::new(inside),
+                answered: Condvar::new(),
+                frames: Frames::default(),
+                viewers: AtomicUsize::new(0),
+                is_over: AtomicBool::new(false),
+            }),
+        }
+    }
+
+    /// A frame was taken: the newest is shown, as often as somebody can look.
+    pub fn frame(&self, frame: &Frame) {
+        let now = Instant::now();
+        {
+            let mut inside = self.shared.inside();
+            inside.state.frames += 1;
+            inside.recent.push_back(now);
+            while inside
+                .recent
+                .front()
+                .is_some_and(|first| now.duration_since(*first) > RATE_OVER)
+            {
+                inside.recent.pop_front();
+            }
+        }
+        // Even if nobody looks: who comes later sees the last one, which may be all there is for a while.
+        self.shared.frames.offer(frame);
+    }
+
+    /// The transducer read this, its zero taken off.
+    pub fn force(&self, wrench: &Wrench) {
+        let [x, y, z] = wrench.force.map(|force| force.0);
+        let mut inside = self.shared.inside();
+        (inside.state.normal_n, inside.state.shear_n) = (Some(z), Some(x.hypot(y)));
+    }
+
+    /// The tip is here, in the sensor's frame.
+    pub fn pose(&self, pose: &Pose) {
+        self.shared.inside().state.depth_mm = Some(pose.position.z.0);
+    }
+
+    /// What may not be passed.
+    pub fn limits(&self, limits: Limits) {
+        self.shared.inside().state.limits = limits;
+    }
+
+    /// What is going on, in words.
+    pub fn stage(&self, words: &str) {
+        words.clone_into(&mut self.shared.inside().state.stage);
+    }
+
+    /// So many frames were lost; whether the camera numbers them, so that all are counted.
+    pub fn lost(&self, dropped: u64, damaged: u64, numbered: bool) {
+        let mut inside = self.shared.inside();
+        let state = &mut inside.state;
+        (state.dropped, state.damaged, state.numbered) = (dropped, damaged, numbered);
+    }
+
+    /// Where the gel will be pressed.
+    pub fn places(&self, places: Vec<Place>) {
+        let mut inside = self.shared.inside();
+        inside.state.presses = [done(&places), places.len()];
+        inside.places = places;
+        inside.places_version += 1;
+    }
+
+    /// The press at place `number`, from 0, is in another state.
+    pub fn place(&self, number: usize, state: PlaceState) {
+        let mut inside = self.shared.inside();
+        let Some(place) = inside.places.get_mut(number) else {
+            return;
+        };
+        place.state = state;
+        inside.state.presses[0] = done(&inside.places);
+        inside.places_version += 1;
+    }
+
+    /// It is over: the page says how.
+    pub fn ended(&self, words: &str) {
+        self.shared.inside().state.ended = Some(words.to_owned());
+    }
+
+    /// Whether somebody pressed stop.
+    pub fn is_stopping(&self) -> bool {
+        self.shared.inside().state.is_stopping
+    }
+
+    /// Shows `question` with its buttons until what is returned is dropped.
+    pub fn ask(&self, question: &Question) -> Open {
+        let mut inside = self.shared.inside();
+        inside.questions += 1;
+        let number = inside.questions;
+        inside.state.question = Some(Asked::new(number, question));
+        drop(inside);
+        Open {
+            live: self.clone(),
+            number,
+        }
+    }
+}
+
+fn done(places: &[Place]) -> usize {
+    let is_done = |place: &&Place| matches!(place.state, PlaceState::Done | PlaceState::Short);
+    places.iter().filter(is_done).count()
+}
+
+/// A question on the page.
+pub struct Open {
+    live: Live,
+    number: u64,
+}
+
+impl Open {
+    /// The answer, waited for as long as `patience`.
+    pub fn answer(&self, patience: Duration) -> Option<Answer> {
+        let shared = &self.live.shared;
+        let is_open = |inside: &mut Inside| match &inside.state.question {
+            Some(asked) => asked.number == self.number && asked.answer.is_none(),
+            None => false,
+        };
+        let waited = shared
+            .answered
+            .wait_timeout_while(shared.inside(), patience, is_open);
+        let (inside, _) = waited.unwrap_or_else(PoisonError::into_inner);
+        let asked = inside.state.question.as_ref();
+        asked
+            .filter(|asked| asked.number == self.number)
+            .and_then(|asked| asked.answer)
+    }
+}
+
+impl Drop for Open {
+    fn drop(&mut self) {
+        let mut inside = self.live.shared.inside();
+        let question = &mut inside.state.question;
+        question.take_if(|asked| asked.number == self.number);
+    }
+}
+
+impl Shared {
+    /// Gives the answer to question `number`; whether that was open.
+    pub(crate) fn give_answer(&self, number: u64, answer: Answer) -> bool {
+        let mut inside = self.inside();
+        let asked = inside.state.question.as_mut();
+        let Some(asked) = asked.filter(|asked| asked.number == number && asked.answer.is_none())
+        else {
+            return false;
+        };
+        asked.answer = Some(answer);
+        drop(inside);
+        self.answered.notify_all();
+        true
+    }
+
+    /// Notes that somebody pressed stop.
+    pub(crate) fn stop(&self) {
+        self.inside().state.is_stopping = true;
+    }
+
+    /// Everything that is known, as JSON.
+    pub(crate) fn state_json(&self) -> String {
+        let mut inside = self.inside();
+        let sight = self.frames.sight();
+        let over = inside
+            .recent
+            .front()
+            .zip(inside.recent.back())
+            .map(|(first, last)| last.duration_since(*first).as_secs_f64());
+        let count = u32::try_from(inside.recent.len()).unwrap_or(u32::MAX);
+        let state = &mut inside.state;
+        state.rate_hz = match over {
+            Some(over_s) if over_s > 0.0 => f64::from(count - 1) / over_s,
+            _ => 0.0,
+        };
+        state.saturated = sight.map(|sight| sight.saturated);
+        state.sharpness = sight.map(|sight| sight.sharpness);
+        serde_json::to_string(state).unwrap_or_default()
+    }
+
+    /// The places, if they changed since `version`, as JSON.
+    pub(crate) fn places_json(&self, version: &mut Option<u64>) -> Option<String> {
+        let inside = self.inside();
+        if *version == Some(inside.places_version) {
+            return None;
+        }
+        *version = Some(inside.places_version);
+        serde_json::to_string(&inside.places).ok()
+    }
+
+    fn inside(&self) -> MutexGuard<'_, Inside> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_answer_reaches_its_own_question_and_no_later_one() {
+        let live = Live::new("test");
+        let first = live.ask(&Question::Unit("a".to_owned()));
+        assert!(!live.shared.give_answer(2, Answer::Done), "not asked yet");
+        assert!(live.shared.give_answer(1, Answer::Skip));
+        assert!(
+            !live.shared.give_answer(1, Answer::Done),
+            "answered already"
+        );
+        assert_eq!(first.answer(Duration::ZERO), Some(Answer::Skip));
+        drop(first);
+        let second = live.ask(&Question::Unit("b".to_owned()));
+        assert!(!live.shared.give_answer(1, Answer::Done), "a late press");
+        assert_eq!(second.answer(Duration::ZERO), None);
+        drop(second);
+        assert!(live.shared.state_json().contains("\"question\":null"));
+    }
+
+    #[test]
+    fn presses_are_counted_as_their_places_change() {
+        let live = Live::new("test");
+        let place = Place {
+            x_mm: 1.0,
+            y_mm: -2.0,
+            state: PlaceState::Open,
+        };
+        live.places(vec![place; 3]);
+        let mut version = None;
+        assert!(live.shared.places_json(&mut version).is_some());
+        assert_eq!(live.shared.places_json(&mut version), None);
+        live.place(1, PlaceState::Short);
+        live.place(2, PlaceState::Now);
+        live.place(9, PlaceState::Done);
+        let places = live.shared.places_json(&mut version).expect("changed");
+        assert!(places.contains("\"short\""), "{places}");
+        let state = live.shared.state_json();
+        assert!(state.contains("\"presses\":[1,3]"), "{state}");
+    }
+}

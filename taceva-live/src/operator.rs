@@ -1,0 +1,46 @@
+//! The person at the page, asked by its buttons.
+
+use std::time::Duration;
+
+use taceva_protocol::{Answer, Cancel, Operator, Question};
+
+use crate::live::Live;
+
+/// How often it is looked whether the run goes on.
+const LOOK: Duration = Duration::from_millis(100);
+
+/// Asks at the page alone.
+///
+/// ```
+/// use taceva_live::{Live, PageOperator};
+/// use taceva_protocol::{Answer, Cancel, Operator, Question};
+///
+/// let mut operator = PageOperator::new(Live::new("run"));
+/// let cancel = Cancel::new();
+/// cancel.cancel();
+/// assert_eq!(operator.ask(&Question::Light("S1".to_owned()), &cancel), Answer::Stop);
+/// ```
+pub struct PageOperator {
+    live: Live,
+}
+
+impl PageOperator {
+    /// Whoever looks at the page of `live`.
+    pub fn new(live: Live) -> PageOperator {
+        PageOperator { live }
+    }
+}
+
+impl Operator for PageOperator {
+    fn ask(&mut self, question: &Question, cancel: &Cancel) -> Answer {
+        let asked = self.live.ask(question);
+        loop {
+            if cancel.is_cancelled() || self.live.is_stopping() {
+                return Answer::Stop;
+            }
+            if let Some(answer) = asked.answer(LOOK) {
+                return answer;
+            }
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! Answers, each with the same headers that keep a browser from doing more than this page needs.
+
+use std::io::{self, Write};
+
+/// What a request is answered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Status {
+    Ok,
+    NoContent,
+    BadRequest,
+    Unauthorized,
+    Forbidden,
+    NotFound,
+    WrongMethod,
+    TimedOut,
+    Conflict,
+    BodyTooLarge,
+    Misdirected,
+    HeadTooLarge,
+    Busy,
+}
+
+impl Status {
+    pub(crate) const fn line(self) -> &'static str {
+        match self {
+            Status::Ok => "200 OK",
+            Status::NoContent => "204 No Content",
+            Status::BadRequest => "400 Bad Request",
+            Status::Unauthorized => "401 Unauthorized",
+            Status::Forbidden => "403 Forbidden",
+            Status::NotFound => "404 Not Found",
+            Status::WrongMethod => "405 Method Not Allowed",
+            Status::TimedOut => "408 Request Timeout",
+            Status::Conflict => "409 Conflict",
+            Status::BodyTooLarge => "413 Content Too Large",
+            Status::Misdirected => "421 Misdirected Request",
+            Status::HeadTooLarge => "431 Request Header Fields Too Large",
+            Status::Busy => "503 Service Unavailable",
+        }
+    }
+
+    /// What helps whoever reads the answer.
+    const fn hint(self) -> &'static str {
+        match self {
+            Status::Unauthorized => {
+                "the header X-Taceva-Token must hold what stands behind # in the address that the program printed\n"
+            }
+            Status::Forbidden => "this page answers requests of its own origin alone\n",
+            Status::Misdirected => "open the page by the address that the program printed\n",
+            Status::Conflict => "that question is not open any more\n",
+            Status::Busy => "too many connections: close another window of this page\n",
+            Status::WrongMethod => "GET for what is looked at, POST for /stop and /answer\n",
+            _ => "",
+        }
+    }
+}
+
+/// What every answer says: nothing is kept, guessed, framed or loaded from elsewhere.
+const ALWAYS: &str = "Cache-Control: no-store\r\n\
+    Content-Security-Policy: default-src 'none'; connect-src 'self'; img-src 'self'; script-src 'self'; style-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'\r\n\
+    Cross-Origin-Opener-Policy: same-origin\r\n\
+    Cross-Origin-Resource-Policy: same-origin\r\n\
+    Referrer-Policy: no-referrer\r\n\
+    X-Content-Type-Options: nosniff\r\n\
+    X-Frame-Options: DENY\r\n\
+    Connection: close\r\n";
+
+/// Writes a whole answer.
+pub(crate) fn whole(
+    out: &mut impl Write,
+    status: Status,
+    (kind, body): (&str, &[u8]),
+) -> io::Result<()> {
+    let head = format!(
+        "HTTP/1.1 {}\r\n{ALWAYS}Content-Type: {kind}\r\nContent-Length: {}\r\n\r\n",
+        status.line(),
+        body.len()
+    );
+    out.write_all(&[head.as_bytes(), body].concat())
+}
+
+/// Writes an answer that says no more than its status.
+pub(crate) fn bare(out: &mut impl Write, status: Status) -> io::Result<()> {
+    whole(
+        out,
+        status,
+        ("text/plain; charset=utf-8", status.hint().as_bytes()),
+    )
+}
+
+/// Writes the head of an answer that ends when the connection does.
+pub(crate) fn stream(out: &mut impl Write, kind: &str) -> io::Result<()> {
+    let head = format!(
+        "HTTP/1.1 {}\r\n{ALWAYS}Content-Type: {kind}\r\n\r\n",
+        Status::Ok.line()
+    );
+    out.write_all(head.as_bytes())
+}

@@ -1,0 +1,215 @@
+//! What each path answers.
+
+use std::io::{self, Write};
+use std::net::TcpStream;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+use serde::Deserialize;
+use taceva_protocol::Answer;
+
+use crate::access::Access;
+use crate::live::Shared;
+use crate::request::{self, Request};
+use crate::response::{self, Status};
+
+/// Streams at most: two pages, and connections left for their buttons.
+pub(crate) const STREAMS_MAX: usize = 4;
+/// From one event to the next.
+const EVENTS: Duration = Duration::from_millis(100);
+/// How long a stream waits for a picture before it looks whether it is over.
+const LOOK: Duration = Duration::from_millis(250);
+/// What a browser has to take a picture or an event within.
+const TAKING: Duration = Duration::from_secs(5);
+/// What stands between two pictures.
+const BOUNDARY: &str = "taceva-picture";
+
+/// What all connections have in common.
+pub(crate) struct Site {
+    pub(crate) access: Access,
+    pub(crate) shared: Arc<Shared>,
+    pub(crate) on_stop: Box<dyn Fn() + Send + Sync>,
+}
+
+/// Serves one connection: one request, one answer.
+pub(crate) fn serve(mut stream: TcpStream, site: &Site) -> io::Result<()> {
+    let done = request::read(&mut stream).and_then(|request| {
+        site.access.check_origin(&request)?;
+        route(&request, site)
+    });
+    match done {
+        Err(status) => {
+            response::bare(&mut stream, status)?;
+            request::drain(stream)
+        }
+        Ok(Reply::Bare(status)) => response::bare(&mut stream, status),
+        Ok(Reply::File(kind, body)) => {
+            response::whole(&mut stream, Status::Ok, (kind, body.as_bytes()))
+        }
+        Ok(Reply::Frames(_viewer)) => frames(&mut stream, &site.shared),
+        Ok(Reply::Events(_viewer)) => events(&mut stream, &site.shared),
+    }
+}
+
+/// What a request is answered with.
+enum Reply {
+    Bare(Status),
+    File(&'static str, &'static str),
+    Frames(Viewer),
+    Events(Viewer),
+}
+
+const HTML: &str = include_str!("page/page.html");
+const STYLE: &str = include_str!("page/page.css");
+const SCRIPT: &str = include_str!("page/page.js");
+
+fn route(request: &Request, site: &Site) -> Result<Reply, Status> {
+    let path = request.path.split('?').next().unwrap_or_default();
+    let method = request.method.as_str();
+    let file = match path {
+        "/" => Some(("text/html; charset=utf-8", HTML)),
+        "/page.css" => Some(("text/css; charset=utf-8", STYLE)),
+        "/page.js" => Some(("text/javascript; charset=utf-8", SCRIPT)),
+        _ => None,
+    };
+    if let Some((kind, text)) = file {
+        return match method {
+            "GET" => Ok(Reply::File(kind, text)),
+            _ => Err(Status::WrongMethod),
+        };
+    }
+    if path == "/favicon.ico" {
+        // Browsers ask for it unasked, and without the token.
+        return Ok(Reply::Bare(Status::NoContent));
+    }
+    site.access.check_token(request)?;
+    match (path, method) {
+        ("/frames", "GET") => Ok(Reply::Frames(Viewer::enter(&site.shared)?)),
+        ("/events", "GET") => Ok(Reply::Events(Viewer::enter(&site.shared)?)),
+        ("/stop", "POST") => {
+            // Before anything else: somebody waits for the arm.
+            (site.on_stop)();
+            site.shared.stop();
+            Ok(Reply::Bare(Status::NoContent))
+        }
+        ("/answer", "POST") => answer(&request.body, &site.shared).map(Reply::Bare),
+        ("/frames" | "/events" | "/stop" | "/answer", _) => Err(Status::WrongMethod),
+        _ => Err(Status::NotFound),
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Given {
+    question: u64,
+    answer: Word,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Word {
+    Done,
+    Skip,
+    Stop,
+}
+
+fn answer(body: &[u8], shared: &Shared) -> Result<Status, Status> {
+    let given: Given = serde_json::from_slice(body).map_err(|_| Status::BadRequest)?;
+    let answer = match given.answer {
+        Word::Done => Answer::Done,
+        Word::Skip => Answer::Skip,
+        Word::Stop => Answer::Stop,
+    };
+    match shared.give_answer(given.question, answer) {
+        true => Ok(Status::NoContent),
+        false => Err(Status::Conflict),
+    }
+}
+
+/// Somebody who reads a stream, counted while he does.
+struct Viewer(Arc<Shared>);
+
+impl Viewer {
+    fn enter(shared: &Arc<Shared>) -> Result<Viewer, Status> {
+        match entered(&shared.viewers, STREAMS_MAX) {
+            true => Ok(Viewer(Arc::clone(shared))),
+            false => Err(Status::Busy),
+        }
+    }
+}
+
+impl Drop for Viewer {
+    fn drop(&mut self) {
+        self.0.viewers.fetch_sub(1, Ordering::AcqRel);
+    }
+}
+
+/// Counts one more, unless there are `most` already.
+pub(crate) fn entered(count: &AtomicUsize, most: usize) -> bool {
+    let more = |count: usize| (count < most).then_some(count + 1);
+    count
+        .fetch_update(Ordering::AcqRel, Ordering::Acquire, more)
+        .is_ok()
+}
+
+/// Sends pictures as they come, leaving out what the browser is too slow for.
+fn frames(stream: &mut TcpStream, shared: &Shared) -> io::Result<()> {
+    response::stream(
+        stream,
+        &format!("multipart/x-mixed-replace; boundary={BOUNDARY}"),
+    )?;
+    let mut last = 0;
+    while !shared.is_over.load(Ordering::Acquire) {
+        let Some((number, jpeg)) = shared.frames.next(last, LOOK) else {
+            // A browser that is gone is noticed although nothing new is to be shown.
+            put(stream, b"\r\n")?;
+            continue;
+        };
+        last = number;
+        let head = format!(
+            "--{BOUNDARY}\r\nContent-Type: image/jpeg\r\nContent-Length: {}\r\n\r\n",
+            jpeg.len()
+        );
+        put(stream, &[head.as_bytes(), &jpeg, b"\r\n"].concat())?;
+    }
+    Ok(())
+}
+
+/// Says what is known, ten times a second, and where presses are whenever that changed.
+fn events(stream: &mut TcpStream, shared: &Shared) -> io::Result<()> {
+    response::stream(stream, "text/event-stream")?;
+    let mut version = None;
+    loop {
+        let is_last = shared.is_over.load(Ordering::Acquire);
+        let places = shared.places_json(&mut version);
+        let places = places.map_or_else(String::new, |json| {
+            format!("event: places\ndata: {json}\n\n")
+        });
+        let state = shared.state_json();
+        let event = format!("{places}event: state\ndata: {state}\n\n");
+        put(stream, event.as_bytes())?;
+        if is_last {
+            return Ok(());
+        }
+        std::thread::sleep(EVENTS);
+    }
+}
+
+/// Writes all of `bytes` in time, or gives the browser up.
+fn put(stream: &mut TcpStream, bytes: &[u8]) -> io::Result<()> {
+    let began = Instant::now();
+    let mut left = bytes;
+    while !left.is_empty() {
+        if began.elapsed() > TAKING {
+            return Err(io::ErrorKind::TimedOut.into());
+        }
+        match stream.write(left) {
+            Ok(0) => return Err(io::ErrorKind::WriteZero.into()),
+            Ok(count) => left = &left[count..],
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,126 @@
+//! The thread that takes frames.
+
+use std::sync::mpsc::{SyncSender, TrySendError};
+use std::time::{Duration, Instant};
+
+use taceva_core::{
+    Deadline, DriverError, DriverKey, DriverSource, ErrorKind, Frame, FrameInfo, FrameMut, Sensor,
+    Stamp,
+};
+
+use super::device_error;
+use super::streams::Counts;
+
+/// Frames that wait for whoever records them.
+pub(super) const ROOM: usize = 8;
+/// How long one call waits for a frame.
+const CALL: Deadline = Deadline::after(Duration::from_millis(100));
+/// A camera that gives no whole frame for so long has failed.
+const PATIENCE: Duration = Duration::from_secs(3);
+/// From one failure at once to the next call.
+const REST: Duration = Duration::from_millis(5);
+
+/// A frame that was taken.
+#[derive(Debug)]
+pub(super) struct Taken {
+    pub(super) frame: Frame,
+    pub(super) stamp: Stamp,
+    /// The file that it was sent as.
+    pub(super) sent: Option<Vec<u8>>,
+}
+
+/// Who takes frames of a sensor that is started.
+pub(super) struct Camera<'a> {
+    pub(super) sensor: &'a mut dyn Sensor,
+    pub(super) driver: &'a DriverKey,
+    pub(super) source: DriverSource,
+    pub(super) counts: &'a Counts,
+}
+
+impl Camera<'_> {
+    /// Puts frames into `queue` until it is over.
+    ///
+    /// # Errors
+    /// What ended the frames.
+    pub(super) fn take(mut self, queue: &SyncSender<Taken>) -> Result<(), DriverError> {
+        let info = self.sensor.frame_info();
+        let mut last = None;
+        let mut was_whole = Instant::now();
+        while !self.counts.is_over() {
+            let taken = self.next(info, &mut was_whole)?;
+            let number = self.sensor.sequence();
+            // One that came damaged has a number too, and is counted as that.
+            if let (Some(last), Some(number)) = (last, number) {
+                self.counts.missed(last, number);
+            }
+            let Some(taken) = taken else {
+                last = last.and(number);
+                continue;
+            };
+            last = number;
+            if !self.put(queue, taken) {
+                return Ok(());
+            }
+        }
+        Ok(())
+    }
+
+    /// The next frame; `None` if this call gave none.
+    fn next(
+        &mut self,
+        info: FrameInfo,
+        was_whole: &mut Instant,
+    ) -> Result<Option<Taken>, DriverError> {
+        let mut bytes = vec![0; info.byte_len().unwrap_or_default()];
+        let into = FrameMut::new(info, &mut bytes)
+            .map_err(|error| self.failed(ErrorKind::Internal, error.to_string()))?;
+        match self.sensor.capture(into, CALL) {
+            Ok(stamp) => {
+                *was_whole = Instant::now();
+                let frame = Frame::new(info, bytes)
+                    .map_err(|error| self.failed(ErrorKind::Internal, error.to_string()))?;
+                let sent = self.sensor.sent().map(<[u8]>::to_vec);
+                Ok(Some(Taken { frame, stamp, sent }))
+            }
+            Err(error) => {
+                let is_passing = match error.kind() {
+                    ErrorKind::Protocol => {
+                        self.counts.count_damaged();
+                        std::thread::sleep(REST);
+                        true
+                    }
+                    ErrorKind::Timeout => true,
+                    ErrorKind::Interrupted => return Ok(None),
+                    _ => false,
+                };
+                match is_passing {
+                    true if was_whole.elapsed() < PATIENCE => Ok(None),
+                    true => {
+                        let why = format!("no whole frame for {PATIENCE:?}; at last: {error}");
+                        Err(self.failed(error.kind(), why))
+                    }
+                    false => Err(error),
+                }
+            }
+        }
+    }
+
+    fn failed(&self, kind: ErrorKind, why: String) -> DriverError {
+        device_error(kind, self.driver, "capture a frame", why)
+    }
+
+    /// Whether somebody still takes frames. Those of a device come when they come; a bench or a recording waits until there is room.
+    fn put(&self, queue: &SyncSender<Taken>, taken: Taken) -> bool {
+        if self.source != DriverSource::Real {
+            return queue.send(taken).is_ok();
+        }
+        match queue.try_send(taken) {
+            Ok(()) => true,
+            Err(TrySendError::Full(_)) => {
+                self.counts.count_dropped();
+                true
+            }
+            Err(TrySendError::Disconnected(_)) => false,
+        }
+    }
+}

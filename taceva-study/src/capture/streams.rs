@@ -1,0 +1,104 @@
+//! Frames and readings as they come, while somebody takes them.
+
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError};
+use std::time::Duration;
+
+use taceva_dataset::StreamFacts;
+
+use super::camera::Taken;
+use super::track::Track;
+
+/// How long whoever takes frames waits for one before looking around.
+const LOOK: Duration = Duration::from_millis(20);
+
+/// What the threads of the devices count, and whether they are to end.
+#[derive(Debug, Default)]
+pub(super) struct Counts {
+    is_over: AtomicBool,
+    is_numbered: AtomicBool,
+    dropped: AtomicU64,
+    damaged: AtomicU64,
+}
+
+impl Counts {
+    pub(super) fn of(is_numbered: bool) -> Counts {
+        Counts {
+            is_numbered: AtomicBool::new(is_numbered),
+            ..Counts::default()
+        }
+    }
+
+    pub(super) fn is_over(&self) -> bool {
+        self.is_over.load(Ordering::Acquire)
+    }
+
+    pub(super) fn end(&self) {
+        self.is_over.store(true, Ordering::Release);
+    }
+
+    /// Counts frames between two that were taken; those that came damaged are counted already.
+    pub(super) fn missed(&self, last: u64, number: u64) {
+        let between = number.saturating_sub(last).saturating_sub(1);
+        self.dropped.fetch_add(between, Ordering::AcqRel);
+    }
+
+    pub(super) fn count_dropped(&self) {
+        self.dropped.fetch_add(1, Ordering::AcqRel);
+    }
+
+    pub(super) fn count_damaged(&self) {
+        self.damaged.fetch_add(1, Ordering::AcqRel);
+    }
+
+    fn facts(&self) -> StreamFacts {
+        let count = |of: &AtomicU64| of.load(Ordering::Acquire);
+        StreamFacts::new(self.is_numbered.load(Ordering::Acquire))
+            .with_lost(count(&self.dropped), count(&self.damaged))
+    }
+}
+
+/// What comes from the devices.
+pub(super) struct Streams<'a> {
+    pub(super) queue: Receiver<Taken>,
+    /// The readings, where there is a transducer.
+    pub(super) track: Option<&'a Track>,
+    pub(super) counts: &'a Counts,
+}
+
+impl Streams<'_> {
+    /// The next frame, waited for a little; `Err` if none will come any more.
+    pub(super) fn next(&self) -> Result<Option<Taken>, Ended> {
+        match self.queue.recv_timeout(LOOK) {
+            Ok(taken) => Ok(Some(taken)),
+            Err(RecvTimeoutError::Timeout) => Ok(None),
+            Err(RecvTimeoutError::Disconnected) => Err(Ended),
+        }
+    }
+
+    /// The next frame that is there already.
+    pub(super) fn next_at_once(&self) -> Result<Option<Taken>, Ended> {
+        match self.queue.try_recv() {
+            Ok(taken) => Ok(Some(taken)),
+            Err(TryRecvError::Empty) => Ok(None),
+            Err(TryRecvError::Disconnected) => Err(Ended),
+        }
+    }
+
+    pub(super) fn end(&self) {
+        self.counts.end();
+    }
+
+    pub(super) fn count_damaged(&self) {
+        self.counts.count_damaged();
+    }
+
+    /// What was lost so far.
+    pub(super) fn facts(&self) -> StreamFacts {
+        self.counts.facts()
+    }
+}
+
+/// No frame will come any more.
+#[derive(Debug)]
+pub(super) struct Ended;

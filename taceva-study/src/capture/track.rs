@@ -1,0 +1,133 @@
+//! What a transducer said lately, and what it would have said at the time of a frame.
+
+use std::collections::VecDeque;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use taceva_core::Wrench;
+use taceva_protocol::wrench_between;
+
+/// Readings older than this are forgotten, in s: no frame comes so late.
+const KEPT_S: f64 = 5.0;
+/// Between readings farther apart than so many periods nobody knows the force.
+const PERIODS: f64 = 3.0;
+/// What clocks and rates err by, of a period.
+const TOLERANCE: f64 = 1.01;
+
+/// Readings by their time.
+#[derive(Debug)]
+pub(super) struct Track {
+    /// From one reading to the next, in s.
+    period_s: f64,
+    readings: Mutex<VecDeque<(f64, Wrench)>>,
+}
+
+/// What is known of the force at a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum At {
+    /// It lies between two readings.
+    Known(Wrench),
+    /// The readings about it are too far apart, or there are none before.
+    Gap,
+    /// The reading after it has not come yet.
+    Early,
+}
+
+impl Track {
+    /// Of a transducer that reads every `period_s`.
+    pub(super) fn new(period_s: f64) -> Track {
+        Track {
+            period_s,
+            readings: Mutex::default(),
+        }
+    }
+
+    /// Takes a reading that was true at `at_s`; one that is no later than the last is none.
+    pub(super) fn push(&self, at_s: f64, wrench: Wrench) {
+        let mut readings = self.readings();
+        if readings.back().is_some_and(|(last_s, _)| *last_s >= at_s) {
+            return;
+        }
+        readings.push_back((at_s, wrench));
+        while readings
+            .front()
+            .is_some_and(|(first_s, _)| at_s - first_s > KEPT_S)
+        {
+            readings.pop_front();
+        }
+    }
+
+    /// The last reading.
+    pub(super) fn newest(&self) -> Option<Wrench> {
+        self.readings().back().map(|(_, wrench)| *wrench)
+    }
+
+    /// The force at `at_s`.
+    pub(super) fn at(&self, at_s: f64) -> At {
+        let readings = self.readings();
+        let after = readings.partition_point(|(time_s, _)| *time_s < at_s);
+        let Some((after_s, later)) = readings.get(after) else {
+            return At::Early;
+        };
+        let before = after.checked_sub(1).and_then(|at| readings.get(at));
+        match before {
+            _ if after_s.total_cmp(&at_s).is_eq() => At::Known(*later),
+            Some((before_s, earlier)) if after_s - before_s <= self.longest_s() => At::Known(
+                wrench_between((earlier, *before_s), (later, *after_s), at_s),
+            ),
+            _ => At::Gap,
+        }
+    }
+
+    /// The longest time between two readings at which the force between them is known, in s.
+    pub(super) fn longest_s(&self) -> f64 {
+        PERIODS * TOLERANCE * self.period_s
+    }
+
+    fn readings(&self) -> MutexGuard<'_, VecDeque<(f64, Wrench)>> {
+        self.readings.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use taceva_core::Newton;
+
+    use super::*;
+
+    fn pressed(normal_n: f64) -> Wrench {
+        let mut wrench = Wrench::default();
+        wrench.force[2] = Newton(normal_n);
+        wrench
+    }
+
+    fn normal_n(at: At) -> Option<f64> {
+        match at {
+            At::Known(wrench) => Some(wrench.force[2].0),
+            _ => None,
+        }
+    }
+
+    #[test]
+    fn a_force_is_known_between_readings_that_are_at_most_three_periods_apart() {
+        let track = Track::new(0.01);
+        for (at_s, force_n) in [(1.0, 0.0), (1.03, 3.0), (1.061, 3.0), (1.062, 4.0)] {
+            track.push(at_s, pressed(force_n));
+        }
+        let known = normal_n(track.at(1.02)).expect("between two");
+        assert!((known - 2.0).abs() < 1e-9, "{known}");
+        assert_eq!(track.at(1.05), At::Gap);
+        assert_eq!(normal_n(track.at(1.062)), Some(4.0));
+        assert_eq!(track.at(0.9), At::Gap, "nothing came before");
+        assert_eq!(track.at(1.07), At::Early);
+    }
+
+    #[test]
+    fn a_reading_that_repeats_a_time_is_none_and_old_ones_are_forgotten() {
+        let track = Track::new(0.01);
+        track.push(1.0, pressed(1.0));
+        track.push(1.0, pressed(9.0));
+        assert_eq!(track.newest(), Some(pressed(1.0)));
+        track.push(1.0 + KEPT_S + 0.1, pressed(2.0));
+        assert_eq!(track.readings().len(), 1);
+    }
+}

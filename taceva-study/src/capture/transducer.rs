@@ -1,0 +1,138 @@
+//! The thread that reads a transducer, and its zero.
+
+use std::time::{Duration, Instant};
+
+use taceva_core::{
+    Deadline, DriverError, DriverKey, ErrorKind, ForceFacts, ForceTransducer, Newton,
+    NewtonMillimetre, Wrench,
+};
+
+use super::device_error;
+use super::streams::Counts;
+use super::track::Track;
+
+/// How long one call waits for a reading.
+const CALL: Deadline = Deadline::after(Duration::from_millis(100));
+/// A transducer whose readings say nothing new for so long has failed.
+const PATIENCE: Duration = Duration::from_secs(2);
+/// How long it may take to call the load zero.
+const ZEROING: Deadline = Deadline::after(Duration::from_secs(6));
+/// The zero of a transducer that has none of its own is the mean over this.
+const MEAN_OVER: Duration = Duration::from_millis(250);
+/// From one failure at once to the next call.
+const REST: Duration = Duration::from_millis(5);
+
+/// A transducer, and what is called zero on this side.
+pub(super) struct Transducer {
+    pub(super) device: Box<dyn ForceTransducer>,
+    pub(super) driver: DriverKey,
+    pub(super) facts: ForceFacts,
+    pub(super) zero: Wrench,
+}
+
+impl Transducer {
+    /// Starts the readings, and calls the present load zero.
+    pub(super) fn begin(&mut self) -> Result<(), DriverError> {
+        self.device.start(ZEROING)?;
+        self.zero = Wrench::default();
+        match self.device.tare() {
+            Some(tare) => tare.zero(ZEROING),
+            None => {
+                self.zero = self.mean()?;
+                Ok(())
+            }
+        }
+    }
+
+    fn mean(&mut self) -> Result<Wrench, DriverError> {
+        let began = Instant::now();
+        let (mut sum, mut count) = ([0.0; 6], 0_u32);
+        while began.elapsed() < MEAN_OVER || count == 0 {
+            let (wrench, _) = self.device.read(Deadline::after(PATIENCE))?;
+            let numbers = numbers(&wrench);
+            sum = std::array::from_fn(|at| sum[at] + numbers[at]);
+            count += 1;
+        }
+        Ok(wrench(sum.map(|sum| sum / f64::from(count))))
+    }
+
+    /// From one reading to the next, in s; that of a transducer that states no rate is taken to be 50 Hz.
+    pub(super) fn period_s(&self) -> f64 {
+        const UNKNOWN_S: f64 = 0.02;
+        self.facts.rate.map_or(UNKNOWN_S, |rate| 1.0 / rate.0)
+    }
+
+    /// Puts readings into `track` until it is over. One that repeats the last is no reading, where live ones seldom do.
+    ///
+    /// # Errors
+    /// What ended the readings: a device that is gone, silence, or a signal that froze.
+    pub(super) fn read(&mut self, track: &Track, counts: &Counts) -> Result<(), DriverError> {
+        let mut last: Option<(Wrench, Option<u64>)> = None;
+        let mut was_new = Instant::now();
+        while !counts.is_over() {
+            match self.device.read(CALL) {
+                Ok((said, stamp)) => {
+                    let number = self.device.sequence();
+                    let repeats = last.is_some_and(|(wrench, before)| {
+                        let same_number = before.is_some() && before == number;
+                        same_number || (wrench == said && self.facts.seldom_repeats())
+                    });
+                    last = Some((said, number));
+                    if !repeats {
+                        was_new = Instant::now();
+                        track.push(stamp.valid_s, self.zeroed(&said));
+                    } else if was_new.elapsed() >= PATIENCE {
+                        return Err(self.frozen());
+                    }
+                }
+                Err(error) => {
+                    let is_passing = matches!(
+                        error.kind(),
+                        // One reading that is none, or none in time.
+                        ErrorKind::Timeout | ErrorKind::DeviceFault | ErrorKind::OutOfRange
+                    );
+                    match error.kind() {
+                        ErrorKind::Interrupted => {}
+                        _ if !is_passing => return Err(error),
+                        _ if was_new.elapsed() < PATIENCE => std::thread::sleep(REST),
+                        kind => {
+                            let why = format!("no reading for {PATIENCE:?}; at last: {error}");
+                            return Err(self.failed(kind, why));
+                        }
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn zeroed(&self, said: &Wrench) -> Wrench {
+        let zero = numbers(&self.zero);
+        let said = numbers(said);
+        wrench(std::array::from_fn(|at| said[at] - zero[at]))
+    }
+
+    fn frozen(&self) -> DriverError {
+        let why = format!(
+            "its readings have been equal to the last bit for {PATIENCE:?}: the signal is frozen; look at the transducer, its cable and its box"
+        );
+        self.failed(ErrorKind::DeviceFault, why)
+    }
+
+    fn failed(&self, kind: ErrorKind, why: String) -> DriverError {
+        device_error(kind, &self.driver, "read the force", why)
+    }
+}
+
+fn numbers(wrench: &Wrench) -> [f64; 6] {
+    let [fx, fy, fz] = wrench.force.map(|force| force.0);
+    let [tx, ty, tz] = wrench.torque.map(|torque| torque.0);
+    [fx, fy, fz, tx, ty, tz]
+}
+
+fn wrench([fx, fy, fz, tx, ty, tz]: [f64; 6]) -> Wrench {
+    Wrench {
+        force: [fx, fy, fz].map(Newton),
+        torque: [tx, ty, tz].map(NewtonMillimetre),
+    }
+}
