@@ -104,7 +104,7 @@ fn listen(stream: TcpStream, newest: &Mutex<Newest>) {
         }
         let stamp = Stamp::at(taceva_plugin::now());
         let Some((number, wrench)) = parsed(line.trim_end()) else {
-            break (ErrorKind::Protocol, format!("{line:?} is no reading"));
+            break (ErrorKind::Protocol, format!("what came is no reading: {line:?}"));
         };
         let reading = Reading { number, wrench, stamp };
         newest.lock().unwrap_or_else(PoisonError::into_inner).reading = Some(reading);
