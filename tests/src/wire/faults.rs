@@ -181,9 +181,10 @@ impl Tally {
                     std::thread::sleep(Duration::from_millis(5));
                     continue;
                 }
-                // With the study's own time between two faults it is not broken off three times in one press.
+                // A press that is broken off three times ends the study, so there is more than a press between two faults.
                 let pause = match case.outcome {
                     Outcome::Unharmed => Duration::from_millis(200),
+                    Outcome::Stopped(_) => Duration::from_millis(8_000),
                     _ => Duration::from_millis(2_500),
                 };
                 let pause = pause + Duration::from_millis(random.below(500) as u64);
