@@ -105,7 +105,7 @@ pub const CASES: [Case; 24] = {
 
 /// What came of a fault that was played some times.
 #[derive(Clone, Debug, Default)]
-pub struct Tally {
+pub struct Played {
     /// How often it was played.
     pub times: usize,
     /// From the fault to the last motion before it was over, time at rest not counted, in ms: in order.
@@ -118,7 +118,7 @@ pub struct Tally {
     pub broken: Vec<String>,
 }
 
-impl Tally {
+impl Played {
     /// The greatest time to a stop, in ms; 0 of none.
     pub fn most_ms(&self) -> f64 {
         self.stopped_ms.last().copied().unwrap_or_default()
@@ -155,20 +155,20 @@ fn scene(presses: usize) -> String {
 ///
 /// # Panics
 /// If the devices or the program cannot be started, which ends the test.
-pub fn play(case: &Case, times: usize, seed: u64) -> Tally {
-    let mut tally = Tally::default();
+pub fn play(case: &Case, times: usize, seed: u64) -> Played {
+    let mut result = Played::default();
     let mut random = Random::new(seed);
-    while tally.times < times && tally.broken.is_empty() {
-        let options = ServeOptions::over(BenchOptions::quiet(seed + tally.studies as u64));
+    while result.times < times && result.broken.is_empty() {
+        let options = ServeOptions::over(BenchOptions::quiet(seed + result.studies as u64));
         let on = OnTheWire::new(&options, &scene(presses_of(times)));
-        tally.studies += 1;
-        tally.play_study(case, times, &on, &mut random);
+        result.studies += 1;
+        result.play_study(case, times, &on, &mut random);
     }
-    tally.stopped_ms.sort_by(f64::total_cmp);
-    tally
+    result.stopped_ms.sort_by(f64::total_cmp);
+    result
 }
 
-impl Tally {
+impl Played {
     /// Plays with one study until it has every press, or is left where it is.
     fn play_study(&mut self, case: &Case, times: usize, on: &OnTheWire, random: &mut Random) {
         let mut ends = 0;
