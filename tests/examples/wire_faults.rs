@@ -25,7 +25,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     println!("|---|---|---|---|---|---|---|");
     let mut is_well = true;
     for case in CASES.iter().filter(|case| case.name.starts_with(&name)) {
-        let tally = play(case, times, SEED);
+        let result = play(case, times, SEED);
         let allowed = match case.outcome {
             Outcome::Stopped(most_ms) | Outcome::MayEnd(Some(most_ms)) => format!("{most_ms} ms"),
             Outcome::Unharmed | Outcome::MayEnd(None) => "–".to_owned(),
@@ -34,16 +34,16 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         println!(
             "| {} | {} | {} | {} | {:.1} ms | {:.1} ms | {allowed} |",
             case.name,
-            tally.times,
-            tally.studies,
-            tally.ended,
-            tally.median_ms(),
-            tally.most_ms()
+            result.times,
+            result.studies,
+            result.ended,
+            result.median_ms(),
+            result.most_ms()
         );
-        for broken in &tally.broken {
+        for broken in &result.broken {
             println!("{broken}");
         }
-        is_well &= tally.broken.is_empty();
+        is_well &= result.broken.is_empty();
     }
     Ok(match is_well {
         true => ExitCode::SUCCESS,

@@ -9,9 +9,9 @@ const FEW: usize = 3;
 
 fn played(of: impl Fn(&Case) -> bool) {
     for case in CASES.iter().filter(|case| of(case)) {
-        let played = play(case, FEW, SEED);
-        assert_eq!(played.broken, Vec::<String>::new(), "{played:?}");
-        assert_eq!(played.times, FEW, "{}", case.name);
+        let result = play(case, FEW, SEED);
+        assert_eq!(result.broken, Vec::<String>::new(), "{result:?}");
+        assert_eq!(result.times, FEW, "{}", case.name);
     }
 }
 

@@ -20,10 +20,10 @@ pub struct Compared {
     pub shade: u8,
     /// Scores of both.
     pub scores: usize,
-    /// Of scores, as a part: of the errors `mae` and `smape`; of `r2` and `skill`, of what they leave unexplained, 1 − the score.
-    pub score_part: f64,
-    /// Which score that was.
-    pub score: String,
+    /// Of the errors `mae` and `smape`, as a part of them.
+    pub error_part: f64,
+    /// Of `r2` and `skill`, as a part of what they leave unexplained, 1 − the score: a ratio that says nothing where few labels hardly spread.
+    pub share_part: f64,
 }
 
 /// Compares the run on the wire with the simulated one.
@@ -101,10 +101,11 @@ impl Compared {
             let is_share = name.starts_with("r2") || name.starts_with("skill");
             let whole = if is_share { 1.0 - score } else { *score };
             let part = (score - other).abs() / whole.abs();
-            if part > self.score_part {
-                self.score_part = part;
-                self.score.clone_from(name);
-            }
+            let most = match is_share {
+                true => &mut self.share_part,
+                false => &mut self.error_part,
+            };
+            *most = most.max(part);
         }
     }
 }
