@@ -162,6 +162,10 @@ fn each_check_of_a_force_transducer_can_fail() {
                 Flaw::CannotTare,
                 "calls the load zero if it declares that it can",
             ),
+            (
+                Flaw::RepeatsNumber,
+                "numbers its readings if it declares that it does",
+            ),
         ],
     );
 }

@@ -33,6 +33,7 @@ pub(crate) enum Flaw {
     Overflows,
     FillsUnmeasured,
     CannotTare,
+    RepeatsNumber,
     Creeps,
     Overshoots,
     TakesNaN,
@@ -80,7 +81,8 @@ impl ToyFactory {
         let facts = ForceFacts::default()
             .with_axes(Axes::FORCE)
             .with_force_max(FULL_SCALE)
-            .with_tare(true);
+            .with_tare(true)
+            .with_numbered(true);
         ToyFactory::new(Facts::Force(facts), flaw)
     }
 
@@ -127,6 +129,8 @@ fn error(kind: ErrorKind, doing: &'static str) -> DriverError {
 struct Toy {
     flaw: Flaw,
     shade: u8,
+    /// Of the last reading.
+    number: u64,
     readings: f64,
     stopped: bool,
     pose: Pose,
@@ -150,6 +154,7 @@ macro_rules! opens {
                 Ok(Box::new(Toy {
                     flaw: self.flaw,
                     shade: if differs { before } else { 0 },
+                    number: 0,
                     readings: 0.0,
                     stopped: false,
                     pose: Pose::default(),
@@ -244,7 +249,13 @@ impl ForceTransducer for Toy {
         if self.flaw == Flaw::FillsUnmeasured {
             wrench.torque[0].0 = 0.5;
         }
+        if self.flaw != Flaw::RepeatsNumber {
+            self.number += 1;
+        }
         Ok((wrench, self.stamp()))
+    }
+    fn sequence(&self) -> Option<u64> {
+        Some(self.number)
     }
     fn stop(&mut self) -> Result<(), DriverError> {
         self.stopped = true;

@@ -99,7 +99,7 @@ model = { name = "ridge" }
 want = ["r_light"]
 [protocol]
 contact = { clearance_mm = 0.3, search_mm = 0.5, speed_mm_s = 5.0, travel_mm_s = 50.0, settle_s = 0.01 }
-calibration = { points = 2, indentations = 1, shear_mm = 0.0 }
+calibration = { points = 4, indentations = 1, shear_mm = 0.0 }
 lighting = { points = 2 }
 "#;
 
