@@ -94,7 +94,7 @@ robot = { driver = "wall/robot" }
 force = { driver = "wall/force" }
 sensor = { driver = "wall/gel", opaque = false }
 lighting = { scenes = ["dark", "lamp"] }
-model = { name = "ridge" }
+model = { name = "baseline" }
 [metrics]
 want = ["r_light"]
 [protocol]
