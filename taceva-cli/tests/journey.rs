@@ -33,7 +33,7 @@ fn a_folder_of_pictures_becomes_scores_in_two_commands() {
         .as_f64()
         .expect("a number");
     assert!(r2 > 0.9, "the brightness of a blob is easy to see: {r2}");
-    assert_eq!(report["schema"], "taceva.evaluation/1.2");
+    assert_eq!(report["schema"], "taceva.evaluation/1.3");
     assert_eq!(report["provenance"]["frames_decoded"], SAMPLES);
 }
 

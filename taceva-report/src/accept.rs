@@ -199,8 +199,20 @@ fn hold(study: &Study, limit: &Limit) -> Finding {
     finding.is_kept = finding.reason.is_none();
     if finding.is_kept && finding.ends.is_none() {
         finding.reason = Some("kept by the value alone: there is no interval".to_owned());
+    } else if finding.is_kept && is_crossed(limit, finding.ends) {
+        let crossed = "kept by the value alone: its interval reaches across the limit";
+        finding.reason = Some(crossed.to_owned());
     }
     finding
+}
+
+/// Whether an interval reaches across the limit.
+fn is_crossed(limit: &Limit, ends: Option<[f64; 2]>) -> bool {
+    ends.is_some_and(|[low, high]| {
+        let is_above = limit.most.is_some_and(|most| high > most);
+        let is_below = limit.least.is_some_and(|least| low < least);
+        is_above || is_below
+    })
 }
 
 /// How a value breaks the limit, if it does.
@@ -248,6 +260,15 @@ mod tests {
             finding.reason.as_deref(),
             Some("value is 0.0361, above 0.036")
         );
+    }
+
+    #[test]
+    fn a_value_is_kept_alone_where_its_interval_reaches_across_the_limit() {
+        let crossed = |lines: &str, ends| is_crossed(&limits(lines).limits[0], Some(ends));
+        let most = "metric = \"mae\"\nchannel = \"Fz\"\nunit = \"N\"\nmost = 0.5\n";
+        assert!(crossed(most, [0.3, 0.51]) && !crossed(most, [0.3, 0.5]));
+        let least = "metric = \"r2\"\nchannel = \"Fz\"\nunit = \"1\"\nleast = 0.5\n";
+        assert!(crossed(least, [0.49, 0.8]) && !crossed(least, [0.5, 0.8]));
     }
 
     #[test]

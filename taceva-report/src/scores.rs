@@ -189,7 +189,11 @@ impl Line<'_> {
             degrees_of_freedom: self.interval.and_then(Interval::degrees_of_freedom),
             n: self.score.n,
             n_invalid: self.score.n_invalid,
-            standing: self.score.standing,
+            // What a constant reaches is no claim of the model.
+            standing: match self.metric.ends_with(".of_constant") {
+                true => Standing::Counts,
+                false => self.score.standing,
+            },
             bounded_share: self.score.bounded_share,
             is_best: false,
         });

@@ -63,9 +63,12 @@ impl Line<'_> {
         Better::named(&self.name)
     }
 
-    /// Whether it is the reference constant of a score.
-    fn is_reference(&self) -> bool {
-        matches!(self.name.as_str(), "skill.constant" | "sr.of_constant")
+    /// Whether it is the reference constant of a score, which is no claim of the model.
+    pub(super) fn is_reference(&self) -> bool {
+        matches!(
+            self.name.as_str(),
+            "skill.constant" | "sr.of_constant" | "tolerance.of_constant"
+        )
     }
 }
 

@@ -63,7 +63,10 @@ fn numbers(line: &Line<'_>, source: &str) -> [Cell; 15] {
         Cell::Number(line.score.n_invalid.to_string()),
         Cell::text(line.score.definition),
         Cell::text(why),
-        Cell::text(line.score.standing.words().unwrap_or_default()),
+        Cell::text(match line.is_reference() {
+            true => "",
+            false => line.score.standing.words().unwrap_or_default(),
+        }),
         number(line.score.bounded_share),
         Cell::text(source),
     ]

@@ -98,7 +98,7 @@ impl Choice {
         }
         if !self.unknown.is_empty() {
             table.note(format!(
-                "Nothing that is asked for is known of: {}.",
+                "No number that is asked for is known exactly of: {}.",
                 self.unknown.join(", ")
             ));
         }
