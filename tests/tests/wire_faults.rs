@@ -1,13 +1,34 @@
 //! Whatever goes wrong on the links, the arm stands in time and every press is recorded once. `wire_faults`, an example, plays each fault 100
 //! times.
 
+use std::sync::{Mutex, PoisonError};
+
+use taceva_needs::{Need, required, skip};
 use taceva_tests::wire::faults::{CASES, Case, play, play_kills};
 
 const SEED: u64 = 20_261_123;
 /// How often each is played here.
 const FEW: usize = 3;
 
+/// One study at a time: each needs the machine for itself.
+static ALONE: Mutex<()> = Mutex::new(());
+
+/// Whether bounds of milliseconds may be asked for here.
+fn is_quiet() -> bool {
+    let named = required(std::env::var_os("TACEVA_REQUIRE").as_deref());
+    let is_quiet = named.is_ok_and(|named| named.contains(&Need::QuietMachine));
+    if !is_quiet {
+        let how = "the arm must stand within milliseconds: TACEVA_REQUIRE=quiet-machine chrt -f 10 cargo test -p taceva-tests --test wire_faults";
+        skip(Need::QuietMachine, how);
+    }
+    is_quiet
+}
+
 fn played(of: impl Fn(&Case) -> bool) {
+    if !is_quiet() {
+        return;
+    }
+    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
     for case in CASES.iter().filter(|case| of(case)) {
         let result = play(case, FEW, SEED);
         assert_eq!(result.broken, Vec::<String>::new(), "{result:?}");
@@ -32,6 +53,10 @@ fn faults_of_the_camera_cost_time_and_no_press() {
 
 #[test]
 fn a_study_that_is_killed_and_gone_on_with_loses_and_doubles_no_press() {
+    if !is_quiet() {
+        return;
+    }
+    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
     let presses = play_kills(FEW, SEED);
     assert!(presses.is_ok(), "{presses:?}");
 }

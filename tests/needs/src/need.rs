@@ -44,6 +44,8 @@ pub enum Need {
     VirtualPrinter,
     /// The right to make device files, which stand for cameras and scales that are not there.
     DeviceFiles,
+    /// A machine that does nothing else: what bounds of milliseconds hold on. Nobody can see that; who has one names it in `TACEVA_REQUIRE`.
+    QuietMachine,
     /// An example that is built where a whole package is tested, and not by a single test of it.
     Example,
 }
@@ -57,7 +59,7 @@ pub struct UnknownNeed(
 
 impl Need {
     /// Every need.
-    pub const ALL: [Need; 19] = [
+    pub const ALL: [Need; 20] = [
         Need::Browser,
         Need::Axe,
         Need::Latex,
@@ -76,6 +78,7 @@ impl Need {
         Need::Kernel,
         Need::VirtualPrinter,
         Need::DeviceFiles,
+        Need::QuietMachine,
         Need::Example,
     ];
 
@@ -100,6 +103,7 @@ impl Need {
             Need::Kernel => "kernel",
             Need::VirtualPrinter => "virtual-printer",
             Need::DeviceFiles => "device-files",
+            Need::QuietMachine => "quiet-machine",
             Need::Example => "example",
         }
     }
