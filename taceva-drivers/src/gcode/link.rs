@@ -177,6 +177,17 @@ impl<S: Clone + Send + 'static> SerialLink<S> {
         sent.map_err(|error| CommandError::Broken(error.to_string()))
     }
 
+    /// The same while the machine moves: a fault among the answers that came is said once, and never thrown away.
+    pub(super) fn send_on_the_way(&mut self, command: &str) -> Result<(), CommandError> {
+        while let Ok(answer) = self.answers.try_recv() {
+            if let Answer::Fault(why) = answer {
+                return Err(CommandError::Fault(why));
+            }
+        }
+        let sent = self.writer.send(format!("{command}\n").as_bytes());
+        sent.map_err(|error| CommandError::Broken(error.to_string()))
+    }
+
     /// The next answer, waited for as long as `patience`; `None` if none came.
     pub(super) fn answer(&mut self, patience: Duration) -> Option<Answer> {
         self.answers.recv_timeout(patience).ok()
