@@ -170,15 +170,9 @@ impl<S: Clone + Send + 'static> SerialLink<S> {
         &self.statuses
     }
 
-    /// Sends a command, whose answer is [`answer`](SerialLink::answer); answers to earlier commands that came are thrown away.
+    /// Sends a command, whose answer is [`answer`](SerialLink::answer); answers to earlier commands that came are thrown away, but for a fault, which a
+    /// machine may say once.
     pub(super) fn send(&mut self, command: &str) -> Result<(), CommandError> {
-        while self.answers.try_recv().is_ok() {}
-        let sent = self.writer.send(format!("{command}\n").as_bytes());
-        sent.map_err(|error| CommandError::Broken(error.to_string()))
-    }
-
-    /// The same while the machine moves: a fault among the answers that came is said once, and never thrown away.
-    pub(super) fn send_on_the_way(&mut self, command: &str) -> Result<(), CommandError> {
         while let Ok(answer) = self.answers.try_recv() {
             if let Answer::Fault(why) = answer {
                 return Err(CommandError::Fault(why));
@@ -186,6 +180,12 @@ impl<S: Clone + Send + 'static> SerialLink<S> {
         }
         let sent = self.writer.send(format!("{command}\n").as_bytes());
         sent.map_err(|error| CommandError::Broken(error.to_string()))
+    }
+
+    /// Throws away what came, faults too: of a machine whose state says that they are over.
+    #[cfg(feature = "grbl")]
+    pub(super) fn forget(&mut self) {
+        while self.answers.try_recv().is_ok() {}
     }
 
     /// The next answer, waited for as long as `patience`; `None` if none came.

@@ -33,7 +33,8 @@ impl Machine {
             return Err(failed(ErrorKind::Timeout, MOVE, "no time to move at all"));
         }
         match self.look(ANSWER)?.what.state {
-            State::Idle => {}
+            // Whatever alarm was said before, a person has ended it.
+            State::Idle => self.link.forget(),
             State::Alarm => return Err(alarm(MOVE)),
             state => {
                 let why = format!("it is {state:?}, expected idle: end the halt to go on");

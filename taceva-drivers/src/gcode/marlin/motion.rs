@@ -64,7 +64,7 @@ impl Printer {
         for command in ["G21", "G90", &straight(&target.position, speed)] {
             self.link.command(command, ANSWER, drop).map_err(refused)?;
         }
-        self.link.send_on_the_way(WAIT).map_err(refused)?;
+        self.link.send(WAIT).map_err(refused)?;
         let mut heard = monotonic();
         loop {
             if self.stop.is_halted() {

@@ -117,6 +117,20 @@ fn an_error_of_the_firmware_ends_the_motion_and_nothing_is_cleared() {
 }
 
 #[test]
+fn an_error_that_the_firmware_said_at_rest_is_met_by_the_next_motion() {
+    let setup = setup();
+    let mut printer = setup.open();
+    let (home, _) = printer.pose(PATIENCE).expect("a pose");
+    setup.printer.suffer(ArmFault::Collision);
+    // It is said once, and nobody listens.
+    std::thread::sleep(Duration::from_millis(100));
+    let moved = printer.move_to(lower(home, 1.0), speed(5.0), PATIENCE);
+    let moved = moved.expect_err("killed");
+    assert_eq!(moved.kind(), ErrorKind::DeviceFault, "{moved}");
+    assert!(moved.to_string().contains("kill() called"), "{moved}");
+}
+
+#[test]
 fn a_motion_that_is_given_up_is_stopped_and_the_next_one_arrives() {
     let setup = setup();
     let mut printer = setup.open();
