@@ -4,7 +4,7 @@
 //! does not: settings, offsets, arcs, homing, acceleration.
 
 use std::fs::File;
-use std::io::{self, Read, Write};
+use std::io::{Read, Write};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
@@ -15,18 +15,13 @@ use crate::bench::WallBench;
 use crate::error::WireError;
 use crate::fault::{Arm, ArmFault, Device, FaultKind};
 use crate::server::End;
-use crate::terminal::pseudo_terminal;
+use crate::terminal::ServedLine;
 
 /// An emulated machine, which is unplugged once this is dropped.
 #[derive(Debug)]
 pub struct Emulator {
     machine: Arc<Machine>,
-    path: String,
-    /// The machine's end of the line.
-    end: End,
-    thread: Option<std::thread::JoinHandle<()>>,
-    /// The host's end, held open so that the line stays there while no host has it.
-    _line: File,
+    line: ServedLine,
 }
 
 #[derive(Debug)]
@@ -62,33 +57,13 @@ impl Emulator {
     /// # Errors
     /// [`WireError`] if the system gives no pseudo-terminal.
     pub fn start(bench: &WallBench) -> Result<Emulator, WireError> {
-        let refused = |source: io::Error| WireError::Listen {
-            address: "a pseudo-terminal".to_owned(),
-            source,
-        };
-        let (file, path) = pseudo_terminal().map_err(refused)?;
-        let line = File::options()
-            .read(true)
-            .write(true)
-            .open(&path)
-            .map_err(refused)?;
         let machine = Arc::new(Machine {
             bench: bench.clone(),
             inside: Mutex::default(),
         });
-        let end = End::default();
-        let serving = (Arc::clone(&machine), end.clone());
-        let thread = std::thread::Builder::new()
-            .name("grbl".to_owned())
-            .spawn(move || serve(file, &serving.0, &serving.1))
-            .map_err(WireError::Thread)?;
-        Ok(Emulator {
-            machine,
-            path,
-            end,
-            thread: Some(thread),
-            _line: line,
-        })
+        let serving = Arc::clone(&machine);
+        let line = ServedLine::start("grbl", move |file, end| serve(file, &serving, end))?;
+        Ok(Emulator { machine, line })
     }
 }
 
@@ -104,16 +79,7 @@ impl Arm for Emulator {
     }
 
     fn selector(&self) -> String {
-        format!("gcode/grbl:port={}", self.path)
-    }
-}
-
-impl Drop for Emulator {
-    fn drop(&mut self) {
-        self.end.come();
-        if let Some(thread) = self.thread.take() {
-            let _ = thread.join();
-        }
+        format!("gcode/grbl:port={}", self.line.path())
     }
 }
 

@@ -5,7 +5,7 @@
 
 use std::collections::VecDeque;
 use std::fs::File;
-use std::io::{self, Read, Write};
+use std::io::{Read, Write};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
@@ -16,18 +16,13 @@ use crate::bench::WallBench;
 use crate::error::WireError;
 use crate::fault::{Arm, ArmFault, Device, FaultKind};
 use crate::server::End;
-use crate::terminal::pseudo_terminal;
+use crate::terminal::ServedLine;
 
 /// An emulated printer, which is unplugged once this is dropped.
 #[derive(Debug)]
 pub struct Emulator {
     printer: Arc<Printer>,
-    path: String,
-    /// The printer's end of the line.
-    end: End,
-    thread: Option<std::thread::JoinHandle<()>>,
-    /// The host's end, held open so that the line stays there while no host has it.
-    _line: File,
+    line: ServedLine,
 }
 
 /// What an emulated printer was built with.
@@ -72,34 +67,14 @@ impl Emulator {
     /// # Errors
     /// [`WireError`] if the system gives no pseudo-terminal.
     pub fn start(bench: &WallBench, firmware: Firmware) -> Result<Emulator, WireError> {
-        let refused = |source: io::Error| WireError::Listen {
-            address: "a pseudo-terminal".to_owned(),
-            source,
-        };
-        let (file, path) = pseudo_terminal().map_err(refused)?;
-        let line = File::options()
-            .read(true)
-            .write(true)
-            .open(&path)
-            .map_err(refused)?;
         let printer = Arc::new(Printer {
             bench: bench.clone(),
             firmware,
             inside: Mutex::default(),
         });
-        let end = End::default();
-        let serving = (Arc::clone(&printer), end.clone());
-        let thread = std::thread::Builder::new()
-            .name("marlin".to_owned())
-            .spawn(move || serve(file, &serving.0, &serving.1))
-            .map_err(WireError::Thread)?;
-        Ok(Emulator {
-            printer,
-            path,
-            end,
-            thread: Some(thread),
-            _line: line,
-        })
+        let serving = Arc::clone(&printer);
+        let line = ServedLine::start("marlin", move |file, end| serve(file, &serving, end))?;
+        Ok(Emulator { printer, line })
     }
 }
 
@@ -115,16 +90,7 @@ impl Arm for Emulator {
     }
 
     fn selector(&self) -> String {
-        format!("gcode/marlin:port={}", self.path)
-    }
-}
-
-impl Drop for Emulator {
-    fn drop(&mut self) {
-        self.end.come();
-        if let Some(thread) = self.thread.take() {
-            let _ = thread.join();
-        }
+        format!("gcode/marlin:port={}", self.line.path())
     }
 }
 

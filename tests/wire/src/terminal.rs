@@ -2,13 +2,17 @@
 
 use std::fs::File;
 use std::io;
+use std::thread::JoinHandle;
 
 use rustix::fs::OFlags;
 use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
 use rustix::termios::{OptionalActions, tcgetattr, tcsetattr};
 
+use crate::error::WireError;
+use crate::server::End;
+
 /// The machine's end of a raw line, and the path of the other.
-pub(crate) fn pseudo_terminal() -> io::Result<(File, String)> {
+fn pseudo_terminal() -> io::Result<(File, String)> {
     let end = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY)?;
     grantpt(&end)?;
     unlockpt(&end)?;
@@ -19,4 +23,60 @@ pub(crate) fn pseudo_terminal() -> io::Result<(File, String)> {
     rustix::fs::fcntl_setfl(&end, OFlags::NONBLOCK)?;
     let path = path.to_string_lossy().into_owned();
     Ok((File::from(end), path))
+}
+
+/// A serial line that a machine serves, and that is unplugged once this is dropped.
+#[derive(Debug)]
+pub(crate) struct ServedLine {
+    path: String,
+    /// Ends the machine.
+    end: End,
+    thread: Option<JoinHandle<()>>,
+    /// The host's end, held open so that the line stays there while no host has it.
+    _line: File,
+}
+
+impl ServedLine {
+    /// Has `serve` answer at the machine's end, in a thread called `name`, until the end comes.
+    ///
+    /// # Errors
+    /// [`WireError`] if the system gives no pseudo-terminal or no thread.
+    pub(crate) fn start(
+        name: &str,
+        serve: impl FnOnce(File, &End) + Send + 'static,
+    ) -> Result<ServedLine, WireError> {
+        let refused = |source: io::Error| WireError::Listen {
+            address: "a pseudo-terminal".to_owned(),
+            source,
+        };
+        let (file, path) = pseudo_terminal().map_err(refused)?;
+        let line = File::options().read(true).write(true).open(&path);
+        let line = line.map_err(refused)?;
+        let end = End::default();
+        let serving = end.clone();
+        let thread = std::thread::Builder::new()
+            .name(name.to_owned())
+            .spawn(move || serve(file, &serving))
+            .map_err(WireError::Thread)?;
+        Ok(ServedLine {
+            path,
+            end,
+            thread: Some(thread),
+            _line: line,
+        })
+    }
+
+    /// Where a host opens it.
+    pub(crate) fn path(&self) -> &str {
+        &self.path
+    }
+}
+
+impl Drop for ServedLine {
+    fn drop(&mut self) {
+        self.end.come();
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+    }
 }

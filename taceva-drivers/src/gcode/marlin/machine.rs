@@ -132,10 +132,11 @@ impl Robot for Printer {
         Arc::clone(&self.stop) as Arc<dyn Halt>
     }
 
-    fn clear_halt(&mut self, _: Deadline) -> Result<(), DriverError> {
+    fn clear_halt(&mut self, deadline: Deadline) -> Result<(), DriverError> {
         // First, so that a halt which comes meanwhile stays.
         self.stop.release();
-        self.agree(ANSWER)
+        // A printer that was stopped may still work on what it has taken before.
+        self.agree(deadline.remaining().max(GLANCE))
             .map_err(|error| error.met(&KEY, "end the halt"))
     }
 }

@@ -35,8 +35,8 @@ class Settings:
         return tempfile.gettempdir()
 
 
-end, line = pty.openpty()
-tty.setraw(line)
+end, host = pty.openpty()
+tty.setraw(host)
 plugin_manager(init=True, plugin_folders=[], plugin_entry_points=[])
 printer = VirtualPrinter(Settings(), None, tempfile.mkdtemp(), read_timeout=0.1)
 
@@ -49,13 +49,19 @@ def say():
 
 
 threading.Thread(target=say, daemon=True).start()
-print("= " + os.ttyname(line), flush=True)
+print("= " + os.ttyname(host), flush=True)
+heard = b""
 while True:
     try:
-        heard = os.read(end, 1024)
+        more = os.read(end, 1024)
     except OSError:
         break
-    if not heard:
+    if not more:
         break
-    while heard:
-        heard = heard[printer.write(heard) :]
+    heard += more
+    # A line at a time: of two that it is handed at once, the printer works on the first and keeps the second until something else comes.
+    while b"\n" in heard:
+        line, heard = heard.split(b"\n", 1)
+        line += b"\n"
+        while line:
+            line = line[printer.write(line) :]
