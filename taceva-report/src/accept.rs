@@ -175,7 +175,7 @@ fn hold(study: &Study, limit: &Limit) -> Finding {
         return finding;
     };
     finding.n = score.n;
-    finding.standing = score.standing;
+    finding.standing = score.standing_of(variant);
     let (value, unit, interval) = match variant {
         None => (&score.value, score.unit, &score.interval),
         Some(name) => match score.variant(name) {
@@ -194,7 +194,7 @@ fn hold(study: &Study, limit: &Limit) -> Finding {
     };
     finding.value = Some(number);
     finding.ends = interval.as_ref().and_then(Interval::ends);
-    let barred = score.standing.reason().map(str::to_owned);
+    let barred = finding.standing.reason().map(str::to_owned);
     finding.reason = barred.or_else(|| broken(limit, unit, number, finding.ends));
     finding.is_kept = finding.reason.is_none();
     if finding.is_kept && finding.ends.is_none() {
@@ -247,6 +247,24 @@ mod tests {
 
     fn limits(lines: &str) -> LimitsFile {
         LimitsFile::read(&format!("limits_version = 1\n[[limit]]\n{lines}\n")).expect("limits")
+    }
+
+    #[test]
+    fn what_a_constant_reaches_is_judged_by_its_value_alone() {
+        let study = Study::read(
+            r#"{"schema": "taceva.evaluation/1.1", "subject": {"sensor": "x"}, "metrics": {
+                "tolerance": {"Px": {"value": 0.04, "unit": "1", "standing": "not above the constant",
+                    "of_constant": {"value": 0.05, "unit": "1"}}},
+                "r2": {"Px": {"value": 0.1, "unit": "1", "ci95": [-0.25, 0.75]}}}}"#,
+        );
+        let study = study.expect("a result").remove(0);
+        let of = |metric: &str| {
+            let limit = format!("metric=\"{metric}\"\nchannel=\"Px\"\nunit=\"1\"\nleast=0.01");
+            accept(&study, &limits(&limit)).remove(0)
+        };
+        let of_constant = of("tolerance.of_constant");
+        assert!(of_constant.is_kept, "{:?}", of_constant.reason);
+        assert!(!of("tolerance").is_kept);
     }
 
     #[test]

@@ -189,11 +189,9 @@ impl Line<'_> {
             degrees_of_freedom: self.interval.and_then(Interval::degrees_of_freedom),
             n: self.score.n,
             n_invalid: self.score.n_invalid,
-            // What a constant reaches is no claim of the model.
-            standing: match self.metric.ends_with(".of_constant") {
-                true => Standing::Counts,
-                false => self.score.standing,
-            },
+            standing: self
+                .score
+                .standing_of(self.metric.split_once('.').map(|(_, name)| name)),
             bounded_share: self.score.bounded_share,
             is_best: false,
         });
@@ -226,13 +224,15 @@ impl ScoreCell {
     }
 }
 
-/// Which channels of mean absolute errors have labels of different spread.
+/// Which mean absolute errors are of labels of different spread.
 fn spread(studies: &[Study], rows: &[ScoreRow]) -> Option<String> {
     let errors = rows
         .iter()
         .filter(|row| row.metric == "mae" && row.is_headline);
-    let channels: Vec<&str> = errors.map(|row| row.channel.as_str()).collect();
-    crate::spread::note(studies, &crate::figures::names(studies), &channels)
+    let errors: Vec<_> = errors
+        .map(|row| (row.metric.as_str(), row.channel.as_str()))
+        .collect();
+    crate::spread::note(studies, &crate::figures::names(studies), &errors)
 }
 
 /// Marks the cell of each row that is shown to be better than all others that take part.

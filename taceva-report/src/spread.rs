@@ -5,18 +5,20 @@ use taceva_core::Unit;
 use crate::number::{numeral, spaced};
 use crate::results::Study;
 
-/// Metrics whose values follow the spread of the labels.
-const OF_LABELS: [&str; 9] = [
-    "mae",
-    "mae_euclid",
-    "rmse",
-    "smape",
-    "tolerance",
-    "r_spatial",
-    "repeatability",
-    "minimum_detectable_force",
-    "hysteresis",
+/// Metrics whose values follow the spread of the labels, and of which part of the protocol these labels are.
+const OF_LABELS: [(&str, &str); 9] = [
+    ("mae", CALIBRATION),
+    ("mae_euclid", CALIBRATION),
+    ("rmse", CALIBRATION),
+    ("smape", CALIBRATION),
+    ("tolerance", CALIBRATION),
+    ("r_spatial", "spatial"),
+    ("repeatability", "repeatability"),
+    // Nothing is pressed there: what noise a model makes of that follows what it has learnt from.
+    ("minimum_detectable_force", CALIBRATION),
+    ("hysteresis", "load-unload"),
 ];
+const CALIBRATION: &str = "calibration";
 /// Spreads that differ by a greater factor are reported.
 const ALIKE: f64 = 2.0;
 
@@ -28,43 +30,46 @@ pub(crate) fn words(
     metric: &str,
     channel: &str,
 ) -> String {
-    match range((studies, names), which, channel).filter(|_| OF_LABELS.contains(&metric)) {
-        Some(range) => format!(" (their labels differ in spread: {range})"),
+    match range((studies, names), which, (metric, channel)) {
+        Some((labels, range)) => format!(" (their {labels} differ in spread: {range})"),
         None => String::new(),
     }
 }
 
-/// The channels and planes of `channels` whose labels spread differently, in a sentence for below a table; none where all are alike.
-pub(crate) fn note(studies: &[Study], names: &[String], channels: &[&str]) -> Option<String> {
+/// The scores among `scores`, metric and channel each, whose labels spread differently, in a sentence for below a table; none where all are alike.
+pub(crate) fn note(studies: &[Study], names: &[String], scores: &[(&str, &str)]) -> Option<String> {
     let all: Vec<usize> = (0..studies.len()).collect();
-    let differing = channels.iter().filter_map(|channel| {
-        let range = range((studies, names), &all, channel)?;
-        Some(format!("{channel}: {range}"))
+    let differing = scores.iter().filter_map(|(metric, channel)| {
+        let (labels, range) = range((studies, names), &all, (metric, channel))?;
+        let of_part = labels
+            .strip_prefix("labels")
+            .filter(|part| !part.is_empty());
+        let of_part = of_part.map_or_else(String::new, |part| format!(", labels{part}"));
+        Some(format!("{metric} {channel}{of_part}: {range}"))
     });
     let differing: Vec<String> = differing.collect();
     (!differing.is_empty()).then(|| {
         format!(
-            "Labels differ more than twofold in spread between the sensors ({}): part of a difference between scores of these channels may be one of labels.",
+            "Labels differ more than twofold in spread between the sensors ({}): part of a difference between these scores may be one of labels.",
             differing.join("; ")
         )
     })
 }
 
-/// `ViTacTip 0.047 N to GelSightWM 0.174 N`, where the labels of one spread more than twice as far as those of another.
+/// `labels` and `ViTacTip 0.047 N to GelSightWM 0.174 N`, where those of one spread more than twice as far as those of another: the labels of the
+/// part of the protocol that the metric is made of, or, where samples of it are absent, `labels of calibration`.
 fn range(
-    (studies, names): (&[Study], &[String]),
+    of: (&[Study], &[String]),
     which: &[usize],
-    channel: &str,
-) -> Option<String> {
-    let spreads = which.iter().filter_map(|at| {
-        let study = studies.get(*at)?;
-        Some((
-            names.get(*at)?,
-            spread(study, channel)?,
-            study.score("mae", channel)?.unit,
-        ))
-    });
-    let spreads: Vec<(&String, f64, Unit)> = spreads.collect();
+    (metric, channel): (&str, &str),
+) -> Option<(String, String)> {
+    let (_, part) = OF_LABELS.iter().find(|(name, _)| *name == metric)?;
+    let of_part = |part| spreads(of, which, (part, channel));
+    let own = of_part(*part).filter(|own| own.len() == which.len());
+    let (part_used, spreads) = match own {
+        Some(own) => (*part, own),
+        None => (CALIBRATION, of_part(CALIBRATION)?),
+    };
     let least = spreads
         .iter()
         .min_by(|one, other| one.1.total_cmp(&other.1))?;
@@ -74,39 +79,65 @@ fn range(
     let said = |(name, of, unit): &(&String, f64, Unit)| {
         format!("{name} {}{}", numeral(*of), spaced(*unit))
     };
-    (most.1 > ALIKE * least.1).then(|| format!("{} to {}", said(least), said(most)))
+    let labels = match *part {
+        CALIBRATION => "labels".to_owned(),
+        _ => format!("labels of {part_used}"),
+    };
+    let range = || format!("{} to {}", said(least), said(most));
+    (most.1 > ALIKE * least.1).then(|| (labels, range()))
 }
 
-/// How far the labels of a channel lie about their mean, of a plane the mean of both axes: from the samples, and without them the root mean
-/// square error over √(1 − R²), which planes do not have.
-fn spread(study: &Study, channel: &str) -> Option<f64> {
+/// Names, spreads of labels and units of those that have any.
+fn spreads<'a>(
+    (studies, names): (&[Study], &'a [String]),
+    which: &[usize],
+    (part, channel): (&str, &str),
+) -> Option<Vec<(&'a String, f64, Unit)>> {
+    let found = which.iter().filter_map(|at| {
+        let study = studies.get(*at)?;
+        let unit = study.score("mae", channel)?.unit;
+        Some((names.get(*at)?, spread(study, (part, channel))?, unit))
+    });
+    let found: Vec<_> = found.collect();
+    (!found.is_empty()).then_some(found)
+}
+
+/// How far the labels of a channel lie about their mean in a part of the protocol, of a plane the mean of both axes: from the samples, and without
+/// them, of the calibration, the root mean square error over √(1 − R²), which planes do not have.
+fn spread(study: &Study, (part, channel): (&str, &str)) -> Option<f64> {
     let axes = match channel {
         "Pxy" => ["Px", "Py"],
         "Fxy" => ["Fx", "Fy"],
-        _ => return of_channel(study, channel),
+        _ => return of_channel(study, (part, channel)),
     };
-    let [x, y] = axes.map(|axis| of_channel(study, axis));
+    let [x, y] = axes.map(|axis| of_channel(study, (part, axis)));
     Some(f64::midpoint(x?, y?))
 }
 
-fn of_channel(study: &Study, channel: &str) -> Option<f64> {
+fn of_channel(study: &Study, (part, channel): (&str, &str)) -> Option<f64> {
     let number = |metric: &str| study.score(metric, channel)?.value.number();
     let of_scores = || {
         let spread = number("rmse")? / (1.0 - number("r2")?).sqrt();
         (spread.is_finite() && spread > 0.0).then_some(spread)
     };
-    of_samples(study, channel).or_else(of_scores)
+    let found = of_samples(study, (part, channel));
+    found.or_else(|| of_scores().filter(|_| part == CALIBRATION))
 }
 
-/// The standard deviation of the labels of a channel over the calibration.
-fn of_samples(study: &Study, channel: &str) -> Option<f64> {
+/// The standard deviation of the labels of a channel over a part of the protocol.
+fn of_samples(study: &Study, (part, channel): (&str, &str)) -> Option<f64> {
     let samples = study.samples.as_ref()?;
     let labels = samples.channel(channel)?;
-    let rows = samples.of_protocol("calibration").into_iter();
-    let truths: Vec<f64> = rows
-        .filter_map(|row| labels.pair(row))
-        .map(|[truth, _]| truth)
-        .collect();
+    let rows = samples.of_protocol(part);
+    let predicted = rows.iter().filter_map(|row| labels.pair(*row));
+    let mut truths: Vec<f64> = predicted.map(|[truth, _]| truth).collect();
+    if truths.is_empty() {
+        // Metrics of the truth alone ask for no prediction.
+        let known = rows
+            .iter()
+            .filter_map(|row| labels.truth.get(*row).copied());
+        truths = known.flatten().collect();
+    }
     let count = truths.iter().fold(0.0, |count, _| count + 1.0);
     let mean = truths.iter().sum::<f64>() / count;
     let squares: f64 = truths.iter().map(|truth| (truth - mean).powi(2)).sum();
@@ -147,10 +178,37 @@ mod tests {
         let said = |which: &[usize], metric: &str| words((&studies, &names), which, metric, "Fxy");
         let expected = " (their labels differ in spread: a 0.04 N to b 0.17 N)";
         assert_eq!(said(&[0, 1, 2], "mae"), expected);
-        assert_eq!(said(&[0, 1, 2], "repeatability"), expected);
+        // Without samples nobody knows the labels of the repeated presses.
+        let of_calibration =
+            " (their labels of calibration differ in spread: a 0.04 N to b 0.17 N)";
+        assert_eq!(said(&[0, 1, 2], "repeatability"), of_calibration);
         assert_eq!(said(&[0, 2], "mae"), "");
         assert_eq!(said(&[0, 1], "sr"), "");
-        let note = note(&studies, &names, &["Fxy"]).expect("a note");
-        assert!(note.contains("(Fxy: a 0.04 N to b 0.17 N)"), "{note}");
+        let note = note(&studies, &names, &[("mae", "Fxy")]).expect("a note");
+        let differ = "(mae Fxy: a 0.04 N to b 0.17 N)";
+        assert!(note.contains(differ), "{note}");
+    }
+
+    #[test]
+    fn a_metric_of_another_part_of_the_protocol_is_held_against_the_labels_of_that_part() {
+        let with = |labels: [&str; 4]| {
+            let [one, other, first, second] = labels;
+            let table = format!(
+                "id,protocol,Fx,Fx_predicted\na,calibration,{one},0\nb,calibration,{other},0\nc,load-unload,{first},\nd,load-unload,{second},\n"
+            );
+            let mut study = study(0.012, 0.91);
+            study.samples = Some(crate::Samples::read(&table).expect("a table"));
+            study
+        };
+        // Alike in the calibration, 0.1 N against 0.4 N in the cycles.
+        let studies = [
+            with(["0", "0.2", "0", "0.2"]),
+            with(["0", "0.2", "0", "0.8"]),
+        ];
+        let names = ["a", "b"].map(str::to_owned);
+        let said = |metric: &str| words((&studies, &names), &[0, 1], metric, "Fx");
+        assert_eq!(said("mae"), "");
+        let cycles = " (their labels of load-unload differ in spread: a 0.1 N to b 0.4 N)";
+        assert_eq!(said("hysteresis"), cycles);
     }
 }

@@ -89,18 +89,12 @@ fn evidence(studies: &[Study], needs: &[Need], choice: &Choice) -> Vec<Evidence>
     comparison.answers.iter().filter_map(of_answer).collect()
 }
 
-/// Which channels of the errors that rank have labels of different spread among those that are ranked.
+/// Which of the scores that rank are of labels of different spread among those that are ranked.
 fn spread(studies: &[Study], names: &[String], choice: &Choice) -> Option<String> {
     let steps = choice.ranked.first()?.steps.iter();
-    let channels = steps.filter_map(|step| match step.property {
-        Property::Error(channel)
-        | Property::Repeatability(channel)
-        | Property::Spatial(channel) => Some(channel),
-        _ => None,
-    });
-    let channels: BTreeSet<&str> = channels.collect();
-    let channels: Vec<&str> = channels.into_iter().collect();
-    spread::note(studies, names, &channels)
+    let scores: BTreeSet<(&str, &str)> = steps.filter_map(|step| step.property.score()).collect();
+    let scores: Vec<(&str, &str)> = scores.into_iter().collect();
+    spread::note(studies, names, &scores)
 }
 
 impl Choice {

@@ -95,6 +95,14 @@ impl Score {
         self.variants.iter().find(|variant| variant.name == name)
     }
 
+    /// Which part the score, or its variant of that name, takes in verdicts: a reference constant is no claim of the model, and always counts.
+    pub fn standing_of(&self, variant: Option<&str>) -> Standing {
+        match variant {
+            Some("of_constant" | "constant") => Standing::Counts,
+            _ => self.standing,
+        }
+    }
+
     /// Which values are good; of metrics that are not known here, none.
     pub fn better(&self) -> Better {
         catalogue::find(&self.metric).map_or(Better::Described, |metric| metric.better)

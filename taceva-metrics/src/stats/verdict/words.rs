@@ -22,7 +22,7 @@ impl Verdict {
                 let level = percent(difference.confidence);
                 let [low, high] = difference.interval;
                 let decimals = decimals(&[low, high], difference.value);
-                let said = |value: f64| number(value, decimals);
+                let said = |value: f64| apart(value, decimals);
                 let unit = suffix(*unit);
                 let Some(better) = better else {
                     let (value, low, high) = (
@@ -54,7 +54,7 @@ impl Verdict {
             Verdict::NoDifferenceShown { difference, unit } => {
                 let [low, high] = difference.interval;
                 let decimals = decimals(&[low, high], difference.value);
-                let value = number(difference.value, decimals);
+                let value = apart(difference.value, decimals);
                 let [low, high] = [low, high].map(|of| end(of, decimals));
                 let unit = suffix(*unit);
                 let level = percent(difference.confidence);
@@ -146,6 +146,13 @@ fn is_zero(text: &str) -> bool {
     text.bytes().all(|byte| matches!(byte, b'0' | b'.'))
 }
 
+/// A difference: one that is not 0 has as many more decimals as show a digit of it, within however wide an interval it lies.
+fn apart(value: f64, decimals: usize) -> String {
+    let mut texts = (decimals..=12).map(|decimals| number(value, decimals));
+    let shown = texts.find(|text| !is_zero(text));
+    shown.unwrap_or_else(|| number(value, decimals))
+}
+
 /// An end of an interval: what not even `decimals` show has a power of ten.
 fn end(value: f64, decimals: usize) -> String {
     match number(value, decimals) {
@@ -165,6 +172,14 @@ fn p_value(p: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_difference_that_is_not_zero_never_prints_as_zero() {
+        let shown = |interval: [f64; 2], value: f64| apart(value, decimals(&interval, value));
+        assert_eq!(shown([-32.0, 70.0], -0.0898), "−0.1");
+        assert_eq!(shown([-32.0, 70.0], 9.8), "10");
+        assert_eq!(shown([-32.0, 70.0], 0.0), "0");
+    }
 
     #[test]
     fn an_end_of_an_interval_that_is_not_zero_never_prints_as_zero() {
