@@ -1,7 +1,7 @@
 //! A table of text, read whole and fast: columns are parsed when asked for.
 
 mod columns;
-mod number;
+pub(crate) mod number;
 mod quoted;
 mod split;
 
@@ -42,6 +42,8 @@ pub struct CsvTable {
     rows: usize,
     /// The line of each row, where quoted cells may hold line ends; else lines are counted in the text.
     lines: Option<Vec<u64>>,
+    /// Lines of the text that the file does not have: the names of columns of a file without a header.
+    added_lines: u64,
 }
 
 impl CsvTable {
@@ -60,8 +62,34 @@ impl CsvTable {
     /// As [`read`](CsvTable::read).
     pub fn read_with(path: &Path, jobs: NonZeroUsize) -> Result<CsvTable, DatasetError> {
         let text = as_text(path, read_capped(path, limits::TABLE_BYTES)?)?;
-        let first_line = text.lines().next().unwrap_or("");
-        let delimiter = delimiter_of(first_line);
+        let delimiter = delimiter_of(text.lines().next().unwrap_or(""));
+        CsvTable::of_text(path, text, delimiter, jobs)
+    }
+
+    /// Reads the file at `path`, which has no header: its columns are called by their position, from `0`.
+    ///
+    /// # Errors
+    /// As [`read`](CsvTable::read).
+    pub(crate) fn read_headerless(path: &Path) -> Result<CsvTable, DatasetError> {
+        let text = as_text(path, read_capped(path, limits::TABLE_BYTES)?)?;
+        let delimiter = delimiter_of(text.lines().next().unwrap_or(""));
+        let names: Vec<String> = (0..cells_of_first_row(&text, delimiter))
+            .map(|position| position.to_string())
+            .collect();
+        let header = names.join(&char::from(delimiter).to_string());
+        let text = format!("{header}\n{text}");
+        let read = CsvTable::of_text(path, text, delimiter, all_cores());
+        let mut table = read.map_err(DatasetError::a_line_above)?;
+        table.added_lines = 1;
+        Ok(table)
+    }
+
+    fn of_text(
+        path: &Path,
+        text: String,
+        delimiter: u8,
+        jobs: NonZeroUsize,
+    ) -> Result<CsvTable, DatasetError> {
         let table = if text.as_bytes().contains(&b'"') {
             quoted::read(path, &text, delimiter)?
         } else {
@@ -161,13 +189,14 @@ impl CsvTable {
     }
 
     fn line(&self, row: usize) -> u64 {
-        match &self.lines {
+        let line = match &self.lines {
             Some(lines) => lines[row],
             None => {
                 let start = self.block_of(row).cell(row, 0).start;
                 line_at(self.text.as_bytes(), start)
             }
-        }
+        };
+        line - self.added_lines
     }
 
     /// The block that holds `row`.
@@ -241,6 +270,20 @@ fn as_text(path: &Path, mut bytes: Vec<u8>) -> Result<String, DatasetError> {
 /// The line, from 1, on which the byte at `offset` stands.
 fn line_at(text: &[u8], offset: usize) -> u64 {
     1 + text[..offset].iter().filter(|byte| **byte == b'\n').count() as u64
+}
+
+/// How many cells the first row of `text` has.
+fn cells_of_first_row(text: &str, delimiter: u8) -> usize {
+    let mut reader = csv::ReaderBuilder::new()
+        .delimiter(delimiter)
+        .has_headers(false)
+        .from_reader(text.as_bytes());
+    let mut record = csv::StringRecord::new();
+    // What cannot be read is said when all of it is read.
+    match reader.read_record(&mut record) {
+        Ok(true) => record.len(),
+        _ => 1,
+    }
 }
 
 /// The separator that the header has most of; a comma if it has none.

@@ -173,6 +173,16 @@ pub enum DatasetError {
 }
 
 impl DatasetError {
+    /// The same, a line higher up: of a table to which a header was added.
+    pub(crate) fn a_line_above(mut self) -> DatasetError {
+        if let DatasetError::Table { place, .. } = &mut self
+            && let Some(line) = &mut place.line
+        {
+            *line = line.saturating_sub(1).max(1);
+        }
+        self
+    }
+
     /// What kind of failure it was, by the closed list that every part shares.
     pub fn kind(&self) -> ErrorKind {
         match self {

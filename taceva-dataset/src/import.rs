@@ -3,10 +3,12 @@
 mod advice;
 mod copy;
 mod explain;
+mod frame_cells;
 mod map;
 mod npy;
 mod plan;
 mod preset;
+mod resolve;
 mod rows;
 mod source;
 mod summary;
@@ -19,5 +21,5 @@ pub use map::{
 };
 pub use plan::ImportPlan;
 pub use preset::Preset;
-pub use summary::{Conversion, ImportSummary};
+pub use summary::{Conversion, ImportSummary, JoinSummary};
 pub use suspicion::{Suspicion, magnitude_suspicion};

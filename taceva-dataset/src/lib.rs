@@ -11,6 +11,7 @@ mod encode;
 mod error;
 mod export;
 mod file;
+mod foreign;
 mod guard;
 mod header;
 mod held;
@@ -50,7 +51,7 @@ pub use header::{
 };
 pub use import::{
     ArrayFrames, ColumnMap, Conversion, DropRules, FrameMap, FrameNames, IdMap, ImportMap,
-    ImportPlan, ImportReport, ImportSummary, Placeholder, Preset, Suspicion, TimeMap,
+    ImportPlan, ImportReport, ImportSummary, JoinSummary, Placeholder, Preset, Suspicion, TimeMap,
     magnitude_suspicion,
 };
 pub use pack::Span;

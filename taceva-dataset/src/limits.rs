@@ -22,3 +22,5 @@ pub(crate) const RECORD_BYTES: u32 = 1 << 20;
 pub(crate) const ROWS: u64 = 1 << 28;
 /// Files looked at when images that no row names are counted.
 pub(crate) const WALKED_FILES: u64 = 1 << 20;
+/// A JSON file, which takes several times as much in memory.
+pub(crate) const JSON_BYTES: u64 = 256 << 20;

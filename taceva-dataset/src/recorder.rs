@@ -333,6 +333,8 @@ impl Recorder {
             repeat: sample.repeat,
             phase: sample.phase,
             limited_by: sample.limited_by,
+            source_table: None,
+            source_row: None,
             part: None,
             t_s: sample.stamp.map(|stamp| stamp.valid_s),
             kind: sample.kind,

@@ -93,9 +93,12 @@ pub(crate) fn write_table_and_header(
     write_durable(samples, &bytes)?;
     let table_digest = table.digest();
     let mut written = Header {
-        format: match facts.settings.is_empty() && beside.stream.is_none() {
-            true => Version::WITHOUT_SETTINGS,
-            false => Version::CURRENT,
+        format: match table.source_row().iter().any(Option::is_some) {
+            true => Version::CURRENT,
+            false if facts.settings.is_empty() && beside.stream.is_none() => {
+                Version::WITHOUT_SETTINGS
+            }
+            false => Version::WITHOUT_ORIGIN,
         },
         source: facts.source,
         clock: facts.clock,

@@ -41,6 +41,8 @@ pub struct Table {
     repeat: Vec<Option<u32>>,
     phase: Vec<Option<Phase>>,
     limited_by: Vec<Option<Limit>>,
+    source_table: Vec<Option<String>>,
+    source_row: Vec<Option<u32>>,
     part: Vec<Option<String>>,
     t_s: Vec<Option<f64>>,
     kind: Vec<Option<GratingKind>>,
@@ -82,6 +84,8 @@ impl Table {
         self.repeat.push(row.repeat);
         self.phase.push(row.phase);
         self.limited_by.push(row.limited_by);
+        self.source_table.push(row.source_table);
+        self.source_row.push(row.source_row);
         self.part.push(row.part);
         self.t_s.push(row.t_s);
         self.kind.push(row.kind);
@@ -158,6 +162,16 @@ impl Table {
     /// The limit of the gel that kept the tip from where it was sent, of each row.
     pub fn limited_by(&self) -> &[Option<Limit>] {
         &self.limited_by
+    }
+
+    /// The table of the lab that each row was imported from, relative to its folder.
+    pub fn source_table(&self) -> &[Option<String>] {
+        &self.source_table
+    }
+
+    /// Which row of that table each was, from 0.
+    pub fn source_row(&self) -> &[Option<u32>] {
+        &self.source_row
     }
 
     /// The declared part of each row.
@@ -317,6 +331,8 @@ impl Table {
             named("repeat", Cells::Count(&self.repeat)),
             named("phase", Cells::Phase(&self.phase)),
             named("limited_by", Cells::Limit(&self.limited_by)),
+            named("source_table", Cells::Text(&self.source_table)),
+            named("source_row", Cells::Count(&self.source_row)),
             named("part", Cells::Text(&self.part)),
             named("t_s", Cells::Measured(&self.t_s)),
             named("kind", Cells::Kind(&self.kind)),

@@ -5,7 +5,7 @@ use std::ops::Range;
 use taceva_core::{Column, SourceUnit};
 
 use super::CsvTable;
-use super::number::{parse_number, parse_shifted};
+use super::number::{number_in_unit, parse_number};
 use super::split::Block;
 use crate::error::DatasetError;
 use crate::parallel::each_part;
@@ -77,17 +77,15 @@ impl CsvTable {
         column: usize,
         unit: &SourceUnit,
     ) -> Result<Option<f64>, DatasetError> {
+        // Most cells are read where they stand.
         let Some(number) = self.number(row, column)? else {
             return Ok(None);
         };
-        let shift = unit.decimal_shift().filter(|shift| *shift != 0);
-        let shifted = shift.and_then(|shift| parse_shifted(self.cell(row, column), shift));
-        let converted = shifted.unwrap_or_else(|| unit.convert(number));
-        if taceva_core::is_scorable(converted) {
-            Ok(Some(converted))
-        } else {
-            Err(self.refuse(row, column, "too large for its unit"))
+        if unit.decimal_shift() == Some(0) {
+            return Ok(Some(number));
         }
+        let converted = number_in_unit(self.cell(row, column), unit);
+        converted.map_err(|problem| self.refuse(row, column, &problem))
     }
 
     /// The cells of the column called `name` as they are written, without surrounding blanks.

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use taceva_core::{MAGNITUDE_MAX, is_scorable};
+use taceva_core::{MAGNITUDE_MAX, SourceUnit, is_scorable};
 
 /// Powers of ten that binary64 holds exactly.
 const EXACT_POWERS: [f64; 23] = [
@@ -129,6 +129,26 @@ fn eight_digits(digits: u64) -> u64 {
     let pairs = digits.wrapping_mul((10 << 8) + 1) >> 8 & 0x00ff_00ff_00ff_00ff;
     let fours = pairs.wrapping_mul((100 << 16) + 1) >> 16 & 0x0000_ffff_0000_ffff;
     fours.wrapping_mul((10_000 << 32) + 1) >> 32
+}
+
+/// The finite number in `cell` in the unit that it is kept in, `None` if the cell is empty; why there is none. Where the way between the units is a
+/// power of ten, the decimal point is moved before the number is read.
+pub(crate) fn number_in_unit(cell: &str, unit: &SourceUnit) -> Result<Option<f64>, String> {
+    let Some(number) = number(cell)? else {
+        return Ok(None);
+    };
+    let shift = unit.decimal_shift().filter(|shift| *shift != 0);
+    let shifted = shift.and_then(|shift| parse_shifted(cell, shift));
+    let converted = shifted.unwrap_or_else(|| unit.convert(number));
+    match is_scorable(converted) {
+        true => Ok(Some(converted)),
+        false => Err("too large for its unit".to_owned()),
+    }
+}
+
+/// The finite number in `cell`, `None` if the cell is empty; why there is none.
+pub(crate) fn number(cell: &str) -> Result<Option<f64>, String> {
+    parse_number(cell, 0..cell.len()).ok_or_else(|| not_a_number(cell))
 }
 
 /// Why `cell` holds no number that could be scored, and what to write instead, where that can be guessed.

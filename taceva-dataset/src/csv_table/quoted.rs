@@ -69,5 +69,6 @@ pub(super) fn read(path: &Path, text: &str, delimiter: u8) -> Result<CsvTable, D
         text: unquoted,
         blocks: vec![block],
         lines: Some(lines),
+        added_lines: 0,
     })
 }

@@ -75,6 +75,7 @@ pub(super) fn read(
         blocks,
         rows,
         lines: None,
+        added_lines: 0,
     })
 }
 

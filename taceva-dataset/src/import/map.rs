@@ -2,7 +2,11 @@
 
 mod columns;
 mod drop;
+mod extended;
 mod frames;
+mod join;
+mod matrix;
+mod path_pattern;
 #[cfg(test)]
 mod tests;
 mod written;
@@ -13,8 +17,13 @@ use std::path::Path;
 use taceva_core::Channels;
 
 use crate::error::DatasetError;
+use crate::foreign::TableForm;
 use crate::store::RecordingFacts;
 use crate::toml_file::read_toml_text;
+
+pub(crate) use join::{JoinBy, JoinMap, Pick, TimeJoin, Unmatched};
+pub(crate) use matrix::{MatrixMap, MatrixRows};
+pub(crate) use path_pattern::PathPattern;
 
 pub use columns::{ColumnMap, IdMap, TimeMap};
 pub use drop::{DropRules, Placeholder};
@@ -63,6 +72,24 @@ pub struct ImportMap {
     pub drop: DropRules,
     /// Sensor, clock, source and footprint.
     pub facts: RecordingFacts,
+    /// How the table is written.
+    pub(crate) form: TableForm,
+    /// Labels in the path of the table, of the file of a row, or of a cell.
+    pub(crate) path: Option<PathPattern>,
+    pub(crate) joins: Vec<JoinMap>,
+    pub(crate) matrices: Vec<MatrixMap>,
+    /// Text columns whose values are of a closed list: name, column and list.
+    pub(crate) classes: BTreeMap<String, ClassMap>,
+    /// Whether names of columns may be ways into cells, paths and other tables: of map version 2.
+    pub(crate) is_extended: bool,
+}
+
+/// A column whose values are of a closed list.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct ClassMap {
+    pub(crate) from: String,
+    /// Numbers in the column are positions in it, from 0.
+    pub(crate) names: Vec<String>,
 }
 
 impl ImportMap {
@@ -78,6 +105,12 @@ impl ImportMap {
             time: None,
             drop: DropRules::default(),
             facts,
+            form: TableForm::Delimited { has_header: true },
+            path: None,
+            joins: Vec::new(),
+            matrices: Vec::new(),
+            classes: BTreeMap::new(),
+            is_extended: false,
         }
     }
 

@@ -4,15 +4,17 @@ use std::collections::{BTreeSet, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::frame_cells::FrameName;
 use super::map::{FrameMap, FrameNames, ImportMap};
 use super::npy::NpyFrames;
-use super::rows::{FrameName, MappedTable};
+use super::rows::MappedTable;
 use super::source::{matching_files, unnamed_images};
 use super::summary::{Conversion, ImportSummary};
 use super::suspicion::magnitude_suspicion_in;
 use crate::decode::ChannelOrder;
 use crate::error::{DatasetError, Place};
 use crate::file::SourceFolder;
+use crate::foreign::TableForm;
 use crate::store::RecordingFacts;
 use crate::table::Table;
 use crate::text::shown;
@@ -79,7 +81,10 @@ impl ImportPlan {
         for path in &tables {
             reading.read(path)?;
         }
-        reading.summary.tables = tables;
+        match map.form {
+            TableForm::Files => reading.summary.files = tables.len() as u64,
+            _ => reading.summary.tables = tables,
+        }
         if reading.summary.rows_kept == 0 {
             return Err(reading.no_row());
         }
@@ -134,7 +139,8 @@ impl<'a> Reading<'a> {
             }
             _ => None,
         };
-        let attributes = map.attributes.keys().cloned().collect();
+        let attributes = map.attributes.keys().chain(map.classes.keys());
+        let attributes = attributes.cloned().collect();
         Ok(Reading {
             folder,
             map,
@@ -149,11 +155,15 @@ impl<'a> Reading<'a> {
     }
 
     fn read(&mut self, path: &Path) -> Result<(), DatasetError> {
-        let rows = MappedTable::open(self.map, path)?;
+        let rows = MappedTable::open(self.map, self.folder, path)?;
         self.summary.unmentioned_columns.extend(rows.unmentioned());
+        for join in &rows.joins {
+            self.summary.add_join(join);
+        }
         let frame = self.map.frame.as_ref();
         let base = match frame.and_then(|frame| frame.folder.as_ref()) {
             Some(folder) => self.folder.path().join(folder),
+            None if self.map.form == TableForm::Files => self.folder.path().to_owned(),
             None => rows.folder(),
         };
         for row in 0..rows.rows() {
@@ -289,6 +299,8 @@ impl<'a> Reading<'a> {
                 from: map.unit,
                 to: channel.unit(),
                 is_negated: map.is_negated,
+                offset: map.offset,
+                scale: map.scale,
                 present: values().count() as u64,
             });
             self.summary

@@ -1,19 +1,26 @@
 //! The rows of one table, read by a map.
 
+mod labels;
+
 use std::path::{Path, PathBuf};
 
-use taceva_core::{GratingKind, Nanometre, Phase};
-
-use super::map::{FrameNames, ImportMap};
+use super::frame_cells::{FrameCells, FrameName, PatternPart, filled};
+use super::map::ImportMap;
+use super::resolve::{RowTable, resolve};
+use super::summary::JoinSummary;
 use crate::csv_table::CsvTable;
 use crate::error::{DatasetError, Place};
+use crate::file::SourceFolder;
 use crate::table::Row;
 use crate::text::shown;
 
 /// A table whose columns have been found.
 pub(super) struct MappedTable<'a> {
     map: &'a ImportMap,
-    table: CsvTable,
+    table: RowTable,
+    /// The columns that the map mentions nowhere, where they are not found by the others.
+    unmentioned: Option<Vec<String>>,
+    pub(super) joins: Vec<JoinSummary>,
     truth: Vec<usize>,
     sample: Option<usize>,
     point_id: Vec<usize>,
@@ -26,33 +33,26 @@ pub(super) struct MappedTable<'a> {
     kind: Option<usize>,
     spacing: Option<usize>,
     attributes: Vec<usize>,
+    classes: Vec<usize>,
     time: Option<usize>,
     flags: Option<usize>,
     frame: Option<FrameCells>,
 }
 
-/// The cells that name a frame.
-enum FrameCells {
-    Column(usize),
-    /// Texts and columns in turn.
-    Pattern(Vec<PatternPart>),
-    Index(usize),
-}
-
-enum PatternPart {
-    Text(String),
-    Cell(usize),
-}
-
-/// How a row names its frame.
-pub(super) enum FrameName {
-    File(String),
-    Index(usize),
-}
-
 impl<'a> MappedTable<'a> {
-    pub(super) fn open(map: &'a ImportMap, path: &Path) -> Result<MappedTable<'a>, DatasetError> {
-        let table = CsvTable::read(path)?;
+    pub(super) fn open(
+        map: &'a ImportMap,
+        folder: &SourceFolder,
+        path: &Path,
+    ) -> Result<MappedTable<'a>, DatasetError> {
+        let (table, unmentioned, joins) = match map.is_extended {
+            false => (RowTable::AsItLies(CsvTable::read(path)?), None, Vec::new()),
+            true => {
+                let found = resolve(map, folder, path)?;
+                let table = RowTable::Resolved(found.table);
+                (table, Some(found.unmentioned), found.joins)
+            }
+        };
         let find = |name: &String| table.position(name);
         let find_optional = |name: &Option<String>| name.as_ref().map(find).transpose();
         let ids = &map.ids;
@@ -79,6 +79,11 @@ impl<'a> MappedTable<'a> {
                 .values()
                 .map(find)
                 .collect::<Result<_, _>>()?,
+            classes: map
+                .classes
+                .values()
+                .map(|class| find(&class.from))
+                .collect::<Result<_, _>>()?,
             time: map
                 .time
                 .as_ref()
@@ -90,12 +95,17 @@ impl<'a> MappedTable<'a> {
                 .as_ref()
                 .map(|frame| FrameCells::find(&frame.names, &table))
                 .transpose()?,
+            unmentioned,
+            joins,
             table,
         })
     }
 
     /// The columns of the table that the map mentions nowhere.
-    pub(super) fn unmentioned(&self) -> impl Iterator<Item = String> {
+    pub(super) fn unmentioned(&self) -> Vec<String> {
+        if let Some(names) = &self.unmentioned {
+            return names.clone();
+        }
         let single = [
             self.sample,
             self.unit_id,
@@ -128,8 +138,9 @@ impl<'a> MappedTable<'a> {
         }
         let names = self.table.names().iter().enumerate();
         names
-            .filter(move |(position, _)| !mentioned.contains(position))
+            .filter(|(position, _)| !mentioned.contains(position))
             .map(|(_, name)| name.clone())
+            .collect()
     }
 
     pub(super) fn rows(&self) -> usize {
@@ -143,6 +154,9 @@ impl<'a> MappedTable<'a> {
 
     /// The rules that leave the row out.
     pub(super) fn drop_reasons(&self, row: usize) -> Vec<String> {
+        if let Some(join) = self.table.unmatched(row) {
+            return vec![join.to_owned()];
+        }
         let rules = &self.map.drop;
         let cell = self.flags.map_or("", |column| self.table.cell(row, column));
         let mut reasons: Vec<String> = rules
@@ -193,17 +207,18 @@ impl<'a> MappedTable<'a> {
             repeat: self.count(row, self.repeat)?,
             phase: self.phase(row)?,
             limited_by: None,
+            source_table: self.table.source().map(str::to_owned),
+            source_row: match self.table.source() {
+                Some(_) => u32::try_from(row).ok(),
+                None => None,
+            },
             part: text(self.part),
             t_s: self.time(row)?,
             kind: self.kind(row)?,
             spacing: self.spacing(row)?,
             intensity: None,
             truth: self.truth(row)?,
-            attributes: self
-                .attributes
-                .iter()
-                .map(|column| text(Some(*column)))
-                .collect(),
+            attributes: self.texts(row)?,
             frame: None,
         })
     }
@@ -230,7 +245,10 @@ impl<'a> MappedTable<'a> {
                 FrameName::File(self.table.cell(row, *column).to_owned()),
                 *column,
             ),
-            FrameCells::Pattern(parts) => (FrameName::File(self.filled(row, parts)), usize::MAX),
+            FrameCells::Pattern(parts) => {
+                let cell = |column| self.table.cell(row, column);
+                (FrameName::File(filled(parts, cell)), usize::MAX)
+            }
             FrameCells::Index(column) => {
                 let index = self.count(row, Some(*column))?.ok_or_else(|| {
                     self.wrong(row, *column, "empty, expected the position of a frame")
@@ -241,16 +259,6 @@ impl<'a> MappedTable<'a> {
         Ok(Some((name, self.table.place(row, column))))
     }
 
-    fn filled(&self, row: usize, parts: &[PatternPart]) -> String {
-        parts
-            .iter()
-            .map(|part| match part {
-                PatternPart::Text(text) => text.as_str(),
-                PatternPart::Cell(column) => self.table.cell(row, *column),
-            })
-            .collect()
-    }
-
     fn point_id(&self, row: usize) -> Option<String> {
         let cells: Vec<&str> = self
             .point_id
@@ -259,69 +267,6 @@ impl<'a> MappedTable<'a> {
             .collect();
         let is_named = !cells.is_empty() && cells.iter().all(|cell| !cell.is_empty());
         is_named.then(|| cells.join(":"))
-    }
-
-    fn truth(&self, row: usize) -> Result<Vec<Option<f64>>, DatasetError> {
-        self.truth
-            .iter()
-            .zip(&self.map.columns)
-            .map(|(column, map)| {
-                let number = self.table.number_in_unit(row, *column, &map.unit)?;
-                let Some(converted) = number else {
-                    return Ok(None);
-                };
-                // A difference from zero, so that no −0 appears where the sign of 0 is turned.
-                Ok(Some(if map.is_negated {
-                    0.0 - converted
-                } else {
-                    converted
-                }))
-            })
-            .collect()
-    }
-
-    fn time(&self, row: usize) -> Result<Option<f64>, DatasetError> {
-        match (self.time, &self.map.time) {
-            (Some(column), Some(map)) => self.table.number_in_unit(row, column, &map.unit),
-            _ => Ok(None),
-        }
-    }
-
-    fn phase(&self, row: usize) -> Result<Option<Phase>, DatasetError> {
-        let Some(column) = self.phase else {
-            return Ok(None);
-        };
-        match self.table.cell(row, column) {
-            "" => Ok(None),
-            name => Phase::from_name(name)
-                .map(Some)
-                .ok_or_else(|| self.wrong(row, column, "expected `load` or `unload`")),
-        }
-    }
-
-    fn kind(&self, row: usize) -> Result<Option<GratingKind>, DatasetError> {
-        let Some(column) = self.kind else {
-            return Ok(None);
-        };
-        match self.table.cell(row, column) {
-            "" => Ok(None),
-            name => GratingKind::from_name(name)
-                .map(Some)
-                .ok_or_else(|| self.wrong(row, column, "expected `line` or `dot`")),
-        }
-    }
-
-    fn spacing(&self, row: usize) -> Result<Option<Nanometre>, DatasetError> {
-        let Some(column) = self.spacing else {
-            return Ok(None);
-        };
-        match self.table.cell(row, column) {
-            "" => Ok(None),
-            text => match text.parse::<Nanometre>() {
-                Ok(spacing) if spacing > Nanometre(0) => Ok(Some(spacing)),
-                _ => Err(self.wrong(row, column, "expected a spacing in mm, such as 0.35")),
-            },
-        }
     }
 
     /// A count, also where a spreadsheet made `3.0` of it.
@@ -349,32 +294,6 @@ impl<'a> MappedTable<'a> {
             } else {
                 format!("`{}`: {expected}", shown(cell))
             },
-        }
-    }
-}
-
-impl FrameCells {
-    fn find(names: &FrameNames, table: &CsvTable) -> Result<FrameCells, DatasetError> {
-        match names {
-            FrameNames::Column(name) => Ok(FrameCells::Column(table.position(name)?)),
-            FrameNames::Array(array) => Ok(FrameCells::Index(table.position(&array.index)?)),
-            FrameNames::Pattern(pattern) => {
-                let mut parts = Vec::new();
-                let mut rest = pattern.as_str();
-                while let Some((text, after)) = rest.split_once('{') {
-                    let (name, after) =
-                        after.split_once('}').ok_or_else(|| DatasetError::Path {
-                            place: None,
-                            written: pattern.clone(),
-                            problem: "a `{` is never closed".to_owned(),
-                        })?;
-                    parts.push(PatternPart::Text(text.to_owned()));
-                    parts.push(PatternPart::Cell(table.position(name)?));
-                    rest = after;
-                }
-                parts.push(PatternPart::Text(rest.to_owned()));
-                Ok(FrameCells::Pattern(parts))
-            }
         }
     }
 }

@@ -31,12 +31,16 @@ use crate::quality::names_quality;
 pub struct ImportSummary {
     /// The tables, in order.
     pub tables: Vec<PathBuf>,
+    /// Files that are rows, where there is no table.
+    pub files: u64,
     /// Rows in them.
     pub rows_read: u64,
     /// Rows that become samples.
     pub rows_kept: u64,
     /// Rows left out by each rule; a row may be left out by several.
     pub dropped: BTreeMap<String, u64>,
+    /// What other tables gave.
+    pub joins: Vec<JoinSummary>,
     /// What happens to each channel.
     pub conversions: Vec<Conversion>,
     /// How the colours of the frames are stored; `None` without frames.
@@ -57,7 +61,44 @@ pub struct ImportSummary {
 const REMEMBERED: usize = 256;
 const REMEMBERED_BYTES: usize = 256;
 
+/// How the rows of another table were matched.
+///
+/// ```
+/// use taceva_dataset::JoinSummary;
+///
+/// let none = JoinSummary::default();
+/// assert_eq!((none.matched, none.greatest_gap_s), (0, None));
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct JoinSummary {
+    /// What the map calls it.
+    pub name: String,
+    /// Rows of the main table to which one belongs.
+    pub matched: u64,
+    /// Rows of the main table to which none belongs.
+    pub unmatched: u64,
+    /// Rows of the other table that belong to none.
+    pub unused: u64,
+    /// The greatest distance in time of what was matched, s; `None` of a join by anything else.
+    pub greatest_gap_s: Option<f64>,
+}
+
 impl ImportSummary {
+    /// Adds what one of several main tables matched.
+    pub(super) fn add_join(&mut self, join: &JoinSummary) {
+        match self.joins.iter_mut().find(|known| known.name == join.name) {
+            None => self.joins.push(join.clone()),
+            Some(known) => {
+                known.matched += join.matched;
+                known.unmatched += join.unmatched;
+                known.unused += join.unused;
+                let gaps = [known.greatest_gap_s, join.greatest_gap_s];
+                known.greatest_gap_s = gaps.into_iter().flatten().reduce(f64::max);
+            }
+        }
+    }
+
     /// The columns that the map does not mention, as the dataset remembers them: those that rate their rows first.
     pub(super) fn columns_left_behind(&self) -> Vec<String> {
         let short = |name: &&String| name.len() <= REMEMBERED_BYTES;
@@ -104,6 +145,10 @@ pub struct Conversion {
     pub to: Unit,
     /// Whether its sign is turned.
     pub is_negated: bool,
+    /// What is taken from a cell first, in the unit of the cells.
+    pub offset: Option<f64>,
+    /// What the difference is then multiplied by.
+    pub scale: Option<f64>,
     /// Samples that have a value.
     pub present: u64,
 }

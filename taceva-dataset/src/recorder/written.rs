@@ -237,6 +237,8 @@ impl WrittenSample {
             repeat: self.repeat,
             phase: self.phase,
             limited_by: self.limited_by,
+            source_table: None,
+            source_row: None,
             part: None,
             t_s: self.t_s,
             kind: self.kind,

@@ -6,7 +6,7 @@ use super::FrameEntry;
 use crate::digest::PartsDigest;
 
 /// Names that columns beside the channels have on disk; no channel and no attribute may be called so.
-pub(crate) const RESERVED: [&str; 15] = [
+pub(crate) const RESERVED: [&str; 17] = [
     "sample",
     "point_id",
     "unit_id",
@@ -15,6 +15,8 @@ pub(crate) const RESERVED: [&str; 15] = [
     "repeat",
     "phase",
     "limited_by",
+    "source_table",
+    "source_row",
     "part",
     "t_s",
     "kind",

@@ -95,6 +95,10 @@ pub struct Row {
     pub phase: Option<Phase>,
     /// The limit of the gel that kept the tip from where it was sent; none in recordings before format 1.2.
     pub limited_by: Option<Limit>,
+    /// The table that it was imported from, relative to the folder of the lab, or the file that was the row; of maps of version 2.
+    pub source_table: Option<String>,
+    /// Which row of that table it was, from 0.
+    pub source_row: Option<u32>,
     /// The part of a declared split it belongs to.
     pub part: Option<String>,
     /// The time in seconds of the recording's clock.

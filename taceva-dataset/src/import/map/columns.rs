@@ -23,6 +23,10 @@ pub struct ColumnMap {
     pub unit: SourceUnit,
     /// Whether its sign is turned.
     pub is_negated: bool,
+    /// What is taken from a cell first, in the unit of the cells.
+    pub offset: Option<f64>,
+    /// What the difference is then multiplied by.
+    pub scale: Option<f64>,
 }
 
 impl ColumnMap {
@@ -32,7 +36,14 @@ impl ColumnMap {
             from: from.into(),
             unit,
             is_negated: false,
+            offset: None,
+            scale: None,
         }
+    }
+
+    /// Whether a cell is more than its number in its unit.
+    pub(crate) fn is_moved(&self) -> bool {
+        self.offset.is_some() || self.scale.is_some()
     }
 }
 

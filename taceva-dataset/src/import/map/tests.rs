@@ -44,8 +44,8 @@ fn each_mistake_names_its_line_and_what_is_accepted() {
     for (from, to, expected) in [
         (
             "map_version = 1",
-            "map_version = 2",
-            "line 1: map version 2",
+            "map_version = 3",
+            "line 1: map version 3",
         ),
         (
             "\"N\"",

@@ -4,11 +4,13 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::Deserialize;
-use taceva_core::{Channel, Channels, Clock, SourceUnit};
+use taceva_core::{Channel, Channels, Clock, SourceUnit, is_scorable};
 use toml::Spanned;
 
+use super::extended::{WrittenClass, WrittenJoin, WrittenMatrix, WrittenPath, WrittenTable};
 use super::{
-    ArrayFrames, ColumnMap, DropRules, FrameMap, FrameNames, IdMap, ImportMap, Placeholder, TimeMap,
+    ArrayFrames, ColumnMap, DropRules, FrameMap, FrameNames, IdMap, ImportMap, MatrixMap,
+    Placeholder, TimeMap,
 };
 use crate::decode::ChannelOrder;
 use crate::error::DatasetError;
@@ -22,7 +24,7 @@ use crate::toml_file::{line_of, parse_toml, toml_error};
 #[serde(deny_unknown_fields, expecting = "a table")]
 struct WrittenMap {
     map_version: Spanned<u32>,
-    table: Spanned<String>,
+    table: Spanned<WrittenTable>,
     #[serde(default)]
     source: Source,
     frame: Option<Spanned<WrittenFrame>>,
@@ -31,7 +33,14 @@ struct WrittenMap {
     #[serde(default)]
     ids: IdMap,
     #[serde(default)]
-    attributes: BTreeMap<String, Spanned<String>>,
+    attributes: BTreeMap<String, Spanned<ColumnName>>,
+    path: Option<Spanned<WrittenPath>>,
+    #[serde(default)]
+    join: Vec<Spanned<WrittenJoin>>,
+    #[serde(default)]
+    matrix: Vec<Spanned<WrittenMatrix>>,
+    #[serde(default)]
+    classes: BTreeMap<String, Spanned<WrittenClass>>,
     time: WrittenTime,
     #[serde(default)]
     drop: WrittenDrop,
@@ -42,7 +51,7 @@ struct WrittenMap {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 struct WrittenFrame {
-    column: Option<String>,
+    column: Option<ColumnName>,
     pattern: Option<String>,
     array: Option<String>,
     index: Option<String>,
@@ -54,16 +63,35 @@ struct WrittenFrame {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 struct WrittenColumn {
-    from: String,
+    from: ColumnName,
     unit: Spanned<String>,
     #[serde(default = "positive")]
     sign: i64,
+    offset: Option<f64>,
+    scale: Option<f64>,
+}
+
+/// The name of a column, or its position where a table has no header.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged, expecting = "the name of a column, or its position from 0")]
+pub(super) enum ColumnName {
+    Name(String),
+    Position(u32),
+}
+
+impl ColumnName {
+    pub(super) fn into_name(self) -> String {
+        match self {
+            ColumnName::Name(name) => name,
+            ColumnName::Position(position) => position.to_string(),
+        }
+    }
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 struct WrittenTime {
-    column: Option<String>,
+    column: Option<ColumnName>,
     unit: Option<Spanned<String>>,
     clock: Clock,
 }
@@ -85,9 +113,10 @@ fn positive() -> i64 {
 pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError> {
     let written: WrittenMap = parse_toml(path, text)?;
     let check = Check { path, text };
-    check.version(&written.map_version)?;
-    check.relative(written.table.get_ref(), written.table.span().start)?;
-    let (channels, columns) = check.columns(&written.columns)?;
+    check.version(&written)?;
+    let (table, form) = check.table(&written.table)?;
+    let matrices = check.matrices(&written.matrix)?;
+    let (channels, columns) = check.columns(&written.columns, &matrices)?;
     if channels.is_empty() && written.frame.is_none() {
         return Err(toml_error(
             path,
@@ -95,10 +124,15 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
             "neither [columns] nor [frame]: there is nothing to import",
         ));
     }
-    for (name, column) in &written.attributes {
-        if !is_attribute_name(name) || channels.position(name).is_some() {
+    let attributes = written.attributes.iter();
+    let attributes = attributes.map(|(name, column)| (name, column.span().start));
+    let classes = written.classes.iter();
+    let classes = classes.map(|(name, class)| (name, class.span().start));
+    for (name, offset) in attributes.chain(classes) {
+        let is_twice = written.attributes.contains_key(name) && written.classes.contains_key(name);
+        if is_twice || !is_attribute_name(name) || channels.position(name).is_some() {
             return Err(check.at(
-                column.span().start,
+                offset,
                 &format!("`{name}` is taken or no name: a letter, then letters, digits or `_`"),
             ));
         }
@@ -112,14 +146,20 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
         frame: written.frame.map(|frame| check.frame(frame)).transpose()?,
         time: check.time(&written.time)?,
         drop: check.drop(written.drop, &channels)?,
-        table: written.table.into_inner(),
+        path: check.path_pattern(written.path)?,
+        joins: check.joins(written.join)?,
+        classes: check.classes(&written.classes)?,
+        is_extended: *written.map_version.get_ref() > 1,
+        table,
+        form,
+        matrices,
         channels,
         columns,
         ids: written.ids,
         attributes: written
             .attributes
             .into_iter()
-            .map(|(name, column)| (name, column.into_inner()))
+            .map(|(name, column)| (name, column.into_inner().into_name()))
             .collect(),
         facts: RecordingFacts {
             source: written.source,
@@ -132,33 +172,55 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
 }
 
 /// Checks what a parser of types cannot, and says where.
-struct Check<'a> {
+pub(super) struct Check<'a> {
     path: &'a Path,
     text: &'a str,
 }
 
 impl Check<'_> {
-    fn at(&self, offset: usize, problem: &str) -> DatasetError {
+    pub(super) fn at(&self, offset: usize, problem: &str) -> DatasetError {
         let line = line_of(self.text.as_bytes(), offset);
         toml_error(self.path, Some(line), problem)
     }
 
-    fn version(&self, version: &Spanned<u32>) -> Result<(), DatasetError> {
-        match version.get_ref() {
-            1 => Ok(()),
-            other => Err(self.at(
-                version.span().start,
-                &format!("map version {other} is not known here, expected 1"),
+    /// Keys of version 2 in a map that says 1 would have meant nothing to whoever wrote it.
+    fn version(&self, written: &WrittenMap) -> Result<(), DatasetError> {
+        let scaled = written.columns.values().find(|column| {
+            let column = column.get_ref();
+            column.offset.is_some() || column.scale.is_some()
+        });
+        let table = &written.table;
+        let newer = [
+            ("table", table.get_ref().is_extended().then(|| table.span())),
+            ("path", written.path.as_ref().map(Spanned::span)),
+            ("join", written.join.first().map(Spanned::span)),
+            ("matrix", written.matrix.first().map(Spanned::span)),
+            (
+                "classes",
+                written.classes.values().next().map(Spanned::span),
+            ),
+            ("offset` or `scale", scaled.map(Spanned::span)),
+        ];
+        let newer = newer.into_iter().find_map(|(key, span)| Some((key, span?)));
+        match (written.map_version.get_ref(), newer) {
+            (1, None) | (2, _) => Ok(()),
+            (1, Some((key, span))) => Err(self.at(
+                span.start,
+                &format!("`{key}` as it stands here is of map version 2: write `map_version = 2`"),
+            )),
+            (other, _) => Err(self.at(
+                written.map_version.span().start,
+                &format!("map version {other} is not known here, expected 1 or 2"),
             )),
         }
     }
 
-    fn relative(&self, written: &str, offset: usize) -> Result<(), DatasetError> {
+    pub(super) fn relative(&self, written: &str, offset: usize) -> Result<(), DatasetError> {
         check_relative(written)
             .map_err(|problem| self.at(offset, &format!("`{written}`: {problem}")))
     }
 
-    fn unit(&self, unit: &Spanned<String>) -> Result<SourceUnit, DatasetError> {
+    pub(super) fn unit(&self, unit: &Spanned<String>) -> Result<SourceUnit, DatasetError> {
         SourceUnit::parse(unit.get_ref())
             .map_err(|error| self.at(unit.span().start, &error.to_string()))
     }
@@ -166,9 +228,20 @@ impl Check<'_> {
     fn columns(
         &self,
         written: &BTreeMap<String, Spanned<WrittenColumn>>,
+        matrices: &[MatrixMap],
     ) -> Result<(Channels, Vec<ColumnMap>), DatasetError> {
         let mut channels = Vec::new();
         let mut by_name = BTreeMap::new();
+        for matrix in matrices {
+            for (position, (name, unit)) in matrix.gives.iter().enumerate() {
+                let channel = Channel::named(name, unit.unit());
+                let channel = channel.map_err(|error| {
+                    toml_error(self.path, None, &format!("[[matrix]] gives: {error}"))
+                })?;
+                by_name.insert(name.clone(), ColumnMap::new(matrix.column(position), *unit));
+                channels.push(channel);
+            }
+        }
         for (name, column) in written {
             let offset = column.span().start;
             let column = column.get_ref();
@@ -188,10 +261,19 @@ impl Check<'_> {
                     return Err(self.at(offset, &format!("sign = {other}, expected 1 or -1")));
                 }
             };
+            let scale = column.scale.unwrap_or(1.0);
+            if scale == 0.0 || !is_scorable(scale) || !is_scorable(column.offset.unwrap_or(0.0)) {
+                return Err(self.at(
+                    offset,
+                    "`offset` and `scale` are finite numbers, and a scale is not 0",
+                ));
+            }
             let map = ColumnMap {
-                from: column.from.clone(),
+                from: column.from.clone().into_name(),
                 unit,
                 is_negated,
+                offset: column.offset,
+                scale: column.scale,
             };
             by_name.insert(name.clone(), map);
             channels.push(channel);
@@ -214,7 +296,7 @@ impl Check<'_> {
             written.array,
             written.index,
         ) {
-            (Some(column), None, None, None) => FrameNames::Column(column),
+            (Some(column), None, None, None) => FrameNames::Column(column.into_name()),
             (None, Some(pattern), None, None) => {
                 self.relative(&pattern, offset)?;
                 FrameNames::Pattern(pattern)
@@ -253,6 +335,15 @@ impl Check<'_> {
                 "[time] has a `column` and no `unit`, such as \"s\" or \"ns\"",
             )
         })?;
+        self.time_of(column.clone(), unit).map(Some)
+    }
+
+    /// A column of times.
+    pub(super) fn time_of(
+        &self,
+        column: ColumnName,
+        unit: &Spanned<String>,
+    ) -> Result<TimeMap, DatasetError> {
         let source_unit = self.unit(unit)?;
         if source_unit.unit() != taceva_core::Unit::Second {
             return Err(self.at(
@@ -263,10 +354,10 @@ impl Check<'_> {
                 ),
             ));
         }
-        Ok(Some(TimeMap {
-            column: column.clone(),
+        Ok(TimeMap {
+            column: column.into_name(),
             unit: source_unit,
-        }))
+        })
     }
 
     fn drop(&self, written: WrittenDrop, channels: &Channels) -> Result<DropRules, DatasetError> {

@@ -1,0 +1,143 @@
+//! Tables as other programs wrote them: rows of cells that are asked for by the name of a column.
+
+mod files;
+mod json;
+pub(crate) mod packed;
+
+use std::borrow::Cow;
+use std::path::Path;
+
+use crate::csv_table::CsvTable;
+use crate::error::{DatasetError, Place};
+use crate::text::{nearest, shown};
+
+pub(crate) use files::FileRows;
+pub(crate) use json::JsonRows;
+
+/// A table of any form.
+#[derive(Debug)]
+pub(crate) enum ForeignTable {
+    Delimited(CsvTable),
+    Json(JsonRows),
+    Files(FileRows),
+}
+
+/// How a table is written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum TableForm {
+    /// Cells between separators, below a header; without one, columns are called by their position, from 0.
+    Delimited { has_header: bool },
+    /// JSON, whose rows are what the pointer leads to: `/*` each member, the empty one the whole.
+    Json { rows: Option<String> },
+    /// A JSON value a line.
+    JsonLines,
+    /// No table: every file is a row.
+    Files,
+}
+
+impl ForeignTable {
+    /// The table at `path`.
+    pub(crate) fn read(path: &Path, form: &TableForm) -> Result<ForeignTable, DatasetError> {
+        Ok(match form {
+            TableForm::Delimited { has_header: true } => {
+                ForeignTable::Delimited(CsvTable::read(path)?)
+            }
+            TableForm::Delimited { has_header: false } => {
+                ForeignTable::Delimited(CsvTable::read_headerless(path)?)
+            }
+            TableForm::Json { rows } => ForeignTable::Json(JsonRows::read(path, rows.as_deref())?),
+            TableForm::JsonLines => ForeignTable::Json(JsonRows::read_lines(path)?),
+            TableForm::Files => ForeignTable::Files(FileRows::one(path)),
+        })
+    }
+
+    pub(crate) fn path(&self) -> &Path {
+        match self {
+            ForeignTable::Delimited(table) => table.path(),
+            ForeignTable::Json(table) => table.path(),
+            ForeignTable::Files(table) => table.path(),
+        }
+    }
+
+    pub(crate) fn rows(&self) -> usize {
+        match self {
+            ForeignTable::Delimited(table) => table.rows(),
+            ForeignTable::Json(table) => table.rows(),
+            ForeignTable::Files(_) => 1,
+        }
+    }
+
+    /// Whether there is a column of exactly this name.
+    pub(crate) fn has(&self, name: &str) -> bool {
+        match self {
+            ForeignTable::Delimited(table) => table.has(name),
+            ForeignTable::Json(table) => table.has(name),
+            ForeignTable::Files(_) => false,
+        }
+    }
+
+    /// What a row (from 0) has in the column called `name`, without surrounding blanks; empty where it has nothing.
+    ///
+    /// # Errors
+    /// [`DatasetError::Table`] if no row has such a column.
+    pub(crate) fn cell(&self, row: usize, name: &str) -> Result<Cow<'_, str>, DatasetError> {
+        match self {
+            ForeignTable::Delimited(table) => {
+                let column = table.position(name)?;
+                Ok(Cow::Borrowed(table.cell(row, column)))
+            }
+            ForeignTable::Json(table) if table.has(name) => Ok(table.cell(row, name)),
+            _ => Err(self.no_column(name)),
+        }
+    }
+
+    /// The name of a row, where rows have names: the member of a JSON object.
+    pub(crate) fn key(&self, row: usize) -> Option<&str> {
+        match self {
+            ForeignTable::Json(table) => table.key(row),
+            ForeignTable::Delimited(_) | ForeignTable::Files(_) => None,
+        }
+    }
+
+    /// Where a row stands, in the column called `name`.
+    pub(crate) fn place(&self, row: usize, name: &str) -> Place {
+        match self {
+            ForeignTable::Delimited(table) => {
+                let column = table.position(name).unwrap_or(usize::MAX);
+                table.place(row, column)
+            }
+            ForeignTable::Json(table) => Place {
+                column: (!name.is_empty()).then(|| name.to_owned()),
+                ..table.place(row)
+            },
+            ForeignTable::Files(table) => Place::file(table.path()),
+        }
+    }
+
+    /// The names of all columns, where a table lists them.
+    pub(crate) fn names(&self) -> Vec<String> {
+        match self {
+            ForeignTable::Delimited(table) => table.names().to_vec(),
+            ForeignTable::Json(table) => table.names(),
+            ForeignTable::Files(_) => Vec::new(),
+        }
+    }
+
+    /// That there is no column called `name`, and which there are.
+    pub(crate) fn no_column(&self, name: &str) -> DatasetError {
+        let names = self.names();
+        let guess = nearest(name, names.iter().map(String::as_str));
+        let guess = guess.map_or_else(String::new, |guess| {
+            format!(", did you mean `{}`", shown(guess))
+        });
+        let known: Vec<String> = names.iter().map(|name| shown(name)).collect();
+        let known = match known.is_empty() {
+            true => "it has none of its own".to_owned(),
+            false => format!("the columns are {}", known.join(", ")),
+        };
+        DatasetError::Table {
+            place: Place::file(self.path()),
+            problem: format!("no column `{}`{guess}? {known}", shown(name)),
+        }
+    }
+}

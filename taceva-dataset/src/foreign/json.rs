@@ -1,0 +1,214 @@
+//! JSON and JSON lines: a row is a value, its columns are pointers into it (RFC 6901).
+
+use std::borrow::Cow;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use crate::error::{DatasetError, Place};
+use crate::file::read_capped;
+use crate::limits;
+use crate::text::shown;
+use crate::toml_file::utf8;
+
+/// Rows looked at to list the members that there are.
+const LISTED: usize = 100;
+
+/// The rows of a JSON file.
+#[derive(Debug)]
+pub(crate) struct JsonRows {
+    path: PathBuf,
+    rows: Vec<JsonRow>,
+}
+
+#[derive(Debug)]
+struct JsonRow {
+    /// The member it was, if of an object.
+    key: Option<String>,
+    value: Value,
+    /// Its line, of JSON lines.
+    line: Option<u64>,
+}
+
+impl JsonRows {
+    /// What `rows` leads to in the file at `path`: a pointer, whose last step may be `*` for each member. Without one, each element of a list, or
+    /// the whole of anything else.
+    ///
+    /// # Errors
+    /// [`DatasetError::Table`] naming the line if it is no JSON, or the pointer leads nowhere.
+    pub(super) fn read(path: &Path, rows: Option<&str>) -> Result<JsonRows, DatasetError> {
+        let whole = text(path)?;
+        let value: Value =
+            serde_json::from_str(&whole).map_err(|error| no_json(path, &error, 0))?;
+        let pointer = rows.unwrap_or(if value.is_array() { "/*" } else { "" });
+        let (way, each) = match pointer.strip_suffix("/*") {
+            Some(way) => (way, true),
+            None => (pointer, false),
+        };
+        let found = taken(value, way).ok_or_else(|| DatasetError::Table {
+            place: Place::file(path),
+            problem: format!(
+                "there is nothing at `{}`, where the map says that the rows are",
+                shown(way)
+            ),
+        })?;
+        let row = |key, value| JsonRow {
+            key,
+            value,
+            line: None,
+        };
+        let rows = match (each, found) {
+            (false, found) => vec![row(None, found)],
+            (true, Value::Array(list)) => list.into_iter().map(|value| row(None, value)).collect(),
+            (true, Value::Object(members)) => {
+                let members = members.into_iter();
+                members.map(|(key, value)| row(Some(key), value)).collect()
+            }
+            (true, _) => {
+                return Err(DatasetError::Table {
+                    place: Place::file(path),
+                    problem: format!(
+                        "`{}` is no list and no object, so that it has no members",
+                        shown(way)
+                    ),
+                });
+            }
+        };
+        Ok(JsonRows {
+            path: path.to_owned(),
+            rows,
+        })
+    }
+
+    /// A row a line; blank lines are none.
+    ///
+    /// # Errors
+    /// [`DatasetError::Table`] naming the line that is no JSON.
+    pub(super) fn read_lines(path: &Path) -> Result<JsonRows, DatasetError> {
+        let whole = text(path)?;
+        let lines = (1..).zip(whole.lines());
+        let lines = lines.filter(|(_, line)| !line.trim().is_empty());
+        let rows: Result<Vec<JsonRow>, DatasetError> = lines
+            .map(|(number, line)| {
+                let value = serde_json::from_str(line);
+                Ok(JsonRow {
+                    key: None,
+                    value: value.map_err(|error| no_json(path, &error, number - 1))?,
+                    line: Some(number),
+                })
+            })
+            .collect();
+        Ok(JsonRows {
+            path: path.to_owned(),
+            rows: rows?,
+        })
+    }
+
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    pub(super) fn rows(&self) -> usize {
+        self.rows.len()
+    }
+
+    pub(super) fn key(&self, row: usize) -> Option<&str> {
+        self.rows[row].key.as_deref()
+    }
+
+    /// Whether a row has something at the pointer `name`.
+    pub(super) fn has(&self, name: &str) -> bool {
+        let mut rows = self.rows.iter();
+        name.starts_with('/') && rows.any(|row| row.value.pointer(name).is_some())
+    }
+
+    /// What is at the pointer `name`: texts as they are, numbers in the shortest form that reads back, lists as JSON; nothing of `null`.
+    pub(super) fn cell(&self, row: usize, name: &str) -> Cow<'_, str> {
+        match self.rows[row].value.pointer(name) {
+            None | Some(Value::Null) => Cow::Borrowed(""),
+            Some(Value::String(text)) => Cow::Borrowed(text.trim()),
+            Some(value) => Cow::Owned(value.to_string()),
+        }
+    }
+
+    pub(super) fn place(&self, row: usize) -> Place {
+        match self.rows[row].line {
+            Some(line) => Place::line(&self.path, line),
+            None => Place::file(&self.path),
+        }
+    }
+
+    /// The members of the first rows, as pointers.
+    pub(super) fn names(&self) -> Vec<String> {
+        let objects = self.rows.iter().take(LISTED);
+        let members = objects.filter_map(|row| row.value.as_object());
+        let names: BTreeSet<String> = members
+            .flat_map(|object| object.keys())
+            .map(|key| format!("/{}", key.replace('~', "~0").replace('/', "~1")))
+            .collect();
+        names.into_iter().collect()
+    }
+}
+
+fn text(path: &Path) -> Result<String, DatasetError> {
+    utf8(path, read_capped(path, limits::JSON_BYTES)?)
+}
+
+/// What `pointer` leads to, taken out of `value`.
+fn taken(mut value: Value, pointer: &str) -> Option<Value> {
+    value.pointer_mut(pointer).map(Value::take)
+}
+
+fn no_json(path: &Path, error: &serde_json::Error, lines_before: u64) -> DatasetError {
+    let line = u64::try_from(error.line()).unwrap_or(1).max(1);
+    DatasetError::Table {
+        place: Place::line(path, lines_before + line),
+        problem: format!("no JSON: {error}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn file(text: &str) -> tempfile::NamedTempFile {
+        let file = tempfile::NamedTempFile::new().expect("a file");
+        std::fs::write(file.path(), text).expect("written");
+        file
+    }
+
+    #[test]
+    fn members_lists_and_the_whole_are_rows() {
+        let of = |text: &str, rows: Option<&str>| {
+            let file = file(text);
+            let table = JsonRows::read(file.path(), rows).expect("rows");
+            (0..table.rows())
+                .map(|row| {
+                    let key = table.key(row).unwrap_or("-").to_owned();
+                    format!("{key}:{}", table.cell(row, "/a"))
+                })
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(
+            of(r#"{"x": {"a": 1}, "y": {"a": 0.1}}"#, Some("/*")),
+            ["x:1", "y:0.1"]
+        );
+        assert_eq!(of(r#"[{"a": "p"}, {"a": null}]"#, None), ["-:p", "-:"]);
+        assert_eq!(of(r#"{"a": [1, 2]}"#, None), ["-:[1,2]"]);
+        assert_eq!(of(r#"{"in": [{"a": 3}]}"#, Some("/in/*")), ["-:3"]);
+    }
+
+    #[test]
+    fn what_is_no_json_names_its_line_and_deep_lists_are_refused() {
+        let lines = file("{\"a\": 1}\n\n{\"a\": }\n");
+        let error = JsonRows::read_lines(lines.path()).expect_err("no JSON");
+        assert!(error.to_string().contains("line 3"), "{error}");
+        let deep = file(&"[".repeat(100_000));
+        let error = JsonRows::read(deep.path(), None).expect_err("deep");
+        assert!(error.to_string().contains("recursion limit"), "{error}");
+        let nowhere = file("{}");
+        let error = JsonRows::read(nowhere.path(), Some("/data/*")).expect_err("nothing");
+        assert!(error.to_string().contains("nothing at `/data`"), "{error}");
+    }
+}

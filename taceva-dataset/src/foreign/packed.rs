@@ -1,0 +1,132 @@
+//! Several values in one cell: `[0.1, 0.2]`, `1 2 3`, `1;2;3`, lists in lists; and numbers as NumPy prints them.
+
+/// How deep lists may lie in lists.
+const DEEPEST: usize = 16;
+
+/// The value at `index` of what `cell` packs, position by position from the outermost list; why there is none.
+pub(crate) fn item<'a>(cell: &'a str, index: &[usize]) -> Result<&'a str, String> {
+    let mut found = cell.trim();
+    for position in index {
+        let parts = parts(found)?;
+        found = parts.get(*position).copied().ok_or_else(|| {
+            let count = parts.len();
+            format!("there is no value [{position}] among the {count} of this cell, counted from 0")
+        })?;
+    }
+    Ok(plain(found))
+}
+
+/// A number without the type that NumPy 2 prints around it: `np.float64(1.5)`.
+pub(crate) fn plain(cell: &str) -> &str {
+    let inner = cell
+        .strip_prefix("np.")
+        .and_then(|rest| rest.strip_suffix(')'))
+        .and_then(|rest| rest.split_once('('));
+    match inner {
+        Some((kind, number))
+            if ["float", "int", "uint"]
+                .iter()
+                .any(|of| kind.starts_with(of)) =>
+        {
+            number.trim()
+        }
+        _ => cell,
+    }
+}
+
+/// The values of the outermost list, or of a cell without brackets.
+fn parts(cell: &str) -> Result<Vec<&str>, String> {
+    let inside = ["[]", "()"].iter().find_map(|pair| {
+        let (open, close) = pair.split_at(1);
+        cell.strip_prefix(open)?.strip_suffix(close)
+    });
+    let inside = inside.unwrap_or(cell).trim();
+    if inside.is_empty() {
+        return Ok(Vec::new());
+    }
+    let separators = ends(inside, |letter| matches!(letter, ',' | ';'))?;
+    let separators = match separators.is_empty() {
+        false => separators,
+        true => ends(inside, char::is_whitespace)?,
+    };
+    let mut parts = Vec::with_capacity(separators.len() + 1);
+    let mut begins = 0;
+    for (at, width) in separators {
+        parts.push(inside[begins..at].trim());
+        begins = at + width;
+    }
+    parts.push(inside[begins..].trim());
+    // Several blanks are one separator.
+    let is_blank_apart = !inside.contains([',', ';']);
+    parts.retain(|part| !(is_blank_apart && part.is_empty()));
+    Ok(parts)
+}
+
+/// Where separators stand outside of every bracket, and how many bytes they have.
+fn ends(text: &str, is_separator: impl Fn(char) -> bool) -> Result<Vec<(usize, usize)>, String> {
+    let mut depth = 0_usize;
+    let mut found = Vec::new();
+    for (at, letter) in text.char_indices() {
+        match letter {
+            '[' | '(' => depth += 1,
+            ']' | ')' => {
+                depth = depth
+                    .checked_sub(1)
+                    .ok_or("a bracket is closed that was not opened")?;
+            }
+            _ if depth == 0 && is_separator(letter) => found.push((at, letter.len_utf8())),
+            _ => {}
+        }
+        if depth > DEEPEST {
+            return Err(format!("lists lie more than {DEEPEST} deep"));
+        }
+    }
+    match depth {
+        0 => Ok(found),
+        _ => Err("a bracket is opened and never closed".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_value_is_found_behind_every_separator_and_in_lists_of_lists() {
+        for (cell, index, expected) in [
+            ("[0.0, 0.3, 2.0]", &[2][..], "2.0"),
+            ("1;2;3", &[1], "2"),
+            ("  1   2\t3 ", &[2], "3"),
+            ("[[1, 2], [3, 4]]", &[1, 0], "3"),
+            ("(1,2)", &[0], "1"),
+            ("[1, , 3]", &[1], ""),
+            ("[np.float64(1.5), 2]", &[0], "1.5"),
+            ("[[1 2]\n [3 4]]", &[1, 1], "4"),
+            ("7", &[0], "7"),
+        ] {
+            assert_eq!(item(cell, index).as_deref(), Ok(expected), "{cell}");
+        }
+    }
+
+    #[test]
+    fn what_is_not_there_or_not_closed_is_said() {
+        for (cell, index, expected) in [
+            ("[1, 2]", &[2][..], "no value [2] among the 2"),
+            ("", &[0], "no value [0] among the 0"),
+            ("[1, [2, 3]", &[0], "never closed"),
+            ("1]", &[0], "not opened"),
+            (&"[".repeat(40), &[0], "deep"),
+        ] {
+            let problem = item(cell, index).expect_err(cell);
+            assert!(problem.contains(expected), "{cell}: {problem}");
+        }
+    }
+
+    #[test]
+    fn a_number_stands_without_the_type_that_numpy_prints() {
+        assert_eq!(plain("np.float64(1700000000.0)"), "1700000000.0");
+        assert_eq!(plain("np.int32(-3)"), "-3");
+        assert_eq!(plain("np.array(1)"), "np.array(1)");
+        assert_eq!(plain("2.5"), "2.5");
+    }
+}

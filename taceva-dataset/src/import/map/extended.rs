@@ -1,0 +1,337 @@
+//! What a map of version 2 may say beside: forms of tables, labels in paths, joins, matrices, classes.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::written::{Check, ColumnName};
+use super::{
+    ClassMap, JoinBy, JoinMap, MatrixMap, MatrixRows, PathPattern, Pick, TimeJoin, Unmatched,
+};
+use crate::error::DatasetError;
+use crate::foreign::TableForm;
+
+/// A table: its path, or what more there is to say of it.
+#[derive(Deserialize)]
+#[serde(
+    untagged,
+    expecting = "the path of a table, { file = …, format = …, header = false, rows = … }, or { files = … }"
+)]
+pub(super) enum WrittenTable {
+    Path(String),
+    Told(WrittenForm),
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct WrittenForm {
+    file: Option<String>,
+    files: Option<String>,
+    format: Option<Format>,
+    header: Option<bool>,
+    rows: Option<String>,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Format {
+    Csv,
+    Tsv,
+    Json,
+    Jsonl,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub(super) struct WrittenPath {
+    pattern: Spanned<String>,
+    of: Option<ColumnName>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub(super) struct WrittenJoin {
+    name: String,
+    table: Spanned<WrittenTable>,
+    on: Option<WrittenOn>,
+    time: Option<WrittenJoinTime>,
+    pick: Option<Pick>,
+    tolerance_ms: Option<f64>,
+    lag_ms: Option<f64>,
+    unmatched: Option<Unmatched>,
+    #[serde(default)]
+    skip: BTreeMap<String, f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(
+    untagged,
+    expecting = "{ column = \"column of the joined table\" }, \"row\" or \"all\""
+)]
+enum WrittenOn {
+    Word(String),
+    Columns(BTreeMap<String, ColumnName>),
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+struct WrittenJoinTime {
+    column: ColumnName,
+    unit: Spanned<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub(super) struct WrittenMatrix {
+    from: Vec<ColumnName>,
+    offset: Option<Vec<f64>>,
+    by: WrittenRows,
+    gives: BTreeMap<String, Spanned<String>>,
+    kind: Option<Spanned<String>>,
+}
+
+#[derive(Deserialize)]
+#[serde(
+    untagged,
+    expecting = "rows of numbers, or the path of a CSV file without a header"
+)]
+enum WrittenRows {
+    Rows(Vec<Vec<f64>>),
+    File(String),
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub(super) struct WrittenClass {
+    from: ColumnName,
+    names: Vec<String>,
+}
+
+impl WrittenTable {
+    /// Whether maps of version 1 cannot say it.
+    pub(super) fn is_extended(&self) -> bool {
+        let WrittenTable::Path(path) = self else {
+            return true;
+        };
+        !matches!(form_of(path, None), TableForm::Delimited { .. })
+    }
+}
+
+/// The form of the table at `path`, by `format` or what its name ends with.
+fn form_of(path: &str, format: Option<Format>) -> TableForm {
+    let ending = path
+        .rsplit_once('.')
+        .map(|(_, ending)| ending.to_ascii_lowercase());
+    match (format, ending.as_deref()) {
+        (Some(Format::Json), _) | (None, Some("json")) => TableForm::Json { rows: None },
+        (Some(Format::Jsonl), _) | (None, Some("jsonl" | "ndjson")) => TableForm::JsonLines,
+        _ => TableForm::Delimited { has_header: true },
+    }
+}
+
+impl Check<'_> {
+    /// The pattern of the files of a table, and their form.
+    pub(super) fn table(
+        &self,
+        written: &Spanned<WrittenTable>,
+    ) -> Result<(String, TableForm), DatasetError> {
+        let offset = written.span().start;
+        let (file, form) = match written.get_ref() {
+            WrittenTable::Path(path) => (path, form_of(path, None)),
+            WrittenTable::Told(told) => self.told(told, offset)?,
+        };
+        self.relative(file, offset)?;
+        Ok((file.clone(), form))
+    }
+
+    fn told<'w>(
+        &self,
+        told: &'w WrittenForm,
+        offset: usize,
+    ) -> Result<(&'w String, TableForm), DatasetError> {
+        let (file, form) = match (&told.file, &told.files) {
+            (Some(file), None) => (file, form_of(file, told.format)),
+            (None, Some(files)) => (files, TableForm::Files),
+            _ => {
+                return Err(self.at(
+                    offset,
+                    "a table is one `file`, or rows are `files`: expected one of both",
+                ));
+            }
+        };
+        let form = match (form, told.header, &told.rows) {
+            (TableForm::Delimited { .. }, header, None) => TableForm::Delimited {
+                has_header: header.unwrap_or(true),
+            },
+            (TableForm::Json { .. }, None, rows) => TableForm::Json { rows: rows.clone() },
+            (form, None, None) => form,
+            (_, Some(_), _) => return Err(self.at(offset, "`header` is for CSV and TSV alone")),
+            (_, _, Some(_)) => return Err(self.at(offset, "`rows` is for JSON alone")),
+        };
+        Ok((file, form))
+    }
+
+    pub(super) fn path_pattern(
+        &self,
+        written: Option<Spanned<WrittenPath>>,
+    ) -> Result<Option<PathPattern>, DatasetError> {
+        let Some(written) = written else {
+            return Ok(None);
+        };
+        let WrittenPath { pattern, of } = written.into_inner();
+        let parsed = PathPattern::parse(pattern.get_ref(), of.map(ColumnName::into_name));
+        parsed
+            .map(Some)
+            .map_err(|problem| self.at(pattern.span().start, &problem))
+    }
+
+    pub(super) fn joins(
+        &self,
+        written: Vec<Spanned<WrittenJoin>>,
+    ) -> Result<Vec<JoinMap>, DatasetError> {
+        let mut joins: Vec<JoinMap> = Vec::new();
+        for written in written {
+            let offset = written.span().start;
+            let join = self.join(written.into_inner(), offset)?;
+            let is_name = join
+                .name
+                .chars()
+                .all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
+            if !is_name || ["", "path", "row", "file", "key"].contains(&join.name.as_str()) {
+                return Err(self.at(
+                    offset,
+                    &format!(
+                        "`{}` is taken or no name of a join: letters, digits or `_`",
+                        join.name
+                    ),
+                ));
+            }
+            if joins.iter().any(|known| known.name == join.name) {
+                return Err(self.at(offset, &format!("two joins are called `{}`", join.name)));
+            }
+            joins.push(join);
+        }
+        Ok(joins)
+    }
+
+    fn join(&self, written: WrittenJoin, offset: usize) -> Result<JoinMap, DatasetError> {
+        let (file, form) = self.table(&written.table)?;
+        if form == TableForm::Files {
+            return Err(self.at(offset, "what is joined is a table, no files"));
+        }
+        let times = (written.pick, written.tolerance_ms, written.lag_ms);
+        let by = match (written.on, written.time, times) {
+            (Some(on), None, (None, None, None)) => match on {
+                WrittenOn::Word(word) if word == "row" => JoinBy::Row,
+                WrittenOn::Word(word) if word == "all" => JoinBy::All,
+                WrittenOn::Columns(columns) if !columns.is_empty() => {
+                    let columns = columns.into_iter();
+                    JoinBy::Columns(columns.map(|(own, other)| (own, other.into_name())).collect())
+                }
+                _ => return Err(self.at(offset, "`on` is { column = \"column of the joined table\" }, \"row\" or \"all\"")),
+            },
+            (None, Some(time), (pick, Some(tolerance_ms), Some(lag_ms))) => {
+                if !(tolerance_ms >= 0.0 && tolerance_ms.is_finite() && lag_ms.is_finite()) {
+                    return Err(self.at(offset, "`tolerance_ms` is at least 0, and `lag_ms` a finite number"));
+                }
+                JoinBy::Time(TimeJoin {
+                    time: self.time_of(time.column, &time.unit)?,
+                    pick: pick.unwrap_or(Pick::Nearest),
+                    tolerance_s: tolerance_ms / 1e3,
+                    lag_s: lag_ms / 1e3,
+                })
+            }
+            (None, Some(_), _) => {
+                return Err(self.at(offset, "a join by time says `tolerance_ms`, the greatest distance, and `lag_ms`, how much later this table's clock shows the same instant; 0 if both are one clock"));
+            }
+            _ => return Err(self.at(offset, "a join has `on`, or `time` with `pick`, `tolerance_ms` and `lag_ms`: expected one of both")),
+        };
+        Ok(JoinMap {
+            name: written.name,
+            file,
+            form,
+            by,
+            unmatched: written.unmatched.unwrap_or(Unmatched::Refuse),
+            skip: written.skip.into_iter().collect(),
+        })
+    }
+
+    pub(super) fn matrices(
+        &self,
+        written: &[Spanned<WrittenMatrix>],
+    ) -> Result<Vec<MatrixMap>, DatasetError> {
+        written.iter().map(|written| self.matrix(written)).collect()
+    }
+
+    fn matrix(&self, written: &Spanned<WrittenMatrix>) -> Result<MatrixMap, DatasetError> {
+        let offset = written.span().start;
+        let written = written.get_ref();
+        let is_rotation = match &written.kind {
+            None => false,
+            Some(kind) if kind.get_ref() == "rotation" => true,
+            Some(kind) => return Err(self.at(kind.span().start, "the only kind is \"rotation\"")),
+        };
+        // The order in which they are written is that of the rows.
+        let mut gives: Vec<_> = written.gives.iter().collect();
+        gives.sort_by_key(|(_, unit)| unit.span().start);
+        let gives: Result<Vec<_>, DatasetError> = gives
+            .into_iter()
+            .map(|(name, unit)| Ok((name.clone(), self.unit(unit)?)))
+            .collect();
+        let by = match &written.by {
+            WrittenRows::Rows(rows) => MatrixRows::Written(rows.clone()),
+            WrittenRows::File(file) => {
+                self.relative(file, offset)?;
+                MatrixRows::File(file.clone())
+            }
+        };
+        let from: Vec<String> = written
+            .from
+            .iter()
+            .cloned()
+            .map(ColumnName::into_name)
+            .collect();
+        let taken = written
+            .offset
+            .clone()
+            .unwrap_or_else(|| vec![0.0; from.len()]);
+        let map = MatrixMap {
+            from,
+            offset: taken,
+            by,
+            gives: gives?,
+            is_rotation,
+        };
+        if map.offset.len() != map.from.len() {
+            return Err(self.at(offset, "`offset` has one number for each column of `from`"));
+        }
+        if let MatrixRows::Written(rows) = &map.by
+            && let Some(problem) = map.problem(rows)
+        {
+            return Err(self.at(offset, &problem));
+        }
+        Ok(map)
+    }
+
+    pub(super) fn classes(
+        &self,
+        written: &BTreeMap<String, Spanned<WrittenClass>>,
+    ) -> Result<BTreeMap<String, ClassMap>, DatasetError> {
+        let classes = written.iter().map(|(name, class)| {
+            let offset = class.span().start;
+            let class = class.get_ref();
+            let mut sorted: Vec<&String> = class.names.iter().collect();
+            sorted.sort_unstable();
+            if sorted.is_empty() || sorted.windows(2).any(|pair| pair[0] == pair[1]) {
+                return Err(self.at(offset, "`names` lists every class, each once"));
+            }
+            let map = ClassMap {
+                from: class.from.clone().into_name(),
+                names: class.names.clone(),
+            };
+            Ok((name.clone(), map))
+        });
+        classes.collect()
+    }
+}

@@ -1,0 +1,64 @@
+//! Other tables whose rows belong to those of the main one.
+
+use super::TimeMap;
+use crate::foreign::TableForm;
+
+/// A table that is joined: its columns are called `NAME.column`.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct JoinMap {
+    pub(crate) name: String,
+    /// Its file relative to the source folder, in which `{path.PART}` stands for a part of the path of the main table.
+    pub(crate) file: String,
+    pub(crate) form: TableForm,
+    pub(crate) by: JoinBy,
+    pub(crate) unmatched: Unmatched,
+    /// Rows that are no candidates: column, and the number that it has there.
+    pub(crate) skip: Vec<(String, f64)>,
+}
+
+/// Which row of a joined table belongs to a row.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum JoinBy {
+    /// The one row whose columns hold the same: column of the main table, column of the joined one.
+    Columns(Vec<(String, String)>),
+    /// That of the same number.
+    Row,
+    /// Its only row.
+    All,
+    /// That of the same time.
+    Time(TimeJoin),
+}
+
+/// How times are compared.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct TimeJoin {
+    /// The time of the joined table.
+    pub(crate) time: TimeMap,
+    pub(crate) pick: Pick,
+    /// The greatest distance, s.
+    pub(crate) tolerance_s: f64,
+    /// How much later the clock of the joined table shows the same instant, s.
+    pub(crate) lag_s: f64,
+}
+
+/// Which of the rows about a time it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Pick {
+    /// The nearest; of two that are as near the earlier.
+    Nearest,
+    /// The last that is not later.
+    Before,
+    /// Between both neighbours, in proportion; both lie within the tolerance.
+    Linear,
+}
+
+/// What becomes of a row to which none belongs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Unmatched {
+    /// It is left out, and counted.
+    Drop,
+    /// The import is refused.
+    Refuse,
+}

@@ -1,0 +1,208 @@
+//! Labels in the names of files and folders: `{object}/unit{unit:digits}/x{x:number}_{k:digits}.png`.
+
+/// The most names that a pattern captures.
+const NAMES_MAX: usize = 16;
+
+/// A pattern of paths whose named parts are captured.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct PathPattern {
+    /// The column that holds the path; `None`: the path of the table, or of the file that is the row, relative to the source folder.
+    pub(crate) of: Option<String>,
+    pieces: Vec<Piece>,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum Piece {
+    Text(String),
+    Named { name: String, kind: Kind },
+}
+
+/// What a named part may be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    /// The longest text without `/` that lets the rest match.
+    Free,
+    /// Digits.
+    Digits,
+    /// A decimal number, with a sign and an exponent where it has them.
+    Number,
+}
+
+impl PathPattern {
+    /// The pattern that is written as `text`; what is wrong with it.
+    pub(super) fn parse(text: &str, of: Option<String>) -> Result<PathPattern, String> {
+        let mut pieces = Vec::new();
+        let mut rest = text;
+        while let Some((before, behind)) = rest.split_once('{') {
+            let (named, after) = behind.split_once('}').ok_or("a `{` is never closed")?;
+            let (name, kind) = match named.split_once(':') {
+                None => (named, Kind::Free),
+                Some((name, "digits")) => (name, Kind::Digits),
+                Some((name, "number")) => (name, Kind::Number),
+                Some((_, other)) => {
+                    return Err(format!(
+                        "`:{other}` is no kind of part, expected `:digits`, `:number` or none"
+                    ));
+                }
+            };
+            let is_name = name.starts_with(|first: char| first.is_ascii_alphabetic())
+                && name
+                    .chars()
+                    .all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
+            if !is_name {
+                return Err(format!(
+                    "`{name}` is no name: a letter, then letters, digits or `_`"
+                ));
+            }
+            let name = name.to_owned();
+            if pieces
+                .iter()
+                .any(|piece| matches!(piece, Piece::Named { name: known, .. } if *known == name))
+            {
+                return Err(format!("`{name}` stands twice in the pattern"));
+            }
+            pieces.push(Piece::Text(before.to_owned()));
+            pieces.push(Piece::Named { name, kind });
+            rest = after;
+        }
+        pieces.push(Piece::Text(rest.to_owned()));
+        let pattern = PathPattern { of, pieces };
+        match pattern.names().count() {
+            0 => Err("names no part of the path, such as {object}".to_owned()),
+            count if count > NAMES_MAX => {
+                Err(format!("{count} named parts, more than {NAMES_MAX}"))
+            }
+            _ => Ok(pattern),
+        }
+    }
+
+    /// The names of its parts, in order.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
+        self.pieces.iter().filter_map(|piece| match piece {
+            Piece::Text(_) => None,
+            Piece::Named { name, .. } => Some(name.as_str()),
+        })
+    }
+
+    /// What the named parts of `path` are, in the order of [`names`](PathPattern::names); `None` if the path does not follow the pattern.
+    pub(crate) fn captures<'p>(&self, path: &'p str) -> Option<Vec<&'p str>> {
+        let mut found = Vec::new();
+        // A place that led nowhere once leads nowhere again, so that the time is bounded by length times parts.
+        let mut failed = vec![vec![false; path.len() + 1]; self.pieces.len() + 1];
+        self.follow((0, 0), path, (&mut found, &mut failed))
+            .then_some(found)
+    }
+
+    fn follow<'p>(
+        &self,
+        (piece, at): (usize, usize),
+        path: &'p str,
+        (found, failed): (&mut Vec<&'p str>, &mut Vec<Vec<bool>>),
+    ) -> bool {
+        if failed[piece][at] {
+            return false;
+        }
+        let rest = &path[at..];
+        let matches = match self.pieces.get(piece) {
+            None => rest.is_empty(),
+            Some(Piece::Text(text)) => {
+                rest.starts_with(text.as_str())
+                    && self.follow(
+                        (piece + 1, at + text.len()),
+                        path,
+                        (&mut *found, &mut *failed),
+                    )
+            }
+            Some(Piece::Named { kind, .. }) => kind.lengths(rest).into_iter().any(|length| {
+                found.push(&rest[..length]);
+                let matches =
+                    self.follow((piece + 1, at + length), path, (&mut *found, &mut *failed));
+                if !matches {
+                    found.pop();
+                }
+                matches
+            }),
+        };
+        failed[piece][at] = !matches;
+        matches
+    }
+}
+
+impl Kind {
+    /// How long a part at the beginning of `text` may be, the longest first.
+    fn lengths(self, text: &str) -> Vec<usize> {
+        let end = text.find('/').unwrap_or(text.len());
+        let part = &text[..end];
+        let ends = part
+            .char_indices()
+            .map(|(at, letter)| at + letter.len_utf8());
+        let mut lengths: Vec<usize> = ends.collect();
+        match self {
+            Kind::Free => {}
+            Kind::Digits => {
+                let digits = part.bytes().take_while(u8::is_ascii_digit).count();
+                lengths.retain(|length| *length <= digits);
+            }
+            Kind::Number => lengths.retain(|length| is_number(&part[..*length])),
+        }
+        lengths.reverse();
+        lengths
+    }
+}
+
+/// Whether `text` is a decimal number; `inf` and `NaN` are none.
+fn is_number(text: &str) -> bool {
+    let is_plain = |letter: u8| letter.is_ascii_digit() || b"+-.eE".contains(&letter);
+    text.bytes().all(is_plain)
+        && text.ends_with(|last: char| last.is_ascii_digit())
+        && text.parse::<f64>().is_ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn captured(pattern: &str, path: &str) -> Option<Vec<String>> {
+        let pattern = PathPattern::parse(pattern, None).expect("a pattern");
+        let found = pattern.captures(path)?;
+        Some(found.into_iter().map(str::to_owned).collect())
+    }
+
+    #[test]
+    fn parts_of_a_path_are_captured_by_their_kind() {
+        let pattern =
+            "{object}/unit{unit:digits}/x{x:number}_y{y:number}_Fz{fz:number}N_{k:digits}.png";
+        let found = captured(pattern, "ball/unit1/x+2.5_y-0.0_Fz3.004N_005.png");
+        assert_eq!(
+            found.expect("it follows"),
+            ["ball", "1", "+2.5", "-0.0", "3.004", "005"]
+        );
+        assert_eq!(captured(pattern, "ball/unitA/x1_y1_Fz1N_1.png"), None);
+        // A free part is the longest that fits.
+        let found = captured("{object}_{repeat:digits}.avi", "two_words_12.avi");
+        assert_eq!(found.expect("it follows"), ["two_words", "12"]);
+        assert_eq!(captured("{a}.png", "b/c.png"), None);
+        let found = captured("{a}/{b}", "Größe/世界");
+        assert_eq!(found.expect("it follows"), ["Größe", "世界"]);
+    }
+
+    #[test]
+    fn a_pattern_that_could_be_tried_for_ever_is_tried_once_a_place() {
+        let pattern: String = (0..16).map(|at| format!("{{n{at}}}-")).collect();
+        assert_eq!(captured(&pattern, &"-a".repeat(2_000)), None);
+    }
+
+    #[test]
+    fn what_is_no_pattern_says_why() {
+        for (pattern, expected) in [
+            ("{a", "never closed"),
+            ("{a:hex}", "`:hex` is no kind"),
+            ("{1a}", "no name"),
+            ("{a}{a}", "twice"),
+            ("plain", "names no part"),
+        ] {
+            let problem = PathPattern::parse(pattern, None).expect_err(pattern);
+            assert!(problem.contains(expected), "{problem}");
+        }
+    }
+}

@@ -1,0 +1,202 @@
+//! The columns that a map of version 2 names, which may stand in a cell of others, in the path of a file or in another table, as one table.
+
+mod columns;
+mod join;
+mod matrix;
+mod table;
+
+use std::path::Path;
+
+use super::map::ImportMap;
+use super::summary::JoinSummary;
+use crate::error::{DatasetError, Place};
+use crate::file::SourceFolder;
+use crate::foreign::{ForeignTable, packed};
+use columns::{base_of, mentioned};
+use join::Joined;
+
+pub(super) use table::RowTable;
+
+/// A table in which every column that the map names is found by that name.
+pub(super) struct Resolved {
+    pub(super) table: table::ResolvedTable,
+    /// The columns of the main table that the map does not mention.
+    pub(super) unmentioned: Vec<String>,
+    pub(super) joins: Vec<JoinSummary>,
+}
+
+/// What the cells of a row are taken from.
+struct Sources<'a> {
+    map: &'a ImportMap,
+    main: ForeignTable,
+    /// The path of the main table relative to the source folder, with `/`.
+    relative: String,
+    /// What the parts of the path are in each row; one entry where they are the same in all.
+    captures: Vec<Vec<String>>,
+    joined: Vec<Joined<'a>>,
+}
+
+/// The table at `path` as `map` reads it.
+pub(super) fn resolve(
+    map: &ImportMap,
+    folder: &SourceFolder,
+    path: &Path,
+) -> Result<Resolved, DatasetError> {
+    let main = ForeignTable::read(path, &map.form)?;
+    let inside = path.strip_prefix(folder.path()).unwrap_or(path);
+    let mut sources = Sources {
+        map,
+        main,
+        relative: inside.to_string_lossy().replace('\\', "/"),
+        captures: Vec::new(),
+        joined: Vec::new(),
+    };
+    sources.capture()?;
+    for join in &map.joins {
+        let joined = Joined::new(&sources, folder, join)?;
+        sources.joined.push(joined);
+    }
+    let names = mentioned(map);
+    let rows = sources.main.rows();
+    let mut cells = Vec::with_capacity(names.len());
+    for name in &names {
+        let column: Result<Vec<String>, DatasetError> =
+            (0..rows).map(|row| sources.cell(row, name)).collect();
+        cells.push(column?);
+    }
+    let mut table = table::ResolvedTable::new(&sources, names, cells);
+    for map in &map.matrices {
+        matrix::apply(map, folder, &mut table)?;
+    }
+    Ok(Resolved {
+        unmentioned: sources.unmentioned(&table),
+        joins: sources.joined.iter().map(Joined::summary).collect(),
+        table,
+    })
+}
+
+impl Sources<'_> {
+    /// Takes the labels out of the path.
+    fn capture(&mut self) -> Result<(), DatasetError> {
+        let Some(pattern) = &self.map.path else {
+            return Ok(());
+        };
+        let captured = |path: &str, place: Place| {
+            let found = pattern.captures(path);
+            let owned = |found: Vec<&str>| found.into_iter().map(str::to_owned).collect();
+            found.map(owned).ok_or_else(|| DatasetError::Table {
+                place,
+                problem: format!(
+                    "`{}` does not follow the pattern of [path]",
+                    crate::text::shown(path)
+                ),
+            })
+        };
+        self.captures = match &pattern.of {
+            None => vec![captured(&self.relative, Place::file(self.main.path()))?],
+            Some(column) => {
+                let rows = 0..self.main.rows();
+                let captures: Result<Vec<Vec<String>>, DatasetError> = rows
+                    .map(|row| captured(&self.cell(row, column)?, self.main.place(row, column)))
+                    .collect();
+                captures?
+            }
+        };
+        Ok(())
+    }
+
+    /// What a row has in the column that the map calls `name`.
+    fn cell(&self, row: usize, name: &str) -> Result<String, DatasetError> {
+        if let Some(part) = name.strip_prefix("path.") {
+            return self.part(row, part);
+        }
+        let join = name.split_once('.').and_then(|(join, column)| {
+            let mut joined = self.joined.iter();
+            Some((joined.find(|joined| joined.name() == join)?, column))
+        });
+        if let Some((joined, column)) = join.filter(|_| !self.main.has(name)) {
+            return joined.cell(row, column);
+        }
+        match name {
+            _ if self.main.has(name) => {}
+            "row" => return Ok(row.to_string()),
+            "file" => return Ok(self.relative.clone()),
+            "key" => return Ok(self.main.key(row).unwrap_or_default().to_owned()),
+            _ => {}
+        }
+        cell_of(&self.main, row, name)
+    }
+
+    /// A part of the path.
+    fn part(&self, row: usize, part: &str) -> Result<String, DatasetError> {
+        let names = self.map.path.iter().flat_map(|pattern| pattern.names());
+        let names: Vec<&str> = names.collect();
+        let captures = self.captures.get(row).or(self.captures.first());
+        let position = names.iter().position(|name| *name == part);
+        match position.zip(captures) {
+            Some((position, captures)) => Ok(captures[position].clone()),
+            None => Err(DatasetError::Table {
+                place: Place::file(self.main.path()),
+                problem: format!(
+                    "`path.{part}`: the pattern of [path] names {}",
+                    match names.is_empty() {
+                        true => "nothing: there is none".to_owned(),
+                        false => names.join(", "),
+                    }
+                ),
+            }),
+        }
+    }
+
+    /// `text` with `{path.PART}` filled in.
+    fn filled(&self, row: usize, text: &str) -> Result<String, DatasetError> {
+        let mut filled = String::new();
+        let mut rest = text;
+        while let Some((before, behind)) = rest.split_once("{path.") {
+            let Some((part, after)) = behind.split_once('}') else {
+                break;
+            };
+            filled += before;
+            filled += &self.part(row, part)?;
+            rest = after;
+        }
+        Ok(filled + rest)
+    }
+
+    /// The columns of the main table that neither the map nor a join names.
+    fn unmentioned(&self, table: &table::ResolvedTable) -> Vec<String> {
+        let keys = self.joined.iter().flat_map(Joined::own_columns);
+        let of_path = self.map.path.iter().filter_map(|path| path.of.as_deref());
+        let named: Vec<&str> = table.names().iter().map(String::as_str).collect();
+        let named: Vec<&str> = named.into_iter().chain(keys).chain(of_path).collect();
+        let is_named = |name: &String| {
+            named
+                .iter()
+                .any(|known| known == name || base_of(known) == name)
+        };
+        let mut names = self.main.names();
+        names.retain(|name| !is_named(name));
+        names
+    }
+}
+
+/// What a row of `table` has in the column `name`, or at its position in what the cell packs: `ft[2]`.
+fn cell_of(table: &ForeignTable, row: usize, name: &str) -> Result<String, DatasetError> {
+    if table.has(name) {
+        return Ok(packed::plain(&table.cell(row, name)?).to_owned());
+    }
+    let Some((base, index)) = columns::indexed(name) else {
+        return Err(table.no_column(name));
+    };
+    let cell = table.cell(row, base)?;
+    if cell.is_empty() {
+        return Ok(String::new());
+    }
+    let found = packed::item(&cell, &index);
+    found
+        .map(str::to_owned)
+        .map_err(|problem| DatasetError::Table {
+            place: table.place(row, base),
+            problem,
+        })
+}

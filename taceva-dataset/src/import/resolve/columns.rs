@@ -1,0 +1,86 @@
+//! The names of columns in a map.
+
+use crate::import::map::{FrameNames, ImportMap};
+
+/// `ft[2,0]`: the column, and the position in what its cells pack; `None` of a name without one.
+pub(super) fn indexed(name: &str) -> Option<(&str, Vec<usize>)> {
+    let (base, index) = name.strip_suffix(']')?.rsplit_once('[')?;
+    let index: Result<Vec<usize>, _> = index.split(',').map(|part| part.trim().parse()).collect();
+    Some((base, index.ok()?))
+}
+
+/// The column itself that a name leads into.
+pub(super) fn base_of(name: &str) -> &str {
+    indexed(name).map_or(name, |(base, _)| base)
+}
+
+/// Every column that the map names, each once; what a matrix gives is none.
+pub(super) fn mentioned(map: &ImportMap) -> Vec<String> {
+    let ids = &map.ids;
+    let given = |name: &String| {
+        let mut matrices = map.matrices.iter();
+        matrices.any(|matrix| (0..matrix.gives.len()).any(|at| matrix.column(at) == *name))
+    };
+    let mut names: Vec<String> = map
+        .columns
+        .iter()
+        .map(|column| column.from.clone())
+        .collect();
+    names.retain(|name| !given(name));
+    let single = [
+        &ids.sample,
+        &ids.unit_id,
+        &ids.scene,
+        &ids.depth_step,
+        &ids.repeat,
+        &ids.phase,
+        &ids.part,
+        &ids.kind,
+        &ids.spacing_mm,
+    ];
+    names.extend(single.into_iter().flatten().cloned());
+    names.extend(ids.point_id.iter().chain(map.attributes.values()).cloned());
+    names.extend(map.classes.values().map(|class| class.from.clone()));
+    names.extend(map.time.iter().map(|time| time.column.clone()));
+    names.extend(
+        map.matrices
+            .iter()
+            .flat_map(|matrix| matrix.from.iter().cloned()),
+    );
+    if !map.drop.quality_flags.is_empty() {
+        names.push(map.drop.flag_column.clone());
+    }
+    match map.frame.as_ref().map(|frame| &frame.names) {
+        Some(FrameNames::Column(column)) => names.push(column.clone()),
+        Some(FrameNames::Array(array)) => names.push(array.index.clone()),
+        Some(FrameNames::Pattern(pattern)) => {
+            let parts = pattern
+                .split('{')
+                .skip(1)
+                .filter_map(|part| part.split_once('}'));
+            names.extend(parts.map(|(name, _)| name.to_owned()));
+        }
+        None => {}
+    }
+    let mut once: Vec<String> = Vec::with_capacity(names.len());
+    for name in names {
+        if !once.contains(&name) {
+            once.push(name);
+        }
+    }
+    once
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_position_stands_behind_the_name_of_its_column() {
+        assert_eq!(indexed("ft[2]"), Some(("ft", vec![2])));
+        assert_eq!(indexed("/pose[2, 0]"), Some(("/pose", vec![2, 0])));
+        assert_eq!(indexed("ft[x]"), None);
+        assert_eq!(indexed("ft"), None);
+        assert_eq!(base_of("a[0][1]"), "a[0]");
+    }
+}

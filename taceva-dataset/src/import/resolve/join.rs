@@ -1,0 +1,386 @@
+//! Which row of another table belongs to each row of the main one.
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+use super::{Sources, cell_of};
+use crate::csv_table::number;
+use crate::error::{DatasetError, Place};
+use crate::file::SourceFolder;
+use crate::foreign::{ForeignTable, packed};
+use crate::import::map::{JoinBy, JoinMap, Pick, TimeJoin, TimeMap, Unmatched};
+use crate::import::summary::JoinSummary;
+use crate::text::shown;
+
+/// What seconds since 1970 are rounded by, and more.
+const ROUNDING_S: f64 = 1e-6;
+
+/// A joined table, or one for each path that its name leads to.
+pub(super) struct Joined<'a> {
+    map: &'a JoinMap,
+    tables: Vec<Candidates>,
+    /// For each row of the main table.
+    matches: Vec<Match>,
+    /// The greatest distance in time of what was matched, s.
+    greatest_gap_s: Option<f64>,
+}
+
+/// A table, and the rows of it that may be matched.
+struct Candidates {
+    table: ForeignTable,
+    rows: Vec<usize>,
+    /// Of a join by columns: the rows that hold each key.
+    by_key: HashMap<Vec<String>, Vec<usize>>,
+    /// Of a join by time: each row with its time, s, in order.
+    by_time: Vec<(f64, usize)>,
+}
+
+/// What belongs to a row of the main table.
+#[derive(Clone, Copy)]
+struct Match {
+    table: usize,
+    at: At,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum At {
+    Nowhere,
+    Row(usize),
+    /// Of two rows, so much of the second.
+    Between([usize; 2], f64),
+}
+
+impl<'a> Joined<'a> {
+    /// Matches every row of the main table.
+    pub(super) fn new(
+        sources: &Sources<'_>,
+        folder: &SourceFolder,
+        map: &'a JoinMap,
+    ) -> Result<Joined<'a>, DatasetError> {
+        let mut joined = Joined {
+            map,
+            tables: Vec::new(),
+            matches: Vec::new(),
+            greatest_gap_s: None,
+        };
+        let mut known: BTreeMap<String, usize> = BTreeMap::new();
+        for row in 0..sources.main.rows() {
+            let file = sources.filled(row, &map.file)?;
+            let table = match known.get(&file) {
+                Some(table) => *table,
+                None => {
+                    let path = folder.file(folder.path(), &file)?;
+                    joined
+                        .tables
+                        .push(Candidates::new(map, ForeignTable::read(&path, &map.form)?)?);
+                    known.insert(file, joined.tables.len() - 1);
+                    joined.tables.len() - 1
+                }
+            };
+            let at = joined.find(sources, table, row)?;
+            if at == At::Nowhere && map.unmatched == Unmatched::Refuse {
+                return Err(DatasetError::Table {
+                    place: sources.main.place(row, ""),
+                    problem: format!(
+                        "no row of {} belongs to it (join `{}`); `unmatched = \"drop\"` leaves such rows out and counts them",
+                        shown(&joined.tables[table].table.path().to_string_lossy()),
+                        map.name
+                    ),
+                });
+            }
+            joined.matches.push(Match { table, at });
+        }
+        Ok(joined)
+    }
+
+    pub(super) fn name(&self) -> &str {
+        &self.map.name
+    }
+
+    pub(super) fn is_matched(&self, row: usize) -> bool {
+        self.matches[row].at != At::Nowhere
+    }
+
+    /// The columns of the main table that it is matched by.
+    pub(super) fn own_columns(&self) -> impl Iterator<Item = &str> {
+        let columns = match &self.map.by {
+            JoinBy::Columns(columns) => columns.as_slice(),
+            JoinBy::Row | JoinBy::All | JoinBy::Time(_) => &[],
+        };
+        columns.iter().map(|(own, _)| own.as_str())
+    }
+
+    /// What the row that belongs to `row` has in `column`; nothing where none belongs to it.
+    pub(super) fn cell(&self, row: usize, column: &str) -> Result<String, DatasetError> {
+        let Match { table, at } = self.matches[row];
+        let table = &self.tables[table].table;
+        match at {
+            At::Nowhere => {
+                // A column that is not there is said even so.
+                match (table.has(column), super::columns::indexed(column)) {
+                    (false, None) => Err(table.no_column(column)),
+                    _ => Ok(String::new()),
+                }
+            }
+            At::Row(row) => cell_of(table, row, column),
+            At::Between(rows, share) => {
+                let of = |row| -> Result<Option<f64>, DatasetError> {
+                    let cell = cell_of(table, row, column)?;
+                    number::number(&cell).map_err(|problem| DatasetError::Table {
+                        place: table.place(row, column),
+                        problem: format!(
+                            "`{}`: {problem}; `pick = \"linear\"` is for numbers",
+                            shown(&cell)
+                        ),
+                    })
+                };
+                let [before, after] = rows.map(of);
+                let ends = before?.zip(after?);
+                Ok(ends.map_or_else(String::new, |(before, after)| {
+                    format!("{:?}", before + share * (after - before))
+                }))
+            }
+        }
+    }
+
+    /// What was matched.
+    pub(super) fn summary(&self) -> JoinSummary {
+        let mut used: BTreeSet<(usize, usize)> = BTreeSet::new();
+        for Match { table, at } in &self.matches {
+            match at {
+                At::Nowhere => {}
+                At::Row(row) => drop(used.insert((*table, *row))),
+                At::Between(rows, _) => used.extend(rows.map(|row| (*table, row))),
+            }
+        }
+        let count = |number: usize| number as u64;
+        let matched = self
+            .matches
+            .iter()
+            .filter(|found| found.at != At::Nowhere)
+            .count();
+        let candidates: usize = self.tables.iter().map(|table| table.rows.len()).sum();
+        JoinSummary {
+            name: self.map.name.clone(),
+            matched: count(matched),
+            unmatched: count(self.matches.len() - matched),
+            unused: count(candidates - used.len().min(candidates)),
+            greatest_gap_s: self.greatest_gap_s,
+        }
+    }
+
+    fn find(
+        &mut self,
+        sources: &Sources<'_>,
+        table: usize,
+        row: usize,
+    ) -> Result<At, DatasetError> {
+        let candidates = &self.tables[table];
+        match &self.map.by {
+            JoinBy::Row => Ok(match candidates.rows.binary_search(&row) {
+                Ok(_) => At::Row(row),
+                Err(_) => At::Nowhere,
+            }),
+            JoinBy::All => match candidates.rows[..] {
+                [only] => Ok(At::Row(only)),
+                _ => Err(DatasetError::Table {
+                    place: Place::file(candidates.table.path()),
+                    problem: format!(
+                        "{} rows, where `on = \"all\"` of join `{}` expects one",
+                        candidates.rows.len(),
+                        self.map.name
+                    ),
+                }),
+            },
+            JoinBy::Columns(columns) => {
+                let key: Result<Vec<String>, DatasetError> = columns
+                    .iter()
+                    .map(|(own, _)| Ok(comparable(&sources.cell(row, own)?)))
+                    .collect();
+                match candidates.by_key.get(&key?).map(Vec::as_slice) {
+                    None => Ok(At::Nowhere),
+                    Some([only]) => Ok(At::Row(*only)),
+                    Some([first, second, ..]) => Err(DatasetError::Table {
+                        place: sources.main.place(row, &columns[0].0),
+                        problem: format!(
+                            "two rows of join `{}` belong to it: {} and {}",
+                            self.map.name,
+                            candidates.table.place(*first, ""),
+                            candidates.table.place(*second, "")
+                        ),
+                    }),
+                    Some([]) => Ok(At::Nowhere),
+                }
+            }
+            JoinBy::Time(join) => {
+                let Some(time) = &sources.map.time else {
+                    return Err(DatasetError::Table {
+                        place: Place::file(sources.main.path()),
+                        problem: format!(
+                            "join `{}` is by time, and [time] names no column of the main table",
+                            self.map.name
+                        ),
+                    });
+                };
+                let cell = sources.cell(row, &time.column)?;
+                let place = || sources.main.place(row, &time.column);
+                let Some(instant) = seconds(&cell, time, place)? else {
+                    return Ok(At::Nowhere);
+                };
+                let found = about(&candidates.by_time, instant + join.lag_s, join);
+                if let Some((_, gap_s)) = found {
+                    self.greatest_gap_s =
+                        Some(self.greatest_gap_s.map_or(gap_s, |most| most.max(gap_s)));
+                }
+                Ok(found.map_or(At::Nowhere, |(at, _)| at))
+            }
+        }
+    }
+}
+
+impl Candidates {
+    fn new(map: &JoinMap, table: ForeignTable) -> Result<Candidates, DatasetError> {
+        let mut rows = Vec::new();
+        for row in 0..table.rows() {
+            let mut is_skipped = false;
+            for (column, number) in &map.skip {
+                let cell = cell_of(&table, row, column)?;
+                is_skipped |= number::number(&cell).ok().flatten() == Some(*number);
+            }
+            if !is_skipped {
+                rows.push(row);
+            }
+        }
+        let mut candidates = Candidates {
+            table,
+            rows,
+            by_key: HashMap::new(),
+            by_time: Vec::new(),
+        };
+        let Candidates {
+            table,
+            rows,
+            by_key,
+            by_time,
+        } = &mut candidates;
+        match &map.by {
+            JoinBy::Row | JoinBy::All => {}
+            JoinBy::Columns(columns) => {
+                for row in rows.iter() {
+                    let cells = columns.iter().map(|(_, other)| cell_of(table, *row, other));
+                    let key: Result<Vec<String>, DatasetError> =
+                        cells.map(|cell| Ok(comparable(&cell?))).collect();
+                    by_key.entry(key?).or_default().push(*row);
+                }
+            }
+            JoinBy::Time(join) => {
+                for row in rows.iter() {
+                    let cell = cell_of(table, *row, &join.time.column)?;
+                    let place = || table.place(*row, &join.time.column);
+                    by_time.extend(seconds(&cell, &join.time, place)?.map(|time| (time, *row)));
+                }
+                let back = by_time.windows(2).find(|pair| pair[1].0 < pair[0].0);
+                if let Some([_, (_, row)]) = back {
+                    return Err(DatasetError::Table {
+                        place: table.place(*row, &join.time.column),
+                        problem: format!(
+                            "the time of join `{}` goes back here, so that it is no time to join by: cut the table where its clock was set",
+                            map.name
+                        ),
+                    });
+                }
+            }
+        }
+        Ok(candidates)
+    }
+}
+
+/// A key as it is compared: 3, 3.0 and `np.int64(3)` are one, and so are texts that are equal.
+fn comparable(cell: &str) -> String {
+    let cell = packed::plain(cell.trim());
+    match number::number(cell) {
+        Ok(Some(number)) => format!("{:?}", number + 0.0),
+        _ => cell.to_owned(),
+    }
+}
+
+/// The time in a cell, s; `None` if it is empty.
+fn seconds(
+    cell: &str,
+    time: &TimeMap,
+    place: impl Fn() -> Place,
+) -> Result<Option<f64>, DatasetError> {
+    number::number_in_unit(cell, &time.unit).map_err(|problem| DatasetError::Table {
+        place: place(),
+        problem: format!("`{}`: {problem}", shown(cell)),
+    })
+}
+
+/// What of `times`, which are in order, belongs to `instant`, and how far away it is, s.
+fn about(times: &[(f64, usize)], instant: f64, join: &TimeJoin) -> Option<(At, f64)> {
+    let behind = times.partition_point(|(time, _)| *time <= instant);
+    let before = behind.checked_sub(1).map(|at| times[at]);
+    let after = times.get(behind).copied();
+    let gap = |(time, _): (f64, usize)| (time - instant).abs();
+    let one = |found: (f64, usize)| (At::Row(found.1), gap(found));
+    let found = match (join.pick, before, after) {
+        (_, Some(before), _) if gap(before) == 0.0 => one(before),
+        (Pick::Before, before, _) => one(before?),
+        (Pick::Linear, before, after) => {
+            let (before, after) = before.zip(after)?;
+            let share = (instant - before.0) / (after.0 - before.0);
+            (
+                At::Between([before.1, after.1], share),
+                gap(before).max(gap(after)),
+            )
+        }
+        (Pick::Nearest, Some(before), Some(after)) => match gap(after) < gap(before) {
+            true => one(after),
+            false => one(before),
+        },
+        (Pick::Nearest, before, after) => one(before.or(after)?),
+    };
+    (found.1 <= join.tolerance_s + ROUNDING_S).then_some(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use taceva_core::SourceUnit;
+
+    use super::*;
+
+    fn join(pick: Pick, tolerance_s: f64) -> TimeJoin {
+        TimeJoin {
+            time: TimeMap::new("t", SourceUnit::parse("s").expect("known")),
+            pick,
+            tolerance_s,
+            lag_s: 0.0,
+        }
+    }
+
+    #[test]
+    fn what_belongs_to_an_instant_is_found_by_the_pick_and_the_tolerance() {
+        let times = [(1.0, 10), (2.0, 11), (4.0, 12)];
+        let of = |pick, instant| about(&times, instant, &join(pick, 1.0)).map(|(at, _)| at);
+        assert_eq!(of(Pick::Nearest, 1.4), Some(At::Row(10)));
+        assert_eq!(of(Pick::Nearest, 1.6), Some(At::Row(11)));
+        // As near to both: the earlier.
+        assert_eq!(of(Pick::Nearest, 1.5), Some(At::Row(10)));
+        assert_eq!(of(Pick::Nearest, 0.5), Some(At::Row(10)));
+        assert_eq!(of(Pick::Nearest, 5.5), None);
+        assert_eq!(of(Pick::Before, 1.9), Some(At::Row(10)));
+        assert_eq!(of(Pick::Before, 0.9), None);
+        assert_eq!(of(Pick::Linear, 1.25), Some(At::Between([10, 11], 0.25)));
+        assert_eq!(of(Pick::Linear, 2.0), Some(At::Row(11)));
+        // A neighbour is further away than the tolerance.
+        assert_eq!(of(Pick::Linear, 2.5), None);
+        assert_eq!(about(&[], 1.0, &join(Pick::Nearest, 9.0)), None);
+    }
+
+    #[test]
+    fn keys_are_compared_as_numbers_where_they_are_numbers() {
+        assert_eq!(comparable("3"), comparable(" 3.0"));
+        assert_eq!(comparable("np.int64(3)"), comparable("3"));
+        assert_eq!(comparable("-0"), comparable("0"));
+        assert_ne!(comparable("a3"), comparable("3"));
+    }
+}

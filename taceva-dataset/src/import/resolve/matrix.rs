@@ -1,0 +1,76 @@
+//! Channels that are a matrix times columns.
+
+use super::table::ResolvedTable;
+use crate::csv_table::CsvTable;
+use crate::error::{DatasetError, Place};
+use crate::file::SourceFolder;
+use crate::import::map::{MatrixMap, MatrixRows};
+
+/// Adds the columns that `map` gives to `table`; a product is empty where one of its factors is.
+pub(super) fn apply(
+    map: &MatrixMap,
+    folder: &SourceFolder,
+    table: &mut ResolvedTable,
+) -> Result<(), DatasetError> {
+    let rows = match &map.by {
+        MatrixRows::Written(rows) => rows.clone(),
+        MatrixRows::File(file) => of_file(map, folder, file)?,
+    };
+    let columns: Vec<usize> = map
+        .from
+        .iter()
+        .filter_map(|name| table.find(name))
+        .collect();
+    let mut products = vec![Vec::with_capacity(table.rows()); map.gives.len()];
+    for row in 0..table.rows() {
+        let numbers: Result<Option<Vec<f64>>, DatasetError> = columns
+            .iter()
+            .map(|column| table.number(row, *column))
+            .collect();
+        let numbers = numbers?;
+        for (product, factors) in products.iter_mut().zip(&rows) {
+            product.push(match &numbers {
+                None => String::new(),
+                // In the shortest form that reads back to the same number.
+                Some(numbers) => format!("{:?}", times(factors, numbers, &map.offset)),
+            });
+        }
+    }
+    for (position, cells) in products.into_iter().enumerate() {
+        table.push(map.column(position), cells);
+    }
+    Ok(())
+}
+
+fn times(factors: &[f64], numbers: &[f64], offset: &[f64]) -> f64 {
+    let terms = factors.iter().zip(numbers.iter().zip(offset));
+    terms
+        .map(|(factor, (number, offset))| factor * (number - offset))
+        .sum()
+}
+
+/// The numbers of a CSV file without a header.
+fn of_file(
+    map: &MatrixMap,
+    folder: &SourceFolder,
+    file: &str,
+) -> Result<Vec<Vec<f64>>, DatasetError> {
+    let path = folder.file(folder.path(), file)?;
+    let table = CsvTable::read_headerless(&path)?;
+    let number = |row, column| {
+        let number = table.number(row, column)?;
+        number.ok_or_else(|| table.refuse(row, column, "empty, expected a number of the matrix"))
+    };
+    let columns = table.names().len();
+    let rows: Result<Vec<Vec<f64>>, DatasetError> = (0..table.rows())
+        .map(|row| (0..columns).map(|column| number(row, column)).collect())
+        .collect();
+    let rows = rows?;
+    match map.problem(&rows) {
+        None => Ok(rows),
+        Some(problem) => Err(DatasetError::Table {
+            place: Place::file(&path),
+            problem,
+        }),
+    }
+}

@@ -1,0 +1,124 @@
+//! The labels of a row: numbers in the units that they are kept in, and texts of closed lists.
+
+use taceva_core::{GratingKind, Nanometre, Phase, is_scorable};
+
+use super::MappedTable;
+use crate::error::DatasetError;
+use crate::import::map::{ClassMap, ColumnMap};
+
+impl MappedTable<'_> {
+    pub(super) fn truth(&self, row: usize) -> Result<Vec<Option<f64>>, DatasetError> {
+        self.truth
+            .iter()
+            .zip(&self.map.columns)
+            .map(|(column, map)| {
+                let number = match map.is_moved() {
+                    false => self.table.number_in_unit(row, *column, &map.unit)?,
+                    true => self.moved(row, *column, map)?,
+                };
+                let Some(converted) = number else {
+                    return Ok(None);
+                };
+                // A difference from zero, so that no −0 appears where the sign of 0 is turned.
+                Ok(Some(if map.is_negated {
+                    0.0 - converted
+                } else {
+                    converted
+                }))
+            })
+            .collect()
+    }
+
+    /// The number in a cell less the offset of its column, scaled and converted.
+    pub(super) fn moved(
+        &self,
+        row: usize,
+        column: usize,
+        map: &ColumnMap,
+    ) -> Result<Option<f64>, DatasetError> {
+        let Some(number) = self.table.number(row, column)? else {
+            return Ok(None);
+        };
+        let scaled = map.scale.unwrap_or(1.0) * (number - map.offset.unwrap_or(0.0));
+        let moved = map.unit.convert(scaled);
+        match is_scorable(moved) {
+            true => Ok(Some(moved)),
+            false => Err(self.wrong(row, column, "too large for its unit")),
+        }
+    }
+
+    pub(super) fn time(&self, row: usize) -> Result<Option<f64>, DatasetError> {
+        match (self.time, &self.map.time) {
+            (Some(column), Some(map)) => self.table.number_in_unit(row, column, &map.unit),
+            _ => Ok(None),
+        }
+    }
+
+    pub(super) fn phase(&self, row: usize) -> Result<Option<Phase>, DatasetError> {
+        let Some(column) = self.phase else {
+            return Ok(None);
+        };
+        match self.table.cell(row, column) {
+            "" => Ok(None),
+            name => Phase::from_name(name)
+                .map(Some)
+                .ok_or_else(|| self.wrong(row, column, "expected `load` or `unload`")),
+        }
+    }
+
+    pub(super) fn kind(&self, row: usize) -> Result<Option<GratingKind>, DatasetError> {
+        let Some(column) = self.kind else {
+            return Ok(None);
+        };
+        match self.table.cell(row, column) {
+            "" => Ok(None),
+            name => GratingKind::from_name(name)
+                .map(Some)
+                .ok_or_else(|| self.wrong(row, column, "expected `line` or `dot`")),
+        }
+    }
+
+    pub(super) fn spacing(&self, row: usize) -> Result<Option<Nanometre>, DatasetError> {
+        let Some(column) = self.spacing else {
+            return Ok(None);
+        };
+        match self.table.cell(row, column) {
+            "" => Ok(None),
+            text => match text.parse::<Nanometre>() {
+                Ok(spacing) if spacing > Nanometre(0) => Ok(Some(spacing)),
+                _ => Err(self.wrong(row, column, "expected a spacing in mm, such as 0.35")),
+            },
+        }
+    }
+
+    /// The attributes of a row, then its classes.
+    pub(super) fn texts(&self, row: usize) -> Result<Vec<Option<String>>, DatasetError> {
+        let text = |column: &usize| {
+            let cell = self.table.cell(row, *column);
+            (!cell.is_empty()).then(|| cell.to_owned())
+        };
+        let mut texts: Vec<Option<String>> = self.attributes.iter().map(text).collect();
+        for (column, class) in self.classes.iter().zip(self.map.classes.values()) {
+            texts.push(match self.table.cell(row, *column) {
+                "" => None,
+                cell => Some(self.class(row, (*column, cell), class)?),
+            });
+        }
+        Ok(texts)
+    }
+
+    /// The class that a cell names, or whose position it holds.
+    pub(super) fn class(
+        &self,
+        row: usize,
+        (column, cell): (usize, &str),
+        class: &ClassMap,
+    ) -> Result<String, DatasetError> {
+        let by_position = || class.names.get(cell.parse::<usize>().ok()?);
+        let named = class.names.iter().find(|name| *name == cell);
+        named.or_else(by_position).cloned().ok_or_else(|| {
+            let known = class.names.join(", ");
+            self.wrong(row, column, &format!("no class of the list: {known}"))
+        })
+    }
+}
