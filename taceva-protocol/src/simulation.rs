@@ -20,6 +20,7 @@ mod journal;
 mod oracle;
 mod record;
 mod scenario;
+mod shared;
 #[cfg(test)]
 mod tests;
 mod world;

@@ -6,7 +6,8 @@
 use taceva_core::{Fault, Millimetre, Newton, Point, Pose, Stamp, Wrench};
 
 use super::fault::{FaultKind, fraction};
-use super::world::{Shared, World};
+use super::shared::Shared;
+use super::world::World;
 use crate::draw::Draws;
 use crate::limits::STALE_S;
 use crate::run::{Cancel, Observation, SharedSupervisor, Supervisor};
