@@ -19,6 +19,7 @@ mod look;
 mod observe;
 mod operator;
 mod press;
+mod raise;
 mod retreat;
 #[cfg(test)]
 mod rig;
@@ -40,6 +41,7 @@ pub use error::{Left, RunError, StopCause};
 pub use event::Event;
 pub use log::{PressLog, PressRecord};
 pub use operator::{Answer, ChangedTouch, Operator, Question, Spot};
+pub use raise::raise;
 pub use supervisor::{MotionStage, Observation, SharedSupervisor, Supervisor};
 pub use time::{Cancel, Timekeeper};
 pub use touched::{ReferenceTouch, SessionRecord, SessionSpec, TouchFault};

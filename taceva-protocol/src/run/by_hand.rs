@@ -75,11 +75,10 @@ impl Run<'_> {
         let Some(operator) = &mut self.operator else {
             return Ok(Answer::Stop);
         };
-        let height_mm = -self.tip.pace.clearance_mm;
-        if self.tip.here().position.z.0 > height_mm {
+        if !self.tip.is_high() {
             self.tip.retreat()?;
         }
-        self.tip.robot.halt()?;
+        self.tip.hold()?;
         let answer = operator.ask(question, self.tip.cancel);
         if answer == Answer::Done {
             self.tip.release()?;
