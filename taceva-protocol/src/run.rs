@@ -1,7 +1,7 @@
 //! Runs a plan on borrowed devices: safely, resumably, and without a clock or a file of its own.
 //!
-//! A press is an approach, a search for contact, its waypoints and a retreat. In contact the tip moves in segments of 15 ms; after each,
-//! force and pose are read and shown to the [`Supervisor`]. A limit of the gel ends the way in and the run goes on. Signals that are silent
+//! A press is an approach, a search for contact, its waypoints and a retreat. In contact the tip moves in segments of 15 ms, in longer ones
+//! where threads look on and no limit is near; after each, force and pose are read and shown to the [`Supervisor`]. A limit of the gel ends the way in and the run goes on. Signals that are silent
 //! break a press off, which is made again. Anything else stops the run: the tip leaves the gel if its signals can be trusted and the robot
 //! reports no fault of its own, and the same call resumes the run.
 
@@ -24,7 +24,9 @@ mod retreat;
 #[cfg(test)]
 mod rig;
 mod sample;
+mod search;
 mod session;
+mod stride;
 mod supervisor;
 #[cfg(test)]
 mod tests;

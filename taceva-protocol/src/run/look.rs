@@ -38,8 +38,10 @@ impl Tip<'_> {
             target: self.target,
         };
         self.show(&observation)?;
+        let wrench = self.supervisor.lock().zeroed(&reading.said);
+        self.felt_n = wrench.force[2].0;
         Ok(Look {
-            wrench: self.supervisor.lock().zeroed(&reading.said),
+            wrench,
             wrench_s: reading.valid_s,
             number: reading.number,
             pose,

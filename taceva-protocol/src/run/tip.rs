@@ -11,6 +11,7 @@ use super::align::Look;
 use super::bounds::Bounds;
 use super::error::StopCause;
 use super::look::READ_DEADLINE;
+use super::stride::Bearing;
 use super::supervisor::{MotionStage, SharedSupervisor};
 use super::time::{Cancel, Timekeeper};
 use super::trip::Trip;
@@ -50,6 +51,12 @@ pub(super) struct Tip<'a> {
     pub(super) target: Pose,
     /// The height of the first contact, while it may be in the gel.
     pub(super) contact_mm: Option<f64>,
+    /// What is watched.
+    pub(super) stage: MotionStage,
+    /// The normal force that was felt last, in N.
+    pub(super) felt_n: f64,
+    /// Where the gel begins that was felt highest, in mm.
+    pub(super) surface_mm: Option<f64>,
     /// Whether the robot itself reported a fault: then a person must look first.
     pub(super) robot_failed: bool,
     /// Whether cancellation is ignored, because the tip is retracting already.
@@ -69,10 +76,11 @@ pub(super) struct Pace {
     pub(super) step_mm: f64,
     pub(super) search_mm: f64,
     settle: Duration,
-    threshold_n: f64,
+    pub(super) threshold_n: f64,
     /// The force above which something is touched at rest in the air: that of contact, or what noise is not.
     pub(super) air_n: f64,
     pub(super) normal_max_n: f64,
+    pub(super) bearing: Bearing,
     pub(super) clearance_mm: f64,
     /// A pose within this of where the tip was sent is there, along each axis.
     pub(super) slack_mm: f64,
@@ -94,6 +102,11 @@ impl Pace {
             threshold_n: contact.threshold_n.value,
             air_n: contact.threshold_n.value.max(limits.signals.air_n()),
             normal_max_n: limits.normal_max.0,
+            bearing: Bearing {
+                depth_max_mm: limits.depth_max.0,
+                normal_max_n: limits.normal_max.0,
+                threshold_n: contact.threshold_n.value,
+            },
             clearance_mm: contact.clearance_mm.value,
             slack_mm: limits.signals.slack_mm(),
             host_zero: limits.signals.host_zero,
@@ -120,6 +133,9 @@ impl<'a> Tip<'a> {
             at: Pose::default(),
             target: Pose::default(),
             contact_mm: None,
+            stage: ANY_FORCE,
+            felt_n: 0.0,
+            surface_mm: None,
             robot_failed: false,
             ignores_cancel: false,
             is_box_zeroed: false,
@@ -166,7 +182,7 @@ impl<'a> Tip<'a> {
     }
 
     /// Begins to watch the way through the air: for a collision, where threads look on and the zero is known that holds there.
-    fn watch_way(&mut self) -> Step<()> {
+    pub(super) fn watch_way(&mut self) -> Step<()> {
         if self.is_zero_known || !self.pace.host_zero {
             let threshold_n = match self.is_guarded {
                 true => COLLISION_THRESHOLDS * self.pace.air_n,
@@ -181,32 +197,9 @@ impl<'a> Tip<'a> {
         Ok(())
     }
 
-    /// Goes down step by step until the gel is felt; the height of the tip then, or `None` at the end of the search.
-    pub(super) fn search(&mut self) -> Step<Option<Look>> {
-        self.watch(MotionStage::Search);
-        let start = self.target.position.z.0;
-        // Until it is felt, the gel may be anywhere below.
-        self.contact_mm = Some(start);
-        for step in 1_u32.. {
-            let z = start + f64::from(step) * self.pace.step_mm;
-            if z > self.pace.search_mm {
-                break;
-            }
-            self.approach([self.target.position.x.0, self.target.position.y.0, z])?;
-            let look = self.settle()?;
-            if look.wrench.force[2].0 >= self.pace.threshold_n {
-                let height_mm = look.pose.position.z.0;
-                self.contact_mm = Some(height_mm);
-                self.watch(MotionStage::Press { height_mm });
-                return Ok(Some(look));
-            }
-        }
-        Ok(None)
-    }
-
-    /// Goes straight to a place in mm, in segments, each followed by a look.
+    /// Goes straight to a place in mm, in motions as long as may be, each followed by a look.
     ///
-    /// Each segment begins where the tip really is, so that one that lagged behind does not leap after its target.
+    /// Each begins where the tip really is, so that one that lagged behind does not leap after its target.
     pub(super) fn approach(&mut self, [x, y, z]: [f64; 3]) -> Step<()> {
         let [x, y, z] = [x, y, z].map(Millimetre);
         let goal = Pose {
@@ -217,12 +210,17 @@ impl<'a> Tip<'a> {
         let mut patience = SPARE_SEGMENTS + 2.0 * distance(&self.here(), &goal) / segment_mm;
         loop {
             let here = self.here();
-            let way_mm = distance(&here, &goal);
-            if way_mm <= segment_mm {
-                return self.go(goal, self.pace.contact);
+            let (way_mm, stride_mm) = (distance(&here, &goal), self.stride_mm(&here, &goal));
+            if way_mm <= stride_mm {
+                self.go(goal, self.pace.contact)?;
+                // One that stuck in a long motion goes on; in the last segment it may lag, which its label says.
+                if way_mm <= segment_mm || distance(&self.here(), &goal) <= segment_mm {
+                    return Ok(());
+                }
+            } else {
+                let next = part_way(&here, &goal, stride_mm / way_mm);
+                self.go(next, self.pace.contact)?;
             }
-            let next = part_way(&here, &goal, segment_mm / way_mm);
-            self.go(next, self.pace.contact)?;
             patience -= 1.0;
             if patience < 0.0 {
                 let distance_mm = distance(&self.here(), &goal);
@@ -246,6 +244,7 @@ impl<'a> Tip<'a> {
 
     /// Begins to watch `stage`, which forgets a halt of the supervisor; that of the robot stays.
     pub(super) fn watch(&mut self, stage: MotionStage) {
+        self.stage = stage;
         let now_s = self.clock.now_s();
         self.supervisor.lock().watch(stage, now_s);
     }
@@ -256,6 +255,7 @@ impl<'a> Tip<'a> {
         // Threads that look on wait meanwhile: what they see next belongs to the new stage.
         let mut held = supervisor.lock();
         self.clear_halt()?;
+        self.stage = ANY_FORCE;
         held.watch(ANY_FORCE, self.clock.now_s());
         Ok(())
     }

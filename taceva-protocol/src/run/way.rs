@@ -71,6 +71,12 @@ pub(super) fn is_straight_up(from: &Pose, to: &Pose) -> bool {
     start.x == end.x && start.y == end.y && end.z <= start.z
 }
 
+/// Whether a motion only goes into the gel, and not along it.
+pub(super) fn is_straight_down(from: &Pose, to: &Pose) -> bool {
+    let (start, end) = (&from.position, &to.position);
+    start.x == end.x && start.y == end.y && end.z >= start.z
+}
+
 /// A pose between two, turned as the second.
 pub(super) fn part_way(from: &Pose, to: &Pose, part: f64) -> Pose {
     let mix = |from: Millimetre, to: Millimetre| Millimetre(from.0 + (to.0 - from.0) * part);
