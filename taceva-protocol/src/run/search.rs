@@ -4,6 +4,8 @@
 //! motion, which they halt at a collision: nothing is felt in the air, and every step would cost a rest. The steps that are left are those
 //! that a search without this makes, at the same heights.
 
+use taceva_core::Millimetre;
+
 use super::align::Look;
 use super::error::StopCause;
 use super::supervisor::MotionStage;
@@ -27,6 +29,10 @@ impl Tip<'_> {
                 break;
             }
             self.descend(z_mm)?;
+            // A gel gives way while it rests: what is not felt before will not be felt after.
+            if self.is_guarded && self.felt_n < self.pace.threshold_n {
+                continue;
+            }
             let look = self.settle()?;
             if look.wrench.force[2].0 >= self.pace.threshold_n {
                 let height_mm = look.pose.position.z.0;
@@ -59,7 +65,7 @@ impl Tip<'_> {
         }
         self.contact_mm = Some(start_mm);
         self.watch_way()?;
-        match self.descend(self.height_of_step(start_mm, steps)) {
+        match self.descend_through_air(self.height_of_step(start_mm, steps)) {
             Ok(()) => Ok(steps),
             Err(StopCause::Tripped(Trip::UnexpectedContact { .. })) => {
                 self.surface_mm = None;
@@ -73,6 +79,16 @@ impl Tip<'_> {
     /// The height of the tip at the end of a step, in mm.
     fn height_of_step(&self, start_mm: f64, step: u32) -> f64 {
         start_mm + f64::from(step) * self.pace.step_mm
+    }
+
+    /// The same where nothing is expected: in one motion, where the robot stands by itself should this host fall silent.
+    fn descend_through_air(&mut self, z_mm: f64) -> Step<()> {
+        if self.robot.expiring_motion().is_none() {
+            return self.descend(z_mm);
+        }
+        let mut target = self.target;
+        target.position.z = Millimetre(z_mm);
+        self.go_expiring(target)
     }
 
     /// Goes straight down to `z_mm`.

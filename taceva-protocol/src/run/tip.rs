@@ -3,8 +3,8 @@
 use std::time::Duration;
 
 use taceva_core::{
-    Deadline, Degree, ErrorKind, ForceTransducer, Millimetre, Nanometre, Point, Pose, Robot,
-    Rotation, Speed,
+    Deadline, Degree, DriverError, ErrorKind, ForceTransducer, Millimetre, Nanometre, Point, Pose,
+    Robot, Rotation, Speed, Stamp,
 };
 
 use super::align::Look;
@@ -286,7 +286,7 @@ impl<'a> Tip<'a> {
     /// A robot that fails is halted, whatever it says.
     ///
     /// After a [`Fault`](taceva_core::Fault) it is not moved again, nor is the fault cleared.
-    pub(super) fn failed(&mut self, error: taceva_core::DriverError) -> StopCause {
+    pub(super) fn failed(&mut self, error: DriverError) -> StopCause {
         let _ = self.robot.halt();
         let is_grave = [ErrorKind::DeviceFault, ErrorKind::Disconnected].contains(&error.kind());
         let (tripped, fault) = {
@@ -316,6 +316,28 @@ impl<'a> Tip<'a> {
 
     /// One straight motion, then a look.
     pub(super) fn go(&mut self, target: Pose, speed: Speed) -> Step<()> {
+        self.go_by(target, speed, |robot, deadline| {
+            robot.move_to(target, speed, deadline)
+        })
+    }
+
+    /// The same at the speed of contact, by a robot that stands by itself should this host fall silent, if it can.
+    pub(super) fn go_expiring(&mut self, target: Pose) -> Step<()> {
+        let speed = self.pace.contact;
+        self.go_by(target, speed, |robot, deadline| {
+            match robot.expiring_motion() {
+                Some(expiring) => expiring.move_expiring(target, speed, deadline),
+                None => robot.move_to(target, speed, deadline),
+            }
+        })
+    }
+
+    fn go_by(
+        &mut self,
+        target: Pose,
+        speed: Speed,
+        motion: impl FnOnce(&mut dyn Robot, Deadline) -> Result<Stamp, DriverError>,
+    ) -> Step<()> {
         if self.cancel.is_cancelled() && !self.ignores_cancel {
             return Err(StopCause::Cancelled);
         }
@@ -327,7 +349,7 @@ impl<'a> Tip<'a> {
         let deadline = Deadline::after(Duration::from_secs_f64(seconds));
         self.supervisor.lock().sent(here, target);
         self.target = target;
-        let moved = self.robot.move_to(target, speed, deadline);
+        let moved = motion(self.robot, deadline);
         self.supervisor.lock().rests();
         if let Err(error) = moved {
             return Err(self.failed(error));
