@@ -60,6 +60,8 @@ impl Run<'_> {
                 self.mounted = Some(*specimen);
                 // Another specimen is another load on the transducer.
                 self.tip.is_zero_known = false;
+                // And it may be longer.
+                self.tip.surface_mm = None;
                 (self.events)(&Event::Mounted(*specimen));
             }
             Question::Light(light) => {

@@ -6,6 +6,7 @@ use taceva_core::{Deadline, ErrorKind, Stamp, Wrench};
 
 use super::align::Look;
 use super::error::StopCause;
+use super::stride::Felt;
 use super::supervisor::Observation;
 use super::tip::{DEADLINE, Step, Tip};
 use super::trip::Trip;
@@ -39,7 +40,7 @@ impl Tip<'_> {
         };
         self.show(&observation)?;
         let wrench = self.supervisor.lock().zeroed(&reading.said);
-        self.felt_n = wrench.force[2].0;
+        self.felt = Felt::of(&wrench);
         Ok(Look {
             wrench,
             wrench_s: reading.valid_s,

@@ -30,7 +30,7 @@ impl Tip<'_> {
             }
             self.descend(z_mm)?;
             // A gel gives way while it rests: what is not felt before will not be felt after.
-            if self.is_guarded && self.felt_n < self.pace.threshold_n {
+            if self.is_guarded && self.felt.normal_n < self.pace.threshold_n {
                 continue;
             }
             let look = self.settle()?;

@@ -4,7 +4,7 @@
 //! motion. It may be longer then, but only where it would pass no limit if nobody looked: what is stated of the overshoot holds for a
 //! guard that is late, too.
 
-use taceva_core::Pose;
+use taceva_core::{Pose, Wrench};
 
 use super::supervisor::MotionStage;
 use super::tip::Tip;
@@ -14,8 +14,10 @@ use super::way::{is_straight_down, is_straight_up};
 const LONGEST_MM: f64 = 1.0;
 /// From a tip that feels nothing, this part of the depth that the gel is pressed to passes no limit of it.
 const UNFELT_PART: f64 = 0.125;
-/// So many times what a gel has shown of its stiffness it is taken to be further down: one that is felt as by Hertz is 1.5 times as stiff as
-/// its force by its depth.
+/// So many times as deep as it has been felt, a gel is taken to be known ...
+const KNOWN_DEPTHS: f64 = 2.0;
+/// ... to so many times the stiffness that its force by its depth is: pressed by a sphere it is as stiff as that to six times the depth (force
+/// by depth to the power of 1.5), and to the side it is softer.
 const STIFFER: f64 = 3.0;
 
 /// What a gel bears.
@@ -23,17 +25,36 @@ const STIFFER: f64 = 3.0;
 pub(super) struct Bearing {
     pub(super) depth_max_mm: f64,
     pub(super) normal_max_n: f64,
+    pub(super) shear_max_n: f64,
     /// Less than this is nothing.
     pub(super) threshold_n: f64,
 }
 
+/// What was felt last, in N.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Felt {
+    pub(super) normal_n: f64,
+    pub(super) shear_n: f64,
+}
+
+impl Felt {
+    pub(super) fn of(wrench: &Wrench) -> Felt {
+        let [x, y, z] = wrench.force.map(|force| force.0);
+        Felt {
+            normal_n: z,
+            shear_n: x.hypot(y),
+        }
+    }
+}
+
 impl Bearing {
-    /// How much deeper the gel may be pressed at once that bears `force_n` at `depth_mm`, in mm.
-    fn room_mm(&self, depth_mm: f64, force_n: f64) -> f64 {
-        let force_n = force_n.abs().max(self.threshold_n);
-        let stiffness_n_mm = STIFFER * force_n / depth_mm.max(0.0);
-        let by_force_mm = (self.normal_max_n - force_n) / stiffness_n_mm;
-        let by_depth_mm = self.depth_max_mm - depth_mm;
+    /// How far the tip may go on at once, inward or aside, in a gel that is felt so at `depth_mm`, in mm.
+    fn room_mm(&self, depth_mm: f64, felt: &Felt) -> f64 {
+        let normal_n = felt.normal_n.abs().max(self.threshold_n);
+        let stiffness_n_mm = STIFFER * normal_n / depth_mm.max(0.0);
+        let left_n = (self.normal_max_n - normal_n).min(self.shear_max_n - felt.shear_n);
+        let by_force_mm = left_n / stiffness_n_mm;
+        let by_depth_mm = (self.depth_max_mm - depth_mm).min(KNOWN_DEPTHS * depth_mm);
         by_force_mm.min(by_depth_mm).max(0.0)
     }
 
@@ -55,8 +76,8 @@ impl Tip<'_> {
             MotionStage::Travel { .. } => LONGEST_MM,
             MotionStage::Retreat { .. } if is_straight_up(here, goal) => LONGEST_MM,
             MotionStage::Search if is_straight_down(here, goal) => bearing.unfelt_mm(),
-            MotionStage::Press { height_mm } if is_straight_down(here, goal) => {
-                bearing.room_mm(here.position.z.0 - height_mm, self.felt_n)
+            MotionStage::Press { height_mm } => {
+                bearing.room_mm(here.position.z.0 - height_mm, &self.felt)
             }
             _ => segment_mm,
         };
@@ -71,29 +92,53 @@ mod tests {
     const GEL: Bearing = Bearing {
         depth_max_mm: 1.0,
         normal_max_n: 1.8,
+        shear_max_n: 1.2,
         threshold_n: 0.02,
     };
 
+    fn pressed(normal_n: f64) -> Felt {
+        Felt {
+            normal_n,
+            shear_n: 0.0,
+        }
+    }
+
     #[test]
-    fn a_stride_passes_no_limit_of_a_gel_that_is_three_times_as_stiff_further_down() {
-        for depth_mm in [0.01, 0.1, 0.3, 0.6, 0.9, 1.0] {
-            for stiffness_n_mm in [0.2, 1.0, 3.0] {
-                let force_n = stiffness_n_mm * depth_mm;
-                let room_mm = GEL.room_mm(depth_mm, force_n);
-                let after_n = force_n + 3.0 * stiffness_n_mm * room_mm;
-                assert!(room_mm >= 0.0 && depth_mm + room_mm <= 1.0 + 1e-12);
-                assert!(after_n <= 1.8 + 1e-9 || force_n > 1.8, "{after_n} N");
+    fn a_stride_passes_no_limit_of_a_gel_that_a_sphere_is_pressed_into() {
+        for hardness in [0.1, 0.5, 1.0, 3.0, 10.0] {
+            let force_n = |depth_mm: f64| hardness * depth_mm.powf(1.5);
+            let mut depth_mm = 0.01;
+            while force_n(depth_mm) < 1.8 && depth_mm < 1.0 {
+                let room_mm = GEL.room_mm(depth_mm, &pressed(force_n(depth_mm)));
+                let after_mm = depth_mm + room_mm;
+                assert!(after_mm <= 1.0 + 1e-12 && force_n(after_mm) <= 1.8 + 1e-9);
+                // As a run goes on where there is no room.
+                depth_mm += room_mm.max(0.015);
             }
         }
     }
 
     #[test]
     fn at_a_limit_and_at_the_first_contact_there_is_no_room() {
-        assert!(GEL.room_mm(1.0, 0.5) <= 0.0);
-        assert!(GEL.room_mm(0.5, 1.8) <= 0.0);
-        assert!(GEL.room_mm(0.5, 2.5) <= 0.0);
-        assert!(GEL.room_mm(0.0, 0.5) <= 0.0);
-        // 1.75 N are left of a gel that is taken to be of 0.5 N/mm, but the depth ends before.
-        assert!((GEL.room_mm(0.3, 0.05) - 0.7).abs() < 1e-12);
+        let sheared = Felt {
+            normal_n: 0.5,
+            shear_n: 1.2,
+        };
+        for (depth_mm, felt) in [
+            (1.0, pressed(0.5)),
+            (0.5, pressed(1.8)),
+            (0.5, pressed(2.5)),
+            (0.0, pressed(0.5)),
+            (0.5, sheared),
+        ] {
+            assert!(
+                GEL.room_mm(depth_mm, &felt) <= 0.0,
+                "{depth_mm} mm, {felt:?}"
+            );
+        }
+        // Soft as it is, it was felt to a tenth of a millimetre alone.
+        assert!((GEL.room_mm(0.1, &pressed(0.03)) - 0.2).abs() < 1e-12);
+        // 1.2 N to the side are left of a gel that is taken to be of 6 N/mm.
+        assert!((GEL.room_mm(0.3, &pressed(0.6)) - 0.2).abs() < 1e-12);
     }
 }

@@ -11,7 +11,7 @@ use super::align::Look;
 use super::bounds::Bounds;
 use super::error::StopCause;
 use super::look::READ_DEADLINE;
-use super::stride::Bearing;
+use super::stride::{Bearing, Felt};
 use super::supervisor::{MotionStage, SharedSupervisor};
 use super::time::{Cancel, Timekeeper};
 use super::trip::Trip;
@@ -53,8 +53,8 @@ pub(super) struct Tip<'a> {
     pub(super) contact_mm: Option<f64>,
     /// What is watched.
     pub(super) stage: MotionStage,
-    /// The normal force that was felt last, in N.
-    pub(super) felt_n: f64,
+    /// What was felt last.
+    pub(super) felt: Felt,
     /// Where the gel begins that was felt highest, in mm.
     pub(super) surface_mm: Option<f64>,
     /// Whether the robot itself reported a fault: then a person must look first.
@@ -105,6 +105,7 @@ impl Pace {
             bearing: Bearing {
                 depth_max_mm: limits.depth_max.0,
                 normal_max_n: limits.normal_max.0,
+                shear_max_n: limits.shear_max.0,
                 threshold_n: contact.threshold_n.value,
             },
             clearance_mm: contact.clearance_mm.value,
@@ -134,7 +135,7 @@ impl<'a> Tip<'a> {
             target: Pose::default(),
             contact_mm: None,
             stage: ANY_FORCE,
-            felt_n: 0.0,
+            felt: Felt::default(),
             surface_mm: None,
             robot_failed: false,
             ignores_cancel: false,

@@ -62,6 +62,10 @@ impl Arm {
                 if reply.status.has_error() || reply.status.is_not_ready() {
                     return Err(self.not_ready(last.state));
                 }
+                if reply.status.is_invalid() {
+                    let why = "the controller takes no velocities of the tip";
+                    return Err(failed(ErrorKind::DeviceFault, DOING, why).into());
+                }
                 renewed = Some(now);
             }
             last = self
