@@ -6,6 +6,7 @@
 //! reports no fault of its own, and the same call resumes the run.
 
 mod align;
+mod bearing;
 mod begin;
 mod bounds;
 mod by_hand;

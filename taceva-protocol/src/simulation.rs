@@ -17,6 +17,7 @@ mod fault;
 mod gel;
 mod guard;
 mod journal;
+mod look_on;
 mod oracle;
 mod record;
 mod scenario;

@@ -5,8 +5,8 @@ use std::time::Duration;
 use taceva_core::{Deadline, ErrorKind, Stamp, Wrench};
 
 use super::align::Look;
+use super::bearing::Felt;
 use super::error::StopCause;
-use super::stride::Felt;
 use super::supervisor::Observation;
 use super::tip::{DEADLINE, Step, Tip};
 use super::trip::Trip;

@@ -8,10 +8,11 @@ use taceva_core::{
 };
 
 use super::align::Look;
+use super::bearing::{Bearing, Felt};
 use super::bounds::Bounds;
 use super::error::StopCause;
 use super::look::READ_DEADLINE;
-use super::stride::{Bearing, Felt};
+
 use super::supervisor::{MotionStage, SharedSupervisor};
 use super::time::{Cancel, Timekeeper};
 use super::trip::Trip;

@@ -2,14 +2,12 @@
 
 mod protocol;
 mod study;
+mod written;
 
 use taceva_core::shown;
 
-use serde::Deserialize;
 use taceva_metrics::{Settings, catalogue};
 
-use super::counts::Protocol;
-use super::devices::{DeviceSpec, LightingSpec, ModelSpec, SensorSpec};
 use super::error::{SceneError, SceneProblem};
 use super::limits::LimitSpec;
 use super::metrics::{MetricsSpec, ReportSpec};
@@ -17,35 +15,10 @@ use super::parse::Text;
 use super::renamed;
 use super::setting::Setting;
 use super::{NamedBy, Scene};
-use study::WrittenStudy;
+use written::WrittenScene;
 
 /// The longest length in a scene, in mm.
 const GREATEST_LENGTH: f64 = 1_000.0;
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, expecting = "a scene")]
-struct WrittenScene {
-    scene_version: Setting<u32>,
-    name: Setting<String>,
-    #[serde(default)]
-    seed: u64,
-    rig: Option<Setting<String>>,
-    sensor: Option<Setting<SensorSpec>>,
-    robot: Option<DeviceSpec>,
-    force: Option<DeviceSpec>,
-    lighting: Option<LightingSpec>,
-    #[serde(default)]
-    limits: LimitSpec,
-    model: Option<Setting<ModelSpec>>,
-    #[serde(default)]
-    metrics: MetricsSpec,
-    #[serde(default)]
-    protocol: Protocol,
-    #[serde(default)]
-    report: ReportSpec,
-    #[serde(default)]
-    study: Vec<Setting<WrittenStudy>>,
-}
 
 /// The scene that `text` says, checked.
 pub(super) fn checked(text: Text, named_by: NamedBy) -> Result<Scene, SceneError> {
@@ -98,6 +71,11 @@ impl Check<'_> {
             1 => self.name("a scene", &written.name),
             other => self.refuse(written.scene_version.at(), SceneProblem::Version(other)),
         }
+    }
+
+    /// Whether another file names the devices.
+    fn is_named_elsewhere(&self) -> bool {
+        self.named_by == NamedBy::Rig
     }
 
     /// A name that can be printed, and become part of a file's name.

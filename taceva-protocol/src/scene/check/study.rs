@@ -2,11 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use serde::Deserialize;
-
-use super::{Check, Checked, WrittenScene};
-use crate::scene::NamedBy;
-use crate::scene::devices::{DeviceSpec, LightingSpec, ModelSpec, SensorSpec};
+use super::written::{WrittenScene, WrittenStudy};
+use super::{Check, Checked};
+use crate::scene::devices::{DeviceSpec, SensorSpec};
 use crate::scene::error::{SceneError, SceneProblem};
 use crate::scene::limits::LimitSpec;
 use crate::scene::setting::Setting;
@@ -14,19 +12,6 @@ use crate::scene::study::Study;
 
 /// The table of the sensor.
 const SENSOR: &str = "[sensor]";
-
-#[derive(Clone, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "a study")]
-pub(super) struct WrittenStudy {
-    name: Setting<String>,
-    sensor: Option<Setting<SensorSpec>>,
-    robot: Option<DeviceSpec>,
-    force: Option<DeviceSpec>,
-    lighting: Option<LightingSpec>,
-    #[serde(default)]
-    limits: LimitSpec,
-    model: Option<Setting<ModelSpec>>,
-}
 
 impl Check<'_> {
     pub(super) fn studies(&self, written: &WrittenScene) -> Result<Vec<Study>, SceneError> {
@@ -142,7 +127,7 @@ impl Check<'_> {
                 let problem = format!("{table} has `{first}` and `{second}`: expected one of them");
                 self.contradiction(other.at(), &problem)
             }
-            (None, None) if table == SENSOR && self.named_by == NamedBy::Rig => Ok(()),
+            (None, None) if table == SENSOR && self.is_named_elsewhere() => Ok(()),
             (None, None) => {
                 let problem = format!("{table} has neither `{first}` nor `{second}`");
                 self.refuse(at, SceneProblem::Incomplete(problem))
