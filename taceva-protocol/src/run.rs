@@ -14,6 +14,7 @@ mod camera;
 mod devices;
 mod error;
 mod event;
+mod go;
 mod indent;
 mod log;
 mod look;

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use taceva_core::{
     Deadline, Degree, DriverError, ErrorKind, ForceTransducer, Millimetre, Nanometre, Point, Pose,
-    Robot, Rotation, Speed, Stamp,
+    Robot, Rotation, Speed,
 };
 
 use super::align::Look;
@@ -16,7 +16,7 @@ use super::look::READ_DEADLINE;
 use super::supervisor::{MotionStage, SharedSupervisor};
 use super::time::{Cancel, Timekeeper};
 use super::trip::Trip;
-use super::way::{distance, is_straight_up, part_way, settled};
+use super::way::{distance, part_way, settled};
 use crate::limits::FROZEN_READINGS;
 use crate::plan::Plan;
 
@@ -71,7 +71,7 @@ pub(super) struct Tip<'a> {
 /// How fast, how far, how hard.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pace {
-    contact: Speed,
+    pub(super) contact: Speed,
     pub(super) travel: Speed,
     pub(super) segment_mm: f64,
     pub(super) step_mm: f64,
@@ -314,49 +314,6 @@ impl<'a> Tip<'a> {
                 _ => StopCause::Device(error),
             },
         }
-    }
-
-    /// One straight motion, then a look.
-    pub(super) fn go(&mut self, target: Pose, speed: Speed) -> Step<()> {
-        self.go_by(target, speed, |robot, deadline| {
-            robot.move_to(target, speed, deadline)
-        })
-    }
-
-    /// The same at the speed of contact, by a robot that stands by itself should this host fall silent, if it can.
-    pub(super) fn go_expiring(&mut self, target: Pose) -> Step<()> {
-        let speed = self.pace.contact;
-        self.go_by(target, speed, |robot, deadline| {
-            match robot.expiring_motion() {
-                Some(expiring) => expiring.move_expiring(target, speed, deadline),
-                None => robot.move_to(target, speed, deadline),
-            }
-        })
-    }
-
-    fn go_by(
-        &mut self,
-        target: Pose,
-        speed: Speed,
-        motion: impl FnOnce(&mut dyn Robot, Deadline) -> Result<Stamp, DriverError>,
-    ) -> Step<()> {
-        if self.cancel.is_cancelled() && !self.ignores_cancel {
-            return Err(StopCause::Cancelled);
-        }
-        let here = self.here();
-        if !is_straight_up(&here, &target) {
-            self.bounds.admit(&target)?;
-        }
-        let seconds = 1.0 + 2.0 * distance(&here, &target) / speed.mm_per_s();
-        let deadline = Deadline::after(Duration::from_secs_f64(seconds));
-        self.supervisor.lock().sent(here, target);
-        self.target = target;
-        let moved = motion(self.robot, deadline);
-        self.supervisor.lock().rests();
-        if let Err(error) = moved {
-            return Err(self.failed(error));
-        }
-        self.look().map(drop)
     }
 
     /// The place of a waypoint: over `place`, sheared, at `depth` below `height_mm`.
