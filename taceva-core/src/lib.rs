@@ -37,9 +37,10 @@ pub use args::{ArgError, ArgKind, ArgSpec, ArgValue, Args, Presence};
 pub use batch::{Batch, BatchBuilder, Column, Labels};
 pub use channel::{Channel, ChannelError, Channels};
 pub use driver::{
-    Axes, Axis, Deadline, Device, DriverError, DriverKind, EnablingSwitch, Fault, ForceTransducer,
-    Guard, GuardedMotion, GuardedStop, Halt, Interrupt, Lighting, NotFinite, Robot, RobotWatch,
-    Sensor, SimulatedBench, Speed, SpeedError, Tare, check_pose, check_wrench,
+    Axes, Axis, Deadline, Device, DriverError, DriverKind, EXPIRES, EnablingSwitch, ExpiringMotion,
+    Fault, ForceTransducer, Guard, GuardedMotion, GuardedStop, Halt, Interrupt, Lighting,
+    NotFinite, Robot, RobotWatch, Sensor, SimulatedBench, Speed, SpeedError, Tare, check_pose,
+    check_wrench,
 };
 pub use error::ErrorKind;
 pub use estimator_factory::{EstimatorFactory, FitRequest};

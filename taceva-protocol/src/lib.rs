@@ -29,7 +29,7 @@ pub use run::{
     Answer, Cancel, ChangedTouch, Controls, Devices, Event, Left, Mode, MotionStage, Observation,
     Operator, PressLog, PressRecord, Question, ReferenceTouch, RunError, RunReport, RunSpec,
     SessionRecord, SessionSpec, SharedSupervisor, SpecimenChanger, Spot, StopCause, Supervisor,
-    Timekeeper, TouchFault, Trip, run, run_guarded, run_session, wrench_between,
+    Timekeeper, TouchFault, Trip, raise, run, run_guarded, run_session, wrench_between,
 };
 pub use scene::{
     BuiltinScene, Calibration, Contact, DeviceSpec, FootprintSpec, GREATEST_SCENE,

@@ -1,11 +1,12 @@
 //! Runs a plan on borrowed devices: safely, resumably, and without a clock or a file of its own.
 //!
-//! A press is an approach, a search for contact, its waypoints and a retreat. In contact the tip moves in segments of 15 ms; after each,
-//! force and pose are read and shown to the [`Supervisor`]. A limit of the gel ends the way in and the run goes on. Signals that are silent
+//! A press is an approach, a search for contact, its waypoints and a retreat. In contact the tip moves in segments of 15 ms, in longer ones
+//! where threads look on and no limit is near; after each, force and pose are read and shown to the [`Supervisor`]. A limit of the gel ends the way in and the run goes on. Signals that are silent
 //! break a press off, which is made again. Anything else stops the run: the tip leaves the gel if its signals can be trusted and the robot
 //! reports no fault of its own, and the same call resumes the run.
 
 mod align;
+mod bearing;
 mod begin;
 mod bounds;
 mod by_hand;
@@ -13,17 +14,21 @@ mod camera;
 mod devices;
 mod error;
 mod event;
+mod go;
 mod indent;
 mod log;
 mod look;
 mod observe;
 mod operator;
 mod press;
+mod raise;
 mod retreat;
 #[cfg(test)]
 mod rig;
 mod sample;
+mod search;
 mod session;
+mod stride;
 mod supervisor;
 #[cfg(test)]
 mod tests;
@@ -40,6 +45,7 @@ pub use error::{Left, RunError, StopCause};
 pub use event::Event;
 pub use log::{PressLog, PressRecord};
 pub use operator::{Answer, ChangedTouch, Operator, Question, Spot};
+pub use raise::raise;
 pub use supervisor::{MotionStage, Observation, SharedSupervisor, Supervisor};
 pub use time::{Cancel, Timekeeper};
 pub use touched::{ReferenceTouch, SessionRecord, SessionSpec, TouchFault};

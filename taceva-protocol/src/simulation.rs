@@ -17,9 +17,11 @@ mod fault;
 mod gel;
 mod guard;
 mod journal;
+mod look_on;
 mod oracle;
 mod record;
 mod scenario;
+mod shared;
 #[cfg(test)]
 mod tests;
 mod world;

@@ -28,7 +28,7 @@ use taceva_protocol::{Cancel, Event, Mode, Plan, PressLog, RunSpec, StopCause};
 
 use crate::error::StudyError;
 use crate::scene::{PlannedStudy, RigSpec};
-use by_hand::{acquisition, presses_skipped, unit_is_there};
+use by_hand::{acquisition, presses_skipped, stopped, unit_is_there};
 use devices::{OpenRig, Sitting};
 pub use held::HeldRigs;
 pub(crate) use key::key;
@@ -72,7 +72,8 @@ pub(crate) fn acquire(
     let mut left = 0;
     let mut is_enabled = false;
     for unit in &plan.units {
-        if !unit_is_there(study, rig, unit, (workshop, cancel))? {
+        let by_hand = (workshop, cancel, &mut is_enabled);
+        if !unit_is_there(study, rig, unit, by_hand)? {
             left += plan
                 .presses
                 .iter()
@@ -159,12 +160,8 @@ fn acquire_unit(
         unit,
         mode: Mode::Acquire,
     };
-    let failed = |source| StudyError::Acquisition {
-        study: plan.name.clone(),
-        source: Box::new(source),
-    };
     let done = open.conduct(&spec, log, (cancel, workshop, sitting), &mut events);
-    let done = done.map(drop).map_err(failed);
+    let done = done.map(drop).map_err(|error| stopped(plan, error));
     // A count that cannot be written is no reason to lose a recording.
     drop(retried::add(path, retried));
     done

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Deadline, DriverError, GuardedMotion, Halt, RobotWatch, Speed};
+use super::{Deadline, DriverError, ExpiringMotion, GuardedMotion, Halt, RobotWatch, Speed};
 use crate::geometry::Pose;
 use crate::stamp::Stamp;
 
@@ -124,6 +124,11 @@ pub trait Robot: Send {
 
     /// Its ability to stop by itself at a force, where it has one.
     fn guarded_motion(&mut self) -> Option<&mut dyn GuardedMotion> {
+        None
+    }
+
+    /// Its ability to stand by itself where its host falls silent, where it has one.
+    fn expiring_motion(&mut self) -> Option<&mut dyn ExpiringMotion> {
         None
     }
 }

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use taceva_core::{
-    Deadline, DriverError, DriverKey, GuardedMotion, Halt, Millimetre, Pose, Robot, Speed, Stamp,
+    Deadline, DriverError, DriverKey, ExpiringMotion, GuardedMotion, Halt, Millimetre, Pose, Robot,
+    Speed, Stamp,
 };
 
 use super::link::Link;
@@ -86,5 +87,9 @@ impl Robot for FaultyRobot {
 
     fn guarded_motion(&mut self) -> Option<&mut dyn GuardedMotion> {
         self.inner.guarded_motion()
+    }
+
+    fn expiring_motion(&mut self) -> Option<&mut dyn ExpiringMotion> {
+        self.inner.expiring_motion()
     }
 }

@@ -4,6 +4,7 @@ mod arm;
 mod command;
 mod error;
 mod exchange;
+mod expiring;
 mod factory;
 mod fault;
 mod firmware;

@@ -11,7 +11,8 @@ use taceva_core::{Degree, Nanometre, Speed};
 
 use super::error::{Left, RunError, StopCause};
 use super::log::PressLog;
-use super::operator::{Answer, Question};
+use super::operator::{Answer, Operator, Question};
+use super::raise::enable;
 use super::session::Run;
 use super::tip::Step;
 use super::touched::{SessionRecord, SessionSpec};
@@ -41,20 +42,11 @@ impl Run<'_> {
         let Some(robot) = robot else {
             return Ok(());
         };
-        // Nothing has moved: where the tip stands is where somebody left it.
-        let unmoved = |cause| RunError {
-            press: None,
-            cause,
-            left: Left::Untouched,
+        let operator: Option<&mut dyn Operator> = match &mut self.operator {
+            Some(operator) => Some(&mut **operator),
+            None => None,
         };
-        let Some(operator) = &mut self.operator else {
-            let needed = format!("somebody who lets `{robot}` move");
-            return Err(unmoved(StopCause::Missing(needed)));
-        };
-        match operator.ask(&Question::Enable(robot.to_owned()), self.tip.cancel) {
-            Answer::Done => Ok(()),
-            Answer::Skip | Answer::Stop => Err(unmoved(StopCause::Cancelled)),
-        }
+        enable(robot, operator, self.tip.cancel)
     }
 
     /// Begins the session, if it has not begun: at the first press that is going to be made, with what it is pressed with.

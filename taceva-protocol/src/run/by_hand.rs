@@ -60,6 +60,8 @@ impl Run<'_> {
                 self.mounted = Some(*specimen);
                 // Another specimen is another load on the transducer.
                 self.tip.is_zero_known = false;
+                // And it may be longer.
+                self.tip.surface_mm = None;
                 (self.events)(&Event::Mounted(*specimen));
             }
             Question::Light(light) => {
@@ -75,11 +77,10 @@ impl Run<'_> {
         let Some(operator) = &mut self.operator else {
             return Ok(Answer::Stop);
         };
-        let height_mm = -self.tip.pace.clearance_mm;
-        if self.tip.here().position.z.0 > height_mm {
+        if !self.tip.is_high() {
             self.tip.retreat()?;
         }
-        self.tip.robot.halt()?;
+        self.tip.hold()?;
         let answer = operator.ask(question, self.tip.cancel);
         if answer == Answer::Done {
             self.tip.release()?;

@@ -5,6 +5,7 @@ use std::time::Duration;
 use taceva_core::{Deadline, ErrorKind, Stamp, Wrench};
 
 use super::align::Look;
+use super::bearing::Felt;
 use super::error::StopCause;
 use super::supervisor::Observation;
 use super::tip::{DEADLINE, Step, Tip};
@@ -38,8 +39,10 @@ impl Tip<'_> {
             target: self.target,
         };
         self.show(&observation)?;
+        let wrench = self.supervisor.lock().zeroed(&reading.said);
+        self.felt = Felt::of(&wrench);
         Ok(Look {
-            wrench: self.supervisor.lock().zeroed(&reading.said),
+            wrench,
             wrench_s: reading.valid_s,
             number: reading.number,
             pose,

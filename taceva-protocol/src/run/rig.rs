@@ -9,7 +9,7 @@ use taceva_core::{
 };
 
 use super::bounds::Bounds;
-use super::supervisor::{SharedSupervisor, Supervisor};
+use super::supervisor::{Observation, SharedSupervisor, Supervisor};
 use super::time::{Cancel, Timekeeper};
 use super::tip::{Pace, Tip};
 use crate::limits::Overshoot;
@@ -45,6 +45,8 @@ pub(super) struct State {
     pub(super) halted: bool,
     /// Whether the robot says it moved and stays where it is.
     pub(super) stuck: bool,
+    /// Below this height, in mm, a thread that looks on feels something hard, once, and shows it to this supervisor.
+    pub(super) obstacle: Option<(f64, SharedSupervisor)>,
     questions: u32,
     force: Force,
     motions: Vec<Motion>,
@@ -63,6 +65,7 @@ impl Rig {
             height_mm,
             halted: true,
             stuck: false,
+            obstacle: None,
             questions: 0,
             force: Box::new(force),
             motions: Vec::new(),
@@ -82,6 +85,16 @@ fn now(state: &State) -> Stamp {
     Stamp {
         valid_s: state.now_s,
         received_s: None,
+    }
+}
+
+/// What an obstacle is felt as, in N.
+const HARD_N: f64 = 1.0;
+
+fn pressing(force_n: f64) -> Wrench {
+    Wrench {
+        force: [Newton(0.0), Newton(0.0), Newton(force_n)],
+        ..Wrench::default()
     }
 }
 
@@ -122,6 +135,15 @@ impl Robot for Rig {
             to_mm,
             speed_mm_s,
         });
+        if let Some((height_mm, supervisor)) = state.obstacle.take_if(|(height, _)| to_mm > *height)
+        {
+            state.height_mm = height_mm;
+            let (now_s, stamp) = (state.now_s, now(&state));
+            drop(state);
+            let felt = Observation::Force(pressing(HARD_N), stamp);
+            let _ = supervisor.lock().observe(&felt, now_s);
+            return Err(error(ErrorKind::Interrupted, "move"));
+        }
         state.now_s += (to_mm - from_mm).abs() / speed_mm_s;
         if !state.stuck {
             state.height_mm = to_mm;
@@ -151,12 +173,7 @@ impl ForceTransducer for Rig {
         match (state.force)(question, height_mm) {
             Some(force_n) => {
                 state.now_s += 0.001;
-                let force = [Newton(0.0), Newton(0.0), Newton(force_n)];
-                let wrench = Wrench {
-                    force,
-                    ..Wrench::default()
-                };
-                Ok((wrench, now(&state)))
+                Ok((pressing(force_n), now(&state)))
             }
             None => {
                 state.now_s += deadline.remaining().as_secs_f64();

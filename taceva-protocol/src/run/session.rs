@@ -222,15 +222,7 @@ impl<'a> Run<'a> {
 
     /// The error that ends the run, after the tip was brought to where it can be left.
     pub(super) fn abandoned(&mut self, press: Option<ContentId>, cause: StopCause) -> RunError {
-        if let StopCause::Tripped(trip) = cause {
-            (self.events)(&Event::Halted(trip));
-        }
-        let left = if self.tip.abandon() {
-            (self.events)(&Event::Retracted);
-            Left::Clear
-        } else {
-            Left::InPlace
-        };
-        RunError { press, cause, left }
+        let error = self.tip.abandoned(cause, self.events);
+        RunError { press, ..error }
     }
 }

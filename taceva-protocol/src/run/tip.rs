@@ -3,18 +3,20 @@
 use std::time::Duration;
 
 use taceva_core::{
-    Deadline, Degree, ErrorKind, ForceTransducer, Millimetre, Nanometre, Point, Pose, Robot,
-    Rotation, Speed,
+    Deadline, Degree, DriverError, ErrorKind, ForceTransducer, Millimetre, Nanometre, Point, Pose,
+    Robot, Rotation, Speed,
 };
 
 use super::align::Look;
+use super::bearing::{Bearing, Felt};
 use super::bounds::Bounds;
 use super::error::StopCause;
 use super::look::READ_DEADLINE;
+
 use super::supervisor::{MotionStage, SharedSupervisor};
 use super::time::{Cancel, Timekeeper};
 use super::trip::Trip;
-use super::way::{distance, is_straight_up, part_way, settled};
+use super::way::{distance, part_way, settled};
 use crate::limits::FROZEN_READINGS;
 use crate::plan::Plan;
 
@@ -50,6 +52,12 @@ pub(super) struct Tip<'a> {
     pub(super) target: Pose,
     /// The height of the first contact, while it may be in the gel.
     pub(super) contact_mm: Option<f64>,
+    /// What is watched.
+    pub(super) stage: MotionStage,
+    /// What was felt last.
+    pub(super) felt: Felt,
+    /// Where the gel begins that was felt highest, in mm.
+    pub(super) surface_mm: Option<f64>,
     /// Whether the robot itself reported a fault: then a person must look first.
     pub(super) robot_failed: bool,
     /// Whether cancellation is ignored, because the tip is retracting already.
@@ -63,16 +71,17 @@ pub(super) struct Tip<'a> {
 /// How fast, how far, how hard.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pace {
-    contact: Speed,
+    pub(super) contact: Speed,
     pub(super) travel: Speed,
     pub(super) segment_mm: f64,
     pub(super) step_mm: f64,
     pub(super) search_mm: f64,
     settle: Duration,
-    threshold_n: f64,
+    pub(super) threshold_n: f64,
     /// The force above which something is touched at rest in the air: that of contact, or what noise is not.
     pub(super) air_n: f64,
     pub(super) normal_max_n: f64,
+    pub(super) bearing: Bearing,
     pub(super) clearance_mm: f64,
     /// A pose within this of where the tip was sent is there, along each axis.
     pub(super) slack_mm: f64,
@@ -94,6 +103,12 @@ impl Pace {
             threshold_n: contact.threshold_n.value,
             air_n: contact.threshold_n.value.max(limits.signals.air_n()),
             normal_max_n: limits.normal_max.0,
+            bearing: Bearing {
+                depth_max_mm: limits.depth_max.0,
+                normal_max_n: limits.normal_max.0,
+                shear_max_n: limits.shear_max.0,
+                threshold_n: contact.threshold_n.value,
+            },
             clearance_mm: contact.clearance_mm.value,
             slack_mm: limits.signals.slack_mm(),
             host_zero: limits.signals.host_zero,
@@ -120,6 +135,9 @@ impl<'a> Tip<'a> {
             at: Pose::default(),
             target: Pose::default(),
             contact_mm: None,
+            stage: ANY_FORCE,
+            felt: Felt::default(),
+            surface_mm: None,
             robot_failed: false,
             ignores_cancel: false,
             is_box_zeroed: false,
@@ -166,7 +184,7 @@ impl<'a> Tip<'a> {
     }
 
     /// Begins to watch the way through the air: for a collision, where threads look on and the zero is known that holds there.
-    fn watch_way(&mut self) -> Step<()> {
+    pub(super) fn watch_way(&mut self) -> Step<()> {
         if self.is_zero_known || !self.pace.host_zero {
             let threshold_n = match self.is_guarded {
                 true => COLLISION_THRESHOLDS * self.pace.air_n,
@@ -181,32 +199,9 @@ impl<'a> Tip<'a> {
         Ok(())
     }
 
-    /// Goes down step by step until the gel is felt; the height of the tip then, or `None` at the end of the search.
-    pub(super) fn search(&mut self) -> Step<Option<Look>> {
-        self.watch(MotionStage::Search);
-        let start = self.target.position.z.0;
-        // Until it is felt, the gel may be anywhere below.
-        self.contact_mm = Some(start);
-        for step in 1_u32.. {
-            let z = start + f64::from(step) * self.pace.step_mm;
-            if z > self.pace.search_mm {
-                break;
-            }
-            self.approach([self.target.position.x.0, self.target.position.y.0, z])?;
-            let look = self.settle()?;
-            if look.wrench.force[2].0 >= self.pace.threshold_n {
-                let height_mm = look.pose.position.z.0;
-                self.contact_mm = Some(height_mm);
-                self.watch(MotionStage::Press { height_mm });
-                return Ok(Some(look));
-            }
-        }
-        Ok(None)
-    }
-
-    /// Goes straight to a place in mm, in segments, each followed by a look.
+    /// Goes straight to a place in mm, in motions as long as may be, each followed by a look.
     ///
-    /// Each segment begins where the tip really is, so that one that lagged behind does not leap after its target.
+    /// Each begins where the tip really is, so that one that lagged behind does not leap after its target.
     pub(super) fn approach(&mut self, [x, y, z]: [f64; 3]) -> Step<()> {
         let [x, y, z] = [x, y, z].map(Millimetre);
         let goal = Pose {
@@ -217,12 +212,17 @@ impl<'a> Tip<'a> {
         let mut patience = SPARE_SEGMENTS + 2.0 * distance(&self.here(), &goal) / segment_mm;
         loop {
             let here = self.here();
-            let way_mm = distance(&here, &goal);
-            if way_mm <= segment_mm {
-                return self.go(goal, self.pace.contact);
+            let (way_mm, stride_mm) = (distance(&here, &goal), self.stride_mm(&here, &goal));
+            if way_mm <= stride_mm {
+                self.go(goal, self.pace.contact)?;
+                // One that stuck in a long motion goes on; in the last segment it may lag, which its label says.
+                if way_mm <= segment_mm || distance(&self.here(), &goal) <= segment_mm {
+                    return Ok(());
+                }
+            } else {
+                let next = part_way(&here, &goal, stride_mm / way_mm);
+                self.go(next, self.pace.contact)?;
             }
-            let next = part_way(&here, &goal, segment_mm / way_mm);
-            self.go(next, self.pace.contact)?;
             patience -= 1.0;
             if patience < 0.0 {
                 let distance_mm = distance(&self.here(), &goal);
@@ -246,6 +246,7 @@ impl<'a> Tip<'a> {
 
     /// Begins to watch `stage`, which forgets a halt of the supervisor; that of the robot stays.
     pub(super) fn watch(&mut self, stage: MotionStage) {
+        self.stage = stage;
         let now_s = self.clock.now_s();
         self.supervisor.lock().watch(stage, now_s);
     }
@@ -256,6 +257,7 @@ impl<'a> Tip<'a> {
         // Threads that look on wait meanwhile: what they see next belongs to the new stage.
         let mut held = supervisor.lock();
         self.clear_halt()?;
+        self.stage = ANY_FORCE;
         held.watch(ANY_FORCE, self.clock.now_s());
         Ok(())
     }
@@ -286,7 +288,7 @@ impl<'a> Tip<'a> {
     /// A robot that fails is halted, whatever it says.
     ///
     /// After a [`Fault`](taceva_core::Fault) it is not moved again, nor is the fault cleared.
-    pub(super) fn failed(&mut self, error: taceva_core::DriverError) -> StopCause {
+    pub(super) fn failed(&mut self, error: DriverError) -> StopCause {
         let _ = self.robot.halt();
         let is_grave = [ErrorKind::DeviceFault, ErrorKind::Disconnected].contains(&error.kind());
         let (tripped, fault) = {
@@ -312,27 +314,6 @@ impl<'a> Tip<'a> {
                 _ => StopCause::Device(error),
             },
         }
-    }
-
-    /// One straight motion, then a look.
-    pub(super) fn go(&mut self, target: Pose, speed: Speed) -> Step<()> {
-        if self.cancel.is_cancelled() && !self.ignores_cancel {
-            return Err(StopCause::Cancelled);
-        }
-        let here = self.here();
-        if !is_straight_up(&here, &target) {
-            self.bounds.admit(&target)?;
-        }
-        let seconds = 1.0 + 2.0 * distance(&here, &target) / speed.mm_per_s();
-        let deadline = Deadline::after(Duration::from_secs_f64(seconds));
-        self.supervisor.lock().sent(here, target);
-        self.target = target;
-        let moved = self.robot.move_to(target, speed, deadline);
-        self.supervisor.lock().rests();
-        if let Err(error) = moved {
-            return Err(self.failed(error));
-        }
-        self.look().map(drop)
     }
 
     /// The place of a waypoint: over `place`, sheared, at `depth` below `height_mm`.

@@ -5,6 +5,9 @@ use taceva_core::{Degree, Millimetre, Point, Pose, Rotation};
 /// Nearer than this, in degrees, a robot whose pose is noisy is turned as it was told: arms come back to hundredths.
 const TURN_SLACK_DEG: f64 = 0.1;
 
+/// A way that leads aside by no more than this part of itself leads straight on.
+const ASIDE_PART: f64 = 0.01;
+
 /// How far two tips are apart, in mm.
 pub(crate) fn distance(one: &Pose, other: &Pose) -> f64 {
     let (one, other) = (&one.position, &other.position);
@@ -69,6 +72,13 @@ pub(super) fn settled(seen: &Pose, sent: &Pose, slack_mm: f64) -> Pose {
 pub(super) fn is_straight_up(from: &Pose, to: &Pose) -> bool {
     let (start, end) = (&from.position, &to.position);
     start.x == end.x && start.y == end.y && end.z <= start.z
+}
+
+/// Whether a motion goes into the gel, and along it by no more than what links round of poses: a hundredth of the way.
+pub(super) fn is_straight_down(from: &Pose, to: &Pose) -> bool {
+    let (start, end) = (&from.position, &to.position);
+    let aside_mm = (end.x.0 - start.x.0).hypot(end.y.0 - start.y.0);
+    aside_mm <= ASIDE_PART * (end.z.0 - start.z.0)
 }
 
 /// A pose between two, turned as the second.

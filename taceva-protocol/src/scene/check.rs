@@ -1,66 +1,24 @@
 //! From what is written to a scene: the checks that a parser of types cannot make.
 
 mod protocol;
+mod study;
+mod written;
 
-use std::collections::BTreeSet;
 use taceva_core::shown;
 
-use serde::Deserialize;
 use taceva_metrics::{Settings, catalogue};
 
-use super::counts::Protocol;
-use super::devices::{DeviceSpec, LightingSpec, ModelSpec, SensorSpec};
 use super::error::{SceneError, SceneProblem};
 use super::limits::LimitSpec;
 use super::metrics::{MetricsSpec, ReportSpec};
 use super::parse::Text;
 use super::renamed;
 use super::setting::Setting;
-use super::study::Study;
 use super::{NamedBy, Scene};
+use written::WrittenScene;
 
 /// The longest length in a scene, in mm.
 const GREATEST_LENGTH: f64 = 1_000.0;
-/// The table of the sensor.
-const SENSOR: &str = "[sensor]";
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, expecting = "a scene")]
-struct WrittenScene {
-    scene_version: Setting<u32>,
-    name: Setting<String>,
-    #[serde(default)]
-    seed: u64,
-    rig: Option<Setting<String>>,
-    sensor: Option<Setting<SensorSpec>>,
-    robot: Option<DeviceSpec>,
-    force: Option<DeviceSpec>,
-    lighting: Option<LightingSpec>,
-    #[serde(default)]
-    limits: LimitSpec,
-    model: Option<Setting<ModelSpec>>,
-    #[serde(default)]
-    metrics: MetricsSpec,
-    #[serde(default)]
-    protocol: Protocol,
-    #[serde(default)]
-    report: ReportSpec,
-    #[serde(default)]
-    study: Vec<Setting<WrittenStudy>>,
-}
-
-#[derive(Clone, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "a study")]
-struct WrittenStudy {
-    name: Setting<String>,
-    sensor: Option<Setting<SensorSpec>>,
-    robot: Option<DeviceSpec>,
-    force: Option<DeviceSpec>,
-    lighting: Option<LightingSpec>,
-    #[serde(default)]
-    limits: LimitSpec,
-    model: Option<Setting<ModelSpec>>,
-}
 
 /// The scene that `text` says, checked.
 pub(super) fn checked(text: Text, named_by: NamedBy) -> Result<Scene, SceneError> {
@@ -115,6 +73,11 @@ impl Check<'_> {
         }
     }
 
+    /// Whether another file names the devices.
+    fn is_named_elsewhere(&self) -> bool {
+        self.named_by == NamedBy::Rig
+    }
+
     /// A name that can be printed, and become part of a file's name.
     fn name(&self, what: &str, name: &Setting<String>) -> Checked {
         let is_plain = |text: &str| {
@@ -129,162 +92,6 @@ impl Check<'_> {
             "`{shown}` is no name of {what}: expected 1 to 80 bytes without `/`, control characters, a leading `.` or space around"
         );
         self.contradiction(name.at(), &problem)
-    }
-
-    fn studies(&self, written: &WrittenScene) -> Result<Vec<Study>, SceneError> {
-        if written.study.is_empty() {
-            let alone = WrittenStudy {
-                name: written.name.clone(),
-                sensor: None,
-                robot: None,
-                force: None,
-                lighting: None,
-                limits: LimitSpec::default(),
-                model: None,
-            };
-            return Ok(vec![self.study(written, &alone)?]);
-        }
-        let mut names = BTreeSet::new();
-        let mut studies = Vec::new();
-        for study in &written.study {
-            self.name("a study", &study.value.name)?;
-            if !names.insert(study.value.name.value.as_str()) {
-                let problem = SceneProblem::Twice {
-                    what: "studies",
-                    name: study.value.name.value.clone(),
-                };
-                return self.refuse(study.value.name.at(), problem);
-            }
-            studies.push(self.study(written, &study.value)?);
-        }
-        Ok(studies)
-    }
-
-    /// A study with the tables of the scene where it has none of its own.
-    fn study(&self, scene: &WrittenScene, study: &WrittenStudy) -> Result<Study, SceneError> {
-        let Some(sensor) = study.sensor.as_ref().or(scene.sensor.as_ref()) else {
-            let problem = format!(
-                "`{}` has no sensor: expected [sensor] with `driver` or `dataset`",
-                study.name.value
-            );
-            return self.refuse(study.name.at(), SceneProblem::Incomplete(problem));
-        };
-        self.sensor(sensor)?;
-        if scene.rig.is_some() {
-            let devices = [&study.robot, &study.force, &scene.robot, &scene.force];
-            self.no_device(sensor.value.driver.as_ref(), devices)?;
-        }
-        self.limits(&study.limits)?;
-        self.tightened(&study.limits, &scene.limits)?;
-        let lighting = study.lighting.as_ref().or(scene.lighting.as_ref());
-        let scenes = lighting.and_then(|lighting| lighting.scenes.as_ref());
-        self.distinct("scenes of light", scenes)?;
-        if lighting.is_some_and(|lighting| lighting.driver.is_none()) && scenes.is_none() {
-            let problem = format!(
-                "`{}` has a light that nobody knows: expected [lighting] with `driver`, or with `scenes` that are set by hand",
-                study.name.value
-            );
-            return self.refuse(study.name.at(), SceneProblem::Incomplete(problem));
-        }
-        let model = study.model.as_ref().or(scene.model.as_ref());
-        if let Some(model) = model {
-            self.one_of(
-                model.at(),
-                "[model]",
-                ("name", &model.value.name),
-                ("file", &model.value.file),
-            )?;
-        }
-        Ok(Study {
-            name: study.name.value.clone(),
-            sensor: sensor.value.clone(),
-            robot: study.robot.as_ref().or(scene.robot.as_ref()).cloned(),
-            force: study.force.as_ref().or(scene.force.as_ref()).cloned(),
-            lighting: lighting.cloned(),
-            limits: study.limits.or(scene.limits),
-            model: model.map(|model| model.value.clone()),
-            rig: None,
-        })
-    }
-
-    fn sensor(&self, sensor: &Setting<SensorSpec>) -> Checked {
-        let SensorSpec {
-            driver,
-            dataset,
-            units,
-            footprint,
-            ..
-        } = &sensor.value;
-        self.one_of(
-            sensor.at(),
-            SENSOR,
-            ("driver", driver),
-            ("dataset", dataset),
-        )?;
-        self.distinct("units", units.as_ref())?;
-        match footprint {
-            Some(written) => written
-                .value
-                .footprint(None)
-                .map(drop)
-                .or_else(|problem| self.contradiction(written.at(), &problem)),
-            None => Ok(()),
-        }
-    }
-
-    fn one_of<T>(
-        &self,
-        at: Option<usize>,
-        table: &str,
-        (first, one): (&str, &Option<Setting<T>>),
-        (second, other): (&str, &Option<Setting<T>>),
-    ) -> Checked {
-        match (one, other) {
-            (Some(_), Some(other)) => {
-                let problem = format!("{table} has `{first}` and `{second}`: expected one of them");
-                self.contradiction(other.at(), &problem)
-            }
-            (None, None) if table == SENSOR && self.named_by == NamedBy::Rig => Ok(()),
-            (None, None) => {
-                let problem = format!("{table} has neither `{first}` nor `{second}`");
-                self.refuse(at, SceneProblem::Incomplete(problem))
-            }
-            _ => Ok(()),
-        }
-    }
-
-    /// Refuses devices beside a rig file, which says which there are.
-    fn no_device(
-        &self,
-        sensor: Option<&Setting<String>>,
-        devices: [&Option<DeviceSpec>; 4],
-    ) -> Checked {
-        let named = devices.into_iter().flatten().map(|device| &device.driver);
-        match sensor.into_iter().chain(named).next() {
-            None => Ok(()),
-            Some(driver) => self.contradiction(
-                driver.at(),
-                "the scene has `rig` and `driver`: expected one of them, the rig file names the devices",
-            ),
-        }
-    }
-
-    /// A list of names, none empty, none twice.
-    fn distinct(&self, what: &'static str, names: Option<&Setting<Vec<String>>>) -> Checked {
-        let Some(names) = names else { return Ok(()) };
-        let mut seen = BTreeSet::new();
-        for name in &names.value {
-            self.name(what, &names.clone().map(|_| name.clone()))?;
-            if !seen.insert(name) {
-                let name = name.clone();
-                return self.refuse(names.at(), SceneProblem::Twice { what, name });
-            }
-        }
-        if names.value.is_empty() {
-            let problem = format!("the list of {what} is empty");
-            return self.contradiction(names.at(), &problem);
-        }
-        Ok(())
     }
 
     fn limits(&self, limits: &LimitSpec) -> Checked {

@@ -9,7 +9,8 @@ use taceva_core::{
 };
 
 use super::guard::Guard;
-use super::world::{Sabotage, Shared};
+use super::shared::Shared;
+use super::world::Sabotage;
 
 const ROBOT: DriverKey = DriverKey::fixed("faults/robot");
 const FORCE: DriverKey = DriverKey::fixed("faults/force");

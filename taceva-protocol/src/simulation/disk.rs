@@ -1,7 +1,8 @@
 //! A disk that keeps what was synced, and an arbitrary part of the rest.
 
 use super::fault::{FaultKind, fraction};
-use super::world::{Sabotage, Shared};
+use super::shared::Shared;
+use super::world::Sabotage;
 use crate::draw::Draws;
 
 /// One file that only grows.

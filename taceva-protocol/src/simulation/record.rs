@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 
 use taceva_core::{Phase, PressOutcome};
 
+use super::gel::Gel;
 use super::journal::{Entry, EntrySample, entries};
 use super::oracle::Violation;
-use super::world::Gel;
 use crate::content_id::ContentId;
 use crate::plan::{Plan, PlannedPress};
 use crate::press::Motion;

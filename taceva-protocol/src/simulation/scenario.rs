@@ -10,11 +10,13 @@ use taceva_core::{
 use super::devices::{FRAME, SimulatedForce, SimulatedRobot, SimulatedSensor};
 use super::disk::Disk;
 use super::fault::{FaultCounts, Faults, fraction};
+use super::gel::Gel;
 use super::guard::Guard;
 use super::journal::{Journal, entries};
 use super::oracle::{Checks, Oracle, Stated, Violation};
 use super::record::{judge_log, missing};
-use super::world::{Gel, Killed, Sabotage, Shared};
+use super::shared::{Killed, Shared};
+use super::world::Sabotage;
 use crate::draw::Draws;
 use crate::plan::{MetricNeeds, Plan, plan_study};
 use crate::run::{

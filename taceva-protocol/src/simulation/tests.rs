@@ -12,7 +12,7 @@ use taceva_core::{Deadline, DriverError, ErrorKind, Limit, Millimetre, Phase, Sa
 use self::bench::{Bench, HARD, Memory, SOFT};
 use super::devices::{SimulatedForce, SimulatedRobot, SimulatedSensor};
 use super::fault::{FaultKind, Faults};
-use super::world::Gel;
+use super::gel::Gel;
 use crate::content_id::ContentId;
 use crate::press::Motion;
 use crate::run::{

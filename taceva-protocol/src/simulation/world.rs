@@ -1,16 +1,13 @@
-//! The world of a simulation: a tip on a spring, a clock that only calls advance, and faults of calls.
-
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+//! The world of a simulation: a tip on a spring, and faults of calls.
 
 use taceva_core::Fault;
 
-pub(super) use super::gel::Gel;
-
 use super::fault::{FaultKind, Faults, fraction};
+use super::gel::Gel;
 use super::guard::Guard;
 use super::oracle::{Ended, Oracle, SILENCE, TOO_HARD};
 use crate::draw::Draws;
-use crate::run::{Cancel, Timekeeper};
+use crate::run::Cancel;
 
 /// How a call to a device travels, in s each way.
 const LINK_S: f64 = 0.000_5;
@@ -93,18 +90,12 @@ pub(super) enum Sabotage {
     OldFrames,
 }
 
-/// The world, shared by devices, disk and clock.
-#[derive(Clone)]
-pub(super) struct Shared(Arc<Mutex<World>>);
-
-/// The panic payload of a killed process, which no code handles as an error.
-pub(super) struct Killed;
-
-impl Shared {
-    pub(super) fn new(gel: Gel, oracle: Oracle, faults: Faults, draws: Draws) -> Shared {
+impl World {
+    /// A tip that is parked, before anything has happened.
+    pub(super) fn new(gel: Gel, oracle: Oracle, faults: Faults, draws: Draws) -> World {
         // Parked beside the gel and above it.
         let parked = [30.0, 5.0, -8.0];
-        Shared(Arc::new(Mutex::new(World {
+        World {
             now_s: 0.0,
             tip: parked,
             motion: Motion {
@@ -131,44 +122,9 @@ impl Shared {
             listening_s: None,
             last_frame_s: 0.0,
             sabotage: Sabotage::Nothing,
-        })))
-    }
-
-    /// The world. Kills come between calls, so a poisoned lock still holds a consistent world.
-    pub(super) fn world(&self) -> MutexGuard<'_, World> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// Ends the process here, if a kill is due.
-    pub(super) fn survive(&self) {
-        let mut world = self.world();
-        let now_s = world.now_s;
-        if world.faults.strike_once(FaultKind::Kill, now_s) {
-            world.oracle.killed();
-            drop(world);
-            // Unlike a panic it is not reported: nothing went wrong in the program.
-            std::panic::resume_unwind(Box::new(Killed));
-        }
-        // Where threads look on, one of them hears of the wish.
-        if world.guard.is_none() && world.faults.strike_once(FaultKind::Cancel, now_s) {
-            world.cancel.cancel();
         }
     }
-}
 
-impl Timekeeper for Shared {
-    fn now_s(&self) -> f64 {
-        self.look_on();
-        self.world().now_s
-    }
-
-    fn rest(&mut self, rest: std::time::Duration) {
-        self.elapse(rest.as_secs_f64());
-        self.survive();
-    }
-}
-
-impl World {
     /// Lets time pass.
     pub(super) fn pass(&mut self, seconds: f64) {
         self.now_s += seconds;

@@ -5,6 +5,7 @@ use std::sync::PoisonError;
 use taceva_drivers::Drivers;
 use taceva_protocol::{Answer, Cancel, Left, Plan, Question, RigFile, RunError, StopCause};
 
+use super::devices::OpenRig;
 use super::workshop::Workshop;
 use crate::error::StudyError;
 use crate::scene::{PlannedScene, PlannedStudy, RigSpec, StudySource};
@@ -112,11 +113,13 @@ impl PlannedStudy {
 }
 
 /// Whether `unit` is under the robot: of several units of a real rig somebody says so, or skips it.
+///
+/// The tip is brought up before somebody is asked, for which the robot may have to be enabled, and no device is open while hands are in.
 pub(super) fn unit_is_there(
     study: &PlannedStudy,
     rig: &RigSpec,
     unit: &str,
-    (workshop, cancel): (Workshop<'_>, &Cancel),
+    (workshop, cancel, is_enabled): (Workshop<'_>, &Cancel, &mut bool),
 ) -> Result<bool, StudyError> {
     let plan = &study.plan;
     if plan.units.len() < 2 || rig.is_simulated(workshop.drivers) {
@@ -129,6 +132,10 @@ pub(super) fn unit_is_there(
             StopCause::Missing(format!("somebody to {question}")),
         ));
     };
+    let mut open = OpenRig::open(study, &rig.without_sensor(), unit, workshop)?;
+    let raised = open.raise(plan, (cancel, workshop, *is_enabled));
+    drop(open);
+    *is_enabled |= raised.map_err(|source| stopped(plan, source))?;
     let mut operator = operator.lock().unwrap_or_else(PoisonError::into_inner);
     match operator.ask(&question, cancel) {
         Answer::Done => Ok(true),
@@ -139,13 +146,19 @@ pub(super) fn unit_is_there(
 
 /// A rig that stopped where nothing was in the gel.
 pub(super) fn acquisition(plan: &Plan, cause: StopCause) -> StudyError {
+    let error = RunError {
+        press: None,
+        cause,
+        left: Left::Clear,
+    };
+    stopped(plan, error)
+}
+
+/// A run of `plan` that stopped.
+pub(super) fn stopped(plan: &Plan, error: RunError) -> StudyError {
     StudyError::Acquisition {
         study: plan.name.clone(),
-        source: Box::new(RunError {
-            press: None,
-            cause,
-            left: Left::Clear,
-        }),
+        source: Box::new(error),
     }
 }
 

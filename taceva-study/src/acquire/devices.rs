@@ -10,8 +10,9 @@ use taceva_core::{
 };
 use taceva_drivers::{Drivers, OnBench, OpenError, Selector};
 use taceva_protocol::{
-    Cancel, Controls, Devices, Event, PressLog, ReferenceTouch, RigFile, RunError, RunReport,
-    RunSpec, SessionSpec, Setting, SharedSupervisor, StopCause, run, run_guarded, run_session,
+    Cancel, Controls, Devices, Event, Plan, PressLog, ReferenceTouch, RigFile, RunError, RunReport,
+    RunSpec, SessionSpec, Setting, SharedSupervisor, StopCause, raise, run, run_guarded,
+    run_session,
 };
 
 use super::guardian::Guarded;
@@ -135,6 +136,47 @@ impl OpenRig {
         sensor.map(|sensor| sensor.settings()).unwrap_or_default()
     }
 
+    /// Brings the tip of a real rig up and halts it, before hands come, under a guard; whether it moved.
+    ///
+    /// # Errors
+    /// As [`raise`](taceva_protocol::raise).
+    pub(super) fn raise(
+        &mut self,
+        plan: &Plan,
+        (cancel, workshop, is_enabled): (&Cancel, Workshop<'_>, bool),
+    ) -> Result<bool, RunError> {
+        let Some(limits) = plan.limits.clone() else {
+            return Ok(false);
+        };
+        let operator = workshop.operator;
+        let mut operator =
+            operator.map(|operator| operator.lock().unwrap_or_else(PoisonError::into_inner));
+        let rig_file = self.rig_file.as_deref();
+        let robot_name = rig_file.and_then(|rig| to_be_enabled(rig, is_enabled));
+        let clock = &mut *self.surroundings.clock;
+        let guarded = Guarded {
+            robot: &mut *self.robot,
+            force: &mut *self.force,
+            driver: self.force_driver.clone(),
+            limits,
+            cancel,
+            progress: workshop.progress,
+            viewer: workshop.viewer.map(|viewer| &**viewer),
+        };
+        guarded.conduct(|robot, force, supervisor| {
+            let controls = Controls {
+                clock,
+                cancel,
+                events: &mut |_| {},
+                operator: match &mut operator {
+                    Some(operator) => Some(&mut **operator),
+                    None => None,
+                },
+            };
+            raise(plan, (robot, force), controls, (supervisor, robot_name))
+        })
+    }
+
     /// Makes the presses of `spec`, under a guard where the rig is real.
     ///
     /// # Errors
@@ -159,14 +201,10 @@ impl OpenRig {
             is_real,
             rig_file,
         } = self;
-        let session = rig_file.as_deref().map(|rig| {
-            let robot = rig.robot.as_ref();
-            let named = robot.filter(|_| !rig.simulated && !sitting.is_enabled);
-            SessionSpec {
-                rig,
-                robot: named.map(|robot| key_of(&robot.driver.value)),
-                touched: sitting.touched,
-            }
+        let session = rig_file.as_deref().map(|rig| SessionSpec {
+            rig,
+            robot: to_be_enabled(rig, sitting.is_enabled),
+            touched: sitting.touched,
         });
         let mut act = |robot: &mut dyn Robot,
                        force: &mut dyn ForceTransducer,
@@ -218,6 +256,13 @@ impl OpenRig {
             .conduct(|robot, force, guard| act(robot, force, Some(guard))),
         }
     }
+}
+
+/// The name by which somebody must enable the robot of `rig`; `None` of one that is emulated, or was enabled before.
+fn to_be_enabled(rig: &RigFile, is_enabled: bool) -> Option<&str> {
+    let robot = rig.robot.as_ref();
+    let named = robot.filter(|_| !rig.simulated && !is_enabled);
+    named.map(|robot| key_of(&robot.driver.value))
 }
 
 /// Opens devices for one unit.

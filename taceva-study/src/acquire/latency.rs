@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use taceva_core::{
-    Axes, Deadline, DriverError, ForceTransducer, FrameInfo, FrameMut, Guard, GuardedMotion,
-    GuardedStop, Halt, Interrupt, Lighting, Pose, Robot, RobotWatch, Sensor, Speed, Stamp, Tare,
-    Wrench,
+    Axes, Deadline, DriverError, ExpiringMotion, ForceTransducer, FrameInfo, FrameMut, Guard,
+    GuardedMotion, GuardedStop, Halt, Interrupt, Lighting, Pose, Robot, RobotWatch, Sensor, Speed,
+    Stamp, Tare, Wrench,
 };
 
 /// A device that stamps what was true so long before.
@@ -105,6 +105,28 @@ impl Robot for Late<dyn Robot> {
             true => Some(self),
             false => None,
         }
+    }
+
+    fn expiring_motion(&mut self) -> Option<&mut dyn ExpiringMotion> {
+        match self.device.expiring_motion().is_some() {
+            true => Some(self),
+            false => None,
+        }
+    }
+}
+
+impl ExpiringMotion for Late<dyn Robot> {
+    fn move_expiring(
+        &mut self,
+        target: Pose,
+        speed: Speed,
+        deadline: Deadline,
+    ) -> Result<Stamp, DriverError> {
+        let expiring = self.device.expiring_motion();
+        let stamp = expiring
+            .expect("this is lent only where the robot has it, which does not change")
+            .move_expiring(target, speed, deadline)?;
+        Ok(self.true_stamp(stamp))
     }
 }
 
@@ -267,6 +289,16 @@ mod tests {
         fn guarded_motion(&mut self) -> Option<&mut dyn GuardedMotion> {
             Some(self)
         }
+
+        fn expiring_motion(&mut self) -> Option<&mut dyn ExpiringMotion> {
+            Some(self)
+        }
+    }
+
+    impl ExpiringMotion for Stops {
+        fn move_expiring(&mut self, _: Pose, _: Speed, _: Deadline) -> Result<Stamp, DriverError> {
+            Ok(AT_SEVEN)
+        }
     }
 
     impl GuardedMotion for Stops {
@@ -299,6 +331,16 @@ mod tests {
             assert!((stamp.valid_s - 6.996).abs() < 1e-12, "{stamp:?}");
             assert_eq!(stamp.received_s, Some(7.0));
         }
+    }
+
+    #[test]
+    fn the_stamp_of_an_expiring_motion_loses_the_latency() {
+        let stops: Box<dyn Robot> = Box::new(Stops { is_felt: false });
+        let mut late = Late::new(stops, 4.0);
+        let expiring = late.expiring_motion().expect("it has it");
+        let speed = Speed::try_new(1.0).expect("a speed");
+        let stamp = expiring.move_expiring(Pose::default(), speed, Deadline::PASSED);
+        assert!((stamp.expect("it arrives").valid_s - 6.996).abs() < 1e-12);
     }
 
     #[test]

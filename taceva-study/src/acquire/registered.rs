@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use taceva_core::{
-    Axes, Deadline, DriverError, ForceTransducer, Guard, GuardedMotion, GuardedStop, Halt,
-    Interrupt, Pose, Robot, RobotWatch, Speed, Stamp, Tare, Wrench,
+    Axes, Deadline, DriverError, ExpiringMotion, ForceTransducer, Guard, GuardedMotion,
+    GuardedStop, Halt, Interrupt, Pose, Robot, RobotWatch, Speed, Stamp, Tare, Wrench,
 };
 use taceva_core::{Degree, Newton, NewtonMillimetre, Rotation};
 use taceva_protocol::{Registration, RigRobot, SignedAxes};
@@ -82,6 +82,28 @@ impl Robot for Registered {
             true => Some(self),
             false => None,
         }
+    }
+
+    fn expiring_motion(&mut self) -> Option<&mut dyn ExpiringMotion> {
+        match self.robot.expiring_motion().is_some() {
+            true => Some(self),
+            false => None,
+        }
+    }
+}
+
+impl ExpiringMotion for Registered {
+    fn move_expiring(
+        &mut self,
+        target: Pose,
+        speed: Speed,
+        deadline: Deadline,
+    ) -> Result<Stamp, DriverError> {
+        let target = self.registration.to_base(&target);
+        let expiring = self.robot.expiring_motion();
+        expiring
+            .expect("this is lent only where the robot has it, which does not change")
+            .move_expiring(target, speed, deadline)
     }
 }
 

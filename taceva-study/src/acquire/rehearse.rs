@@ -3,7 +3,7 @@
 use taceva_core::{Frame, Millimetre, SinkError};
 use taceva_protocol::{Cancel, ContentId, Event, Mode, PressLog, PressRecord, RunSpec};
 
-use super::by_hand::unit_is_there;
+use super::by_hand::{stopped, unit_is_there};
 use super::devices::{OpenRig, Sitting};
 use super::workshop::Workshop;
 use crate::error::StudyError;
@@ -34,7 +34,8 @@ pub fn rehearse_scene(scene: &PlannedScene, workshop: Workshop<'_>) -> Result<us
         };
         let mut is_enabled = false;
         for unit in &study.plan.units {
-            if !unit_is_there(study, rig, unit, (workshop, &cancel))? {
+            let by_hand = (workshop, &cancel, &mut is_enabled);
+            if !unit_is_there(study, rig, unit, by_hand)? {
                 continue;
             }
             let mut open = OpenRig::open(study, rig, unit, workshop)?;
@@ -63,10 +64,7 @@ pub fn rehearse_scene(scene: &PlannedScene, workshop: Workshop<'_>) -> Result<us
                 (&cancel, workshop, sitting),
                 &mut events,
             );
-            let report = done.map_err(|source| StudyError::Acquisition {
-                study: study.plan.name.clone(),
-                source: Box::new(source),
-            })?;
+            let report = done.map_err(|error| stopped(&study.plan, error))?;
             is_enabled = true;
             visited += report.made;
         }

@@ -22,6 +22,15 @@ pub(crate) struct RigSpec {
 }
 
 impl RigSpec {
+    /// What moves the tip and feels it, without what looks: for whoever exchanges the sensor.
+    pub(crate) fn without_sensor(&self) -> RigSpec {
+        RigSpec {
+            sensor: None,
+            lighting: None,
+            ..self.clone()
+        }
+    }
+
     pub(crate) fn new(study: &Study, seed: u64, folder: &Path) -> RigSpec {
         let driver = |device: &Option<taceva_protocol::DeviceSpec>| {
             device.as_ref().map(|device| device.driver.clone())

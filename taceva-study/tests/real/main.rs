@@ -116,9 +116,11 @@ fn a_study_on_real_devices_runs_in_the_time_of_the_machine_and_finds_its_zero_by
         );
     }
     let state = world.state();
+    // Each of 6 presses goes down, in and out in some.
     assert!(
-        state.motions > 100 && state.deepest_mm < 1.2,
-        "{} mm",
+        state.motions > 30 && state.deepest_mm < 1.2,
+        "{} motions, {} mm",
+        state.motions,
         state.deepest_mm
     );
 }

@@ -86,6 +86,55 @@ fn each_unit_is_asked_for_and_one_that_is_skipped_is_left_for_the_next_call() {
     assert_eq!(whole.table().samples().len(), 4);
 }
 
+/// Notes where the tip stands when a unit is asked for, whether it is halted then, and whether it moves before the answer.
+struct Hands {
+    world: World,
+    seen: Vec<(f64, bool, bool)>,
+}
+
+impl Operator for Hands {
+    fn ask(&mut self, question: &Question, _: &Cancel) -> Answer {
+        if let Question::Unit(_) = question {
+            let (height_mm, is_halted, motions) = self.look();
+            std::thread::sleep(std::time::Duration::from_millis(100));
+            let is_still = (height_mm, is_halted, motions) == self.look();
+            self.seen.push((height_mm, is_halted, is_still));
+        }
+        Answer::Done
+    }
+}
+
+impl Hands {
+    fn look(&self) -> (f64, bool, u32) {
+        let state = self.world.state();
+        let now_s = taceva_drivers::MonotonicClock.now_s();
+        (state.tip(now_s)[2], state.is_halted, state.motions)
+    }
+}
+
+#[test]
+fn a_tip_that_stands_in_the_gel_is_raised_and_halted_before_a_unit_is_asked_for() {
+    let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));
+    let path = folder.path().join("run");
+    // Whoever was there before left it 0.2 mm deep.
+    assert!(world.travel([0.0, 0.0, 0.2], 50.0));
+    let hands = Mutex::new(Hands {
+        world: world.clone(),
+        seen: Vec::new(),
+    });
+    let whole = record_by_hand(&world, &path, &SilentProgress, (SCENE, Some(&hands)));
+    assert_eq!(whole.expect("two units").table().samples().len(), 4);
+    let seen = &hands.lock().expect("whole").seen;
+    assert_eq!(seen.len(), 2);
+    for (height_mm, is_halted, is_still) in seen {
+        // The clearance of the scene is 0.3 mm.
+        assert!(
+            *height_mm <= -0.3 + 1e-9 && *is_halted && *is_still,
+            "{seen:?}"
+        );
+    }
+}
+
 /// One unit under two lights, which no device sets.
 const LIGHTS: &str = r#"
 scene_version = 1

@@ -94,7 +94,8 @@ impl Compared {
     }
 
     fn scores(&mut self, [one, other]: &[BTreeMap<String, f64>; 2]) {
-        assert!(one.keys().eq(other.keys()), "they are of one study");
+        let names = [one, other].map(|scores| scores.keys().collect::<Vec<_>>());
+        assert_eq!(names[0], names[1], "they are of one study");
         self.scores = one.len();
         for (name, score) in one {
             let other = other[name];

@@ -1,7 +1,7 @@
 //! An emulated control box of UFACTORY: commands on port 502, reports on 30001, 30002 and 30003.
 //!
-//! What it does: versions, enabling, modes, states, straight motions (absolute and relative, both layouts) with a queue, poses, errors
-//! and their clearing, the push at the end of a motion. What it does not: velocities, servo motions, blending, joints, limits of speed and
+//! What it does: versions, enabling, modes, states, straight motions (absolute and relative, both layouts) with a queue, velocities
+//! of the tip that expire, poses, errors and their clearing, the push at the end of a motion. What it does not: servo motions, velocities that turn, blending, joints, limits of speed and
 //! jerk, braking ways. An unknown register is answered with "result invalid".
 
 mod answer;

@@ -3,11 +3,12 @@
 use std::sync::Arc;
 
 use taceva_core::{
-    Deadline, DriverError, ErrorKind, Halt, Pose, Robot, RobotWatch, Speed, Stamp, check_pose,
+    Deadline, DriverError, ErrorKind, ExpiringMotion, Halt, Pose, Robot, RobotWatch, Speed, Stamp,
+    check_pose,
 };
 
 use super::KEY;
-use super::command::{Command, TargetState};
+use super::command::{Command, Mode, TargetState};
 use super::error::{failed, unanswered};
 use super::exchange::Exchange;
 use super::firmware::Firmware;
@@ -73,8 +74,34 @@ impl Arm {
         if let Some(fault) = error_now(&mut self.exchange).map_err(unanswered(doing))? {
             return Err(fault.met(doing));
         }
+        self.take(Mode::Position, doing)
+    }
+
+    /// Lets a motion to `target` through that may be made.
+    pub(super) fn admit(&self, target: &Pose, speed: Speed) -> Result<(), DriverError> {
+        let doing = "move the arm";
+        check_pose(target).map_err(|error| failed(ErrorKind::InvalidArgument, doing, error))?;
+        if let Some(workspace) = self.options.workspace
+            && !workspace.contains(&target.position)
+        {
+            let why = format!(
+                "{:?} lies outside the workspace from {:?} to {:?}",
+                target.position, workspace.least, workspace.greatest
+            );
+            return Err(failed(ErrorKind::OutOfRange, doing, why));
+        }
+        let most = self.options.speed_max;
+        if speed > most {
+            let why = format!("{speed}, expected at most {most}");
+            return Err(failed(ErrorKind::OutOfRange, doing, why));
+        }
+        Ok(())
+    }
+
+    /// Makes the controller take motions of this kind. What moves is stopped by that.
+    pub(super) fn take(&mut self, mode: Mode, doing: &'static str) -> Result<(), DriverError> {
         let ready = [
-            Command::SetPositionMode,
+            Command::SetMode(mode),
             Command::SetState(TargetState::Ready),
         ];
         for command in ready {
@@ -90,14 +117,15 @@ impl Arm {
             let why = format!("the controller does not become ready, it stays in state {state}");
             return Err(failed(ErrorKind::DeviceFault, doing, why));
         }
-        self.see_ready()
+        self.see_ready(mode)
     }
 
     /// Waits for a report that says so too: those of before say that it is stopped.
-    fn see_ready(&mut self) -> Result<(), DriverError> {
+    fn see_ready(&mut self, mode: Mode) -> Result<(), DriverError> {
         let until = monotonic() + ANSWER;
         let mut last = self.observer.observe(&mut self.exchange, None, ANSWER)?;
-        while !last.state.is_ready() && monotonic() < until {
+        let is_other = |arm: &Arm| arm.observer.mode().is_some_and(|seen| seen != mode as u8);
+        while (!last.state.is_ready() || is_other(self)) && monotonic() < until {
             last = self
                 .observer
                 .observe(&mut self.exchange, Some(&last), ANSWER)?;
@@ -133,22 +161,7 @@ impl Robot for Arm {
         speed: Speed,
         deadline: Deadline,
     ) -> Result<Stamp, DriverError> {
-        let doing = "move the arm";
-        check_pose(&target).map_err(|error| failed(ErrorKind::InvalidArgument, doing, error))?;
-        if let Some(workspace) = self.options.workspace
-            && !workspace.contains(&target.position)
-        {
-            let why = format!(
-                "{:?} lies outside the workspace from {:?} to {:?}",
-                target.position, workspace.least, workspace.greatest
-            );
-            return Err(failed(ErrorKind::OutOfRange, doing, why));
-        }
-        let most = self.options.speed_max;
-        if speed > most {
-            let why = format!("{speed}, expected at most {most}");
-            return Err(failed(ErrorKind::OutOfRange, doing, why));
-        }
+        self.admit(&target, speed)?;
         self.go(target, speed, deadline)
     }
 
@@ -163,6 +176,13 @@ impl Robot for Arm {
             reports,
             pose: reported_pose,
         }))
+    }
+
+    fn expiring_motion(&mut self) -> Option<&mut dyn ExpiringMotion> {
+        match self.exchange.firmware().takes_expiring_velocities() {
+            true => Some(self),
+            false => None,
+        }
     }
 
     fn clear_halt(&mut self, _: Deadline) -> Result<(), DriverError> {

@@ -16,12 +16,23 @@ pub(super) enum Command {
     GetQueued,
     /// Which error and warning it has.
     GetError,
-    /// To take positions, one after the other.
-    SetPositionMode,
+    /// To take positions, one after the other, or velocities.
+    SetMode(Mode),
     /// Where the tip is.
     GetPose,
     /// To move in a straight line.
     MoveLine(MoveLine),
+    /// To move with a velocity that expires.
+    MoveVelocity(MoveVelocity),
+}
+
+/// How it takes motions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Mode {
+    /// Positions, one after the other.
+    Position = 0,
+    /// Velocities of the tip.
+    Velocity = 5,
 }
 
 /// The states that it can be told to take.
@@ -42,6 +53,14 @@ pub(super) struct MoveLine {
     pub(super) acceleration_mm_s2: f32,
 }
 
+/// A velocity of the tip in the base frame, without turning.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct MoveVelocity {
+    pub(super) velocity_mm_s: [f32; 3],
+    /// After so long without another the controller stops.
+    pub(super) duration_s: f32,
+}
+
 const GET_VERSION: u8 = 1;
 const SET_STATE: u8 = 12;
 const GET_STATE: u8 = 13;
@@ -50,9 +69,8 @@ const GET_ERROR: u8 = 15;
 const SET_MODE: u8 = 19;
 const MOVE_LINE: u8 = 21;
 const GET_POSE: u8 = 41;
+const MOVE_VELOCITY: u8 = 82;
 
-/// The mode in which positions are taken one after the other.
-const POSITION_MODE: u8 = 0;
 /// No radius by which one line would be blended into the next.
 const NO_BLENDING: f32 = -1.0;
 
@@ -65,12 +83,13 @@ impl Command {
             Command::GetState => (GET_STATE, Vec::new()),
             Command::GetQueued => (GET_QUEUED, Vec::new()),
             Command::GetError => (GET_ERROR, Vec::new()),
-            Command::SetPositionMode if firmware.takes_collision_detection() => {
-                (SET_MODE, vec![POSITION_MODE, 0])
+            Command::SetMode(mode) if firmware.takes_collision_detection() => {
+                (SET_MODE, vec![mode as u8, 0])
             }
-            Command::SetPositionMode => (SET_MODE, vec![POSITION_MODE]),
+            Command::SetMode(mode) => (SET_MODE, vec![mode as u8]),
             Command::GetPose => (GET_POSE, Vec::new()),
             Command::MoveLine(line) => (MOVE_LINE, line.parameters(firmware)),
+            Command::MoveVelocity(velocity) => (MOVE_VELOCITY, velocity.parameters()),
         };
         Request {
             register,
@@ -87,10 +106,24 @@ impl Command {
             Command::GetState => "the question for its state",
             Command::GetQueued => "the question for waiting motions",
             Command::GetError => "the question for errors",
-            Command::SetPositionMode => "the command to take positions",
+            Command::SetMode(Mode::Position) => "the command to take positions",
+            Command::SetMode(Mode::Velocity) => "the command to take velocities",
             Command::GetPose => "the question for its pose",
-            Command::MoveLine(_) => "the command to move",
+            Command::MoveLine(_) | Command::MoveVelocity(_) => "the command to move",
         }
+    }
+}
+
+impl MoveVelocity {
+    fn parameters(self) -> Vec<u8> {
+        let [x, y, z] = self.velocity_mm_s;
+        let turning = [0.0; 3];
+        let numbers = [x, y, z].into_iter().chain(turning);
+        let mut bytes: Vec<u8> = numbers.flat_map(f32::to_le_bytes).collect();
+        // In the base frame.
+        bytes.push(0);
+        bytes.extend(self.duration_s.to_le_bytes());
+        bytes
     }
 }
 
@@ -187,7 +220,15 @@ mod tests {
     fn commands_are_those_of_the_public_client_for_both_layouts() {
         let recorded = [
             (Command::GetVersion, NEW, "01"),
-            (Command::SetPositionMode, NEW, "13 00 00"),
+            (Command::SetMode(Mode::Position), NEW, "13 00 00"),
+            (
+                Command::MoveVelocity(MoveVelocity {
+                    velocity_mm_s: [0.0, 0.0, -2.0],
+                    duration_s: 0.2,
+                }),
+                NEW,
+                "52 00000000 00000000 000000c0 00000000 00000000 00000000 00 cdcc4c3e",
+            ),
             (Command::SetState(TargetState::Ready), NEW, "0c 00"),
             (Command::SetState(TargetState::Stopped), NEW, "0c 04"),
             (Command::GetState, NEW, "0d"),

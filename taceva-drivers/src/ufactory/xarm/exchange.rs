@@ -140,6 +140,11 @@ impl Exchange {
         self.firmware = firmware;
     }
 
+    /// The firmware that commands are written for.
+    pub(super) fn firmware(&self) -> Firmware {
+        self.firmware
+    }
+
     /// The half that writes, for whoever must send something while an answer is waited for.
     pub(super) fn writer(&self) -> Writer {
         self.writer.clone()

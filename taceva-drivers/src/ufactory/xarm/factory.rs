@@ -21,6 +21,8 @@ submit_builtin!(dyn Robot, || Ok(Box::new(XarmFactory::new()?)));
 ///   Studio. This driver never enables motors and never clears an error.
 /// - A move is one straight line with all six numbers of the pose. It ends once the controller stands by, has nothing waiting and reports a
 ///   pose within 0.05 mm of the target.
+/// - An expiring motion is made by velocities for 0.2 s each (register 82, since firmware 1.10.0), renewed 20 times a second; its last
+///   0.1 s are a line. The mode of the controller is changed for it and back, by which it stands for a moment.
 /// - A halt goes over a connection of its own, which is tried twice a second; without it no move begins. It is confirmed by the controller
 ///   or, after 40 ms of silence, sent over the other connection too. `clear_halt` makes the controller ready again unless it has an error.
 /// - The emergency stop, a collision, the safety boundary and every other error of the controller end a move with `DeviceFault`.
@@ -28,7 +30,7 @@ submit_builtin!(dyn Robot, || Ok(Box::new(XarmFactory::new()?)));
 /// # What confirmed it
 /// Frames are those that the public client `xarm-python-sdk` 1.18.4 sends, for both layouts of a straight line (before and since firmware
 /// 1.11.100). An emulated controller on which the driver passes its suite serves that client too. **Not verified without the device**: how
-/// fast an arm stops, whether the pose of port 30003 is measured or commanded, how long a controller keeps an idle connection.
+/// fast an arm stops, how exactly it keeps to a velocity and to its end, whether the pose of port 30003 is measured or commanded, how long a controller keeps an idle connection.
 ///
 /// ```
 /// use taceva_drivers::XarmFactory;

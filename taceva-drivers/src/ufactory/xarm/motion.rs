@@ -11,7 +11,7 @@ use super::observe::{ANSWER, Observation, STALE, error_now};
 use super::report::{State, numbers_of, pose_of};
 use crate::link::monotonic;
 
-const DOING: &str = "move the arm";
+pub(super) const DOING: &str = "move the arm";
 /// How near the target a motion ends: half of what the best arms of the family repeat.
 const NEAR_MM: f64 = 0.05;
 /// After this time a controller that stands by at the target has not still to begin.
@@ -22,10 +22,20 @@ const NEVER_BEGUN: Duration = Duration::from_millis(1_000);
 const STOPPING: Duration = Duration::from_millis(400);
 
 /// Why a motion did not end at its target.
-struct BrokenOff {
+pub(super) struct BrokenOff {
     error: DriverError,
     /// Whether the controller has been told to stop already, or has stopped by itself.
     is_stopped: bool,
+}
+
+impl BrokenOff {
+    /// For what stopped the controller already.
+    pub(super) fn stopped(error: DriverError) -> BrokenOff {
+        BrokenOff {
+            error,
+            is_stopped: true,
+        }
+    }
 }
 
 impl From<DriverError> for BrokenOff {
@@ -51,26 +61,31 @@ impl Arm {
             return Err(failed(ErrorKind::Timeout, DOING, "no time to move at all"));
         }
         let until = began.saturating_add(deadline.remaining());
-        match self.follow(target, speed, until) {
-            Ok(stamp) => Ok(stamp),
-            Err(BrokenOff { error, is_stopped }) => {
-                if !is_stopped {
-                    // The error that is returned says why; a stop that could not be sent says so by a link that is gone.
-                    let _ = self.stopping().stop();
-                }
-                self.settle();
-                // A motion that was given up is no halt: the next one is accepted.
-                let given_up = error.kind() == ErrorKind::Timeout;
-                if given_up && !self.stopping().is_halted() {
-                    let _ = self.stand_by(DOING);
-                }
-                Err(error)
-            }
+        let ended = self.follow(target, speed, until);
+        self.end(ended)
+    }
+
+    /// Ends a motion: one that was broken off is stopped.
+    pub(super) fn end<T>(&mut self, ended: Result<T, BrokenOff>) -> Result<T, DriverError> {
+        let BrokenOff { error, is_stopped } = match ended {
+            Ok(done) => return Ok(done),
+            Err(broken_off) => broken_off,
+        };
+        if !is_stopped {
+            // The error that is returned says why; a stop that could not be sent says so by a link that is gone.
+            let _ = self.stopping().stop();
         }
+        self.settle();
+        // A motion that was given up is no halt: the next one is accepted.
+        let given_up = error.kind() == ErrorKind::Timeout;
+        if given_up && !self.stopping().is_halted() {
+            let _ = self.stand_by(DOING);
+        }
+        Err(error)
     }
 
     /// Refuses to begin where the arm could not be stopped, is halted or is not ready.
-    fn check_ready(&mut self) -> Result<(), DriverError> {
+    pub(super) fn check_ready(&mut self) -> Result<(), DriverError> {
         if self.stopping().is_halted() {
             return Err(halted());
         }
@@ -114,10 +129,7 @@ impl Arm {
         let mut has_moved = false;
         loop {
             if self.stopping().is_halted() {
-                return Err(BrokenOff {
-                    error: halted(),
-                    is_stopped: true,
-                });
+                return Err(BrokenOff::stopped(halted()));
             }
             let left = until.saturating_sub(monotonic());
             if left.is_zero() {
@@ -165,7 +177,7 @@ impl Arm {
     }
 
     /// Why a controller in `state` does not move.
-    fn not_ready(&mut self, state: State) -> BrokenOff {
+    pub(super) fn not_ready(&mut self, state: State) -> BrokenOff {
         let error = if self.stopping().is_halted() {
             halted()
         } else {
@@ -206,7 +218,7 @@ impl Arm {
     }
 }
 
-fn halted() -> DriverError {
+pub(super) fn halted() -> DriverError {
     failed(ErrorKind::Interrupted, DOING, "it was halted")
 }
 

@@ -234,6 +234,7 @@ impl Tip<'_> {
             let part = ((threshold_n - before_n) / (felt_n - before_n)).clamp(0.0, 1.0);
             let height_mm = z_mm - self.pace.step_mm * (1.0 - part);
             self.contact_mm = Some(height_mm);
+            self.is_felt_at(height_mm);
             self.watch(MotionStage::Press { height_mm });
             return Ok(Some(height_mm));
         }

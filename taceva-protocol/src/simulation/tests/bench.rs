@@ -11,9 +11,10 @@ use crate::run::{
 };
 use crate::simulation::devices::{SimulatedForce, SimulatedRobot, SimulatedSensor};
 use crate::simulation::fault::Faults;
+use crate::simulation::gel::Gel;
 use crate::simulation::oracle::{Oracle, Stated};
 use crate::simulation::scenario::scenario_plan;
-use crate::simulation::world::{Gel, Shared};
+use crate::simulation::shared::Shared;
 
 pub(super) const SOFT: Gel = Gel {
     stiffness_n_mm: 0.5,

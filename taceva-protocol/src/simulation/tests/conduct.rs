@@ -7,8 +7,8 @@ use crate::limits::{Overshoot, Signals};
 use crate::plan::Plan;
 use crate::run::{Event, Left, Mode, StopCause, Trip};
 use crate::simulation::fault::{FaultKind, Faults};
+use crate::simulation::gel::Gel;
 use crate::simulation::scenario::planned_scene;
-use crate::simulation::world::Gel;
 
 /// A robot that reports its pose with an even spread of ±0.05 mm an axis.
 const JITTERED: Gel = Gel {

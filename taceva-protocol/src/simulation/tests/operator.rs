@@ -8,7 +8,7 @@ use super::bench::{Bench, Memory, SOFT};
 use crate::run::{Answer, Cancel, Event, Left, Mode, Operator, Question, StopCause};
 use crate::simulation::fault::{FaultKind, Faults};
 use crate::simulation::scenario::planned_scene;
-use crate::simulation::world::Shared;
+use crate::simulation::shared::Shared;
 
 const SCENE: &str = r#"
 scene_version = 1

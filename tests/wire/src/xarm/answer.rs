@@ -85,6 +85,15 @@ impl Session {
                 .into_iter()
                 .flat_map(f32::to_le_bytes)
                 .collect(),
+            (82, _) => {
+                match velocity(parameters) {
+                    Some((velocity_mm_s, duration_s))
+                        if controller.cruise(velocity_mm_s, duration_s) => {}
+                    Some(_) => refused = NOT_READY,
+                    None => refused = INVALID,
+                }
+                Vec::new()
+            }
             (254, Some(kind)) => {
                 self.wants_push = kind & 2 != 0;
                 Vec::new()
@@ -112,6 +121,24 @@ impl Session {
         }
         vec![frame]
     }
+}
+
+/// The velocity in mm/s and how long it holds, in s, of the parameters of register 82; `None` of one that turns, is in the frame of the tool,
+/// holds for ever or is no number.
+fn velocity(parameters: &[u8]) -> Option<([f64; 3], f64)> {
+    const BYTES: usize = 29;
+    const BASE_FRAME: u8 = 0;
+    if parameters.len() != BYTES || parameters[24] != BASE_FRAME {
+        return None;
+    }
+    let number = |at: usize| {
+        let bytes = parameters.get(at..at + 4)?.try_into().ok()?;
+        Some(f64::from(f32::from_le_bytes(bytes))).filter(|number| number.is_finite())
+    };
+    let [x, y, z] = [number(0)?, number(4)?, number(8)?];
+    let turns = parameters[12..24].iter().any(|byte| *byte != 0);
+    let duration_s = number(25)?;
+    (!turns && duration_s >= 0.0).then_some(([x, y, z], duration_s))
 }
 
 fn status(snapshot: &Snapshot) -> u8 {

@@ -53,6 +53,8 @@ pub(super) struct Snapshot {
     pub(super) pose: [f32; 6],
 }
 
+/// The mode of velocities of the tip.
+const VELOCITY: u8 = 5;
 pub(super) const READY: u8 = 2;
 const MOVING: u8 = 1;
 const PAUSED: u8 = 3;
@@ -167,6 +169,34 @@ impl Controller {
         } else {
             self.begin(&mut inside, order);
         }
+        true
+    }
+
+    /// Takes a velocity in mm/s of the base frame, which holds for `duration_s`; `false` if the arm is in no state to move.
+    pub(super) fn cruise(&self, velocity_mm_s: [f64; 3], duration_s: f64) -> bool {
+        let mut inside = self.inside();
+        let can_move = inside.error == 0
+            && inside.mode == VELOCITY
+            && inside.enabled == ALL_JOINTS
+            && inside.state < STOPPED;
+        if !can_move {
+            return false;
+        }
+        let [x, y, z] = velocity_mm_s;
+        let at = self.pose(&inside);
+        self.bench.stand();
+        let speed = Speed::try_new(x.hypot(y).hypot(z));
+        let (Ok(speed), true) = (speed, duration_s > 0.0) else {
+            inside.current = None;
+            inside.state = READY;
+            return true;
+        };
+        let mut pose = at;
+        for (side, velocity_mm_s) in pose.iter_mut().zip(velocity_mm_s) {
+            *side += single(velocity_mm_s * duration_s);
+        }
+        let push = None;
+        self.begin(&mut inside, Order { pose, speed, push });
         true
     }
 

@@ -1,5 +1,6 @@
 //! `ufactory/xarm` against the emulated control box.
 
 mod contract;
+mod expiring;
 mod faults;
 mod setup;

@@ -1,0 +1,54 @@
+//! One motion of the tip: admitted, made under watch, and followed by a look.
+
+use std::time::Duration;
+
+use taceva_core::{Deadline, DriverError, Pose, Robot, Speed, Stamp};
+
+use super::error::StopCause;
+use super::tip::{Step, Tip};
+use super::way::{distance, is_straight_up};
+
+impl Tip<'_> {
+    /// One straight motion, then a look.
+    pub(super) fn go(&mut self, target: Pose, speed: Speed) -> Step<()> {
+        self.go_by(target, speed, |robot, deadline| {
+            robot.move_to(target, speed, deadline)
+        })
+    }
+
+    /// The same at the speed of contact, by a robot that stands by itself should this host fall silent, if it can.
+    pub(super) fn go_expiring(&mut self, target: Pose) -> Step<()> {
+        let speed = self.pace.contact;
+        self.go_by(target, speed, |robot, deadline| {
+            match robot.expiring_motion() {
+                Some(expiring) => expiring.move_expiring(target, speed, deadline),
+                None => robot.move_to(target, speed, deadline),
+            }
+        })
+    }
+
+    fn go_by(
+        &mut self,
+        target: Pose,
+        speed: Speed,
+        motion: impl FnOnce(&mut dyn Robot, Deadline) -> Result<Stamp, DriverError>,
+    ) -> Step<()> {
+        if self.cancel.is_cancelled() && !self.ignores_cancel {
+            return Err(StopCause::Cancelled);
+        }
+        let here = self.here();
+        if !is_straight_up(&here, &target) {
+            self.bounds.admit(&target)?;
+        }
+        let seconds = 1.0 + 2.0 * distance(&here, &target) / speed.mm_per_s();
+        let deadline = Deadline::after(Duration::from_secs_f64(seconds));
+        self.supervisor.lock().sent(here, target);
+        self.target = target;
+        let moved = motion(self.robot, deadline);
+        self.supervisor.lock().rests();
+        if let Err(error) = moved {
+            return Err(self.failed(error));
+        }
+        self.look().map(drop)
+    }
+}

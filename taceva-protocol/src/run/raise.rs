@@ -1,0 +1,128 @@
+//! Out of the way of hands: the tip is brought up before somebody changes what is under it.
+
+use taceva_core::{ForceTransducer, Robot};
+
+use super::bounds::Bounds;
+use super::error::{Left, RunError, StopCause};
+use super::operator::{Answer, Operator, Question};
+use super::supervisor::SharedSupervisor;
+use super::time::Cancel;
+use super::tip::{DEADLINE, Pace, Step, Tip};
+use super::{Controls, Event};
+use crate::plan::Plan;
+
+/// Brings the tip straight up to the height of travel, where it stands lower, and halts the robot there: whoever changes something by hand
+/// finds it out of the way. Whether it moved.
+///
+/// Before it moves, `robot` is enabled by somebody, if that names one; a tip that is high enough is halted where it is, and nobody is asked.
+/// `supervisor` is over this robot, and is shown every reading of force as under [`run_guarded`](super::run_guarded).
+///
+/// # Errors
+/// [`RunError`] as of [`run`](super::run).
+pub fn raise(
+    plan: &Plan,
+    (arm, force): (&mut dyn Robot, &mut dyn ForceTransducer),
+    controls: Controls<'_>,
+    (supervisor, robot): (SharedSupervisor, Option<&str>),
+) -> Result<bool, RunError> {
+    let Controls {
+        clock,
+        cancel,
+        events,
+        operator,
+    } = controls;
+    let nothing = || StopCause::Missing("limits and a footprint: nothing in it moves".to_owned());
+    let pace = Pace::of(plan).ok_or_else(|| unmoved(nothing()))?;
+    let bounds = Bounds::of(plan, 0.0).ok_or_else(|| unmoved(nothing()))?;
+    let mut tip = Tip::new(
+        (arm, force),
+        (clock, cancel),
+        (supervisor, true),
+        (bounds, pace),
+    );
+    tip.find_pose().map_err(unmoved)?;
+    if tip.is_high() {
+        tip.hold().map_err(unmoved)?;
+        return Ok(false);
+    }
+    if let Some(robot) = robot {
+        enable(robot, operator, cancel)?;
+    }
+    tip.force
+        .start(DEADLINE)
+        .map_err(|error| unmoved(error.into()))?;
+    let raised = tip.find().and_then(|()| tip.hold());
+    let stopped = tip.force.stop();
+    if let Err(cause) = raised {
+        return Err(tip.abandoned(cause, events));
+    }
+    stopped.map_err(|error| RunError {
+        press: None,
+        cause: error.into(),
+        left: Left::Clear,
+    })?;
+    Ok(true)
+}
+
+/// Has `robot` enabled by whoever must, before it moves for the first time.
+pub(super) fn enable(
+    robot: &str,
+    operator: Option<&mut dyn Operator>,
+    cancel: &Cancel,
+) -> Result<(), RunError> {
+    let Some(operator) = operator else {
+        let needed = format!("somebody who lets `{robot}` move");
+        return Err(unmoved(StopCause::Missing(needed)));
+    };
+    match operator.ask(&Question::Enable(robot.to_owned()), cancel) {
+        Answer::Done => Ok(()),
+        Answer::Skip | Answer::Stop => Err(unmoved(StopCause::Cancelled)),
+    }
+}
+
+/// Nothing has moved: where the tip stands is where somebody left it.
+fn unmoved(cause: StopCause) -> RunError {
+    RunError {
+        press: None,
+        cause,
+        left: Left::Untouched,
+    }
+}
+
+impl Tip<'_> {
+    /// Whether it stands at the height of travel or above it.
+    pub(super) fn is_high(&self) -> bool {
+        self.here().position.z.0 <= -self.pace.clearance_mm
+    }
+
+    /// Halts the robot, which moves again only when somebody ends the halt.
+    pub(super) fn hold(&mut self) -> Step<()> {
+        Ok(self.robot.halt()?)
+    }
+
+    /// The error that ends a run, after the tip was brought to where it can be left.
+    pub(super) fn abandoned(
+        &mut self,
+        cause: StopCause,
+        events: &mut dyn FnMut(&Event),
+    ) -> RunError {
+        if let StopCause::Tripped(trip) = cause {
+            events(&Event::Halted(trip));
+        }
+        let left = match self.abandon() {
+            true => {
+                events(&Event::Retracted);
+                Left::Clear
+            }
+            false => Left::InPlace,
+        };
+        RunError {
+            press: None,
+            cause,
+            left,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

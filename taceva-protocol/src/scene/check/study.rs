@@ -1,0 +1,172 @@
+//! The studies of a scene and their devices.
+
+use std::collections::BTreeSet;
+
+use super::written::{WrittenScene, WrittenStudy};
+use super::{Check, Checked};
+use crate::scene::devices::{DeviceSpec, SensorSpec};
+use crate::scene::error::{SceneError, SceneProblem};
+use crate::scene::limits::LimitSpec;
+use crate::scene::setting::Setting;
+use crate::scene::study::Study;
+
+/// The table of the sensor.
+const SENSOR: &str = "[sensor]";
+
+impl Check<'_> {
+    pub(super) fn studies(&self, written: &WrittenScene) -> Result<Vec<Study>, SceneError> {
+        if written.study.is_empty() {
+            let alone = WrittenStudy {
+                name: written.name.clone(),
+                sensor: None,
+                robot: None,
+                force: None,
+                lighting: None,
+                limits: LimitSpec::default(),
+                model: None,
+            };
+            return Ok(vec![self.study(written, &alone)?]);
+        }
+        let mut names = BTreeSet::new();
+        let mut studies = Vec::new();
+        for study in &written.study {
+            self.name("a study", &study.value.name)?;
+            if !names.insert(study.value.name.value.as_str()) {
+                let problem = SceneProblem::Twice {
+                    what: "studies",
+                    name: study.value.name.value.clone(),
+                };
+                return self.refuse(study.value.name.at(), problem);
+            }
+            studies.push(self.study(written, &study.value)?);
+        }
+        Ok(studies)
+    }
+
+    /// A study with the tables of the scene where it has none of its own.
+    fn study(&self, scene: &WrittenScene, study: &WrittenStudy) -> Result<Study, SceneError> {
+        let Some(sensor) = study.sensor.as_ref().or(scene.sensor.as_ref()) else {
+            let problem = format!(
+                "`{}` has no sensor: expected [sensor] with `driver` or `dataset`",
+                study.name.value
+            );
+            return self.refuse(study.name.at(), SceneProblem::Incomplete(problem));
+        };
+        self.sensor(sensor)?;
+        if scene.rig.is_some() {
+            let devices = [&study.robot, &study.force, &scene.robot, &scene.force];
+            self.no_device(sensor.value.driver.as_ref(), devices)?;
+        }
+        self.limits(&study.limits)?;
+        self.tightened(&study.limits, &scene.limits)?;
+        let lighting = study.lighting.as_ref().or(scene.lighting.as_ref());
+        let scenes = lighting.and_then(|lighting| lighting.scenes.as_ref());
+        self.distinct("scenes of light", scenes)?;
+        if lighting.is_some_and(|lighting| lighting.driver.is_none()) && scenes.is_none() {
+            let problem = format!(
+                "`{}` has a light that nobody knows: expected [lighting] with `driver`, or with `scenes` that are set by hand",
+                study.name.value
+            );
+            return self.refuse(study.name.at(), SceneProblem::Incomplete(problem));
+        }
+        let model = study.model.as_ref().or(scene.model.as_ref());
+        if let Some(model) = model {
+            self.one_of(
+                model.at(),
+                "[model]",
+                ("name", &model.value.name),
+                ("file", &model.value.file),
+            )?;
+        }
+        Ok(Study {
+            name: study.name.value.clone(),
+            sensor: sensor.value.clone(),
+            robot: study.robot.as_ref().or(scene.robot.as_ref()).cloned(),
+            force: study.force.as_ref().or(scene.force.as_ref()).cloned(),
+            lighting: lighting.cloned(),
+            limits: study.limits.or(scene.limits),
+            model: model.map(|model| model.value.clone()),
+            rig: None,
+        })
+    }
+
+    fn sensor(&self, sensor: &Setting<SensorSpec>) -> Checked {
+        let SensorSpec {
+            driver,
+            dataset,
+            units,
+            footprint,
+            ..
+        } = &sensor.value;
+        self.one_of(
+            sensor.at(),
+            SENSOR,
+            ("driver", driver),
+            ("dataset", dataset),
+        )?;
+        self.distinct("units", units.as_ref())?;
+        match footprint {
+            Some(written) => written
+                .value
+                .footprint(None)
+                .map(drop)
+                .or_else(|problem| self.contradiction(written.at(), &problem)),
+            None => Ok(()),
+        }
+    }
+
+    fn one_of<T>(
+        &self,
+        at: Option<usize>,
+        table: &str,
+        (first, one): (&str, &Option<Setting<T>>),
+        (second, other): (&str, &Option<Setting<T>>),
+    ) -> Checked {
+        match (one, other) {
+            (Some(_), Some(other)) => {
+                let problem = format!("{table} has `{first}` and `{second}`: expected one of them");
+                self.contradiction(other.at(), &problem)
+            }
+            (None, None) if table == SENSOR && self.is_named_elsewhere() => Ok(()),
+            (None, None) => {
+                let problem = format!("{table} has neither `{first}` nor `{second}`");
+                self.refuse(at, SceneProblem::Incomplete(problem))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Refuses devices beside a rig file, which says which there are.
+    fn no_device(
+        &self,
+        sensor: Option<&Setting<String>>,
+        devices: [&Option<DeviceSpec>; 4],
+    ) -> Checked {
+        let named = devices.into_iter().flatten().map(|device| &device.driver);
+        match sensor.into_iter().chain(named).next() {
+            None => Ok(()),
+            Some(driver) => self.contradiction(
+                driver.at(),
+                "the scene has `rig` and `driver`: expected one of them, the rig file names the devices",
+            ),
+        }
+    }
+
+    /// A list of names, none empty, none twice.
+    fn distinct(&self, what: &'static str, names: Option<&Setting<Vec<String>>>) -> Checked {
+        let Some(names) = names else { return Ok(()) };
+        let mut seen = BTreeSet::new();
+        for name in &names.value {
+            self.name(what, &names.clone().map(|_| name.clone()))?;
+            if !seen.insert(name) {
+                let name = name.clone();
+                return self.refuse(names.at(), SceneProblem::Twice { what, name });
+            }
+        }
+        if names.value.is_empty() {
+            let problem = format!("the list of {what} is empty");
+            return self.contradiction(names.at(), &problem);
+        }
+        Ok(())
+    }
+}

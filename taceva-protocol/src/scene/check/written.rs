@@ -1,0 +1,47 @@
+//! A scene and its studies as they are written.
+
+use serde::Deserialize;
+
+use crate::scene::counts::Protocol;
+use crate::scene::devices::{DeviceSpec, LightingSpec, ModelSpec, SensorSpec};
+use crate::scene::limits::LimitSpec;
+use crate::scene::metrics::{MetricsSpec, ReportSpec};
+use crate::scene::setting::Setting;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a scene")]
+pub(super) struct WrittenScene {
+    pub(super) scene_version: Setting<u32>,
+    pub(super) name: Setting<String>,
+    #[serde(default)]
+    pub(super) seed: u64,
+    pub(super) rig: Option<Setting<String>>,
+    pub(super) sensor: Option<Setting<SensorSpec>>,
+    pub(super) robot: Option<DeviceSpec>,
+    pub(super) force: Option<DeviceSpec>,
+    pub(super) lighting: Option<LightingSpec>,
+    #[serde(default)]
+    pub(super) limits: LimitSpec,
+    pub(super) model: Option<Setting<ModelSpec>>,
+    #[serde(default)]
+    pub(super) metrics: MetricsSpec,
+    #[serde(default)]
+    pub(super) protocol: Protocol,
+    #[serde(default)]
+    pub(super) report: ReportSpec,
+    #[serde(default)]
+    pub(super) study: Vec<Setting<WrittenStudy>>,
+}
+
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a study")]
+pub(super) struct WrittenStudy {
+    pub(super) name: Setting<String>,
+    pub(super) sensor: Option<Setting<SensorSpec>>,
+    pub(super) robot: Option<DeviceSpec>,
+    pub(super) force: Option<DeviceSpec>,
+    pub(super) lighting: Option<LightingSpec>,
+    #[serde(default)]
+    pub(super) limits: LimitSpec,
+    pub(super) model: Option<Setting<ModelSpec>>,
+}

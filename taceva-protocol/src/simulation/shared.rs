@@ -1,0 +1,56 @@
+//! One world for devices, disk and clock: its time is that of the run, and a kill may end the process at any call.
+
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use super::fault::{FaultKind, Faults};
+use super::gel::Gel;
+use super::oracle::Oracle;
+use super::world::World;
+use crate::draw::Draws;
+use crate::run::Timekeeper;
+
+/// The world, shared by devices, disk and clock.
+#[derive(Clone)]
+pub(super) struct Shared(Arc<Mutex<World>>);
+
+/// The panic payload of a killed process, which no code handles as an error.
+pub(super) struct Killed;
+
+impl Shared {
+    pub(super) fn new(gel: Gel, oracle: Oracle, faults: Faults, draws: Draws) -> Shared {
+        Shared(Arc::new(Mutex::new(World::new(gel, oracle, faults, draws))))
+    }
+
+    /// The world. Kills come between calls, so a poisoned lock still holds a consistent world.
+    pub(super) fn world(&self) -> MutexGuard<'_, World> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Ends the process here, if a kill is due.
+    pub(super) fn survive(&self) {
+        let mut world = self.world();
+        let now_s = world.now_s;
+        if world.faults.strike_once(FaultKind::Kill, now_s) {
+            world.oracle.killed();
+            drop(world);
+            // Unlike a panic it is not reported: nothing went wrong in the program.
+            std::panic::resume_unwind(Box::new(Killed));
+        }
+        // Where threads look on, one of them hears of the wish.
+        if world.guard.is_none() && world.faults.strike_once(FaultKind::Cancel, now_s) {
+            world.cancel.cancel();
+        }
+    }
+}
+
+impl Timekeeper for Shared {
+    fn now_s(&self) -> f64 {
+        self.look_on();
+        self.world().now_s
+    }
+
+    fn rest(&mut self, rest: std::time::Duration) {
+        self.elapse(rest.as_secs_f64());
+        self.survive();
+    }
+}
