@@ -67,6 +67,22 @@ fn reports_that_stop_stop_the_arm() {
 }
 
 #[test]
+fn a_silence_that_is_over_keeps_an_arm_at_rest_no_longer_than_a_moment() {
+    let setup = setup(Ports::ANY);
+    let mut arm = setup.open();
+    let (home, _) = arm.pose(PATIENCE).expect("a pose");
+    // The connection by which it is stopped is tried twice a second: the silences begin at every phase of that.
+    for phase in 0..25_u8 {
+        inject(&setup.bench, Device::Robot, FaultKind::Silent, 150);
+        std::thread::sleep(Duration::from_millis(350));
+        let target = lower(home, f64::from(phase % 2));
+        let moved = arm.move_to(target, speed(20.0), PATIENCE);
+        moved.unwrap_or_else(|error| panic!("phase {phase}: {error:?}"));
+        std::thread::sleep(Duration::from_millis(70));
+    }
+}
+
+#[test]
 fn a_pose_that_is_no_number_is_a_fault_and_ends_no_motion_as_arrived() {
     let setup = setup(Ports::ANY);
     let mut arm = setup.open();
