@@ -1,7 +1,7 @@
 //! Threads that look on while a run on real devices goes on, so that a limit is seen within a motion and not after it.
 //!
 //! One thread owns the force transducer: what it reads it shows to the [`Supervisor`] and puts where the run finds it. Another looks at the
-//! robot a hundred times a second, over a connection of its own where the robot has one, and hears when nothing is heard and when somebody
+//! robot whenever it reports, over a connection of its own where the robot has one, and hears when nothing is heard and when somebody
 //! wishes to stop. Both halt through the supervisor, which decides alone.
 //!
 //! They run with the priority of the process. On a busy machine a thread may wait for a tenth of a second: `chrt -f 10 taceva run …` makes
@@ -20,8 +20,9 @@ use taceva_protocol::{Cancel, Observation, RigLimits, SharedSupervisor, Supervis
 use crate::viewer::Viewer;
 use mailbox::Mailbox;
 
-/// From one look at the robot to the next.
-const LOOK: Duration = Duration::from_millis(10);
+/// Between two looks at the robot, each of which waits for what it reports next: less than the 10 ms between two reports of an arm, of which every
+/// second would be missed otherwise. A signal that froze is found by eight readings that each come after the tip was seen elsewhere.
+const LOOK: Duration = Duration::from_millis(5);
 /// A robot that says nothing for so long has missed a look.
 const LOOK_DEADLINE: Deadline = Deadline::after(Duration::from_millis(20));
 

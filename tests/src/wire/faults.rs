@@ -46,9 +46,9 @@ pub struct Case {
 const STALE_MS: u64 = 50;
 /// What the machine and the arm may take beyond, in ms.
 const SLACK_MS: u64 = 25;
-/// From a signal that froze to an arm that stands, in ms of motion: eight looks at the robot, 100 a second, each later by what a busy machine makes of
-/// it. On a quiet one 100 ms are asked for; at a load of 20 on 4 cores 119 ms were seen.
-const FROZEN_MS: u64 = 150;
+/// From a signal that froze to an arm that stands, in ms of motion: eight readings that each come after the tip was seen elsewhere, which an arm shows
+/// 100 times a second, and the time of a halt.
+const FROZEN_MS: u64 = 100;
 
 const fn link(device: Device, kind: FaultKind, lasts_ms: u64) -> Wrong {
     Wrong::Link(device, kind, Duration::from_millis(lasts_ms))

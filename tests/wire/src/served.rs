@@ -24,6 +24,9 @@ pub enum RobotKind {
     /// A machine with GRBL, on a pseudo-terminal.
     #[cfg(unix)]
     Grbl,
+    /// A printer with Marlin, on a pseudo-terminal; its firmware takes a stop while it moves.
+    #[cfg(unix)]
+    Marlin,
 }
 
 /// What measures the force.
@@ -109,6 +112,11 @@ impl Served {
             }
             #[cfg(unix)]
             RobotKind::Grbl => Arc::new(crate::grbl::Emulator::start(&bench)?),
+            #[cfg(unix)]
+            RobotKind::Marlin => {
+                let firmware = crate::marlin::Firmware::StopsAtOnce;
+                Arc::new(crate::marlin::Emulator::start(&bench, firmware)?)
+            }
         };
         let (force, selector): (Box<dyn Send + Sync>, String) = match options.force {
             ForceKind::Sri => {

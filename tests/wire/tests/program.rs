@@ -3,20 +3,66 @@
 use std::io::{BufRead, BufReader, Write};
 use std::net::TcpStream;
 use std::process::{Child, Command, Stdio};
+use std::time::Duration;
 
+use clap::ValueEnum;
 use serde_json::Value;
 use taceva_core::{Deadline, ErrorKind, Rig};
-use taceva_drivers::{Drivers, open};
+use taceva_drivers::{Drivers, Selector, open};
+use taceva_wire::RobotKind;
 
 /// The program, which is ended with this.
-struct Running(Child);
+struct Running {
+    process: Child,
+    /// The first line that it said.
+    said: String,
+    /// The rig file that it wrote.
+    rig: toml::Table,
+}
+
+impl Running {
+    /// Starts it with `words`, and waits until it serves.
+    fn start(words: &[&str]) -> Running {
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = folder.path().join("rig.toml");
+        let mut process = Command::new(env!("CARGO_BIN_EXE_taceva-wire"))
+            .args(["--quiet", "--seed", "7"])
+            .args(words)
+            .arg("--write")
+            .arg(&file)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()
+            .expect("it starts");
+        let said = BufReader::new(process.stdout.take().expect("piped"));
+        let said: Vec<String> = said
+            .lines()
+            .map(|line| line.expect("text"))
+            .take_while(|line| !line.starts_with("# It runs"))
+            .collect();
+        let text = std::fs::read_to_string(&file).expect("it was written");
+        Running {
+            process,
+            said: said[0].clone(),
+            rig: text.parse().expect("TOML"),
+        }
+    }
+
+    /// The driver that the rig file names in `section`, with its arguments.
+    fn selector(&self, section: &str) -> Selector {
+        let driver = self.rig[section]["driver"].as_str().expect("a selector");
+        driver.parse().expect("a selector")
+    }
+}
 
 impl Drop for Running {
     fn drop(&mut self) {
-        let _ = self.0.kill();
-        let _ = self.0.wait();
+        let _ = self.process.kill();
+        let _ = self.process.wait();
     }
 }
+
+const PATIENCE: Deadline = Deadline::after(Duration::from_secs(3));
 
 fn asked(control: &mut BufReader<TcpStream>, request: &str) -> Value {
     let line = format!("{request}\n");
@@ -28,41 +74,22 @@ fn asked(control: &mut BufReader<TcpStream>, request: &str) -> Value {
 
 #[test]
 fn its_rig_file_opens_every_device_its_control_port_breaks_them_and_it_ends_with_its_input() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let file = folder.path().join("rig.toml");
-    let mut program = Command::new(env!("CARGO_BIN_EXE_taceva-wire"))
-        .args(["--quiet", "--seed", "7", "--write"])
-        .arg(&file)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .spawn()
-        .map(Running)
-        .expect("it starts");
-    let said = BufReader::new(program.0.stdout.take().expect("piped"));
-    let said: Vec<String> = said
-        .lines()
-        .map(|line| line.expect("text"))
-        .take_while(|line| !line.starts_with("# It runs"))
-        .collect();
-    assert!(said[0].contains("simulated: TACEVA-SIM0007"), "{said:?}");
-
-    let text = std::fs::read_to_string(&file).expect("it was written");
-    let rig: toml::Table = text.parse().expect("TOML");
-    let selector = |section: &str| {
-        let driver = rig[section]["driver"].as_str().expect("a selector");
-        driver.parse().expect("a selector")
-    };
+    let mut program = Running::start(&[]);
+    assert!(
+        program.said.contains("simulated: TACEVA-SIM0007"),
+        "{}",
+        program.said
+    );
     let drivers = Drivers::builtin().expect("drivers");
     let mut shared = Rig::new();
-    let patience = Deadline::after(std::time::Duration::from_secs(3));
-    let mut robot = open(&drivers.robots, &selector("robot"), &mut shared).expect("an arm");
-    let mut force = open(&drivers.forces, &selector("force"), &mut shared).expect("a box");
-    open(&drivers.sensors, &selector("sensor"), &mut shared).expect("a camera");
-    let (pose, _) = robot.pose(patience).expect("a pose");
-    force.start(patience).expect("it starts");
-    force.read(patience).expect("a reading");
+    let mut robot = open(&drivers.robots, &program.selector("robot"), &mut shared).expect("an arm");
+    let mut force = open(&drivers.forces, &program.selector("force"), &mut shared).expect("a box");
+    open(&drivers.sensors, &program.selector("sensor"), &mut shared).expect("a camera");
+    let (pose, _) = robot.pose(PATIENCE).expect("a pose");
+    force.start(PATIENCE).expect("it starts");
+    force.read(PATIENCE).expect("a reading");
 
-    let (_, address) = said[0].rsplit_once(' ').expect("an address");
+    let (_, address) = program.said.rsplit_once(' ').expect("an address");
     let control = TcpStream::connect(address.trim_end_matches('.')).expect("it listens");
     let mut control = BufReader::new(control);
     let truth = asked(&mut control, "\"truth\"");
@@ -78,9 +105,29 @@ fn its_rig_file_opens_every_device_its_control_port_breaks_them_and_it_ends_with
     let speed = taceva_core::Speed::try_new(5.0).expect("above 0");
     let mut target = pose;
     target.position.z.0 -= 1.0;
-    let moved = robot.move_to(target, speed, patience).expect_err("stopped");
+    let moved = robot.move_to(target, speed, PATIENCE).expect_err("stopped");
     assert_eq!(moved.kind(), ErrorKind::DeviceFault, "{moved}");
 
-    drop(program.0.stdin.take());
-    assert!(program.0.wait().expect("it ended").success());
+    drop(program.process.stdin.take());
+    assert!(program.process.wait().expect("it ended").success());
+}
+
+#[test]
+fn every_robot_that_it_names_moves_by_the_driver_of_its_rig_file() {
+    let drivers = Drivers::builtin().expect("drivers");
+    for robot in RobotKind::value_variants() {
+        let name = robot.to_possible_value().expect("each has a name");
+        let program = Running::start(&["--robot", name.get_name()]);
+        let mut opened =
+            open(&drivers.robots, &program.selector("robot"), &mut Rig::new()).expect("a robot");
+        let (home, _) = opened.pose(PATIENCE).expect("a pose");
+        let mut target = home;
+        target.position.z.0 -= 2.0;
+        let speed = taceva_core::Speed::try_new(10.0).expect("above 0");
+        opened.move_to(target, speed, PATIENCE).expect("it arrives");
+        let (at, _) = opened.pose(PATIENCE).expect("a pose");
+        let apart_mm = at.position.z.0 - target.position.z.0;
+        // What a printer says is in steps of 0.01 mm.
+        assert!(apart_mm.abs() <= 0.01, "{robot:?}: {apart_mm}");
+    }
 }

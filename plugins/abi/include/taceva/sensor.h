@@ -17,7 +17,8 @@ extern "C" {
 
 /* A picture, row by row from the top, without padding.
  *
- * A plugin either writes into `buffer` and sets `data` to it, or lends memory of its own: `data` elsewhere, `release` set. */
+ * A plugin either writes into `buffer` and sets `data` to it, or lends memory of its own: `data` elsewhere, `release` set. `buffer` is the plugin's
+ * until the call that brought it returns: what is written there later changes pictures, and ends the process once the sensor is closed. */
 typedef struct taceva_frame {
   uint32_t size;
   uint32_t format; /* TACEVA_GRAY8 ... */

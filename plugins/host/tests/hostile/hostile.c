@@ -256,6 +256,13 @@ static taceva_status capture(void *handle, taceva_frame *frame, uint64_t timeout
     if (is("lent_changed")) pthread_create(&thread, NULL, scribble, lent);
   }
   if (is("changes_after") && frames == 1) {
+    /* A second mapping of what both processes share: the first one is gone once the sensor is closed. */
+    void *kept = mremap(frame->buffer, 0, LENGTH, MREMAP_MAYMOVE);
+    if (kept == MAP_FAILED) return fail(error, TACEVA_INTERNAL, "the buffer is no shared memory");
+    pthread_t thread;
+    pthread_create(&thread, NULL, scribble, kept);
+  }
+  if (is("writes_after_close") && frames == 1) {
     pthread_t thread;
     pthread_create(&thread, NULL, scribble, frame->buffer);
   }

@@ -149,6 +149,7 @@ ways! {
     a_frame_released_twice: "lent_released_twice", Do::Capture => Gone("signal 6");
     a_lent_frame_that_changes: "lent_changed", Do::Capture => Nothing;
     a_frame_that_changes_after_it_was_given: "changes_after", Do::Capture => Nothing;
+    a_write_into_a_frame_after_its_sensor_was_closed: "writes_after_close", Do::Capture => Gone("signal 11");
     a_release_that_crashes: "release_crash", Do::Capture => Gone("signal 11");
     a_release_that_hangs: "release_hang", Do::Capture => Gone("did not capture a frame within 400ms");
     a_stamp_of_the_far_future: "stamp_far_future", Do::Capture => Nothing;

@@ -90,8 +90,9 @@ impl Arm {
             return Err(halted());
         }
         if !self.stopping().is_alive() {
+            // It is tried until it does: what the arm would be stopped by is silent, and not yet gone.
             let why = "the connection by which it would be stopped does not answer";
-            return Err(failed(ErrorKind::Disconnected, DOING, why));
+            return Err(failed(ErrorKind::Timeout, DOING, why));
         }
         let fault = self.observer.error(&mut self.exchange);
         if let Some(fault) = fault.map_err(unanswered(DOING))? {

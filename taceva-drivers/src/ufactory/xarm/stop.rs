@@ -16,6 +16,8 @@ use super::firmware::Firmware;
 const CONFIRMATION: Duration = Duration::from_millis(40);
 /// How often the connection is tried while nothing is to be stopped, and how long its answer may take.
 const TRIAL_EVERY: Duration = Duration::from_millis(500);
+/// How often one that does not answer is tried: until it does, the arm is not moved.
+const RETRIAL_EVERY: Duration = Duration::from_millis(50);
 const TRIAL_PATIENCE: Duration = Duration::from_millis(20);
 
 /// The means to stop one arm, shared by the robot, its handles and the thread that keeps the connection alive.
@@ -150,7 +152,11 @@ impl Keeper {
                 let (lock, bell) = &kept.bell;
                 let mut guard = lock.lock().unwrap_or_else(PoisonError::into_inner);
                 while !kept.is_gone.load(Ordering::Acquire) {
-                    let waited = bell.wait_timeout(guard, TRIAL_EVERY);
+                    let pause = match kept.is_alive() {
+                        true => TRIAL_EVERY,
+                        false => RETRIAL_EVERY,
+                    };
+                    let waited = bell.wait_timeout(guard, pause);
                     drop(waited);
                     if !kept.is_gone.load(Ordering::Acquire) {
                         kept.keep();

@@ -1,10 +1,13 @@
 //! Every driver of a robot and of a force transducer against its emulated device, through sockets and a pseudo-terminal.
 
 #[cfg(unix)]
+mod gcode;
+#[cfg(unix)]
 mod grbl;
 #[cfg(unix)]
 mod marlin;
 mod netft;
+mod setup;
 mod sri;
 mod support;
 mod ur;

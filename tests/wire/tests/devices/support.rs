@@ -30,10 +30,10 @@ pub(crate) fn inject(bench: &WallBench, device: Device, kind: FaultKind, lasts_m
     });
 }
 
-/// What a motion of 15 mm at 10 mm/s gives if `happens` once it goes on, and how long after that it gave it.
+/// What a motion of 15 mm at 2 mm/s gives if `happens` once it goes on, and how long after that it gave it.
 pub(crate) fn moved(
     bench: &WallBench,
-    mut arm: Box<dyn Robot>,
+    arm: &mut dyn Robot,
     happens: impl FnOnce() + Send,
 ) -> (DriverError, Duration) {
     let (home, _) = arm.pose(PATIENCE).expect("a pose");
@@ -46,7 +46,7 @@ pub(crate) fn moved(
             Instant::now()
         });
         let error = arm
-            .move_to(lower(home, 15.0), speed(10.0), PATIENCE)
+            .move_to(lower(home, 15.0), speed(2.0), PATIENCE)
             .expect_err("broken off");
         let returned = Instant::now();
         let happened = happening.join().expect("it happened");

@@ -3,46 +3,23 @@
 use std::net::Ipv4Addr;
 use std::time::Duration;
 
-use taceva_core::{ErrorKind, Factory, Rig, Robot};
+use taceva_core::ErrorKind;
 use taceva_drivers::UrFactory;
-use taceva_drivers::conformance::{self, Trial};
 use taceva_wire::ur::Emulator;
-use taceva_wire::{Arm, ArmFault, BenchOptions, Device, Fault, FaultKind, WallBench};
+use taceva_wire::{Arm, ArmFault, Device, FaultKind};
 
-use crate::support::{PATIENCE, lower, moved, speed};
+use crate::setup::Setup;
+use crate::support::{PATIENCE, inject, lower, moved, speed};
 
-struct Setup {
-    bench: WallBench,
-    arm: Emulator,
-}
-
-fn setup() -> Setup {
-    let bench = WallBench::start(&BenchOptions::quiet(7)).expect("a bench");
-    let arm = Emulator::start(&bench, Ipv4Addr::LOCALHOST, [0, 0]).expect("an arm");
-    Setup { bench, arm }
-}
-
-impl Setup {
-    fn arguments(&self) -> String {
-        let selector = self.arm.selector();
-        let (_, arguments) = selector.split_once(':').expect("a driver and arguments");
-        arguments.to_owned()
-    }
-
-    fn open(&self) -> Box<dyn Robot> {
-        let factory = UrFactory::new().expect("a factory");
-        let args = factory.descriptor().args(&self.arguments()).expect("good");
-        factory.open(&args, &mut Rig::new()).expect("an arm")
-    }
+fn setup() -> Setup<Emulator> {
+    let factory = UrFactory::new().expect("a factory");
+    let start = |bench: &_| Emulator::start(bench, Ipv4Addr::LOCALHOST, [0, 0]);
+    Setup::new(factory, start)
 }
 
 #[test]
 fn the_suite_passes() {
-    let setup = setup();
-    let factory = UrFactory::new().expect("a factory");
-    let trial = Trial::with_arguments(setup.arguments());
-    let report = conformance::robot(&factory, &trial);
-    assert!(report.passed(), "{report}");
+    setup().passes_the_suite();
 }
 
 #[test]
@@ -85,8 +62,8 @@ fn a_halt_stops_the_arm_at_once_and_no_program_begins_after_it() {
 #[test]
 fn an_emergency_stop_is_a_fault_that_nobody_but_a_person_ends() {
     let setup = setup();
-    let (error, took) = moved(&setup.bench, setup.open(), || {
-        setup.arm.suffer(ArmFault::EmergencyStop)
+    let (error, took) = moved(&setup.bench, &mut *setup.open(), || {
+        setup.emulator.suffer(ArmFault::EmergencyStop)
     });
     assert_eq!(error.kind(), ErrorKind::DeviceFault);
     assert!(
@@ -107,8 +84,8 @@ fn an_emergency_stop_is_a_fault_that_nobody_but_a_person_ends() {
 #[test]
 fn a_collision_is_a_protective_stop() {
     let setup = setup();
-    let (error, _) = moved(&setup.bench, setup.open(), || {
-        setup.arm.suffer(ArmFault::Collision)
+    let (error, _) = moved(&setup.bench, &mut *setup.open(), || {
+        setup.emulator.suffer(ArmFault::Collision)
     });
     assert_eq!(error.kind(), ErrorKind::DeviceFault);
     assert!(error.to_string().contains("a protective stop"), "{error}");
@@ -118,12 +95,9 @@ fn a_collision_is_a_protective_stop() {
 #[test]
 fn states_that_stop_stop_the_arm() {
     let setup = setup();
-    let silence = Fault {
-        device: Device::Robot,
-        kind: FaultKind::Silent,
-        lasts: Duration::from_secs(1),
-    };
-    let (error, _) = moved(&setup.bench, setup.open(), || setup.bench.inject(silence));
+    let (error, _) = moved(&setup.bench, &mut *setup.open(), || {
+        inject(&setup.bench, Device::Robot, FaultKind::Silent, 1_000);
+    });
     assert_eq!(error.kind(), ErrorKind::Timeout, "{error}");
     assert!(!setup.bench.truth().is_moving);
 }
@@ -132,11 +106,7 @@ fn states_that_stop_stop_the_arm() {
 fn a_pose_that_is_no_number_is_a_fault() {
     let setup = setup();
     let mut arm = setup.open();
-    setup.bench.inject(Fault {
-        device: Device::Robot,
-        kind: FaultKind::NotANumber,
-        lasts: Duration::from_secs(2),
-    });
+    inject(&setup.bench, Device::Robot, FaultKind::NotANumber, 2_000);
     let fault = (0..100).find_map(|_| {
         std::thread::sleep(Duration::from_millis(10));
         arm.pose(PATIENCE).err()
@@ -165,24 +135,8 @@ fn an_arm_that_goes_away_is_disconnected() {
 #[test]
 fn another_thread_sees_the_arm_move_and_its_faults() {
     let setup = setup();
-    let mut arm = setup.open();
-    let watch = arm.watch_handle().expect("an arm that reports");
-    let (home, _) = arm.pose(PATIENCE).expect("a pose");
-    let seen = std::thread::scope(|scope| {
-        let moving = scope.spawn(|| arm.move_to(lower(home, 10.0), speed(20.0), PATIENCE));
-        let mut seen = Vec::new();
-        while !moving.is_finished() {
-            let (pose, stamp) = watch.pose(PATIENCE).expect("a state");
-            seen.push((stamp.valid_s, pose.position.z.0));
-        }
-        moving.join().expect("no panic").expect("it arrives");
-        seen
-    });
-    assert!(seen.is_sorted_by(|one, other| one.0 < other.0), "{seen:?}");
-    let between =
-        |(_, z): &&(f64, f64)| *z < home.position.z.0 - 1.0 && *z > home.position.z.0 - 9.0;
-    assert!(seen.iter().filter(between).count() >= 5, "{seen:?}");
-    setup.arm.suffer(ArmFault::Collision);
+    let (arm, watch) = setup.is_seen_to_move();
+    setup.emulator.suffer(ArmFault::Collision);
     let found = std::iter::repeat_with(|| watch.pose(PATIENCE)).find_map(Result::err);
     let found = found.expect("the fault is reported");
     assert_eq!(

@@ -7,16 +7,16 @@ use std::time::{Duration, Instant};
 use taceva_core::{DriverError, ErrorKind, Factory, Pose, Rig};
 use taceva_drivers::XarmFactory;
 use taceva_wire::xarm::Ports;
-use taceva_wire::{Arm, ArmFault, Device, Fault, FaultKind};
+use taceva_wire::{Arm, ArmFault, Device, FaultKind};
 
-use super::setup::{Setup, setup};
-use crate::support::{PATIENCE, lower, moved, speed};
+use super::setup::setup;
+use crate::support::{PATIENCE, inject, lower, moved, speed};
 
 #[test]
 fn an_emergency_stop_is_a_fault_that_nobody_but_a_person_ends() {
     let setup = setup(Ports::ANY);
-    let (error, took) = moved(&setup.bench, setup.open(), || {
-        setup.arm.suffer(ArmFault::EmergencyStop)
+    let (error, took) = moved(&setup.bench, &mut *setup.open(), || {
+        setup.emulator.suffer(ArmFault::EmergencyStop)
     });
     assert_eq!(error.kind(), ErrorKind::DeviceFault);
     assert!(
@@ -44,8 +44,8 @@ fn an_emergency_stop_is_a_fault_that_nobody_but_a_person_ends() {
 #[test]
 fn a_collision_is_a_fault_that_is_named() {
     let setup = setup(Ports::ANY);
-    let (error, _) = moved(&setup.bench, setup.open(), || {
-        setup.arm.suffer(ArmFault::Collision)
+    let (error, _) = moved(&setup.bench, &mut *setup.open(), || {
+        setup.emulator.suffer(ArmFault::Collision)
     });
     assert_eq!(error.kind(), ErrorKind::DeviceFault);
     assert!(
@@ -57,12 +57,9 @@ fn a_collision_is_a_fault_that_is_named() {
 #[test]
 fn reports_that_stop_stop_the_arm() {
     let setup = setup(Ports::ANY);
-    let silence = Fault {
-        device: Device::Robot,
-        kind: FaultKind::Silent,
-        lasts: Duration::from_secs(1),
-    };
-    let (error, took) = moved(&setup.bench, setup.open(), || setup.bench.inject(silence));
+    let (error, took) = moved(&setup.bench, &mut *setup.open(), || {
+        inject(&setup.bench, Device::Robot, FaultKind::Silent, 1_000);
+    });
     assert_eq!(error.kind(), ErrorKind::Timeout, "{error}");
     // A quarter of a second without a report, 40 ms for an answer that does not come, and looking whether it stands.
     assert!(took < Duration::from_millis(1_200), "{took:?}");
@@ -70,15 +67,27 @@ fn reports_that_stop_stop_the_arm() {
 }
 
 #[test]
+fn a_silence_that_is_over_keeps_an_arm_at_rest_no_longer_than_a_moment() {
+    let setup = setup(Ports::ANY);
+    let mut arm = setup.open();
+    let (home, _) = arm.pose(PATIENCE).expect("a pose");
+    // The connection by which it is stopped is tried twice a second: the silences begin at every phase of that.
+    for phase in 0..25_u8 {
+        inject(&setup.bench, Device::Robot, FaultKind::Silent, 150);
+        std::thread::sleep(Duration::from_millis(350));
+        let target = lower(home, f64::from(phase % 2));
+        let moved = arm.move_to(target, speed(20.0), PATIENCE);
+        moved.unwrap_or_else(|error| panic!("phase {phase}: {error:?}"));
+        std::thread::sleep(Duration::from_millis(70));
+    }
+}
+
+#[test]
 fn a_pose_that_is_no_number_is_a_fault_and_ends_no_motion_as_arrived() {
     let setup = setup(Ports::ANY);
     let mut arm = setup.open();
     arm.pose(PATIENCE).expect("a pose");
-    setup.bench.inject(Fault {
-        device: Device::Robot,
-        kind: FaultKind::NotANumber,
-        lasts: Duration::from_millis(300),
-    });
+    inject(&setup.bench, Device::Robot, FaultKind::NotANumber, 300);
     let until = Instant::now() + Duration::from_millis(250);
     let mut faults = 0;
     while Instant::now() < until {
@@ -93,12 +102,7 @@ fn a_pose_that_is_no_number_is_a_fault_and_ends_no_motion_as_arrived() {
 
 #[test]
 fn an_arm_that_goes_away_is_disconnected() {
-    let Setup { bench, arm } = setup(Ports::ANY);
-    let mut robot = Setup {
-        bench: bench.clone(),
-        arm,
-    }
-    .open();
+    let mut robot = setup(Ports::ANY).open();
     let moved = robot.move_to(Pose::default(), speed(5.0), PATIENCE);
     assert_eq!(moved.expect_err("outside").kind(), ErrorKind::OutOfRange);
     // The emulator was dropped: its ports are closed.

@@ -1,0 +1,5 @@
+//! The page over its socket: who is let in, who is refused, and that nobody is waited for.
+
+mod access;
+mod shown;
+mod support;
