@@ -72,14 +72,18 @@ impl Run<'_> {
 
     /// Asks while the robot is halted at the height of travel or above it, and lets it move again only if hands are out of reach.
     pub(super) fn ask(&mut self, question: &Question) -> Step<Answer> {
-        let Some(operator) = &mut self.operator else {
+        if self.operator.is_none() {
             return Ok(Answer::Stop);
-        };
+        }
         let height_mm = -self.tip.pace.clearance_mm;
         if self.tip.here().position.z.0 > height_mm {
+            self.wait_until_held()?;
             self.tip.retreat()?;
         }
         self.tip.robot.halt()?;
+        let Some(operator) = &mut self.operator else {
+            return Ok(Answer::Stop);
+        };
         let answer = operator.ask(question, self.tip.cancel);
         if answer == Answer::Done {
             self.tip.release()?;
@@ -99,6 +103,7 @@ impl Run<'_> {
         self.tip.robot_failed = false;
         self.tip.supervisor.lock().acknowledge();
         let press = error.press;
+        self.hold(press)?;
         let found = self.tip.find();
         found.map_err(|cause| self.abandoned(press, cause))
     }

@@ -325,7 +325,8 @@ impl<'a> Tip<'a> {
         }
         let seconds = 1.0 + 2.0 * distance(&here, &target) / speed.mm_per_s();
         let deadline = Deadline::after(Duration::from_secs_f64(seconds));
-        self.supervisor.lock().sent(here, target);
+        let sent = self.supervisor.lock().sent(here, target);
+        sent.map_err(StopCause::Tripped)?;
         self.target = target;
         let moved = self.robot.move_to(target, speed, deadline);
         self.supervisor.lock().rests();
