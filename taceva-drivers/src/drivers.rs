@@ -6,6 +6,7 @@ use taceva_core::{
 };
 
 use crate::selector::Selector;
+use crate::switches::Switches;
 
 /// The drivers of a program, a registry a kind.
 #[derive(Debug)]
@@ -18,6 +19,8 @@ pub struct Drivers {
     pub forces: Registry<dyn ForceTransducer>,
     /// Lightings.
     pub lightings: Registry<dyn Lighting>,
+    /// Enabling switches.
+    pub switches: Switches,
 }
 
 impl Drivers {
@@ -34,6 +37,7 @@ impl Drivers {
             robots: Registry::builtin()?,
             forces: Registry::builtin()?,
             lightings: Registry::builtin()?,
+            switches: Switches::builtin(),
         })
     }
 

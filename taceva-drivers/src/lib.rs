@@ -30,6 +30,7 @@ mod sensor;
 mod source;
 #[cfg(feature = "sri")]
 mod sri;
+mod switches;
 mod text;
 #[cfg(feature = "xarm")]
 mod ufactory;
@@ -65,6 +66,7 @@ pub use sensor::replay::{Replay, ReplayFactory, ReplayOptions};
 pub use source::{FolderSource, FrameSource, SourceError, Timing};
 #[cfg(feature = "sri")]
 pub use sri::M8128Factory;
+pub use switches::Switches;
 #[cfg(feature = "xarm")]
 pub use ufactory::XarmFactory;
 #[cfg(feature = "ur")]
