@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use taceva_core::{ArgSpec, Args, DriverError, DriverKey, EnablingSwitch, ErrorKind};
 
-use crate::drivers::OpenError;
+use crate::open_error::OpenError;
 use crate::selector::Selector;
 
 /// Opens a switch by its selector.
@@ -38,12 +38,15 @@ impl fmt::Debug for Switches {
 impl Switches {
     /// Those that are linked into the program: `hid/pedal`, where it is.
     pub fn builtin() -> Switches {
-        #[allow(unused_mut, reason = "there are none without the feature `hid`")]
-        let mut switches = Switches::default();
+        let switches = Switches::default();
         #[cfg(all(feature = "hid", target_os = "linux"))]
-        switches.add(crate::Pedal::KEY, crate::Pedal::arguments(), |selector| {
-            Ok(Arc::new(crate::Pedal::open(selector)?))
-        });
+        let switches = {
+            let mut switches = switches;
+            switches.add(crate::Pedal::KEY, crate::Pedal::arguments(), |selector| {
+                Ok(Arc::new(crate::Pedal::open(selector)?))
+            });
+            switches
+        };
         switches
     }
 
