@@ -1,11 +1,10 @@
 //! The drivers of a program, and opening one of them.
 
-use taceva_core::{
-    ArgError, Device, DriverError, ErrorKind, ForceTransducer, Lighting, Registry, RegistryError,
-    Rig, Robot, Sensor,
-};
+use taceva_core::{Device, ForceTransducer, Lighting, Registry, RegistryError, Rig, Robot, Sensor};
 
+use crate::open_error::OpenError;
 use crate::selector::Selector;
+use crate::switches::Switches;
 
 /// The drivers of a program, a registry a kind.
 #[derive(Debug)]
@@ -18,6 +17,8 @@ pub struct Drivers {
     pub forces: Registry<dyn ForceTransducer>,
     /// Lightings.
     pub lightings: Registry<dyn Lighting>,
+    /// Enabling switches.
+    pub switches: Switches,
 }
 
 impl Drivers {
@@ -34,6 +35,7 @@ impl Drivers {
             robots: Registry::builtin()?,
             forces: Registry::builtin()?,
             lightings: Registry::builtin()?,
+            switches: Switches::builtin(),
         })
     }
 
@@ -80,35 +82,4 @@ pub fn open<D: Device + ?Sized>(
             source,
         })?;
     Ok(factory.open(&args, rig)?)
-}
-
-/// Why a device was not opened.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum OpenError {
-    /// No driver of that name.
-    #[error(transparent)]
-    Unknown(#[from] RegistryError),
-    /// An argument that the driver does not take.
-    #[error("{selector}: {source}")]
-    Arguments {
-        /// What was asked for.
-        selector: String,
-        /// What is wrong with it.
-        source: ArgError,
-    },
-    /// A device that did not open.
-    #[error(transparent)]
-    Device(#[from] DriverError),
-}
-
-impl OpenError {
-    /// What kind of failure it was.
-    pub fn kind(&self) -> ErrorKind {
-        match self {
-            OpenError::Unknown(_) => ErrorKind::NotFound,
-            OpenError::Arguments { .. } => ErrorKind::InvalidArgument,
-            OpenError::Device(error) => error.kind(),
-        }
-    }
 }

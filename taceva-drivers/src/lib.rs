@@ -21,6 +21,7 @@ mod hid;
 mod link;
 mod name_order;
 mod on_bench;
+mod open_error;
 mod pace;
 #[cfg(all(any(feature = "gcode", feature = "hid", feature = "v4l2"), unix))]
 mod present;
@@ -30,6 +31,7 @@ mod sensor;
 mod source;
 #[cfg(feature = "sri")]
 mod sri;
+mod switches;
 mod text;
 #[cfg(feature = "xarm")]
 mod ufactory;
@@ -51,7 +53,7 @@ pub use camera::MjpegFactory;
 pub use camera::V4l2Factory;
 pub use clock::MonotonicClock;
 pub use devices::{Devices, ListedArgument, ListedDevice, ListedDriver, devices};
-pub use drivers::{Drivers, OpenError, open};
+pub use drivers::{Drivers, open};
 #[cfg(all(feature = "grbl", unix))]
 pub use gcode::GrblFactory;
 #[cfg(all(feature = "marlin", unix))]
@@ -59,12 +61,14 @@ pub use gcode::MarlinFactory;
 #[cfg(all(feature = "hid", target_os = "linux"))]
 pub use hid::{Pedal, ScaleFactory};
 pub use on_bench::OnBench;
+pub use open_error::OpenError;
 pub use pace::{Pace, RealPace, VirtualPace};
 pub use selector::{Selector, SelectorError};
 pub use sensor::replay::{Replay, ReplayFactory, ReplayOptions};
 pub use source::{FolderSource, FrameSource, SourceError, Timing};
 #[cfg(feature = "sri")]
 pub use sri::M8128Factory;
+pub use switches::Switches;
 #[cfg(feature = "xarm")]
 pub use ufactory::XarmFactory;
 #[cfg(feature = "ur")]

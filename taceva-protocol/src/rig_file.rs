@@ -15,6 +15,9 @@ use crate::scene::{LimitSpec, SceneError, SceneProblem, Setting, Text};
 
 /// The greatest coordinate of an origin, in mm.
 const GREATEST_PLACE_MM: f64 = 10_000.0;
+/// How long a run waits for somebody to hold the enabling switch where the file does not say, in s, and the longest that it may say.
+const USUAL_PATIENCE_S: f64 = 60.0;
+const GREATEST_PATIENCE_S: f64 = 86_400.0;
 /// The greatest latency that is believed, in ms.
 const GREATEST_LATENCY_MS: f64 = 1_000.0;
 /// The greatest limit that is written, as in a scene, in mm, N or mm/s.
@@ -45,6 +48,8 @@ pub struct RigFile {
     pub force: Option<RigForce>,
     /// The sensor.
     pub sensor: Option<RigSensor>,
+    /// Who holds what while the robot moves.
+    pub operator: Option<RigOperator>,
     /// Limits of the rig, which only tighten those of its devices.
     pub limits: LimitSpec,
     pub(crate) text: Text,
@@ -96,6 +101,15 @@ pub struct RigSensor {
     pub latency_ms: Option<f64>,
 }
 
+/// The person at a rig, and what that person holds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RigOperator {
+    /// The selector of the enabling switch: released, the robot is halted.
+    pub enable: Setting<String>,
+    /// How long a run waits for somebody to hold it, in s.
+    pub patience_s: f64,
+}
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a rig file")]
 struct WrittenRig {
@@ -139,6 +153,7 @@ struct WrittenSensor {
 #[serde(deny_unknown_fields, expecting = "a table with `enable`")]
 struct WrittenOperator {
     enable: Setting<String>,
+    patience_s: Option<Setting<f64>>,
 }
 
 impl RigFile {
@@ -152,9 +167,10 @@ impl RigFile {
         let written: WrittenRig = text.read()?;
         let check = Check { text: &text };
         check.version(&written.rig_version)?;
-        if let Some(operator) = &written.operator {
-            check.operator(operator)?;
-        }
+        let operator = written
+            .operator
+            .map(|operator| check.operator(operator))
+            .transpose()?;
         check.limits(&written.limits)?;
         let robot = written.robot.map(|robot| check.robot(robot)).transpose()?;
         let force = written.force.map(|force| check.force(force)).transpose()?;
@@ -170,6 +186,7 @@ impl RigFile {
             robot,
             force,
             sensor,
+            operator,
             limits: written.limits,
             text,
         })
@@ -183,6 +200,12 @@ impl RigFile {
     /// The name of what it says: another text is another rig.
     pub fn digest(&self) -> ContentId {
         ContentId::of_text(self.text.whole())
+    }
+
+    /// How long a run waits for somebody to hold the enabling switch, in s; nothing is waited for where there is none.
+    pub fn patience_s(&self) -> f64 {
+        let operator = self.operator.as_ref();
+        operator.map_or(0.0, |operator| operator.patience_s)
     }
 
     /// `problem`, at the byte `at` of it.
@@ -209,15 +232,21 @@ impl Check<'_> {
         }
     }
 
-    /// Nothing reads a switch yet: a rig that relies on one must not run without it.
-    fn operator(&self, operator: &WrittenOperator) -> Result<(), SceneError> {
-        let shown = taceva_core::shown(&operator.enable.value);
-        self.refuse(
-            operator.enable.at(),
-            format!(
-                "`enable` is `{shown}`, and this program reads no enabling switch: take [operator] out, and keep the switch in the robot's own safety circuit"
-            ),
-        )
+    fn operator(&self, operator: WrittenOperator) -> Result<RigOperator, SceneError> {
+        let WrittenOperator { enable, patience_s } = operator;
+        if let Some(patience) = &patience_s
+            && !(patience.value > 0.0 && patience.value <= GREATEST_PATIENCE_S)
+        {
+            let problem = SceneProblem::Range {
+                key: "patience_s",
+                found: patience.value,
+                above: 0.0,
+                greatest: GREATEST_PATIENCE_S,
+            };
+            return Err(self.text.error(patience.at(), problem));
+        }
+        let patience_s = patience_s.map_or(USUAL_PATIENCE_S, |patience| patience.value);
+        Ok(RigOperator { enable, patience_s })
     }
 
     fn limits(&self, limits: &LimitSpec) -> Result<(), SceneError> {

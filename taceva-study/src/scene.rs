@@ -23,7 +23,7 @@ use crate::error::StudyError;
 use crate::fit::{FitRequest, Recipe};
 
 pub use instead::Instead;
-pub(crate) use rig::RigSpec;
+pub(crate) use rig::{RigSpec, open_switch};
 pub(crate) use settings::settings_of;
 pub use text::SceneText;
 pub(crate) use text::read_rig_file;
@@ -100,6 +100,7 @@ impl PlannedScene {
             .transpose()?
             .map(Arc::new);
         if let Some(rig) = &rig {
+            rig::check_switch(rig, drivers)?;
             scene.put_on(rig)?;
         }
         scene.seed = instead.seed.unwrap_or(scene.seed);

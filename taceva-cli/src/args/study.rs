@@ -15,7 +15,7 @@ pub(crate) struct SceneArgs {
     /// The seed of all random numbers, instead of the scene's
     #[arg(long, value_name = "N")]
     pub(crate) seed: Option<u64>,
-    /// The rig file with the robot, the force transducer and the sensor to measure with, instead of those that the scene names; see docs/rig.md
+    /// The rig file with the robot, the force transducer and the sensor to measure with, instead of those that the scene names; an enabling switch that it names is held by somebody while the robot moves; see docs/rig.md
     #[arg(long, value_name = "FILE")]
     pub(crate) rig: Option<PathBuf>,
 }

@@ -123,6 +123,7 @@ impl Viewer for Shown {
                 live.lost(retried, 0, true);
             }
             Event::Halted(trip) => live.stage(&format!("halted: {trip}")),
+            Event::Unheld => live.stage("hold the enabling switch: nothing moves until it is held"),
             Event::Mounted(specimen) => live.stage(&format!("mounted: {specimen}")),
             Event::Lit(light) => live.stage(&format!("light {light}")),
             _ => {}

@@ -45,6 +45,12 @@ fn keys(question: &Question) -> String {
 }
 
 impl<I: Read + Waits> Operator for Terminal<I> {
+    fn call_to_hold(&mut self, patience_s: f64) {
+        (self.say)(&format!(
+            "hold the enabling switch: nothing moves until it is held, for {patience_s} s at most"
+        ));
+    }
+
     fn ask(&mut self, question: &Question, cancel: &Cancel) -> Answer {
         let keys = keys(question);
         (self.say)(&format!("{question} ({keys})"));

@@ -59,7 +59,9 @@ impl Run<'_> {
         let Some(session) = self.session.take() else {
             return Ok(());
         };
-        for times in 1.. {
+        let mut silences = 0;
+        loop {
+            self.hold(None)?;
             let cause = match self.try_to_begin(&session, places, first) {
                 Ok(record) => {
                     return log.session(&record).map_err(|error| RunError {
@@ -70,13 +72,14 @@ impl Run<'_> {
                 }
                 Err(cause) => cause,
             };
-            let is_silence = cause.is_silence();
+            let (is_silence, is_release) = (cause.is_silence(), cause.is_release());
+            silences += u32::from(is_silence);
             let error = self.abandoned(None, cause);
-            if !is_silence || error.left != Left::Clear || times == TRIES {
+            let may_try = is_release || is_silence && silences < TRIES;
+            if !may_try || error.left != Left::Clear {
                 return Err(error);
             }
         }
-        Ok(())
     }
 
     fn try_to_begin(

@@ -74,13 +74,17 @@ impl Run<'_> {
 
     /// Asks while the robot is halted at the height of travel or above it, and lets it move again only if hands are out of reach.
     pub(super) fn ask(&mut self, question: &Question) -> Step<Answer> {
-        let Some(operator) = &mut self.operator else {
+        if self.operator.is_none() {
             return Ok(Answer::Stop);
-        };
+        }
         if !self.tip.is_high() {
+            self.wait_until_held()?;
             self.tip.retreat()?;
         }
         self.tip.hold()?;
+        let Some(operator) = &mut self.operator else {
+            return Ok(Answer::Stop);
+        };
         let answer = operator.ask(question, self.tip.cancel);
         if answer == Answer::Done {
             self.tip.release()?;
@@ -100,6 +104,7 @@ impl Run<'_> {
         self.tip.robot_failed = false;
         self.tip.supervisor.lock().acknowledge();
         let press = error.press;
+        self.hold(press)?;
         let found = self.tip.find();
         found.map_err(|cause| self.abandoned(press, cause))
     }

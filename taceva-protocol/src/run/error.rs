@@ -78,6 +78,14 @@ pub enum StopCause {
     /// A gentle touch that the rig answered otherwise than a gel does.
     #[error("{0}")]
     Touch(TouchFault),
+    /// Nobody held the enabling switch for as long as the rig file waits.
+    #[error(
+        "nobody held the enabling switch within {patience_s} s: hold it and go on with `--resume`; `patience_s` of [operator] is how long a run waits"
+    )]
+    Unheld {
+        /// How long, in s.
+        patience_s: f64,
+    },
     /// The plan needs something that the run was not given.
     #[error("the plan needs {0}")]
     Missing(String),
@@ -91,6 +99,11 @@ impl StopCause {
             StopCause::Tripped(Trip::StaleForce { .. } | Trip::StalePose { .. })
                 | StopCause::Frames { .. }
         )
+    }
+
+    /// Whether the enabling switch was released: the press is made again once it is held.
+    pub fn is_release(&self) -> bool {
+        matches!(self, StopCause::Tripped(Trip::Released))
     }
 
     /// The fault for which a device stopped by itself: a person acknowledges it there before anything moves again.

@@ -45,7 +45,9 @@ pub enum Event {
     Halted(Trip),
     /// The tip went back from the gel after a halt.
     Retracted,
-    /// A press was broken off because signals were silent, and is made again from its start.
+    /// Nobody holds the enabling switch, and nothing moves until somebody does.
+    Unheld,
+    /// A press was broken off because signals were silent or the enabling switch was released, and is made again from its start.
     Redone {
         /// Which.
         press: ContentId,

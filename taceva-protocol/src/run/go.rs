@@ -42,7 +42,8 @@ impl Tip<'_> {
         }
         let seconds = 1.0 + 2.0 * distance(&here, &target) / speed.mm_per_s();
         let deadline = Deadline::after(Duration::from_secs_f64(seconds));
-        self.supervisor.lock().sent(here, target);
+        let sent = self.supervisor.lock().sent(here, target);
+        sent.map_err(StopCause::Tripped)?;
         self.target = target;
         let moved = motion(self.robot, deadline);
         self.supervisor.lock().rests();

@@ -10,6 +10,10 @@ use super::time::Cancel;
 pub trait Operator {
     /// Asks `question` and waits for the answer; returns [`Answer::Stop`] soon after `cancel` was cancelled.
     fn ask(&mut self, question: &Question, cancel: &Cancel) -> Answer;
+
+    /// Says that the enabling switch must be held before anything moves, for so many seconds at most; returns at once. Whoever has no place to
+    /// say it at says nothing.
+    fn call_to_hold(&mut self, _patience_s: f64) {}
 }
 
 /// What somebody is asked for. [`Display`](fmt::Display) says it in words.

@@ -2,20 +2,22 @@
 
 use taceva_core::{ForceTransducer, Robot};
 
+use super::Controls;
 use super::bounds::Bounds;
 use super::error::{Left, RunError, StopCause};
+use super::hold::Attendant;
 use super::operator::{Answer, Operator, Question};
 use super::supervisor::SharedSupervisor;
 use super::time::Cancel;
 use super::tip::{DEADLINE, Pace, Step, Tip};
-use super::{Controls, Event};
 use crate::plan::Plan;
 
 /// Brings the tip straight up to the height of travel, where it stands lower, and halts the robot there: whoever changes something by hand
 /// finds it out of the way. Whether it moved.
 ///
 /// Before it moves, `robot` is enabled by somebody, if that names one; a tip that is high enough is halted where it is, and nobody is asked.
-/// `supervisor` is over this robot, and is shown every reading of force as under [`run_guarded`](super::run_guarded).
+/// `supervisor` is over this robot, and is shown every reading of force as under [`run_guarded`](super::run_guarded). On a rig with an enabling switch
+/// nothing moves until somebody holds it, which is waited for `patience_s`.
 ///
 /// # Errors
 /// [`RunError`] as of [`run`](super::run).
@@ -23,7 +25,7 @@ pub fn raise(
     plan: &Plan,
     (arm, force): (&mut dyn Robot, &mut dyn ForceTransducer),
     controls: Controls<'_>,
-    (supervisor, robot): (SharedSupervisor, Option<&str>),
+    (supervisor, robot, patience_s): (SharedSupervisor, Option<&str>, f64),
 ) -> Result<bool, RunError> {
     let Controls {
         clock,
@@ -40,21 +42,31 @@ pub fn raise(
         (supervisor, true),
         (bounds, pace),
     );
+    let mut attendant = Attendant {
+        operator,
+        events,
+        patience_s,
+    };
     tip.find_pose().map_err(unmoved)?;
     if tip.is_high() {
         tip.hold().map_err(unmoved)?;
         return Ok(false);
     }
     if let Some(robot) = robot {
+        let operator: Option<&mut dyn Operator> = match &mut attendant.operator {
+            Some(operator) => Some(&mut **operator),
+            None => None,
+        };
         enable(robot, operator, cancel)?;
     }
+    tip.wait_until_held(&mut attendant).map_err(unmoved)?;
     tip.force
         .start(DEADLINE)
         .map_err(|error| unmoved(error.into()))?;
     let raised = tip.find().and_then(|()| tip.hold());
     let stopped = tip.force.stop();
     if let Err(cause) = raised {
-        return Err(tip.abandoned(cause, events));
+        return Err(tip.abandoned(cause, attendant));
     }
     stopped.map_err(|error| RunError {
         press: None,
@@ -98,29 +110,6 @@ impl Tip<'_> {
     /// Halts the robot, which moves again only when somebody ends the halt.
     pub(super) fn hold(&mut self) -> Step<()> {
         Ok(self.robot.halt()?)
-    }
-
-    /// The error that ends a run, after the tip was brought to where it can be left.
-    pub(super) fn abandoned(
-        &mut self,
-        cause: StopCause,
-        events: &mut dyn FnMut(&Event),
-    ) -> RunError {
-        if let StopCause::Tripped(trip) = cause {
-            events(&Event::Halted(trip));
-        }
-        let left = match self.abandon() {
-            true => {
-                events(&Event::Retracted);
-                Left::Clear
-            }
-            false => Left::InPlace,
-        };
-        RunError {
-            press: None,
-            cause,
-            left,
-        }
     }
 }
 

@@ -13,7 +13,6 @@ use super::supervisor::{SharedSupervisor, Supervisor};
 use super::tip::{DEADLINE, Pace, Step, Tip};
 use super::touched::SessionSpec;
 use super::{Controls, Mode, RunReport, RunSpec};
-use crate::content_id::ContentId;
 use crate::plan::{Plan, PlannedPress};
 
 /// A run that goes on, with the devices that it borrows.
@@ -29,6 +28,10 @@ pub(super) struct Run<'a> {
     pub(super) lit: Option<String>,
     /// Presses that silence broke off.
     silences: u32,
+    /// Presses that a released switch broke off.
+    releases: u32,
+    /// How long nobody may hold the enabling switch, in s.
+    pub(super) patience_s: f64,
     /// What somebody skipped.
     pub(super) skipped: Vec<Question>,
     /// The session that has not begun yet; `None` of a rig without a rig file, and from the first press on.
@@ -93,6 +96,10 @@ impl<'a> Run<'a> {
             mounted: None,
             lit: None,
             silences: 0,
+            releases: 0,
+            patience_s: session
+                .as_ref()
+                .map_or(0.0, |session| session.rig.patience_s()),
             skipped: Vec::new(),
             session,
         })
@@ -135,6 +142,7 @@ impl<'a> Run<'a> {
             return Ok(report);
         }
         self.enable()?;
+        self.hold(None)?;
         self.tip
             .find()
             .map_err(|cause| self.abandoned(None, cause))?;
@@ -142,8 +150,7 @@ impl<'a> Run<'a> {
         for (position, planned) in presses.into_iter().enumerate() {
             match spec.mode {
                 Mode::Rehearse { height } => {
-                    let done = self.rehearse(planned, height.0);
-                    done.map_err(|cause| self.abandoned(Some(planned.id), cause))?;
+                    self.rehearse_patiently(planned, height.0)?;
                     report.made += 1;
                 }
                 Mode::Acquire if log.is_finished(planned.id) => {}
@@ -176,7 +183,7 @@ impl<'a> Run<'a> {
                 }
             }
         }
-        report.redone = self.silences;
+        report.redone = self.silences + self.releases;
         match report.skipped {
             0 => Ok(report),
             presses => Err(RunError {
@@ -195,34 +202,54 @@ impl<'a> Run<'a> {
         is_first: bool,
         log: &mut dyn PressLog,
     ) -> Result<PressRecord, RunError> {
-        let mut times = 0;
+        let (mut times, mut silences) = (0, 0);
         loop {
+            self.hold(Some(planned.id))?;
             let cause = match self.acquire(planned, is_first.then_some(&mut *log)) {
                 Ok(record) => return Ok(record),
                 Err(cause) => cause,
             };
-            let is_silence = cause.is_silence();
+            let (is_silence, is_release) = (cause.is_silence(), cause.is_release());
             let error = self.abandoned(Some(planned.id), cause);
             if let Some(fault) = error.cause.fault() {
                 self.go_on_after(fault, error)?;
                 continue;
             }
-            if !is_silence || error.left == Left::InPlace {
+            if !(is_silence || is_release) || error.left == Left::InPlace {
                 return Err(error);
             }
             times += 1;
-            self.silences += 1;
-            if times == SILENCES_OF_A_PRESS || self.silences == SILENCES_OF_A_RUN {
-                return Err(error);
+            if is_release {
+                // As often as somebody lets go: each time somebody is there who holds it again.
+                self.releases += 1;
+            } else {
+                silences += 1;
+                self.silences += 1;
+                if silences == SILENCES_OF_A_PRESS || self.silences == SILENCES_OF_A_RUN {
+                    return Err(error);
+                }
             }
             let press = planned.id;
             (self.events)(&Event::Redone { press, times });
         }
     }
 
-    /// The error that ends the run, after the tip was brought to where it can be left.
-    pub(super) fn abandoned(&mut self, press: Option<ContentId>, cause: StopCause) -> RunError {
-        let error = self.tip.abandoned(cause, self.events);
-        RunError { press, ..error }
+    /// One place in the air, again where a released switch broke it off.
+    fn rehearse_patiently(
+        &mut self,
+        planned: &PlannedPress,
+        height_mm: f64,
+    ) -> Result<(), RunError> {
+        loop {
+            self.hold(Some(planned.id))?;
+            let Err(cause) = self.rehearse(planned, height_mm) else {
+                return Ok(());
+            };
+            let is_release = cause.is_release();
+            let error = self.abandoned(Some(planned.id), cause);
+            if !is_release || error.left == Left::InPlace {
+                return Err(error);
+            }
+        }
     }
 }

@@ -2,9 +2,11 @@
 //!
 //! It is no safety function: the emergency stop, the collision sensitivity of the robot and the guards are the site's duty.
 
+mod enabling;
 mod observation;
 mod reaction;
 
+pub use enabling::Enabling;
 pub use observation::{MotionStage, Observation};
 
 #[cfg(feature = "simulation")]
@@ -82,6 +84,7 @@ pub struct Supervisor {
     equal: u32,
     moved: bool,
     tripped: Option<Trip>,
+    enabling: Enabling,
     /// How late readings come, while somebody measures that.
     lateness: Option<Lateness>,
 }
@@ -106,6 +109,7 @@ impl Supervisor {
             equal: 0,
             moved: false,
             tripped: None,
+            enabling: Enabling::Held,
             lateness: None,
         }
     }
@@ -121,11 +125,6 @@ impl Supervisor {
             self.number = None;
             self.equal = 0;
         }
-    }
-
-    /// Learns that the tip is sent along a straight way, before it is.
-    pub fn sent(&mut self, from: Pose, to: Pose) {
-        self.way = Some([from, to]);
     }
 
     /// Learns that the tip rests, wherever it is.

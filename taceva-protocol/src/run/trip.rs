@@ -64,6 +64,10 @@ pub enum Trip {
         /// Its age.
         age_s: f64,
     },
+    /// Nobody holds the enabling switch.
+    Released,
+    /// The enabling switch cannot be read any more.
+    SwitchLost,
     /// The tip is not where it was sent.
     Diverged {
         /// The distance.
@@ -126,8 +130,20 @@ impl fmt::Display for Trip {
                     "{readings} equal readings of force although the tip moved: the signal is frozen"
                 )
             }
-            Trip::StaleForce { age_s } => write!(f, "the last force is {:.0} ms old", age_s * 1e3),
-            Trip::StalePose { age_s } => write!(f, "the last pose is {:.0} ms old", age_s * 1e3),
+            Trip::StaleForce { age_s } => write!(
+                f,
+                "the last force is {:.0} ms old; on a busy machine, start it by `chrt -f 10 taceva run …`",
+                age_s * 1e3
+            ),
+            Trip::StalePose { age_s } => write!(
+                f,
+                "the last pose is {:.0} ms old; on a busy machine, start it by `chrt -f 10 taceva run …`",
+                age_s * 1e3
+            ),
+            Trip::Released => f.write_str("nobody holds the enabling switch"),
+            Trip::SwitchLost => f.write_str(
+                "the enabling switch cannot be read any more: plug it in, and go on with `--resume`",
+            ),
             Trip::Diverged { distance_mm } => {
                 write!(f, "the tip is {distance_mm:.3} mm from where it was sent")
             }
@@ -138,6 +154,21 @@ impl fmt::Display for Trip {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_reading_that_is_too_old_names_what_helps_on_a_busy_machine() {
+        let age_s = 0.084;
+        for (trip, signal) in [
+            (Trip::StaleForce { age_s }, "force"),
+            (Trip::StalePose { age_s }, "pose"),
+        ] {
+            let said = trip.to_string();
+            let expected = format!(
+                "the last {signal} is 84 ms old; on a busy machine, start it by `chrt -f 10 "
+            );
+            assert!(said.starts_with(&expected), "{said}");
+        }
+    }
 
     #[test]
     fn depth_and_both_forces_are_limits_of_the_gel_and_nothing_else_is() {
@@ -165,6 +196,8 @@ mod tests {
             (Trip::Frozen { readings: 8 }, None),
             (Trip::StaleForce { age_s }, None),
             (Trip::StalePose { age_s }, None),
+            (Trip::Released, None),
+            (Trip::SwitchLost, None),
             (Trip::Diverged { distance_mm: 1.0 }, None),
         ] {
             assert_eq!(trip.limit(), limit, "{trip}");

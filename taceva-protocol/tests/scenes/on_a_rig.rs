@@ -162,8 +162,13 @@ fn what_is_wrong_in_a_rig_file_is_refused_with_its_line_and_what_is_expected() {
         ),
         (
             "[limits]",
-            "[operator]\nenable = \"hid/pedal\"\n[limits]",
-            "lab.toml, line 15: `enable` is `hid/pedal`, and this program reads no enabling switch",
+            "[operator]\nenable = \"hid/pedal\"\npatience_s = 0.0\n[limits]",
+            "lab.toml, line 16: `patience_s` is 0, expected a number above 0 and up to 86400",
+        ),
+        (
+            "[limits]",
+            "[operator]\nenabel = \"hid/pedal\"\n[limits]",
+            "lab.toml, line 15: `enabel`: unknown key, did you mean `enable`?",
         ),
         ("[robot]", "[robot", "lab.toml, line 2: "),
     ];

@@ -5,8 +5,8 @@ use std::sync::{Arc, PoisonError};
 use std::time::Duration;
 
 use taceva_core::{
-    Deadline, Device, DriverError, DriverKey, DriverSource, ErrorKind, ForceTransducer, Lighting,
-    Registry, Rig, Robot, Sensor,
+    Deadline, Device, DriverError, DriverKey, DriverSource, EnablingSwitch, ErrorKind,
+    ForceTransducer, Lighting, Registry, Rig, Robot, Sensor,
 };
 use taceva_drivers::{Drivers, OnBench, OpenError, Selector};
 use taceva_protocol::{
@@ -21,7 +21,7 @@ use super::registered::{Registered, Turned};
 use super::seen::Seen;
 use super::workshop::{Surroundings, Workshop};
 use crate::error::StudyError;
-use crate::scene::{PlannedStudy, RigSpec};
+use crate::scene::{PlannedStudy, RigSpec, open_switch};
 
 /// How long a robot may take to say for the first time where it stands.
 pub(super) const FIRST_POSE: Duration = Duration::from_secs(2);
@@ -38,6 +38,8 @@ pub(super) struct OpenRig {
     is_real: bool,
     /// The rig file that says how a real rig stands: then a session begins by trying that.
     rig_file: Option<Arc<RigFile>>,
+    /// What somebody holds while the robot moves.
+    switch: Option<Arc<dyn EnablingSwitch>>,
 }
 
 /// What a session of a real rig goes on from.
@@ -66,7 +68,12 @@ impl OpenRig {
             robots,
             forces,
             lightings,
+            switches: _,
         } = workshop.drivers;
+        let rig_file = study.study.rig.as_deref();
+        // First: without it nothing is opened that could move.
+        let switch = rig_file.map(|rig| open_switch(rig, workshop.drivers));
+        let switch = switch.transpose().map_err(StudyError::from)?.flatten();
         let opener = Opener { rig, unit };
         let mut shared = Rig::new();
         let sensor = opener.open(sensors, rig.sensor.as_ref(), &mut shared);
@@ -91,7 +98,6 @@ impl OpenRig {
             false => (workshop.surroundings)(selector, &mut shared)
                 .ok_or_else(|| failed(OpenError::Device(without_clock(selector))))?,
         };
-        let rig_file = study.study.rig.as_deref();
         let sensor_latency = rig_file.and_then(|rig| rig.sensor.as_ref()?.latency_ms);
         let force_latency = rig_file.and_then(|rig| rig.force.as_ref()?.latency_ms);
         let sensor = sensor.map(|sensor| match &surroundings.bench {
@@ -122,6 +128,7 @@ impl OpenRig {
             force_driver,
             is_real,
             rig_file: study.study.rig.clone(),
+            switch,
             sensor,
             robot,
             force,
@@ -159,6 +166,7 @@ impl OpenRig {
             force: &mut *self.force,
             driver: self.force_driver.clone(),
             limits,
+            switch: self.switch.as_deref(),
             cancel,
             progress: workshop.progress,
             viewer: workshop.viewer.map(|viewer| &**viewer),
@@ -173,7 +181,13 @@ impl OpenRig {
                     None => None,
                 },
             };
-            raise(plan, (robot, force), controls, (supervisor, robot_name))
+            let patience_s = rig_file.map_or(0.0, RigFile::patience_s);
+            raise(
+                plan,
+                (robot, force),
+                controls,
+                (supervisor, robot_name, patience_s),
+            )
         })
     }
 
@@ -200,6 +214,7 @@ impl OpenRig {
             force_driver,
             is_real,
             rig_file,
+            switch,
         } = self;
         let session = rig_file.as_deref().map(|rig| SessionSpec {
             rig,
@@ -249,6 +264,7 @@ impl OpenRig {
                 force: &mut **force,
                 driver: force_driver.clone(),
                 limits,
+                switch: switch.as_deref(),
                 cancel,
                 progress: workshop.progress,
                 viewer: workshop.viewer.map(|viewer| &**viewer),

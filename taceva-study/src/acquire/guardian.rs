@@ -1,7 +1,7 @@
 //! Threads that look on while a run on real devices goes on, so that a limit is seen within a motion and not after it.
 //!
 //! One thread owns the force transducer: what it reads it shows to the [`Supervisor`] and puts where the run finds it. Another looks at the
-//! robot whenever it reports, over a connection of its own where the robot has one, and hears when nothing is heard and when somebody
+//! robot whenever it reports and at the enabling switch, over a connection of its own where the robot has one, and hears when nothing is heard and when somebody
 //! wishes to stop. Both halt through the supervisor, which decides alone.
 //!
 //! They run with the priority of the process. On a busy machine a thread may wait for a tenth of a second: `chrt -f 10 taceva run …` makes
@@ -13,9 +13,11 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use taceva_core::{Deadline, DriverKey, ForceTransducer, Pose, Progress, Robot, RobotWatch, Stamp};
+use taceva_core::{
+    Deadline, DriverKey, EnablingSwitch, ForceTransducer, Pose, Progress, Robot, RobotWatch, Stamp,
+};
 use taceva_drivers::MonotonicClock;
-use taceva_protocol::{Cancel, Observation, RigLimits, SharedSupervisor, Supervisor};
+use taceva_protocol::{Cancel, Enabling, Observation, RigLimits, SharedSupervisor, Supervisor};
 
 use crate::viewer::Viewer;
 use mailbox::Mailbox;
@@ -33,6 +35,8 @@ pub(super) struct Guarded<'a> {
     /// The driver of the transducer.
     pub(super) driver: DriverKey,
     pub(super) limits: RigLimits,
+    /// What somebody holds while the robot moves, if the rig has it.
+    pub(super) switch: Option<&'a dyn EnablingSwitch>,
     pub(super) cancel: &'a Cancel,
     pub(super) progress: &'a dyn Progress,
     /// Who sees every force and every pose too, if anybody.
@@ -50,17 +54,23 @@ impl Guarded<'_> {
             force,
             driver,
             limits,
+            switch,
             cancel,
             progress,
             viewer,
         } = self;
-        let supervisor = Supervisor::new(limits, robot.halt_handle());
+        let mut supervisor = Supervisor::new(limits, robot.halt_handle());
+        if switch.is_some() {
+            // Until somebody has looked.
+            supervisor.enabling(Enabling::Released);
+        }
         let supervisor = SharedSupervisor::new(supervisor);
         let (mailbox, reader) = Mailbox::of(force, driver);
         let watcher = Watcher {
             supervisor: &supervisor,
             watch: robot.watch_handle(),
             last: None,
+            switch,
             cancel,
             progress,
             viewer,
@@ -93,6 +103,7 @@ struct Watcher<'a> {
     watch: Option<Arc<dyn RobotWatch>>,
     /// The last pose that was heard of.
     last: Option<(Pose, Stamp)>,
+    switch: Option<&'a dyn EnablingSwitch>,
     cancel: &'a Cancel,
     progress: &'a dyn Progress,
     viewer: Option<&'a dyn Viewer>,
@@ -104,6 +115,7 @@ impl Watcher<'_> {
         while !is_over.load(Ordering::Acquire) {
             std::thread::sleep(LOOK);
             self.obey();
+            self.feel();
             self.look();
         }
     }
@@ -118,6 +130,19 @@ impl Watcher<'_> {
         if is_first || self.progress.is_insisted() {
             self.supervisor.lock().halt();
         }
+    }
+
+    /// Whether the switch is held; one that cannot be read counts as let go.
+    fn feel(&mut self) {
+        let Some(switch) = self.switch else {
+            return;
+        };
+        let enabling = match switch.is_held() {
+            Ok(true) => Enabling::Held,
+            Ok(false) => Enabling::Released,
+            Err(_) => Enabling::Lost,
+        };
+        self.supervisor.lock().enabling(enabling);
     }
 
     fn look(&mut self) {

@@ -36,7 +36,9 @@ impl PlannedScene {
                 continue;
             };
             let selectors = [&spec.sensor, &spec.robot, &spec.force];
-            for device in selectors.into_iter().flatten() {
+            let operator = rig.operator.as_ref();
+            let switch = operator.map(|operator| &operator.enable);
+            for device in selectors.into_iter().flatten().chain(switch) {
                 devices.insert(device.value.clone(), rig.name().to_owned());
             }
         }

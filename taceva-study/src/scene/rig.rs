@@ -1,8 +1,11 @@
 //! The devices that a study names: the arguments of each, and what its driver states before anything is opened.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use taceva_core::{ArgKind, ArgSpec, Descriptor, Device, DriverKind, Registry};
+use taceva_core::{
+    ArgKind, ArgSpec, Descriptor, Device, DriverKind, DriverSource, EnablingSwitch, Registry,
+};
 use taceva_drivers::{Drivers, Selector};
 use taceva_protocol::{RigFile, RigInfo, Scene, SceneError, SceneProblem, Setting, Study};
 
@@ -168,6 +171,60 @@ pub(crate) fn check_drivers(scene: &Scene, drivers: &Drivers) -> Result<(), Scen
         .chain(keys(&drivers.lightings))
         .collect();
     scene.check_drivers(&known)
+}
+
+/// Refuses an `enable` that names no enabling switch, with the line of the rig file; nothing is opened. A rig whose robot is simulated in the
+/// program has a time of its own, in which nobody holds anything.
+pub(crate) fn check_switch(rig: &RigFile, drivers: &Drivers) -> Result<(), SceneError> {
+    let Some(operator) = &rig.operator else {
+        return Ok(());
+    };
+    let enable = &operator.enable;
+    let refused = |(at, problem)| rig.error(at, problem);
+    let selector: Selector = enable
+        .value
+        .parse()
+        .map_err(|_| refused(not_a_selector(enable)))?;
+    drivers.switches.check(&selector).map_err(|error| {
+        let problem = format!("`enable`: {error}");
+        refused((enable.at(), SceneProblem::Contradiction(problem)))
+    })?;
+    let robot = rig.robot.as_ref().map(|robot| &robot.driver.value);
+    let robot: Option<Selector> = robot.and_then(|robot| robot.parse().ok());
+    let factory = robot.and_then(|robot| drivers.robots.get(robot.driver()).ok());
+    match factory.map(|factory| factory.descriptor().source()) {
+        Some(DriverSource::Simulated) => {
+            let problem = "`enable`: the robot is simulated in the program, and nobody can hold a switch in its time: take [operator] out";
+            Err(refused((
+                enable.at(),
+                SceneProblem::Contradiction(problem.to_owned()),
+            )))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The enabling switch of `rig`, open.
+pub(crate) fn open_switch(
+    rig: &RigFile,
+    drivers: &Drivers,
+) -> Result<Option<Arc<dyn EnablingSwitch>>, SceneError> {
+    check_switch(rig, drivers)?;
+    let Some(operator) = &rig.operator else {
+        return Ok(None);
+    };
+    let enable = &operator.enable;
+    let selector: Selector = enable
+        .value
+        .parse()
+        .expect("it was read when it was checked");
+    let opened = drivers.switches.open(&selector).map_err(|error| {
+        let problem = format!(
+            "`enable`: {error}; plug the switch in and see that this user may read it: without it nothing is moved"
+        );
+        rig.error(enable.at(), SceneProblem::Contradiction(problem))
+    });
+    opened.map(Some)
 }
 
 fn keys<D: Device + ?Sized>(registry: &Registry<D>) -> impl Iterator<Item = (DriverKind, &str)> {

@@ -5,16 +5,17 @@ use std::time::Duration;
 
 use taceva_core::{
     ArgSpec, Args, Axes, Deadline, Descriptor, DescriptorSpec, DriverError, DriverKey,
-    DriverSource, ErrorKind, Factory, Facts, Fault, Footprint, ForceFacts, ForceTransducer,
-    FrameInfo, FrameMut, Halt, Hertz, Millimetre, Newton, PixelFormat, Pose, Registry, Rig, Robot,
-    RobotFacts, RobotWatch, Sensor, SensorFacts, Speed, Stamp, Wrench,
+    DriverSource, EnablingSwitch, ErrorKind, Factory, Facts, Fault, Footprint, ForceFacts,
+    ForceTransducer, FrameInfo, FrameMut, Halt, Hertz, Millimetre, Newton, PixelFormat, Pose,
+    Registry, Rig, Robot, RobotFacts, RobotWatch, Sensor, SensorFacts, Speed, Stamp, Wrench,
 };
-use taceva_drivers::{Drivers, MonotonicClock};
+use taceva_drivers::{Drivers, MonotonicClock, OpenError, Switches};
 
 use crate::world::{World, pose};
 
 const ROBOT: DriverKey = DriverKey::fixed("wall/robot");
 const FORCE: DriverKey = DriverKey::fixed("wall/force");
+const SWITCH: DriverKey = DriverKey::fixed("wall/pedal");
 const SENSOR: DriverKey = DriverKey::fixed("wall/gel");
 /// From one reading to the next.
 const READING_S: f64 = 0.005;
@@ -39,6 +40,7 @@ pub(crate) fn drivers(world: &World) -> Drivers {
         robots: Registry::empty(),
         forces: Registry::empty(),
         lightings: Registry::empty(),
+        switches: Switches::default(),
     };
     let gel = OnWall::new(SENSOR, Facts::Sensor(Box::new(sensor)), world);
     drivers.sensors.add(Box::new(gel)).expect("one");
@@ -46,7 +48,31 @@ pub(crate) fn drivers(world: &World) -> Drivers {
     drivers.robots.add(Box::new(arm)).expect("one");
     let transducer = OnWall::new(FORCE, Facts::Force(force), world);
     drivers.forces.add(Box::new(transducer)).expect("one");
+    let held = world.clone();
+    drivers.switches.add(SWITCH, Vec::new(), move |_| {
+        match held.state().is_unplugged {
+            true => Err(OpenError::Device(unplugged("open"))),
+            false => Ok(Arc::new(Pedal(held.clone()))),
+        }
+    });
     drivers
+}
+
+fn unplugged(doing: &'static str) -> DriverError {
+    DriverError::new(ErrorKind::Disconnected, &SWITCH, doing).because("it was unplugged")
+}
+
+/// What somebody holds with a foot.
+struct Pedal(World);
+
+impl EnablingSwitch for Pedal {
+    fn is_held(&self) -> Result<bool, DriverError> {
+        let state = self.0.state();
+        match state.is_unplugged {
+            true => Err(unplugged("read")),
+            false => Ok(state.is_held),
+        }
+    }
 }
 
 /// Opens a device of a world.

@@ -5,6 +5,7 @@ mod guard;
 mod operator;
 mod rig;
 mod session;
+mod switch;
 mod world;
 
 use std::num::NonZeroUsize;

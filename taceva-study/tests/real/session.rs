@@ -22,7 +22,7 @@ pub(crate) fn rig_file(folder: &Path, force_axes: &str) -> PathBuf {
 }
 
 /// The scene with a tip so slow in contact that a busy machine is in time.
-fn scene() -> String {
+pub(crate) fn scene() -> String {
     SCENE.replacen("speed_mm_s = 5.0", "speed_mm_s = 1.5", 1)
 }
 
@@ -30,7 +30,7 @@ pub(crate) const UPRIGHT: &str = "[\"x\", \"y\", \"z\"]";
 
 /// Says yes to everything, and notes what was asked.
 #[derive(Default)]
-struct Person(Vec<Question>);
+pub(crate) struct Person(Vec<Question>);
 
 impl Operator for Person {
     fn ask(&mut self, question: &Question, _: &Cancel) -> Answer {

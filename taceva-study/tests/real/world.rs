@@ -37,6 +37,9 @@ pub(crate) struct State {
     /// Motions and releases that were asked for after it was reported.
     pub(crate) defied: u32,
     told: bool,
+    /// Whether the enabling switch is there and held.
+    pub(crate) is_held: bool,
+    pub(crate) is_unplugged: bool,
 }
 
 impl World {
@@ -56,6 +59,8 @@ impl World {
             is_stopped: false,
             defied: 0,
             told: false,
+            is_held: true,
+            is_unplugged: false,
         })))
     }
 

@@ -4,7 +4,9 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use taceva_core::{ArgError, ArgSpec, ArgValue, Args, DriverError, EnablingSwitch, ErrorKind};
+use taceva_core::{
+    ArgError, ArgSpec, ArgValue, Args, DriverError, DriverKey, EnablingSwitch, ErrorKind,
+};
 
 use super::KEY;
 use super::report::Bits;
@@ -45,6 +47,9 @@ pub struct Pedal {
 }
 
 impl Pedal {
+    /// The key of its driver.
+    pub const KEY: DriverKey = KEY;
+
     /// The arguments of a pedal, as they stand behind the colon of its selector.
     pub fn arguments() -> Vec<ArgSpec> {
         let mut arguments = Selection::arguments().to_vec();

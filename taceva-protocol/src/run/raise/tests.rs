@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::*;
 use crate::run::rig::{CONTACT_MM, Rig, plan};
-use crate::run::supervisor::Supervisor;
+use crate::run::supervisor::{Enabling, Supervisor};
 
 /// Notes what it is asked, how high the tip stands meanwhile and whether it moved before.
 struct Person {
@@ -24,9 +24,21 @@ impl Operator for Person {
 
 /// Raises the tip of `rig`, which somebody who says `answer` may let move.
 fn raised(rig: &Rig, answer: Answer) -> (Result<bool, RunError>, Person) {
+    raised_under(rig, answer, None)
+}
+
+/// The same on a rig whose enabling switch is `enabling`, where it has one.
+fn raised_under(
+    rig: &Rig,
+    answer: Answer,
+    enabling: Option<Enabling>,
+) -> (Result<bool, RunError>, Person) {
     let plan = plan();
     let limits = plan.limits.clone().expect("it moves");
     let supervisor = SharedSupervisor::new(Supervisor::new(limits, Arc::new(rig.clone())));
+    if let Some(enabling) = enabling {
+        supervisor.lock().enabling(enabling);
+    }
     let (mut robot, mut force, mut clock) = (rig.clone(), rig.clone(), rig.clone());
     let mut person = Person {
         rig: rig.clone(),
@@ -44,7 +56,7 @@ fn raised(rig: &Rig, answer: Answer) -> (Result<bool, RunError>, Person) {
         &plan,
         (&mut robot, &mut force),
         controls,
-        (supervisor, Some("lab/arm")),
+        (supervisor, Some("lab/arm"), 0.5),
     );
     (done, person)
 }
@@ -97,4 +109,27 @@ fn a_tip_that_is_high_enough_is_halted_where_it_is_and_nobody_is_asked() {
         assert!(person.asked.is_empty() && rig.motions().is_empty());
         assert!(rig.state().halted);
     }
+}
+
+#[test]
+fn a_tip_in_the_gel_stays_there_while_nobody_holds_the_enabling_switch() {
+    for (enabling, is_expected) in [
+        (
+            Enabling::Released,
+            (|cause| matches!(cause, StopCause::Unheld { .. })) as fn(_) -> bool,
+        ),
+        (Enabling::Lost, |cause| {
+            matches!(cause, StopCause::Tripped(_))
+        }),
+    ] {
+        let rig = over_a_gel(CONTACT_MM + 0.5);
+        let (done, _) = raised_under(&rig, Answer::Done, Some(enabling));
+        let error = done.expect_err("nobody holds it");
+        assert_eq!(error.left, Left::Untouched);
+        assert!(rig.motions().is_empty());
+        assert!(is_expected(error.cause));
+    }
+    let rig = over_a_gel(CONTACT_MM + 0.5);
+    let (done, _) = raised_under(&rig, Answer::Done, Some(Enabling::Held));
+    assert!(done.expect("raised"), "it stood low");
 }

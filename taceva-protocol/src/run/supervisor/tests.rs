@@ -1,6 +1,7 @@
 //! Every reading that must halt, and those that must not.
 
 mod boundaries;
+mod enabling;
 mod noise;
 mod signals;
 

@@ -34,6 +34,11 @@ impl<E> Setup<E> {
         }
     }
 
+    /// What the driver is told of this robot.
+    pub(crate) fn arguments(&self) -> &str {
+        &self.arguments
+    }
+
     /// What the driver opens with `arguments`.
     pub(crate) fn opened(&self, arguments: &str) -> Result<Box<dyn Robot>, DriverError> {
         let args = self.factory.descriptor().args(arguments).expect("good");

@@ -30,14 +30,18 @@ fn under_way(z: f64) -> Observation {
 #[test]
 fn a_tip_under_way_is_compared_with_its_way_and_one_at_rest_with_its_target() {
     let mut supervisor = allowing(Signals::default(), MotionStage::Search);
-    supervisor.sent(at_height(-8.0), at_height(0.0));
+    supervisor
+        .sent(at_height(-8.0), at_height(0.0))
+        .expect("no switch");
     for z in [-8.5, -8.0, -4.0, 0.0, 0.5] {
         assert_eq!(supervisor.observe(&under_way(z), 10.0), Ok(()), "{z}");
     }
     let astray = supervisor.observe(&under_way(0.5_f64.next_up()), 10.0);
     assert!(matches!(astray, Err(Trip::Diverged { .. })));
     let mut beside = allowing(Signals::default(), MotionStage::Search);
-    beside.sent(at_height(-8.0), at_height(0.0));
+    beside
+        .sent(at_height(-8.0), at_height(0.0))
+        .expect("no switch");
     let mut pose = at_height(-4.0);
     pose.position.x = Millimetre(0.501);
     let stamp = at(10.0);
@@ -45,7 +49,9 @@ fn a_tip_under_way_is_compared_with_its_way_and_one_at_rest_with_its_target() {
     assert!(matches!(astray, Err(Trip::Diverged { .. })));
     // It rests where it began, and says that it arrived.
     let mut stuck = allowing(Signals::default(), MotionStage::Search);
-    stuck.sent(at_height(-8.0), at_height(0.0));
+    stuck
+        .sent(at_height(-8.0), at_height(0.0))
+        .expect("no switch");
     let astray = stuck.observe(&super::pose(-8.0, 0.0, 10.0), 10.0);
     assert!(matches!(astray, Err(Trip::Diverged { .. })));
 }
@@ -129,7 +135,9 @@ fn equal_forces_in_coarse_steps_are_no_frozen_signal() {
 #[test]
 fn a_tip_that_rests_under_a_watch_of_its_own_does_not_freeze_its_force() {
     let mut supervisor = allowing(Signals::default(), PRESS);
-    supervisor.sent(at_height(0.3), at_height(0.3));
+    supervisor
+        .sent(at_height(0.3), at_height(0.3))
+        .expect("no switch");
     let mut watched = |z: f64, number: u32| {
         let now_s = 10.0 + 0.005 * f64::from(number);
         let (pose, stamp) = (at_height(z), at(now_s));

@@ -1,0 +1,103 @@
+//! The enabling switches of a program.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::sync::Arc;
+
+use taceva_core::{ArgSpec, Args, DriverError, DriverKey, EnablingSwitch, ErrorKind};
+
+use crate::open_error::OpenError;
+use crate::selector::Selector;
+
+/// Opens a switch by its selector.
+type Open = Box<dyn Fn(&Selector) -> Result<Arc<dyn EnablingSwitch>, OpenError> + Send + Sync>;
+
+/// A driver of enabling switches.
+struct Entry {
+    arguments: Vec<ArgSpec>,
+    open: Open,
+}
+
+/// Enabling switches by the keys of their drivers. They are no devices of a recording: nothing is measured with one.
+///
+/// ```
+/// use taceva_drivers::Switches;
+/// let switches = Switches::builtin();
+/// let refused = switches.check(&"lab/arm".parse().unwrap()).unwrap_err();
+/// assert!(refused.to_string().contains("is no enabling switch"));
+/// ```
+#[derive(Default)]
+pub struct Switches(BTreeMap<String, Entry>);
+
+impl fmt::Debug for Switches {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_set().entries(self.0.keys()).finish()
+    }
+}
+
+impl Switches {
+    /// Those that are linked into the program: `hid/pedal`, where it is.
+    pub fn builtin() -> Switches {
+        let switches = Switches::default();
+        #[cfg(all(feature = "hid", target_os = "linux"))]
+        let switches = {
+            let mut switches = switches;
+            switches.add(crate::Pedal::KEY, crate::Pedal::arguments(), |selector| {
+                Ok(Arc::new(crate::Pedal::open(selector)?))
+            });
+            switches
+        };
+        switches
+    }
+
+    /// Adds those that `open` opens, or exchanges them.
+    pub fn add(
+        &mut self,
+        key: DriverKey,
+        arguments: Vec<ArgSpec>,
+        open: impl Fn(&Selector) -> Result<Arc<dyn EnablingSwitch>, OpenError> + Send + Sync + 'static,
+    ) {
+        let open = Box::new(open);
+        self.0
+            .insert(key.as_str().to_owned(), Entry { arguments, open });
+    }
+
+    /// Looks whether `selector` names a switch with arguments that it takes; opens nothing.
+    ///
+    /// # Errors
+    /// [`OpenError`] for another driver than one of a switch, and for arguments.
+    pub fn check(&self, selector: &Selector) -> Result<(), OpenError> {
+        self.entry(selector).map(drop)
+    }
+
+    /// Opens the switch that `selector` asks for.
+    ///
+    /// # Errors
+    /// As [`check`](Switches::check), and for a switch that does not open.
+    pub fn open(&self, selector: &Selector) -> Result<Arc<dyn EnablingSwitch>, OpenError> {
+        (self.entry(selector)?.open)(selector)
+    }
+
+    fn entry(&self, selector: &Selector) -> Result<&Entry, OpenError> {
+        let Some(entry) = self.0.get(selector.driver()) else {
+            let known: Vec<String> = self.0.keys().map(|key| format!("`{key}`")).collect();
+            let expected = match known.as_slice() {
+                [] => "this program was built without any".to_owned(),
+                known => format!("expected {}", known.join(" or ")),
+            };
+            let why = format!(
+                "`{}` is no enabling switch, {expected}",
+                crate::text::shown(selector.driver())
+            );
+            let key = DriverKey::fixed("taceva/switch");
+            let error = DriverError::new(ErrorKind::NotFound, &key, "find the switch");
+            return Err(OpenError::Device(error.because(why)));
+        };
+        let args = Args::parse(&entry.arguments, selector.arguments());
+        args.map_err(|source| OpenError::Arguments {
+            selector: selector.to_string(),
+            source,
+        })?;
+        Ok(entry)
+    }
+}
