@@ -6,7 +6,7 @@ mod enforce;
 mod files;
 mod identity;
 mod isolation;
-mod system_calls;
+mod seccomp;
 
 pub use confinement::Confinement;
 pub use isolation::Isolation;

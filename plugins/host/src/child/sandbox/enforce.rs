@@ -1,7 +1,7 @@
 //! The order in which a child gives up what it could do.
 
 use super::isolation::LANDLOCK_WHOLE;
-use super::{Confinement, Isolation, files, identity, system_calls};
+use super::{Confinement, Isolation, files, identity, seccomp};
 
 /// Gives up everything but what `confinement` leaves, for good; before anything is loaded and while there is one thread.
 ///
@@ -16,7 +16,7 @@ pub(crate) fn confine(confinement: &Confinement, parent: u32) -> Result<Isolatio
     let user = identity::give_up_root(&confinement.needs)?;
     identity::end_with(parent)?;
     let landlock = files::close_off(&confinement.needs)?;
-    let system_calls = system_calls::filter_for_loading(&confinement.needs)?;
+    let system_calls = seccomp::filter_for_loading(&confinement.needs)?;
     let isolation = Isolation {
         landlock,
         system_calls,
@@ -39,7 +39,7 @@ pub(crate) fn confine(confinement: &Confinement, parent: u32) -> Result<Isolatio
 /// As [`confine`].
 pub(crate) fn seal(isolation: &Isolation) -> Result<(), String> {
     match isolation.system_calls {
-        Some(_) => system_calls::filter_after_loading(),
+        Some(_) => seccomp::filter_after_loading(),
         None => Ok(()),
     }
 }

@@ -11,8 +11,8 @@ use taceva_wire::{Device, FaultKind, WallBench};
 use super::setup::setup;
 use crate::support::{PATIENCE, inject, lower, speed};
 
-/// What the machine may take beyond, on which other tests run.
-const SLACK: Duration = Duration::from_millis(60);
+/// What the machine may take beyond, on which other tests run: an arm that goes on for as long as it is looked at goes on for longer.
+const SLACK: Duration = Duration::from_millis(200);
 /// How the host that is going to die is told which arm it moves, and how.
 const ARM: &str = "TACEVA_WIRE_DYING_HOST_ARM";
 const IS_EXPIRING: &str = "TACEVA_WIRE_DYING_HOST_EXPIRES";
@@ -81,7 +81,8 @@ fn a_halt_stops_it_and_stays() {
         let halted_mm = halting.join().expect("halted");
         std::thread::sleep(Duration::from_millis(300));
         let way_mm = setup.bench.truth().way_mm - halted_mm;
-        assert!(way_mm < 0.1, "it went on by {way_mm} mm");
+        // One that did not hear it goes on by 1.5 mm.
+        assert!(way_mm < 0.5, "it went on by {way_mm} mm");
     });
     let refused = arm.move_to(home, speed(5.0), PATIENCE);
     assert_eq!(refused.expect_err("halted").kind(), ErrorKind::Interrupted);

@@ -3,7 +3,7 @@
 //! Filters add up: the first is set before the library is loaded, the second when it is, since only loading needs to map code. No memory
 //! is ever writable and executable, at either stage.
 
-mod allowed;
+mod numbers;
 
 use std::collections::BTreeMap;
 
@@ -16,7 +16,7 @@ use seccompiler::{
     SeccompFilter, SeccompRule, TargetArch, apply_filter, apply_filter_all_threads,
 };
 
-use self::allowed::{ALWAYS, ALWAYS_TOO, FILE_CONTROLS, LISTENING, PROCESS_CONTROLS, SOCKETS};
+use self::numbers::{ALWAYS, ALWAYS_TOO, FILE_CONTROLS, LISTENING, PROCESS_CONTROLS, SOCKETS};
 use super::Need;
 
 type Rules = BTreeMap<i64, Vec<SeccompRule>>;
