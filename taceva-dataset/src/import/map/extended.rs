@@ -22,7 +22,7 @@ use crate::foreign::TableForm;
 )]
 pub(super) enum WrittenTable {
     Path(String),
-    Told(WrittenForm),
+    Described(WrittenForm),
 }
 
 #[derive(Deserialize)]
@@ -168,19 +168,19 @@ impl Check<'_> {
         let offset = written.span().start;
         let (file, form) = match written.get_ref() {
             WrittenTable::Path(path) => (path, form_of(path, None)),
-            WrittenTable::Told(told) => self.told(told, offset)?,
+            WrittenTable::Described(described) => self.described(described, offset)?,
         };
         self.relative(file, offset)?;
         Ok((file.clone(), form))
     }
 
-    fn told<'w>(
+    fn described<'w>(
         &self,
-        told: &'w WrittenForm,
+        described: &'w WrittenForm,
         offset: usize,
     ) -> Result<(&'w String, TableForm), DatasetError> {
-        let (file, form) = match (&told.file, &told.files) {
-            (Some(file), None) => (file, form_of(file, told.format)),
+        let (file, form) = match (&described.file, &described.files) {
+            (Some(file), None) => (file, form_of(file, described.format)),
             (None, Some(files)) => (files, TableForm::Files),
             _ => {
                 return Err(self.at(
@@ -189,7 +189,7 @@ impl Check<'_> {
                 ));
             }
         };
-        let form = match (form, told.header, &told.rows) {
+        let form = match (form, described.header, &described.rows) {
             (TableForm::Delimited { .. }, header, None) => TableForm::Delimited {
                 has_header: header.unwrap_or(true),
             },
