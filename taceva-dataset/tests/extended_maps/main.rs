@@ -1,5 +1,7 @@
 //! Maps of version 2: labels in paths and cells, tables of other forms, joins, matrices, classes; and what of them is refused.
 
+mod arrays;
+
 use std::num::NonZeroUsize;
 use std::path::Path;
 
@@ -304,7 +306,7 @@ fn what_only_version_2_says_is_refused_in_a_map_of_version_1_by_its_line() {
 }
 
 #[test]
-fn a_join_that_is_told_wrongly_names_its_line_and_what_is_missing() {
+fn a_join_that_is_written_wrongly_names_its_line_and_what_is_missing() {
     let of = |join: &str| {
         let map = format!(
             "table = \"a.csv\"\n[[join]]\nname = \"b\"\ntable = \"b.csv\"\n{join}\n[columns]\nFz = {{ from = \"k\", unit = \"N\" }}\n{NO_TIME}"
