@@ -9,6 +9,7 @@ use crate::error::{ArrayError, Problem};
 use crate::fields::check_read;
 use crate::format::ArrayFormat;
 use crate::npy::NpyArray;
+use crate::npz::Npz;
 use crate::source::FileBytes;
 use crate::store::{Arrays, Store};
 use crate::values::ArrayData;
@@ -148,6 +149,7 @@ impl ArrayFile {
 
 fn open(path: &Path, format: ArrayFormat) -> Result<Box<dyn Store>, Problem> {
     match format {
+        ArrayFormat::Npz => Ok(Box::new(Npz::open(FileBytes::open(path)?)?)),
         ArrayFormat::Npy => Ok(Box::new(NpyArray::open(
             "value",
             Box::new(FileBytes::open(path)?),

@@ -129,6 +129,26 @@ impl Problem {
         }
     }
 
+    /// The same with the part of the file that offsets are within.
+    pub(crate) fn within(self, part: &str) -> Problem {
+        match self {
+            Problem::Damaged {
+                at,
+                found,
+                expected,
+            } => Problem::Damaged {
+                at,
+                found: format!("{found} in {part}"),
+                expected,
+            },
+            Problem::Unsupported { found, mend } => Problem::Unsupported {
+                found: format!("{part}: {found}"),
+                mend,
+            },
+            other => other,
+        }
+    }
+
     pub(crate) fn unsupported(found: impl Into<String>, mend: impl Into<String>) -> Problem {
         Problem::Unsupported {
             found: found.into(),

@@ -1,14 +1,17 @@
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
+mod archive;
 mod array_file;
 mod element;
 mod error;
 mod fields;
 mod format;
+mod inflate;
 mod limits;
 mod literal;
 mod npy;
+mod npz;
 mod order;
 mod pattern;
 mod scalar;

@@ -10,3 +10,15 @@ pub(crate) const LITERAL_DEPTH: usize = 16;
 pub(crate) const AXES: usize = 64;
 /// Rows that lie column by column are turned in blocks of so many bytes.
 pub(crate) const TURNED_BYTES: u64 = 64 << 20;
+/// Arrays of one file, groups of one file, members of one archive.
+pub(crate) const ARRAYS: u64 = 1 << 16;
+/// The directory of an archive.
+pub(crate) const DIRECTORY_BYTES: u64 = 64 << 20;
+/// What the form allows at most: no deflated byte becomes more.
+pub(crate) const DEFLATE_RATIO: u64 = 1_032;
+/// Above so many times its size a member is inflated only if it becomes no more than `INFLATED_BYTES`.
+pub(crate) const USUAL_RATIO: u64 = 200;
+/// See `USUAL_RATIO`.
+pub(crate) const INFLATED_BYTES: u64 = 1 << 30;
+/// Members and variables that are inflated as a whole and held, all of one file together.
+pub(crate) const HELD_BYTES: u64 = 64 << 20;

@@ -27,7 +27,7 @@ def told(a):
         body = b"".join(one(x) for x in a.ravel())
         kind = "bytes" if body[:1] == b"b" else "text"
     else:
-        if a.dtype == np.float16: a, kind = a.astype("<f4"), "16 bit floating point"
+        if a.dtype.kind == "f" and a.itemsize == 2: a, kind = a.astype("<f4"), "16 bit floating point"
         else: kind = {"b": "true or false", "u": f"{8*a.itemsize} bit unsigned", "i": f"{8*a.itemsize} bit signed", "f": f"{8*a.itemsize} bit floating point"}[a.dtype.kind]
         body = np.ascontiguousarray(a.astype(a.dtype.newbyteorder("<"))).tobytes()
     return {"shape": list(a.shape), "element": kind, "sha256": hashlib.sha256(body).hexdigest()}
@@ -67,10 +67,27 @@ def write_npy():
     np.save(folder / "record.npy", record)
     np.save(folder / "aligned.npy", np.zeros(3, np.dtype([("a", "u1"), ("b", "<f8")], align=True)))
 
+def write_npz():
+    folder = fresh("npz")
+    import zipfile
+    a, b = numbers((9, 4, 3), "<f4", 200), numbers((9,), ">i2", 201)
+    np.savez_compressed(folder / "plain.npz", a=np.asfortranarray(a), b=b, **{"größe": np.array(["x", "yz"])})
+    limit, zipfile.ZIP64_LIMIT = zipfile.ZIP64_LIMIT, 100                 # every size and the directory in fields of 64 bits
+    with zipfile.ZipFile(folder / "zip64.npz", "w", zipfile.ZIP_DEFLATED) as z:
+        for name, array in (("a", a), ("b", b)):
+            with z.open(name + ".npy", "w", force_zip64=True) as f: np.lib.format.write_array(f, array)
+        z.writestr("notes.txt", "no array")
+        z.comment = b"a comment behind the directory"
+    zipfile.ZIP64_LIMIT = limit
+    np.savez_compressed(folder / "empty.npz")
+
+def read_npz(file):
+    with np.load(file) as z: return {k: v for name in z.files if name != "notes.txt" for k, v in flat(name, z[name]).items()}
+
 def read_npy(file): return flat("value", np.load(file))
 
 WRITE = {k[6:]: f for k, f in list(globals().items()) if k.startswith("write_")}
-READ = {".npy": read_npy}
+READ = {".npy": read_npy, ".npz": read_npz}
 if __name__ == "__main__":
     for kind in sys.argv[1:] or WRITE: WRITE[kind]()
     found = {}

@@ -1,0 +1,7 @@
+//! Files that other libraries wrote, read and compared with what those libraries read of them (`tests/data/make.py`).
+
+mod damage;
+mod digest;
+mod peers;
+mod recordings;
+mod refusals;
