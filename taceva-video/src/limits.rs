@@ -1,0 +1,14 @@
+//! How large clips may be. Beyond these a clip is refused before anything is allocated for it.
+
+/// Frames of a clip, and chunks or samples of its container.
+pub(crate) const FRAMES: u64 = 1 << 24;
+/// One packet as it is compressed.
+pub(crate) const PACKET_BYTES: u64 = 64 << 20;
+/// Pixels along one side of a frame.
+pub(crate) const SIDE: u32 = 16_384;
+/// Chunks of an AVI file, those of sound and padding included.
+pub(crate) const CHUNKS: u64 = 1 << 25;
+/// The description of an AVI file's streams, or the headers of one of its chunks that are read whole.
+pub(crate) const HEADER_BYTES: u64 = 1 << 20;
+/// The index at the end of an AVI file: 16 bytes a chunk.
+pub(crate) const INDEX_BYTES: u64 = CHUNKS * 16;
