@@ -5,9 +5,11 @@ mod columns;
 mod files;
 mod json;
 pub(crate) mod packed;
+mod parquet;
 mod pictures;
 
 use std::borrow::Cow;
+use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -37,9 +39,13 @@ pub(crate) enum ForeignTable {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum TableForm {
     /// Cells between separators, below a header; without one, columns are called by their position, from 0.
-    Delimited { has_header: bool },
+    Delimited {
+        has_header: bool,
+    },
     /// JSON, whose rows are what the pointer leads to: `/*` each member, the empty one the whole.
-    Json { rows: Option<String> },
+    Json {
+        rows: Option<String>,
+    },
     /// A JSON value a line.
     JsonLines,
     /// No table: every file is a row.
@@ -49,6 +55,14 @@ pub(crate) enum TableForm {
         format: ArrayFormat,
         rows: Option<String>,
     },
+    Parquet,
+}
+
+/// What an error says of the file at `path`, without the path, which is named around it.
+fn said(path: &Path, error: &impl fmt::Display) -> String {
+    let text = error.to_string();
+    let rest = text.strip_prefix(&format!("{}: ", path.display()));
+    rest.unwrap_or(&text).to_owned()
 }
 
 impl ForeignTable {
@@ -64,6 +78,9 @@ impl ForeignTable {
             TableForm::Json { rows } => ForeignTable::Json(JsonRows::read(path, rows.as_deref())?),
             TableForm::JsonLines => ForeignTable::Json(JsonRows::read_lines(path)?),
             TableForm::Files => ForeignTable::Files(FileRows::one(path)),
+            TableForm::Parquet => ForeignTable::Columns(ColumnTable::open(path, || {
+                parquet::ParquetRows::open(path)
+            })?),
             TableForm::Arrays { format, rows } => {
                 ForeignTable::Columns(ColumnTable::open(path, || {
                     arrays::ArrayRows::open(path, *format, rows.as_deref())

@@ -209,3 +209,21 @@ fn arrays_of_numpy() {
         "npy-nchw",
     ]);
 }
+
+#[test]
+fn archives_of_numpy() {
+    all_as_expected(&["npz-deflated", "npz-stored"]);
+}
+
+#[test]
+fn parquet_with_lists_structures_and_pictures() {
+    all_as_expected(&[
+        "hf-parquet-jpeg",
+        "hf-parquet-png",
+        "parquet-brotli",
+        "parquet-gzip",
+        "parquet-lz4",
+        "parquet-none",
+        "parquet-zstd",
+    ]);
+}

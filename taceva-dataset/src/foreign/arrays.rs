@@ -40,7 +40,7 @@ impl ArrayRows {
         format: ArrayFormat,
         rows: Option<&str>,
     ) -> Result<ArrayRows, String> {
-        let file = ArrayFile::open(path, format).map_err(said)?;
+        let file = ArrayFile::open(path, format).map_err(problem)?;
         let paths = match rows {
             None | Some("" | "/") => vec![String::new()],
             Some(pattern) => match file.groups(pattern) {
@@ -106,7 +106,7 @@ impl ArrayRows {
                 group.rows
             ));
         }
-        let read = self.file.read(&path, 0..info.rows()).map_err(said)?;
+        let read = self.file.read(&path, 0..info.rows()).map_err(problem)?;
         let sides = info.shape.iter().skip(1);
         let shape: Result<Vec<usize>, _> = sides.map(|side| usize::try_from(*side)).collect();
         let shape = shape.map_err(|error| error.to_string())?;
@@ -233,7 +233,8 @@ fn rows_of(file: &ArrayFile, group: &str) -> Result<usize, String> {
     }
 }
 
-fn said(error: ArrayError) -> String {
+/// What is wrong, without the file, which is named around it.
+fn problem(error: ArrayError) -> String {
     match error.array {
         Some(array) => format!("`{array}`: {}", error.problem),
         None => error.problem.to_string(),

@@ -7,10 +7,10 @@ use std::sync::Arc;
 use taceva_arrays::{ArrayFile, ArrayFormat, ArrayInfo, ArrayValues, Element};
 use taceva_core::{Frame, FrameInfo, PixelFormat};
 
-use super::said;
+use super::problem;
 use crate::decode::ChannelOrder;
 use crate::error::DatasetError;
-use crate::foreign::pictures::{Picture, Pictures, Visit};
+use crate::foreign::pictures::{Picture, Pictures, Visit, damaged};
 use crate::guard::guarded;
 use crate::import::{ArrayFrames, ArrayLayout, FrameNames, PixelRange};
 use crate::limits;
@@ -57,7 +57,7 @@ impl ArrayPictures {
     ) -> Result<ArrayPictures, DatasetError> {
         let opened = guarded(|| {
             let format = ArrayFormat::of(path).unwrap_or(ArrayFormat::Npy);
-            let file = ArrayFile::open(path, format).map_err(said)?;
+            let file = ArrayFile::open(path, format).map_err(problem)?;
             let names_there = file.names();
             let array = match (&frames.path, names_there.as_slice()) {
                 (Some(array), _) => array.clone(),
@@ -73,7 +73,7 @@ impl ArrayPictures {
         });
         opened
             .and_then(|opened| opened)
-            .map_err(|problem| wrong(path, problem))
+            .map_err(|problem| damaged(path, problem))
     }
 
     pub(super) fn new(
@@ -122,17 +122,16 @@ impl ArrayPictures {
         let mut next = run.start;
         while next < run.end {
             let end = run.end.min(next + at_once);
-            let read = guarded(|| self.file.read(&array.name, next..end).map_err(said));
+            let read = guarded(|| self.file.read(&array.name, next..end).map_err(problem));
             let read = read
                 .and_then(|read| read)
-                .map_err(|problem| wrong(self.path(), problem))?;
+                .map_err(|problem| damaged(self.path(), problem))?;
             for row in next..end {
                 let at = as_size(row - next);
                 let number = array.first + row;
-                let picture = array
-                    .form
-                    .picture(&read.values, at)
-                    .map_err(|problem| wrong(self.path(), format!("frame {number}: {problem}")))?;
+                let picture = array.form.picture(&read.values, at).map_err(|problem| {
+                    damaged(self.path(), format!("frame {number}: {problem}"))
+                })?;
                 each(number, picture)?;
             }
             next = end;
@@ -357,12 +356,4 @@ fn numbers(values: &ArrayValues, own: Range<usize>) -> Result<Vec<f64>, String> 
 /// A length within one reading, which is of few megabytes.
 fn as_size(length: u64) -> usize {
     usize::try_from(length).unwrap_or(usize::MAX)
-}
-
-fn wrong(path: &Path, problem: String) -> DatasetError {
-    DatasetError::Image {
-        place: None,
-        path: path.to_owned(),
-        problem,
-    }
 }

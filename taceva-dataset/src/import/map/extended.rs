@@ -48,12 +48,15 @@ enum Format {
     Zarr,
     Mat,
     Pickle,
+    Parquet,
 }
 
 impl Format {
     fn of_arrays(self) -> Option<ArrayFormat> {
         Some(match self {
-            Format::Csv | Format::Tsv | Format::Json | Format::Jsonl => return None,
+            Format::Csv | Format::Tsv | Format::Json | Format::Jsonl | Format::Parquet => {
+                return None;
+            }
             Format::Npy => ArrayFormat::Npy,
             Format::Npz => ArrayFormat::Npz,
             Format::Hdf5 => ArrayFormat::Hdf5,
@@ -154,6 +157,7 @@ fn form_of(path: &str, format: Option<Format>) -> TableForm {
     }
     match (format, ending.as_deref()) {
         (Some(Format::Json), _) | (None, Some("json")) => TableForm::Json { rows: None },
+        (Some(Format::Parquet), _) | (None, Some("parquet")) => TableForm::Parquet,
         (Some(Format::Jsonl), _) | (None, Some("jsonl" | "ndjson")) => TableForm::JsonLines,
         _ => TableForm::Delimited { has_header: true },
     }
