@@ -1,6 +1,7 @@
 //! Tables as other programs wrote them: rows of cells that are asked for by the name of a column.
 
 mod arrays;
+mod clips;
 mod columns;
 mod files;
 mod json;
@@ -21,6 +22,7 @@ use crate::import::FrameNames;
 use crate::text::{nearest, shown};
 
 pub(crate) use arrays::ArrayPictures;
+pub(crate) use clips::ClipPictures;
 pub(crate) use columns::ColumnTable;
 pub(crate) use files::FileRows;
 pub(crate) use json::JsonRows;

@@ -62,6 +62,7 @@ pub use scaled::DecodeScale;
 pub use sensor_file::SensorFile;
 pub use store::RecordingFacts;
 pub use table::{FrameEntry, Row, Table};
+pub use taceva_video::Decoders;
 pub use toml_file::read_toml;
 pub use transcode::write_as_jpeg;
 pub use version::Version;

@@ -227,3 +227,8 @@ fn parquet_with_lists_structures_and_pictures() {
         "parquet-zstd",
     ]);
 }
+
+#[test]
+fn clips_of_motion_jpeg_and_h264() {
+    all_as_expected(&["avi-mjpeg", "mp4-h264-baseline", "mp4-h264-high-b"]);
+}
