@@ -65,6 +65,17 @@ pub enum Picture {
     },
 }
 
+impl Picture {
+    /// How many bytes it takes.
+    pub(crate) fn size(&self) -> usize {
+        match self {
+            Picture::Jpeg(bytes) => bytes.len(),
+            Picture::Pixels { samples, .. } => samples.len(),
+            Picture::Deep { samples, .. } => samples.len() * 2,
+        }
+    }
+}
+
 impl std::fmt::Debug for Picture {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {

@@ -119,6 +119,17 @@ pub enum VideoError {
         /// How its pixels are stored.
         pixel_format: String,
     },
+    /// Colours were asked of a clip whose matrix is not known here.
+    #[error(
+        "{}: colours are coded by matrix {matrix} of ITU-T H.273, which is not converted: ask for luma, or write the clip anew by another",
+        shown(path)
+    )]
+    Colours {
+        /// The clip.
+        path: PathBuf,
+        /// The number of the matrix.
+        matrix: u16,
+    },
     /// The decoder refused the stream.
     #[error("{}: {decoder} does not decode frame {frame}: {problem}", shown(path))]
     Decoder {

@@ -3,10 +3,14 @@
 
 mod avi;
 mod clip;
+mod colour;
 mod error;
+mod h264;
 mod jpeg;
 mod limits;
+mod mp4;
 mod packets;
+mod reorder;
 mod source;
 mod video;
 

@@ -12,3 +12,5 @@ pub(crate) const CHUNKS: u64 = 1 << 25;
 pub(crate) const HEADER_BYTES: u64 = 1 << 20;
 /// The index at the end of an AVI file: 16 bytes a chunk.
 pub(crate) const INDEX_BYTES: u64 = CHUNKS * 16;
+/// Decoded frames that wait for an earlier one: 16 of 16 million pixels, which is as many as a standard admits.
+pub(crate) const HELD_BYTES: u64 = 256 << 20;

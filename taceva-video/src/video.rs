@@ -7,7 +7,9 @@ use std::path::{Path, PathBuf};
 use crate::avi::{self, Avi};
 use crate::clip::{Colours, Picture, VideoInfo};
 use crate::error::{VideoError, VisitError};
-use crate::packets::{self, JpegClip};
+use crate::h264::{self, H264Clip, Refusal};
+use crate::mp4::{self, Coding, Found, Track};
+use crate::packets::{self, JpegClip, Packet};
 use crate::source::Source;
 
 /// Programs that decode what is not decoded here.
@@ -44,6 +46,7 @@ pub struct Video {
 #[derive(Debug)]
 enum Frames {
     Jpeg(JpegClip),
+    H264(Box<H264Clip>),
 }
 
 impl Video {
@@ -56,20 +59,101 @@ impl Video {
         let mut start = [0; 16];
         let known = usize::try_from(source.length()).map_or(16, |length| length.min(16));
         source.read_into(0, &mut start[..known])?;
-        if avi::is_avi(&start[..known]) {
+        let start = &start[..known];
+        if avi::is_avi(start) {
             return Video::open_avi(source);
         }
-        let _ = decoders;
-        Err(source.damaged(0, "no video container begins here, expected AVI"))
+        if mp4::is_mp4(start) {
+            return Video::open_mp4(source, decoders);
+        }
+        Err(source.damaged(0, "no video container begins here, expected AVI or MP4"))
     }
 
     fn open_avi(source: Source) -> Result<Video, VideoError> {
         let clip = Avi::read(&source)?;
-        let (info, clip) = motion_jpeg(source, &clip)?;
+        let about = About {
+            container: "AVI",
+            codec: "MJPEG".to_owned(),
+            size: (clip.stream.width, clip.stream.height),
+            times_s: clip.times_s(),
+        };
+        Video::of_jpegs(source, about, clip.packets)
+    }
+
+    fn open_mp4(source: Source, decoders: &Decoders) -> Result<Video, VideoError> {
+        let track = match mp4::read(&source)? {
+            Found::Track(track) => track,
+            Found::Elsewhere { codec, why } => {
+                return Err(no_decoder(source.path(), &codec, why));
+            }
+        };
+        let _ = decoders;
+        let about = About {
+            container: "MP4",
+            codec: track.entry.coding.name(),
+            size: (track.entry.width, track.entry.height),
+            times_s: Some(track.times_s.clone()),
+        };
+        match &track.entry.coding {
+            Coding::Jpeg => {
+                let packets = packets_of(&track);
+                Video::of_jpegs(source, about, packets)
+            }
+            Coding::H264(settings, offset) => {
+                let (clip, foreign) = H264Clip::open(source, &track, settings, *offset)?;
+                let sequence = &clip.sequence;
+                if let Some(why) = foreign {
+                    return Err(no_decoder(clip.source().path(), &sequence.codec(), why));
+                }
+                let (width, height) = clip.size();
+                let info = VideoInfo {
+                    container: about.container.to_owned(),
+                    codec: sequence.codec(),
+                    pixel_format: sequence.pixel_format(),
+                    width,
+                    height,
+                    frames: track.presented.len() as u64,
+                    times_s: about.times_s,
+                    lossy: Some(true),
+                    decoder: Some(h264::DECODER.to_owned()),
+                };
+                Ok(Video {
+                    path: clip.source().path().to_owned(),
+                    info,
+                    frames: Frames::H264(Box::new(clip)),
+                })
+            }
+            other => Err(no_decoder(source.path(), &other.name(), "")),
+        }
+    }
+
+    /// A clip whose packets are JPEG files.
+    fn of_jpegs(source: Source, about: About, packets: Vec<Packet>) -> Result<Video, VideoError> {
+        let Some(&first) = packets.first() else {
+            return Err(source.damaged(source.length(), "the clip has no frame"));
+        };
+        let (_, header) = packets::read_packet(&source, first)?;
+        let (width, height) = about.size;
+        let info = VideoInfo {
+            container: about.container.to_owned(),
+            codec: about.codec,
+            pixel_format: header.pixel_format.to_owned(),
+            width,
+            height,
+            frames: packets.len() as u64,
+            times_s: about.times_s,
+            lossy: Some(true),
+            decoder: None,
+        };
         Ok(Video {
-            path: clip.source.path().to_owned(),
+            path: source.path().to_owned(),
             info,
-            frames: Frames::Jpeg(clip),
+            frames: Frames::Jpeg(JpegClip {
+                source,
+                packets,
+                width,
+                height,
+            }),
         })
     }
 
@@ -100,9 +184,15 @@ impl Video {
                 ControlFlow::Break(())
             }
         };
-        let _ = colours;
         match &self.frames {
             Frames::Jpeg(clip) => clip.visit(sorted, &mut show)?,
+            Frames::H264(clip) => match clip.visit(sorted, colours, &mut show) {
+                Ok(()) => {}
+                Err(Refusal::Video(error)) => return Err(error.into()),
+                Err(Refusal::Tool { tool, .. }) => {
+                    return Err(no_decoder(&self.path, &self.info.codec, tool).into());
+                }
+            },
         }
         refused.map_or(Ok(()), |error| Err(VisitError::Caller(error)))
     }
@@ -127,28 +217,32 @@ impl Video {
     }
 }
 
-/// Motion JPEG in an AVI file.
-fn motion_jpeg(source: Source, clip: &Avi) -> Result<(VideoInfo, JpegClip), VideoError> {
-    let Some(&first) = clip.packets.first() else {
-        return Err(source.damaged(source.length(), "the clip has no frame"));
+/// What a container says of its clip.
+struct About {
+    container: &'static str,
+    codec: String,
+    size: (u32, u32),
+    times_s: Option<Vec<f64>>,
+}
+
+/// Where the frames of a track lie in the order of presentation.
+fn packets_of(track: &Track) -> Vec<Packet> {
+    let samples = track
+        .presented
+        .iter()
+        .map(|number| track.samples[*number as usize]);
+    let packet = |sample: mp4::Sample| Packet {
+        offset: sample.offset,
+        size: u64::from(sample.size),
     };
-    let (_, header) = packets::read_packet(&source, first)?;
-    let info = VideoInfo {
-        container: "AVI".to_owned(),
-        codec: "MJPEG".to_owned(),
-        pixel_format: header.pixel_format.to_owned(),
-        width: clip.stream.width,
-        height: clip.stream.height,
-        frames: clip.packets.len() as u64,
-        times_s: clip.times_s(),
-        lossy: Some(true),
-        decoder: None,
-    };
-    let clip = JpegClip {
-        source,
-        packets: clip.packets.clone(),
-        width: info.width,
-        height: info.height,
-    };
-    Ok((info, clip))
+    samples.map(packet).collect()
+}
+
+/// That nothing at hand decodes `codec`, with what is the matter with it.
+fn no_decoder(path: &Path, codec: &str, why: &str) -> VideoError {
+    VideoError::NoDecoder {
+        path: path.to_owned(),
+        codec: [codec, why].join(" ").trim().to_owned(),
+        remedy: "install ffmpeg (`pip install imageio-ffmpeg` brings one), or name it by `--ffmpeg PROGRAM` or TACEVA_FFMPEG".to_owned(),
+    }
 }
