@@ -112,7 +112,7 @@ impl ArrayFile {
         let index = self.by_name.get(name).copied();
         let (index, info) = index
             .and_then(|index| Some((index, &self.arrays.get(index)?.1)))
-            .ok_or_else(|| self.absent())?;
+            .ok_or_else(|| self.absent(name))?;
         if rows.start > rows.end || rows.end > info.rows() {
             return Err(Problem::Rows {
                 asked: rows,
@@ -127,7 +127,15 @@ impl ArrayFile {
         self.store.read(index, rows)
     }
 
-    fn absent(&self) -> Problem {
+    fn absent(&self, name: &str) -> Problem {
+        // A record that cannot be read is asked for by its fields.
+        let is_of = |array: &str| {
+            name.strip_prefix(array)
+                .is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+        };
+        if let Some((_, reason)) = self.store.refused().iter().find(|(array, _)| is_of(array)) {
+            return reason.again();
+        }
         let shown: Vec<&str> = self
             .arrays
             .iter()
@@ -149,6 +157,13 @@ impl ArrayFile {
 
 fn open(path: &Path, format: ArrayFormat) -> Result<Box<dyn Store>, Problem> {
     match format {
+        #[cfg(feature = "hdf5")]
+        ArrayFormat::Hdf5 => Ok(Box::new(crate::hdf5::Hdf5::open(FileBytes::open(path)?)?)),
+        #[cfg(not(feature = "hdf5"))]
+        ArrayFormat::Hdf5 => Err(Problem::unsupported(
+            "HDF5, which this program was built without",
+            "build it with the feature `hdf5`",
+        )),
         ArrayFormat::Npz => Ok(Box::new(Npz::open(FileBytes::open(path)?)?)),
         ArrayFormat::Npy => Ok(Box::new(NpyArray::open(
             "value",

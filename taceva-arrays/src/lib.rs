@@ -7,7 +7,10 @@ mod element;
 mod error;
 mod fields;
 mod format;
+#[cfg(feature = "hdf5")]
+mod hdf5;
 mod inflate;
+mod kept;
 mod limits;
 mod literal;
 mod npy;

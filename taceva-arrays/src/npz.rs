@@ -27,6 +27,7 @@ pub(crate) struct Npz {
     arrays: Vec<NpyArray>,
     /// For each array that is listed, which member and which field of it.
     listed: Vec<(usize, usize)>,
+    refused: Vec<(String, Problem)>,
 }
 
 impl Npz {
@@ -34,7 +35,7 @@ impl Npz {
         let file = Arc::new(file);
         let mut names = BTreeSet::new();
         let mut held_bytes = 0_u64;
-        let mut arrays = Vec::new();
+        let (mut arrays, mut refused) = (Vec::new(), Vec::new());
         for member in members(&*file)? {
             // Others are notes of whoever wrote the archive.
             let Some(name) = member.name.strip_suffix(".npy").map(str::to_owned) else {
@@ -57,23 +58,34 @@ impl Npz {
                 read: Mutex::new(Read::Nothing),
             };
             let array = NpyArray::open(&name, Box::new(source));
-            arrays
-                .push(array.map_err(|problem| {
-                    problem.within(&format!("member `{}.npy`", shown(&name)))
-                })?);
+            match array {
+                Ok(array) => arrays.push(array),
+                Err(reason @ Problem::Unsupported { .. }) => refused.push((name, reason)),
+                Err(problem) => {
+                    return Err(problem.within(&format!("member `{}.npy`", shown(&name))));
+                }
+            }
         }
         let fields = arrays.iter().enumerate().flat_map(|(array, fields)| {
             let count = fields.arrays().len();
             (0..count).map(move |field| (array, field))
         });
         let listed = fields.collect();
-        Ok(Npz { arrays, listed })
+        Ok(Npz {
+            arrays,
+            listed,
+            refused,
+        })
     }
 }
 
 impl Store for Npz {
     fn arrays(&self) -> Arrays {
         self.arrays.iter().flat_map(Store::arrays).collect()
+    }
+
+    fn refused(&self) -> &[(String, Problem)] {
+        &self.refused
     }
 
     fn read(&self, index: usize, rows: Range<u64>) -> Result<ArrayData, Problem> {

@@ -11,10 +11,23 @@ pub(crate) enum Kind {
     Unsigned,
     Signed,
     Float,
-    /// UTF-8, filled with zeros.
-    Text,
+    /// UTF-8, filled up.
+    Text(Filler),
     /// UTF-32, filled with zeros.
     WideText,
+    /// A reference to text of any length.
+    HeapText,
+    /// A reference to bytes of any length.
+    HeapBytes,
+}
+
+/// What follows a text in a field that is longer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Filler {
+    Zeros,
+    /// A zero, and anything behind it.
+    FirstZero,
+    Spaces,
 }
 
 /// The type of an element as it is stored: what, how long, in which byte order.
@@ -32,7 +45,7 @@ impl Scalar {
             Kind::Bool => bytes == 1,
             Kind::Unsigned | Kind::Signed => matches!(bytes, 1 | 2 | 4 | 8),
             Kind::Float => matches!(bytes, 2 | 4 | 8),
-            Kind::Text => true,
+            Kind::Text(_) | Kind::HeapText | Kind::HeapBytes => true,
             Kind::WideText => bytes % 4 == 0,
         };
         is_known.then_some(Scalar {
@@ -60,7 +73,7 @@ impl Scalar {
             Some('u') => Kind::Unsigned,
             Some('i') => Kind::Signed,
             Some('f') => Kind::Float,
-            Some('S' | 'a') => Kind::Text,
+            Some('S' | 'a') => Kind::Text(Filler::Zeros),
             Some('U') => Kind::WideText,
             Some('c') => {
                 return Err(unknown(
@@ -100,7 +113,17 @@ impl Scalar {
             Kind::Unsigned => Element::Unsigned(bits),
             Kind::Signed => Element::Signed(bits),
             Kind::Float => Element::Float(bits),
-            Kind::Text | Kind::WideText => Element::Text,
+            Kind::Text(_) | Kind::WideText | Kind::HeapText => Element::Text,
+            Kind::HeapBytes => Element::Bytes,
+        }
+    }
+
+    /// Of a reference to a value elsewhere: whether that is text.
+    pub(crate) fn heap_text(self) -> Option<bool> {
+        match self.kind {
+            Kind::HeapText => Some(true),
+            Kind::HeapBytes => Some(false),
+            _ => None,
         }
     }
 
@@ -155,7 +178,7 @@ impl Scalar {
             (Kind::Float, _) => {
                 ArrayValues::F64(each(&raw, big, (f64::from_le_bytes, f64::from_be_bytes)))
             }
-            (Kind::Text, _) => self.texts(&raw, count, utf8)?,
+            (Kind::Text(filler), _) => self.texts(&raw, count, |bytes| utf8(bytes, filler))?,
             (Kind::WideText, _) => {
                 let of = if big {
                     u32::from_be_bytes
@@ -163,6 +186,13 @@ impl Scalar {
                     u32::from_le_bytes
                 };
                 self.texts(&raw, count, |bytes| utf32(bytes, of))?
+            }
+            // Whoever lists such elements reads them from its heap.
+            (Kind::HeapText | Kind::HeapBytes, _) => {
+                return Err(Problem::unsupported(
+                    "references to values elsewhere",
+                    "write the values themselves",
+                ));
             }
         })
     }
@@ -197,12 +227,22 @@ pub(crate) fn shown(text: &str) -> String {
     short
 }
 
-/// UTF-8 up to the zeros that fill the field.
-fn utf8(bytes: &[u8]) -> Option<String> {
-    let end = bytes
-        .iter()
-        .rposition(|byte| *byte != 0)
-        .map_or(0, |last| last + 1);
+/// UTF-8 up to what fills the field.
+fn utf8(bytes: &[u8], filler: Filler) -> Option<String> {
+    let up_to_last = |filled: u8| {
+        bytes
+            .iter()
+            .rposition(|byte| *byte != filled)
+            .map_or(0, |last| last + 1)
+    };
+    let end = match filler {
+        Filler::Zeros => up_to_last(0),
+        Filler::FirstZero => bytes
+            .iter()
+            .position(|byte| *byte == 0)
+            .unwrap_or(bytes.len()),
+        Filler::Spaces => up_to_last(b' '),
+    };
     std::str::from_utf8(&bytes[..end]).ok().map(str::to_owned)
 }
 

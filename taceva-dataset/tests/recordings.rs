@@ -232,3 +232,24 @@ fn parquet_with_lists_structures_and_pictures() {
 fn clips_of_motion_jpeg_and_h264() {
     all_as_expected(&["avi-mjpeg", "mp4-h264-baseline", "mp4-h264-high-b"]);
 }
+
+#[test]
+fn hdf5_of_every_layout_that_is_read() {
+    all_as_expected(&[
+        "hdf5-contiguous-earliest",
+        "hdf5-contiguous-latest",
+        "hdf5-fletcher-earliest",
+        "hdf5-groups",
+        "hdf5-gzip-shuffle-earliest",
+        "hdf5-lzf-earliest",
+        "hdf5-vlen-compound",
+    ]);
+}
+
+#[test]
+fn hdf5_of_a_layout_that_is_not_read_names_the_setting_that_writes_another() {
+    for name in ["hdf5-fletcher-latest", "hdf5-gzip-shuffle-latest", "hdf5-lzf-latest"] {
+        let found = differences(name).join(" ");
+        assert!(found.contains("libver=('earliest', 'v114')"), "{name}: {found}");
+    }
+}

@@ -2,6 +2,8 @@
 
 mod damage;
 mod digest;
+#[cfg(feature = "hdf5")]
+mod hdf5;
 mod peers;
 mod recordings;
 mod refusals;

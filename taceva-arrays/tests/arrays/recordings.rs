@@ -13,6 +13,34 @@ const RECORDINGS: &[(&str, &str, &str, &str, &str)] = &[
     ("npy-fortran", "frames.npy", "value", "ft.npy", "value"),
     ("npz-stored", "run.npz", "images", "run.npz", "ft"),
     ("npz-deflated", "run.npz", "images", "run.npz", "ft"),
+    (
+        "hdf5-contiguous-earliest",
+        "run.h5",
+        "/tactile/left/rgb",
+        "run.h5",
+        "/force/wrench",
+    ),
+    (
+        "hdf5-gzip-shuffle-earliest",
+        "run.h5",
+        "/tactile/left/rgb",
+        "run.h5",
+        "/force/wrench",
+    ),
+    (
+        "hdf5-lzf-earliest",
+        "run.h5",
+        "/tactile/left/rgb",
+        "run.h5",
+        "/force/wrench",
+    ),
+    (
+        "hdf5-fletcher-earliest",
+        "run.h5",
+        "/tactile/left/rgb",
+        "run.h5",
+        "/force/wrench",
+    ),
 ];
 
 #[test]

@@ -25,7 +25,7 @@ def told(a):
             x = x.decode() if isinstance(x, bytes) else str(x)
             return b"t" + struct.pack("<Q", len(x.encode())) + x.encode()
         body = b"".join(one(x) for x in a.ravel())
-        kind = "bytes" if body[:1] == b"b" else "text"
+        kind = "bytes" if isinstance(a.ravel()[0], np.ndarray) else "text"
     else:
         if a.dtype.kind == "f" and a.itemsize == 2: a, kind = a.astype("<f4"), "16 bit floating point"
         else: kind = {"b": "true or false", "u": f"{8*a.itemsize} bit unsigned", "i": f"{8*a.itemsize} bit signed", "f": f"{8*a.itemsize} bit floating point"}[a.dtype.kind]
@@ -81,13 +81,58 @@ def write_npz():
     zipfile.ZIP64_LIMIT = limit
     np.savez_compressed(folder / "empty.npz")
 
+def write_hdf5():
+    import h5py
+    folder = fresh("hdf5")
+    with h5py.File(folder / "types.h5", "w", libver=("earliest", "v114")) as f:
+        for n, dtype in enumerate(t for t in TYPES if t[1] != "U"):
+            f.create_dataset(f"plain/{'big' if dtype[0] == '>' else 'little'}-{dtype[1:]}", data=numbers((5, 3, 2), dtype, n + 300))
+        record = np.zeros(7, [("t", ">f8"), ("ft", "<f4", (3, 2)), ("pose", [("x", "<i2"), ("name", "S4")]), ("is_pressed", "?")])
+        record["t"], record["ft"], record["pose"]["x"], record["is_pressed"] = np.arange(7)/10, numbers((7, 3, 2), "f4", 301), range(7), [0, 1, 1, 0, 1, 0, 0]
+        record["pose"]["name"] = ["a", "bc", "", "def", "g", "h", "ij"]
+        f["record"] = record
+        f.create_dataset("packed-record", data=record, chunks=(3,), compression="gzip", shuffle=True)
+        f["scalar"] = 2.5
+        f["empty"] = np.zeros((0, 4))
+        f["texts"] = ["gel", "", "ü中", "a" * 5000, "z"]
+        texts = f.create_dataset("texts-in-chunks", (9,), chunks=(2,), dtype=h5py.string_dtype()); texts[:7] = [f"object {k}" for k in range(7)]
+        b = f.create_dataset("bytes", (6,), dtype=h5py.vlen_dtype(np.uint8))
+        for k in range(5): b[k] = np.arange(k * 300, dtype="u1")
+        f.create_dataset("grown", data=numbers((11, 4), "<i4", 302), chunks=(4, 3), maxshape=(None, None), compression="lzf")
+        f.create_dataset("unwritten", (7, 2), "<f4", chunks=(2, 2), fillvalue=1.5)
+        f.create_dataset("filled", (3,), "<i2", fillvalue=-4)
+        f.create_dataset("half-chunk", data=numbers((5, 70), "<u2", 303), chunks=(3, 64), fletcher32=True)
+        f.attrs["sensor"] = "drawn gel"; f["record"].attrs["rate_hz"] = 0.1; f["plain"].attrs["offset"] = np.array([1, -2, 3], "i4"); f["plain"].attrs["scale"] = np.float32(0.1)
+        f["soft"] = h5py.SoftLink("/record"); f["outside"] = h5py.ExternalLink("other.h5", "/x")
+        f["plain/deeper/still/x"] = np.arange(3)
+    with h5py.File(folder / "userblock.h5", "w", userblock_size=1024) as f: f["texts"] = ["a", "bc"]; f["x"] = np.arange(12.0).reshape(4, 3)
+    refused = HERE / "refused"; refused.mkdir(exist_ok=True)
+    with h5py.File(refused / "layout-5.h5", "w", libver="latest") as f: f.create_dataset("rgb", data=numbers((6, 40), "u1", 304), chunks=(2, 40), compression="gzip"); f["t"] = np.arange(6.0)
+    with h5py.File(refused / "kinds.h5", "w") as f:
+        f["complex"] = np.ones(3, "c8"); f.create_dataset("lists", (3,), dtype=h5py.vlen_dtype(np.float32)); f["reference"] = f["complex"].ref; f["x"] = np.arange(4)
+        f.create_dataset("elsewhere", (4,), "f8", external=[("../../secret.bin", 0, 32)])
+        f.create_virtual_dataset("virtual", h5py.VirtualLayout((4,), "f8"))
+    with h5py.File(refused / "cycle.h5", "w") as f: f["a/b/x"] = np.arange(2); f["a/b/up"] = f["a"]; f["a/b/root"] = f["/"]
+
+def read_hdf5(file):
+    import h5py
+    found = {}
+    def one(name, node):
+        if isinstance(node, h5py.Dataset):
+            a = node.asstr()[()] if h5py.check_string_dtype(node.dtype) and h5py.check_string_dtype(node.dtype).length is None else node[()]
+            if h5py.check_vlen_dtype(node.dtype) and not h5py.check_string_dtype(node.dtype):
+                a = np.empty(node.shape, object); a[:] = [np.asarray(x, "u1") for x in node[()]]
+            found.update(flat("/" + name, np.asarray(a)))
+    with h5py.File(file) as f: f.visititems(one)
+    return found
+
 def read_npz(file):
     with np.load(file) as z: return {k: v for name in z.files if name != "notes.txt" for k, v in flat(name, z[name]).items()}
 
 def read_npy(file): return flat("value", np.load(file))
 
 WRITE = {k[6:]: f for k, f in list(globals().items()) if k.startswith("write_")}
-READ = {".npy": read_npy, ".npz": read_npz}
+READ = {".npy": read_npy, ".npz": read_npz, ".h5": read_hdf5, ".hdf5": read_hdf5}
 if __name__ == "__main__":
     for kind in sys.argv[1:] or WRITE: WRITE[kind]()
     found = {}
