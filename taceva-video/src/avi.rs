@@ -58,6 +58,29 @@ impl Avi {
         })
     }
 
+    /// Whether its packets are JPEG files.
+    pub(crate) fn is_motion_jpeg(&self) -> bool {
+        matches!(
+            self.stream.codec.to_ascii_uppercase().as_slice(),
+            b"MJPG" | b"JPEG"
+        )
+    }
+
+    /// The codec by its four letters, which are numbers of what is not compressed.
+    pub(crate) fn codec(&self) -> String {
+        let letters = self.stream.codec;
+        let name = match letters.to_ascii_uppercase().as_slice() {
+            b"H264" | b"X264" | b"AVC1" => "H.264",
+            b"HEVC" | b"H265" => "HEVC",
+            b"XVID" | b"DIVX" | b"DX50" | b"FMP4" | b"MP4V" => "MPEG-4 part 2",
+            b"FFV1" => "FFV1",
+            b"HFYU" => "Huffyuv",
+            [0, 0, 0, 0] => "raw pixels",
+            _ => return format!("`{}`", letters.escape_ascii()),
+        };
+        name.to_owned()
+    }
+
     /// When each packet is presented, in s, if the file says at what rate.
     pub(crate) fn times_s(&self) -> Option<Vec<f64>> {
         let StreamHeader { scale, rate, .. } = self.stream;

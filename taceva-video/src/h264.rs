@@ -40,11 +40,8 @@ pub(crate) struct H264Clip {
 /// Why a frame was not decoded.
 pub(crate) enum Refusal {
     Video(VideoError),
-    /// The frame of this number needs a tool of the codec that the decoder does not have.
-    Tool {
-        frame: u64,
-        tool: &'static str,
-    },
+    /// The stream needs a tool of the codec that the decoder does not have.
+    Tool(&'static str),
 }
 
 /// A picture as the decoder gives it: rows without padding, chroma half as wide and high.
@@ -104,10 +101,6 @@ impl H264Clip {
 
     pub(crate) fn source(&self) -> &Source {
         &self.source
-    }
-
-    pub(crate) fn into_source(self) -> Source {
-        self.source
     }
 
     pub(crate) fn size(&self) -> (u32, u32) {
@@ -233,7 +226,7 @@ impl H264Clip {
                 .into());
         }
         match sequence.foreign() {
-            Some(tool) => Err(Refusal::Tool { frame, tool }),
+            Some(tool) => Err(Refusal::Tool(tool)),
             None => Ok(()),
         }
     }
@@ -276,7 +269,7 @@ impl H264Clip {
 
     fn refusal(&self, error: &DecodeError, frame: u64, offset: u64) -> Refusal {
         match error {
-            DecodeError::Unsupported(tool) => Refusal::Tool { frame, tool },
+            DecodeError::Unsupported(tool) => Refusal::Tool(tool),
             other => Refusal::Video(
                 self.source
                     .damaged(offset, format!("on the way to frame {frame}: {other}")),

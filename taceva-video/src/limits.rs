@@ -14,3 +14,7 @@ pub(crate) const HEADER_BYTES: u64 = 1 << 20;
 pub(crate) const INDEX_BYTES: u64 = CHUNKS * 16;
 /// Decoded frames that wait for an earlier one: 16 of 16 million pixels, which is as many as a standard admits.
 pub(crate) const HELD_BYTES: u64 = 256 << 20;
+/// A decoded frame.
+pub(crate) const FRAME_BYTES: u64 = 256 << 20;
+/// The memory of a program of others, its code and the stacks of its threads included.
+pub(crate) const PROGRAM_BYTES: u64 = 4 << 30;

@@ -15,7 +15,7 @@ use crate::source::Source;
 use boxes::{BoxAt, Boxes};
 use edits::Edit;
 
-pub(crate) use entry::{Coding, ColourTag, Entry};
+pub(crate) use entry::{Coding, Entry};
 pub(crate) use samples::Sample;
 
 /// The video track of a file.

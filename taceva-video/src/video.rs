@@ -1,5 +1,6 @@
 //! A clip, whatever container and codec it has.
 
+use std::cell::Cell;
 use std::ffi::OsString;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -7,7 +8,9 @@ use std::path::{Path, PathBuf};
 use crate::avi::{self, Avi};
 use crate::clip::{Colours, Picture, VideoInfo};
 use crate::error::{VideoError, VisitError};
+use crate::ffmpeg::{ForeignClip, Known};
 use crate::h264::{self, H264Clip, Refusal};
+use crate::matroska;
 use crate::mp4::{self, Coding, Found, Track};
 use crate::packets::{self, JpegClip, Packet};
 use crate::source::Source;
@@ -46,7 +49,12 @@ pub struct Video {
 #[derive(Debug)]
 enum Frames {
     Jpeg(JpegClip),
-    H264(Box<H264Clip>),
+    H264 {
+        clip: Box<H264Clip>,
+        /// ffmpeg, for tools of the codec that only show once a frame is decoded.
+        else_by: Option<PathBuf>,
+    },
+    Foreign(ForeignClip),
 }
 
 impl Video {
@@ -61,16 +69,67 @@ impl Video {
         source.read_into(0, &mut start[..known])?;
         let start = &start[..known];
         if avi::is_avi(start) {
-            return Video::open_avi(source);
+            return Video::open_avi(source, decoders);
         }
         if mp4::is_mp4(start) {
             return Video::open_mp4(source, decoders);
         }
-        Err(source.damaged(0, "no video container begins here, expected AVI or MP4"))
+        if matroska::is_matroska(start) {
+            let known = Known {
+                container: Some("Matroska"),
+                codec: matroska::codec(&source)?,
+                why: "",
+            };
+            return Video::open_foreign(path, known, decoders);
+        }
+        match decoders.ffmpeg {
+            Some(_) => {
+                let known = Known {
+                    container: None,
+                    codec: None,
+                    why: "",
+                };
+                Video::open_foreign(path, known, decoders)
+            }
+            None => Err(source.damaged(
+                0,
+                "no container of video that is read without ffmpeg begins here, expected AVI, MP4, QuickTime or Matroska",
+            )),
+        }
     }
 
-    fn open_avi(source: Source) -> Result<Video, VideoError> {
+    /// A clip that is decoded by ffmpeg, if there is one.
+    fn open_foreign(path: &Path, known: Known, decoders: &Decoders) -> Result<Video, VideoError> {
+        let Some(program) = &decoders.ffmpeg else {
+            return Err(known.no_decoder(path));
+        };
+        let (info, clip) = ForeignClip::open(path, program, &known)?;
+        Ok(Video {
+            info,
+            path: path.to_owned(),
+            frames: Frames::Foreign(clip),
+        })
+    }
+
+    fn open_avi(source: Source, decoders: &Decoders) -> Result<Video, VideoError> {
         let clip = Avi::read(&source)?;
+        let foreign = |codec: String, why| {
+            let known = Known {
+                container: Some("AVI"),
+                codec: Some(codec),
+                why,
+            };
+            Video::open_foreign(source.path(), known, decoders)
+        };
+        if !clip.is_motion_jpeg() {
+            return foreign(clip.codec(), "");
+        }
+        if let Some(&first) = clip.packets.first() {
+            let (_, header) = packets::read_packet(&source, first)?;
+            if header.width == clip.stream.width && header.height * 2 == clip.stream.height {
+                return foreign("MJPEG".to_owned(), "of two fields a frame");
+            }
+        }
         let about = About {
             container: "AVI",
             codec: "MJPEG".to_owned(),
@@ -84,10 +143,14 @@ impl Video {
         let track = match mp4::read(&source)? {
             Found::Track(track) => track,
             Found::Elsewhere { codec, why } => {
-                return Err(no_decoder(source.path(), &codec, why));
+                let known = Known {
+                    container: Some("MP4"),
+                    codec: Some(codec),
+                    why,
+                };
+                return Video::open_foreign(source.path(), known, decoders);
             }
         };
-        let _ = decoders;
         let about = About {
             container: "MP4",
             codec: track.entry.coding.name(),
@@ -103,7 +166,12 @@ impl Video {
                 let (clip, foreign) = H264Clip::open(source, &track, settings, *offset)?;
                 let sequence = &clip.sequence;
                 if let Some(why) = foreign {
-                    return Err(no_decoder(clip.source().path(), &sequence.codec(), why));
+                    let known = Known {
+                        container: Some("MP4"),
+                        codec: Some(sequence.codec()),
+                        why,
+                    };
+                    return Video::open_foreign(clip.source().path(), known, decoders);
                 }
                 let (width, height) = clip.size();
                 let info = VideoInfo {
@@ -120,10 +188,20 @@ impl Video {
                 Ok(Video {
                     path: clip.source().path().to_owned(),
                     info,
-                    frames: Frames::H264(Box::new(clip)),
+                    frames: Frames::H264 {
+                        clip: Box::new(clip),
+                        else_by: decoders.ffmpeg.clone(),
+                    },
                 })
             }
-            other => Err(no_decoder(source.path(), &other.name(), "")),
+            other @ (Coding::Av1(_) | Coding::Other(_)) => {
+                let known = Known {
+                    container: Some("MP4"),
+                    codec: Some(other.name()),
+                    why: "",
+                };
+                Video::open_foreign(source.path(), known, decoders)
+            }
         }
     }
 
@@ -177,24 +255,65 @@ impl Video {
     ) -> Result<(), VisitError<E>> {
         self.check(sorted)?;
         let mut refused = None;
-        let mut show = |index, picture| match each(index, picture) {
-            Ok(()) => ControlFlow::Continue(()),
-            Err(error) => {
-                refused = Some(error);
-                ControlFlow::Break(())
+        let shown = Cell::new(0);
+        let mut show = |index, picture| {
+            shown.set(shown.get() + 1);
+            match each(index, picture) {
+                Ok(()) => ControlFlow::Continue(()),
+                Err(error) => {
+                    refused = Some(error);
+                    ControlFlow::Break(())
+                }
             }
         };
         match &self.frames {
             Frames::Jpeg(clip) => clip.visit(sorted, &mut show)?,
-            Frames::H264(clip) => match clip.visit(sorted, colours, &mut show) {
+            Frames::H264 { clip, else_by } => match clip.visit(sorted, colours, &mut show) {
                 Ok(()) => {}
                 Err(Refusal::Video(error)) => return Err(error.into()),
-                Err(Refusal::Tool { tool, .. }) => {
-                    return Err(no_decoder(&self.path, &self.info.codec, tool).into());
+                Err(Refusal::Tool(tool)) => {
+                    let rest = &sorted[shown.get()..];
+                    self.go_on(else_by.as_deref(), tool, rest, colours, &mut show)?;
                 }
             },
+            Frames::Foreign(clip) => clip.visit(sorted, colours, &mut show)?,
         }
         refused.map_or(Ok(()), |error| Err(VisitError::Caller(error)))
+    }
+
+    /// Shows the frames of `rest` by ffmpeg, since the stream needs a `tool` that the decoder of this process does not have.
+    fn go_on(
+        &self,
+        program: Option<&Path>,
+        tool: &'static str,
+        rest: &[u64],
+        colours: Colours,
+        show: &mut dyn FnMut(u64, Picture) -> ControlFlow<()>,
+    ) -> Result<(), VideoError> {
+        let known = Known {
+            container: Some("MP4"),
+            codec: Some(format!("{} with", self.info.codec)),
+            why: tool,
+        };
+        let Some(program) = program else {
+            return Err(known.no_decoder(&self.path));
+        };
+        let (info, clip) = ForeignClip::open(&self.path, program, &known)?;
+        let (found, expected) = (
+            (info.width, info.height, info.frames),
+            (self.info.width, self.info.height, self.info.frames),
+        );
+        if found != expected {
+            return Err(VideoError::Process {
+                path: self.path.clone(),
+                program: program.display().to_string(),
+                problem: format!(
+                    "finds {} frames of {}×{}, the container says {} of {}×{}",
+                    found.2, found.0, found.1, expected.2, expected.0, expected.1
+                ),
+            });
+        }
+        clip.visit(rest, colours, show)
     }
 
     /// Whether there are such frames, in such an order.
@@ -236,13 +355,4 @@ fn packets_of(track: &Track) -> Vec<Packet> {
         size: u64::from(sample.size),
     };
     samples.map(packet).collect()
-}
-
-/// That nothing at hand decodes `codec`, with what is the matter with it.
-fn no_decoder(path: &Path, codec: &str, why: &str) -> VideoError {
-    VideoError::NoDecoder {
-        path: path.to_owned(),
-        codec: [codec, why].join(" ").trim().to_owned(),
-        remedy: "install ffmpeg (`pip install imageio-ffmpeg` brings one), or name it by `--ffmpeg PROGRAM` or TACEVA_FFMPEG".to_owned(),
-    }
 }

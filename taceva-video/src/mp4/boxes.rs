@@ -195,13 +195,6 @@ impl Fields {
         Ok(())
     }
 
-    /// The next `count` bytes.
-    pub(super) fn bytes(&mut self, source: &Source, count: usize) -> Result<&[u8], VideoError> {
-        let from = self.at;
-        self.skip(source, count)?;
-        Ok(&self.bytes[from..self.at])
-    }
-
     /// A count of entries of `entry` bytes each, for which there is room.
     pub(super) fn count(&mut self, source: &Source, entry: usize) -> Result<usize, VideoError> {
         let at = self.offset();
