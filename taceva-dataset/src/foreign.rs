@@ -23,7 +23,7 @@ use crate::text::{nearest, shown};
 
 pub(crate) use arrays::ArrayPictures;
 pub(crate) use clips::ClipPictures;
-pub(crate) use columns::ColumnTable;
+pub(crate) use columns::{ColumnTable, PictureColumn, PictureKind};
 pub(crate) use files::FileRows;
 pub(crate) use json::JsonRows;
 pub(crate) use pictures::{Picture, Pictures};
@@ -172,6 +172,22 @@ impl ForeignTable {
             ForeignTable::Json(table) => table.names(),
             ForeignTable::Files(_) => Vec::new(),
             ForeignTable::Columns(table) => table.names(),
+        }
+    }
+
+    /// The columns that a draft of a map looks at.
+    pub(crate) fn columns(&self) -> Vec<String> {
+        match self {
+            ForeignTable::Json(table) => table.leaves(),
+            _ => self.names(),
+        }
+    }
+
+    /// What of it seems to hold pictures.
+    pub(crate) fn picture_columns(&self) -> Vec<PictureColumn> {
+        match self {
+            ForeignTable::Columns(table) => table.picture_columns(),
+            _ => Vec::new(),
         }
     }
 

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use taceva_arrays::{ArrayError, ArrayFile, ArrayFormat, ArrayInfo, ArrayValues};
 
-use super::columns::ColumnSource;
+use super::columns::{ColumnSource, PictureColumn};
 use super::pictures::Pictures;
 use crate::import::FrameNames;
 pub(crate) use frames::ArrayPictures;
@@ -129,15 +129,17 @@ impl ColumnSource for ArrayRows {
         let Some(group) = self.groups.first() else {
             return Vec::new();
         };
-        let names = self.file.names().into_iter();
-        let inside = |name: String| match group.path.as_str() {
-            "" => Some(name.trim_start_matches('/').to_owned()),
-            path => {
-                let rest = name.strip_prefix(path)?;
-                Some(rest.strip_prefix(['/', '.'])?.to_owned())
+        let length = group.rows as u64;
+        let named = |name: String| match name.strip_prefix(&group.path) {
+            _ if group.path.is_empty() => Some(name.trim_start_matches('/').to_owned()),
+            Some(rest) if rest.starts_with(['/', '.']) => Some(rest[1..].to_owned()),
+            // As long as the table, and named from the root.
+            _ => {
+                (self.file.info(&name)?.rows() == length && self.groups.len() == 1).then_some(name)
             }
         };
-        names.filter_map(inside).take(LISTED).collect()
+        let names = self.file.names().into_iter();
+        names.filter_map(named).take(LISTED).collect()
     }
 
     fn has(&self, name: &str) -> bool {
@@ -156,6 +158,18 @@ impl ColumnSource for ArrayRows {
             cells.extend(self.cells(group, name)?);
         }
         Ok(cells)
+    }
+
+    fn picture_columns(&self) -> Vec<PictureColumn> {
+        let Some(group) = self.groups.first() else {
+            return Vec::new();
+        };
+        let seems = |name: String| {
+            let (path, info) = self.info(group, &name)?;
+            let kind = frames::kind_of(&self.file, &path, info)?;
+            Some(PictureColumn { name, kind })
+        };
+        self.names().into_iter().filter_map(seems).collect()
     }
 
     fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, String> {

@@ -23,8 +23,31 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
     /// The cell of each row: texts as they are, numbers in the shortest form that reads back as the same 64 bits, several as `[1.0, 2.0]`.
     fn column(&self, name: &str) -> Result<Vec<String>, String>;
 
+    /// What of it seems to hold pictures.
+    fn picture_columns(&self) -> Vec<PictureColumn>;
+
     /// The pictures that belong to the rows, by the number of the row.
     fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, String>;
+}
+
+/// A column that seems to hold pictures.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct PictureColumn {
+    pub(crate) name: String,
+    pub(crate) kind: PictureKind,
+}
+
+/// How it holds them.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum PictureKind {
+    /// Bytes of a PNG or JPEG file.
+    Encoded,
+    Array {
+        is_gray: bool,
+        is_planar: bool,
+        /// The least and the greatest number of the first frame, where they are no pixels as they are.
+        range: Option<[f64; 2]>,
+    },
 }
 
 /// A table of columns.
@@ -94,6 +117,10 @@ impl ColumnTable {
                 format!("{found} values of `{name}` for {expected} rows"),
             )),
         }
+    }
+
+    pub(super) fn picture_columns(&self) -> Vec<PictureColumn> {
+        guarded(|| self.source.picture_columns()).unwrap_or_default()
     }
 
     /// The pictures that belong to the rows.

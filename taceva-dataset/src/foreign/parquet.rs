@@ -3,12 +3,12 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use taceva_tables::ParquetTable;
+use taceva_tables::{ParquetTable, TableError};
 
-use super::columns::ColumnSource;
+use super::columns::{ColumnSource, PictureColumn, PictureKind};
 use super::pictures::{Ended, Picture, Pictures, Visit, damaged, guarded_visit};
 use super::said;
-use crate::decode::ChannelOrder;
+use crate::decode::{ChannelOrder, ImageKind};
 use crate::error::DatasetError;
 use crate::import::FrameNames;
 
@@ -51,6 +51,24 @@ impl ColumnSource for ParquetRows {
         let cells = self.table.column(name);
         let cells = cells.map_err(|error| said(self.table.path(), &error))?;
         Ok(cells.iter().map(|cell| cell.text().into_owned()).collect())
+    }
+
+    fn picture_columns(&self) -> Vec<PictureColumn> {
+        let is_encoded = |name: &String| {
+            let mut is_encoded = false;
+            let _ = self.table.visit_bytes(name, &[0], &mut |_, bytes| {
+                is_encoded = bytes.is_some_and(|bytes| ImageKind::of(&bytes).is_some());
+                Ok::<(), TableError>(())
+            });
+            is_encoded
+        };
+        let names = self.names().into_iter().filter(is_encoded);
+        names
+            .map(|name| PictureColumn {
+                name,
+                kind: PictureKind::Encoded,
+            })
+            .collect()
     }
 
     fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, String> {

@@ -8,8 +8,9 @@ use taceva_arrays::{ArrayFile, ArrayFormat, ArrayInfo, ArrayValues, Element};
 use taceva_core::{Frame, FrameInfo, PixelFormat};
 
 use super::problem;
-use crate::decode::ChannelOrder;
+use crate::decode::{ChannelOrder, ImageKind};
 use crate::error::DatasetError;
+use crate::foreign::columns::PictureKind;
 use crate::foreign::pictures::{Picture, Pictures, Visit, damaged};
 use crate::guard::guarded;
 use crate::import::{ArrayFrames, ArrayLayout, FrameNames, PixelRange};
@@ -167,6 +168,40 @@ impl Pictures for ArrayPictures {
         }
         Ok(())
     }
+}
+
+/// The least side of an array that is taken for pictures without being named so, pixels.
+const LEAST_SIDE: u64 = 8;
+
+/// How an array holds pictures, if it seems to.
+pub(super) fn kind_of(file: &ArrayFile, name: &str, info: &ArrayInfo) -> Option<PictureKind> {
+    if info.element == Element::Bytes && info.shape.len() == 1 {
+        let first = file.read(name, 0..1).ok()?;
+        let ArrayValues::Bytes(all) = first.values else {
+            return None;
+        };
+        return ImageKind::of(all.first()?).map(|_| PictureKind::Encoded);
+    }
+    let is_planar = matches!(info.shape.as_slice(), [_, 1 | 3, height, width] if *height >= LEAST_SIDE && *width > 4);
+    let layout = is_planar.then_some(ArrayLayout::Nchw);
+    let (height, width, colours, _) = sides(&info.shape, layout).ok()?;
+    if u64::from(height.min(width)) < LEAST_SIDE || info.element == Element::Text {
+        return None;
+    }
+    let range = match info.element {
+        Element::Unsigned(8 | 16) => None,
+        _ => {
+            let first = file.read(name, 0..1).ok()?;
+            let first = first.values.to_f64()?;
+            let least = first.iter().copied().reduce(f64::min)?;
+            Some([least, first.iter().copied().reduce(f64::max)?])
+        }
+    };
+    Some(PictureKind::Array {
+        is_gray: colours == 1,
+        is_planar,
+        range,
+    })
 }
 
 /// How the rows of an array are frames, and the bytes of each in the file.
