@@ -46,6 +46,23 @@ pub(crate) fn inflated(
     }
 }
 
+/// The same where the length is not known before: at most `most` bytes, and how many of the packed ones were used.
+pub(crate) fn inflated_at_most(
+    packed: &[u8],
+    most: usize,
+    wrapping: Wrapping,
+) -> Result<(Vec<u8>, usize), Problem> {
+    let mut whole = vec![0; most];
+    let flags = wrapping.flags() | inflate_flags::TINFL_FLAG_USING_NON_WRAPPING_OUTPUT_BUF;
+    let (status, used, made) =
+        decompress(&mut DecompressorOxide::new(), packed, &mut whole, 0, flags);
+    if status != TINFLStatus::Done {
+        return Err(broken(used as u64, status));
+    }
+    whole.truncate(made);
+    Ok((whole, used))
+}
+
 fn too_few(at: u64, made: u64, bytes: u64) -> Problem {
     Problem::damaged(
         at,

@@ -3,6 +3,7 @@
 
 mod archive;
 mod array_file;
+mod codec;
 mod element;
 mod error;
 mod fields;
@@ -21,6 +22,7 @@ mod scalar;
 mod source;
 mod store;
 mod values;
+mod zarr;
 
 pub use array_file::ArrayFile;
 pub use element::{ArrayInfo, Element};

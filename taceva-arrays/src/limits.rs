@@ -16,6 +16,10 @@ pub(crate) const ARRAYS: u64 = 1 << 16;
 pub(crate) const ELEMENT_BYTES: u64 = 64 << 20;
 /// A chunk once its filters are undone.
 pub(crate) const CHUNK_BYTES: u64 = 256 << 20;
+/// Chunks that one call of `read` looks into.
+pub(crate) const CHUNKS: u64 = 1 << 16;
+/// A file of metadata of zarr.
+pub(crate) const METADATA_BYTES: u64 = 16 << 20;
 /// The directory of an archive.
 pub(crate) const DIRECTORY_BYTES: u64 = 64 << 20;
 /// What the form allows at most: no deflated byte becomes more.

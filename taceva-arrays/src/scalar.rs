@@ -118,6 +118,48 @@ impl Scalar {
         }
     }
 
+    /// The bytes of a number, if it is one that such an element can be.
+    pub(crate) fn encode(self, number: &serde_json::Number) -> Option<Vec<u8>> {
+        if self.kind == Kind::Float {
+            return self.encode_float(number.as_f64()?);
+        }
+        let (bytes, filler) = match self.kind {
+            Kind::Unsigned | Kind::Bool => (number.as_u64()?.to_le_bytes(), 0),
+            Kind::Signed => {
+                let number = number.as_i64()?;
+                (number.to_le_bytes(), if number < 0 { 0xff } else { 0 })
+            }
+            _ => return None,
+        };
+        let (kept, dropped) = bytes.split_at_checked(self.bytes)?;
+        dropped
+            .iter()
+            .all(|byte| *byte == filler)
+            .then(|| self.in_order(kept))
+    }
+
+    /// The same for a number with a floating point of 32 or 64 bits.
+    pub(crate) fn encode_float(self, number: f64) -> Option<Vec<u8>> {
+        match (self.kind, self.bytes) {
+            #[expect(
+                clippy::cast_possible_truncation,
+                reason = "the nearest of 32 bits is what was filled in"
+            )]
+            (Kind::Float, 4) => Some(self.in_order(&(number as f32).to_le_bytes())),
+            (Kind::Float, 8) => Some(self.in_order(&number.to_le_bytes())),
+            _ => None,
+        }
+    }
+
+    /// Little-endian bytes in the order of this type.
+    fn in_order(self, little: &[u8]) -> Vec<u8> {
+        let mut bytes = little.to_vec();
+        if self.is_big_endian {
+            bytes.reverse();
+        }
+        bytes
+    }
+
     /// Of a reference to a value elsewhere: whether that is text.
     pub(crate) fn heap_text(self) -> Option<bool> {
         match self.kind {

@@ -13,7 +13,7 @@ use crate::digest::data;
 const ROWS: u64 = 8;
 
 /// Opens a file and reads all of it, as far as it goes.
-fn read_all(path: &Path, format: ArrayFormat) -> Result<(), String> {
+pub(crate) fn read_all(path: &Path, format: ArrayFormat) -> Result<(), String> {
     let file = ArrayFile::open(path, format).map_err(|error| error.to_string())?;
     let mut result = Ok(());
     for name in file.names() {
@@ -57,7 +57,7 @@ fn files(folder: &Path, into: &mut Vec<PathBuf>) {
 }
 
 /// Damages `bytes` in each of the ways and gives each to `look`.
-fn damaged(bytes: &[u8], seed: u64, mut look: impl FnMut(&str, &[u8])) {
+pub(crate) fn damaged(bytes: &[u8], seed: u64, mut look: impl FnMut(&str, &[u8])) {
     for sixth in 0..6 {
         look(
             &format!("cut at {sixth} sixths"),

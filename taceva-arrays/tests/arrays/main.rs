@@ -7,3 +7,4 @@ mod hdf5;
 mod peers;
 mod recordings;
 mod refusals;
+mod zarr;

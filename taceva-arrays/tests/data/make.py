@@ -114,6 +114,62 @@ def write_hdf5():
         f.create_virtual_dataset("virtual", h5py.VirtualLayout((4,), "f8"))
     with h5py.File(refused / "cycle.h5", "w") as f: f["a/b/x"] = np.arange(2); f["a/b/up"] = f["a"]; f["a/b/root"] = f["/"]
 
+def write_zarr():
+    import zarr
+    from numcodecs import GZip, LZ4, Zlib, Zstd, Blosc, Delta
+    folder = fresh("zarr")
+    smooth = lambda shape, dtype: (np.arange(int(np.prod(shape))).reshape(shape) // 3 % 100).astype(dtype)
+    g = zarr.open_group(str(folder / "two.zarr"), mode="w", zarr_format=2)
+    g.attrs["sensor"] = "drawn gel"; g.attrs["rate_hz"] = 0.1
+    def two(name, a, chunks, **more):
+        x = g.create_array(name, shape=a.shape, chunks=chunks, dtype=a.dtype, **more); x[:] = a
+    two("raw", numbers((7, 5), ">i4", 400), (3, 2), compressors=None)
+    two("column-major", numbers((7, 5, 3), "<f4", 401), (3, 2, 3), compressors=GZip(5), order="F")
+    for name, codec in (("zlib", Zlib(5)), ("gzip", GZip(5)), ("zstd", Zstd(3)), ("zstd-sum", Zstd(3, checksum=True)), ("lz4", LZ4())): two(f"packed/{name}", smooth((9, 70), "<u2"), (4, 70), compressors=codec)
+    for cname in ("lz4", "lz4hc", "zstd", "zlib"):
+        for shuffle in (0, 1, 2):
+            for dtype in ("|u1", "<u2", "<f8"): two(f"blosc/{cname}-{shuffle}-{dtype[1:]}", smooth((10, 300), dtype), (8, 300), compressors=Blosc(cname, shuffle=shuffle))
+    two("blosc/random", numbers((3, 500), "<f8", 402), (2, 500), compressors=Blosc("lz4"))
+    two("blosc/record", np.zeros((300,), [("a", "<f8"), ("b", "u1")]), (256,), compressors=Blosc("zstd"))
+    record = np.zeros(7, [("t", "<f8"), ("fz", "<f4"), ("name", "S4")]); record["t"] = np.arange(7); record["fz"] = numbers((7,), "f4", 403); record["name"] = [b"a", b"bc", b"", b"d", b"e", b"f", b"gh"]
+    two("record", record, (3,), compressors=None)
+    two("texts/bytes", numbers((7,), "|S6", 404), (3,)); two("texts/wide", numbers((7,), "<U3", 405), (3,))
+    for name, dtype, fill in (("whole", "<i2", -4), ("float", "<f4", 1.5), ("true", "|b1", True)):
+        x = g.create_array(f"unwritten/{name}", shape=(7, 3), chunks=(2, 2), dtype=dtype, fill_value=fill)
+        x[2:4] = np.ones((2, 3), dtype)
+    x = g.create_array("scalar", shape=(), chunks=(), dtype="<f8"); x[...] = 2.5
+    g.create_array("empty", shape=(0, 4), chunks=(1, 4), dtype="<f8")
+    (folder / "two.zarr" / "somebody-else").mkdir(); (folder / "two.zarr" / "somebody-else" / "notes.txt").write_text("no array")
+    g = zarr.open_group(str(folder / "three.zarr"), mode="w", zarr_format=3)
+    g.create_group("deeper").attrs["object"] = ["cube", 3]
+    def three(name, a, chunks, **more):
+        x = g.create_array(name, shape=a.shape, chunks=chunks, dtype=a.dtype, **more); x[:] = a
+    C = zarr.codecs
+    for n, dtype in enumerate(t for t in TYPES if t[0] != ">" and t[1] not in "SU"): three("plain/" + dtype[1:], numbers((5, 3, 2), dtype, n + 410), (2, 3, 1))
+    three("big", numbers((5, 3), "<f8", 440), (2, 3), serializer=C.BytesCodec(endian="big"), compressors=None)
+    three("turned", numbers((5, 3, 4), "<i4", 441), (2, 3, 4), filters=[C.TransposeCodec(order=(2, 0, 1))])
+    three("sum", smooth((9, 70), "<u2"), (4, 70), compressors=[C.ZstdCodec(level=3, checksum=True), C.Crc32cCodec()])
+    three("twice", smooth((9, 70), "<u2"), (4, 70), compressors=[C.GzipCodec(), C.ZstdCodec()])
+    three("dots", smooth((9, 7), "<u2"), (4, 7), chunk_key_encoding={"name": "v2", "separator": "."})
+    for shuffle in ("noshuffle", "shuffle", "bitshuffle"): three(f"blosc/{shuffle}", smooth((10, 300), "<f4"), (8, 300), compressors=C.BloscCodec(cname="zstd", shuffle=shuffle))
+    three("texts", numbers((7,), "<U3", 442), (3,)); three("texts-bytes", numbers((7,), "|S6", 443), (3,))
+    x = g.create_array("unwritten", shape=(7, 3), chunks=(2, 2), dtype="<f4", fill_value=np.nan); x[2:4] = 1
+    x = g.create_array("scalar", shape=(), chunks=(), dtype="<i4"); x[...] = 7
+    x = zarr.create_array(str(folder / "alone.zarr"), shape=(5, 2), chunks=(2, 2), dtype="<i4", zarr_format=3); x[:] = numbers((5, 2), "<i4", 444)
+    (HERE / "refused").mkdir(exist_ok=True); shutil.rmtree(HERE / "refused" / "kinds.zarr", ignore_errors=True)
+    g = zarr.open_group(str(HERE / "refused" / "kinds.zarr"), mode="w", zarr_format=2)
+    two("blosclz", smooth((9, 700), "<u2"), (9, 700), compressors=Blosc("blosclz")); two("delta", smooth((9, 7), "<u2"), (4, 7), filters=[Delta("<u2")]); two("complex", np.ones(3, "c8"), (3,)); two("x", np.arange(4), (4,))
+    g3 = zarr.open_group(str(HERE / "refused" / "shards.zarr"), mode="w", zarr_format=3)
+    x = g3.create_array("shards", shape=(8, 4), chunks=(2, 4), shards=(4, 4), dtype="<i4"); x[:] = 1
+
+def read_zarr(folder):
+    import zarr
+    root, found = zarr.open(str(folder), mode="r"), {}
+    if isinstance(root, zarr.Array): return flat("/", root[...])
+    for name, node in root.members(max_depth=None):
+        if isinstance(node, zarr.Array): found.update(flat("/" + name, np.asarray(node[...])))
+    return found
+
 def read_hdf5(file):
     import h5py
     found = {}
@@ -132,7 +188,7 @@ def read_npz(file):
 def read_npy(file): return flat("value", np.load(file))
 
 WRITE = {k[6:]: f for k, f in list(globals().items()) if k.startswith("write_")}
-READ = {".npy": read_npy, ".npz": read_npz, ".h5": read_hdf5, ".hdf5": read_hdf5}
+READ = {".npy": read_npy, ".npz": read_npz, ".h5": read_hdf5, ".hdf5": read_hdf5, ".zarr": read_zarr}
 if __name__ == "__main__":
     for kind in sys.argv[1:] or WRITE: WRITE[kind]()
     found = {}
