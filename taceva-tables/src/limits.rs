@@ -16,3 +16,7 @@ pub(crate) const ROWS: u64 = 1 << 28;
 pub(crate) const DEPTH: usize = 32;
 /// Columns, fields or topics.
 pub(crate) const NAMES: usize = 1 << 16;
+/// Messages of one topic, of which the time and the place are kept.
+pub(crate) const MESSAGES: usize = 1 << 24;
+/// Elements of lists in one message that become cells.
+pub(crate) const MESSAGE_CELLS: usize = 1 << 20;

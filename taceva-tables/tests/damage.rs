@@ -6,7 +6,7 @@ use std::path::Path;
 
 use recordings::damage::{Endings, attempt, damage, peak_bytes};
 use recordings::recording;
-use taceva_tables::{Cell, ParquetTable, TableError};
+use taceva_tables::{Cell, Mcap, ParquetTable, TableError};
 
 /// What damaged files of at most 100 KB may take.
 const BYTES: u64 = 512 << 20;
@@ -51,6 +51,75 @@ fn damaged_parquet_files_are_refused_or_read() {
     assert!(endings.refused > 11 * 6, "{endings:?}");
     println!("{endings:?}, peak {:?} bytes", peak_bytes());
     check_memory();
+}
+
+/// All columns and pictures of all topics; what one topic lacks does not keep the others from being read.
+fn every_topic(path: &Path) -> Result<usize, TableError> {
+    let recording = Mcap::open(path)?;
+    let mut read = 0;
+    let mut first = None;
+    for topic in recording.topics() {
+        let result = recording.table(&topic.name).and_then(|table| {
+            let names = table.names()?;
+            let names: Vec<&str> = names.iter().map(String::as_str).collect();
+            read += table.columns(&names)?.len();
+            let rows: Vec<u64> = (0..table.rows()).collect();
+            if topic.schema.contains("Image") {
+                table.visit_pictures::<TableError>("data", &rows, &mut |_, _| Ok(()))?;
+            }
+            Ok(())
+        });
+        first = first.or(result.err());
+    }
+    first.map_or(Ok(read), Err)
+}
+
+#[test]
+fn damaged_mcap_files_are_refused_or_read() {
+    let mut endings = Endings::default();
+    for (folder, file) in [
+        ("mcap-none", "run.mcap"),
+        ("mcap-lz4", "run.mcap"),
+        ("mcap-zstd", "run.mcap"),
+        ("mcap", "chunks.mcap"),
+        ("mcap", "loose.mcap"),
+        ("mcap", "no_index.mcap"),
+        ("mcap", "no_summary.mcap"),
+    ] {
+        let root = recording(folder);
+        damage(&root, &root.join(file), &mut endings, |copy| {
+            every_topic(&copy.join(file))
+        });
+    }
+    println!("{endings:?}, peak {:?} bytes", peak_bytes());
+    assert_eq!(
+        (endings.read + endings.refused, endings.panicked),
+        (7 * 46, 0)
+    );
+    assert!(endings.refused > 7 * 40, "{endings:?}");
+    check_memory();
+}
+
+#[test]
+fn no_changed_byte_of_data_with_a_sum_goes_unnoticed() {
+    let path = recording("mcap").join("loose.mcap");
+    let bytes = std::fs::read(&path).expect("readable");
+    let folder = tempfile::tempdir().expect("a folder");
+    let copy = folder.path().join("copy.mcap");
+    let end = bytes
+        .windows(9)
+        .rposition(|head| head == [0x0f, 4, 0, 0, 0, 0, 0, 0, 0])
+        .expect("the end of the data");
+    for at in (0..end).step_by(7) {
+        let mut changed = bytes.clone();
+        changed[at] ^= 1 << (at % 8);
+        std::fs::write(&copy, &changed).expect("written");
+        let problem = Mcap::open(&copy).expect_err("changed").to_string();
+        assert!(
+            problem.contains("the sum of the data") || at < 8,
+            "byte {at}: {problem}"
+        );
+    }
 }
 
 #[test]
