@@ -5,6 +5,7 @@ mod clips;
 mod columns;
 mod files;
 mod json;
+mod messages;
 pub(crate) mod packed;
 mod parquet;
 mod pictures;
@@ -26,6 +27,7 @@ pub(crate) use clips::ClipPictures;
 pub(crate) use columns::{ColumnTable, PictureColumn, PictureKind};
 pub(crate) use files::FileRows;
 pub(crate) use json::JsonRows;
+pub(crate) use messages::topics;
 pub(crate) use pictures::{Picture, Pictures};
 
 /// A table of any form.
@@ -58,6 +60,10 @@ pub(crate) enum TableForm {
         rows: Option<String>,
     },
     Parquet,
+    /// The messages of a topic of an MCAP recording.
+    Messages {
+        topic: Option<String>,
+    },
 }
 
 /// What an error says of the file at `path`, without the path, which is named around it.
@@ -83,6 +89,11 @@ impl ForeignTable {
             TableForm::Parquet => ForeignTable::Columns(ColumnTable::open(path, || {
                 parquet::ParquetRows::open(path)
             })?),
+            TableForm::Messages { topic } => {
+                ForeignTable::Columns(ColumnTable::open(path, || {
+                    messages::MessageRows::open(path, topic.as_deref())
+                })?)
+            }
             TableForm::Arrays { format, rows } => {
                 ForeignTable::Columns(ColumnTable::open(path, || {
                     arrays::ArrayRows::open(path, *format, rows.as_deref())
@@ -172,6 +183,14 @@ impl ForeignTable {
             ForeignTable::Json(table) => table.names(),
             ForeignTable::Files(_) => Vec::new(),
             ForeignTable::Columns(table) => table.names(),
+        }
+    }
+
+    /// Reads columns that will be asked for, where that is faster together.
+    pub(crate) fn read_ahead(&self, names: &[&str]) -> Result<(), DatasetError> {
+        match self {
+            ForeignTable::Columns(table) => table.read_ahead(names),
+            _ => Ok(()),
         }
     }
 

@@ -248,6 +248,16 @@ fn clips_of_motion_jpeg_and_h264() {
 }
 
 #[test]
+fn arrays_of_zarr() {
+    all_as_expected(&["zarr-v2", "zarr-v3"]);
+}
+
+#[test]
+fn messages_of_ros_in_mcap() {
+    all_as_expected(&["mcap-lz4", "mcap-none", "mcap-zstd"]);
+}
+
+#[test]
 fn hdf5_of_every_layout_that_is_read() {
     all_as_expected(&[
         "hdf5-contiguous-earliest",

@@ -152,12 +152,20 @@ impl ColumnSource for ArrayRows {
         }
     }
 
-    fn column(&self, name: &str) -> Result<Vec<String>, String> {
-        let mut cells = Vec::with_capacity(self.rows());
-        for group in &self.groups {
-            cells.extend(self.cells(group, name)?);
+    fn columns(&self, names: &[&str]) -> Result<Vec<Vec<String>>, String> {
+        let of = |name: &&str| {
+            let mut cells = Vec::with_capacity(self.rows());
+            for group in &self.groups {
+                cells.extend(self.cells(group, name)?);
+            }
+            Ok(cells)
+        };
+        let named =
+            |name: &&str| of(name).map_err(|problem: String| format!("`{name}`: {problem}"));
+        match names {
+            [only] => Ok(vec![of(only)?]),
+            several => several.iter().map(named).collect(),
         }
-        Ok(cells)
     }
 
     fn picture_columns(&self) -> Vec<PictureColumn> {

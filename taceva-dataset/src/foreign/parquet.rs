@@ -47,10 +47,13 @@ impl ColumnSource for ParquetRows {
         self.table.names().iter().any(|known| known == name)
     }
 
-    fn column(&self, name: &str) -> Result<Vec<String>, String> {
-        let cells = self.table.column(name);
-        let cells = cells.map_err(|error| said(self.table.path(), &error))?;
-        Ok(cells.iter().map(|cell| cell.text().into_owned()).collect())
+    fn columns(&self, names: &[&str]) -> Result<Vec<Vec<String>>, String> {
+        let texts = |name: &&str| {
+            let cells = self.table.column(name);
+            let cells = cells.map_err(|error| said(self.table.path(), &error))?;
+            Ok(cells.iter().map(|cell| cell.text().into_owned()).collect())
+        };
+        names.iter().map(texts).collect()
     }
 
     fn picture_columns(&self) -> Vec<PictureColumn> {
