@@ -20,6 +20,8 @@ pub(super) struct SeenTable<'g> {
     /// What a map writes for it.
     pub(super) written: String,
     pub(super) is_single_array: bool,
+    /// Whether channels are guessed by their number alone.
+    pub(super) has_guessed_channels: bool,
     pub(super) rows: usize,
     pub(super) columns: Vec<SeenColumn>,
     pub(super) pictures: Vec<PictureColumn>,
@@ -59,8 +61,11 @@ impl<'g> SeenTable<'g> {
                 cells,
             }
         });
+        let mut columns: Vec<SeenColumn> = columns.collect();
+        let has_guessed_channels = extra == "header = false" && guess_channels(&mut columns);
         Ok(Some(SeenTable {
-            columns: columns.collect(),
+            columns,
+            has_guessed_channels,
             written: match extra.as_str() {
                 "" => format!("{:?}", group.pattern()),
                 extra => format!("{{ file = {:?}, {extra} }}", group.pattern()),
@@ -76,6 +81,11 @@ impl<'g> SeenTable<'g> {
             rows,
             pictures,
         }))
+    }
+
+    /// Whether its rows are in several groups of one file.
+    pub(super) fn has_groups(&self) -> bool {
+        self.written.contains("/*\"") && self.group.ending != "json"
     }
 
     /// How many channels its columns hold.
@@ -95,6 +105,22 @@ impl<'g> SeenTable<'g> {
             _ => None,
         })
     }
+}
+
+/// Takes three numbers without names for forces, and six for forces and torques; whether there are so many.
+fn guess_channels(columns: &mut [SeenColumn]) -> bool {
+    let names = ["Fx", "Fy", "Fz", "Tx", "Ty", "Tz"];
+    let numbers: Vec<&mut SeenColumn> = columns
+        .iter_mut()
+        .filter(|column| column.role == Role::Number)
+        .collect();
+    let is_so_many = matches!(numbers.len(), 3 | 6);
+    if is_so_many {
+        for (column, name) in numbers.into_iter().zip(names) {
+            column.role = Role::Channels(vec![(name, String::new())]);
+        }
+    }
+    is_so_many
 }
 
 /// The form of a table, and what a map has to say of it beside its path.

@@ -46,7 +46,7 @@ pub(crate) enum PictureKind {
     Array {
         is_gray: bool,
         is_planar: bool,
-        /// The least and the greatest number of the first frame, where they are no pixels as they are.
+        /// The least and the greatest number of the first frames, where they are no pixels as they are.
         range: Option<[f64; 2]>,
     },
 }
