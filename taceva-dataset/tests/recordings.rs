@@ -270,6 +270,11 @@ fn clips_that_ffmpeg_decodes() {
 }
 
 #[test]
+fn folders_of_lerobot() {
+    all_as_expected(&["lerobot-v3-h264"]);
+}
+
+#[test]
 fn messages_of_ros_in_mcap() {
     all_as_expected(&["mcap-lz4", "mcap-none", "mcap-zstd"]);
 }

@@ -125,6 +125,7 @@ fn in_array(picture: &PictureColumn, file: Option<&str>, others: &[PictureColumn
     };
     let mut is_gray = false;
     match (&picture.kind, file) {
+        (PictureKind::Clip, _) => lines.push(format!("video = {name:?}")),
         (PictureKind::Encoded, _) => lines.push(format!("bytes = {name:?}")),
         (PictureKind::Array { .. }, None) => lines.push(format!("array = {name:?}")),
         (PictureKind::Array { .. }, Some(file)) => {

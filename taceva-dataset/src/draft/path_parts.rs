@@ -86,14 +86,18 @@ impl PathParts {
             }
             let is_number = matches!(first[at], Token::Number(_));
             // The nearest letters before it, where they are the same in all.
-            let letters = first[..at].iter().enumerate().rev().find_map(|(before, token)| match token {
-                Token::Letters(letters) => {
-                    let is_same = rows.iter().all(|row| row[before] == *token);
-                    Some(is_same.then_some(*letters))
-                }
-                Token::Number(_) => Some(None),
-                Token::Other(_) => None,
-            });
+            let letters = first[..at]
+                .iter()
+                .enumerate()
+                .rev()
+                .find_map(|(before, token)| match token {
+                    Token::Letters(letters) => {
+                        let is_same = rows.iter().all(|row| row[before] == *token);
+                        Some(is_same.then_some(*letters))
+                    }
+                    Token::Number(_) => Some(None),
+                    Token::Other(_) => None,
+                });
             let before = match (is_number, letters) {
                 (true, Some(Some(letters))) => letters,
                 (true, _) => "number",

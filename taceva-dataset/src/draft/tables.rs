@@ -42,10 +42,28 @@ impl<'g> SeenTable<'g> {
         group: &'g FileGroup,
     ) -> Result<Option<SeenTable<'g>>, String> {
         let path = folder.path().join(group.first());
-        let Some((form, extra)) = form_of(&path, group) else {
-            return Ok(None);
-        };
-        let table = ForeignTable::read(&path, &form).map_err(|error| error.to_string())?;
+        match form_of(&path, group) {
+            Some(form) => SeenTable::of_form(&path, group, (group.pattern(), form)).map(Some),
+            None => Ok(None),
+        }
+    }
+
+    /// The folder as LeRobot writes it, if it is one; `group` is the file that says so.
+    pub(super) fn of_lerobot(
+        folder: &SourceFolder,
+        group: &'g FileGroup,
+    ) -> Option<Result<SeenTable<'g>, String>> {
+        let form = (TableForm::LeRobot, "format = \"lerobot\"".to_owned());
+        (group.first() == "meta/info.json")
+            .then(|| SeenTable::of_form(folder.path(), group, (".", form)))
+    }
+
+    fn of_form(
+        path: &Path,
+        group: &'g FileGroup,
+        (pattern, (form, extra)): (&str, (TableForm, String)),
+    ) -> Result<SeenTable<'g>, String> {
+        let table = ForeignTable::read(path, &form).map_err(|error| error.to_string())?;
         let rows = table.rows();
         let pictures = table.picture_columns();
         let is_picture = |name: &String| pictures.iter().any(|picture| picture.name == *name);
@@ -63,12 +81,12 @@ impl<'g> SeenTable<'g> {
         });
         let mut columns: Vec<SeenColumn> = columns.collect();
         let has_guessed_channels = extra == "header = false" && guess_channels(&mut columns);
-        Ok(Some(SeenTable {
+        Ok(SeenTable {
             columns,
             has_guessed_channels,
             written: match extra.as_str() {
-                "" => format!("{:?}", group.pattern()),
-                extra => format!("{{ file = {:?}, {extra} }}", group.pattern()),
+                "" => format!("{pattern:?}"),
+                extra => format!("{{ file = {pattern:?}, {extra} }}"),
             },
             is_single_array: matches!(
                 form,
@@ -80,7 +98,7 @@ impl<'g> SeenTable<'g> {
             group,
             rows,
             pictures,
-        }))
+        })
     }
 
     /// Whether its rows are in several groups of one file.
