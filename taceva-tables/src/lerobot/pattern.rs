@@ -40,7 +40,7 @@ impl Pattern {
             let (name, form) = inside.split_once(':').unwrap_or((inside, ""));
             let digits = match form.strip_suffix('d') {
                 None if form.is_empty() => 0,
-                Some(width) if width.is_empty() => 0,
+                Some("") => 0,
                 Some(width) => match width.strip_prefix('0').and_then(|width| width.parse().ok()) {
                     Some(width) if width <= 20 => width,
                     _ => return Err(wrong()),
