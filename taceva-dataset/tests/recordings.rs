@@ -254,6 +254,11 @@ fn clips_of_motion_jpeg_and_h264() {
 }
 
 #[test]
+fn arrays_in_pickles() {
+    all_as_expected(&["pickle"]);
+}
+
+#[test]
 fn arrays_of_zarr() {
     all_as_expected(&["zarr-v2", "zarr-v3"]);
 }
