@@ -49,7 +49,6 @@ fn damaged_parquet_files_are_refused_or_read() {
     }
     assert_eq!(endings.read + endings.refused + endings.panicked, 11 * 46);
     assert!(endings.refused > 11 * 6, "{endings:?}");
-    println!("{endings:?}, peak {:?} bytes", peak_bytes());
     check_memory();
 }
 
@@ -91,7 +90,6 @@ fn damaged_mcap_files_are_refused_or_read() {
             every_topic(&copy.join(file))
         });
     }
-    println!("{endings:?}, peak {:?} bytes", peak_bytes());
     assert_eq!(
         (endings.read + endings.refused, endings.panicked),
         (7 * 46, 0)
@@ -153,7 +151,6 @@ fn damaged_folders_of_lerobot_are_refused_or_read() {
             damage(&root, &root.join(file), &mut endings, every_row);
         }
     }
-    println!("{endings:?}, peak {:?} bytes", peak_bytes());
     assert_eq!(
         endings.read + endings.refused + endings.panicked,
         files * 46
