@@ -52,16 +52,11 @@ pub(crate) fn is_mp4(start: &[u8]) -> bool {
 /// Finds the first video track.
 pub(crate) fn read(source: &Source) -> Result<Found, VideoError> {
     let mut boxes = Boxes::of_file(source);
-    let mut movie = None;
+    let (mut movie, mut has_fragments) = (None, false);
     while let Some(found) = boxes.next()? {
         match &found.kind {
             b"moov" => movie = Some(found),
-            b"moof" => {
-                return Ok(Found::Elsewhere {
-                    codec: "MP4".to_owned(),
-                    why: "in fragments",
-                });
-            }
+            b"moof" => has_fragments = true,
             _ => {}
         }
     }
@@ -71,11 +66,12 @@ pub(crate) fn read(source: &Source) -> Result<Found, VideoError> {
             "the file ends without its tables (`moov`): it was cut, or its recording never closed",
         ));
     };
+    has_fragments |= movie.find(source, b"mvex")?.is_some();
     let ticks_per_s = time_scale(source, &movie.need(source, b"mvhd")?)?;
     let mut tracks = movie.boxes(source, 0);
     while let Some(track) = tracks.next()? {
         if &track.kind == b"trak"
-            && let Some(found) = read_track(source, &movie, &track, ticks_per_s)?
+            && let Some(found) = read_track(source, &track, ticks_per_s, has_fragments)?
         {
             return Ok(found);
         }
@@ -86,9 +82,9 @@ pub(crate) fn read(source: &Source) -> Result<Found, VideoError> {
 /// A track if it is one of video.
 fn read_track(
     source: &Source,
-    movie: &BoxAt,
     track: &BoxAt,
     movie_ticks_per_s: u32,
+    has_fragments: bool,
 ) -> Result<Option<Found>, VideoError> {
     let media = track.need(source, b"mdia")?;
     let handler = media.need(source, b"hdlr")?;
@@ -111,7 +107,7 @@ fn read_track(
     if matches!(entry.coding, Coding::Other(_)) {
         return elsewhere("");
     }
-    if movie.find(source, b"mvex")?.is_some() {
+    if has_fragments {
         return elsewhere("in fragments");
     }
     entry::check_is_in_file(source, &information)?;

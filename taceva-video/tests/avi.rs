@@ -204,6 +204,34 @@ const STANDARD_TABLES_SHA256: &str =
     "f361ab42f71ff019275c522494accedf9fadd13f16af71632ca28255a7554a15";
 
 #[test]
+fn a_frame_that_was_lost_is_left_out_and_the_times_say_so() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = changed(folder.path(), |bytes| {
+        // The third picture becomes an empty one, and padding as large as it was.
+        let index = find(bytes, b"idx1");
+        let entry = index + 8 + 2 * 16;
+        let word = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().expect("four"));
+        let offset = usize::try_from(word(entry + 8)).expect("small");
+        let at = find(bytes, b"movi") + offset;
+        let size = word(at + 4) + word(at + 4) % 2;
+        bytes[at + 4..at + 8].fill(0);
+        bytes[at + 8..at + 12].copy_from_slice(b"JUNK");
+        bytes[at + 12..at + 16].copy_from_slice(&(size - 8).to_le_bytes());
+        bytes[entry + 12..entry + 16].fill(0);
+    });
+    let clip = open(&file).expect("opens");
+    assert_eq!(clip.info().frames, 7);
+    let times = clip.info().times_s.as_ref().expect("a rate");
+    assert!((times[1] - 1.0 / 30.0).abs() < 1e-12 && (times[2] - 3.0 / 30.0).abs() < 1e-12);
+    let whole = open(&path("avi-mjpeg", "ball_1.avi")).expect("opens");
+    let (left, all) = (
+        digests(&clip, &[1, 2], Colours::Luma),
+        digests(&whole, &[1, 3], Colours::Luma),
+    );
+    assert_eq!((&left[0].1, &left[1].1), (&all[0].1, &all[1].1));
+}
+
+#[test]
 fn damaged_clips_give_frames_or_a_typed_error() {
     for name in CLIPS {
         let damage = damage(&path("avi-mjpeg", name), &Decoders::default());

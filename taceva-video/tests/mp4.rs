@@ -2,7 +2,9 @@
 
 mod support;
 
-use support::{damage, digests, expected, path};
+use std::convert::Infallible;
+
+use support::{bytes, damage, digests, expected, path};
 use taceva_video::{Colours, Decoders, Video, VideoError};
 
 const CLIPS: [&str; 3] = ["mp4-h264-high-b", "mp4-h264-baseline", "lerobot-v3-h264"];
@@ -105,4 +107,31 @@ fn damaged_clips_give_frames_or_a_typed_error() {
         let damage = damage(&path(name, "clip.mp4"), &Decoders::default());
         assert!(damage.refused >= 6, "cuts are seen: {damage:?}");
     }
+}
+
+#[test]
+fn colours_are_within_three_steps_of_swscale() {
+    // Twelve pixels on a diagonal of each of three frames, as PyAV 18.1.0 converts them (`to_ndarray(format="rgb24")`).
+    let text = std::fs::read_to_string(path(".", "rgb.json")).expect("readable");
+    let json: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let (mut most, mut compared) = (0, 0);
+    for name in CLIPS {
+        open(name)
+            .visit(&[0, 13, 23], Colours::Rgb, &mut |frame, picture| {
+                let rgb = bytes(picture);
+                let expected = json[name][frame.to_string()].as_array().expect("pixels");
+                for (pixel, place) in expected.iter().zip(0..) {
+                    let at = (4 * place * 64 + 5 * place) * 3;
+                    for (colour, ours) in rgb[at..at + 3].iter().enumerate() {
+                        let theirs = pixel[colour].as_u64().expect("a number");
+                        most = most.max(theirs.abs_diff(u64::from(*ours)));
+                        compared += 1;
+                    }
+                }
+                Ok::<(), Infallible>(())
+            })
+            .expect("visited");
+    }
+    assert_eq!(compared, 3 * 3 * 12 * 3);
+    assert!(most <= 3, "{most} steps");
 }
