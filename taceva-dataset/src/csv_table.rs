@@ -183,6 +183,7 @@ impl CsvTable {
     pub fn place(&self, row: usize, column: usize) -> Place {
         Place {
             path: self.path.clone(),
+            row: None,
             line: Some(self.line(row)),
             column: self.names.get(column).cloned(),
         }

@@ -230,7 +230,7 @@ impl DatasetError {
     }
 }
 
-/// A place in a text file.
+/// A place in a file.
 ///
 /// ```
 /// use taceva_dataset::CsvTable;
@@ -250,6 +250,8 @@ pub struct Place {
     pub path: PathBuf,
     /// Its line, from 1.
     pub line: Option<u64>,
+    /// Its row, from 0, where rows are no lines.
+    pub row: Option<u64>,
     /// Its column, by name.
     pub column: Option<String>,
 }
@@ -278,6 +280,9 @@ impl fmt::Display for Place {
         if let Some(line) = self.line {
             write!(f, ", line {line}")?;
         }
+        if let Some(row) = self.row {
+            write!(f, ", row {row}")?;
+        }
         if let Some(column) = &self.column {
             write!(f, ", column `{}`", shown(column))?;
         }
@@ -301,6 +306,7 @@ mod tests {
             place: Some(Box::new(Place {
                 path: "labels.csv".into(),
                 line: Some(3),
+                row: None,
                 column: Some("file".into()),
             })),
             path: "frames/2.png".into(),

@@ -1,18 +1,28 @@
 //! Tables as other programs wrote them: rows of cells that are asked for by the name of a column.
 
+mod arrays;
+mod columns;
 mod files;
 mod json;
 pub(crate) mod packed;
+mod pictures;
 
 use std::borrow::Cow;
 use std::path::Path;
+use std::sync::Arc;
+
+use taceva_arrays::ArrayFormat;
 
 use crate::csv_table::CsvTable;
 use crate::error::{DatasetError, Place};
+use crate::import::FrameNames;
 use crate::text::{nearest, shown};
 
+pub(crate) use arrays::ArrayPictures;
+pub(crate) use columns::ColumnTable;
 pub(crate) use files::FileRows;
 pub(crate) use json::JsonRows;
+pub(crate) use pictures::{Picture, Pictures};
 
 /// A table of any form.
 #[derive(Debug)]
@@ -20,6 +30,7 @@ pub(crate) enum ForeignTable {
     Delimited(CsvTable),
     Json(JsonRows),
     Files(FileRows),
+    Columns(ColumnTable),
 }
 
 /// How a table is written.
@@ -33,6 +44,11 @@ pub(crate) enum TableForm {
     JsonLines,
     /// No table: every file is a row.
     Files,
+    /// Arrays, whose rows are what they hold at one place of the first axis; `rows` names a group, several with `*`, or a table in it.
+    Arrays {
+        format: ArrayFormat,
+        rows: Option<String>,
+    },
 }
 
 impl ForeignTable {
@@ -48,6 +64,11 @@ impl ForeignTable {
             TableForm::Json { rows } => ForeignTable::Json(JsonRows::read(path, rows.as_deref())?),
             TableForm::JsonLines => ForeignTable::Json(JsonRows::read_lines(path)?),
             TableForm::Files => ForeignTable::Files(FileRows::one(path)),
+            TableForm::Arrays { format, rows } => {
+                ForeignTable::Columns(ColumnTable::open(path, || {
+                    arrays::ArrayRows::open(path, *format, rows.as_deref())
+                })?)
+            }
         })
     }
 
@@ -56,6 +77,7 @@ impl ForeignTable {
             ForeignTable::Delimited(table) => table.path(),
             ForeignTable::Json(table) => table.path(),
             ForeignTable::Files(table) => table.path(),
+            ForeignTable::Columns(table) => table.path(),
         }
     }
 
@@ -64,6 +86,7 @@ impl ForeignTable {
             ForeignTable::Delimited(table) => table.rows(),
             ForeignTable::Json(table) => table.rows(),
             ForeignTable::Files(_) => 1,
+            ForeignTable::Columns(table) => table.rows(),
         }
     }
 
@@ -73,6 +96,7 @@ impl ForeignTable {
             ForeignTable::Delimited(table) => table.has(name),
             ForeignTable::Json(table) => table.has(name),
             ForeignTable::Files(_) => false,
+            ForeignTable::Columns(table) => table.has(name),
         }
     }
 
@@ -87,6 +111,9 @@ impl ForeignTable {
                 Ok(Cow::Borrowed(table.cell(row, column)))
             }
             ForeignTable::Json(table) if table.has(name) => Ok(table.cell(row, name)),
+            ForeignTable::Columns(table) if table.has(name) => {
+                table.cell(row, name).map(Cow::Owned)
+            }
             _ => Err(self.no_column(name)),
         }
     }
@@ -95,7 +122,7 @@ impl ForeignTable {
     pub(crate) fn key(&self, row: usize) -> Option<&str> {
         match self {
             ForeignTable::Json(table) => table.key(row),
-            ForeignTable::Delimited(_) | ForeignTable::Files(_) => None,
+            _ => None,
         }
     }
 
@@ -111,6 +138,11 @@ impl ForeignTable {
                 ..table.place(row)
             },
             ForeignTable::Files(table) => Place::file(table.path()),
+            ForeignTable::Columns(table) => Place {
+                row: Some(row as u64),
+                column: (!name.is_empty()).then(|| name.to_owned()),
+                ..Place::file(table.path())
+            },
         }
     }
 
@@ -120,6 +152,20 @@ impl ForeignTable {
             ForeignTable::Delimited(table) => table.names().to_vec(),
             ForeignTable::Json(table) => table.names(),
             ForeignTable::Files(_) => Vec::new(),
+            ForeignTable::Columns(table) => table.names(),
+        }
+    }
+
+    /// The pictures that belong to its rows, by the number of the row.
+    pub(crate) fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, DatasetError> {
+        match self {
+            ForeignTable::Columns(table) => table.pictures(names),
+            _ => Err(DatasetError::Table {
+                place: Place::file(self.path()),
+                problem: "there are no pictures in a table of this form: files are named by `column` or `pattern`, an array of another file is \
+                          `array = { file = \"…\" }`"
+                    .to_owned(),
+            }),
         }
     }
 

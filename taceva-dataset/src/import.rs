@@ -5,7 +5,6 @@ mod copy;
 mod explain;
 mod frame_cells;
 mod map;
-mod npy;
 mod plan;
 mod preset;
 mod resolve;
@@ -17,7 +16,8 @@ mod suspicion;
 pub(crate) use advice::advice;
 pub use copy::ImportReport;
 pub use map::{
-    ArrayFrames, ColumnMap, DropRules, FrameMap, FrameNames, IdMap, ImportMap, Placeholder, TimeMap,
+    ArrayFrames, ArrayLayout, ColumnMap, DropRules, FrameMap, FrameNames, IdMap, ImportMap,
+    PixelRange, Placeholder, TimeMap, VideoFrames,
 };
 pub use plan::ImportPlan;
 pub use preset::Preset;

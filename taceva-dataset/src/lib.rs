@@ -50,9 +50,9 @@ pub use header::{
     TableInfo,
 };
 pub use import::{
-    ArrayFrames, ColumnMap, Conversion, DropRules, FrameMap, FrameNames, IdMap, ImportMap,
-    ImportPlan, ImportReport, ImportSummary, JoinSummary, Placeholder, Preset, Suspicion, TimeMap,
-    magnitude_suspicion,
+    ArrayFrames, ArrayLayout, ColumnMap, Conversion, DropRules, FrameMap, FrameNames, IdMap,
+    ImportMap, ImportPlan, ImportReport, ImportSummary, JoinSummary, PixelRange, Placeholder,
+    Preset, Suspicion, TimeMap, VideoFrames, magnitude_suspicion,
 };
 pub use pack::Span;
 pub use quality::names_quality;

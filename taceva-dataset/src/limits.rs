@@ -14,8 +14,6 @@ pub(crate) const PACK_BYTES: u64 = 1 << 30;
 pub(crate) const IMAGE_SIDE: u32 = 16_384;
 /// A decoded image.
 pub(crate) const DECODED_BYTES: u64 = 256 << 20;
-/// The header of an array file.
-pub(crate) const ARRAY_HEADER_BYTES: usize = 1 << 16;
 /// The payload of one record of a journal.
 pub(crate) const RECORD_BYTES: u32 = 1 << 20;
 /// Rows of a dataset.

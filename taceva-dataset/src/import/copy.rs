@@ -1,25 +1,21 @@
 //! Running an import: every frame is read, verified and copied, and the dataset appears whole.
 
+mod frames;
+mod picture;
+
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use taceva_core::{Frame, FrameInfo, Progress};
+use taceva_core::{FrameInfo, Progress};
 
-use super::npy::NpyFrames;
-use super::plan::{FrameSource, ImportPlan, PlannedFrames};
+use super::plan::ImportPlan;
 use super::summary::ImportSummary;
-use crate::decode::{ChannelOrder, ImageKind, check_to_the_end, decode};
 use crate::digest::Digest;
-use crate::encode::encode_png;
 use crate::error::DatasetError;
-use crate::file::{read_capped, write_durable};
-use crate::header::{FramesInfo, ReferenceInfo};
 use crate::layout;
-use crate::limits;
-use crate::parallel::ordered_map;
 use crate::staged::{Place, StagedFolder};
 use crate::store::{Beside, write_table_and_header};
-use crate::table::{FrameEntry, Table};
+use frames::copy_frames;
 
 /// What an import did.
 ///
@@ -55,7 +51,7 @@ pub struct ImportReport {
 impl ImportPlan {
     /// Writes the dataset to `target`, on `jobs` threads. The bytes are the same for any number of threads.
     ///
-    /// Frames are kept as the bytes they came as; those of an array become PNG. A JPEG is read to its end, so that what was cut, lost or
+    /// Frames are kept as the bytes they came as; what came as numbers, of an array or a clip, becomes PNG. A JPEG is read to its end, so that what was cut, lost or
     /// changed in it is noticed unless every code is still one of its tables and the last one still ends where it did: a bit that was
     /// flipped on the way to us may be another picture without any error. What happens from here on is always noticed.
     ///
@@ -118,200 +114,4 @@ impl ImportPlan {
             path: target.to_owned(),
         })
     }
-}
-
-/// A frame that was verified and written.
-struct Copied {
-    kind: ImageKind,
-    info: FrameInfo,
-    entry: FrameEntry,
-    intensity: f64,
-}
-
-impl Copied {
-    /// Writes `bytes`, the file of `frame`, at `relative` of the staged folder.
-    fn write(
-        staged: &StagedFolder,
-        relative: String,
-        bytes: &[u8],
-        (kind, frame): (ImageKind, &Frame),
-    ) -> Result<Copied, DatasetError> {
-        write_durable(&staged.path().join(&relative), bytes)?;
-        Ok(Copied {
-            kind,
-            info: frame.info(),
-            entry: FrameEntry {
-                path: relative,
-                span: None,
-                digest: Digest::of(bytes),
-            },
-            intensity: frame.mean_luma(),
-        })
-    }
-}
-
-/// Frames copied at a time by each job: most of a copy is waiting until the disk has it, and disks like to be asked for
-/// several files at once.
-const COPIES_A_JOB: NonZeroUsize = NonZeroUsize::new(4).expect("four");
-
-/// Copies all frames; returns what they share and the folders they lie in.
-fn copy_frames(
-    staged: &StagedFolder,
-    frames: &PlannedFrames,
-    table: &mut Table,
-    jobs: NonZeroUsize,
-    progress: &dyn Progress,
-) -> Result<(Option<FramesInfo>, Vec<String>), DatasetError> {
-    let count = frames.of_rows.len();
-    let mut folders = vec![layout::FRAMES.to_owned()];
-    folders.extend(layout::frame_folders(count));
-    for folder in &folders {
-        staged.create_folder(folder)?;
-    }
-    let mut first: Option<(ImageKind, FrameInfo)> = None;
-    progress.begin("verify and copy frames", Some(count as u64));
-    let outcome = ordered_map(
-        count,
-        jobs.saturating_mul(COPIES_A_JOB),
-        |row| copy_frame(staged, frames, row),
-        |row, copied| {
-            if progress.is_cancelled() {
-                return Err(DatasetError::Cancelled);
-            }
-            let Copied {
-                kind,
-                info,
-                entry,
-                intensity,
-            } = copied?;
-            let expected = *first.get_or_insert((kind, info));
-            check_alike(frames, row, expected, (kind, info))?;
-            table.set_frame(row, entry, intensity);
-            progress.advance(1);
-            Ok(())
-        },
-    );
-    progress.end();
-    outcome?;
-    let Some((_, info)) = first else {
-        return Ok((None, folders));
-    };
-    let reference = frames
-        .reference
-        .as_ref()
-        .map(|path| copy_reference(staged, path, frames, info))
-        .transpose()?;
-    let shared = FramesInfo {
-        count: count as u64,
-        info,
-        channel_order: frames.order,
-        reference,
-    };
-    Ok((Some(shared), folders))
-}
-
-fn copy_frame(
-    staged: &StagedFolder,
-    frames: &PlannedFrames,
-    row: usize,
-) -> Result<Copied, DatasetError> {
-    let planned = &frames.of_rows[row];
-    let copied = match &planned.from {
-        FrameSource::File(path) => copy_image(staged, path, frames.order, |extension| {
-            layout::frame_path(row, extension)
-        }),
-        FrameSource::Array(array, index) => copy_element(staged, array, *index, frames.order, row),
-    };
-    copied.map_err(|error| error.named_at(planned.named_at.clone()))
-}
-
-/// Writes one frame of an array as PNG.
-fn copy_element(
-    staged: &StagedFolder,
-    array: &NpyFrames,
-    index: usize,
-    order: ChannelOrder,
-    row: usize,
-) -> Result<Copied, DatasetError> {
-    let frame = array.frame(index, order)?;
-    let bytes = encode_png(&frame).map_err(|problem| DatasetError::Image {
-        place: None,
-        path: array.path().to_owned(),
-        problem,
-    })?;
-    let relative = layout::frame_path(row, ImageKind::Png.extension());
-    Copied::write(staged, relative, &bytes, (ImageKind::Png, &frame))
-}
-
-/// Verifies the image at `path` and writes the same bytes where `place` says.
-fn copy_image(
-    staged: &StagedFolder,
-    path: &Path,
-    order: ChannelOrder,
-    place: impl FnOnce(&str) -> String,
-) -> Result<Copied, DatasetError> {
-    let bytes = read_capped(path, limits::IMAGE_BYTES)?;
-    let whole = decode(&bytes, order).and_then(|(kind, frame)| {
-        check_to_the_end(&bytes, kind)?;
-        Ok((kind, frame))
-    });
-    let (kind, frame) = whole.map_err(|problem| DatasetError::Image {
-        place: None,
-        path: path.to_owned(),
-        problem,
-    })?;
-    let extension = path
-        .extension()
-        .and_then(|extension| extension.to_str())
-        .filter(|extension| kind.has_extension(extension))
-        .unwrap_or(kind.extension());
-    let relative = place(extension);
-    Copied::write(staged, relative, &bytes, (kind, &frame))
-}
-
-fn copy_reference(
-    staged: &StagedFolder,
-    path: &Path,
-    frames: &PlannedFrames,
-    expected: FrameInfo,
-) -> Result<ReferenceInfo, DatasetError> {
-    let copied = copy_image(staged, path, frames.order, layout::reference_path)?;
-    if copied.info != expected {
-        return Err(DatasetError::Image {
-            place: None,
-            path: path.to_owned(),
-            problem: format!("{}, expected {expected} as the other frames", copied.info),
-        });
-    }
-    Ok(ReferenceInfo {
-        path: copied.entry.path,
-        sha256: copied.entry.digest,
-    })
-}
-
-fn check_alike(
-    frames: &PlannedFrames,
-    row: usize,
-    expected: (ImageKind, FrameInfo),
-    found: (ImageKind, FrameInfo),
-) -> Result<(), DatasetError> {
-    if expected == found {
-        return Ok(());
-    }
-    let planned = &frames.of_rows[row];
-    let path = match &planned.from {
-        FrameSource::File(path) => path.clone(),
-        FrameSource::Array(array, _) => array.path().to_owned(),
-    };
-    Err(DatasetError::Image {
-        place: Some(Box::new(planned.named_at.clone())),
-        path,
-        problem: format!(
-            "{} {}, expected {} {} as the first frame",
-            found.0.extension(),
-            found.1,
-            expected.0.extension(),
-            expected.1
-        ),
-    })
 }

@@ -9,7 +9,13 @@ pub(super) enum FrameCells {
     Column(usize),
     /// Texts and columns in turn.
     Pattern(Vec<PatternPart>),
-    Index(usize),
+    /// The column of the position in another file, or without one in that of the table.
+    Within {
+        file: Option<Vec<PatternPart>>,
+        index: usize,
+    },
+    /// Each row of the table has its own.
+    OfRow,
 }
 
 pub(super) enum PatternPart {
@@ -20,7 +26,8 @@ pub(super) enum PatternPart {
 /// How a row names its frame.
 pub(super) enum FrameName {
     File(String),
-    Index(usize),
+    /// The position in a file, or without one in that of the table.
+    Within(Option<String>, u64),
 }
 
 /// The path that texts and the cells between them make.
@@ -32,28 +39,50 @@ pub(super) fn filled<'c>(parts: &'c [PatternPart], cell: impl Fn(usize) -> &'c s
     texts.collect()
 }
 
+/// The columns of a pattern.
+pub(super) fn columns_of(parts: &[PatternPart]) -> impl Iterator<Item = usize> {
+    parts.iter().filter_map(|part| match part {
+        PatternPart::Cell(column) => Some(*column),
+        PatternPart::Text(_) => None,
+    })
+}
+
 impl FrameCells {
     pub(super) fn find(names: &FrameNames, table: &RowTable) -> Result<FrameCells, DatasetError> {
-        match names {
-            FrameNames::Column(name) => Ok(FrameCells::Column(table.position(name)?)),
-            FrameNames::Array(array) => Ok(FrameCells::Index(table.position(&array.index)?)),
-            FrameNames::Pattern(pattern) => {
-                let mut parts = Vec::new();
-                let mut rest = pattern.as_str();
-                while let Some((text, after)) = rest.split_once('{') {
-                    let (name, after) =
-                        after.split_once('}').ok_or_else(|| DatasetError::Path {
-                            place: None,
-                            written: pattern.clone(),
-                            problem: "a `{` is never closed".to_owned(),
-                        })?;
-                    parts.push(PatternPart::Text(text.to_owned()));
-                    parts.push(PatternPart::Cell(table.position(name)?));
-                    rest = after;
-                }
-                parts.push(PatternPart::Text(rest.to_owned()));
-                Ok(FrameCells::Pattern(parts))
-            }
-        }
+        Ok(match names {
+            FrameNames::Column(name) => FrameCells::Column(table.position(name)?),
+            FrameNames::Pattern(pattern) => FrameCells::Pattern(parts(pattern, table)?),
+            FrameNames::Bytes(_) => FrameCells::OfRow,
+            FrameNames::Array(array) => FrameCells::Within {
+                file: array
+                    .file
+                    .as_ref()
+                    .map(|file| parts(file, table))
+                    .transpose()?,
+                index: table.position(&array.index)?,
+            },
+            FrameNames::Video(video) => FrameCells::Within {
+                file: Some(parts(&video.file, table)?),
+                index: table.position(&video.index)?,
+            },
+        })
     }
+}
+
+/// The texts and columns of a pattern.
+fn parts(pattern: &str, table: &RowTable) -> Result<Vec<PatternPart>, DatasetError> {
+    let mut parts = Vec::new();
+    let mut rest = pattern;
+    while let Some((text, after)) = rest.split_once('{') {
+        let (name, after) = after.split_once('}').ok_or_else(|| DatasetError::Path {
+            place: None,
+            written: pattern.to_owned(),
+            problem: "a `{` is never closed".to_owned(),
+        })?;
+        parts.push(PatternPart::Text(text.to_owned()));
+        parts.push(PatternPart::Cell(table.position(name)?));
+        rest = after;
+    }
+    parts.push(PatternPart::Text(rest.to_owned()));
+    Ok(parts)
 }

@@ -10,6 +10,7 @@ mod path_pattern;
 #[cfg(test)]
 mod tests;
 mod written;
+mod written_frame;
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -27,7 +28,7 @@ pub(crate) use path_pattern::PathPattern;
 
 pub use columns::{ColumnMap, IdMap, TimeMap};
 pub use drop::{DropRules, Placeholder};
-pub use frames::{ArrayFrames, FrameMap, FrameNames};
+pub use frames::{ArrayFrames, ArrayLayout, FrameMap, FrameNames, PixelRange, VideoFrames};
 
 /// A checked map.
 ///

@@ -1,12 +1,11 @@
 //! What an import would read, convert and leave out, before anything is written.
 
-use std::collections::{BTreeSet, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::frame_cells::FrameName;
 use super::map::{FrameMap, FrameNames, ImportMap};
-use super::npy::NpyFrames;
 use super::rows::MappedTable;
 use super::source::{matching_files, unnamed_images};
 use super::summary::{Conversion, ImportSummary};
@@ -14,7 +13,7 @@ use super::suspicion::magnitude_suspicion_in;
 use crate::decode::ChannelOrder;
 use crate::error::{DatasetError, Place};
 use crate::file::SourceFolder;
-use crate::foreign::TableForm;
+use crate::foreign::{ArrayPictures, Pictures, TableForm};
 use crate::store::RecordingFacts;
 use crate::table::Table;
 use crate::text::shown;
@@ -65,7 +64,17 @@ pub(super) struct PlannedFrame {
 #[derive(Debug)]
 pub(super) enum FrameSource {
     File(PathBuf),
-    Array(Arc<NpyFrames>, usize),
+    /// The picture of that number in another file.
+    Within(Arc<dyn Pictures>, u64),
+}
+
+impl FrameSource {
+    pub(super) fn path(&self) -> &Path {
+        match self {
+            FrameSource::File(path) => path,
+            FrameSource::Within(pictures, _) => pictures.path(),
+        }
+    }
 }
 
 impl ImportPlan {
@@ -96,7 +105,7 @@ impl ImportPlan {
         &self.summary
     }
 
-    /// What the pictures will take on disk, in bytes: files as they are, each once. Pictures of an array are encoded, and not counted here.
+    /// What the pictures will take on disk, in bytes: files as they are, each once. Pictures within other files are not counted here.
     ///
     /// A file that went away since counts as nothing: the import itself names it.
     pub fn frame_bytes(&self) -> u64 {
@@ -106,7 +115,7 @@ impl ImportPlan {
             .flat_map(|frames| frames.of_rows.iter())
             .filter_map(|frame| match &frame.from {
                 FrameSource::File(path) => Some(path.as_path()),
-                FrameSource::Array(..) => None,
+                FrameSource::Within(..) => None,
             })
             .chain(frames.filter_map(|frames| frames.reference.as_deref()))
             .collect();
@@ -120,7 +129,8 @@ struct Reading<'a> {
     folder: &'a SourceFolder,
     map: &'a ImportMap,
     table: Table,
-    array: Option<Arc<NpyFrames>>,
+    /// The files with pictures in them that rows named.
+    opened: BTreeMap<PathBuf, Arc<dyn Pictures>>,
     frames: Vec<PlannedFrame>,
     samples: HashSet<String>,
     /// Every image that a row names, dropped ones too.
@@ -132,19 +142,12 @@ struct Reading<'a> {
 
 impl<'a> Reading<'a> {
     fn new(folder: &'a SourceFolder, map: &'a ImportMap) -> Result<Reading<'a>, DatasetError> {
-        let array = match map.frame.as_ref().map(|frame| &frame.names) {
-            Some(FrameNames::Array(array)) => {
-                let path = folder.file(folder.path(), &array.file)?;
-                Some(Arc::new(NpyFrames::open(&path)?))
-            }
-            _ => None,
-        };
         let attributes = map.attributes.keys().chain(map.classes.keys());
         let attributes = attributes.cloned().collect();
         Ok(Reading {
             folder,
             map,
-            array,
+            opened: BTreeMap::new(),
             table: Table::new(map.channels.clone(), attributes),
             frames: Vec::new(),
             samples: HashSet::new(),
@@ -197,7 +200,7 @@ impl<'a> Reading<'a> {
         }
         if let Some((name, named_at)) = rows.frame_name(row)? {
             let from = self
-                .frame_source(base, name)
+                .frame_source(rows, base, name)
                 .map_err(|error| error.named_at(named_at.clone()))?;
             self.frames.push(PlannedFrame { from, named_at });
         }
@@ -206,23 +209,53 @@ impl<'a> Reading<'a> {
         Ok(())
     }
 
-    fn frame_source(&mut self, base: &Path, name: FrameName) -> Result<FrameSource, DatasetError> {
-        match (name, &self.array) {
-            (FrameName::Index(index), Some(array)) => {
-                array.check_index(index)?;
-                Ok(FrameSource::Array(Arc::clone(array), index))
-            }
-            (FrameName::Index(index), None) => Err(DatasetError::Path {
-                place: None,
-                written: index.to_string(),
-                problem: "a position without an array".to_owned(),
-            }),
+    fn frame_source(
+        &mut self,
+        rows: &MappedTable<'_>,
+        base: &Path,
+        name: FrameName,
+    ) -> Result<FrameSource, DatasetError> {
+        let (pictures, index) = match (name, &rows.pictures) {
             (FrameName::File(name), _) => {
                 let path = self.folder.file(base, &name)?;
                 self.named.insert(path.clone());
-                Ok(FrameSource::File(path))
+                return Ok(FrameSource::File(path));
             }
+            (FrameName::Within(Some(file), index), _) => (self.pictures(&file)?, index),
+            (FrameName::Within(None, index), Some(pictures)) => (Arc::clone(pictures), index),
+            (FrameName::Within(None, index), None) => {
+                return Err(DatasetError::Path {
+                    place: None,
+                    written: index.to_string(),
+                    problem: "a position without an array".to_owned(),
+                });
+            }
+        };
+        pictures.check_index(index)?;
+        Ok(FrameSource::Within(pictures, index))
+    }
+
+    /// The pictures in the file at `relative`, which is opened once.
+    fn pictures(&mut self, relative: &str) -> Result<Arc<dyn Pictures>, DatasetError> {
+        let path = self.folder.file(self.folder.path(), relative)?;
+        if let Some(known) = self.opened.get(&path) {
+            return Ok(Arc::clone(known));
         }
+        let names = self.map.frame.as_ref().map(|frame| &frame.names);
+        let pictures: Arc<dyn Pictures> = match names {
+            Some(names @ FrameNames::Array(array)) => {
+                Arc::new(ArrayPictures::open(&path, names, array)?)
+            }
+            _ => {
+                return Err(DatasetError::Path {
+                    place: None,
+                    written: relative.to_owned(),
+                    problem: "neither an array nor a clip".to_owned(),
+                });
+            }
+        };
+        self.opened.insert(path, Arc::clone(&pictures));
+        Ok(pictures)
     }
 
     /// That nothing is left to import, and why.
@@ -270,7 +303,7 @@ impl<'a> Reading<'a> {
             None => None,
         };
         self.named.extend(reference.clone());
-        if self.array.is_none() {
+        if matches!(frame.names, FrameNames::Column(_) | FrameNames::Pattern(_)) {
             let unnamed: BTreeSet<PathBuf> = self
                 .bases
                 .iter()

@@ -23,6 +23,8 @@ pub(super) struct Resolved {
     /// The columns of the main table that the map does not mention.
     pub(super) unmentioned: Vec<String>,
     pub(super) joins: Vec<JoinSummary>,
+    /// The main table itself.
+    pub(super) main: ForeignTable,
 }
 
 /// What the cells of a row are taken from.
@@ -71,6 +73,7 @@ pub(super) fn resolve(
     Ok(Resolved {
         unmentioned: sources.unmentioned(&table),
         joins: sources.joined.iter().map(Joined::summary).collect(),
+        main: sources.main,
         table,
     })
 }

@@ -3,14 +3,16 @@
 mod labels;
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use super::frame_cells::{FrameCells, FrameName, PatternPart, filled};
+use super::frame_cells::{FrameCells, FrameName, columns_of, filled};
 use super::map::ImportMap;
 use super::resolve::{RowTable, resolve};
 use super::summary::JoinSummary;
 use crate::csv_table::CsvTable;
 use crate::error::{DatasetError, Place};
 use crate::file::SourceFolder;
+use crate::foreign::Pictures;
 use crate::table::Row;
 use crate::text::shown;
 
@@ -37,6 +39,8 @@ pub(super) struct MappedTable<'a> {
     time: Option<usize>,
     flags: Option<usize>,
     frame: Option<FrameCells>,
+    /// The pictures that the table itself holds.
+    pub(super) pictures: Option<Arc<dyn Pictures>>,
 }
 
 impl<'a> MappedTable<'a> {
@@ -45,12 +49,25 @@ impl<'a> MappedTable<'a> {
         folder: &SourceFolder,
         path: &Path,
     ) -> Result<MappedTable<'a>, DatasetError> {
-        let (table, unmentioned, joins) = match map.is_extended {
-            false => (RowTable::AsItLies(CsvTable::read(path)?), None, Vec::new()),
+        let (table, unmentioned, joins, pictures) = match map.is_extended {
+            false => (
+                RowTable::AsItLies(CsvTable::read(path)?),
+                None,
+                Vec::new(),
+                None,
+            ),
             true => {
                 let found = resolve(map, folder, path)?;
+                let names = map.frame.as_ref().map(|frame| &frame.names);
+                let inside = names.filter(|names| names.is_in_table());
+                let pictures = inside.map(|names| found.main.pictures(names));
                 let table = RowTable::Resolved(found.table);
-                (table, Some(found.unmentioned), found.joins)
+                (
+                    table,
+                    Some(found.unmentioned),
+                    found.joins,
+                    pictures.transpose()?,
+                )
             }
         };
         let find = |name: &String| table.position(name);
@@ -95,6 +112,7 @@ impl<'a> MappedTable<'a> {
                 .as_ref()
                 .map(|frame| FrameCells::find(&frame.names, &table))
                 .transpose()?,
+            pictures,
             unmentioned,
             joins,
             table,
@@ -127,14 +145,13 @@ impl<'a> MappedTable<'a> {
                 .chain(&self.attributes),
         );
         match &self.frame {
-            Some(FrameCells::Column(column) | FrameCells::Index(column)) => mentioned.push(*column),
-            Some(FrameCells::Pattern(parts)) => {
-                mentioned.extend(parts.iter().filter_map(|part| match part {
-                    PatternPart::Cell(column) => Some(*column),
-                    PatternPart::Text(_) => None,
-                }));
+            Some(FrameCells::Column(column)) => mentioned.push(*column),
+            Some(FrameCells::Pattern(parts)) => mentioned.extend(columns_of(parts)),
+            Some(FrameCells::Within { file, index }) => {
+                mentioned.push(*index);
+                mentioned.extend(file.iter().flat_map(|parts| columns_of(parts)));
             }
-            None => {}
+            Some(FrameCells::OfRow) | None => {}
         }
         let names = self.table.names().iter().enumerate();
         names
@@ -249,12 +266,15 @@ impl<'a> MappedTable<'a> {
                 let cell = |column| self.table.cell(row, column);
                 (FrameName::File(filled(parts, cell)), usize::MAX)
             }
-            FrameCells::Index(column) => {
-                let index = self.count(row, Some(*column))?.ok_or_else(|| {
-                    self.wrong(row, *column, "empty, expected the position of a frame")
+            FrameCells::Within { file, index } => {
+                let at = self.count(row, Some(*index))?.ok_or_else(|| {
+                    self.wrong(row, *index, "empty, expected the position of a frame")
                 })?;
-                (FrameName::Index(index as usize), *column)
+                let cell = |column| self.table.cell(row, column);
+                let file = file.as_ref().map(|parts| filled(parts, cell));
+                (FrameName::Within(file, u64::from(at)), *index)
             }
+            FrameCells::OfRow => (FrameName::Within(None, row as u64), usize::MAX),
         };
         Ok(Some((name, self.table.place(row, column))))
     }

@@ -1,8 +1,10 @@
 //! What a map of version 2 may say beside: forms of tables, labels in paths, joins, matrices, classes.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use serde::Deserialize;
+use taceva_arrays::ArrayFormat;
 use toml::Spanned;
 
 use super::written::{Check, ColumnName};
@@ -20,7 +22,7 @@ use crate::foreign::TableForm;
 )]
 pub(super) enum WrittenTable {
     Path(String),
-    Told(WrittenForm),
+    Described(WrittenForm),
 }
 
 #[derive(Deserialize)]
@@ -40,6 +42,26 @@ enum Format {
     Tsv,
     Json,
     Jsonl,
+    Npy,
+    Npz,
+    Hdf5,
+    Zarr,
+    Mat,
+    Pickle,
+}
+
+impl Format {
+    fn of_arrays(self) -> Option<ArrayFormat> {
+        Some(match self {
+            Format::Csv | Format::Tsv | Format::Json | Format::Jsonl => return None,
+            Format::Npy => ArrayFormat::Npy,
+            Format::Npz => ArrayFormat::Npz,
+            Format::Hdf5 => ArrayFormat::Hdf5,
+            Format::Zarr => ArrayFormat::Zarr,
+            Format::Mat => ArrayFormat::Matlab,
+            Format::Pickle => ArrayFormat::Pickle,
+        })
+    }
 }
 
 #[derive(Deserialize)]
@@ -123,6 +145,13 @@ fn form_of(path: &str, format: Option<Format>) -> TableForm {
     let ending = path
         .rsplit_once('.')
         .map(|(_, ending)| ending.to_ascii_lowercase());
+    let arrays = match format {
+        Some(format) => format.of_arrays(),
+        None => ArrayFormat::of(Path::new(path)),
+    };
+    if let Some(format) = arrays {
+        return TableForm::Arrays { format, rows: None };
+    }
     match (format, ending.as_deref()) {
         (Some(Format::Json), _) | (None, Some("json")) => TableForm::Json { rows: None },
         (Some(Format::Jsonl), _) | (None, Some("jsonl" | "ndjson")) => TableForm::JsonLines,
@@ -139,19 +168,19 @@ impl Check<'_> {
         let offset = written.span().start;
         let (file, form) = match written.get_ref() {
             WrittenTable::Path(path) => (path, form_of(path, None)),
-            WrittenTable::Told(told) => self.told(told, offset)?,
+            WrittenTable::Described(described) => self.described(described, offset)?,
         };
         self.relative(file, offset)?;
         Ok((file.clone(), form))
     }
 
-    fn told<'w>(
+    fn described<'w>(
         &self,
-        told: &'w WrittenForm,
+        described: &'w WrittenForm,
         offset: usize,
     ) -> Result<(&'w String, TableForm), DatasetError> {
-        let (file, form) = match (&told.file, &told.files) {
-            (Some(file), None) => (file, form_of(file, told.format)),
+        let (file, form) = match (&described.file, &described.files) {
+            (Some(file), None) => (file, form_of(file, described.format)),
             (None, Some(files)) => (files, TableForm::Files),
             _ => {
                 return Err(self.at(
@@ -160,14 +189,20 @@ impl Check<'_> {
                 ));
             }
         };
-        let form = match (form, told.header, &told.rows) {
+        let form = match (form, described.header, &described.rows) {
             (TableForm::Delimited { .. }, header, None) => TableForm::Delimited {
                 has_header: header.unwrap_or(true),
             },
             (TableForm::Json { .. }, None, rows) => TableForm::Json { rows: rows.clone() },
+            (TableForm::Arrays { format, .. }, None, rows) => TableForm::Arrays {
+                format,
+                rows: rows.clone(),
+            },
             (form, None, None) => form,
             (_, Some(_), _) => return Err(self.at(offset, "`header` is for CSV and TSV alone")),
-            (_, _, Some(_)) => return Err(self.at(offset, "`rows` is for JSON alone")),
+            (_, _, Some(_)) => {
+                return Err(self.at(offset, "`rows` is for JSON and files of arrays"));
+            }
         };
         Ok((file, form))
     }

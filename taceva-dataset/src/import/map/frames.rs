@@ -10,7 +10,7 @@ use crate::decode::ChannelOrder;
 /// let frames = FrameMap::new(FrameNames::Column("file".into()), ChannelOrder::Gray);
 /// assert_eq!((frames.folder, frames.reference), (None, None));
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct FrameMap {
     /// How a row names its frame.
@@ -44,7 +44,7 @@ impl FrameMap {
 /// let names = FrameNames::Pattern("images/image_{n}.png".into());
 /// assert_ne!(names, FrameNames::Column("n".into()));
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum FrameNames {
     /// A column holds the path.
@@ -53,6 +53,21 @@ pub enum FrameNames {
     Pattern(String),
     /// Frames in one array.
     Array(ArrayFrames),
+    /// The column of the table that holds the bytes of a PNG or JPEG file.
+    Bytes(String),
+    /// Frames of a clip.
+    Video(VideoFrames),
+}
+
+impl FrameNames {
+    /// Whether the frames are in the file of the table.
+    pub(crate) fn is_in_table(&self) -> bool {
+        match self {
+            FrameNames::Bytes(_) => true,
+            FrameNames::Array(array) => array.file.is_none(),
+            FrameNames::Column(_) | FrameNames::Pattern(_) | FrameNames::Video(_) => false,
+        }
+    }
 }
 
 /// Frames in one array.
@@ -63,19 +78,133 @@ pub enum FrameNames {
 /// let names = FrameNames::Array(ArrayFrames::new("frames.npy", "frame"));
 /// assert!(matches!(names, FrameNames::Array(array) if array.index == "frame"));
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ArrayFrames {
-    /// The `.npy` file, relative to the source folder.
-    pub file: String,
-    /// The column that holds the position in the array, from 0.
+    /// The file, relative to the source folder, in which `{column}` stands for the cell of that column; `None`: that of the table.
+    pub file: Option<String>,
+    /// The array in it; `None` where the file holds one alone.
+    pub path: Option<String>,
+    /// The column that holds the position in the array, from 0; `row` is the number of the row.
     pub index: String,
+    /// What the axes are; `None` where their lengths tell.
+    pub layout: Option<ArrayLayout>,
+    /// The numbers of black and of full, and the bits that a pixel is kept in; `None` of pixels that are whole numbers of 8 or 16 bits.
+    pub range: Option<PixelRange>,
+}
+
+/// What the axes of an array of frames are.
+///
+/// ```
+/// use taceva_dataset::ArrayLayout;
+///
+/// assert_eq!(ArrayLayout::Nchw.name(), "nchw");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[non_exhaustive]
+pub enum ArrayLayout {
+    /// Frame, row, column, colour.
+    Nhwc,
+    /// Frame, row, column.
+    Nhw,
+    /// Frame, colour, row, column.
+    Nchw,
+}
+
+impl ArrayLayout {
+    /// As a map writes it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            ArrayLayout::Nhwc => "nhwc",
+            ArrayLayout::Nhw => "nhw",
+            ArrayLayout::Nchw => "nchw",
+        }
+    }
+}
+
+/// How numbers of any type become pixels: `black` 0, `full` the greatest number of `bits`, what is between in proportion and rounded.
+///
+/// ```
+/// use taceva_dataset::PixelRange;
+///
+/// let range = PixelRange::new([0.0, 1.0], 8).ok_or("a range")?;
+/// assert_eq!((range.pixel(0.5), range.pixel(1.5)), (Some(128), None));
+/// # Ok::<(), &str>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PixelRange {
+    black: f64,
+    full: f64,
+    bits: u8,
+}
+
+impl PixelRange {
+    /// From the number of black to that of full in 8 or 16 bits; `None` if they are no range, or the bits are others.
+    pub fn new([black, full]: [f64; 2], bits: u8) -> Option<PixelRange> {
+        let is_range = black.is_finite() && full.is_finite() && (full - black).abs() > 0.0;
+        (is_range && matches!(bits, 8 | 16)).then_some(PixelRange { black, full, bits })
+    }
+
+    /// The bits that a pixel is kept in.
+    pub fn bits(&self) -> u8 {
+        self.bits
+    }
+
+    /// The numbers of black and of full.
+    pub fn ends(&self) -> [f64; 2] {
+        [self.black, self.full]
+    }
+
+    /// The pixel of `number`; `None` outside of the range.
+    pub fn pixel(&self, number: f64) -> Option<u16> {
+        let share = (number - self.black) / (self.full - self.black);
+        let most = if self.bits == 8 { 255.0 } else { 65_535.0 };
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a whole number from 0 to `most`"
+        )]
+        let pixel = (share * most).round() as u16;
+        (0.0..=1.0).contains(&share).then_some(pixel)
+    }
 }
 
 impl ArrayFrames {
     /// The frames in the `.npy` file `file`; the column `index` holds the position in the array.
     pub fn new(file: impl Into<String>, index: impl Into<String>) -> ArrayFrames {
         ArrayFrames {
+            file: Some(file.into()),
+            path: None,
+            index: index.into(),
+            layout: None,
+            range: None,
+        }
+    }
+}
+
+/// Frames of a clip.
+///
+/// ```
+/// use taceva_dataset::{FrameNames, VideoFrames};
+///
+/// let names = FrameNames::Video(VideoFrames::new("clip_{run}.mp4", "row"));
+/// assert!(matches!(names, FrameNames::Video(video) if video.index == "row"));
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct VideoFrames {
+    /// The clip, relative to the source folder, in which `{column}` stands for the cell of that column; of a LeRobot dataset the name of
+    /// the feature.
+    pub file: String,
+    /// The column that holds the number of the frame in the order in which they are shown, from 0; `row` is the number of the row.
+    pub index: String,
+}
+
+impl VideoFrames {
+    /// The frames of the clip `file`; the column `index` holds the number of the frame.
+    pub fn new(file: impl Into<String>, index: impl Into<String>) -> VideoFrames {
+        VideoFrames {
             file: file.into(),
             index: index.into(),
         }

@@ -100,7 +100,7 @@ fn each_mistake_names_its_line_and_what_is_accepted() {
         (
             "column = \"file\"",
             "column = \"file\"\narray = \"x.npy\"",
-            "expected one of the three",
+            "expected one of the five",
         ),
         (
             "\"labels.csv\"",

@@ -8,11 +8,8 @@ use taceva_core::{Channel, Channels, Clock, SourceUnit, is_scorable};
 use toml::Spanned;
 
 use super::extended::{WrittenClass, WrittenJoin, WrittenMatrix, WrittenPath, WrittenTable};
-use super::{
-    ArrayFrames, ColumnMap, DropRules, FrameMap, FrameNames, IdMap, ImportMap, MatrixMap,
-    Placeholder, TimeMap,
-};
-use crate::decode::ChannelOrder;
+use super::written_frame::WrittenFrame;
+use super::{ColumnMap, DropRules, IdMap, ImportMap, MatrixMap, Placeholder, TimeMap};
 use crate::error::DatasetError;
 use crate::file::check_relative;
 use crate::header::{Footprint, SensorFacts, Source};
@@ -46,18 +43,6 @@ struct WrittenMap {
     drop: WrittenDrop,
     sensor: SensorFacts,
     footprint: Option<Spanned<Footprint>>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, expecting = "a table")]
-struct WrittenFrame {
-    column: Option<ColumnName>,
-    pattern: Option<String>,
-    array: Option<String>,
-    index: Option<String>,
-    folder: Option<String>,
-    channel_order: ChannelOrder,
-    reference: String,
 }
 
 #[derive(Deserialize)]
@@ -114,6 +99,7 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
     let written: WrittenMap = parse_toml(path, text)?;
     let check = Check { path, text };
     check.version(&written)?;
+    let is_extended = *written.map_version.get_ref() > 1;
     let (table, form) = check.table(&written.table)?;
     let matrices = check.matrices(&written.matrix)?;
     let (channels, columns) = check.columns(&written.columns, &matrices)?;
@@ -143,13 +129,16 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
         return Err(check.at(footprint.span().start, &problem));
     }
     Ok(ImportMap {
-        frame: written.frame.map(|frame| check.frame(frame)).transpose()?,
+        frame: written
+            .frame
+            .map(|frame| check.frame(frame, is_extended))
+            .transpose()?,
         time: check.time(&written.time)?,
         drop: check.drop(written.drop, &channels)?,
         path: check.path_pattern(written.path)?,
         joins: check.joins(written.join)?,
         classes: check.classes(&written.classes)?,
-        is_extended: *written.map_version.get_ref() > 1,
+        is_extended,
         table,
         form,
         matrices,
@@ -192,6 +181,14 @@ impl Check<'_> {
         let table = &written.table;
         let newer = [
             ("table", table.get_ref().is_extended().then(|| table.span())),
+            (
+                "frame",
+                written
+                    .frame
+                    .as_ref()
+                    .filter(|frame| frame.get_ref().is_extended())
+                    .map(Spanned::span),
+            ),
             ("path", written.path.as_ref().map(Spanned::span)),
             ("join", written.join.first().map(Spanned::span)),
             ("matrix", written.matrix.first().map(Spanned::span)),
@@ -285,43 +282,6 @@ impl Check<'_> {
             .filter_map(|channel| by_name.remove(channel.name()))
             .collect();
         Ok((channels, columns))
-    }
-
-    fn frame(&self, written: Spanned<WrittenFrame>) -> Result<FrameMap, DatasetError> {
-        let offset = written.span().start;
-        let written = written.into_inner();
-        let names = match (
-            written.column,
-            written.pattern,
-            written.array,
-            written.index,
-        ) {
-            (Some(column), None, None, None) => FrameNames::Column(column.into_name()),
-            (None, Some(pattern), None, None) => {
-                self.relative(&pattern, offset)?;
-                FrameNames::Pattern(pattern)
-            }
-            (None, None, Some(file), Some(index)) => {
-                self.relative(&file, offset)?;
-                FrameNames::Array(ArrayFrames { file, index })
-            }
-            _ => {
-                return Err(self.at(
-                    offset,
-                    "frames are named by `column`, by `pattern`, or by `array` and `index`: expected one of the three",
-                ));
-            }
-        };
-        let reference = Some(written.reference).filter(|path| path != "unknown");
-        for path in reference.iter().chain(&written.folder) {
-            self.relative(path, offset)?;
-        }
-        Ok(FrameMap {
-            names,
-            folder: written.folder,
-            channel_order: written.channel_order,
-            reference,
-        })
     }
 
     fn time(&self, written: &WrittenTime) -> Result<Option<TimeMap>, DatasetError> {

@@ -50,17 +50,23 @@ pub(super) fn mentioned(map: &ImportMap) -> Vec<String> {
     if !map.drop.quality_flags.is_empty() {
         names.push(map.drop.flag_column.clone());
     }
+    let of_pattern = |pattern: &str| -> Vec<String> {
+        let parts = pattern.split('{').skip(1);
+        let parts = parts.filter_map(|part| part.split_once('}'));
+        parts.map(|(name, _)| name.to_owned()).collect()
+    };
     match map.frame.as_ref().map(|frame| &frame.names) {
         Some(FrameNames::Column(column)) => names.push(column.clone()),
-        Some(FrameNames::Array(array)) => names.push(array.index.clone()),
-        Some(FrameNames::Pattern(pattern)) => {
-            let parts = pattern
-                .split('{')
-                .skip(1)
-                .filter_map(|part| part.split_once('}'));
-            names.extend(parts.map(|(name, _)| name.to_owned()));
+        Some(FrameNames::Pattern(pattern)) => names.extend(of_pattern(pattern)),
+        Some(FrameNames::Array(array)) => {
+            names.push(array.index.clone());
+            names.extend(array.file.iter().flat_map(|file| of_pattern(file)));
         }
-        None => {}
+        Some(FrameNames::Video(video)) => {
+            names.push(video.index.clone());
+            names.extend(of_pattern(&video.file));
+        }
+        Some(FrameNames::Bytes(_)) | None => {}
     }
     let mut once: Vec<String> = Vec::with_capacity(names.len());
     for name in names {

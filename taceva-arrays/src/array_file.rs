@@ -1,0 +1,160 @@
+//! A file of arrays, whatever its form.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use crate::element::ArrayInfo;
+use crate::error::{ArrayError, Problem};
+use crate::fields::check_read;
+use crate::format::ArrayFormat;
+use crate::npy::NpyArray;
+use crate::source::FileBytes;
+use crate::store::{Arrays, Store};
+use crate::values::ArrayData;
+
+/// Names that an error about a missing array lists.
+const NAMES_SHOWN: usize = 12;
+
+/// Named arrays of one file, read some rows at a time. Threads may share it.
+///
+/// ```no_run
+/// use taceva_arrays::{ArrayFile, ArrayFormat};
+///
+/// let file = ArrayFile::open("run.h5".as_ref(), ArrayFormat::Hdf5)?;
+/// for name in file.names() {
+///     println!("{name}: {:?}", file.info(&name).expect("listed").shape);
+/// }
+/// let one = file.read("/camera/rgb", 7..8)?;
+/// assert_eq!(one.shape, [1, 240, 320, 3]);
+/// # Ok::<(), taceva_arrays::ArrayError>(())
+/// ```
+#[derive(Debug)]
+pub struct ArrayFile {
+    path: PathBuf,
+    store: Box<dyn Store>,
+    arrays: Arrays,
+    by_name: BTreeMap<String, usize>,
+}
+
+impl ArrayFile {
+    /// Opens a file and lists its arrays; no element is read.
+    ///
+    /// # Errors
+    /// [`ArrayError`] if the file cannot be opened, is damaged, is of another form, or holds what is not read here.
+    pub fn open(path: &Path, format: ArrayFormat) -> Result<ArrayFile, ArrayError> {
+        let wrong = |problem: Problem| ArrayError {
+            path: path.to_owned(),
+            array: None,
+            problem,
+        };
+        let store = open(path, format).map_err(wrong)?;
+        let arrays = store.arrays();
+        let named = arrays.iter().enumerate();
+        let by_name = named
+            .map(|(index, (name, _))| (name.clone(), index))
+            .collect();
+        Ok(ArrayFile {
+            path: path.to_owned(),
+            store,
+            arrays,
+            by_name,
+        })
+    }
+
+    /// The names of the arrays, in the order of the file.
+    ///
+    /// An `.npy` file has one, `value`; an `.npz` file those of its members without `.npy`; HDF5 and zarr full paths (`/group/frames`);
+    /// a MATLAB file its variables; a pickle `value`, or the keys of its dictionary, or those of the dictionaries in its list. Records
+    /// have one for each field, behind a dot: `/table.Fx`.
+    #[must_use]
+    pub fn names(&self) -> Vec<String> {
+        self.arrays.iter().map(|(name, _)| name.clone()).collect()
+    }
+
+    /// Shape and type of the array `name`.
+    #[must_use]
+    pub fn info(&self, name: &str) -> Option<&ArrayInfo> {
+        let index = self.by_name.get(name)?;
+        self.arrays.get(*index).map(|(_, info)| info)
+    }
+
+    /// The groups of HDF5 and zarr whose full names are as `pattern`, in order: `*` stands for any letters but `/`.
+    #[must_use]
+    pub fn groups(&self, pattern: &str) -> Vec<String> {
+        let mut groups = self.store.groups();
+        groups.retain(|group| crate::pattern::matches(pattern, group));
+        groups.sort_unstable();
+        groups
+    }
+
+    /// The attribute `name` of the group or array `owner`; numbers in the shortest text that reads back to the same number, several of
+    /// them in brackets.
+    #[must_use]
+    pub fn attribute(&self, owner: &str, name: &str) -> Option<String> {
+        self.store.attribute(owner, name)
+    }
+
+    /// Some rows of the first axis, in the byte order of this machine and with the last axis fastest. A single number has one row.
+    ///
+    /// # Errors
+    /// [`ArrayError`] if there is no such array or row, if the rows take more than 1 GiB, or if the file is damaged where they lie.
+    pub fn read(&self, name: &str, rows: Range<u64>) -> Result<ArrayData, ArrayError> {
+        self.rows(name, rows).map_err(|problem| ArrayError {
+            path: self.path.clone(),
+            array: Some(name.to_owned()),
+            problem,
+        })
+    }
+
+    fn rows(&self, name: &str, rows: Range<u64>) -> Result<ArrayData, Problem> {
+        let index = self.by_name.get(name).copied();
+        let (index, info) = index
+            .and_then(|index| Some((index, &self.arrays.get(index)?.1)))
+            .ok_or_else(|| self.absent())?;
+        if rows.start > rows.end || rows.end > info.rows() {
+            return Err(Problem::Rows {
+                asked: rows,
+                rows: info.rows(),
+            });
+        }
+        let mut shape = info.shape.clone();
+        if let Some(first) = shape.first_mut() {
+            *first = rows.end - rows.start;
+        }
+        check_read(&shape, info.element, 0)?;
+        self.store.read(index, rows)
+    }
+
+    fn absent(&self) -> Problem {
+        let shown: Vec<&str> = self
+            .arrays
+            .iter()
+            .map(|(name, _)| name.as_str())
+            .take(NAMES_SHOWN)
+            .collect();
+        let more = self.arrays.len().saturating_sub(NAMES_SHOWN);
+        let mut there = if shown.is_empty() {
+            "none".to_owned()
+        } else {
+            shown.join(", ")
+        };
+        if more > 0 {
+            there.push_str(&format!(" and {more} more"));
+        }
+        Problem::Absent { there }
+    }
+}
+
+fn open(path: &Path, format: ArrayFormat) -> Result<Box<dyn Store>, Problem> {
+    match format {
+        ArrayFormat::Npy => Ok(Box::new(NpyArray::open(
+            "value",
+            Box::new(FileBytes::open(path)?),
+        )?)),
+        _ => Err(Problem::unsupported(
+            "a form that is not read yet",
+            "save it as `.npy`",
+        )),
+    }
+}

@@ -1,0 +1,213 @@
+//! Records: elements of several fields that lie behind one another, each of which is read as an array of its own.
+
+use crate::element::{ArrayInfo, Element};
+use crate::error::Problem;
+use crate::limits;
+use crate::literal::Literal;
+use crate::scalar::{Scalar, shown};
+use crate::values::{ArrayData, ArrayValues};
+
+/// One field of a record, or the whole of an element that is no record.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Field {
+    /// Names from the outermost, joined by dots; empty of an element that is no record.
+    pub(crate) name: String,
+    /// Bytes from the beginning of the element.
+    pub(crate) at: usize,
+    /// Lengths of the axes that the field has of its own.
+    pub(crate) extent: Vec<u64>,
+    pub(crate) scalar: Scalar,
+}
+
+/// An element of an array as it lies in a file.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Item {
+    /// Bytes of one element.
+    pub(crate) bytes: usize,
+    pub(crate) fields: Vec<Field>,
+}
+
+impl Item {
+    pub(crate) fn plain(scalar: Scalar) -> Item {
+        Item {
+            bytes: scalar.bytes(),
+            fields: vec![Field {
+                name: String::new(),
+                at: 0,
+                extent: Vec::new(),
+                scalar,
+            }],
+        }
+    }
+
+    /// What NumPy calls the `descr` of a type: a name, or a list of fields with their names.
+    pub(crate) fn from_descr(descr: &Literal) -> Result<Item, Problem> {
+        let mut item = Item {
+            bytes: 0,
+            fields: Vec::new(),
+        };
+        item.add(descr, "", &[])?;
+        Ok(item)
+    }
+
+    /// Adds what `descr` says behind the fields so far.
+    fn add(&mut self, descr: &Literal, name: &str, extent: &[u64]) -> Result<(), Problem> {
+        let unknown = || {
+            Problem::unsupported(
+                format!("a type that is not understood near field `{}`", shown(name)),
+                "save each field as an array of its own",
+            )
+        };
+        let count = extent
+            .iter()
+            .try_fold(1_u64, |product, side| product.checked_mul(*side));
+        let count = count
+            .and_then(|count| usize::try_from(count).ok())
+            .ok_or_else(unknown)?;
+        let start = self.bytes;
+        match descr {
+            // Bytes that fill a gap have no name.
+            Literal::Text(filler)
+                if filler.trim_start_matches('|').starts_with('V') && !name.is_empty() =>
+            {
+                let bytes = filler
+                    .trim_start_matches(['|', 'V'])
+                    .parse::<usize>()
+                    .map_err(|_| unknown())?;
+                self.bytes = start.checked_add(bytes).ok_or_else(unknown)?;
+                return Ok(());
+            }
+            Literal::Text(type_name) => {
+                let scalar = Scalar::from_numpy(type_name)?;
+                self.fields.push(Field {
+                    name: name.to_owned(),
+                    at: start,
+                    extent: extent.to_vec(),
+                    scalar,
+                });
+                self.bytes = scalar.bytes();
+            }
+            // Several records in one field: no field of theirs is one block.
+            Literal::Sequence(_) if !extent.is_empty() => return Err(unknown()),
+            Literal::Sequence(fields) => {
+                for field in fields {
+                    let Literal::Sequence(parts) = field else {
+                        return Err(unknown());
+                    };
+                    let (own, descr, extent) = match parts.as_slice() {
+                        [own, descr] => (own, descr, Vec::new()),
+                        [own, descr, extent] => (own, descr, extent.shape().ok_or_else(unknown)?),
+                        _ => return Err(unknown()),
+                    };
+                    let own = match own {
+                        Literal::Text(own) => own,
+                        // A title and the name.
+                        Literal::Sequence(names) => match names.as_slice() {
+                            [_, Literal::Text(own)] => own,
+                            _ => return Err(unknown()),
+                        },
+                        _ => return Err(unknown()),
+                    };
+                    let own = if own.is_empty() { "_" } else { own };
+                    let full = if name.is_empty() {
+                        own.to_owned()
+                    } else {
+                        format!("{name}.{own}")
+                    };
+                    self.add(descr, &full, &extent)?;
+                }
+                return Ok(());
+            }
+            _ => return Err(unknown()),
+        }
+        let end = self
+            .bytes
+            .checked_mul(count)
+            .and_then(|bytes| bytes.checked_add(start));
+        self.bytes = end.ok_or_else(unknown)?;
+        Ok(())
+    }
+
+    /// The name and shape of each field of an array `name` of these elements.
+    pub(crate) fn arrays(&self, name: &str, shape: &[u64]) -> Vec<(String, ArrayInfo)> {
+        let array = |field: &Field| {
+            let name = if field.name.is_empty() {
+                name.to_owned()
+            } else {
+                format!("{name}.{}", field.name)
+            };
+            let shape = [shape, &field.extent].concat();
+            (name, ArrayInfo::new(shape, field.scalar.element()))
+        };
+        self.fields.iter().map(array).collect()
+    }
+
+    /// One field of the elements `raw`, whose shape is `shape`.
+    pub(crate) fn read(
+        &self,
+        field: &Field,
+        raw: Vec<u8>,
+        shape: &[u64],
+    ) -> Result<ArrayData, Problem> {
+        let items = raw
+            .len()
+            .checked_div(self.bytes)
+            .unwrap_or_else(|| elements(shape));
+        let width = elements(&field.extent) * field.scalar.bytes();
+        let raw = if width == self.bytes {
+            raw
+        } else {
+            let mut picked = Vec::with_capacity(items * width);
+            for item in raw.chunks_exact(self.bytes.max(1)) {
+                picked.extend_from_slice(&item[field.at..field.at + width]);
+            }
+            picked
+        };
+        let values = field.scalar.decode(raw, items * elements(&field.extent))?;
+        let shape = [shape, &field.extent].concat();
+        Ok(ArrayData { shape, values })
+    }
+}
+
+/// Product of the sides, each of which was checked against a limit before.
+fn elements(shape: &[u64]) -> usize {
+    let product = shape
+        .iter()
+        .try_fold(1_u64, |product, side| product.checked_mul(*side));
+    product
+        .and_then(|count| usize::try_from(count).ok())
+        .unwrap_or(usize::MAX)
+}
+
+/// How many bytes `read` holds for an array of such a shape, or why that is too much.
+pub(crate) fn check_read(shape: &[u64], element: Element, held_bytes: u64) -> Result<(), Problem> {
+    let least = match element {
+        Element::Text | Element::Bytes => size_of::<String>() as u64,
+        Element::Bool => 1,
+        Element::Unsigned(bits) | Element::Signed(bits) | Element::Float(bits) => {
+            u64::from(bits / 8)
+        }
+    };
+    let each = held_bytes.max(least);
+    let bytes = shape
+        .iter()
+        .try_fold(each, |product, side| product.checked_mul(*side));
+    match bytes {
+        Some(bytes) if bytes <= limits::READ_BYTES => Ok(()),
+        more => Err(Problem::too_large(
+            "bytes of these rows (read fewer at a time)",
+            more.unwrap_or(u64::MAX),
+            limits::READ_BYTES,
+        )),
+    }
+}
+
+impl From<ArrayValues> for ArrayData {
+    /// One axis.
+    fn from(values: ArrayValues) -> ArrayData {
+        ArrayData {
+            shape: vec![values.len() as u64],
+            values,
+        }
+    }
+}

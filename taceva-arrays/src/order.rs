@@ -1,0 +1,190 @@
+//! Arrays that lie column by column (Fortran order, the first axis fastest), turned to rows block by block.
+
+use std::ops::Range;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use crate::error::Problem;
+use crate::limits;
+use crate::source::{ByteSource, bytes_of};
+
+/// Columns are read so many bytes at a time where they are short.
+const PIECE_BYTES: u64 = 1 << 20;
+
+/// An array whose first axis is fastest. Rows are turned in blocks of up to 64 MiB, the last of which is kept, so that reading row after
+/// row goes through the file once for every 64 MiB of it.
+#[derive(Debug)]
+pub(crate) struct ColumnMajor {
+    rows: u64,
+    item_bytes: u64,
+    /// Lengths of the axes behind the first.
+    rest: Vec<u64>,
+    row_elements: u64,
+    data_at: u64,
+    kept: Mutex<Option<(Range<u64>, Arc<Vec<u8>>)>>,
+}
+
+impl ColumnMajor {
+    /// Its bytes begin at `data_at`; the sizes were checked against the source.
+    pub(crate) fn new(shape: &[u64], item_bytes: u64, data_at: u64) -> ColumnMajor {
+        let rest = shape.get(1..).unwrap_or(&[]).to_vec();
+        ColumnMajor {
+            rows: shape.first().copied().unwrap_or(1),
+            item_bytes,
+            row_elements: rest.iter().product(),
+            rest,
+            data_at,
+            kept: Mutex::new(None),
+        }
+    }
+
+    /// The bytes of `rows`, row by row.
+    pub(crate) fn rows(
+        &self,
+        source: &dyn ByteSource,
+        rows: Range<u64>,
+    ) -> Result<Vec<u8>, Problem> {
+        let row_bytes = self.row_elements * self.item_bytes;
+        if row_bytes == 0 || rows.is_empty() {
+            return Ok(Vec::new());
+        }
+        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        let (block, turned) = match &*kept {
+            Some((block, turned)) if block.start <= rows.start && rows.end <= block.end => {
+                (block.clone(), Arc::clone(turned))
+            }
+            _ => {
+                let fit = (limits::TURNED_BYTES / row_bytes).max(rows.end - rows.start);
+                let block = rows.start..rows.start.saturating_add(fit).min(self.rows);
+                let turned = Arc::new(self.turned(source, block.clone())?);
+                *kept = Some((block.clone(), Arc::clone(&turned)));
+                (block, turned)
+            }
+        };
+        drop(kept);
+        let place =
+            |row: u64| usize::try_from((row - block.start) * row_bytes).unwrap_or(usize::MAX);
+        Ok(turned[place(rows.start)..place(rows.end)].to_vec())
+    }
+
+    fn turned(&self, source: &dyn ByteSource, block: Range<u64>) -> Result<Vec<u8>, Problem> {
+        let size = |bytes: u64| {
+            usize::try_from(bytes)
+                .map_err(|_| Problem::too_large("bytes", bytes, limits::READ_BYTES))
+        };
+        let item = size(self.item_bytes)?;
+        let count = size(block.end - block.start)?;
+        let row = size(self.row_elements * self.item_bytes)?;
+        let mut turned = vec![0; count * row];
+        let column_bytes = self.rows * self.item_bytes;
+        let at_once = (PIECE_BYTES / column_bytes).max(1);
+        let mut places = Places::new(&self.rest);
+        let mut column = 0;
+        while column < self.row_elements {
+            let columns = at_once.min(self.row_elements - column);
+            let start = self.data_at + column * column_bytes;
+            // Short columns are read whole, of a long one only the rows of the block.
+            let (piece, first) = if column_bytes <= PIECE_BYTES {
+                (
+                    bytes_of(source, start, columns * column_bytes)?,
+                    size(block.start * self.item_bytes)?,
+                )
+            } else {
+                let from = start + block.start * self.item_bytes;
+                (
+                    bytes_of(source, from, (block.end - block.start) * self.item_bytes)?,
+                    0,
+                )
+            };
+            for whole in piece.chunks_exact(piece.len() / size(columns)?) {
+                let place = places.next_place() * item;
+                let of_block = &whole[first..first + count * item];
+                for (into, from) in turned
+                    .chunks_exact_mut(row)
+                    .zip(of_block.chunks_exact(item))
+                {
+                    into[place..place + item].copy_from_slice(from);
+                }
+            }
+            column += columns;
+        }
+        Ok(turned)
+    }
+}
+
+/// Where the columns, the second axis fastest, stand in a row whose last axis is fastest.
+struct Places {
+    sides: Vec<u64>,
+    strides: Vec<usize>,
+    index: Vec<u64>,
+    place: usize,
+}
+
+impl Places {
+    fn new(sides: &[u64]) -> Places {
+        let mut strides = vec![1; sides.len()];
+        for axis in (1..sides.len()).rev() {
+            strides[axis - 1] = strides[axis] * usize::try_from(sides[axis]).unwrap_or(usize::MAX);
+        }
+        Places {
+            sides: sides.to_vec(),
+            strides,
+            index: vec![0; sides.len()],
+            place: 0,
+        }
+    }
+
+    /// The place of the next column, in elements.
+    fn next_place(&mut self) -> usize {
+        let here = self.place;
+        for axis in 0..self.sides.len() {
+            self.index[axis] += 1;
+            self.place += self.strides[axis];
+            if self.index[axis] < self.sides[axis] {
+                break;
+            }
+            self.place -= self.strides[axis] * usize::try_from(self.sides[axis]).unwrap_or(0);
+            self.index[axis] = 0;
+        }
+        here
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_of_columns_are_what_numpy_calls_c_order() {
+        // np.arange(24).reshape(2, 3, 4) in Fortran order.
+        let (rows, sides) = (2, [3, 4]);
+        let mut columns = Vec::new();
+        for last in 0..4 {
+            for middle in 0..3 {
+                columns.extend((0..rows).map(|row| row * 12 + middle * 4 + last));
+            }
+        }
+        let array = ColumnMajor::new(&[2, sides[0], sides[1]], 1, 0);
+        assert_eq!(
+            array.rows(&columns, 1..2).expect("there"),
+            (12..24).collect::<Vec<u8>>()
+        );
+        assert_eq!(
+            array.rows(&columns, 0..2).expect("there"),
+            (0..24).collect::<Vec<u8>>()
+        );
+        assert_eq!(array.rows(&columns, 0..0).expect("there"), Vec::<u8>::new());
+    }
+
+    #[test]
+    fn long_columns_are_read_in_part() {
+        let rows = PIECE_BYTES + 5;
+        let columns: Vec<u8> = (0..2 * rows)
+            .map(|at| if at < rows { 1 } else { 2 })
+            .collect();
+        let array = ColumnMajor::new(&[rows, 2], 1, 0);
+        assert_eq!(
+            array.rows(&columns, rows - 2..rows).expect("there"),
+            [1, 2, 1, 2]
+        );
+    }
+}

@@ -1,0 +1,29 @@
+//! What every form gives: a list of arrays, and rows of each.
+
+use std::ops::Range;
+
+use crate::element::ArrayInfo;
+use crate::error::Problem;
+use crate::values::ArrayData;
+
+/// Arrays with their names, in the order of the file.
+pub(crate) type Arrays = Vec<(String, ArrayInfo)>;
+
+/// A file of arrays that is open.
+pub(crate) trait Store: std::fmt::Debug + Send + Sync {
+    /// Every array with its name.
+    fn arrays(&self) -> Arrays;
+
+    /// The full names of the groups, in no order; forms without groups have none.
+    fn groups(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// The attribute `name` of the group or array `owner`, as text.
+    fn attribute(&self, _owner: &str, _name: &str) -> Option<String> {
+        None
+    }
+
+    /// Rows of the array at `index` of the list; they were checked against its shape and the limits.
+    fn read(&self, index: usize, rows: Range<u64>) -> Result<ArrayData, Problem>;
+}

@@ -1,0 +1,136 @@
+//! What is read of an array.
+
+/// Rows of an array: their shape, and the elements row by row (C order).
+///
+/// ```no_run
+/// use taceva_arrays::{ArrayFile, ArrayFormat, ArrayValues};
+///
+/// let file = ArrayFile::open("run.npz".as_ref(), ArrayFormat::Npz)?;
+/// let wrench = file.read("ft", 0..10)?;
+/// assert_eq!(wrench.shape, [10, 6]);
+/// if let ArrayValues::F64(newtons) = wrench.values {
+///     assert_eq!(newtons.len(), 60);
+/// }
+/// # Ok::<(), taceva_arrays::ArrayError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct ArrayData {
+    /// Lengths of the axes; the first is the number of rows read. A single number has none.
+    pub shape: Vec<u64>,
+    /// The elements, as many as the product of the shape.
+    pub values: ArrayValues,
+}
+
+/// Elements in the byte order of this machine. Numbers of 16 bits with a floating point are widened to 32, which is exact.
+///
+/// ```
+/// use taceva_arrays::ArrayValues;
+///
+/// let values = ArrayValues::I16(vec![-3, 4]);
+/// assert_eq!(values.len(), 2);
+/// assert_eq!(values.to_f64(), Some(vec![-3.0, 4.0]));
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum ArrayValues {
+    /// True or false.
+    Bool(Vec<bool>),
+    /// Unsigned, 8 bits.
+    U8(Vec<u8>),
+    /// Unsigned, 16 bits.
+    U16(Vec<u16>),
+    /// Unsigned, 32 bits.
+    U32(Vec<u32>),
+    /// Unsigned, 64 bits.
+    U64(Vec<u64>),
+    /// Signed, 8 bits.
+    I8(Vec<i8>),
+    /// Signed, 16 bits.
+    I16(Vec<i16>),
+    /// Signed, 32 bits.
+    I32(Vec<i32>),
+    /// Signed, 64 bits.
+    I64(Vec<i64>),
+    /// Floating point of 16 or 32 bits.
+    F32(Vec<f32>),
+    /// Floating point, 64 bits.
+    F64(Vec<f64>),
+    /// Text.
+    Text(Vec<String>),
+    /// Bytes of any length.
+    Bytes(Vec<Vec<u8>>),
+}
+
+impl ArrayValues {
+    /// How many elements there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        match self {
+            ArrayValues::Bool(all) => all.len(),
+            ArrayValues::U8(all) => all.len(),
+            ArrayValues::U16(all) => all.len(),
+            ArrayValues::U32(all) => all.len(),
+            ArrayValues::U64(all) => all.len(),
+            ArrayValues::I8(all) => all.len(),
+            ArrayValues::I16(all) => all.len(),
+            ArrayValues::I32(all) => all.len(),
+            ArrayValues::I64(all) => all.len(),
+            ArrayValues::F32(all) => all.len(),
+            ArrayValues::F64(all) => all.len(),
+            ArrayValues::Text(all) => all.len(),
+            ArrayValues::Bytes(all) => all.len(),
+        }
+    }
+
+    /// Whether there is none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Numbers as `f64`, true as 1. `None` of text and bytes, and where a number of 64 bits has no exact `f64`.
+    #[must_use]
+    pub fn to_f64(&self) -> Option<Vec<f64>> {
+        fn all<T: Copy + Into<f64>>(values: &[T]) -> Option<Vec<f64>> {
+            Some(values.iter().map(|value| (*value).into()).collect())
+        }
+        match self {
+            ArrayValues::Bool(values) => Some(
+                values
+                    .iter()
+                    .map(|value| f64::from(u8::from(*value)))
+                    .collect(),
+            ),
+            ArrayValues::U8(values) => all(values),
+            ArrayValues::U16(values) => all(values),
+            ArrayValues::U32(values) => all(values),
+            ArrayValues::I8(values) => all(values),
+            ArrayValues::I16(values) => all(values),
+            ArrayValues::I32(values) => all(values),
+            ArrayValues::F32(values) => all(values),
+            ArrayValues::F64(values) => Some(values.clone()),
+            ArrayValues::U64(values) => values
+                .iter()
+                .map(|value| exact(i128::from(*value)))
+                .collect(),
+            ArrayValues::I64(values) => values
+                .iter()
+                .map(|value| exact(i128::from(*value)))
+                .collect(),
+            ArrayValues::Text(_) | ArrayValues::Bytes(_) => None,
+        }
+    }
+}
+
+/// A whole number as `f64`, if that is exact.
+fn exact(number: i128) -> Option<f64> {
+    #[expect(clippy::cast_precision_loss, reason = "compared with the number again")]
+    let near = number as f64;
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "near is whole and below 2^65"
+    )]
+    let back = near as i128;
+    (back == number).then_some(near)
+}

@@ -1,0 +1,284 @@
+//! Arrays as tables: a row is what the arrays hold at one place of their first axis.
+
+mod frames;
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use taceva_arrays::{ArrayError, ArrayFile, ArrayFormat, ArrayInfo, ArrayValues};
+
+use super::columns::ColumnSource;
+use super::pictures::Pictures;
+use crate::import::FrameNames;
+pub(crate) use frames::ArrayPictures;
+
+/// How long a column may be, as text in memory, bytes.
+const COLUMN_BYTES: u64 = 1 << 30;
+/// Arrays that a message lists.
+const LISTED: usize = 64;
+
+/// The rows of a file of arrays, of one group or several.
+#[derive(Debug)]
+pub(crate) struct ArrayRows {
+    path: PathBuf,
+    file: Arc<ArrayFile>,
+    /// The groups whose arrays are columns, or the table itself of an HDF5 table; one without a name where the file has none.
+    groups: Vec<Group>,
+}
+
+#[derive(Debug)]
+struct Group {
+    path: String,
+    rows: usize,
+}
+
+impl ArrayRows {
+    /// The arrays of the groups that `rows` names, or of the whole file.
+    pub(super) fn open(
+        path: &Path,
+        format: ArrayFormat,
+        rows: Option<&str>,
+    ) -> Result<ArrayRows, String> {
+        let file = ArrayFile::open(path, format).map_err(said)?;
+        let paths = match rows {
+            None | Some("" | "/") => vec![String::new()],
+            Some(pattern) => match file.groups(pattern) {
+                found if found.is_empty() => vec![pattern.trim_end_matches('/').to_owned()],
+                found => found,
+            },
+        };
+        let groups: Result<Vec<Group>, String> = paths
+            .into_iter()
+            .map(|path| {
+                let rows = rows_of(&file, &path)?;
+                Ok(Group { path, rows })
+            })
+            .collect();
+        Ok(ArrayRows {
+            path: path.to_owned(),
+            groups: groups?,
+            file: Arc::new(file),
+        })
+    }
+
+    /// The array of a group that the map calls `name`.
+    fn info(&self, group: &Group, name: &str) -> Option<(String, &ArrayInfo)> {
+        candidates(&group.path, name)
+            .into_iter()
+            .find_map(|path| self.file.info(&path).map(|info| (path, info)))
+    }
+
+    fn attribute(&self, group: &Group, name: &str) -> Option<String> {
+        let (owner, attribute) = name.rsplit_once('@')?;
+        let owner = owner.trim_end_matches('/');
+        let owner = match owner {
+            "" => group.path.clone(),
+            _ => format!("{}/{owner}", group.path),
+        };
+        let owner = if owner.is_empty() { "/" } else { &owner };
+        self.file.attribute(owner, attribute)
+    }
+
+    fn cells(&self, group: &Group, name: &str) -> Result<Vec<String>, String> {
+        if let Some(text) = self.attribute(group, name) {
+            return Ok(vec![text; group.rows]);
+        }
+        if name == "group" {
+            let last = group.path.rsplit('/').next().unwrap_or_default();
+            return Ok(vec![last.to_owned(); group.rows]);
+        }
+        let (path, info) = self
+            .info(group, name)
+            .ok_or_else(|| format!("there is no array of this name in `{}`", group.path))?;
+        let across = info.row_elements().ok_or("larger than any memory")?;
+        if across.saturating_mul(info.rows()) > COLUMN_BYTES / 8 {
+            return Err(format!(
+                "{} rows of {across} values are no labels: `[frame] array = \"{name}\"` reads frames",
+                info.rows()
+            ));
+        }
+        let is_scalar = info.shape.is_empty() || (info.rows() == 1 && group.rows != 1);
+        if !is_scalar && info.rows() != group.rows as u64 {
+            return Err(format!(
+                "{} values along its first axis, where the other arrays have {}",
+                info.rows(),
+                group.rows
+            ));
+        }
+        let read = self.file.read(&path, 0..info.rows()).map_err(said)?;
+        let sides = info.shape.iter().skip(1);
+        let shape: Result<Vec<usize>, _> = sides.map(|side| usize::try_from(*side)).collect();
+        let shape = shape.map_err(|error| error.to_string())?;
+        let texts = Texts(&read.values);
+        let width = usize::try_from(across).map_err(|error| error.to_string())?;
+        let cell = |row: usize| texts.packed(row * width, &shape);
+        Ok(match is_scalar {
+            true => vec![cell(0); group.rows],
+            false => (0..group.rows).map(cell).collect(),
+        })
+    }
+}
+
+impl ColumnSource for ArrayRows {
+    fn rows(&self) -> usize {
+        self.groups.iter().map(|group| group.rows).sum()
+    }
+
+    fn names(&self) -> Vec<String> {
+        let Some(group) = self.groups.first() else {
+            return Vec::new();
+        };
+        let names = self.file.names().into_iter();
+        let inside = |name: String| match group.path.as_str() {
+            "" => Some(name.trim_start_matches('/').to_owned()),
+            path => {
+                let rest = name.strip_prefix(path)?;
+                Some(rest.strip_prefix(['/', '.'])?.to_owned())
+            }
+        };
+        names.filter_map(inside).take(LISTED).collect()
+    }
+
+    fn has(&self, name: &str) -> bool {
+        let of = |group: &Group| {
+            self.info(group, name).is_some() || self.attribute(group, name).is_some()
+        };
+        match name {
+            "group" => self.groups.iter().any(|group| !group.path.is_empty()),
+            _ => self.groups.first().is_some_and(of),
+        }
+    }
+
+    fn column(&self, name: &str) -> Result<Vec<String>, String> {
+        let mut cells = Vec::with_capacity(self.rows());
+        for group in &self.groups {
+            cells.extend(self.cells(group, name)?);
+        }
+        Ok(cells)
+    }
+
+    fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, String> {
+        let name = match names {
+            FrameNames::Array(array) => array.path.as_deref().unwrap_or("value"),
+            FrameNames::Bytes(column) => column,
+            _ => return Err("frames of another kind than arrays or bytes".to_owned()),
+        };
+        let parts: Result<Vec<String>, String> = self
+            .groups
+            .iter()
+            .map(|group| {
+                let found = self.info(group, name).map(|(path, _)| path);
+                found.ok_or_else(|| {
+                    format!(
+                        "there is no array `{name}` for the frames in {}; there are {}",
+                        match group.path.as_str() {
+                            "" => "it",
+                            path => path,
+                        },
+                        self.names().join(", ")
+                    )
+                })
+            })
+            .collect();
+        let pictures = ArrayPictures::new((&self.path, Arc::clone(&self.file)), parts?, names)?;
+        Ok(Arc::new(pictures))
+    }
+}
+
+/// The arrays that `name` may mean in a group: one of the group, a field of the table, one named from the root.
+fn candidates(group: &str, name: &str) -> Vec<String> {
+    let bare = name.trim_start_matches('/');
+    let mut paths = Vec::new();
+    if name.starts_with('/') {
+        paths.push(format!("/{bare}"));
+    }
+    paths.extend([
+        format!("{group}/{bare}"),
+        format!("{group}.{bare}"),
+        bare.to_owned(),
+    ]);
+    paths
+}
+
+/// The rows of a group: the length of the first axis that most of its arrays have, the longest of several.
+fn rows_of(file: &ArrayFile, group: &str) -> Result<usize, String> {
+    let mut lengths: BTreeMap<u64, usize> = BTreeMap::new();
+    let names = file.names();
+    let inside = names.iter().filter(|name| {
+        group.is_empty()
+            || *name == group
+            || name
+                .strip_prefix(group)
+                .is_some_and(|rest| rest.starts_with(['/', '.']))
+    });
+    for info in inside.filter_map(|name| file.info(name)) {
+        if !info.shape.is_empty() {
+            *lengths.entry(info.rows()).or_default() += 1;
+        }
+    }
+    let most = lengths
+        .iter()
+        .max_by_key(|(length, count)| (**count, **length));
+    match most {
+        Some((length, _)) => usize::try_from(*length).map_err(|error| error.to_string()),
+        None => Err(format!(
+            "no array with rows {}; there are {}",
+            match group {
+                "" => "in it".to_owned(),
+                group => format!("in `{group}`"),
+            },
+            names.join(", ")
+        )),
+    }
+}
+
+fn said(error: ArrayError) -> String {
+    match error.array {
+        Some(array) => format!("`{array}`: {}", error.problem),
+        None => error.problem.to_string(),
+    }
+}
+
+/// Values of an array as the cells of a table.
+struct Texts<'a>(&'a ArrayValues);
+
+impl Texts<'_> {
+    /// The values from `first` on that have this shape, as lists in lists.
+    fn packed(&self, first: usize, shape: &[usize]) -> String {
+        let Some((count, rest)) = shape.split_first() else {
+            return self.one(first);
+        };
+        let width: usize = rest.iter().product();
+        let parts: Vec<String> = (0..*count)
+            .map(|at| self.packed(first + at * width, rest))
+            .collect();
+        format!("[{}]", parts.join(", "))
+    }
+
+    fn one(&self, at: usize) -> String {
+        match self.0 {
+            ArrayValues::Bool(all) => all[at].to_string(),
+            ArrayValues::U8(all) => all[at].to_string(),
+            ArrayValues::U16(all) => all[at].to_string(),
+            ArrayValues::U32(all) => all[at].to_string(),
+            ArrayValues::U64(all) => all[at].to_string(),
+            ArrayValues::I8(all) => all[at].to_string(),
+            ArrayValues::I16(all) => all[at].to_string(),
+            ArrayValues::I32(all) => all[at].to_string(),
+            ArrayValues::I64(all) => all[at].to_string(),
+            ArrayValues::F32(all) => number(f64::from(all[at])),
+            ArrayValues::F64(all) => number(all[at]),
+            ArrayValues::Text(all) => all[at].clone(),
+            _ => String::new(),
+        }
+    }
+}
+
+/// A number as a cell; one that is none is an empty cell.
+fn number(value: f64) -> String {
+    match value.is_nan() {
+        true => String::new(),
+        false => format!("{value:?}"),
+    }
+}

@@ -1,0 +1,239 @@
+//! All frames: files by many threads at once, pictures in other files in the order in which they lie there.
+
+use std::num::NonZeroUsize;
+use std::path::Path;
+use std::sync::Arc;
+
+use taceva_core::{FrameInfo, Progress};
+
+use super::picture::Copied;
+use crate::decode::ImageKind;
+use crate::error::DatasetError;
+use crate::foreign::{Picture, Pictures};
+use crate::header::{FramesInfo, ReferenceInfo};
+use crate::import::plan::{FrameSource, PlannedFrames};
+use crate::layout;
+use crate::parallel::ordered_map;
+use crate::staged::StagedFolder;
+use crate::table::Table;
+
+/// Frames copied at a time by each job: most of a copy is waiting until the disk has it, and disks like to be asked for
+/// several files at once.
+const COPIES_A_JOB: NonZeroUsize = NonZeroUsize::new(4).expect("four");
+/// Pictures of other files that are held in memory while they are written, bytes.
+const HELD_BYTES: usize = 16 << 20;
+
+/// Copies all frames; returns what they share and the folders they lie in.
+pub(super) fn copy_frames(
+    staged: &StagedFolder,
+    frames: &PlannedFrames,
+    table: &mut Table,
+    jobs: NonZeroUsize,
+    progress: &dyn Progress,
+) -> Result<(Option<FramesInfo>, Vec<String>), DatasetError> {
+    let count = frames.of_rows.len();
+    let mut folders = vec![layout::FRAMES.to_owned()];
+    folders.extend(layout::frame_folders(count));
+    for folder in &folders {
+        staged.create_folder(folder)?;
+    }
+    progress.begin("verify and copy frames", Some(count as u64));
+    let mut copying = Copying {
+        staged,
+        frames,
+        table,
+        jobs: jobs.saturating_mul(COPIES_A_JOB),
+        progress,
+        first: None,
+    };
+    let outcome = copying.all();
+    let first = copying.first;
+    progress.end();
+    outcome?;
+    let Some((_, info)) = first else {
+        return Ok((None, folders));
+    };
+    let reference = frames
+        .reference
+        .as_ref()
+        .map(|path| copy_reference(staged, path, frames, info))
+        .transpose()?;
+    let shared = FramesInfo {
+        count: count as u64,
+        info,
+        channel_order: frames.order,
+        reference,
+    };
+    Ok((Some(shared), folders))
+}
+
+struct Copying<'a> {
+    staged: &'a StagedFolder,
+    frames: &'a PlannedFrames,
+    table: &'a mut Table,
+    jobs: NonZeroUsize,
+    progress: &'a dyn Progress,
+    /// What every frame is like.
+    first: Option<(ImageKind, FrameInfo)>,
+}
+
+impl Copying<'_> {
+    fn all(&mut self) -> Result<(), DatasetError> {
+        let rows = self.frames.of_rows.iter().enumerate();
+        let files: Vec<(usize, &Path)> = rows
+            .filter_map(|(row, planned)| match &planned.from {
+                FrameSource::File(path) => Some((row, path.as_path())),
+                FrameSource::Within(..) => None,
+            })
+            .collect();
+        let (staged, order) = (self.staged, self.frames.order);
+        ordered_map(
+            files.len(),
+            self.jobs,
+            |at| {
+                let (row, path) = files[at];
+                Copied::of_file(staged, path, order, |extension| {
+                    layout::frame_path(row, extension)
+                })
+            },
+            |at, copied| self.take(files[at].0, copied),
+        )?;
+        for (pictures, rows) in within(self.frames) {
+            self.within(pictures.as_ref(), &rows)?;
+        }
+        Ok(())
+    }
+
+    /// Copies the pictures of one file; `rows` are their numbers, ascending, and the rows that they belong to.
+    fn within(
+        &mut self,
+        pictures: &dyn Pictures,
+        rows: &[(u64, usize)],
+    ) -> Result<(), DatasetError> {
+        let mut wanted: Vec<u64> = rows.iter().map(|(index, _)| *index).collect();
+        wanted.dedup();
+        let mut held: Vec<(usize, Arc<Picture>)> = Vec::new();
+        let mut bytes = 0;
+        let mut taken = 0;
+        let outcome = pictures.visit(&wanted, self.frames.order, &mut |index, picture| {
+            bytes += picture.size();
+            let picture = Arc::new(picture);
+            let own = rows[taken..].iter().take_while(|(of, _)| *of == index);
+            let before = held.len();
+            held.extend(own.map(|(_, row)| (*row, Arc::clone(&picture))));
+            taken += held.len() - before;
+            if bytes < HELD_BYTES {
+                return Ok(());
+            }
+            bytes = 0;
+            self.write(pictures.path(), std::mem::take(&mut held))
+        });
+        // What was handed over before a damaged one is written first, so that the error names the row of the damaged one.
+        self.write(pictures.path(), held)?;
+        let next = rows.get(taken).map(|(_, row)| *row);
+        outcome.map_err(|error| match next {
+            Some(row) => error.named_at(self.frames.of_rows[row].named_at.clone()),
+            None => error,
+        })
+    }
+
+    fn write(&mut self, path: &Path, held: Vec<(usize, Arc<Picture>)>) -> Result<(), DatasetError> {
+        let (staged, order) = (self.staged, self.frames.order);
+        ordered_map(
+            held.len(),
+            self.jobs,
+            |at| {
+                let (row, picture) = &held[at];
+                Copied::of_picture(staged, path, picture, (order, *row))
+            },
+            |at, copied| self.take(held[at].0, copied),
+        )
+    }
+
+    fn take(
+        &mut self,
+        row: usize,
+        copied: Result<Copied, DatasetError>,
+    ) -> Result<(), DatasetError> {
+        if self.progress.is_cancelled() {
+            return Err(DatasetError::Cancelled);
+        }
+        let named_at = || self.frames.of_rows[row].named_at.clone();
+        let copied = copied.map_err(|error| error.named_at(named_at()))?;
+        let found = (copied.kind, copied.info);
+        let expected = *self.first.get_or_insert(found);
+        check_alike(self.frames, row, expected, found)?;
+        self.table.set_frame(row, copied.entry, copied.intensity);
+        self.progress.advance(1);
+        Ok(())
+    }
+}
+
+/// A file with pictures in it, the numbers of those that are wanted, ascending, and the row of each.
+type Within = (Arc<dyn Pictures>, Vec<(u64, usize)>);
+
+/// The files with pictures in them, each with the numbers of its pictures, ascending, and their rows.
+fn within(frames: &PlannedFrames) -> Vec<Within> {
+    let mut found: Vec<Within> = Vec::new();
+    for (row, planned) in frames.of_rows.iter().enumerate() {
+        let FrameSource::Within(pictures, index) = &planned.from else {
+            continue;
+        };
+        // Rows of one file mostly follow one another.
+        let known = found
+            .iter_mut()
+            .rev()
+            .find(|(known, _)| Arc::ptr_eq(known, pictures));
+        match known {
+            Some((_, rows)) => rows.push((*index, row)),
+            None => found.push((Arc::clone(pictures), vec![(*index, row)])),
+        }
+    }
+    for (_, rows) in &mut found {
+        rows.sort_unstable();
+    }
+    found
+}
+
+fn copy_reference(
+    staged: &StagedFolder,
+    path: &Path,
+    frames: &PlannedFrames,
+    expected: FrameInfo,
+) -> Result<ReferenceInfo, DatasetError> {
+    let copied = Copied::of_file(staged, path, frames.order, layout::reference_path)?;
+    if copied.info != expected {
+        return Err(DatasetError::Image {
+            place: None,
+            path: path.to_owned(),
+            problem: format!("{}, expected {expected} as the other frames", copied.info),
+        });
+    }
+    Ok(ReferenceInfo {
+        path: copied.entry.path,
+        sha256: copied.entry.digest,
+    })
+}
+
+fn check_alike(
+    frames: &PlannedFrames,
+    row: usize,
+    expected: (ImageKind, FrameInfo),
+    found: (ImageKind, FrameInfo),
+) -> Result<(), DatasetError> {
+    if expected == found {
+        return Ok(());
+    }
+    let planned = &frames.of_rows[row];
+    Err(DatasetError::Image {
+        place: Some(Box::new(planned.named_at.clone())),
+        path: planned.from.path().to_owned(),
+        problem: format!(
+            "{} {}, expected {} {} as the first frame",
+            found.0.extension(),
+            found.1,
+            expected.0.extension(),
+            expected.1
+        ),
+    })
+}

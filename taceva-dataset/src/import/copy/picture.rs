@@ -1,0 +1,108 @@
+//! One frame: verified, written, described.
+
+use std::path::Path;
+
+use taceva_core::{Frame, FrameInfo};
+
+use crate::decode::{ChannelOrder, ImageKind, check_to_the_end, decode};
+use crate::digest::Digest;
+use crate::encode::encode_png;
+use crate::error::DatasetError;
+use crate::file::{read_capped, write_durable};
+use crate::foreign::Picture;
+use crate::layout;
+use crate::limits;
+use crate::staged::StagedFolder;
+use crate::table::FrameEntry;
+
+/// A frame that was verified and written.
+pub(super) struct Copied {
+    pub(super) kind: ImageKind,
+    pub(super) info: FrameInfo,
+    pub(super) entry: FrameEntry,
+    pub(super) intensity: f64,
+}
+
+impl Copied {
+    /// Writes `bytes`, the file of `frame`, at `relative` of the staged folder.
+    fn write(
+        staged: &StagedFolder,
+        relative: String,
+        bytes: &[u8],
+        (kind, frame): (ImageKind, &Frame),
+    ) -> Result<Copied, DatasetError> {
+        write_durable(&staged.path().join(&relative), bytes)?;
+        Ok(Copied {
+            kind,
+            info: frame.info(),
+            entry: FrameEntry {
+                path: relative,
+                span: None,
+                digest: Digest::of(bytes),
+            },
+            intensity: frame.mean_luma(),
+        })
+    }
+
+    /// Verifies the image at `path` and writes the same bytes where `place` says.
+    pub(super) fn of_file(
+        staged: &StagedFolder,
+        path: &Path,
+        order: ChannelOrder,
+        place: impl FnOnce(&str) -> String,
+    ) -> Result<Copied, DatasetError> {
+        let bytes = read_capped(path, limits::IMAGE_BYTES)?;
+        let (kind, frame) = whole(&bytes, order).map_err(|problem| wrong(path, problem))?;
+        let extension = path
+            .extension()
+            .and_then(|extension| extension.to_str())
+            .filter(|extension| kind.has_extension(extension))
+            .unwrap_or(kind.extension());
+        Copied::write(staged, place(extension), &bytes, (kind, &frame))
+    }
+
+    /// Writes a picture found in the file at `path` as the frame of `row`: its bytes where it was encoded, else as PNG.
+    pub(super) fn of_picture(
+        staged: &StagedFolder,
+        path: &Path,
+        picture: &Picture,
+        (order, row): (ChannelOrder, usize),
+    ) -> Result<Copied, DatasetError> {
+        match picture {
+            Picture::Encoded(bytes) => {
+                let (kind, frame) = whole(bytes, order).map_err(|problem| wrong(path, problem))?;
+                let relative = layout::frame_path(row, kind.extension());
+                Copied::write(staged, relative, bytes, (kind, &frame))
+            }
+            Picture::Pixels(frame) => {
+                let is_gray = frame.info().format.samples() == 1;
+                if is_gray != (order == ChannelOrder::Gray) {
+                    let problem = format!(
+                        "channel order `{}` is declared, the frames are {}",
+                        order.name(),
+                        frame.info()
+                    );
+                    return Err(wrong(path, problem));
+                }
+                let bytes = encode_png(frame).map_err(|problem| wrong(path, problem))?;
+                let relative = layout::frame_path(row, ImageKind::Png.extension());
+                Copied::write(staged, relative, &bytes, (ImageKind::Png, frame))
+            }
+        }
+    }
+}
+
+/// What `bytes` show, read to their end.
+fn whole(bytes: &[u8], order: ChannelOrder) -> Result<(ImageKind, Frame), String> {
+    let (kind, frame) = decode(bytes, order)?;
+    check_to_the_end(bytes, kind)?;
+    Ok((kind, frame))
+}
+
+fn wrong(path: &Path, problem: String) -> DatasetError {
+    DatasetError::Image {
+        place: None,
+        path: path.to_owned(),
+        problem,
+    }
+}

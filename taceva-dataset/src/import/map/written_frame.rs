@@ -1,0 +1,154 @@
+//! Where the frames are, as it is written.
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::written::{Check, ColumnName};
+use super::{ArrayFrames, ArrayLayout, FrameMap, FrameNames, PixelRange, VideoFrames};
+use crate::decode::ChannelOrder;
+use crate::error::DatasetError;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub(super) struct WrittenFrame {
+    column: Option<ColumnName>,
+    pattern: Option<String>,
+    array: Option<WrittenArray>,
+    bytes: Option<ColumnName>,
+    video: Option<String>,
+    index: Option<ColumnName>,
+    layout: Option<ArrayLayout>,
+    range: Option<[f64; 2]>,
+    bits: Option<u8>,
+    folder: Option<String>,
+    channel_order: ChannelOrder,
+    reference: String,
+}
+
+/// An array: its name in the file of the table (of map version 1: its file), or the file too.
+#[derive(Deserialize)]
+#[serde(
+    untagged,
+    expecting = "the name of an array, or { file = …, path = … }"
+)]
+enum WrittenArray {
+    Name(String),
+    InFile(WrittenArrayFile),
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenArrayFile {
+    file: String,
+    path: Option<String>,
+}
+
+impl WrittenFrame {
+    /// Whether maps of version 1 cannot say it.
+    pub(super) fn is_extended(&self) -> bool {
+        let is_array_extended = match &self.array {
+            None => false,
+            Some(WrittenArray::InFile(_)) => true,
+            // Named twice, it is wrong in any version.
+            Some(WrittenArray::Name(_)) => {
+                self.index.is_none() && self.column.is_none() && self.pattern.is_none()
+            }
+        };
+        let has_more = self.layout.is_some() || self.range.is_some() || self.bits.is_some();
+        is_array_extended || has_more || self.bytes.is_some() || self.video.is_some()
+    }
+}
+
+impl Check<'_> {
+    pub(super) fn frame(
+        &self,
+        written: Spanned<WrittenFrame>,
+        is_extended: bool,
+    ) -> Result<FrameMap, DatasetError> {
+        let offset = written.span().start;
+        let written = written.into_inner();
+        let range = self.range(written.range, written.bits, offset)?;
+        let has_index = written.index.is_some();
+        let index = written
+            .index
+            .map_or_else(|| "row".to_owned(), ColumnName::into_name);
+        if written.array.is_none() && (written.layout.is_some() || range.is_some()) {
+            return Err(self.at(offset, "`layout`, `range` and `bits` are for an `array`"));
+        }
+        let given = (
+            written.column,
+            written.pattern,
+            written.array,
+            written.bytes,
+            written.video,
+        );
+        let names = match given {
+            (Some(column), None, None, None, None) if !has_index => {
+                FrameNames::Column(column.into_name())
+            }
+            (None, Some(pattern), None, None, None) if !has_index => {
+                self.relative(&pattern, offset)?;
+                FrameNames::Pattern(pattern)
+            }
+            (None, None, Some(array), None, None) => {
+                let (file, path) = match array {
+                    WrittenArray::Name(file) if !is_extended => (Some(file), None),
+                    WrittenArray::Name(path) => (None, Some(path)),
+                    WrittenArray::InFile(array) => (Some(array.file), array.path),
+                };
+                file.iter()
+                    .try_for_each(|file| self.relative(file, offset))?;
+                FrameNames::Array(ArrayFrames {
+                    file,
+                    path,
+                    index,
+                    layout: written.layout,
+                    range,
+                })
+            }
+            (None, None, None, Some(column), None) if !has_index => {
+                FrameNames::Bytes(column.into_name())
+            }
+            (None, None, None, None, Some(file)) => {
+                self.relative(&file, offset)?;
+                FrameNames::Video(VideoFrames { file, index })
+            }
+            _ => {
+                return Err(self.at(
+                    offset,
+                    "frames are in files named by `column` or `pattern`, in an `array` or a `video` (with the column of the position as `index`), or as \
+                     `bytes` in the table: expected one of the five",
+                ));
+            }
+        };
+        let reference = Some(written.reference).filter(|path| path != "unknown");
+        for path in reference.iter().chain(&written.folder) {
+            self.relative(path, offset)?;
+        }
+        Ok(FrameMap {
+            names,
+            folder: written.folder,
+            channel_order: written.channel_order,
+            reference,
+        })
+    }
+
+    fn range(
+        &self,
+        ends: Option<[f64; 2]>,
+        bits: Option<u8>,
+        offset: usize,
+    ) -> Result<Option<PixelRange>, DatasetError> {
+        let range = match (ends, bits) {
+            (None, None) => return Ok(None),
+            (Some(ends), Some(bits)) => PixelRange::new(ends, bits),
+            _ => None,
+        };
+        range.map(Some).ok_or_else(|| {
+            self.at(
+                offset,
+                "`range` is the number of black and that of full, `bits` 8 or 16: such as range = [0, 1] and bits = 8",
+            )
+        })
+    }
+}
