@@ -73,7 +73,7 @@ pub(crate) fn fit(name: &str, words: &[&str], spec: FeatureSpec) -> (Model, Feat
         estimator: &*estimator,
         settings: &settings,
         features: spec,
-        frame: FRAME,
+        input: FRAME.into(),
         training: set(&training, &labels[..80]),
         validation: Some(set(&validation, &labels[80..])),
         provenance: Provenance {
