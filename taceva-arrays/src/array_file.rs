@@ -9,9 +9,11 @@ use crate::error::{ArrayError, Problem};
 use crate::fields::check_read;
 use crate::format::ArrayFormat;
 use crate::npy::NpyArray;
+use crate::npz::Npz;
 use crate::source::FileBytes;
 use crate::store::{Arrays, Store};
 use crate::values::ArrayData;
+use crate::zarr::Zarr;
 
 /// Names that an error about a missing array lists.
 const NAMES_SHOWN: usize = 12;
@@ -72,11 +74,20 @@ impl ArrayFile {
         self.arrays.iter().map(|(name, _)| name.clone()).collect()
     }
 
-    /// Shape and type of the array `name`.
+    /// Shape and type of the array `name`; the slash in front of a full name may be left out.
     #[must_use]
     pub fn info(&self, name: &str) -> Option<&ArrayInfo> {
-        let index = self.by_name.get(name)?;
-        self.arrays.get(*index).map(|(_, info)| info)
+        let index = self.index(name)?;
+        self.arrays.get(index).map(|(_, info)| info)
+    }
+
+    /// Full names may be said without their first slash.
+    fn index(&self, name: &str) -> Option<usize> {
+        let found = self
+            .by_name
+            .get(name)
+            .or_else(|| self.by_name.get(&format!("/{name}")));
+        found.copied()
     }
 
     /// The groups of HDF5 and zarr whose full names are as `pattern`, in order: `*` stands for any letters but `/`.
@@ -108,10 +119,10 @@ impl ArrayFile {
     }
 
     fn rows(&self, name: &str, rows: Range<u64>) -> Result<ArrayData, Problem> {
-        let index = self.by_name.get(name).copied();
+        let index = self.index(name);
         let (index, info) = index
             .and_then(|index| Some((index, &self.arrays.get(index)?.1)))
-            .ok_or_else(|| self.absent())?;
+            .ok_or_else(|| self.absent(name))?;
         if rows.start > rows.end || rows.end > info.rows() {
             return Err(Problem::Rows {
                 asked: rows,
@@ -126,7 +137,15 @@ impl ArrayFile {
         self.store.read(index, rows)
     }
 
-    fn absent(&self) -> Problem {
+    fn absent(&self, name: &str) -> Problem {
+        // A record that cannot be read is asked for by its fields.
+        let is_of = |array: &str| {
+            name.strip_prefix(array)
+                .is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+        };
+        if let Some((_, reason)) = self.store.refused().iter().find(|(array, _)| is_of(array)) {
+            return reason.again();
+        }
         let shown: Vec<&str> = self
             .arrays
             .iter()
@@ -148,6 +167,15 @@ impl ArrayFile {
 
 fn open(path: &Path, format: ArrayFormat) -> Result<Box<dyn Store>, Problem> {
     match format {
+        ArrayFormat::Zarr => Ok(Box::new(Zarr::open(path)?)),
+        #[cfg(feature = "hdf5")]
+        ArrayFormat::Hdf5 => Ok(Box::new(crate::hdf5::Hdf5::open(FileBytes::open(path)?)?)),
+        #[cfg(not(feature = "hdf5"))]
+        ArrayFormat::Hdf5 => Err(Problem::unsupported(
+            "HDF5, which this program was built without",
+            "build it with the feature `hdf5`",
+        )),
+        ArrayFormat::Npz => Ok(Box::new(Npz::open(FileBytes::open(path)?)?)),
         ArrayFormat::Npy => Ok(Box::new(NpyArray::open(
             "value",
             Box::new(FileBytes::open(path)?),

@@ -86,6 +86,12 @@ pub enum Problem {
         /// What its bytes give.
         computed: u32,
     },
+    /// A structure of the file that does not hold together, in the words of the library that reads it.
+    #[error("{problem}")]
+    Structure {
+        /// What the library says.
+        problem: String,
+    },
     /// No array of that name.
     #[error("no such array; there are {there}")]
     Absent {
@@ -126,6 +132,46 @@ impl Problem {
             at,
             found: found.into(),
             expected: expected.into(),
+        }
+    }
+
+    /// The same once more, for whoever asks again for an array that is refused.
+    pub(crate) fn again(&self) -> Problem {
+        match self {
+            Problem::Unsupported { found, mend } => {
+                Problem::unsupported(found.as_str(), mend.as_str())
+            }
+            Problem::Damaged {
+                at,
+                found,
+                expected,
+            } => Problem::damaged(*at, found.as_str(), expected.as_str()),
+            Problem::TooLarge { what, size, limit } => {
+                Problem::too_large(what.as_str(), *size, *limit)
+            }
+            other => Problem::Structure {
+                problem: other.to_string(),
+            },
+        }
+    }
+
+    /// The same with the part of the file that offsets are within.
+    pub(crate) fn within(self, part: &str) -> Problem {
+        match self {
+            Problem::Damaged {
+                at,
+                found,
+                expected,
+            } => Problem::Damaged {
+                at,
+                found: format!("{found} in {part}"),
+                expected,
+            },
+            Problem::Unsupported { found, mend } => Problem::Unsupported {
+                found: format!("{part}: {found}"),
+                mend,
+            },
+            other => other,
         }
     }
 

@@ -149,23 +149,23 @@ impl Item {
         raw: Vec<u8>,
         shape: &[u64],
     ) -> Result<ArrayData, Problem> {
-        let items = raw
-            .len()
-            .checked_div(self.bytes)
-            .unwrap_or_else(|| elements(shape));
-        let width = elements(&field.extent) * field.scalar.bytes();
-        let raw = if width == self.bytes {
-            raw
-        } else {
-            let mut picked = Vec::with_capacity(items * width);
-            for item in raw.chunks_exact(self.bytes.max(1)) {
-                picked.extend_from_slice(&item[field.at..field.at + width]);
-            }
-            picked
-        };
-        let values = field.scalar.decode(raw, items * elements(&field.extent))?;
+        let count = elements(shape) * elements(&field.extent);
+        let values = field.scalar.decode(self.pick(field, raw), count)?;
         let shape = [shape, &field.extent].concat();
         Ok(ArrayData { shape, values })
+    }
+
+    /// The bytes of one field of the elements `raw`.
+    pub(crate) fn pick(&self, field: &Field, raw: Vec<u8>) -> Vec<u8> {
+        let width = elements(&field.extent) * field.scalar.bytes();
+        if width == self.bytes {
+            return raw;
+        }
+        let mut picked = Vec::with_capacity(raw.len() / self.bytes.max(1) * width);
+        for item in raw.chunks_exact(self.bytes.max(1)) {
+            picked.extend_from_slice(&item[field.at..field.at + width]);
+        }
+        picked
     }
 }
 

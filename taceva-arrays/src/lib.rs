@@ -1,20 +1,28 @@
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
+mod archive;
 mod array_file;
+mod codec;
 mod element;
 mod error;
 mod fields;
 mod format;
+#[cfg(feature = "hdf5")]
+mod hdf5;
+mod inflate;
+mod kept;
 mod limits;
 mod literal;
 mod npy;
+mod npz;
 mod order;
 mod pattern;
 mod scalar;
 mod source;
 mod store;
 mod values;
+mod zarr;
 
 pub use array_file::ArrayFile;
 pub use element::{ArrayInfo, Element};

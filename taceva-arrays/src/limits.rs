@@ -10,3 +10,23 @@ pub(crate) const LITERAL_DEPTH: usize = 16;
 pub(crate) const AXES: usize = 64;
 /// Rows that lie column by column are turned in blocks of so many bytes.
 pub(crate) const TURNED_BYTES: u64 = 64 << 20;
+/// Arrays of one file, groups of one file, members of one archive.
+pub(crate) const ARRAYS: u64 = 1 << 16;
+/// One element: a fixed text, or a record.
+pub(crate) const ELEMENT_BYTES: u64 = 64 << 20;
+/// A chunk once its filters are undone.
+pub(crate) const CHUNK_BYTES: u64 = 256 << 20;
+/// Chunks that one call of `read` looks into.
+pub(crate) const CHUNKS: u64 = 1 << 16;
+/// A file of metadata of zarr.
+pub(crate) const METADATA_BYTES: u64 = 16 << 20;
+/// The directory of an archive.
+pub(crate) const DIRECTORY_BYTES: u64 = 64 << 20;
+/// What the form allows at most: no deflated byte becomes more.
+pub(crate) const DEFLATE_RATIO: u64 = 1_032;
+/// Above so many times its size a member is inflated only if it becomes no more than `INFLATED_BYTES`.
+pub(crate) const USUAL_RATIO: u64 = 200;
+/// See `USUAL_RATIO`.
+pub(crate) const INFLATED_BYTES: u64 = 1 << 30;
+/// Members and variables that are inflated as a whole and held, all of one file together.
+pub(crate) const HELD_BYTES: u64 = 64 << 20;

@@ -111,6 +111,45 @@ impl ColumnMajor {
     }
 }
 
+/// A block whose axes stand in the order `order`, turned to that of `sides`.
+pub(crate) fn c_order(
+    block: &[u8],
+    sides: &[u64],
+    order: &[usize],
+    item_bytes: usize,
+) -> Result<Vec<u8>, Problem> {
+    let side = |axis: usize| usize::try_from(sides[axis]).unwrap_or(usize::MAX);
+    let count = (0..sides.len()).map(side).product::<usize>();
+    if block.len() != count * item_bytes {
+        return Err(Problem::damaged(
+            0,
+            format!("{} bytes", block.len()),
+            format!("{}", count * item_bytes),
+        ));
+    }
+    let mut strides = vec![item_bytes; sides.len()];
+    for axis in (1..sides.len()).rev() {
+        strides[axis - 1] = strides[axis] * side(axis);
+    }
+    let mut turned = vec![0; block.len()];
+    let mut index = vec![0; sides.len()];
+    let mut place = 0;
+    for item in block.chunks_exact(item_bytes.max(1)) {
+        turned[place..place + item_bytes].copy_from_slice(item);
+        // The last axis of the stored order is fastest.
+        for axis in order.iter().rev().copied() {
+            index[axis] += 1;
+            place += strides[axis];
+            if index[axis] < side(axis) {
+                break;
+            }
+            place -= strides[axis] * side(axis);
+            index[axis] = 0;
+        }
+    }
+    Ok(turned)
+}
+
 /// Where the columns, the second axis fastest, stand in a row whose last axis is fastest.
 struct Places {
     sides: Vec<u64>,

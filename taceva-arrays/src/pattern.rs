@@ -12,6 +12,9 @@ pub(crate) fn matches(pattern: &str, name: &str) -> bool {
 
 /// The same for one part: what stands between stars is found from left to right.
 fn part_matches(pattern: &str, part: &str) -> bool {
+    if part.is_empty() {
+        return pattern.is_empty();
+    }
     let mut pieces = pattern.split('*');
     let first = pieces.next().unwrap_or("");
     let Some(mut rest) = part.strip_prefix(first) else {
@@ -46,6 +49,7 @@ mod tests {
             ("/ab*ba", "/aba", false),
             ("data", "/data", true),
             ("/", "/", true),
+            ("/*", "/", false),
         ] {
             assert_eq!(matches(pattern, name), expected, "{pattern} {name}");
         }

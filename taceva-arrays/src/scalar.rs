@@ -11,10 +11,23 @@ pub(crate) enum Kind {
     Unsigned,
     Signed,
     Float,
-    /// UTF-8, filled with zeros.
-    Text,
+    /// UTF-8, filled up.
+    Text(Filler),
     /// UTF-32, filled with zeros.
     WideText,
+    /// A reference to text of any length.
+    HeapText,
+    /// A reference to bytes of any length.
+    HeapBytes,
+}
+
+/// What follows a text in a field that is longer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Filler {
+    Zeros,
+    /// A zero, and anything behind it.
+    FirstZero,
+    Spaces,
 }
 
 /// The type of an element as it is stored: what, how long, in which byte order.
@@ -32,7 +45,7 @@ impl Scalar {
             Kind::Bool => bytes == 1,
             Kind::Unsigned | Kind::Signed => matches!(bytes, 1 | 2 | 4 | 8),
             Kind::Float => matches!(bytes, 2 | 4 | 8),
-            Kind::Text => true,
+            Kind::Text(_) | Kind::HeapText | Kind::HeapBytes => true,
             Kind::WideText => bytes % 4 == 0,
         };
         is_known.then_some(Scalar {
@@ -60,7 +73,7 @@ impl Scalar {
             Some('u') => Kind::Unsigned,
             Some('i') => Kind::Signed,
             Some('f') => Kind::Float,
-            Some('S' | 'a') => Kind::Text,
+            Some('S' | 'a') => Kind::Text(Filler::Zeros),
             Some('U') => Kind::WideText,
             Some('c') => {
                 return Err(unknown(
@@ -100,7 +113,59 @@ impl Scalar {
             Kind::Unsigned => Element::Unsigned(bits),
             Kind::Signed => Element::Signed(bits),
             Kind::Float => Element::Float(bits),
-            Kind::Text | Kind::WideText => Element::Text,
+            Kind::Text(_) | Kind::WideText | Kind::HeapText => Element::Text,
+            Kind::HeapBytes => Element::Bytes,
+        }
+    }
+
+    /// The bytes of a number, if it is one that such an element can be.
+    pub(crate) fn encode(self, number: &serde_json::Number) -> Option<Vec<u8>> {
+        if self.kind == Kind::Float {
+            return self.encode_float(number.as_f64()?);
+        }
+        let (bytes, filler) = match self.kind {
+            Kind::Unsigned | Kind::Bool => (number.as_u64()?.to_le_bytes(), 0),
+            Kind::Signed => {
+                let number = number.as_i64()?;
+                (number.to_le_bytes(), if number < 0 { 0xff } else { 0 })
+            }
+            _ => return None,
+        };
+        let (kept, dropped) = bytes.split_at_checked(self.bytes)?;
+        dropped
+            .iter()
+            .all(|byte| *byte == filler)
+            .then(|| self.in_order(kept))
+    }
+
+    /// The same for a number with a floating point of 32 or 64 bits.
+    pub(crate) fn encode_float(self, number: f64) -> Option<Vec<u8>> {
+        match (self.kind, self.bytes) {
+            #[expect(
+                clippy::cast_possible_truncation,
+                reason = "the nearest of 32 bits is what was filled in"
+            )]
+            (Kind::Float, 4) => Some(self.in_order(&(number as f32).to_le_bytes())),
+            (Kind::Float, 8) => Some(self.in_order(&number.to_le_bytes())),
+            _ => None,
+        }
+    }
+
+    /// Little-endian bytes in the order of this type.
+    fn in_order(self, little: &[u8]) -> Vec<u8> {
+        let mut bytes = little.to_vec();
+        if self.is_big_endian {
+            bytes.reverse();
+        }
+        bytes
+    }
+
+    /// Of a reference to a value elsewhere: whether that is text.
+    pub(crate) fn heap_text(self) -> Option<bool> {
+        match self.kind {
+            Kind::HeapText => Some(true),
+            Kind::HeapBytes => Some(false),
+            _ => None,
         }
     }
 
@@ -155,7 +220,7 @@ impl Scalar {
             (Kind::Float, _) => {
                 ArrayValues::F64(each(&raw, big, (f64::from_le_bytes, f64::from_be_bytes)))
             }
-            (Kind::Text, _) => self.texts(&raw, count, utf8)?,
+            (Kind::Text(filler), _) => self.texts(&raw, count, |bytes| utf8(bytes, filler))?,
             (Kind::WideText, _) => {
                 let of = if big {
                     u32::from_be_bytes
@@ -163,6 +228,13 @@ impl Scalar {
                     u32::from_le_bytes
                 };
                 self.texts(&raw, count, |bytes| utf32(bytes, of))?
+            }
+            // Whoever lists such elements reads them from its heap.
+            (Kind::HeapText | Kind::HeapBytes, _) => {
+                return Err(Problem::unsupported(
+                    "references to values elsewhere",
+                    "write the values themselves",
+                ));
             }
         })
     }
@@ -197,12 +269,22 @@ pub(crate) fn shown(text: &str) -> String {
     short
 }
 
-/// UTF-8 up to the zeros that fill the field.
-fn utf8(bytes: &[u8]) -> Option<String> {
-    let end = bytes
-        .iter()
-        .rposition(|byte| *byte != 0)
-        .map_or(0, |last| last + 1);
+/// UTF-8 up to what fills the field.
+fn utf8(bytes: &[u8], filler: Filler) -> Option<String> {
+    let up_to_last = |filled: u8| {
+        bytes
+            .iter()
+            .rposition(|byte| *byte != filled)
+            .map_or(0, |last| last + 1)
+    };
+    let end = match filler {
+        Filler::Zeros => up_to_last(0),
+        Filler::FirstZero => bytes
+            .iter()
+            .position(|byte| *byte == 0)
+            .unwrap_or(bytes.len()),
+        Filler::Spaces => up_to_last(b' '),
+    };
     std::str::from_utf8(&bytes[..end]).ok().map(str::to_owned)
 }
 

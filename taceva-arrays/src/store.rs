@@ -14,6 +14,11 @@ pub(crate) trait Store: std::fmt::Debug + Send + Sync {
     /// Every array with its name.
     fn arrays(&self) -> Arrays;
 
+    /// Arrays that are there and cannot be read, with the reason.
+    fn refused(&self) -> &[(String, Problem)] {
+        &[]
+    }
+
     /// The full names of the groups, in no order; forms without groups have none.
     fn groups(&self) -> Vec<String> {
         Vec::new()

@@ -1,13 +1,17 @@
 //! Tables as other programs wrote them: rows of cells that are asked for by the name of a column.
 
 mod arrays;
+mod clips;
 mod columns;
 mod files;
 mod json;
+mod messages;
 pub(crate) mod packed;
+mod parquet;
 mod pictures;
 
 use std::borrow::Cow;
+use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -19,9 +23,11 @@ use crate::import::FrameNames;
 use crate::text::{nearest, shown};
 
 pub(crate) use arrays::ArrayPictures;
-pub(crate) use columns::ColumnTable;
+pub(crate) use clips::ClipPictures;
+pub(crate) use columns::{ColumnTable, PictureColumn, PictureKind};
 pub(crate) use files::FileRows;
 pub(crate) use json::JsonRows;
+pub(crate) use messages::topics;
 pub(crate) use pictures::{Picture, Pictures};
 
 /// A table of any form.
@@ -37,9 +43,13 @@ pub(crate) enum ForeignTable {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum TableForm {
     /// Cells between separators, below a header; without one, columns are called by their position, from 0.
-    Delimited { has_header: bool },
+    Delimited {
+        has_header: bool,
+    },
     /// JSON, whose rows are what the pointer leads to: `/*` each member, the empty one the whole.
-    Json { rows: Option<String> },
+    Json {
+        rows: Option<String>,
+    },
     /// A JSON value a line.
     JsonLines,
     /// No table: every file is a row.
@@ -49,6 +59,18 @@ pub(crate) enum TableForm {
         format: ArrayFormat,
         rows: Option<String>,
     },
+    Parquet,
+    /// The messages of a topic of an MCAP recording.
+    Messages {
+        topic: Option<String>,
+    },
+}
+
+/// What an error says of the file at `path`, without the path, which is named around it.
+fn said(path: &Path, error: &impl fmt::Display) -> String {
+    let text = error.to_string();
+    let rest = text.strip_prefix(&format!("{}: ", path.display()));
+    rest.unwrap_or(&text).to_owned()
 }
 
 impl ForeignTable {
@@ -64,6 +86,14 @@ impl ForeignTable {
             TableForm::Json { rows } => ForeignTable::Json(JsonRows::read(path, rows.as_deref())?),
             TableForm::JsonLines => ForeignTable::Json(JsonRows::read_lines(path)?),
             TableForm::Files => ForeignTable::Files(FileRows::one(path)),
+            TableForm::Parquet => ForeignTable::Columns(ColumnTable::open(path, || {
+                parquet::ParquetRows::open(path)
+            })?),
+            TableForm::Messages { topic } => {
+                ForeignTable::Columns(ColumnTable::open(path, || {
+                    messages::MessageRows::open(path, topic.as_deref())
+                })?)
+            }
             TableForm::Arrays { format, rows } => {
                 ForeignTable::Columns(ColumnTable::open(path, || {
                     arrays::ArrayRows::open(path, *format, rows.as_deref())
@@ -153,6 +183,30 @@ impl ForeignTable {
             ForeignTable::Json(table) => table.names(),
             ForeignTable::Files(_) => Vec::new(),
             ForeignTable::Columns(table) => table.names(),
+        }
+    }
+
+    /// Reads columns that will be asked for, where that is faster together.
+    pub(crate) fn read_ahead(&self, names: &[&str]) -> Result<(), DatasetError> {
+        match self {
+            ForeignTable::Columns(table) => table.read_ahead(names),
+            _ => Ok(()),
+        }
+    }
+
+    /// The columns that a draft of a map looks at.
+    pub(crate) fn columns(&self) -> Vec<String> {
+        match self {
+            ForeignTable::Json(table) => table.leaves(),
+            _ => self.names(),
+        }
+    }
+
+    /// What of it seems to hold pictures.
+    pub(crate) fn picture_columns(&self) -> Vec<PictureColumn> {
+        match self {
+            ForeignTable::Columns(table) => table.picture_columns(),
+            _ => Vec::new(),
         }
     }
 

@@ -25,9 +25,9 @@ def told(a):
             x = x.decode() if isinstance(x, bytes) else str(x)
             return b"t" + struct.pack("<Q", len(x.encode())) + x.encode()
         body = b"".join(one(x) for x in a.ravel())
-        kind = "bytes" if body[:1] == b"b" else "text"
+        kind = "bytes" if isinstance(a.ravel()[0], np.ndarray) else "text"
     else:
-        if a.dtype == np.float16: a, kind = a.astype("<f4"), "16 bit floating point"
+        if a.dtype.kind == "f" and a.itemsize == 2: a, kind = a.astype("<f4"), "16 bit floating point"
         else: kind = {"b": "true or false", "u": f"{8*a.itemsize} bit unsigned", "i": f"{8*a.itemsize} bit signed", "f": f"{8*a.itemsize} bit floating point"}[a.dtype.kind]
         body = np.ascontiguousarray(a.astype(a.dtype.newbyteorder("<"))).tobytes()
     return {"shape": list(a.shape), "element": kind, "sha256": hashlib.sha256(body).hexdigest()}
@@ -67,10 +67,128 @@ def write_npy():
     np.save(folder / "record.npy", record)
     np.save(folder / "aligned.npy", np.zeros(3, np.dtype([("a", "u1"), ("b", "<f8")], align=True)))
 
+def write_npz():
+    folder = fresh("npz")
+    import zipfile
+    a, b = numbers((9, 4, 3), "<f4", 200), numbers((9,), ">i2", 201)
+    np.savez_compressed(folder / "plain.npz", a=np.asfortranarray(a), b=b, **{"größe": np.array(["x", "yz"])})
+    limit, zipfile.ZIP64_LIMIT = zipfile.ZIP64_LIMIT, 100                 # every size and the directory in fields of 64 bits
+    with zipfile.ZipFile(folder / "zip64.npz", "w", zipfile.ZIP_DEFLATED) as z:
+        for name, array in (("a", a), ("b", b)):
+            with z.open(name + ".npy", "w", force_zip64=True) as f: np.lib.format.write_array(f, array)
+        z.writestr("notes.txt", "no array")
+        z.comment = b"a comment behind the directory"
+    zipfile.ZIP64_LIMIT = limit
+    np.savez_compressed(folder / "empty.npz")
+
+def write_hdf5():
+    import h5py
+    folder = fresh("hdf5")
+    with h5py.File(folder / "types.h5", "w", libver=("earliest", "v114")) as f:
+        for n, dtype in enumerate(t for t in TYPES if t[1] != "U"):
+            f.create_dataset(f"plain/{'big' if dtype[0] == '>' else 'little'}-{dtype[1:]}", data=numbers((5, 3, 2), dtype, n + 300))
+        record = np.zeros(7, [("t", ">f8"), ("ft", "<f4", (3, 2)), ("pose", [("x", "<i2"), ("name", "S4")]), ("is_pressed", "?")])
+        record["t"], record["ft"], record["pose"]["x"], record["is_pressed"] = np.arange(7)/10, numbers((7, 3, 2), "f4", 301), range(7), [0, 1, 1, 0, 1, 0, 0]
+        record["pose"]["name"] = ["a", "bc", "", "def", "g", "h", "ij"]
+        f["record"] = record
+        f.create_dataset("packed-record", data=record, chunks=(3,), compression="gzip", shuffle=True)
+        f["scalar"] = 2.5
+        f["empty"] = np.zeros((0, 4))
+        f["texts"] = ["gel", "", "ü中", "a" * 5000, "z"]
+        texts = f.create_dataset("texts-in-chunks", (9,), chunks=(2,), dtype=h5py.string_dtype()); texts[:7] = [f"object {k}" for k in range(7)]
+        b = f.create_dataset("bytes", (6,), dtype=h5py.vlen_dtype(np.uint8))
+        for k in range(5): b[k] = np.arange(k * 300, dtype="u1")
+        f.create_dataset("grown", data=numbers((11, 4), "<i4", 302), chunks=(4, 3), maxshape=(None, None), compression="lzf")
+        f.create_dataset("unwritten", (7, 2), "<f4", chunks=(2, 2), fillvalue=1.5)
+        f.create_dataset("filled", (3,), "<i2", fillvalue=-4)
+        f.create_dataset("half-chunk", data=numbers((5, 70), "<u2", 303), chunks=(3, 64), fletcher32=True)
+        f.attrs["sensor"] = "drawn gel"; f["record"].attrs["rate_hz"] = 0.1; f["plain"].attrs["offset"] = np.array([1, -2, 3], "i4"); f["plain"].attrs["scale"] = np.float32(0.1)
+        f["soft"] = h5py.SoftLink("/record"); f["outside"] = h5py.ExternalLink("other.h5", "/x")
+        f["plain/deeper/still/x"] = np.arange(3)
+    with h5py.File(folder / "userblock.h5", "w", userblock_size=1024) as f: f["texts"] = ["a", "bc"]; f["x"] = np.arange(12.0).reshape(4, 3)
+    refused = HERE / "refused"; refused.mkdir(exist_ok=True)
+    with h5py.File(refused / "layout-5.h5", "w", libver="latest") as f: f.create_dataset("rgb", data=numbers((6, 40), "u1", 304), chunks=(2, 40), compression="gzip"); f["t"] = np.arange(6.0)
+    with h5py.File(refused / "kinds.h5", "w") as f:
+        f["complex"] = np.ones(3, "c8"); f.create_dataset("lists", (3,), dtype=h5py.vlen_dtype(np.float32)); f["reference"] = f["complex"].ref; f["x"] = np.arange(4)
+        f.create_dataset("elsewhere", (4,), "f8", external=[("../../secret.bin", 0, 32)])
+        f.create_virtual_dataset("virtual", h5py.VirtualLayout((4,), "f8"))
+    with h5py.File(refused / "cycle.h5", "w") as f: f["a/b/x"] = np.arange(2); f["a/b/up"] = f["a"]; f["a/b/root"] = f["/"]
+
+def write_zarr():
+    import zarr
+    from numcodecs import GZip, LZ4, Zlib, Zstd, Blosc, Delta
+    folder = fresh("zarr")
+    smooth = lambda shape, dtype: (np.arange(int(np.prod(shape))).reshape(shape) // 3 % 100).astype(dtype)
+    g = zarr.open_group(str(folder / "two.zarr"), mode="w", zarr_format=2)
+    g.attrs["sensor"] = "drawn gel"; g.attrs["rate_hz"] = 0.1
+    def two(name, a, chunks, **more):
+        x = g.create_array(name, shape=a.shape, chunks=chunks, dtype=a.dtype, **more); x[:] = a
+    two("raw", numbers((7, 5), ">i4", 400), (3, 2), compressors=None)
+    two("column-major", numbers((7, 5, 3), "<f4", 401), (3, 2, 3), compressors=GZip(5), order="F")
+    for name, codec in (("zlib", Zlib(5)), ("gzip", GZip(5)), ("zstd", Zstd(3)), ("zstd-sum", Zstd(3, checksum=True)), ("lz4", LZ4())): two(f"packed/{name}", smooth((9, 70), "<u2"), (4, 70), compressors=codec)
+    for cname in ("lz4", "lz4hc", "zstd", "zlib"):
+        for shuffle in (0, 1, 2):
+            for dtype in ("|u1", "<u2", "<f8"): two(f"blosc/{cname}-{shuffle}-{dtype[1:]}", smooth((10, 300), dtype), (8, 300), compressors=Blosc(cname, shuffle=shuffle))
+    two("blosc/random", numbers((3, 500), "<f8", 402), (2, 500), compressors=Blosc("lz4"))
+    two("blosc/record", np.zeros((300,), [("a", "<f8"), ("b", "u1")]), (256,), compressors=Blosc("zstd"))
+    record = np.zeros(7, [("t", "<f8"), ("fz", "<f4"), ("name", "S4")]); record["t"] = np.arange(7); record["fz"] = numbers((7,), "f4", 403); record["name"] = [b"a", b"bc", b"", b"d", b"e", b"f", b"gh"]
+    two("record", record, (3,), compressors=None)
+    two("texts/bytes", numbers((7,), "|S6", 404), (3,)); two("texts/wide", numbers((7,), "<U3", 405), (3,))
+    for name, dtype, fill in (("whole", "<i2", -4), ("float", "<f4", 1.5), ("true", "|b1", True)):
+        x = g.create_array(f"unwritten/{name}", shape=(7, 3), chunks=(2, 2), dtype=dtype, fill_value=fill)
+        x[2:4] = np.ones((2, 3), dtype)
+    x = g.create_array("scalar", shape=(), chunks=(), dtype="<f8"); x[...] = 2.5
+    g.create_array("empty", shape=(0, 4), chunks=(1, 4), dtype="<f8")
+    (folder / "two.zarr" / "somebody-else").mkdir(); (folder / "two.zarr" / "somebody-else" / "notes.txt").write_text("no array")
+    g = zarr.open_group(str(folder / "three.zarr"), mode="w", zarr_format=3)
+    g.create_group("deeper").attrs["object"] = ["cube", 3]
+    def three(name, a, chunks, **more):
+        x = g.create_array(name, shape=a.shape, chunks=chunks, dtype=a.dtype, **more); x[:] = a
+    C = zarr.codecs
+    for n, dtype in enumerate(t for t in TYPES if t[0] != ">" and t[1] not in "SU"): three("plain/" + dtype[1:], numbers((5, 3, 2), dtype, n + 410), (2, 3, 1))
+    three("big", numbers((5, 3), "<f8", 440), (2, 3), serializer=C.BytesCodec(endian="big"), compressors=None)
+    three("turned", numbers((5, 3, 4), "<i4", 441), (2, 3, 4), filters=[C.TransposeCodec(order=(2, 0, 1))])
+    three("sum", smooth((9, 70), "<u2"), (4, 70), compressors=[C.ZstdCodec(level=3, checksum=True), C.Crc32cCodec()])
+    three("twice", smooth((9, 70), "<u2"), (4, 70), compressors=[C.GzipCodec(), C.ZstdCodec()])
+    three("dots", smooth((9, 7), "<u2"), (4, 7), chunk_key_encoding={"name": "v2", "separator": "."})
+    for shuffle in ("noshuffle", "shuffle", "bitshuffle"): three(f"blosc/{shuffle}", smooth((10, 300), "<f4"), (8, 300), compressors=C.BloscCodec(cname="zstd", shuffle=shuffle))
+    three("texts", numbers((7,), "<U3", 442), (3,)); three("texts-bytes", numbers((7,), "|S6", 443), (3,))
+    x = g.create_array("unwritten", shape=(7, 3), chunks=(2, 2), dtype="<f4", fill_value=np.nan); x[2:4] = 1
+    x = g.create_array("scalar", shape=(), chunks=(), dtype="<i4"); x[...] = 7
+    x = zarr.create_array(str(folder / "alone.zarr"), shape=(5, 2), chunks=(2, 2), dtype="<i4", zarr_format=3); x[:] = numbers((5, 2), "<i4", 444)
+    (HERE / "refused").mkdir(exist_ok=True); shutil.rmtree(HERE / "refused" / "kinds.zarr", ignore_errors=True)
+    g = zarr.open_group(str(HERE / "refused" / "kinds.zarr"), mode="w", zarr_format=2)
+    two("blosclz", smooth((9, 700), "<u2"), (9, 700), compressors=Blosc("blosclz")); two("delta", smooth((9, 7), "<u2"), (4, 7), filters=[Delta("<u2")]); two("complex", np.ones(3, "c8"), (3,)); two("x", np.arange(4), (4,))
+    g3 = zarr.open_group(str(HERE / "refused" / "shards.zarr"), mode="w", zarr_format=3)
+    x = g3.create_array("shards", shape=(8, 4), chunks=(2, 4), shards=(4, 4), dtype="<i4"); x[:] = 1
+
+def read_zarr(folder):
+    import zarr
+    root, found = zarr.open(str(folder), mode="r"), {}
+    if isinstance(root, zarr.Array): return flat("/", root[...])
+    for name, node in root.members(max_depth=None):
+        if isinstance(node, zarr.Array): found.update(flat("/" + name, np.asarray(node[...])))
+    return found
+
+def read_hdf5(file):
+    import h5py
+    found = {}
+    def one(name, node):
+        if isinstance(node, h5py.Dataset):
+            a = node.asstr()[()] if h5py.check_string_dtype(node.dtype) and h5py.check_string_dtype(node.dtype).length is None else node[()]
+            if h5py.check_vlen_dtype(node.dtype) and not h5py.check_string_dtype(node.dtype):
+                a = np.empty(node.shape, object); a[:] = [np.asarray(x, "u1") for x in node[()]]
+            found.update(flat("/" + name, np.asarray(a)))
+    with h5py.File(file) as f: f.visititems(one)
+    return found
+
+def read_npz(file):
+    with np.load(file) as z: return {k: v for name in z.files if name != "notes.txt" for k, v in flat(name, z[name]).items()}
+
 def read_npy(file): return flat("value", np.load(file))
 
 WRITE = {k[6:]: f for k, f in list(globals().items()) if k.startswith("write_")}
-READ = {".npy": read_npy}
+READ = {".npy": read_npy, ".npz": read_npz, ".h5": read_hdf5, ".hdf5": read_hdf5, ".zarr": read_zarr}
 if __name__ == "__main__":
     for kind in sys.argv[1:] or WRITE: WRITE[kind]()
     found = {}

@@ -29,6 +29,9 @@ pub(crate) struct Import {
     /// Replace a dataset that exists already
     #[arg(long)]
     pub(crate) force: bool,
+    /// The program that decodes clips which are not decoded here, such as HEVC or FFV1; without it TACEVA_FFMPEG, or else ffmpeg on the PATH
+    #[arg(long, value_name = "PROGRAM")]
+    pub(crate) ffmpeg: Option<PathBuf>,
 }
 
 /// Files that decide a number or a claim are sealed: dataset.toml, results, states and models. One that was changed is refused until the edit

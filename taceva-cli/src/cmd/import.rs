@@ -1,7 +1,9 @@
 //! `taceva import`.
 
+use std::path::PathBuf;
+
 use taceva_core::shown;
-use taceva_dataset::{ImportMap, ImportPlan, Preset, settle};
+use taceva_dataset::{Decoders, ImportMap, ImportPlan, Preset, settle};
 
 use super::{Context, Usage};
 use crate::args::Import;
@@ -18,7 +20,7 @@ pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
         settle(target)?;
         output::check_free(target, args.force)?;
     }
-    let plan = ImportPlan::new(&args.source, &map(args)?)?;
+    let plan = ImportPlan::with_decoders(&args.source, &map(args)?, &decoders(args))?;
     let Some(target) = target.filter(|_| !args.explain.is_wanted) else {
         output::write(None, |out| write!(out, "{}", plan.summary()))?;
         return Ok(exit::DONE);
@@ -41,6 +43,23 @@ pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
         writeln!(out, "digest   {}", report.digest)
     })?;
     Ok(exit::DONE)
+}
+
+/// The programs that decode clips which are not decoded here.
+fn decoders(args: &Import) -> Decoders {
+    let named = args.ffmpeg.clone();
+    let named = named.or_else(|| std::env::var_os("TACEVA_FFMPEG").map(PathBuf::from));
+    Decoders {
+        ffmpeg: named.or_else(|| on_path("ffmpeg")),
+        ..Decoders::default()
+    }
+}
+
+/// The program of this name in a folder of PATH.
+fn on_path(name: &str) -> Option<PathBuf> {
+    let folders = std::env::var_os("PATH")?;
+    let mut programs = std::env::split_paths(&folders).map(|folder| folder.join(name));
+    programs.find(|program| program.is_file())
 }
 
 fn map(args: &Import) -> anyhow::Result<ImportMap> {

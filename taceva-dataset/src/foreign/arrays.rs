@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use taceva_arrays::{ArrayError, ArrayFile, ArrayFormat, ArrayInfo, ArrayValues};
 
-use super::columns::ColumnSource;
+use super::columns::{ColumnSource, PictureColumn};
 use super::pictures::Pictures;
 use crate::import::FrameNames;
 pub(crate) use frames::ArrayPictures;
@@ -40,7 +40,7 @@ impl ArrayRows {
         format: ArrayFormat,
         rows: Option<&str>,
     ) -> Result<ArrayRows, String> {
-        let file = ArrayFile::open(path, format).map_err(said)?;
+        let file = ArrayFile::open(path, format).map_err(problem)?;
         let paths = match rows {
             None | Some("" | "/") => vec![String::new()],
             Some(pattern) => match file.groups(pattern) {
@@ -106,7 +106,7 @@ impl ArrayRows {
                 group.rows
             ));
         }
-        let read = self.file.read(&path, 0..info.rows()).map_err(said)?;
+        let read = self.file.read(&path, 0..info.rows()).map_err(problem)?;
         let sides = info.shape.iter().skip(1);
         let shape: Result<Vec<usize>, _> = sides.map(|side| usize::try_from(*side)).collect();
         let shape = shape.map_err(|error| error.to_string())?;
@@ -129,15 +129,17 @@ impl ColumnSource for ArrayRows {
         let Some(group) = self.groups.first() else {
             return Vec::new();
         };
-        let names = self.file.names().into_iter();
-        let inside = |name: String| match group.path.as_str() {
-            "" => Some(name.trim_start_matches('/').to_owned()),
-            path => {
-                let rest = name.strip_prefix(path)?;
-                Some(rest.strip_prefix(['/', '.'])?.to_owned())
+        let length = group.rows as u64;
+        let named = |name: String| match name.strip_prefix(&group.path) {
+            _ if group.path.is_empty() => Some(name.trim_start_matches('/').to_owned()),
+            Some(rest) if rest.starts_with(['/', '.']) => Some(rest[1..].to_owned()),
+            // As long as the table, and named from the root.
+            _ => {
+                (self.file.info(&name)?.rows() == length && self.groups.len() == 1).then_some(name)
             }
         };
-        names.filter_map(inside).take(LISTED).collect()
+        let names = self.file.names().into_iter();
+        names.filter_map(named).take(LISTED).collect()
     }
 
     fn has(&self, name: &str) -> bool {
@@ -150,12 +152,32 @@ impl ColumnSource for ArrayRows {
         }
     }
 
-    fn column(&self, name: &str) -> Result<Vec<String>, String> {
-        let mut cells = Vec::with_capacity(self.rows());
-        for group in &self.groups {
-            cells.extend(self.cells(group, name)?);
+    fn columns(&self, names: &[&str]) -> Result<Vec<Vec<String>>, String> {
+        let of = |name: &&str| {
+            let mut cells = Vec::with_capacity(self.rows());
+            for group in &self.groups {
+                cells.extend(self.cells(group, name)?);
+            }
+            Ok(cells)
+        };
+        let named =
+            |name: &&str| of(name).map_err(|problem: String| format!("`{name}`: {problem}"));
+        match names {
+            [only] => Ok(vec![of(only)?]),
+            several => several.iter().map(named).collect(),
         }
-        Ok(cells)
+    }
+
+    fn picture_columns(&self) -> Vec<PictureColumn> {
+        let Some(group) = self.groups.first() else {
+            return Vec::new();
+        };
+        let seems = |name: String| {
+            let (path, info) = self.info(group, &name)?;
+            let kind = frames::kind_of(&self.file, &path, info)?;
+            Some(PictureColumn { name, kind })
+        };
+        self.names().into_iter().filter_map(seems).collect()
     }
 
     fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, String> {
@@ -233,7 +255,8 @@ fn rows_of(file: &ArrayFile, group: &str) -> Result<usize, String> {
     }
 }
 
-fn said(error: ArrayError) -> String {
+/// What is wrong, without the file, which is named around it.
+fn problem(error: ArrayError) -> String {
     match error.array {
         Some(array) => format!("`{array}`: {}", error.problem),
         None => error.problem.to_string(),

@@ -20,11 +20,35 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
     /// Whether there is a column of exactly this name.
     fn has(&self, name: &str) -> bool;
 
-    /// The cell of each row: texts as they are, numbers in the shortest form that reads back as the same 64 bits, several as `[1.0, 2.0]`.
-    fn column(&self, name: &str) -> Result<Vec<String>, String>;
+    /// Of each column the cell of each row: texts as they are, numbers in the shortest form that reads back as the same 64 bits, several as
+    /// `[1.0, 2.0]`.
+    fn columns(&self, names: &[&str]) -> Result<Vec<Vec<String>>, String>;
+
+    /// What of it seems to hold pictures.
+    fn picture_columns(&self) -> Vec<PictureColumn>;
 
     /// The pictures that belong to the rows, by the number of the row.
     fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, String>;
+}
+
+/// A column that seems to hold pictures.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct PictureColumn {
+    pub(crate) name: String,
+    pub(crate) kind: PictureKind,
+}
+
+/// How it holds them.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum PictureKind {
+    /// Bytes of a PNG or JPEG file.
+    Encoded,
+    Array {
+        is_gray: bool,
+        is_planar: bool,
+        /// The least and the greatest number of the first frame, where they are no pixels as they are.
+        range: Option<[f64; 2]>,
+    },
 }
 
 /// A table of columns.
@@ -66,34 +90,55 @@ impl ColumnTable {
     }
 
     pub(super) fn cell(&self, row: usize, name: &str) -> Result<String, DatasetError> {
-        let mut read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
-        let column = match read.get(name) {
-            Some(column) => Arc::clone(column),
-            None => {
-                let column = Arc::new(self.column(name)?);
-                read.insert(name.to_owned(), Arc::clone(&column));
-                column
-            }
+        let known = |row: usize| {
+            let read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
+            read.get(name).map(|column| column[row].clone())
         };
-        Ok(column[row].clone())
+        if let Some(cell) = known(row) {
+            return Ok(cell);
+        }
+        self.read_ahead(&[name])?;
+        Ok(known(row).unwrap_or_default())
     }
 
-    fn column(&self, name: &str) -> Result<Vec<String>, DatasetError> {
-        let column = guarded(|| self.source.column(name)).and_then(|column| column);
-        let column = column.map_err(|problem| DatasetError::Table {
+    /// Reads those of the columns that are there, together: a file is walked over once.
+    pub(super) fn read_ahead(&self, names: &[&str]) -> Result<(), DatasetError> {
+        let mut names: Vec<&str> = names
+            .iter()
+            .copied()
+            .filter(|name| self.has(name))
+            .collect();
+        names.sort_unstable();
+        names.dedup();
+        let mut read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
+        names.retain(|name| !read.contains_key(*name));
+        if names.is_empty() {
+            return Ok(());
+        }
+        let columns = guarded(|| self.source.columns(&names)).and_then(|columns| columns);
+        let columns = columns.map_err(|problem| DatasetError::Table {
             place: Place {
-                column: Some(name.to_owned()),
+                column: (names.len() == 1).then(|| names[0].to_owned()),
                 ..Place::file(&self.path)
             },
             problem,
         })?;
-        match (column.len(), self.rows()) {
-            (found, expected) if found == expected => Ok(column),
-            (found, expected) => Err(wrong(
-                &self.path,
-                format!("{found} values of `{name}` for {expected} rows"),
-            )),
+        for (name, column) in names.into_iter().zip(columns) {
+            if column.len() != self.rows() {
+                let problem = format!(
+                    "{} values of `{name}` for {} rows",
+                    column.len(),
+                    self.rows()
+                );
+                return Err(wrong(&self.path, problem));
+            }
+            read.insert(name.to_owned(), Arc::new(column));
         }
+        Ok(())
+    }
+
+    pub(super) fn picture_columns(&self) -> Vec<PictureColumn> {
+        guarded(|| self.source.picture_columns()).unwrap_or_default()
     }
 
     /// The pictures that belong to the rows.

@@ -139,6 +139,15 @@ impl JsonRows {
         }
     }
 
+    /// Pointers to what lies in the first row: numbers, texts, and lists of such.
+    pub(super) fn leaves(&self) -> Vec<String> {
+        let mut found = Vec::new();
+        if let Some(row) = self.rows.first() {
+            add_leaves(&row.value, String::new(), &mut found);
+        }
+        found
+    }
+
     /// The members of the first rows, as pointers.
     pub(super) fn names(&self) -> Vec<String> {
         let objects = self.rows.iter().take(LISTED);
@@ -148,6 +157,31 @@ impl JsonRows {
             .map(|key| format!("/{}", key.replace('~', "~0").replace('/', "~1")))
             .collect();
         names.into_iter().collect()
+    }
+}
+
+/// Objects, and lists in which objects or lists lie, are gone into.
+fn add_leaves(value: &Value, pointer: String, found: &mut Vec<String>) {
+    if found.len() >= LISTED {
+        return;
+    }
+    match value {
+        Value::Object(members) => {
+            for (key, value) in members {
+                let key = key.replace('~', "~0").replace('/', "~1");
+                add_leaves(value, format!("{pointer}/{key}"), found);
+            }
+        }
+        Value::Array(list)
+            if list
+                .iter()
+                .any(|value| value.is_array() || value.is_object()) =>
+        {
+            for (at, value) in list.iter().enumerate() {
+                add_leaves(value, format!("{pointer}/{at}"), found);
+            }
+        }
+        _ => found.push(pointer),
     }
 }
 

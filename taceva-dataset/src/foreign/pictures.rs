@@ -5,8 +5,10 @@ use std::path::Path;
 
 use taceva_core::Frame;
 
+use super::said;
 use crate::decode::ChannelOrder;
 use crate::error::DatasetError;
+use crate::guard::guarded;
 
 /// Pictures by their number, from 0.
 pub(crate) trait Pictures: fmt::Debug + Send + Sync {
@@ -42,6 +44,40 @@ pub(crate) trait Pictures: fmt::Debug + Send + Sync {
 
 /// What is done with each picture.
 pub(crate) type Visit<'v> = &'v mut dyn FnMut(u64, Picture) -> Result<(), DatasetError>;
+
+/// Why a visit ended: what is wrong with the file, or what was said of a picture.
+pub(super) enum Ended<E> {
+    File(E),
+    Picture(DatasetError),
+}
+
+impl<E> From<E> for Ended<E> {
+    fn from(error: E) -> Ended<E> {
+        Ended::File(error)
+    }
+}
+
+/// Runs a visit of the file at `path`; a panic of its decoder is an error of the file.
+pub(super) fn guarded_visit<E: fmt::Display>(
+    path: &Path,
+    visit: impl FnOnce() -> Result<(), Ended<E>>,
+) -> Result<(), DatasetError> {
+    match guarded(visit) {
+        Ok(Ok(())) => Ok(()),
+        Ok(Err(Ended::Picture(error))) => Err(error),
+        Ok(Err(Ended::File(error))) => Err(damaged(path, said(path, &error))),
+        Err(problem) => Err(damaged(path, problem)),
+    }
+}
+
+/// What is wrong with pictures in the file at `path`.
+pub(super) fn damaged(path: &Path, problem: String) -> DatasetError {
+    DatasetError::Image {
+        place: None,
+        path: path.to_owned(),
+        problem,
+    }
+}
 
 /// A picture as it was found.
 pub(crate) enum Picture {

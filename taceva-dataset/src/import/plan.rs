@@ -4,6 +4,8 @@ use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use taceva_video::Decoders;
+
 use super::frame_cells::FrameName;
 use super::map::{FrameMap, FrameNames, ImportMap};
 use super::rows::MappedTable;
@@ -13,7 +15,7 @@ use super::suspicion::magnitude_suspicion_in;
 use crate::decode::ChannelOrder;
 use crate::error::{DatasetError, Place};
 use crate::file::SourceFolder;
-use crate::foreign::{ArrayPictures, Pictures, TableForm};
+use crate::foreign::{ArrayPictures, ClipPictures, Pictures, TableForm};
 use crate::store::RecordingFacts;
 use crate::table::Table;
 use crate::text::shown;
@@ -84,9 +86,39 @@ impl ImportPlan {
     /// [`DatasetError::Table`] naming line and column; [`DatasetError::Path`] if a path is missing, leaves the folder or is no
     /// regular file; [`DatasetError::Image`] if an array cannot be used; [`DatasetError::Io`].
     pub fn new(source: &Path, map: &ImportMap) -> Result<ImportPlan, DatasetError> {
+        ImportPlan::with_decoders(source, map, &Decoders::default())
+    }
+
+    /// As [`new`](ImportPlan::new), with programs that decode clips which are not decoded here.
+    ///
+    /// # Errors
+    /// As [`new`](ImportPlan::new); [`DatasetError::Image`] naming the codec and what would mend it if nothing at hand decodes a clip.
+    ///
+    /// ```
+    /// # use taceva_core::{Channel, Channels, Clock, SourceUnit};
+    /// # use taceva_dataset::{ColumnMap, ImportMap, ImportPlan, RecordingFacts, SensorFacts, Source};
+    /// # let folder = tempfile::tempdir()?;
+    /// # std::fs::write(folder.path().join("labels.csv"), "force\n1500\n2000\n")?;
+    /// # let facts = RecordingFacts::new(Source::Recorded, Clock::Unknown, SensorFacts::new("my gel"));
+    /// # let mut map = ImportMap::new("labels.csv", facts);
+    /// # map.channels = Channels::new([Channel::FZ])?;
+    /// # map.columns = vec![ColumnMap::new("force", SourceUnit::parse("mN")?)];
+    /// use taceva_dataset::Decoders;
+    ///
+    /// let mut decoders = Decoders::default();
+    /// decoders.ffmpeg = Some("/usr/bin/ffmpeg".into());
+    /// let plan = ImportPlan::with_decoders(folder.path(), &map, &decoders)?;
+    /// assert_eq!(plan.summary().rows_kept, 2);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn with_decoders(
+        source: &Path,
+        map: &ImportMap,
+        decoders: &Decoders,
+    ) -> Result<ImportPlan, DatasetError> {
         let folder = SourceFolder::open(source)?;
         let tables = matching_files(&folder, &map.table)?;
-        let mut reading = Reading::new(&folder, map)?;
+        let mut reading = Reading::new(&folder, map, decoders);
         for path in &tables {
             reading.read(path)?;
         }
@@ -128,6 +160,7 @@ impl ImportPlan {
 struct Reading<'a> {
     folder: &'a SourceFolder,
     map: &'a ImportMap,
+    decoders: &'a Decoders,
     table: Table,
     /// The files with pictures in them that rows named.
     opened: BTreeMap<PathBuf, Arc<dyn Pictures>>,
@@ -141,12 +174,13 @@ struct Reading<'a> {
 }
 
 impl<'a> Reading<'a> {
-    fn new(folder: &'a SourceFolder, map: &'a ImportMap) -> Result<Reading<'a>, DatasetError> {
+    fn new(folder: &'a SourceFolder, map: &'a ImportMap, decoders: &'a Decoders) -> Reading<'a> {
         let attributes = map.attributes.keys().chain(map.classes.keys());
         let attributes = attributes.cloned().collect();
-        Ok(Reading {
+        Reading {
             folder,
             map,
+            decoders,
             opened: BTreeMap::new(),
             table: Table::new(map.channels.clone(), attributes),
             frames: Vec::new(),
@@ -154,7 +188,7 @@ impl<'a> Reading<'a> {
             named: BTreeSet::new(),
             bases: BTreeSet::new(),
             summary: ImportSummary::default(),
-        })
+        }
     }
 
     fn read(&mut self, path: &Path) -> Result<(), DatasetError> {
@@ -246,6 +280,7 @@ impl<'a> Reading<'a> {
             Some(names @ FrameNames::Array(array)) => {
                 Arc::new(ArrayPictures::open(&path, names, array)?)
             }
+            Some(FrameNames::Video(_)) => Arc::new(ClipPictures::open(&path, self.decoders)?),
             _ => {
                 return Err(DatasetError::Path {
                     place: None,

@@ -53,12 +53,14 @@ pub(super) fn resolve(
         captures: Vec::new(),
         joined: Vec::new(),
     };
+    let names = mentioned(map);
+    let bases: Vec<&str> = names.iter().map(|name| base_of(name)).collect();
+    sources.main.read_ahead(&bases)?;
     sources.capture()?;
     for join in &map.joins {
         let joined = Joined::new(&sources, folder, join)?;
         sources.joined.push(joined);
     }
-    let names = mentioned(map);
     let rows = sources.main.rows();
     let mut cells = Vec::with_capacity(names.len());
     for name in &names {

@@ -7,10 +7,11 @@ use std::sync::Arc;
 use taceva_arrays::{ArrayFile, ArrayFormat, ArrayInfo, ArrayValues, Element};
 use taceva_core::{Frame, FrameInfo, PixelFormat};
 
-use super::said;
-use crate::decode::ChannelOrder;
+use super::problem;
+use crate::decode::{ChannelOrder, ImageKind};
 use crate::error::DatasetError;
-use crate::foreign::pictures::{Picture, Pictures, Visit};
+use crate::foreign::columns::PictureKind;
+use crate::foreign::pictures::{Picture, Pictures, Visit, damaged};
 use crate::guard::guarded;
 use crate::import::{ArrayFrames, ArrayLayout, FrameNames, PixelRange};
 use crate::limits;
@@ -57,7 +58,7 @@ impl ArrayPictures {
     ) -> Result<ArrayPictures, DatasetError> {
         let opened = guarded(|| {
             let format = ArrayFormat::of(path).unwrap_or(ArrayFormat::Npy);
-            let file = ArrayFile::open(path, format).map_err(said)?;
+            let file = ArrayFile::open(path, format).map_err(problem)?;
             let names_there = file.names();
             let array = match (&frames.path, names_there.as_slice()) {
                 (Some(array), _) => array.clone(),
@@ -73,7 +74,7 @@ impl ArrayPictures {
         });
         opened
             .and_then(|opened| opened)
-            .map_err(|problem| wrong(path, problem))
+            .map_err(|problem| damaged(path, problem))
     }
 
     pub(super) fn new(
@@ -122,17 +123,16 @@ impl ArrayPictures {
         let mut next = run.start;
         while next < run.end {
             let end = run.end.min(next + at_once);
-            let read = guarded(|| self.file.read(&array.name, next..end).map_err(said));
+            let read = guarded(|| self.file.read(&array.name, next..end).map_err(problem));
             let read = read
                 .and_then(|read| read)
-                .map_err(|problem| wrong(self.path(), problem))?;
+                .map_err(|problem| damaged(self.path(), problem))?;
             for row in next..end {
                 let at = as_size(row - next);
                 let number = array.first + row;
-                let picture = array
-                    .form
-                    .picture(&read.values, at)
-                    .map_err(|problem| wrong(self.path(), format!("frame {number}: {problem}")))?;
+                let picture = array.form.picture(&read.values, at).map_err(|problem| {
+                    damaged(self.path(), format!("frame {number}: {problem}"))
+                })?;
                 each(number, picture)?;
             }
             next = end;
@@ -168,6 +168,40 @@ impl Pictures for ArrayPictures {
         }
         Ok(())
     }
+}
+
+/// The least side of an array that is taken for pictures without being named so, pixels.
+const LEAST_SIDE: u64 = 8;
+
+/// How an array holds pictures, if it seems to.
+pub(super) fn kind_of(file: &ArrayFile, name: &str, info: &ArrayInfo) -> Option<PictureKind> {
+    if info.element == Element::Bytes && info.shape.len() == 1 {
+        let first = file.read(name, 0..1).ok()?;
+        let ArrayValues::Bytes(all) = first.values else {
+            return None;
+        };
+        return ImageKind::of(all.first()?).map(|_| PictureKind::Encoded);
+    }
+    let is_planar = matches!(info.shape.as_slice(), [_, 1 | 3, height, width] if *height >= LEAST_SIDE && *width > 4);
+    let layout = is_planar.then_some(ArrayLayout::Nchw);
+    let (height, width, colours, _) = sides(&info.shape, layout).ok()?;
+    if u64::from(height.min(width)) < LEAST_SIDE || info.element == Element::Text {
+        return None;
+    }
+    let range = match info.element {
+        Element::Unsigned(8 | 16) => None,
+        _ => {
+            let first = file.read(name, 0..1).ok()?;
+            let first = first.values.to_f64()?;
+            let least = first.iter().copied().reduce(f64::min)?;
+            Some([least, first.iter().copied().reduce(f64::max)?])
+        }
+    };
+    Some(PictureKind::Array {
+        is_gray: colours == 1,
+        is_planar,
+        range,
+    })
 }
 
 /// How the rows of an array are frames, and the bytes of each in the file.
@@ -357,12 +391,4 @@ fn numbers(values: &ArrayValues, own: Range<usize>) -> Result<Vec<f64>, String> 
 /// A length within one reading, which is of few megabytes.
 fn as_size(length: u64) -> usize {
     usize::try_from(length).unwrap_or(usize::MAX)
-}
-
-fn wrong(path: &Path, problem: String) -> DatasetError {
-    DatasetError::Image {
-        place: None,
-        path: path.to_owned(),
-        problem,
-    }
 }

@@ -48,12 +48,19 @@ enum Format {
     Zarr,
     Mat,
     Pickle,
+    Parquet,
+    Mcap,
 }
 
 impl Format {
     fn of_arrays(self) -> Option<ArrayFormat> {
         Some(match self {
-            Format::Csv | Format::Tsv | Format::Json | Format::Jsonl => return None,
+            Format::Csv
+            | Format::Tsv
+            | Format::Json
+            | Format::Jsonl
+            | Format::Parquet
+            | Format::Mcap => return None,
             Format::Npy => ArrayFormat::Npy,
             Format::Npz => ArrayFormat::Npz,
             Format::Hdf5 => ArrayFormat::Hdf5,
@@ -154,6 +161,8 @@ fn form_of(path: &str, format: Option<Format>) -> TableForm {
     }
     match (format, ending.as_deref()) {
         (Some(Format::Json), _) | (None, Some("json")) => TableForm::Json { rows: None },
+        (Some(Format::Parquet), _) | (None, Some("parquet")) => TableForm::Parquet,
+        (Some(Format::Mcap), _) | (None, Some("mcap")) => TableForm::Messages { topic: None },
         (Some(Format::Jsonl), _) | (None, Some("jsonl" | "ndjson")) => TableForm::JsonLines,
         _ => TableForm::Delimited { has_header: true },
     }
@@ -194,6 +203,9 @@ impl Check<'_> {
                 has_header: header.unwrap_or(true),
             },
             (TableForm::Json { .. }, None, rows) => TableForm::Json { rows: rows.clone() },
+            (TableForm::Messages { .. }, None, rows) => TableForm::Messages {
+                topic: rows.clone(),
+            },
             (TableForm::Arrays { format, .. }, None, rows) => TableForm::Arrays {
                 format,
                 rows: rows.clone(),
@@ -201,7 +213,7 @@ impl Check<'_> {
             (form, None, None) => form,
             (_, Some(_), _) => return Err(self.at(offset, "`header` is for CSV and TSV alone")),
             (_, _, Some(_)) => {
-                return Err(self.at(offset, "`rows` is for JSON and files of arrays"));
+                return Err(self.at(offset, "`rows` is for JSON, files of arrays and MCAP"));
             }
         };
         Ok((file, form))

@@ -218,6 +218,12 @@ impl Check<'_> {
     }
 
     pub(super) fn unit(&self, unit: &Spanned<String>) -> Result<SourceUnit, DatasetError> {
+        if unit.get_ref() == "?" {
+            return Err(self.at(
+                unit.span().start,
+                "`?` is the unit that a draft leaves open: write the one that the numbers are in, such as \"N\", \"mN\", \"gf\" or \"mm\"",
+            ));
+        }
         SourceUnit::parse(unit.get_ref())
             .map_err(|error| self.at(unit.span().start, &error.to_string()))
     }

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
+use super::columns::{base_of, mentioned};
 use super::{Sources, cell_of};
 use crate::csv_table::number;
 use crate::error::{DatasetError, Place};
@@ -69,9 +70,9 @@ impl<'a> Joined<'a> {
                 Some(table) => *table,
                 None => {
                     let path = folder.file(folder.path(), &file)?;
-                    joined
-                        .tables
-                        .push(Candidates::new(map, ForeignTable::read(&path, &map.form)?)?);
+                    let table = ForeignTable::read(&path, &map.form)?;
+                    table.read_ahead(&own_columns(&mentioned(sources.map), &map.name))?;
+                    joined.tables.push(Candidates::new(map, table)?);
                     known.insert(file, joined.tables.len() - 1);
                     joined.tables.len() - 1
                 }
@@ -235,6 +236,15 @@ impl<'a> Joined<'a> {
             }
         }
     }
+}
+
+/// The columns of the joined table among the names that a map mentions.
+fn own_columns<'n>(names: &'n [String], join: &str) -> Vec<&'n str> {
+    let own = names.iter().filter_map(|name| {
+        let (prefix, column) = name.split_once('.')?;
+        (prefix == join).then(|| base_of(column))
+    });
+    own.collect()
 }
 
 impl Candidates {

@@ -1,0 +1,155 @@
+//! Packed bytes, unpacked as a whole. Each takes the most bytes that may come out, and gives an error beyond.
+
+mod blosc;
+mod shuffle;
+
+pub(crate) use blosc::blosc;
+
+use ruzstd::decoding::{BlockDecodingStrategy, FrameDecoder};
+use ruzstd::io::Read;
+
+use crate::error::Problem;
+use crate::inflate::{Wrapping, inflated_at_most};
+
+/// Windows that zstd asks for up to its level 19.
+const ZSTD_WINDOW_BYTES: usize = 8 << 20;
+
+/// A stream of zlib with its checksum.
+pub(crate) fn zlib(packed: &[u8], most: usize) -> Result<Vec<u8>, Problem> {
+    inflated_at_most(packed, most, Wrapping::Zlib).map(|(bytes, _)| bytes)
+}
+
+/// A file of gzip (RFC 1952), its checksum and length compared.
+pub(crate) fn gzip(packed: &[u8], most: usize) -> Result<Vec<u8>, Problem> {
+    let cut = || {
+        Problem::damaged(
+            packed.len() as u64,
+            "the end",
+            "a header or trailer of gzip",
+        )
+    };
+    let [0x1f, 0x8b, 8, flags, _, _, _, _, _, _, rest @ ..] = packed else {
+        return Err(Problem::damaged(0, "no gzip", "its header"));
+    };
+    let mut rest = rest;
+    if flags & 4 != 0 {
+        let (length, behind) = rest.split_first_chunk::<2>().ok_or_else(cut)?;
+        rest = behind
+            .get(usize::from(u16::from_le_bytes(*length))..)
+            .ok_or_else(cut)?;
+    }
+    // A name and a comment end with a zero.
+    for flag in [8, 16] {
+        if flags & flag != 0 {
+            let end = rest.iter().position(|byte| *byte == 0).ok_or_else(cut)?;
+            rest = &rest[end + 1..];
+        }
+    }
+    if flags & 2 != 0 {
+        rest = rest.get(2..).ok_or_else(cut)?;
+    }
+    let (bytes, used) = inflated_at_most(rest, most, Wrapping::Raw)?;
+    let trailer = rest
+        .get(used..used + 8)
+        .and_then(|trailer| trailer.split_first_chunk::<4>());
+    let (sum, length) = trailer.ok_or_else(cut)?;
+    let (stated, computed) = (u32::from_le_bytes(*sum), crc32fast::hash(&bytes));
+    if stated != computed
+        || (bytes.len() & 0xffff_ffff) as u64
+            != u64::from(u32::from_le_bytes([
+                length[0], length[1], length[2], length[3],
+            ]))
+    {
+        return Err(Problem::Checksum {
+            what: "what gzip packed".to_owned(),
+            stated,
+            computed,
+        });
+    }
+    Ok(bytes)
+}
+
+/// Frames of zstd; their checksums are compared where they have any.
+pub(crate) fn zstd(packed: &[u8], most: usize) -> Result<Vec<u8>, Problem> {
+    let mut rest = packed;
+    let mut decoder = FrameDecoder::new();
+    decoder.set_max_window_size(most.max(ZSTD_WINDOW_BYTES) as u64);
+    let mut bytes = vec![0; most];
+    let mut made = 0;
+    while !rest.is_empty() {
+        let at = (packed.len() - rest.len()) as u64;
+        let wrong =
+            |problem: String| Problem::damaged(at, format!("no frame of zstd: {problem}"), "one");
+        decoder
+            .init(&mut rest)
+            .map_err(|error| wrong(error.to_string()))?;
+        loop {
+            let piece = BlockDecodingStrategy::UptoBytes(1 << 20);
+            decoder
+                .decode_blocks(&mut rest, piece)
+                .map_err(|error| wrong(error.to_string()))?;
+            made += decoder
+                .read(&mut bytes[made..])
+                .map_err(|error| wrong(error.to_string()))?;
+            if decoder.can_collect() > 0 {
+                return Err(Problem::damaged(
+                    at,
+                    format!("more than {most} bytes"),
+                    "no more than a chunk has",
+                ));
+            }
+            if decoder.is_finished() {
+                break;
+            }
+        }
+        if let (Some(stated), Some(computed)) = (
+            decoder.get_checksum_from_data(),
+            decoder.get_calculated_checksum(),
+        ) && stated != computed
+        {
+            return Err(Problem::Checksum {
+                what: "a frame of zstd".to_owned(),
+                stated,
+                computed,
+            });
+        }
+    }
+    bytes.truncate(made);
+    Ok(bytes)
+}
+
+/// One block of LZ4 into all of `bytes`.
+pub(crate) fn lz4(packed: &[u8], bytes: &mut [u8]) -> Result<(), Problem> {
+    let expected = bytes.len();
+    match lz4_flex::block::decompress_into(packed, bytes) {
+        Ok(made) if made == expected => Ok(()),
+        Ok(made) => Err(Problem::damaged(
+            0,
+            format!("{made} bytes in a block of LZ4"),
+            format!("{expected}"),
+        )),
+        Err(error) => Err(Problem::damaged(
+            0,
+            format!("no block of LZ4: {error}"),
+            format!("{expected} bytes"),
+        )),
+    }
+}
+
+/// A block of LZ4 behind its length of 4 bytes.
+pub(crate) fn lz4_with_length(packed: &[u8], most: usize) -> Result<Vec<u8>, Problem> {
+    let length = packed.split_first_chunk::<4>();
+    let (length, block) =
+        length.ok_or_else(|| Problem::damaged(0, "the end", "the length of a block of LZ4"))?;
+    let length = usize::try_from(u32::from_le_bytes(*length)).unwrap_or(usize::MAX);
+    if length > most {
+        return Err(Problem::damaged(
+            0,
+            format!("{length} bytes in a block of LZ4"),
+            format!("at most {most}"),
+        ));
+    }
+    let mut bytes = vec![0; length];
+    lz4(block, &mut bytes)?;
+    Ok(bytes)
+}

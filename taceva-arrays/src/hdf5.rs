@@ -1,0 +1,299 @@
+//! HDF5, by the crate `hdf5-pure`: its structures, chunks and filters. What lies in one piece, and variable-length values, are read here.
+
+mod attribute;
+mod element;
+mod heap;
+mod walk;
+
+use std::ops::Range;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use hdf5_pure::{
+    ChunkCacheConfig, Dataset, DatasetAccessProperties, File, FormatError, Layout, Source,
+};
+
+use crate::error::Problem;
+use crate::fields::{Field, Item};
+use crate::kept::Kept;
+use crate::limits;
+use crate::source::{ByteSource, FileBytes, bytes_of};
+use crate::store::{Arrays, Store};
+use crate::values::ArrayData;
+
+use heap::GlobalHeap;
+
+/// A file of HDF5.
+#[derive(Debug)]
+pub(crate) struct Hdf5 {
+    bytes: Arc<FileBytes>,
+    file: File,
+    groups: Vec<String>,
+    datasets: Vec<Listed>,
+    refused: Vec<(String, Problem)>,
+    /// For each array that is listed, which dataset and which field of it.
+    listed: Vec<(usize, usize)>,
+    open: Mutex<Kept<usize, Opened>>,
+    heap: GlobalHeap,
+}
+
+/// A dataset that can be read.
+#[derive(Debug)]
+pub(crate) struct Listed {
+    pub(crate) path: String,
+    pub(crate) shape: Vec<u64>,
+    pub(crate) item: Item,
+    /// Bytes of one row, in the file and once filters are undone.
+    pub(crate) row_bytes: u64,
+}
+
+/// A dataset whose structures were read.
+#[derive(Debug)]
+struct Opened {
+    dataset: Dataset,
+    /// Where its rows begin, if they lie in one piece.
+    at: Option<u64>,
+}
+
+impl Hdf5 {
+    pub(crate) fn open(bytes: FileBytes) -> Result<Hdf5, Problem> {
+        let bytes = Arc::new(bytes);
+        let file = File::from_source(Shared(Arc::clone(&bytes))).map_err(problem)?;
+        let found = walk::walk(&file)?;
+        let fields = found
+            .datasets
+            .iter()
+            .enumerate()
+            .flat_map(|(dataset, listed)| {
+                let count = listed.item.fields.len();
+                (0..count).map(move |field| (dataset, field))
+            });
+        let listed = fields.collect();
+        let superblock = file.superblock();
+        let heap = GlobalHeap::new(
+            Arc::clone(&bytes),
+            superblock.base_address.get(),
+            superblock.offset_size,
+            superblock.length_size,
+        );
+        Ok(Hdf5 {
+            bytes,
+            heap,
+            groups: found.groups,
+            datasets: found.datasets,
+            refused: found.refused,
+            listed,
+            open: Mutex::new(Kept::new(limits::HELD_BYTES)),
+            file,
+        })
+    }
+
+    fn opened(&self, index: usize) -> Result<Arc<Opened>, Problem> {
+        let mut open = self.open.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(opened) = open.get(&index) {
+            return Ok(opened);
+        }
+        let listed = &self.datasets[index];
+        let (opened, held_bytes) = self.open_dataset(listed)?;
+        let opened = Arc::new(opened);
+        open.keep(index, held_bytes, Arc::clone(&opened));
+        Ok(opened)
+    }
+
+    /// The dataset, and how many bytes of its chunks are held.
+    fn open_dataset(&self, listed: &Listed) -> Result<(Opened, u64), Problem> {
+        let dataset = self.file.dataset(&listed.path).map_err(problem)?;
+        let item_bytes = listed.item.bytes as u64;
+        match dataset.layout().map_err(problem)? {
+            Layout::Contiguous {
+                address: Some(at), ..
+            } => {
+                let rows = listed.shape.first().copied().unwrap_or(1);
+                let length = self.bytes.length();
+                let end = rows
+                    .checked_mul(listed.row_bytes)
+                    .and_then(|bytes| bytes.checked_add(at));
+                if end.is_none_or(|end| end > length) {
+                    return Err(Problem::damaged(
+                        length,
+                        "the end",
+                        format!("{rows} rows of {} bytes from byte {at}", listed.row_bytes),
+                    ));
+                }
+                Ok((
+                    Opened {
+                        dataset,
+                        at: Some(at),
+                    },
+                    0,
+                ))
+            }
+            Layout::Chunked { chunk_shape, .. } => {
+                let chunk_bytes =
+                    product(&chunk_shape, item_bytes).filter(|bytes| *bytes <= limits::CHUNK_BYTES);
+                let chunk_bytes = chunk_bytes.ok_or_else(|| {
+                    Problem::too_large(
+                        "bytes of one chunk (write it with smaller ones)",
+                        product(&chunk_shape, item_bytes).unwrap_or(u64::MAX),
+                        limits::CHUNK_BYTES,
+                    )
+                })?;
+                // Rows that are read one by one find the chunks that they share.
+                let rows_of_chunk = chunk_shape.first().copied().unwrap_or(1);
+                let across = rows_of_chunk
+                    .saturating_mul(listed.row_bytes)
+                    .saturating_add(chunk_bytes);
+                let held = across.min(limits::HELD_BYTES);
+                let cache = ChunkCacheConfig::new()
+                    .with_max_bytes(usize::try_from(held).unwrap_or(usize::MAX));
+                let properties = DatasetAccessProperties::new().with_chunk_cache(cache);
+                let dataset = self
+                    .file
+                    .dataset_with_options(&listed.path, properties)
+                    .map_err(problem)?;
+                Ok((Opened { dataset, at: None }, held))
+            }
+            Layout::Virtual => Err(Problem::unsupported(
+                "a virtual dataset, whose elements lie in other files",
+                "copy it into one: `h5repack`, or `f2['x'] = f['x'][:]` in h5py",
+            )),
+            _ => Ok((Opened { dataset, at: None }, 0)),
+        }
+    }
+
+    /// The bytes of rows as they are stored, filters undone.
+    pub(crate) fn raw_rows(&self, index: usize, rows: Range<u64>) -> Result<Vec<u8>, Problem> {
+        let row_bytes = self.datasets[index].row_bytes;
+        let count = rows.end - rows.start;
+        let bytes = count
+            .checked_mul(row_bytes)
+            .filter(|bytes| *bytes <= limits::READ_BYTES);
+        let bytes = bytes.ok_or_else(|| {
+            Problem::too_large(
+                "bytes of these rows (read fewer at a time)",
+                count.saturating_mul(row_bytes),
+                limits::READ_BYTES,
+            )
+        })?;
+        if bytes == 0 {
+            return Ok(Vec::new());
+        }
+        let opened = self.opened(index)?;
+        if let Some(at) = opened.at {
+            return bytes_of(&*self.bytes, at + rows.start * row_bytes, bytes);
+        }
+        let raw = opened
+            .dataset
+            .read_raw_rows(rows.start, count)
+            .map_err(problem)?;
+        if raw.len() as u64 != bytes {
+            return Err(Problem::damaged(
+                0,
+                format!("{} bytes of these rows", raw.len()),
+                format!("{bytes}"),
+            ));
+        }
+        Ok(raw)
+    }
+
+    pub(crate) fn datasets(&self) -> &[Listed] {
+        &self.datasets
+    }
+
+    pub(crate) fn file(&self) -> &File {
+        &self.file
+    }
+}
+
+impl Store for Hdf5 {
+    fn arrays(&self) -> Arrays {
+        let each = self.datasets.iter();
+        each.flat_map(|dataset| dataset.item.arrays(&dataset.path, &dataset.shape))
+            .collect()
+    }
+
+    fn refused(&self) -> &[(String, Problem)] {
+        &self.refused
+    }
+
+    fn groups(&self) -> Vec<String> {
+        self.groups.clone()
+    }
+
+    fn attribute(&self, owner: &str, name: &str) -> Option<String> {
+        attribute::read(&self.file, owner, name)
+    }
+
+    fn read(&self, index: usize, rows: Range<u64>) -> Result<ArrayData, Problem> {
+        let (dataset, field) = self.listed[index];
+        let listed = &self.datasets[dataset];
+        let field: &Field = &listed.item.fields[field];
+        let mut shape = listed.shape.clone();
+        if let Some(first) = shape.first_mut() {
+            *first = rows.end - rows.start;
+        }
+        let raw = self.raw_rows(dataset, rows)?;
+        match field.scalar.heap_text() {
+            None => listed.item.read(field, raw, &shape),
+            Some(is_text) => {
+                let values = self.heap.values(&listed.item.pick(field, raw), is_text)?;
+                let shape = [shape.as_slice(), &field.extent].concat();
+                Ok(ArrayData { shape, values })
+            }
+        }
+    }
+}
+
+/// The file as the crate reads it.
+struct Shared(Arc<FileBytes>);
+
+impl Source for Shared {
+    fn len(&self) -> u64 {
+        self.0.length()
+    }
+
+    fn read_at(&self, offset: u64, buffer: &mut [u8]) -> Result<(), FormatError> {
+        let end = offset.checked_add(buffer.len() as u64);
+        if end.is_none_or(|end| end > self.0.length()) {
+            return Err(FormatError::UnexpectedEof {
+                expected: buffer.len(),
+                available: usize::try_from(self.0.length().saturating_sub(offset))
+                    .unwrap_or(usize::MAX),
+            });
+        }
+        self.0
+            .read_at(offset, buffer)
+            .map_err(|problem| FormatError::Source(problem.to_string()))
+    }
+}
+
+/// Bytes of a block, if they fit 64 bits.
+pub(crate) fn product(sides: &[u64], item_bytes: u64) -> Option<u64> {
+    sides
+        .iter()
+        .try_fold(item_bytes, |bytes, side| bytes.checked_mul(*side))
+}
+
+/// What the crate says, in our words where there is something to do about it.
+pub(crate) fn problem(error: hdf5_pure::Error) -> Problem {
+    use hdf5_pure::Error;
+    match error {
+        Error::Io(source) => Problem::Io {
+            doing: "read",
+            source,
+        },
+        Error::Format(FormatError::InvalidLayoutVersion(version)) => Problem::unsupported(
+            format!("data layout version {version} of HDF5 2.0, which `libver='latest'` writes"),
+            "write it with `h5py.File(path, 'w', libver='v114')`, or copy it with h5py into such a file",
+        ),
+        Error::Format(FormatError::SignatureNotFound) => {
+            Problem::damaged(0, "no file of HDF5", "`\\x89HDF`")
+        }
+        Error::Format(FormatError::UnsupportedExternalStorage) => Problem::unsupported(
+            "a dataset whose elements lie in another file",
+            "copy it into this one: `h5repack`",
+        ),
+        other => Problem::Structure {
+            problem: other.to_string(),
+        },
+    }
+}

@@ -1,0 +1,164 @@
+//! Texts and bytes of any length, which lie in the collections of the global heap.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use crate::error::Problem;
+use crate::kept::Kept;
+use crate::limits;
+use crate::source::{FileBytes, bytes_of};
+use crate::values::ArrayValues;
+
+/// The global heap of a file.
+#[derive(Debug)]
+pub(crate) struct GlobalHeap {
+    file: Arc<FileBytes>,
+    /// Where address 0 lies.
+    base: u64,
+    offset_bytes: usize,
+    length_bytes: usize,
+    collections: Mutex<Kept<u64, Collection>>,
+}
+
+/// Objects that were written together.
+#[derive(Debug)]
+struct Collection {
+    bytes: Vec<u8>,
+    /// Where each object lies, by its number.
+    objects: BTreeMap<u32, Range<usize>>,
+}
+
+impl GlobalHeap {
+    pub(crate) fn new(
+        file: Arc<FileBytes>,
+        base: u64,
+        offset_bytes: u8,
+        length_bytes: u8,
+    ) -> GlobalHeap {
+        GlobalHeap {
+            file,
+            base,
+            offset_bytes: usize::from(offset_bytes),
+            length_bytes: usize::from(length_bytes),
+            collections: Mutex::new(Kept::new(limits::HELD_BYTES)),
+        }
+    }
+
+    /// The values behind references: length (4 bytes), address of the collection, number of the object (4 bytes).
+    pub(crate) fn values(&self, references: &[u8], is_text: bool) -> Result<ArrayValues, Problem> {
+        let mut all = Vec::with_capacity(references.len() / (8 + self.offset_bytes));
+        let mut held = 0_u64;
+        for reference in references.chunks_exact(8 + self.offset_bytes) {
+            let length = number(&reference[..4]);
+            let address = number(&reference[4..4 + self.offset_bytes]);
+            let object =
+                u32::try_from(number(&reference[4 + self.offset_bytes..])).unwrap_or(u32::MAX);
+            held = held.saturating_add(length);
+            if held > limits::READ_BYTES {
+                return Err(Problem::too_large(
+                    "bytes of these rows (read fewer at a time)",
+                    held,
+                    limits::READ_BYTES,
+                ));
+            }
+            // Nothing was ever written there.
+            all.push(if length == 0 {
+                Vec::new()
+            } else {
+                self.object(address, object, length)?
+            });
+        }
+        if !is_text {
+            return Ok(ArrayValues::Bytes(all));
+        }
+        let texts = all.into_iter().enumerate().map(|(place, bytes)| {
+            let end = bytes
+                .iter()
+                .rposition(|byte| *byte != 0)
+                .map_or(0, |last| last + 1);
+            let text = std::str::from_utf8(&bytes[..end]).map(str::to_owned);
+            text.map_err(|_| {
+                Problem::unsupported(
+                    format!("element {place} of these rows is no text of Unicode"),
+                    "write texts as UTF-8",
+                )
+            })
+        });
+        Ok(ArrayValues::Text(texts.collect::<Result<_, _>>()?))
+    }
+
+    fn object(&self, address: u64, object: u32, length: u64) -> Result<Vec<u8>, Problem> {
+        let collection = self.collection(address)?;
+        let range = collection.objects.get(&object).cloned();
+        let bytes = range.and_then(|range| collection.bytes.get(range));
+        let bytes = bytes.and_then(|bytes| bytes.get(..usize::try_from(length).ok()?));
+        bytes.map(<[u8]>::to_vec).ok_or_else(|| {
+            Problem::damaged(
+                self.base.saturating_add(address),
+                format!(
+                    "no object {object} of {length} bytes in this collection of the global heap"
+                ),
+                "the value that an element refers to",
+            )
+        })
+    }
+
+    fn collection(&self, address: u64) -> Result<Arc<Collection>, Problem> {
+        let mut collections = self
+            .collections
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner);
+        if let Some(collection) = collections.get(&address) {
+            return Ok(collection);
+        }
+        let at = self.base.checked_add(address).unwrap_or(u64::MAX);
+        let header = bytes_of(&*self.file, at, 8 + self.length_bytes as u64)?;
+        if !header.starts_with(b"GCOL\x01") {
+            return Err(Problem::damaged(
+                at,
+                "no collection of the global heap",
+                "`GCOL`, version 1",
+            ));
+        }
+        let bytes = bytes_of(&*self.file, at, number(&header[8..]))?;
+        let collection = Arc::new(Collection {
+            objects: self.objects(&bytes),
+            bytes,
+        });
+        collections.keep(
+            address,
+            collection.bytes.len() as u64,
+            Arc::clone(&collection),
+        );
+        Ok(collection)
+    }
+
+    /// Number (2 bytes), references to it (2), filler (4), length, then the object itself up to a multiple of 8. Number 0 is free space.
+    fn objects(&self, collection: &[u8]) -> BTreeMap<u32, Range<usize>> {
+        let mut objects = BTreeMap::new();
+        let mut at = 8 + self.length_bytes;
+        while let Some(header) = collection.get(at..at + 8 + self.length_bytes) {
+            let object = u32::try_from(number(&header[..2])).unwrap_or(0);
+            let start = at + header.len();
+            let length = usize::try_from(number(&header[8..])).ok();
+            let end = length
+                .and_then(|length| start.checked_add(length))
+                .filter(|end| *end <= collection.len());
+            let (1.., Some(end)) = (object, end) else {
+                break;
+            };
+            objects.insert(object, start..end);
+            at = end.next_multiple_of(8);
+        }
+        objects
+    }
+}
+
+/// A little-endian number of up to 8 bytes.
+fn number(bytes: &[u8]) -> u64 {
+    bytes
+        .iter()
+        .rev()
+        .fold(0, |number, byte| number << 8 | u64::from(*byte))
+}

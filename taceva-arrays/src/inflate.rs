@@ -1,0 +1,192 @@
+//! Deflated bytes, inflated piece by piece or as a whole.
+
+use miniz_oxide::inflate::TINFLStatus;
+use miniz_oxide::inflate::core::{DecompressorOxide, decompress, inflate_flags};
+
+use crate::error::Problem;
+use crate::source::{ByteSource, bytes_of};
+
+/// Deflated bytes are read in pieces of so many.
+const INPUT_BYTES: u64 = 256 << 10;
+/// What is inflated goes through a window of so many bytes, a power of two of at least 32 KiB.
+const WINDOW_BYTES: usize = 256 << 10;
+
+/// How deflated bytes are wrapped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Wrapping {
+    /// Not at all.
+    Raw,
+    /// By the header and the checksum of zlib, which is compared.
+    Zlib,
+}
+
+impl Wrapping {
+    fn flags(self) -> u32 {
+        match self {
+            Wrapping::Raw => 0,
+            Wrapping::Zlib => inflate_flags::TINFL_FLAG_PARSE_ZLIB_HEADER,
+        }
+    }
+}
+
+/// Everything that `packed` holds, which must be `bytes` long; the caller has compared that with a limit.
+pub(crate) fn inflated(
+    packed: &[u8],
+    bytes: usize,
+    wrapping: Wrapping,
+) -> Result<Vec<u8>, Problem> {
+    let mut whole = vec![0; bytes];
+    let flags = wrapping.flags() | inflate_flags::TINFL_FLAG_USING_NON_WRAPPING_OUTPUT_BUF;
+    let (status, used, made) =
+        decompress(&mut DecompressorOxide::new(), packed, &mut whole, 0, flags);
+    match status {
+        TINFLStatus::Done if made == bytes => Ok(whole),
+        TINFLStatus::Done => Err(too_few(used as u64, made as u64, bytes as u64)),
+        status => Err(broken(used as u64, status)),
+    }
+}
+
+/// The same where the length is not known before: at most `most` bytes, and how many of the packed ones were used.
+pub(crate) fn inflated_at_most(
+    packed: &[u8],
+    most: usize,
+    wrapping: Wrapping,
+) -> Result<(Vec<u8>, usize), Problem> {
+    let mut whole = vec![0; most];
+    let flags = wrapping.flags() | inflate_flags::TINFL_FLAG_USING_NON_WRAPPING_OUTPUT_BUF;
+    let (status, used, made) =
+        decompress(&mut DecompressorOxide::new(), packed, &mut whole, 0, flags);
+    if status != TINFLStatus::Done {
+        return Err(broken(used as u64, status));
+    }
+    whole.truncate(made);
+    Ok((whole, used))
+}
+
+fn too_few(at: u64, made: u64, bytes: u64) -> Problem {
+    Problem::damaged(
+        at,
+        format!("the end of what is deflated, after {made} bytes"),
+        format!("{bytes} bytes"),
+    )
+}
+
+/// What the decoder says of bytes that it cannot go on with, `at` among the deflated ones.
+fn broken(at: u64, status: TINFLStatus) -> Problem {
+    let (found, expected) = match status {
+        TINFLStatus::HasMoreOutput => ("more bytes than are stated", "the end of what is deflated"),
+        TINFLStatus::Adler32Mismatch => (
+            "another checksum than what was inflated has",
+            "bytes as they were written",
+        ),
+        TINFLStatus::FailedCannotMakeProgress | TINFLStatus::NeedsMoreInput => {
+            ("the end", "more deflated bytes")
+        }
+        _ => ("bytes that are not deflated", "deflated bytes"),
+    };
+    Problem::damaged(at, found, expected)
+}
+
+/// Deflated bytes that are inflated from the first to the last, as far as somebody asks.
+pub(crate) struct Inflater {
+    state: Box<DecompressorOxide>,
+    wrapping: Wrapping,
+    /// Where the deflated bytes lie in their source.
+    from: std::ops::Range<u64>,
+    /// Where the next of them is.
+    next: u64,
+    input: Vec<u8>,
+    used: usize,
+    window: Vec<u8>,
+    /// Bytes of the window that nobody took yet.
+    ready: std::ops::Range<usize>,
+    is_done: bool,
+}
+
+impl Inflater {
+    pub(crate) fn new(from: std::ops::Range<u64>, wrapping: Wrapping) -> Inflater {
+        Inflater {
+            state: Box::new(DecompressorOxide::new()),
+            wrapping,
+            next: from.start,
+            from,
+            input: Vec::new(),
+            used: 0,
+            window: vec![0; WINDOW_BYTES],
+            ready: 0..0,
+            is_done: false,
+        }
+    }
+
+    /// Fills `into` with the next bytes; fewer are given at the end alone.
+    pub(crate) fn read(
+        &mut self,
+        source: &dyn ByteSource,
+        into: &mut [u8],
+    ) -> Result<usize, Problem> {
+        let mut filled = 0;
+        while filled < into.len() {
+            if self.ready.is_empty() && !self.step(source)? {
+                break;
+            }
+            let count = self.ready.len().min(into.len() - filled);
+            let from = self.ready.start..self.ready.start + count;
+            into[filled..filled + count].copy_from_slice(&self.window[from]);
+            self.ready.start += count;
+            filled += count;
+        }
+        Ok(filled)
+    }
+
+    /// Inflates until there is something in the window; false at the end.
+    fn step(&mut self, source: &dyn ByteSource) -> Result<bool, Problem> {
+        while !self.is_done {
+            if self.used == self.input.len() && self.next < self.from.end {
+                let count = INPUT_BYTES.min(self.from.end - self.next);
+                self.input = bytes_of(source, self.next, count)?;
+                self.next += count;
+                self.used = 0;
+            }
+            let is_more = self.next < self.from.end;
+            let flags = self.wrapping.flags()
+                | if is_more {
+                    inflate_flags::TINFL_FLAG_HAS_MORE_INPUT
+                } else {
+                    0
+                };
+            let start = if self.ready.end == WINDOW_BYTES {
+                0
+            } else {
+                self.ready.end
+            };
+            let (status, used, made) = decompress(
+                &mut self.state,
+                &self.input[self.used..],
+                &mut self.window,
+                start,
+                flags,
+            );
+            self.used += used;
+            self.ready = start..start + made;
+            match status {
+                TINFLStatus::Done => self.is_done = true,
+                TINFLStatus::HasMoreOutput => {}
+                TINFLStatus::NeedsMoreInput if is_more => {}
+                status => {
+                    let at = self.next - (self.input.len() - self.used) as u64;
+                    return Err(broken(at, status));
+                }
+            }
+            if made > 0 {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+}
+
+impl std::fmt::Debug for Inflater {
+    fn fmt(&self, into: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(into, "Inflater({:?} of {:?})", self.next, self.from)
+    }
+}

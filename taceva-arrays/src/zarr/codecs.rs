@@ -1,0 +1,111 @@
+//! What is done to a chunk when it is written, and how it is undone.
+
+use super::metadata::ZarrArray;
+use crate::codec::{blosc, gzip, lz4_with_length, zlib, zstd};
+use crate::error::Problem;
+use crate::order::c_order;
+use crate::scalar::shown;
+
+/// One step.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Codec {
+    /// The axes stand in this order.
+    Transposed(Vec<usize>),
+    Gzip,
+    Zlib,
+    Zstd,
+    Blosc,
+    Lz4,
+    Crc32c,
+}
+
+impl Codec {
+    /// By its name in either version.
+    pub(crate) fn from_name(name: &str) -> Result<Codec, Problem> {
+        match name.trim_start_matches("numcodecs.") {
+            "gzip" => Ok(Codec::Gzip),
+            "zlib" => Ok(Codec::Zlib),
+            "zstd" => Ok(Codec::Zstd),
+            "blosc" => Ok(Codec::Blosc),
+            "lz4" => Ok(Codec::Lz4),
+            "crc32c" => Ok(Codec::Crc32c),
+            other => Err(Problem::unsupported(
+                format!("chunks packed by `{}`", shown(other)),
+                "write it with none, gzip, zlib, zstd, lz4 or blosc",
+            )),
+        }
+    }
+
+    /// Whether it changes the number of bytes in a way that only the chunk itself tells.
+    pub(crate) fn is_packing(&self) -> bool {
+        !matches!(self, Codec::Transposed(_) | Codec::Crc32c)
+    }
+
+    /// Undoes it; more than `most` bytes are refused.
+    pub(crate) fn undo(
+        &self,
+        chunk: Vec<u8>,
+        most: usize,
+        array: &ZarrArray,
+    ) -> Result<Vec<u8>, Problem> {
+        match self {
+            Codec::Transposed(order) => c_order(&chunk, &array.chunk, order, array.item.bytes),
+            Codec::Gzip => gzip(&chunk, most),
+            Codec::Zlib => zlib(&chunk, most),
+            Codec::Zstd => zstd(&chunk, most),
+            Codec::Blosc => blosc(&chunk, most),
+            Codec::Lz4 => lz4_with_length(&chunk, most),
+            Codec::Crc32c => without_sum(chunk),
+        }
+    }
+}
+
+/// The checksum (Castagnoli) stands behind the bytes, little-endian.
+fn without_sum(mut chunk: Vec<u8>) -> Result<Vec<u8>, Problem> {
+    let at = chunk.len() as u64;
+    let Some((bytes, sum)) = chunk.split_last_chunk::<4>() else {
+        return Err(Problem::damaged(at, "the end", "a checksum of 4 bytes"));
+    };
+    let (computed, stated) = (crc32c(bytes), u32::from_le_bytes(*sum));
+    if computed != stated {
+        return Err(Problem::Checksum {
+            what: "a chunk".to_owned(),
+            stated,
+            computed,
+        });
+    }
+    chunk.truncate(chunk.len() - 4);
+    Ok(chunk)
+}
+
+/// The reversed polynomial.
+const CASTAGNOLI: u32 = 0x82f6_3b78;
+
+fn crc32c(bytes: &[u8]) -> u32 {
+    let mut table = [0_u32; 256];
+    for (number, entry) in (0_u32..).zip(table.iter_mut()) {
+        *entry = (0..8).fold(number, |sum, _| {
+            if sum & 1 == 1 {
+                sum >> 1 ^ CASTAGNOLI
+            } else {
+                sum >> 1
+            }
+        });
+    }
+    let folded = bytes.iter().fold(u32::MAX, |sum, byte| {
+        let low = sum.to_le_bytes()[0];
+        sum >> 8 ^ table[usize::from(low ^ byte)]
+    });
+    !folded
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_sum_of_castagnoli_is_that_of_its_standard() {
+        // The check value of CRC-32C (RFC 3720 uses the same sum).
+        assert_eq!(crc32c(b"123456789"), 0xe306_9283);
+    }
+}

@@ -1,0 +1,90 @@
+//! The value of elements that were never written.
+
+use serde_json::Value;
+
+use crate::fields::Item;
+
+/// The bytes of one element, or `None` where the value is of a kind that is not understood.
+pub(crate) fn fill(value: &Value, item: &Item) -> Option<Vec<u8>> {
+    let zero = || Some(vec![0; item.bytes]);
+    let scalar = match item.fields.as_slice() {
+        [field] if field.name.is_empty() => Some(field.scalar),
+        _ => None,
+    };
+    match (value, scalar) {
+        (Value::Null, _) => zero(),
+        (Value::String(text), _) if text.is_empty() => zero(),
+        (Value::Number(number), _) if number.to_string() == "0" => zero(),
+        (Value::Bool(is_true), Some(scalar)) => scalar.encode(&u8::from(*is_true).into()),
+        (Value::Number(number), Some(scalar)) => scalar.encode(number),
+        (Value::String(text), Some(scalar)) => {
+            float(text).map_or_else(|| bytes(text, item), |number| scalar.encode_float(number))
+        }
+        (Value::String(text), None) => bytes(text, item),
+        _ => None,
+    }
+}
+
+/// The numbers that JSON has no form for.
+fn float(text: &str) -> Option<f64> {
+    match text {
+        "NaN" => Some(f64::NAN),
+        "Infinity" => Some(f64::INFINITY),
+        "-Infinity" => Some(f64::NEG_INFINITY),
+        _ => None,
+    }
+}
+
+/// Version 2 writes texts and records as the base64 of their bytes.
+fn bytes(text: &str, item: &Item) -> Option<Vec<u8>> {
+    let mut bytes = Vec::with_capacity(text.len() / 4 * 3);
+    let (mut bits, mut held) = (0_u32, 0_u32);
+    for letter in text.trim_end_matches('=').bytes() {
+        let six = match letter {
+            b'A'..=b'Z' => letter - b'A',
+            b'a'..=b'z' => letter - b'a' + 26,
+            b'0'..=b'9' => letter - b'0' + 52,
+            b'+' => 62,
+            b'/' => 63,
+            _ => return None,
+        };
+        held = held << 6 | u32::from(six);
+        bits += 6;
+        if bits >= 8 {
+            bits -= 8;
+            bytes.push((held >> bits).to_le_bytes()[0]);
+        }
+    }
+    (bytes.len() == item.bytes).then_some(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+    use crate::scalar::Scalar;
+
+    #[test]
+    fn fill_values_are_the_bytes_of_one_element() {
+        let of = |name: &str| Item::plain(Scalar::from_numpy(name).expect("known"));
+        for (value, name, expected) in [
+            (json!(-4), ">i2", Some(vec![0xff, 0xfc])),
+            (json!(1.5), "<f4", Some(1.5_f32.to_le_bytes().to_vec())),
+            (
+                json!("-Infinity"),
+                "<f8",
+                Some(f64::NEG_INFINITY.to_le_bytes().to_vec()),
+            ),
+            (json!(true), "|b1", Some(vec![1])),
+            (json!(null), "<f8", Some(vec![0; 8])),
+            (json!("YWJj"), "|S3", Some(b"abc".to_vec())),
+            (json!("YWI="), "|S3", None),
+            (json!(300), "|u1", None),
+            (json!(-1), "|u1", None),
+            (json!({"a": 1}), "<f8", None),
+        ] {
+            assert_eq!(fill(&value, &of(name)), expected, "{value} {name}");
+        }
+    }
+}

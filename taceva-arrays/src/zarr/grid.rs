@@ -1,0 +1,168 @@
+//! Which chunks some rows lie in, and which part of each.
+
+use std::ops::Range;
+
+use super::metadata::ZarrArray;
+use crate::error::Problem;
+use crate::limits;
+
+/// Some rows of an array, over its chunks.
+#[derive(Debug)]
+pub(crate) struct Grid {
+    /// Of each axis: from where to where elements are wanted.
+    wanted: Vec<Range<u64>>,
+    shape: Vec<u64>,
+    chunk: Vec<u64>,
+    item_bytes: usize,
+}
+
+impl Grid {
+    pub(crate) fn new(array: &ZarrArray, rows: Range<u64>) -> Result<Grid, Problem> {
+        let mut wanted: Vec<Range<u64>> = array.shape.iter().map(|side| 0..*side).collect();
+        if let Some(first) = wanted.first_mut() {
+            *first = rows;
+        }
+        let shape: Vec<u64> = wanted.iter().map(|side| side.end - side.start).collect();
+        let grid = Grid {
+            wanted,
+            shape,
+            chunk: array.chunk.clone(),
+            item_bytes: array.item.bytes,
+        };
+        let chunks = grid.ranges().try_fold(1_u64, |chunks, range| {
+            chunks.checked_mul(range.end - range.start)
+        });
+        match chunks {
+            Some(chunks) if chunks <= limits::CHUNKS => Ok(grid),
+            more => Err(Problem::too_large(
+                "chunks of these rows (read fewer at a time)",
+                more.unwrap_or(u64::MAX),
+                limits::CHUNKS,
+            )),
+        }
+    }
+
+    pub(crate) fn shape(&self) -> &[u64] {
+        &self.shape
+    }
+
+    /// Of each axis: the numbers of the chunks.
+    fn ranges(&self) -> impl Iterator<Item = Range<u64>> {
+        self.wanted.iter().zip(&self.chunk).map(|(wanted, side)| {
+            if wanted.is_empty() {
+                0..0
+            } else {
+                wanted.start / side..(wanted.end - 1) / side + 1
+            }
+        })
+    }
+
+    /// All of the rows, with the fill value.
+    pub(crate) fn filled(&self, array: &ZarrArray) -> Result<Vec<u8>, Problem> {
+        let bytes = self
+            .shape
+            .iter()
+            .try_fold(self.item_bytes as u64, |bytes, side| {
+                bytes.checked_mul(*side)
+            });
+        let size = bytes
+            .filter(|bytes| *bytes <= limits::READ_BYTES)
+            .and_then(|bytes| usize::try_from(bytes).ok());
+        let size = size.ok_or_else(|| {
+            Problem::too_large(
+                "bytes of these rows (read fewer at a time)",
+                bytes.unwrap_or(u64::MAX),
+                limits::READ_BYTES,
+            )
+        })?;
+        let mut raw = vec![0; size];
+        if let Some(fill) = array
+            .fill
+            .as_deref()
+            .filter(|fill| fill.iter().any(|byte| *byte != 0))
+        {
+            raw.chunks_exact_mut(fill.len())
+                .for_each(|element| element.copy_from_slice(fill));
+        }
+        Ok(raw)
+    }
+
+    /// The chunks, the last axis fastest.
+    pub(crate) fn places(&self) -> Vec<Vec<u64>> {
+        let mut places = vec![Vec::new()];
+        for range in self.ranges() {
+            places = places
+                .into_iter()
+                .flat_map(|place| {
+                    range
+                        .clone()
+                        .map(move |number| [place.as_slice(), &[number]].concat())
+                })
+                .collect();
+        }
+        places
+    }
+
+    /// Copies what the chunk at `place` holds of the rows.
+    pub(crate) fn copy(&self, place: &[u64], chunk: &[u8], raw: &mut [u8]) {
+        let axes = self.wanted.len();
+        // Of each axis: where the part begins in the rows and in the chunk, how long it is, and how far apart neighbours are.
+        let mut parts = Vec::with_capacity(axes);
+        for (axis, number) in place.iter().enumerate() {
+            let start = number * self.chunk[axis];
+            let from = self.wanted[axis].start.max(start);
+            let to = self.wanted[axis].end.min(start + self.chunk[axis]);
+            parts.push((
+                index(from - self.wanted[axis].start),
+                index(from - start),
+                index(to - from),
+            ));
+        }
+        let strides = |sides: &[u64]| {
+            let mut strides = vec![self.item_bytes; axes];
+            for axis in (1..axes).rev() {
+                strides[axis - 1] = strides[axis] * index(sides[axis]);
+            }
+            strides
+        };
+        let (into, from) = (strides(&self.shape), strides(&self.chunk));
+        block(raw, chunk, &parts, (&into, &from), self.item_bytes);
+    }
+}
+
+/// Copies a block: axis after axis, the last in one piece.
+fn block(
+    raw: &mut [u8],
+    chunk: &[u8],
+    parts: &[(usize, usize, usize)],
+    strides: (&[usize], &[usize]),
+    item_bytes: usize,
+) {
+    match parts {
+        [] => raw[..item_bytes].copy_from_slice(&chunk[..item_bytes]),
+        [(into, from, count)] => {
+            let bytes = count * item_bytes;
+            let (into, from) = (into * item_bytes, from * item_bytes);
+            raw[into..into + bytes].copy_from_slice(&chunk[from..from + bytes]);
+        }
+        [(into, from, count), rest @ ..] => {
+            let (into_stride, from_stride) = (strides.0[0], strides.1[0]);
+            for step in 0..*count {
+                let raw = &mut raw[(into + step) * into_stride..];
+                let chunk = &chunk[(from + step) * from_stride..];
+                block(
+                    raw,
+                    chunk,
+                    rest,
+                    (&strides.0[1..], &strides.1[1..]),
+                    item_bytes,
+                );
+            }
+        }
+    }
+}
+
+/// A length that was checked against a limit.
+fn index(length: u64) -> usize {
+    usize::try_from(length).unwrap_or(usize::MAX)
+}

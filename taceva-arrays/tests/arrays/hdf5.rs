@@ -1,0 +1,134 @@
+//! Groups, attributes and refusals of HDF5.
+
+use std::fs;
+
+use taceva_arrays::{ArrayFile, ArrayFormat, ArrayValues, Problem};
+
+use crate::digest::data;
+
+fn opened(name: &str) -> ArrayFile {
+    ArrayFile::open(&data().join(name), ArrayFormat::Hdf5).expect("opens")
+}
+
+fn why(file: &ArrayFile, name: &str) -> String {
+    file.read(name, 0..1).expect_err(name).to_string()
+}
+
+#[test]
+fn groups_are_found_by_pattern_with_their_attributes() {
+    let file = opened("hdf5-groups/all.hdf5");
+    let groups = file.groups("/data/demo_*");
+    assert_eq!(
+        groups,
+        [
+            "/data/demo_0",
+            "/data/demo_1",
+            "/data/demo_2",
+            "/data/demo_3"
+        ]
+    );
+    let objects: Vec<Option<String>> = groups
+        .iter()
+        .map(|group| file.attribute(group, "object"))
+        .collect();
+    let expected = ["cube", "ball", "cube", "ball"].map(|object| Some(object.to_owned()));
+    assert_eq!(objects, expected);
+    assert_eq!(file.attribute("/data/demo_0", "weight"), None);
+    assert_eq!(file.groups("/data/*/obs").len(), 4);
+    assert_eq!(
+        file.info("/data/demo_3/obs/ft").expect("listed").shape,
+        [6, 6]
+    );
+}
+
+#[test]
+fn attributes_of_every_kind_are_the_shortest_text() {
+    let file = opened("hdf5/types.h5");
+    for (owner, name, expected) in [
+        ("/", "sensor", "drawn gel"),
+        ("", "sensor", "drawn gel"),
+        ("/record", "rate_hz", "0.1"),
+        ("/plain", "scale", "0.1"),
+        ("plain", "offset", "[1, -2, 3]"),
+    ] {
+        assert_eq!(
+            file.attribute(owner, name).as_deref(),
+            Some(expected),
+            "{owner} {name}"
+        );
+    }
+    assert_eq!(file.attribute("/no/such", "x"), None);
+}
+
+#[test]
+fn a_layout_of_hdf5_2_is_refused_with_the_setting_that_mends_it() {
+    let file = opened("refused/layout-5.h5");
+    assert_eq!(
+        file.info("/rgb").map(|info| info.shape.clone()),
+        Some(vec![6, 40]),
+        "it is listed"
+    );
+    let message = why(&file, "/rgb");
+    assert!(
+        message.contains("data layout version 5") && message.contains("libver='v114'"),
+        "{message}"
+    );
+    let time = file.read("/t", 0..6).expect("others are read").values;
+    assert_eq!(time, ArrayValues::F64(vec![0.0, 1.0, 2.0, 3.0, 4.0, 5.0]));
+}
+
+#[test]
+fn what_is_not_read_says_so_and_leaves_the_others_alone() {
+    let file = opened("refused/kinds.h5");
+    assert_eq!(
+        file.read("/x", 1..3).expect("plain").values,
+        ArrayValues::I64(vec![1, 2])
+    );
+    for (name, expected) in [
+        ("/lists", "lists of any length"),
+        ("/reference", "references"),
+        ("/elsewhere", "lie in another file"),
+        ("/virtual", "virtual dataset"),
+    ] {
+        let message = why(&file, name);
+        assert!(message.contains(expected), "{name}: {message}");
+    }
+}
+
+#[test]
+fn links_are_not_followed_and_cycles_end() {
+    let file = opened("hdf5/types.h5");
+    for name in ["/soft", "/outside"] {
+        let error = file.read(name, 0..1).expect_err("a link");
+        assert!(matches!(error.problem, Problem::Absent { .. }), "{error}");
+    }
+    let file = opened("refused/cycle.h5");
+    let names = file.names();
+    assert!(names.len() < 1_000, "{}", names.len());
+    assert_eq!(
+        file.read("/a/b/x", 0..2).expect("there").values,
+        ArrayValues::I64(vec![0, 1])
+    );
+    assert_eq!(
+        file.read("/a/b/up/b/x", 1..2).expect("the same").values,
+        ArrayValues::I64(vec![1])
+    );
+}
+
+#[test]
+fn checksums_of_chunks_are_compared() {
+    let path = data().join("hdf5-fletcher-earliest/run.h5");
+    let mut bytes = fs::read(path).expect("readable");
+    let folder = tempfile::tempdir().expect("a folder");
+    let copy = folder.path().join("run.h5");
+    let mut refused = 0;
+    // Some of these lie in chunks, wherever the library put them.
+    for at in (20_000..50_000).step_by(5_000) {
+        bytes[at] ^= 4;
+        fs::write(&copy, &bytes).expect("written");
+        bytes[at] ^= 4;
+        let file = ArrayFile::open(&copy, ArrayFormat::Hdf5).expect("structures are elsewhere");
+        refused += usize::from(file.read("/tactile/left/rgb", 0..24).is_err());
+    }
+    assert!(refused >= 5, "{refused} of 6 were found");
+}

@@ -1,0 +1,10 @@
+//! Files that other libraries wrote, read and compared with what those libraries read of them (`tests/data/make.py`).
+
+mod damage;
+mod digest;
+#[cfg(feature = "hdf5")]
+mod hdf5;
+mod peers;
+mod recordings;
+mod refusals;
+mod zarr;

@@ -1,0 +1,101 @@
+//! Labels and pictures of drawn recordings, as `expected.json` of each states them.
+
+use std::fs;
+
+use serde_json::Value;
+use sha2::{Digest, Sha256};
+use taceva_arrays::{ArrayFile, ArrayFormat, ArrayValues};
+
+use crate::digest::{data, hex};
+
+/// Folder, file and array of the pictures, file and array of the wrench.
+const RECORDINGS: &[(&str, &str, &str, &str, &str)] = &[
+    ("npy-fortran", "frames.npy", "value", "ft.npy", "value"),
+    ("npz-stored", "run.npz", "images", "run.npz", "ft"),
+    ("npz-deflated", "run.npz", "images", "run.npz", "ft"),
+    ("zarr-v2", "run.zarr", "camera_0", "run.zarr", "force"),
+    ("zarr-v2", "run.zarr", "camera_zstd", "run.zarr", "force"),
+    ("zarr-v2", "run.zarr", "camera_blosc", "run.zarr", "force"),
+    ("zarr-v3", "run.zarr", "camera_0", "run.zarr", "force"),
+    ("zarr-v3", "run.zarr", "camera_zstd", "run.zarr", "force"),
+    ("zarr-v3", "run.zarr", "camera_blosc", "run.zarr", "force"),
+        "/tactile/left/rgb",
+        "run.h5",
+        "/force/wrench",
+    ),
+    (
+        "hdf5-gzip-shuffle-earliest",
+        "run.h5",
+        "/tactile/left/rgb",
+        "run.h5",
+        "/force/wrench",
+    ),
+    (
+        "hdf5-lzf-earliest",
+        "run.h5",
+        "/tactile/left/rgb",
+        "run.h5",
+        "/force/wrench",
+    ),
+    (
+        "hdf5-fletcher-earliest",
+        "run.h5",
+        "/tactile/left/rgb",
+        "run.h5",
+        "/force/wrench",
+    ),
+];
+
+#[test]
+fn labels_and_pictures_are_those_that_the_recording_states() {
+    for (folder, frames_file, frames, wrench_file, wrench) in RECORDINGS {
+        let folder = data().join(folder);
+        let text = fs::read_to_string(folder.join("expected.json")).expect("copied with it");
+        let expected: Value = serde_json::from_str(&text).expect("JSON");
+        let open = |name: &str| {
+            let path = folder.join(name);
+            ArrayFile::open(&path, ArrayFormat::of(&path).expect("known")).expect("opens")
+        };
+        let pictures = open(frames_file);
+        let labels = open(wrench_file);
+        let info = pictures.info(frames).expect("listed");
+        assert_eq!(Some(info.rows()), expected["count"].as_u64(), "{folder:?}");
+        assert_eq!(
+            serde_json::json!(info.shape[1..]),
+            expected["shape"],
+            "{folder:?}"
+        );
+        for (row, stated) in expected["frames_sha256"].as_object().expect("three") {
+            let row: u64 = row.parse().expect("a row");
+            let ArrayValues::U8(pixels) =
+                pictures.read(frames, row..row + 1).expect("reads").values
+            else {
+                panic!("{folder:?}: pixels of 8 bits");
+            };
+            let mut sum = Sha256::new();
+            sum.update(&pixels);
+            assert_eq!(
+                hex(sum),
+                stated.as_str().expect("text"),
+                "{folder:?} row {row}"
+            );
+        }
+        for (row, stated) in expected["labels"].as_object().expect("three") {
+            let row: u64 = row.parse().expect("a row");
+            let numbers = labels
+                .read(wrench, row..row + 1)
+                .expect("reads")
+                .values
+                .to_f64()
+                .expect("numbers");
+            for (number, channel) in numbers.iter().zip(["Fx", "Fy", "Fz", "Tx", "Ty", "Tz"]) {
+                let stated = stated[channel].as_f64().expect("a number");
+                assert_eq!(
+                    number.to_bits(),
+                    stated.to_bits(),
+                    "{folder:?} row {row} {channel}"
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,166 @@
+//! What is refused, and in which words.
+
+use std::fs;
+use std::path::Path;
+
+use taceva_arrays::{ArrayError, ArrayFile, ArrayFormat, Problem};
+
+use crate::digest::data;
+
+fn opened(name: &str) -> ArrayFile {
+    let path = data().join(name);
+    ArrayFile::open(&path, ArrayFormat::of(&path).expect("known")).expect("opens")
+}
+
+fn refused(path: &Path) -> ArrayError {
+    let format = ArrayFormat::of(path).expect("known");
+    match ArrayFile::open(path, format) {
+        Err(error) => error,
+        Ok(file) => {
+            let name = file.names().remove(0);
+            let rows = file.info(&name).expect("listed").rows();
+            file.read(&name, 0..rows).expect_err("refused")
+        }
+    }
+}
+
+#[test]
+fn names_and_rows_that_are_not_there_are_refused_with_those_that_are() {
+    let file = opened("npz-stored/run.npz");
+    let message = file.read("image", 0..1).expect_err("absent").to_string();
+    assert!(
+        message.contains("`image`: no such array; there are images, ft, t, obj"),
+        "{message}"
+    );
+    let error = file.read("ft", 20..25).expect_err("too many rows");
+    assert!(
+        matches!(error.problem, Problem::Rows { rows: 24, .. }),
+        "{error}"
+    );
+    #[expect(
+        clippy::reversed_empty_ranges,
+        reason = "refused, whatever way round it is"
+    )]
+    let backwards = file.read("ft", 3..2);
+    assert!(backwards.is_err());
+    assert_eq!(file.read("ft", 24..24).expect("none").shape, [0, 6]);
+}
+
+/// An archive of one deflated member of zeros.
+fn archive_of_zeros(stated: u64, packed: &[u8]) -> Vec<u8> {
+    let name = b"bomb.npy";
+    let small = |size: u64| {
+        u32::try_from(size.min(0xffff_ffff))
+            .expect("fits")
+            .to_le_bytes()
+    };
+    let extra = [
+        &1_u16.to_le_bytes()[..],
+        &8_u16.to_le_bytes(),
+        &stated.to_le_bytes(),
+    ]
+    .concat();
+    let extra = if stated >= 0xffff_ffff {
+        extra
+    } else {
+        Vec::new()
+    };
+    let sizes = [
+        &0_u32.to_le_bytes()[..],
+        &small(packed.len() as u64),
+        &small(stated),
+    ]
+    .concat();
+    let lengths = [name.len() as u16, extra.len() as u16]
+        .map(u16::to_le_bytes)
+        .concat();
+    let local = [
+        &b"PK\x03\x04\x14\0\0\0\x08\0\0\0\0\0"[..],
+        &sizes,
+        &(name.len() as u16).to_le_bytes(),
+        &[0, 0],
+        name,
+        packed,
+    ]
+    .concat();
+    let entry = [
+        &b"PK\x01\x02\x14\0\x14\0\0\0\x08\0\0\0\0\0"[..],
+        &sizes,
+        &lengths,
+        &[0; 14],
+        name,
+        &extra,
+    ]
+    .concat();
+    // Version made by, version needed, flags, method: the member's flags are zero.
+    let end = [
+        &b"PK\x05\x06\0\0\0\0\x01\0\x01\0"[..],
+        &small(entry.len() as u64),
+        &small(local.len() as u64),
+        &[0, 0],
+    ]
+    .concat();
+    [local, entry, end].concat()
+}
+
+#[test]
+fn a_zip_bomb_is_refused_before_it_is_inflated() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("bomb.npz");
+    // 8 MB that are said to become 2 GB, and 1 kB that is said to become 2 GB, which deflate cannot.
+    fs::write(&path, archive_of_zeros(2_000_000_000, &vec![0; 8_000_000])).expect("written");
+    let error = refused(&path);
+    assert!(
+        matches!(
+            error.problem,
+            Problem::TooLarge {
+                size: 2_000_000_000,
+                ..
+            }
+        ),
+        "{error}"
+    );
+    fs::write(&path, archive_of_zeros(2_000_000_000, &[0; 1_000])).expect("written");
+    let message = refused(&path).to_string();
+    assert!(message.contains("at most 1032000"), "{message}");
+    fs::write(&path, archive_of_zeros(1 << 50, &[0; 1_000])).expect("written");
+    let message = refused(&path).to_string();
+    assert!(
+        message.contains("said to become 1125899906842624"),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_member_that_was_changed_is_found_by_its_checksum() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("run.npz");
+    let mut bytes = fs::read(data().join("npz-stored/run.npz")).expect("readable");
+    bytes[100_000] ^= 1;
+    fs::write(&path, &bytes).expect("written");
+    let file = ArrayFile::open(&path, ArrayFormat::Npz).expect("its headers are whole");
+    let error = file
+        .read("images", 0..1)
+        .expect_err("a flipped bit in another row");
+    assert!(matches!(error.problem, Problem::Checksum { .. }), "{error}");
+    assert!(file.read("ft", 0..24).is_ok(), "others are whole");
+}
+
+#[test]
+fn an_array_of_numpy_that_is_longer_or_shorter_than_its_header_says_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("ft.npy");
+    let bytes = fs::read(data().join("npy-fortran/ft.npy")).expect("readable");
+    fs::write(&path, &bytes[..bytes.len() - 1]).expect("written");
+    let message = refused(&path).to_string();
+    assert!(
+        message.contains("byte 1279: the end, expected it at byte 1280"),
+        "{message}"
+    );
+    fs::write(&path, [bytes.as_slice(), b"x"].concat()).expect("written");
+    assert!(
+        refused(&path)
+            .to_string()
+            .contains("expected it at byte 1280")
+    );
+}

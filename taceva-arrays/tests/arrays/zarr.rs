@@ -1,0 +1,144 @@
+//! Groups, attributes, damage and refusals of zarr, whose stores are folders.
+
+use std::fs;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+
+use taceva_arrays::{ArrayFile, ArrayFormat, ArrayValues, Problem};
+
+use crate::damage::{damaged, read_all};
+use crate::digest::data;
+
+fn opened(name: &str) -> ArrayFile {
+    ArrayFile::open(&data().join(name), ArrayFormat::Zarr).expect("opens")
+}
+
+#[test]
+fn groups_and_attributes_are_found_in_both_versions() {
+    let two = opened("zarr/two.zarr");
+    assert_eq!(two.groups("/*"), ["/blosc", "/packed", "/texts", "/unwritten"]);
+    assert_eq!(two.attribute("/", "sensor").as_deref(), Some("drawn gel"));
+    assert_eq!(two.attribute("/", "rate_hz").as_deref(), Some("0.1"));
+    let three = opened("zarr/three.zarr");
+    assert_eq!(three.attribute("/deeper", "object").as_deref(), Some("[\"cube\",3]"));
+    assert_eq!(three.attribute("/deeper", "gel"), None);
+    assert_eq!(opened("zarr/alone.zarr").names(), ["/"]);
+}
+
+#[test]
+fn a_slash_in_front_may_be_left_out() {
+    let file = opened("zarr/two.zarr");
+    let short = file.read("packed/zstd", 0..2).expect("there");
+    assert_eq!(short, file.read("/packed/zstd", 0..2).expect("there"));
+}
+
+#[test]
+fn what_is_not_read_says_so_and_leaves_the_others_alone() {
+    let file = opened("refused/kinds.zarr");
+    assert_eq!(file.read("/x", 1..3).expect("plain").values, ArrayValues::I64(vec![1, 2]));
+    for (name, expected) in [("/blosclz", "Blosc with blosclz"), ("/delta", "a filter `delta`"), ("/complex", "imaginary")] {
+        let message = file.read(name, 0..1).expect_err(name).to_string();
+        assert!(message.contains(expected), "{name}: {message}");
+    }
+    let shards = opened("refused/shards.zarr");
+    let message = shards.read("/shards", 0..1).expect_err("shards").to_string();
+    assert!(message.contains("without `shards`"), "{message}");
+    let folder = tempfile::tempdir().expect("a folder");
+    let error = ArrayFile::open(folder.path(), ArrayFormat::Zarr).expect_err("empty");
+    assert!(error.to_string().contains("expected a folder of zarr"), "{error}");
+}
+
+/// Copies a store.
+fn copied(from: &Path, into: &Path) {
+    fs::create_dir_all(into).expect("writable");
+    for entry in fs::read_dir(from).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        let target = into.join(path.file_name().expect("a name"));
+        if path.is_dir() {
+            copied(&path, &target);
+        } else {
+            fs::write(&target, fs::read(&path).expect("readable")).expect("written");
+        }
+    }
+}
+
+fn files(folder: &Path, into: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            files(&path, into);
+        } else {
+            into.push(path);
+        }
+    }
+}
+
+#[test]
+fn damaged_stores_are_refused_or_read_and_never_panic() {
+    let mut bad = Vec::new();
+    let (mut refused, mut looked) = (0, 0);
+    for store in ["zarr/two.zarr", "zarr/three.zarr"] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let copy = folder.path().join("run.zarr");
+        copied(&data().join(store), &copy);
+        let mut all = Vec::new();
+        files(&copy, &mut all);
+        all.sort_unstable();
+        // Every third file: chunks of one kind have neighbours.
+        for (seed, file) in all.iter().enumerate().step_by(3) {
+            let whole = fs::read(file).expect("readable");
+            // Only the array that the file belongs to is read.
+            let array = file.ancestors().skip(1).find(|folder| folder.join("zarr.json").exists() || folder.join(".zarray").exists());
+            let Some(array) = array else { continue };
+            let array = array.to_owned();
+            damaged(&whole, seed as u64, |what, bytes| {
+                fs::write(file, bytes).expect("written");
+                looked += 1;
+                match catch_unwind(AssertUnwindSafe(|| read_all(&array, ArrayFormat::Zarr))) {
+                    Ok(result) => refused += usize::from(result.is_err()),
+                    Err(_) => bad.push(format!("{}: {what}: panicked", file.display())),
+                }
+            });
+            fs::write(file, whole).expect("written");
+        }
+    }
+    assert!(bad.is_empty(), "{}", bad.join("\n"));
+    assert!(refused > looked / 4, "{refused} of {looked} were refused");
+}
+
+#[cfg(unix)]
+#[test]
+fn links_out_of_the_store_are_not_followed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let store = folder.path().join("run.zarr");
+    copied(&data().join("zarr/alone.zarr"), &store);
+    let chunk = store.join("c/0/0");
+    let outside = folder.path().join("outside");
+    fs::rename(&chunk, &outside).expect("moved");
+    std::os::unix::fs::symlink(&outside, &chunk).expect("linked");
+    let file = ArrayFile::open(&store, ArrayFormat::Zarr).expect("its metadata is whole");
+    let error = file.read("/", 0..1).expect_err("a link");
+    assert!(matches!(error.problem, Problem::Unsupported { .. }), "{error}");
+}
+
+#[test]
+fn a_shape_that_would_fill_a_memory_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let store = folder.path().join("run.zarr");
+    fs::create_dir(&store).expect("writable");
+    let write = |shape: &str, chunks: &str| {
+        let text = format!(
+            "{{\"zarr_format\":2,\"shape\":{shape},\"chunks\":{chunks},\"dtype\":\"<f8\",\"order\":\"C\",\"compressor\":null,\"filters\":null,\"fill_value\":0}}"
+        );
+        fs::write(store.join(".zarray"), text).expect("written");
+        let file = ArrayFile::open(&store, ArrayFormat::Zarr);
+        file.and_then(|file| file.read("/", 0..1)).expect_err("refused").to_string()
+    };
+    assert!(write("[4,4000000000]", "[1,1]").contains("above the limit"));
+    assert!(write("[4,18446744073709551615,9]", "[1,1,1]").contains("above the limit"));
+    assert!(write("[4,4]", "[4000000000,4000000000]").contains("bytes of one chunk"));
+    assert!(write("[4,1000000]", "[1,1]").contains("chunks of these rows"));
+    assert!(write("[4,4]", "[0,4]").contains("at least 1"));
+    assert!(write("[4,4]", "[4]").contains("as many axes"));
+    assert!(write("[4,-4]", "[4,4]").contains("list of lengths"));
+}

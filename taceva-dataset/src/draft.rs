@@ -1,0 +1,103 @@
+//! A first map for a folder that nobody has described: what is sure, what is guessed, what only its lab knows.
+
+mod frames;
+mod joins;
+mod path_parts;
+mod roles;
+mod survey;
+mod tables;
+mod written;
+
+use std::path::Path;
+
+use crate::error::DatasetError;
+use crate::file::SourceFolder;
+use survey::FileGroup;
+use tables::SeenTable;
+
+/// Tables that are read for a draft.
+const TABLES: usize = 64;
+
+/// A map of version 2 with open ends: every unit is `"?"`, which an import refuses by its line.
+///
+/// ```
+/// # let folder = tempfile::tempdir()?;
+/// std::fs::write(folder.path().join("labels.csv"), "Fz_N,note\n1.5,a\n2.5,b\n")?;
+/// let draft = taceva_dataset::MapDraft::of(folder.path())?;
+/// assert!(draft.text().contains(r#"Fz = { from = "Fz_N", unit = "?" }"#));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MapDraft {
+    text: String,
+}
+
+impl MapDraft {
+    /// Looks at the files in `folder`: names, headers, 200 rows of each kind of table, the first picture of each array.
+    ///
+    /// # Errors
+    /// [`DatasetError::Io`] if the folder cannot be read; [`DatasetError::Request`] if nothing in it is a table or a picture.
+    pub fn of(folder: &Path) -> Result<MapDraft, DatasetError> {
+        let source = SourceFolder::open(folder)?;
+        let groups = survey::groups(&source)?;
+        let (pictures, others): (Vec<&FileGroup>, Vec<&FileGroup>) = groups
+            .iter()
+            .partition(|group| frames::is_picture(&group.ending));
+        let mut tables = Vec::new();
+        let mut notes = Vec::new();
+        for group in others
+            .iter()
+            .filter(|group| !frames::is_clip(&group.ending))
+            .take(TABLES)
+        {
+            match SeenTable::read(&source, group) {
+                Ok(Some(table)) => tables.push(table),
+                Ok(None) => notes.extend(written::refused_form(group)),
+                Err(problem) => notes.push(format!("not read: {problem}")),
+            }
+        }
+        let text = match main_table(&source, &tables) {
+            Some(main) => written::of_table(&source, &groups, (main, &tables), &notes),
+            None => match pictures.iter().max_by_key(|group| group.paths.len()) {
+                Some(group) => written::of_files(group, &notes),
+                None => {
+                    return Err(DatasetError::Request {
+                        path: folder.to_owned(),
+                        problem: match notes.first() {
+                            Some(note) => format!("nothing here can be read as a table: {note}"),
+                            None => "no table and no picture is in it".to_owned(),
+                        },
+                    });
+                }
+            },
+        };
+        Ok(MapDraft { text })
+    }
+
+    /// The map, with comments that say why each line stands there.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+}
+
+/// The table whose rows are the samples: the one that knows of pictures, or else has the most channels.
+fn main_table<'t, 'g>(
+    folder: &SourceFolder,
+    tables: &'t [SeenTable<'g>],
+) -> Option<&'t SeenTable<'g>> {
+    let candidates = tables
+        .iter()
+        .filter(|table| !(table.is_single_array && !table.pictures.is_empty()));
+    candidates
+        .filter(|table| table.rows > 0 && !table.columns.is_empty())
+        .max_by_key(|table| {
+            let has_pictures =
+                !table.pictures.is_empty() || frames::file_column(folder, table).is_some();
+            (
+                has_pictures,
+                table.channels(),
+                table.group.paths.len(),
+                table.rows,
+            )
+        })
+}

@@ -1,0 +1,114 @@
+//! Tables that belong to another: by a column of both, by time, or row by row.
+
+use std::collections::BTreeSet;
+
+use super::roles::Role;
+use super::tables::SeenTable;
+
+/// A table that is joined, and the lines of its `[[join]]`.
+#[derive(Debug)]
+pub(super) struct SeenJoin<'t, 'g> {
+    pub(super) name: String,
+    pub(super) table: &'t SeenTable<'g>,
+    pub(super) lines: Vec<String>,
+}
+
+/// The tables that have channels which `main` has not, each with how it belongs to it.
+pub(super) fn of<'t, 'g>(
+    main: &SeenTable<'_>,
+    tables: &'t [SeenTable<'g>],
+) -> Vec<SeenJoin<'t, 'g>> {
+    let others = tables.iter().filter(|table| {
+        let is_alone = table.group.paths.len() == 1;
+        let is_other = table.group.first() != main.group.first();
+        is_alone && is_other && table.channels() > 0 && table.pictures.is_empty()
+    });
+    let mut joins: Vec<SeenJoin<'t, 'g>> = Vec::new();
+    for table in others {
+        let Some(lines) = by_key(main, table)
+            .or_else(|| by_time(main, table))
+            .or_else(|| by_row(main, table))
+        else {
+            continue;
+        };
+        let stem: String = table
+            .group
+            .stem()
+            .chars()
+            .filter(char::is_ascii_alphanumeric)
+            .collect();
+        let name = match stem.as_str() {
+            "" | "path" | "row" | "file" | "key" => "other".to_owned(),
+            stem => stem.to_owned(),
+        };
+        if joins.iter().all(|join| join.name != name) {
+            joins.push(SeenJoin { name, table, lines });
+        }
+    }
+    joins
+}
+
+/// A column of both whose cells in `main` are among those of `other`, where each stands once.
+fn by_key(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
+    let key = main.columns.iter().find(|column| {
+        let Some(there) = other.columns.iter().find(|there| there.name == column.name) else {
+            return false;
+        };
+        let known: BTreeSet<&String> = there.cells.iter().collect();
+        let is_key = matches!(
+            column.role,
+            Role::Attribute | Role::Index | Role::Number | Role::Other
+        );
+        let is_named = !column
+            .name
+            .starts_with(|letter: char| letter.is_ascii_digit());
+        is_key
+            && is_named
+            && known.len() == there.cells.len()
+            && column.cells.iter().any(|cell| known.contains(cell))
+    })?;
+    Some(vec![
+        format!("on = {{ {:?} = {:?} }}", key.name, key.name),
+        "unmatched = \"drop\"   # rows without one are left out and counted".to_owned(),
+    ])
+}
+
+/// Two clocks that show some of the same times.
+fn by_time(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
+    let (own, own_unit, _) = main.time()?;
+    let (there, unit, _) = other.time()?;
+    let seconds = |cells: &[String], unit: &str| -> Option<(f64, f64)> {
+        let factor = match unit {
+            "ns" => 1e-9,
+            "us" => 1e-6,
+            "ms" => 1e-3,
+            _ => 1.0,
+        };
+        let first: f64 = cells.first()?.parse().ok()?;
+        let last: f64 = cells.last()?.parse().ok()?;
+        Some((first * factor, last * factor))
+    };
+    let (begin, end) = seconds(&own.cells, own_unit)?;
+    let (first, last) = seconds(&there.cells, unit)?;
+    if first > end || last < begin {
+        return None;
+    }
+    let spacing_ms = 1e3 * (last - first) / (there.cells.len().max(2) - 1) as f64;
+    Some(vec![
+        format!("time = {{ column = {:?}, unit = {unit:?} }}", there.name),
+        "pick = \"nearest\"".to_owned(),
+        format!(
+            "tolerance_ms = {:.3}   # the time between two of its rows",
+            spacing_ms.max(0.001)
+        ),
+        "lag_ms = 0   # how much later its clock shows the same instant: nobody knows it here"
+            .to_owned(),
+        "unmatched = \"drop\"".to_owned(),
+    ])
+}
+
+/// As many rows, and no better reason.
+fn by_row(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
+    let is_alike = main.rows == other.rows && main.channels() == 0;
+    is_alike.then(|| vec!["on = \"row\"   # both have as many rows".to_owned()])
+}

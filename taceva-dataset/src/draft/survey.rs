@@ -1,0 +1,120 @@
+//! What lies in a folder: files grouped by how their names were written.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use super::path_parts::{PathParts, varying};
+use crate::error::DatasetError;
+use crate::file::SourceFolder;
+
+/// Files and folders that are looked at.
+const LOOKED_AT: usize = 100_000;
+/// Files of a group whose names are compared.
+const COMPARED: usize = 2_000;
+
+/// Files that were written alike.
+#[derive(Debug)]
+pub(super) struct FileGroup {
+    /// Paths relative to the folder, sorted.
+    pub(super) paths: Vec<String>,
+    pub(super) ending: String,
+    pub(super) parts: PathParts,
+}
+
+impl FileGroup {
+    pub(super) fn first(&self) -> &str {
+        &self.paths[0]
+    }
+
+    /// The path of the group, with `*` for what varies.
+    pub(super) fn pattern(&self) -> &str {
+        match self.paths.as_slice() {
+            [only] => only,
+            _ => &self.parts.glob,
+        }
+    }
+
+    /// The name of its first file without its ending.
+    pub(super) fn stem(&self) -> &str {
+        let name = self.first().rsplit('/').next().unwrap_or_default();
+        name.split('.').next().unwrap_or(name)
+    }
+}
+
+/// The groups of files below `folder`. A zarr store counts as a file; hidden files, maps and links are not looked at.
+pub(super) fn groups(folder: &SourceFolder) -> Result<Vec<FileGroup>, DatasetError> {
+    let mut files = Vec::new();
+    let mut folders = vec![String::new()];
+    let mut looked_at = 0;
+    while let Some(relative) = folders.pop() {
+        let path = folder.path().join(&relative);
+        let entries = std::fs::read_dir(&path).map_err(DatasetError::io("read", &path))?;
+        for entry in entries.flatten() {
+            looked_at += 1;
+            let (Ok(name), Ok(kind)) = (entry.file_name().into_string(), entry.file_type()) else {
+                continue;
+            };
+            if name.starts_with('.') || looked_at > LOOKED_AT {
+                continue;
+            }
+            let inside = match relative.as_str() {
+                "" => name.clone(),
+                relative => format!("{relative}/{name}"),
+            };
+            let is_store = kind.is_dir()
+                && Path::new(&name)
+                    .extension()
+                    .is_some_and(|ending| ending == "zarr");
+            if kind.is_dir() && !is_store {
+                folders.push(inside);
+            } else if kind.is_file() || is_store {
+                files.push(inside);
+            }
+        }
+    }
+    files.sort_unstable();
+    Ok(grouped(files))
+}
+
+/// Files of one ending at one depth whose folders and names differ in numbers and words alone.
+fn grouped(files: Vec<String>) -> Vec<FileGroup> {
+    let mut by_shape: BTreeMap<(String, usize, String), Vec<String>> = BTreeMap::new();
+    for path in files {
+        let name = path.rsplit('/').next().unwrap_or_default();
+        let ending = name
+            .rsplit_once('.')
+            .map_or("", |(_, ending)| ending)
+            .to_ascii_lowercase();
+        let shape = match is_table_ending(&ending) {
+            true => last_word(name),
+            false => String::new(),
+        };
+        let key = (ending, path.matches('/').count(), shape);
+        by_shape.entry(key).or_default().push(path);
+    }
+    let groups = by_shape.into_iter().filter_map(|((ending, ..), paths)| {
+        let compared: Vec<&str> = paths.iter().take(COMPARED).map(String::as_str).collect();
+        Some(FileGroup {
+            parts: varying(&compared)?,
+            paths,
+            ending,
+        })
+    });
+    groups.collect()
+}
+
+/// Tables beside one another mostly hold different things, those that end alike the same.
+fn is_table_ending(ending: &str) -> bool {
+    !matches!(
+        ending,
+        "png" | "jpg" | "jpeg" | "avi" | "mp4" | "mkv" | "mov"
+    )
+}
+
+/// What a name ends with before its ending: `forces` of `cube_1_forces.csv`; what numbers count is one.
+fn last_word(name: &str) -> String {
+    let stem = name.split('.').next().unwrap_or(name);
+    let last = stem.rsplit(['_', '-', ' ']).next().unwrap_or(stem);
+    last.trim_matches(|letter: char| letter.is_ascii_digit())
+        .to_owned()
+}

@@ -1,0 +1,183 @@
+//! The tables of a folder, and what their columns seem to be.
+
+use std::path::Path;
+
+use taceva_arrays::ArrayFormat;
+
+use super::roles::{Role, role};
+use super::survey::FileGroup;
+use crate::csv_table::number;
+use crate::file::SourceFolder;
+use crate::foreign::{ForeignTable, PictureColumn, TableForm, packed};
+
+/// Rows whose cells are looked at.
+const SAMPLED: usize = 200;
+
+/// A table, or the first of several that were written alike.
+#[derive(Debug)]
+pub(super) struct SeenTable<'g> {
+    pub(super) group: &'g FileGroup,
+    /// What a map writes for it.
+    pub(super) written: String,
+    pub(super) is_single_array: bool,
+    pub(super) rows: usize,
+    pub(super) columns: Vec<SeenColumn>,
+    pub(super) pictures: Vec<PictureColumn>,
+}
+
+#[derive(Debug)]
+pub(super) struct SeenColumn {
+    pub(super) name: String,
+    pub(super) role: Role,
+    /// Its first cells.
+    pub(super) cells: Vec<String>,
+}
+
+impl<'g> SeenTable<'g> {
+    /// The table that the first file of `group` is; `Ok(None)` of no table, what is wrong with one that cannot be read.
+    pub(super) fn read(
+        folder: &SourceFolder,
+        group: &'g FileGroup,
+    ) -> Result<Option<SeenTable<'g>>, String> {
+        let path = folder.path().join(group.first());
+        let Some((form, extra)) = form_of(&path, group) else {
+            return Ok(None);
+        };
+        let table = ForeignTable::read(&path, &form).map_err(|error| error.to_string())?;
+        let rows = table.rows();
+        let pictures = table.picture_columns();
+        let is_picture = |name: &String| pictures.iter().any(|picture| picture.name == *name);
+        let about = group.stem();
+        let names = table.columns().into_iter().filter(|name| !is_picture(name));
+        let columns = names.map(|name| {
+            let cells = 0..rows.min(SAMPLED);
+            let cells = cells.map(|row| table.cell(row, &name).unwrap_or_default());
+            let cells: Vec<String> = cells.map(|cell| packed::plain(&cell).to_owned()).collect();
+            SeenColumn {
+                role: role(&name, about, &cells),
+                name,
+                cells,
+            }
+        });
+        Ok(Some(SeenTable {
+            columns: columns.collect(),
+            written: match extra.as_str() {
+                "" => format!("{:?}", group.pattern()),
+                extra => format!("{{ file = {:?}, {extra} }}", group.pattern()),
+            },
+            is_single_array: matches!(
+                form,
+                TableForm::Arrays {
+                    format: ArrayFormat::Npy,
+                    ..
+                }
+            ),
+            group,
+            rows,
+            pictures,
+        }))
+    }
+
+    /// How many channels its columns hold.
+    pub(super) fn channels(&self) -> usize {
+        let of = |column: &SeenColumn| match &column.role {
+            Role::Channels(channels) => channels.len(),
+            _ => 0,
+        };
+        self.columns.iter().map(of).sum()
+    }
+
+    /// The column of the time.
+    pub(super) fn time(&self) -> Option<(&SeenColumn, &'static str, bool)> {
+        let mut columns = self.columns.iter();
+        columns.find_map(|column| match &column.role {
+            Role::Time { unit, is_unix } => Some((column, *unit, *is_unix)),
+            _ => None,
+        })
+    }
+}
+
+/// The form of a table, and what a map has to say of it beside its path.
+fn form_of(path: &Path, group: &FileGroup) -> Option<(TableForm, String)> {
+    let plain = |form| Some((form, String::new()));
+    match group.ending.as_str() {
+        "csv" | "tsv" => {
+            let header = ForeignTable::read(path, &TableForm::Delimited { has_header: true });
+            match header.is_ok_and(|table| !is_of_numbers(&table.names())) {
+                true => plain(TableForm::Delimited { has_header: true }),
+                false => Some((
+                    TableForm::Delimited { has_header: false },
+                    "header = false".to_owned(),
+                )),
+            }
+        }
+        "json" => {
+            // An object whose members are objects is a table of them.
+            let members = TableForm::Json {
+                rows: Some("/*".to_owned()),
+            };
+            let table = ForeignTable::read(path, &TableForm::Json { rows: None }).ok()?;
+            let is_list = table.rows() != 1;
+            let are_rows = !is_list
+                && ForeignTable::read(path, &members)
+                    .is_ok_and(|table| table.rows() > 1 && !table.names().is_empty());
+            match are_rows {
+                true => Some((members, "rows = \"/*\"".to_owned())),
+                false => plain(TableForm::Json { rows: None }),
+            }
+        }
+        "jsonl" | "ndjson" => plain(TableForm::JsonLines),
+        "parquet" => plain(TableForm::Parquet),
+        _ => {
+            let format = ArrayFormat::of(path)?;
+            let whole = TableForm::Arrays { format, rows: None };
+            let table = ForeignTable::read(path, &whole).ok()?;
+            let Some(rows) = rows_within(&table.names()) else {
+                return plain(whole);
+            };
+            let extra = format!("rows = {rows:?}");
+            let rows = Some(rows);
+            Some((TableForm::Arrays { format, rows }, extra))
+        }
+    }
+}
+
+/// Whether what would be names of columns are numbers: the file has no header.
+fn is_of_numbers(names: &[String]) -> bool {
+    let is_number =
+        |name: &&String| number::number(packed::plain(name)).is_ok_and(|found| found.is_some());
+    names.iter().filter(is_number).count() * 2 > names.len()
+}
+
+/// Where the rows of a file of arrays are: in a table with fields, or in groups that are called alike.
+fn rows_within(names: &[String]) -> Option<String> {
+    let mut fields = names
+        .iter()
+        .filter_map(|name| Some(name.rsplit_once('.')?.0));
+    if let Some(table) = fields.next() {
+        return Some(format!("/{table}"));
+    }
+    // data/demo_0/ft, data/demo_1/ft: /data/*
+    let split: Vec<Vec<&str>> = names.iter().map(|name| name.split('/').collect()).collect();
+    let first = split.first()?;
+    let counted = first
+        .iter()
+        .position(|part| part.ends_with(|letter: char| letter.is_ascii_digit()))?;
+    let bare = |part: &str| {
+        part.trim_end_matches(|letter: char| letter.is_ascii_digit())
+            .to_owned()
+    };
+    let are_alike = split.iter().all(|parts| {
+        parts.len() > counted + 1
+            && parts[..counted] == first[..counted]
+            && bare(parts[counted]) == bare(first[counted])
+    });
+    let is_several = split.iter().any(|parts| parts[counted] != first[counted]);
+    (are_alike && is_several).then(|| {
+        let before: String = first[..counted]
+            .iter()
+            .map(|part| format!("/{part}"))
+            .collect();
+        format!("{before}/*")
+    })
+}

@@ -1,0 +1,283 @@
+//! The map as text: what is sure stands as it is, what is guessed says why, what only the lab knows is `"?"`.
+
+use std::fmt::Write;
+
+use super::frames::{self, FrameLines};
+use super::joins::{self, SeenJoin};
+use super::path_parts::PathParts;
+use super::roles::{Role, channel, words};
+use super::survey::FileGroup;
+use super::tables::SeenTable;
+use crate::file::SourceFolder;
+use crate::table::is_attribute_name;
+
+const HEAD: &str = "\
+# A draft: made from names, headers and the first rows. Every \"?\" is for you; an import refuses it by its line.
+# What a comment calls a guess is one. `taceva import FOLDER --map THIS --explain` says what would be read.
+map_version = 2
+";
+
+/// Why a file is not read, and what reads it.
+pub(super) fn refused_form(group: &FileGroup) -> Option<String> {
+    let remedy = match group.ending.as_str() {
+        "xlsx" | "xls" | "ods" => "libreoffice --headless --convert-to csv",
+        "bag" | "db3" => "`mcap convert IN OUT.mcap` of the mcap program",
+        _ => return None,
+    };
+    Some(format!(
+        "{} is not read: convert it first, {remedy}",
+        group.first()
+    ))
+}
+
+/// The map of a folder whose samples are the rows of `main`.
+pub(super) fn of_table(
+    folder: &SourceFolder,
+    groups: &[FileGroup],
+    (main, tables): (&SeenTable<'_>, &[SeenTable<'_>]),
+    notes: &[String],
+) -> String {
+    let frame = frames::of(folder, groups, (main, tables));
+    let joins = joins::of(main, tables);
+    let mut text = begun(notes);
+    line(
+        &mut text,
+        &format!("table = {}   # {} rows", main.written, main.rows),
+    );
+    let others: Vec<&str> = tables
+        .iter()
+        .map(|table| table.group.pattern())
+        .filter(|path| *path != main.group.pattern())
+        .collect();
+    if !others.is_empty() {
+        line(&mut text, &format!("# Other tables: {}", others.join(", ")));
+    }
+    let parts = match &frame {
+        Some(FrameLines {
+            path: Some(parts), ..
+        }) => Some(parts),
+        _ if main.group.paths.len() > 1 => Some(&main.group.parts),
+        _ => None,
+    };
+    if let Some(parts) = parts {
+        add_path(&mut text, parts);
+    }
+    add_frame(&mut text, frame.as_ref());
+    let columns = table_columns(main, &joins);
+    let mut channels = Lines::default();
+    let mut attributes = Lines::default();
+    for (name, role) in &columns {
+        match role {
+            Role::Channels(found) => {
+                for (channel, index) in found {
+                    let unit = "unit = \"?\"";
+                    channels.add(channel, &format!("{{ from = \"{name}{index}\", {unit} }}"));
+                }
+            }
+            Role::Attribute => attributes.add(&attribute_name(name), &format!("{name:?}")),
+            Role::Time { .. } | Role::Index | Role::Number | Role::Other => {}
+        }
+    }
+    let mut ids = Lines::default();
+    if let Some(parts) = parts {
+        add_parts(parts, (&mut channels, &mut ids, &mut attributes));
+    }
+    let numbers: Vec<&str> = columns
+        .iter()
+        .filter(|(_, role)| *role == Role::Number)
+        .map(|(name, _)| name.as_str())
+        .collect();
+    let numbers = match numbers.is_empty() {
+        true => String::new(),
+        false => format!(
+            "# Numbers whose names say nothing: {}\n",
+            numbers.join(", ")
+        ),
+    };
+    add_section(&mut text, "columns", &format!("{numbers}{}", channels.0));
+    match main.time() {
+        Some((column, unit, is_unix)) => {
+            let clock = if is_unix { "unix" } else { "monotonic" };
+            let lines = format!(
+                "clock = {clock:?}   # a guess by the size of the times\ncolumn = {:?}\nunit = {unit:?}\n",
+                column.name
+            );
+            add_section(&mut text, "time", &lines);
+        }
+        None => add_section(&mut text, "time", "clock = \"unknown\"\n"),
+    }
+    for join in &joins {
+        let lines: String = join.lines.iter().map(|line| format!("{line}\n")).collect();
+        add_section(
+            &mut text,
+            "[join]",
+            &format!(
+                "name = {:?}\ntable = {}\n{lines}",
+                join.name, join.table.written
+            ),
+        );
+    }
+    add_section(&mut text, "ids", &ids.0);
+    add_section(&mut text, "attributes", &attributes.0);
+    ended(text)
+}
+
+/// The map of a folder of pictures without a table.
+pub(super) fn of_files(group: &FileGroup, notes: &[String]) -> String {
+    let mut text = begun(notes);
+    line(
+        &mut text,
+        &format!(
+            "table = {{ files = {:?} }}   # no table: {} files, each of them a row",
+            group.pattern(),
+            group.paths.len()
+        ),
+    );
+    let (mut channels, mut ids, mut attributes) =
+        (Lines::default(), Lines::default(), Lines::default());
+    if group.parts.names.is_empty() {
+        line(
+            &mut text,
+            "# Nothing varies in their names that could be a label.",
+        );
+    } else {
+        add_path(&mut text, &group.parts);
+        add_parts(&group.parts, (&mut channels, &mut ids, &mut attributes));
+    }
+    add_frame(
+        &mut text,
+        Some(&FrameLines {
+            lines: vec!["column = \"file\"".to_owned()],
+            ..FrameLines::default()
+        }),
+    );
+    add_section(&mut text, "columns", &channels.0);
+    add_section(&mut text, "time", "clock = \"unknown\"\n");
+    add_section(&mut text, "ids", &ids.0);
+    add_section(&mut text, "attributes", &attributes.0);
+    ended(text)
+}
+
+/// The columns of the main table and of those that are joined, as a map names them.
+fn table_columns(main: &SeenTable<'_>, joins: &[SeenJoin<'_, '_>]) -> Vec<(String, Role)> {
+    let own = main
+        .columns
+        .iter()
+        .map(|column| (column.name.clone(), column.role.clone()));
+    let others = joins.iter().flat_map(|join| {
+        let columns = join.table.columns.iter();
+        columns.map(|column| {
+            (
+                format!("{}.{}", join.name, column.name),
+                column.role.clone(),
+            )
+        })
+    });
+    own.chain(others).collect()
+}
+
+/// What the parts of a path seem to be: channels by their names, a unit, texts.
+fn add_parts(parts: &PathParts, (channels, ids, attributes): (&mut Lines, &mut Lines, &mut Lines)) {
+    for (name, is_number) in &parts.names {
+        let from = format!("path.{name}");
+        match (is_number, channel(&words(name))) {
+            (true, Some(channel)) => {
+                channels.add(channel, &format!("{{ from = {from:?}, unit = \"?\" }}"))
+            }
+            (true, None) if name.to_ascii_lowercase() == "unit" => {
+                ids.add("unit_id", &format!("{from:?}"))
+            }
+            (true, None)
+                if ["repeat", "rep", "trial"].contains(&name.to_ascii_lowercase().as_str()) =>
+            {
+                ids.add("repeat", &format!("{from:?}"))
+            }
+            (true, None) if name.starts_with("number") => {}
+            _ => attributes.add(&attribute_name(name), &format!("{from:?}")),
+        }
+    }
+}
+
+/// Lines of a section, each key once.
+#[derive(Default)]
+struct Lines(String);
+
+impl Lines {
+    fn add(&mut self, key: &str, value: &str) {
+        let is_known = self
+            .0
+            .lines()
+            .any(|line| line.split(" = ").next() == Some(key));
+        let mark = if is_known { "# or: " } else { "" };
+        let _ = writeln!(self.0, "{mark}{key} = {value}");
+    }
+}
+
+fn attribute_name(column: &str) -> String {
+    let last = column
+        .rsplit(['/', '.'])
+        .find(|part| !part.is_empty())
+        .unwrap_or(column);
+    let name: String = last
+        .chars()
+        .map(|letter| {
+            if letter.is_ascii_alphanumeric() {
+                letter
+            } else {
+                '_'
+            }
+        })
+        .collect();
+    match is_attribute_name(&name) {
+        true => name,
+        false => format!("text_{name}"),
+    }
+}
+
+fn begun(notes: &[String]) -> String {
+    let mut text = HEAD.to_owned();
+    for note in notes {
+        line(&mut text, &format!("# {}", note.replace('\n', " ")));
+    }
+    text
+}
+
+fn add_path(text: &mut String, parts: &PathParts) {
+    add_section(text, "path", &format!("pattern = {:?}\n", parts.pattern));
+}
+
+fn add_frame(text: &mut String, frame: Option<&FrameLines>) {
+    let Some(frame) = frame else {
+        line(text, "# No pictures were found that belong to its rows.");
+        return;
+    };
+    let mut lines: String = frame.lines.iter().map(|line| format!("{line}\n")).collect();
+    lines += match frame.is_gray {
+        true => "channel_order = \"gray\"\n",
+        false => {
+            "channel_order = \"rgb\"   # a guess: OpenCV writes arrays as \"bgr\"; pictures without colours are \"gray\"\n"
+        }
+    };
+    lines += "reference = \"unknown\"   # the picture without contact, if there is one\n";
+    add_section(text, "frame", &lines);
+}
+
+fn add_section(text: &mut String, name: &str, lines: &str) {
+    if !lines.is_empty() {
+        let _ = write!(text, "\n[{name}]\n{lines}");
+    }
+}
+
+fn ended(mut text: String) -> String {
+    add_section(
+        &mut text,
+        "sensor",
+        "model = \"?\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = \"unknown\"\n",
+    );
+    text
+}
+
+fn line(text: &mut String, line: &str) {
+    text.push_str(line);
+    text.push('\n');
+}

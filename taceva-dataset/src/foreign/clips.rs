@@ -1,0 +1,106 @@
+//! Frames of clips.
+
+use std::path::{Path, PathBuf};
+
+use taceva_core::{Frame, FrameInfo, PixelFormat};
+use taceva_video::{Colours, Decoders, Video, VisitError};
+
+use super::pictures::{Ended, Picture, Pictures, Visit, damaged, guarded_visit};
+use super::said;
+use crate::decode::ChannelOrder;
+use crate::error::DatasetError;
+use crate::guard::guarded;
+
+/// The frames of a clip in the order in which they are shown. The file is opened for each visit: a recording may have a clip a press.
+#[derive(Debug)]
+pub(crate) struct ClipPictures {
+    path: PathBuf,
+    decoders: Decoders,
+    count: u64,
+}
+
+impl ClipPictures {
+    /// The clip at `path`.
+    pub(crate) fn open(path: &Path, decoders: &Decoders) -> Result<ClipPictures, DatasetError> {
+        let video = open(path, decoders)?;
+        Ok(ClipPictures {
+            path: path.to_owned(),
+            decoders: decoders.clone(),
+            count: video.info().frames,
+        })
+    }
+}
+
+fn open(path: &Path, decoders: &Decoders) -> Result<Video, DatasetError> {
+    let opened = guarded(|| Video::open(path, decoders));
+    let opened = opened.map_err(|problem| damaged(path, problem))?;
+    opened.map_err(|error| damaged(path, said(path, &error)))
+}
+
+impl Pictures for ClipPictures {
+    fn path(&self) -> &Path {
+        &self.path
+    }
+
+    fn count(&self) -> u64 {
+        self.count
+    }
+
+    fn visit(
+        &self,
+        sorted: &[u64],
+        order: ChannelOrder,
+        each: Visit<'_>,
+    ) -> Result<(), DatasetError> {
+        let video = open(&self.path, &self.decoders)?;
+        let (colours, format) = match order {
+            ChannelOrder::Gray => (Colours::Luma, PixelFormat::Gray8),
+            ChannelOrder::Rgb | ChannelOrder::Bgr => (Colours::Rgb, PixelFormat::Rgb8),
+        };
+        guarded_visit(&self.path, || {
+            let outcome = video.visit(sorted, colours, &mut |index, picture| {
+                each(
+                    index,
+                    kept(picture, format).map_err(|problem| damaged(&self.path, problem))?,
+                )
+            });
+            outcome.map_err(|ended| match ended {
+                VisitError::Video(error) => Ended::File(error),
+                VisitError::Caller(error) => Ended::Picture(error),
+            })
+        })
+    }
+}
+
+/// The picture as it is kept: a packet of Motion JPEG as it came, numbers of more than 8 bits as they are in 16.
+fn kept(picture: taceva_video::Picture, format: PixelFormat) -> Result<Picture, String> {
+    let (width, height, format, bytes) = match picture {
+        taceva_video::Picture::Jpeg(bytes) => return Ok(Picture::Encoded(bytes)),
+        taceva_video::Picture::Pixels {
+            width,
+            height,
+            samples,
+        } => (width, height, format, samples),
+        taceva_video::Picture::Deep {
+            width,
+            height,
+            samples,
+            ..
+        } => {
+            let bytes = samples.into_iter().flat_map(u16::to_le_bytes);
+            (width, height, PixelFormat::Gray16, bytes.collect())
+        }
+        other => {
+            return Err(format!(
+                "pictures of a kind that is not known here: {other:?}"
+            ));
+        }
+    };
+    let info = FrameInfo {
+        width,
+        height,
+        format,
+    };
+    let frame = Frame::new(info, bytes).map_err(|error| error.to_string())?;
+    Ok(Picture::Pixels(frame))
+}

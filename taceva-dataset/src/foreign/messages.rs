@@ -1,0 +1,179 @@
+//! The messages of one topic of an MCAP recording as a table.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use taceva_core::{Frame, FrameInfo, PixelFormat};
+use taceva_tables::{Mcap, McapTable, SampleForm};
+
+use super::columns::{ColumnSource, PictureColumn, PictureKind};
+use super::pictures::{Ended, Picture, Pictures, Visit, damaged, guarded_visit};
+use super::said;
+use crate::decode::ChannelOrder;
+use crate::error::DatasetError;
+use crate::import::FrameNames;
+
+/// Messages of these types are pictures in their field `data`.
+const PICTURES: [&str; 2] = ["sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"];
+
+/// The messages of a topic, in the order in which they were logged.
+#[derive(Debug)]
+pub(super) struct MessageRows {
+    table: Arc<McapTable>,
+    names: Vec<String>,
+}
+
+/// The pictures in one field of them.
+#[derive(Debug)]
+struct MessagePictures {
+    table: Arc<McapTable>,
+    field: String,
+}
+
+/// The topics of the recording at `path`, each with its schema and how many messages it has.
+pub(crate) fn topics(path: &Path) -> Result<Vec<(String, String, u64)>, String> {
+    let recording = Mcap::open(path).map_err(|error| said(path, &error))?;
+    let topics = recording.topics().iter();
+    Ok(topics
+        .map(|topic| (topic.name.clone(), topic.schema.clone(), topic.count))
+        .collect())
+}
+
+impl MessageRows {
+    /// The messages of the topic, or of the only one.
+    pub(super) fn open(path: &Path, topic: Option<&str>) -> Result<MessageRows, String> {
+        let recording = Mcap::open(path).map_err(|error| said(path, &error))?;
+        let topic = match (topic, recording.topics()) {
+            (Some(topic), _) => topic.to_owned(),
+            (None, [only]) => only.name.clone(),
+            (None, several) => {
+                let names: Vec<&str> = several.iter().map(|topic| topic.name.as_str()).collect();
+                return Err(format!(
+                    "it holds several topics, of which `rows` names one: {}",
+                    names.join(", ")
+                ));
+            }
+        };
+        let table = recording
+            .table(&topic)
+            .map_err(|error| said(path, &error))?;
+        Ok(MessageRows {
+            names: table.names().map_err(|error| said(path, &error))?,
+            table: Arc::new(table),
+        })
+    }
+}
+
+impl ColumnSource for MessageRows {
+    fn rows(&self) -> usize {
+        usize::try_from(self.table.rows()).unwrap_or(usize::MAX)
+    }
+
+    fn names(&self) -> Vec<String> {
+        self.names.clone()
+    }
+
+    fn has(&self, name: &str) -> bool {
+        self.names.iter().any(|known| known == name)
+    }
+
+    /// All in one walk over the recording.
+    fn columns(&self, names: &[&str]) -> Result<Vec<Vec<String>>, String> {
+        let columns = self.table.columns(names);
+        let columns = columns.map_err(|error| said(self.table.path(), &error))?;
+        let texts = columns.iter().map(|cells| {
+            let texts = cells.iter().map(|cell| cell.text().into_owned());
+            texts.collect()
+        });
+        Ok(texts.collect())
+    }
+
+    fn picture_columns(&self) -> Vec<PictureColumn> {
+        let is_picture = PICTURES.contains(&self.table.topic().schema.as_str());
+        let data = is_picture.then(|| PictureColumn {
+            name: "data".to_owned(),
+            kind: PictureKind::Encoded,
+        });
+        data.into_iter().collect()
+    }
+
+    fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, String> {
+        let FrameNames::Bytes(field) = names else {
+            return Err(
+                "pictures in messages: `bytes` names their field, mostly `data`".to_owned(),
+            );
+        };
+        if !self.has(field) {
+            let there = self.names.join(", ");
+            return Err(format!(
+                "no field `{field}` for the frames; the fields are {there}"
+            ));
+        }
+        Ok(Arc::new(MessagePictures {
+            table: Arc::clone(&self.table),
+            field: field.clone(),
+        }))
+    }
+}
+
+impl Pictures for MessagePictures {
+    fn path(&self) -> &Path {
+        self.table.path()
+    }
+
+    fn count(&self) -> u64 {
+        self.table.rows()
+    }
+
+    fn visit(
+        &self,
+        sorted: &[u64],
+        order: ChannelOrder,
+        each: Visit<'_>,
+    ) -> Result<(), DatasetError> {
+        guarded_visit(self.path(), || {
+            self.table
+                .visit_pictures(&self.field, sorted, &mut |row, picture| {
+                    let picture = kept(picture, order);
+                    let picture = picture.map_err(|problem| {
+                        Ended::Picture(damaged(self.path(), format!("message {row}: {problem}")))
+                    })?;
+                    each(row, picture).map_err(Ended::Picture)
+                })
+        })
+    }
+}
+
+/// The picture as it is kept: a file as it came, samples with their colours in the order that the map declares.
+fn kept(picture: taceva_tables::Picture, order: ChannelOrder) -> Result<Picture, String> {
+    let samples = match picture {
+        taceva_tables::Picture::Encoded(bytes) => return Ok(Picture::Encoded(bytes)),
+        taceva_tables::Picture::Samples(samples) => samples,
+        other => {
+            return Err(format!(
+                "pictures of a kind that is not known here: {other:?}"
+            ));
+        }
+    };
+    let (format, stored) = match samples.form {
+        SampleForm::Mono8 => (PixelFormat::Gray8, ChannelOrder::Gray),
+        SampleForm::Mono16 => (PixelFormat::Gray16, ChannelOrder::Gray),
+        SampleForm::Rgb8 => (PixelFormat::Rgb8, ChannelOrder::Rgb),
+        SampleForm::Bgr8 => (PixelFormat::Rgb8, ChannelOrder::Bgr),
+        other => return Err(format!("pixels of type {other:?} are not kept")),
+    };
+    if stored != order {
+        return Err(format!(
+            "the message says that its colours are `{}`, the map says `{}`",
+            stored.name(),
+            order.name()
+        ));
+    }
+    let info = FrameInfo {
+        width: samples.width,
+        height: samples.height,
+        format,
+    };
+    let frame = Frame::new(info, samples.bytes).map_err(|error| error.to_string())?;
+    Ok(Picture::Pixels(frame))
+}

@@ -1,0 +1,122 @@
+//! Parquet as a table, pictures in its cells too.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use taceva_tables::{ParquetTable, TableError};
+
+use super::columns::{ColumnSource, PictureColumn, PictureKind};
+use super::pictures::{Ended, Picture, Pictures, Visit, damaged, guarded_visit};
+use super::said;
+use crate::decode::{ChannelOrder, ImageKind};
+use crate::error::DatasetError;
+use crate::import::FrameNames;
+
+/// The rows of a Parquet file.
+#[derive(Debug)]
+pub(super) struct ParquetRows {
+    table: Arc<ParquetTable>,
+}
+
+/// The encoded pictures in one of its columns.
+#[derive(Debug)]
+struct ParquetPictures {
+    table: Arc<ParquetTable>,
+    column: String,
+}
+
+impl ParquetRows {
+    pub(super) fn open(path: &Path) -> Result<ParquetRows, String> {
+        let table = ParquetTable::open(path).map_err(|error| said(path, &error))?;
+        Ok(ParquetRows {
+            table: Arc::new(table),
+        })
+    }
+}
+
+impl ColumnSource for ParquetRows {
+    fn rows(&self) -> usize {
+        usize::try_from(self.table.rows()).unwrap_or(usize::MAX)
+    }
+
+    fn names(&self) -> Vec<String> {
+        self.table.names()
+    }
+
+    fn has(&self, name: &str) -> bool {
+        self.table.names().iter().any(|known| known == name)
+    }
+
+    fn columns(&self, names: &[&str]) -> Result<Vec<Vec<String>>, String> {
+        let texts = |name: &&str| {
+            let cells = self.table.column(name);
+            let cells = cells.map_err(|error| said(self.table.path(), &error))?;
+            Ok(cells.iter().map(|cell| cell.text().into_owned()).collect())
+        };
+        names.iter().map(texts).collect()
+    }
+
+    fn picture_columns(&self) -> Vec<PictureColumn> {
+        let is_encoded = |name: &String| {
+            let mut is_encoded = false;
+            let _ = self.table.visit_bytes(name, &[0], &mut |_, bytes| {
+                is_encoded = bytes.is_some_and(|bytes| ImageKind::of(&bytes).is_some());
+                Ok::<(), TableError>(())
+            });
+            is_encoded
+        };
+        let names = self.names().into_iter().filter(is_encoded);
+        names
+            .map(|name| PictureColumn {
+                name,
+                kind: PictureKind::Encoded,
+            })
+            .collect()
+    }
+
+    fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, String> {
+        let FrameNames::Bytes(column) = names else {
+            return Err(
+                "pictures in a Parquet file are encoded: `bytes` names their column".to_owned(),
+            );
+        };
+        if !self.has(column) {
+            let there = self.names().join(", ");
+            return Err(format!(
+                "no column `{column}` for the frames; the columns are {there}"
+            ));
+        }
+        Ok(Arc::new(ParquetPictures {
+            table: Arc::clone(&self.table),
+            column: column.clone(),
+        }))
+    }
+}
+
+impl Pictures for ParquetPictures {
+    fn path(&self) -> &Path {
+        self.table.path()
+    }
+
+    fn count(&self) -> u64 {
+        self.table.rows()
+    }
+
+    fn visit(
+        &self,
+        sorted: &[u64],
+        _order: ChannelOrder,
+        each: Visit<'_>,
+    ) -> Result<(), DatasetError> {
+        guarded_visit(self.path(), || {
+            self.table
+                .visit_bytes(&self.column, sorted, &mut |row, bytes| {
+                    let bytes = bytes.ok_or_else(|| {
+                        let problem = format!("row {row} has no bytes in `{}`", self.column);
+                        Ended::Picture(damaged(self.path(), problem))
+                    })?;
+                    each(row, Picture::Encoded(bytes)).map_err(Ended::Picture)
+                })
+        })
+    }
+}

@@ -1,0 +1,222 @@
+//! Arrays as tables and as frames: what of them is refused, and in which words.
+
+use super::{FACTS, NO_TIME, planned};
+use taceva_dataset::{Dataset, ImportMap, ImportPlan};
+
+/// A NumPy file of version 1.
+fn npy(kind: &str, shape: &str, data: &[u8]) -> Vec<u8> {
+    let header = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}");
+    let length = u16::try_from(header.len()).expect("short");
+    [
+        b"\x93NUMPY\x01\x00",
+        &length.to_le_bytes()[..],
+        header.as_bytes(),
+        data,
+    ]
+    .concat()
+}
+
+fn bytes_of(numbers: &[f32]) -> Vec<u8> {
+    numbers
+        .iter()
+        .flat_map(|number| number.to_le_bytes())
+        .collect()
+}
+
+/// A folder with two forces and these frames.
+fn lab(frames: &[u8]) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    let forces = npy("<f4", "(2,)", &bytes_of(&[1.0, 2.0]));
+    std::fs::write(folder.path().join("ft.npy"), forces).expect("written");
+    std::fs::write(folder.path().join("frames.npy"), frames).expect("written");
+    folder
+}
+
+fn map(frame: &str) -> String {
+    format!(
+        "table = \"ft.npy\"\n[frame]\n{frame}\nchannel_order = \"gray\"\nreference = \"unknown\"\n[columns]\nFz = {{ from = \"value\", unit = \"N\" }}\n{NO_TIME}"
+    )
+}
+
+/// What planning and running say of these frames.
+fn problem(frames: &[u8], frame: &str) -> String {
+    let folder = lab(frames);
+    let plan = match planned(folder.path(), &map(frame)) {
+        Err(problem) => return problem,
+        Ok(plan) => plan,
+    };
+    let target = folder.path().join("dataset");
+    let outcome = plan.run(
+        &target,
+        std::num::NonZeroUsize::MIN,
+        &taceva_core::SilentProgress,
+    );
+    assert!(!target.exists(), "nothing is left");
+    outcome.expect_err("refused").to_string()
+}
+
+#[test]
+fn numbers_become_pixels_by_the_range_that_the_map_states() {
+    let frames = npy("<f4", "(2, 1, 2)", &bytes_of(&[0.0, 1.0, 0.5, 0.25]));
+    let folder = lab(&frames);
+    let text = map("array = { file = \"frames.npy\" }\nrange = [1, 0]\nbits = 16");
+    let plan = planned(folder.path(), &text).expect("planned");
+    let target = folder.path().join("dataset");
+    plan.run(
+        &target,
+        std::num::NonZeroUsize::MIN,
+        &taceva_core::SilentProgress,
+    )
+    .expect("imported");
+    let dataset = Dataset::open(&target).expect("a dataset");
+    let frame = dataset.table().frames()[1].clone().expect("a frame");
+    let picture = image::open(target.join(frame.path))
+        .expect("a picture")
+        .into_luma16();
+    // Black and full are exchanged: a half is rounded away from zero.
+    assert_eq!(picture.into_raw(), [32_768, 49_151]);
+}
+
+#[test]
+fn a_number_outside_of_the_range_and_one_that_is_none_name_their_frame() {
+    for (last, named) in [(1.5, "1.5"), (f32::NAN, "NaN"), (-0.1, "-0.1")] {
+        let frames = npy("<f4", "(2, 1, 1)", &bytes_of(&[0.0, last]));
+        let problem = problem(
+            &frames,
+            "array = { file = \"frames.npy\" }\nrange = [0, 1]\nbits = 8",
+        );
+        assert!(problem.contains("ft.npy, row 1, column `row`"), "{problem}");
+        assert!(problem.contains("frame 1: "), "{problem}");
+        assert!(
+            problem.contains(named) && problem.contains("outside of `range = [0, 1]`"),
+            "{problem}"
+        );
+    }
+}
+
+#[test]
+fn what_is_no_array_of_frames_is_refused_in_words() {
+    let in_file = "array = { file = \"frames.npy\" }";
+    for (frames, frame, expected) in [
+        (
+            npy("<f4", "(2, 1, 1)", &[0; 8]),
+            in_file,
+            "write `range = [BLACK, FULL]`",
+        ),
+        (
+            npy("|u1", "(2,)", &[0; 2]),
+            in_file,
+            "shape (2), expected (n, height, width)",
+        ),
+        (
+            npy("|u1", "(2, 2, 1, 4)", &[0; 16]),
+            in_file,
+            "expected (n, height, width)",
+        ),
+        (
+            npy("|u1", "(2, 3, 2, 2)", &[0; 24]),
+            in_file,
+            "`layout = \"nchw\"` says so",
+        ),
+        (
+            npy("|u1", "(1, 1, 1)", &[0]),
+            in_file,
+            "no frame 1, there are 1 from 0",
+        ),
+        (npy("|u1", "(2, 1, 0)", &[]), in_file, "not accepted"),
+        (npy("|u1", "(2, 2, 2)", &[0; 7]), in_file, "frames.npy"),
+        (
+            npy("|u1", "(2, 1, 1, 3)", &[0; 6]),
+            in_file,
+            "channel order `gray` is declared",
+        ),
+        (
+            npy("|u1", "(2, 1, 1)", &[0; 2]),
+            "array = \"frames\"",
+            "there is no array `frames` for the frames",
+        ),
+        (
+            npy("|u1", "(2, 1, 1)", &[0; 2]),
+            "array = { file = \"absent.npy\" }",
+            "no such file",
+        ),
+        (
+            npy("|u1", "(2, 1, 1)", &[0; 2]),
+            "bytes = \"value\"",
+            "where `bytes` are encoded pictures",
+        ),
+    ] {
+        let problem = problem(&frames, frame);
+        assert!(problem.contains(expected), "{frame}: {problem}");
+    }
+}
+
+#[test]
+fn keys_of_frames_that_do_not_go_together_name_their_line() {
+    for (frame, expected) in [
+        (
+            "array = { file = \"frames.npy\" }\nrange = [0, 1]",
+            "`bits` 8 or 16",
+        ),
+        (
+            "array = { file = \"frames.npy\" }\nrange = [1, 1]\nbits = 8",
+            "`bits` 8 or 16",
+        ),
+        (
+            "array = { file = \"frames.npy\" }\nrange = [0, 1]\nbits = 12",
+            "`bits` 8 or 16",
+        ),
+        (
+            "column = \"value\"\nlayout = \"nchw\"",
+            "are for an `array`",
+        ),
+        (
+            "bytes = \"value\"\nindex = \"row\"",
+            "expected one of the five",
+        ),
+        (
+            "array = { file = \"../frames.npy\" }",
+            "`..` is not followed",
+        ),
+    ] {
+        let text = format!("map_version = 2\n{}\n{FACTS}", map(frame));
+        let error = ImportMap::parse("map.toml".as_ref(), &text).expect_err(frame);
+        let error = error.to_string();
+        assert!(
+            error.contains("map.toml, line 3") && error.contains(expected),
+            "{frame}: {error}"
+        );
+    }
+}
+
+#[test]
+fn a_table_of_arrays_has_the_rows_that_most_of_them_have() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |name: &str, bytes: &[u8]| {
+        std::fs::write(folder.path().join(name), bytes).expect("written")
+    };
+    write(
+        "ft.npy",
+        &npy("<f4", "(2, 3)", &bytes_of(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0])),
+    );
+    let text = format!(
+        "table = \"ft.npy\"\n[columns]\nFz = {{ from = \"value[2]\", unit = \"N\" }}\nFx = {{ from = \"value[3]\", unit = \"N\" }}\n{NO_TIME}"
+    );
+    let problem = planned(folder.path(), &text).expect_err("three of four");
+    assert!(
+        problem.contains("row 0, column `value`: there is no value [3] among the 3"),
+        "{problem}"
+    );
+    let text = format!(
+        "map_version = 2\n{}\n{FACTS}",
+        text.replace("value[3]", "force[0]")
+    );
+    let map = ImportMap::parse("map.toml".as_ref(), &text).expect("a map");
+    let problem = ImportPlan::new(folder.path(), &map)
+        .expect_err("no such column")
+        .to_string();
+    assert!(
+        problem.contains("no column `force`") && problem.contains("the columns are value"),
+        "{problem}"
+    );
+}

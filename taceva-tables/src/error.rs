@@ -1,0 +1,168 @@
+//! What can be wrong with a table of another program.
+
+use std::fmt;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Why a table was not read, or one of its columns.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum TableError {
+    /// The system refused a file.
+    #[error("cannot read {}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// Bytes that contradict the format: cut short, changed, or never written by a program that knew it.
+    #[error("{}{place}: {problem}", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// Where in it.
+        place: Place,
+        /// What was found, and what was expected.
+        problem: String,
+    },
+    /// What the format allows and this crate does not read.
+    #[error("{}{place}: {problem}", path.display())]
+    Unsupported {
+        /// The file.
+        path: PathBuf,
+        /// Where in it.
+        place: Place,
+        /// What is not read, and what would be.
+        problem: String,
+    },
+    /// More than is read into memory at once.
+    #[error("{}{place}: {problem}", path.display())]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// Where in it.
+        place: Place,
+        /// How much there is, and how much is accepted.
+        problem: String,
+    },
+    /// A column, a field or a topic that is not there.
+    #[error("{}: no `{name}`, there are {}", path.display(), shown_list(known))]
+    Missing {
+        /// The file.
+        path: PathBuf,
+        /// What was asked for.
+        name: String,
+        /// What there is.
+        known: Vec<String>,
+    },
+    /// A column, or a place in it, that is not what was asked for.
+    #[error("{}, `{name}`: {problem}", path.display())]
+    Mismatch {
+        /// The file.
+        path: PathBuf,
+        /// What was asked for.
+        name: String,
+        /// What it is, and what was expected.
+        problem: String,
+    },
+}
+
+impl TableError {
+    /// The file that the error is about.
+    ///
+    /// ```
+    /// use taceva_tables::ParquetTable;
+    /// let error = ParquetTable::open("absent.parquet".as_ref()).unwrap_err();
+    /// assert_eq!(error.path().to_str(), Some("absent.parquet"));
+    /// ```
+    pub fn path(&self) -> &Path {
+        match self {
+            TableError::Io { path, .. }
+            | TableError::Damaged { path, .. }
+            | TableError::Unsupported { path, .. }
+            | TableError::TooLarge { path, .. }
+            | TableError::Missing { path, .. }
+            | TableError::Mismatch { path, .. } => path,
+        }
+    }
+}
+
+/// Where in a file: a byte, and the column, topic or record that it belongs to, as far as known.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Place {
+    /// The byte, from 0.
+    pub byte: Option<u64>,
+    /// The column, topic or record.
+    pub name: Option<String>,
+}
+
+impl Place {
+    /// The byte at `byte`, from 0.
+    pub(crate) fn byte(byte: u64) -> Place {
+        Place {
+            byte: Some(byte),
+            name: None,
+        }
+    }
+
+    /// The column, topic or record called `name`.
+    pub(crate) fn of(name: &str) -> Place {
+        Place {
+            byte: None,
+            name: Some(name.to_owned()),
+        }
+    }
+
+    /// This place, in the column, topic or record called `name`.
+    pub(crate) fn in_name(self, name: &str) -> Place {
+        Place {
+            name: Some(name.to_owned()),
+            ..self
+        }
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(byte) = self.byte {
+            write!(f, ", byte {byte}")?;
+        }
+        match &self.name {
+            Some(name) => write!(f, ", `{}`", shown(name)),
+            None => Ok(()),
+        }
+    }
+}
+
+/// A name from a file as a message shows it: without control characters, at most 80 characters.
+pub(crate) fn shown(name: &str) -> String {
+    let mut text: String = name
+        .chars()
+        .take(80)
+        .map(|letter| {
+            if letter.is_control() {
+                '\u{fffd}'
+            } else {
+                letter
+            }
+        })
+        .collect();
+    if text.len() < name.len() && name.chars().count() > 80 {
+        text.push('…');
+    }
+    text
+}
+
+/// Names as a message lists them: the first 40.
+fn shown_list(names: &[String]) -> String {
+    if names.is_empty() {
+        return "none".to_owned();
+    }
+    let mut list: Vec<String> = names.iter().take(40).map(|name| shown(name)).collect();
+    if names.len() > 40 {
+        list.push(format!("and {} more", names.len() - 40));
+    }
+    list.join(", ")
+}

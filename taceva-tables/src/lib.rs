@@ -1,0 +1,20 @@
+#![doc = include_str!("../README.md")]
+#![forbid(unsafe_code)]
+
+mod bytes;
+mod cell;
+mod error;
+mod limits;
+mod mcap;
+mod parquet;
+mod path;
+mod ros;
+mod rows;
+mod source;
+mod unpack;
+
+pub use cell::Cell;
+pub use error::{Place, TableError};
+pub use mcap::{Mcap, McapTable, Topic};
+pub use parquet::ParquetTable;
+pub use ros::{Picture, SampleForm, Samples};

@@ -1,0 +1,22 @@
+//! How much of a file is taken into memory at once. Beyond these a file is refused before anything is allocated for it.
+
+/// What describes a file: the footer of a Parquet file, the summary of an MCAP file, a JSON file of LeRobot.
+pub(crate) const DESCRIPTION_BYTES: u64 = 64 << 20;
+/// A page of a Parquet file or a chunk of an MCAP file, compressed or not.
+pub(crate) const PAGE_BYTES: u64 = 256 << 20;
+/// A picture, or another cell of bytes.
+pub(crate) const CELL_BYTES: u64 = 256 << 20;
+/// The cells of one column, as they lie in memory.
+pub(crate) const COLUMN_BYTES: u64 = 1 << 30;
+/// Numbers in one row of a column of lists.
+pub(crate) const ROW_LEVELS: u64 = 1 << 24;
+/// Rows of a table.
+pub(crate) const ROWS: u64 = 1 << 28;
+/// How deep lists and structures may nest.
+pub(crate) const DEPTH: usize = 32;
+/// Columns, fields or topics.
+pub(crate) const NAMES: usize = 1 << 16;
+/// Messages of one topic, of which the time and the place are kept.
+pub(crate) const MESSAGES: usize = 1 << 24;
+/// Elements of lists in one message that become cells.
+pub(crate) const MESSAGE_CELLS: usize = 1 << 20;

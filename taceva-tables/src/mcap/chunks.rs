@@ -1,0 +1,141 @@
+//! Chunks of an MCAP file, unpacked one at a time, their sums checked.
+
+use std::fs::File;
+use std::sync::Arc;
+
+use super::record::{self, HEAD, code};
+use crate::bytes::Bytes;
+use crate::error::{Place, TableError};
+use crate::limits;
+use crate::source::Source;
+use crate::unpack::{Codec, unpack};
+
+/// Unpacked chunks that are kept: writers with several threads let the times of neighbours overlap.
+const KEPT: usize = 2;
+
+/// Records of a file by their places, through one cursor.
+pub(super) struct Chunks<'a> {
+    source: &'a Source,
+    file: File,
+    kept: Vec<(u64, Arc<Vec<u8>>)>,
+}
+
+impl<'a> Chunks<'a> {
+    pub(super) fn new(source: &'a Source) -> Result<Chunks<'a>, TableError> {
+        Ok(Chunks {
+            source,
+            file: source.open()?,
+            kept: Vec::new(),
+        })
+    }
+
+    /// The code and the length of the fields of the record at `at`.
+    pub(super) fn head(&mut self, at: u64) -> Result<(u8, u64), TableError> {
+        let head = self.source.bytes(&mut self.file, at, HEAD, HEAD)?;
+        let mut bytes = Bytes::new(&head);
+        let (Some(code), Some(length)) = (bytes.u8(), bytes.u64()) else {
+            return Err(self
+                .source
+                .damaged(Place::byte(at), "a record is cut short"));
+        };
+        let end = at
+            .checked_add(HEAD)
+            .and_then(|begin| begin.checked_add(length));
+        match end.is_some_and(|end| end <= self.source.length()) {
+            true => Ok((code, length)),
+            false => {
+                let problem = format!("a record of {length} bytes, beyond the end of the file");
+                Err(self.source.damaged(Place::byte(at), problem))
+            }
+        }
+    }
+
+    /// The fields of the record at `at`, which must have the code `expected`; the first `most` bytes of them.
+    pub(super) fn fields(
+        &mut self,
+        at: u64,
+        expected: u8,
+        most: u64,
+    ) -> Result<Vec<u8>, TableError> {
+        let (code, length) = self.head(at)?;
+        if code != expected {
+            let problem = format!("a record of code {code:#04x}, expected {expected:#04x}");
+            return Err(self.source.damaged(Place::byte(at), problem));
+        }
+        self.source.bytes(
+            &mut self.file,
+            at + HEAD,
+            length.min(most),
+            limits::PAGE_BYTES,
+        )
+    }
+
+    /// The records in the chunk at `at`.
+    pub(super) fn unpacked(&mut self, at: u64) -> Result<Arc<Vec<u8>>, TableError> {
+        if let Some(found) = self.kept.iter().position(|(place, _)| *place == at) {
+            let kept = self.kept.remove(found);
+            let bytes = Arc::clone(&kept.1);
+            self.kept.push(kept);
+            return Ok(bytes);
+        }
+        // The oldest goes before the next is unpacked, so that no more than `KEPT` are in memory.
+        if self.kept.len() >= KEPT {
+            self.kept.remove(0);
+        }
+        let fields = self.fields(at, code::CHUNK, u64::MAX)?;
+        let bytes = Arc::new(self.unpack(at, &fields)?);
+        self.kept.push((at, Arc::clone(&bytes)));
+        Ok(bytes)
+    }
+
+    fn unpack(&self, at: u64, fields: &[u8]) -> Result<Vec<u8>, TableError> {
+        let damaged = |problem: String| {
+            self.source
+                .damaged(Place::byte(at).in_name("chunk"), problem)
+        };
+        let (head, begin) =
+            record::chunk(fields).ok_or_else(|| damaged("the head is cut short".to_owned()))?;
+        let packed = fields.get(begin..).unwrap_or_default();
+        if packed.len() as u64 != head.packed {
+            return Err(damaged(format!(
+                "{} bytes, its head announces {}",
+                packed.len(),
+                head.packed
+            )));
+        }
+        if head.unpacked > limits::PAGE_BYTES {
+            let problem = format!(
+                "{} bytes unpacked, at most {} are accepted",
+                head.unpacked,
+                limits::PAGE_BYTES
+            );
+            return Err(self
+                .source
+                .too_large(Place::byte(at).in_name("chunk"), problem));
+        }
+        let codec = match head.codec.as_str() {
+            "" => Codec::Plain,
+            "lz4" => Codec::Lz4Frame,
+            "zstd" => Codec::Zstd,
+            other => {
+                let problem = format!(
+                    "compressed by `{}`, expected none, lz4 or zstd",
+                    crate::error::shown(other)
+                );
+                return Err(self
+                    .source
+                    .unsupported(Place::byte(at).in_name("chunk"), problem));
+            }
+        };
+        let size = usize::try_from(head.unpacked).unwrap_or(usize::MAX);
+        let bytes = unpack(codec, packed, size).map_err(damaged)?;
+        let formed = crc32fast::hash(&bytes);
+        match head.crc == 0 || head.crc == formed {
+            true => Ok(bytes),
+            false => Err(damaged(format!(
+                "its sum is {formed:08x} instead of {:08x}: it was changed after it was written",
+                head.crc
+            ))),
+        }
+    }
+}

@@ -1,0 +1,48 @@
+//! Messages of JSON.
+
+use serde_json::Value;
+
+use crate::cell::Cell;
+use crate::limits;
+
+/// A message as a cell; `Err` says why it is no JSON. `serde_json` reads no deeper than 128 levels.
+pub(super) fn cell(message: &[u8]) -> Result<Cell, String> {
+    if message.len() as u64 > limits::DESCRIPTION_BYTES {
+        return Err(format!("{} bytes of JSON", message.len()));
+    }
+    serde_json::from_slice(message)
+        .map(of_value)
+        .map_err(|error| format!("no JSON: {error}"))
+}
+
+fn of_value(value: Value) -> Cell {
+    match value {
+        Value::Null => Cell::Null,
+        Value::Bool(value) => Cell::Bool(value),
+        Value::Number(number) => match (number.as_u64(), number.as_i64()) {
+            (Some(value), _) => Cell::Integer(value.into()),
+            (None, Some(value)) => Cell::Integer(value.into()),
+            (None, None) => number.as_f64().map_or(Cell::Null, Cell::Number),
+        },
+        Value::String(text) => Cell::Text(text),
+        Value::Array(values) => Cell::List(values.into_iter().map(of_value).collect()),
+        Value::Object(members) => Cell::Struct(
+            members
+                .into_iter()
+                .map(|(name, value)| (name, of_value(value)))
+                .collect(),
+        ),
+    }
+}
+
+/// The names of the members of a cell that are no objects.
+pub(super) fn add_names(cell: &Cell, above: &str, into: &mut Vec<String>) {
+    let Cell::Struct(members) = cell else { return };
+    for (name, member) in members {
+        let name = format!("{above}{name}");
+        match member {
+            Cell::Struct(_) => add_names(member, &format!("{name}."), into),
+            _ => into.push(name),
+        }
+    }
+}

@@ -1,0 +1,328 @@
+//! Tables in Parquet files.
+
+mod assemble;
+mod leaf;
+mod page_header;
+mod pages;
+mod schema;
+
+use std::path::Path;
+
+use parquet::file::metadata::{ParquetMetaData, ParquetMetaDataReader, RowGroupMetaData};
+
+use self::assemble::Assembly;
+use self::schema::{Node, NodeKind};
+use crate::cell::Cell;
+use crate::error::{Place, TableError};
+use crate::limits;
+use crate::path::longest;
+use crate::source::Source;
+
+/// Rows that are decoded at once.
+const ROWS_AT_ONCE: usize = 256;
+
+/// A table in a Parquet file: columns of numbers, texts, bytes, lists and structures, by any writer.
+///
+/// Opening reads the footer alone. Pages may be compressed by snappy, gzip, LZ4, brotli or Zstandard; their sums are checked where
+/// the file has them. Threads may share a table: every call reads the file through a cursor of its own.
+///
+/// ```
+/// use taceva_tables::{Cell, ParquetTable};
+/// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/presses.parquet");
+/// let table = ParquetTable::open(path.as_ref())?;
+/// assert_eq!(table.names(), ["t", "ft", "pose.x", "pose.y", "image.bytes", "image.path", "object"]);
+/// assert_eq!(table.column("ft[2]")?, [Cell::Number(2.0), Cell::Number(3.5), Cell::Null]);
+/// # Ok::<(), taceva_tables::TableError>(())
+/// ```
+#[derive(Debug)]
+pub struct ParquetTable {
+    source: Source,
+    metadata: ParquetMetaData,
+    columns: Vec<Node>,
+    rows: u64,
+}
+
+impl ParquetTable {
+    /// The table at `path`.
+    ///
+    /// # Errors
+    /// [`TableError::Io`] if the file cannot be read, [`TableError::Damaged`] if it is no Parquet file or its footer contradicts
+    /// itself, [`TableError::TooLarge`] if the footer or the table is larger than is accepted.
+    pub fn open(path: &Path) -> Result<ParquetTable, TableError> {
+        let source = Source::new(path)?;
+        let mut file = source.open()?;
+        check_footer(&source, &mut file)?;
+        let metadata = ParquetMetaDataReader::new()
+            .parse_and_finish(&file)
+            .map_err(|error| source.damaged(Place::default(), format!("the footer: {error}")))?;
+        let columns = schema::columns(metadata.file_metadata().schema_descr())
+            .map_err(|problem| source.unsupported(Place::default(), problem))?;
+        let mut rows = 0_u64;
+        for (at, group) in metadata.row_groups().iter().enumerate() {
+            let more = u64::try_from(group.num_rows()).map_err(|_| {
+                let problem = format!("group {at} of {} rows", group.num_rows());
+                source.damaged(Place::default(), problem)
+            })?;
+            rows = rows.saturating_add(more);
+        }
+        if rows > limits::ROWS {
+            let problem = format!("{rows} rows, at most {} are accepted", limits::ROWS);
+            return Err(source.too_large(Place::default(), problem));
+        }
+        let stated = metadata.file_metadata().num_rows();
+        if u64::try_from(stated) != Ok(rows) {
+            let problem = format!("the footer states {stated} rows, its groups have {rows}");
+            return Err(source.damaged(Place::default(), problem));
+        }
+        Ok(ParquetTable {
+            source,
+            metadata,
+            columns,
+            rows,
+        })
+    }
+
+    /// The file.
+    pub fn path(&self) -> &Path {
+        self.source.path()
+    }
+
+    /// How many rows there are.
+    pub fn rows(&self) -> u64 {
+        self.rows
+    }
+
+    /// The columns in the order of the schema; of a structure the members, as `pose.x`.
+    pub fn names(&self) -> Vec<String> {
+        let mut names = Vec::new();
+        for node in &self.columns {
+            add_names(node, &node.name, &mut names);
+        }
+        names
+    }
+
+    /// What is in the column called `name`, row by row: one of [`names`](Self::names), a structure as a whole, or a place inside lists:
+    /// `ft[2]`, `ft[2,0]`.
+    ///
+    /// # Errors
+    /// [`TableError::Missing`] if there is no such column, [`TableError::Mismatch`] if `name` leads into a list that is shorter in
+    /// some row, [`TableError::TooLarge`] if the cells take more than 1 GiB of memory, [`TableError::Damaged`] if pages do not read.
+    pub fn column(&self, name: &str) -> Result<Vec<Cell>, TableError> {
+        let found = self.find(name)?;
+        let mut cells = Vec::new();
+        let mut bytes = 0_u64;
+        for group in self.metadata.row_groups() {
+            let mut assembly = Assembly::new(&self.source, group, &found.column)?;
+            let mut left = rows_of(group);
+            while left > 0 {
+                let rows = left.min(ROWS_AT_ONCE);
+                assembly.read(&self.source, rows, &mut |cell| {
+                    let cell = found.inside(&self.source, cells.len(), cell)?;
+                    bytes = bytes.saturating_add(cell.bytes());
+                    if bytes > limits::COLUMN_BYTES {
+                        let problem = format!(
+                            "more than {} bytes in memory; ask for a part, as `{name}[0]`",
+                            limits::COLUMN_BYTES
+                        );
+                        return Err(self.source.too_large(Place::of(name), problem));
+                    }
+                    cells.push(cell);
+                    Ok(())
+                })?;
+                left -= rows;
+            }
+        }
+        Ok(cells)
+    }
+
+    /// Hands the bytes in the column called `name`, such as `image.bytes`, of the rows `sorted` to `each`, with the row; [`None`]
+    /// where the cell is null. A page is in memory at a time.
+    ///
+    /// `sorted` must ascend; a row that stands in it twice is handed over twice.
+    ///
+    /// # Errors
+    /// As [`column`](Self::column); [`TableError::Mismatch`] too if the column is none of bytes, or if `sorted` does not ascend or names
+    /// a row that is not there; whatever `each` returns.
+    pub fn visit_bytes<E: From<TableError>>(
+        &self,
+        name: &str,
+        sorted: &[u64],
+        each: &mut dyn FnMut(u64, Option<Vec<u8>>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let found = self.find(name)?;
+        crate::rows::check_sorted(&self.source, name, sorted, self.rows)?;
+        let mut wanted = sorted;
+        let mut begin = 0;
+        for group in self.metadata.row_groups() {
+            let end = begin + rows_of(group) as u64;
+            let (here, later) = wanted.split_at(wanted.partition_point(|row| *row < end));
+            wanted = later;
+            if !here.is_empty() {
+                let mut assembly = Assembly::new(&self.source, group, &found.column)?;
+                let mut next = begin;
+                for run in here.chunk_by(|a, b| a == b) {
+                    let row = run[0];
+                    assembly.skip(usize::try_from(row - next).unwrap_or(usize::MAX))?;
+                    next = row + 1;
+                    let mut cell = Cell::Null;
+                    assembly.read(&self.source, 1, &mut |read| {
+                        cell = found.inside(
+                            &self.source,
+                            usize::try_from(row).unwrap_or(usize::MAX),
+                            read,
+                        )?;
+                        Ok(())
+                    })?;
+                    let bytes = match cell {
+                        Cell::Null => None,
+                        Cell::Bytes(bytes) => Some(bytes),
+                        Cell::Text(text) => Some(text.into_bytes()),
+                        _ => return Err(self.source.mismatch(name, "it holds no bytes").into()),
+                    };
+                    for _ in &run[1..] {
+                        each(row, bytes.clone())?;
+                    }
+                    each(row, bytes)?;
+                }
+            }
+            begin = end;
+        }
+        Ok(())
+    }
+
+    /// The column that `name` begins with, without the members of structures that it does not lead to.
+    fn find(&self, name: &str) -> Result<Found, TableError> {
+        let names = self.columns.iter().map(|node| node.name.as_str());
+        let Some((at, rest)) = longest(name, names) else {
+            return Err(self.source.missing(name, self.names()));
+        };
+        let column = narrow(&self.columns[at], rest)
+            .ok_or_else(|| self.source.missing(name, self.names()))?;
+        Ok(Found {
+            column,
+            name: name.to_owned(),
+            rest: rest.to_owned(),
+        })
+    }
+}
+
+/// A column and the place in its cells that was asked for.
+struct Found {
+    column: Node,
+    name: String,
+    rest: String,
+}
+
+impl Found {
+    /// The part of `cell` that was asked for; null where a structure or a list on the way is.
+    fn inside(&self, source: &Source, row: usize, cell: Cell) -> Result<Cell, TableError> {
+        if self.rest.is_empty() {
+            return Ok(cell);
+        }
+        cell.into_inside(&self.rest).ok_or_else(|| {
+            source.mismatch(
+                &self.name,
+                format!("row {row} (from 0) has no such element"),
+            )
+        })
+    }
+}
+
+/// `node` with no more of its members than `rest` leads to; none where it leads nowhere.
+fn narrow(node: &Node, rest: &str) -> Option<Node> {
+    if rest.is_empty() {
+        return Some(node.clone());
+    }
+    let kind = match &node.kind {
+        NodeKind::Leaf { .. } => return None,
+        NodeKind::Struct(members) => {
+            let (at, left) = longest(rest, members.iter().map(|member| member.name.as_str()))?;
+            NodeKind::Struct(vec![narrow(&members[at], left)?])
+        }
+        NodeKind::List {
+            definition,
+            repetition,
+            element,
+        } => {
+            let (numbers, left) = crate::path::indices(rest)?;
+            let mut inner = element.as_ref();
+            for _ in &numbers[1..] {
+                let NodeKind::List { element, .. } = &inner.kind else {
+                    return None;
+                };
+                inner = element;
+            }
+            let element = match numbers.len() {
+                1 => narrow(element, left)?,
+                _ => {
+                    narrow(inner, left)?;
+                    element.as_ref().clone()
+                }
+            };
+            NodeKind::List {
+                definition: *definition,
+                repetition: *repetition,
+                element: Box::new(element),
+            }
+        }
+    };
+    Some(Node {
+        kind,
+        ..node.clone()
+    })
+}
+
+fn add_names(node: &Node, name: &str, into: &mut Vec<String>) {
+    match &node.kind {
+        NodeKind::Struct(members) => {
+            for member in members {
+                add_names(member, &format!("{name}.{}", member.name), into);
+            }
+        }
+        NodeKind::Leaf { .. } | NodeKind::List { .. } => into.push(name.to_owned()),
+    }
+}
+
+/// Rows of a group; the sum over all groups was checked when the table was opened.
+fn rows_of(group: &RowGroupMetaData) -> usize {
+    usize::try_from(group.num_rows()).unwrap_or(0)
+}
+
+/// The last 8 bytes: the length of the footer, which lies in the file and is not too large, and the mark.
+fn check_footer(source: &Source, file: &mut std::fs::File) -> Result<(), TableError> {
+    let Some(at) = source.length().checked_sub(8) else {
+        let problem = format!("{} bytes are no Parquet file", source.length());
+        return Err(source.damaged(Place::default(), problem));
+    };
+    let end = source.bytes(file, at, 8, 8)?;
+    let (length, mark) = end.split_at(4);
+    match mark {
+        b"PAR1" => {}
+        b"PARE" => {
+            let problem = "the footer is encrypted, which is not read";
+            return Err(source.unsupported(Place::byte(at), problem));
+        }
+        _ => {
+            let problem =
+                "no Parquet file: it does not end with `PAR1`, as one that was cut short does not";
+            return Err(source.damaged(Place::byte(at), problem));
+        }
+    }
+    let length = u64::from(u32::from_le_bytes([
+        length[0], length[1], length[2], length[3],
+    ]));
+    if length > limits::DESCRIPTION_BYTES {
+        let problem = format!(
+            "a footer of {length} bytes, at most {} are accepted",
+            limits::DESCRIPTION_BYTES
+        );
+        return Err(source.too_large(Place::byte(at), problem));
+    }
+    match length <= at {
+        true => Ok(()),
+        false => Err(source.damaged(
+            Place::byte(at),
+            format!("a footer of {length} bytes, before which there are {at}"),
+        )),
+    }
+}

@@ -1,0 +1,388 @@
+//! Pages of a column chunk, checked and unpacked here, and decoded by the `parquet` crate.
+//!
+//! Reading pages ourselves is what lets them be unpacked without C, their sums be checked and their sizes be held against the file
+//! before anything is allocated.
+
+use std::fs::File;
+use std::io::{BufReader, Read, Seek, SeekFrom};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use bytes::Bytes;
+use parquet::basic::{Compression, Encoding, Type as Physical};
+use parquet::column::page::{Page, PageMetadata, PageReader};
+use parquet::errors::ParquetError;
+use parquet::file::metadata::ColumnChunkMetaData;
+
+use super::page_header::{PageHeader, PageKind, read_header};
+use crate::error::{Place, TableError};
+use crate::limits;
+use crate::source::Source;
+use crate::unpack::{Codec, unpack};
+
+/// The pages of one chunk, in the order of the file.
+pub(super) struct Pages {
+    source: Source,
+    name: String,
+    file: BufReader<File>,
+    /// Where the next header begins, and where the chunk ends.
+    at: u64,
+    end: u64,
+    codec: Codec,
+    physical: Physical,
+    type_length: usize,
+    max_definition: i16,
+    max_repetition: i16,
+    /// A header that was looked at, and where its page begins.
+    peeked: Option<(PageHeader, u64)>,
+    /// Values of all pages handed over since whoever shares this set it to zero.
+    handed: Arc<AtomicU64>,
+    is_dictionary_read: bool,
+}
+
+impl Pages {
+    /// The pages of `chunk`, which belongs to the column called `name`.
+    pub(super) fn new(
+        source: &Source,
+        name: &str,
+        chunk: &ColumnChunkMetaData,
+        handed: Arc<AtomicU64>,
+    ) -> Result<Pages, TableError> {
+        let place = Place::of(name);
+        if chunk.file_path().is_some() {
+            let problem = "the column lies in another file, which is not followed";
+            return Err(source.unsupported(place, problem));
+        }
+        let codec = match chunk.compression_codec().into() {
+            Compression::UNCOMPRESSED => Codec::Plain,
+            Compression::SNAPPY => Codec::Snappy,
+            Compression::GZIP(_) => Codec::Gzip,
+            Compression::BROTLI(_) => Codec::Brotli,
+            Compression::LZ4 => Codec::Lz4Hadoop,
+            Compression::LZ4_RAW => Codec::Lz4Block,
+            Compression::ZSTD(_) => Codec::Zstd,
+            other => {
+                let problem = format!(
+                    "compressed by {other}, which is not read; write it with snappy or zstd"
+                );
+                return Err(source.unsupported(place, problem));
+            }
+        };
+        let first = [
+            chunk.dictionary_page_offset(),
+            Some(chunk.data_page_offset()),
+        ]
+        .into_iter()
+        .flatten()
+        // Some writers give 0 for a dictionary that is not there.
+        .filter(|offset| *offset > 0)
+        .min();
+        let at = first.and_then(|offset| u64::try_from(offset).ok());
+        let size = u64::try_from(chunk.compressed_size()).ok();
+        let range = at
+            .zip(size)
+            .and_then(|(at, size)| Some((at, at.checked_add(size)?)));
+        let Some((at, end)) = range.filter(|(_, end)| *end <= source.length()) else {
+            let problem = format!(
+                "its pages are said to begin at byte {} and to take {}, in a file of {}",
+                chunk.data_page_offset(),
+                chunk.compressed_size(),
+                source.length()
+            );
+            return Err(source.damaged(place, problem));
+        };
+        let column = chunk.column_descr();
+        Ok(Pages {
+            source: source.clone(),
+            name: name.to_owned(),
+            file: BufReader::new(source.open()?),
+            at,
+            end,
+            codec,
+            physical: column.physical_type(),
+            type_length: usize::try_from(column.type_length()).unwrap_or(0),
+            max_definition: column.max_def_level(),
+            max_repetition: column.max_rep_level(),
+            peeked: None,
+            handed,
+            is_dictionary_read: false,
+        })
+    }
+
+    /// The next header and where its page begins; the cursor of the file stands there.
+    fn header(&mut self) -> Result<Option<&(PageHeader, u64)>, TableError> {
+        if self.peeked.is_some() || self.at >= self.end {
+            return Ok(self.peeked.as_ref());
+        }
+        let at = self.at;
+        self.file
+            .seek(SeekFrom::Start(at))
+            .map_err(|source| self.source.io(source))?;
+        let mut rest = self.file.by_ref().take(self.end - at);
+        let (header, length) =
+            read_header(&mut rest).map_err(|problem| self.damaged(at, problem))?;
+        let begin = at + length;
+        let is_inside = begin
+            .checked_add(u64::from(header.packed))
+            .is_some_and(|end| end <= self.end);
+        if !is_inside {
+            let problem = format!(
+                "a page of {} bytes, beyond the end of its chunk at byte {}",
+                header.packed, self.end
+            );
+            return Err(self.damaged(at, problem));
+        }
+        self.peeked = Some((header, begin));
+        Ok(self.peeked.as_ref())
+    }
+
+    /// Passes over the page whose header was looked at.
+    fn pass(&mut self) {
+        if let Some((header, begin)) = self.peeked.take() {
+            self.at = begin + u64::from(header.packed);
+        }
+    }
+
+    fn next_page(&mut self) -> Result<Option<Page>, TableError> {
+        loop {
+            let Some((header, begin)) = self.header()?.cloned() else {
+                return Ok(None);
+            };
+            if header.kind == PageKind::Index {
+                self.pass();
+                continue;
+            }
+            let page = self.page(&header, begin)?;
+            self.pass();
+            return Ok(Some(page));
+        }
+    }
+
+    fn page(&mut self, header: &PageHeader, begin: u64) -> Result<Page, TableError> {
+        let limit = limits::PAGE_BYTES;
+        if u64::from(header.packed.max(header.unpacked)) > limit {
+            let problem = format!(
+                "a page of {} bytes, {} unpacked; at most {limit} are accepted",
+                header.packed, header.unpacked
+            );
+            return Err(self
+                .source
+                .too_large(Place::byte(begin).in_name(&self.name), problem));
+        }
+        let mut packed = vec![0; header.packed as usize];
+        self.file
+            .seek(SeekFrom::Start(begin))
+            .and_then(|_| self.file.read_exact(&mut packed))
+            .map_err(|source| self.source.io(source))?;
+        let formed = crc32fast::hash(&packed);
+        if let Some(crc) = header.crc.filter(|crc| *crc != formed) {
+            let problem = format!(
+                "the sum of the page is {formed:08x} instead of {crc:08x}: it was changed after it was written"
+            );
+            return Err(self.damaged(begin, problem));
+        }
+        let bytes = self
+            .unpacked(header, packed)
+            .map_err(|problem| self.damaged(begin, problem))?;
+        self.checked(header, bytes)
+            .map_err(|problem| self.damaged(begin, problem))
+    }
+
+    /// The bytes of a page unpacked: of version 2 levels come before what is packed.
+    fn unpacked(&self, header: &PageHeader, packed: Vec<u8>) -> Result<Vec<u8>, String> {
+        let size = header.unpacked as usize;
+        if header.kind != PageKind::DataV2 {
+            return match self.codec {
+                Codec::Plain if packed.len() == size => Ok(packed),
+                codec => self.unpack(codec, &packed, size),
+            };
+        }
+        let levels = (header.definition_bytes as usize)
+            .checked_add(header.repetition_bytes as usize)
+            .filter(|levels| *levels <= packed.len() && *levels <= size)
+            .ok_or("levels longer than their page")?;
+        let is_packed = header.is_packed && self.codec != Codec::Plain && size > levels;
+        if !is_packed {
+            return match packed.len() == size {
+                true => Ok(packed),
+                false => Err(format!(
+                    "{} bytes that are not packed, instead of {size}",
+                    packed.len()
+                )),
+            };
+        }
+        let values = self.unpack(self.codec, &packed[levels..], size - levels)?;
+        let mut whole = packed;
+        whole.truncate(levels);
+        whole.extend_from_slice(&values);
+        Ok(whole)
+    }
+
+    /// Blocks of the older LZ4 are framed as Hadoop does, or, by some writers, not at all.
+    fn unpack(&self, codec: Codec, packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
+        match (codec, unpack(codec, packed, size)) {
+            (Codec::Lz4Hadoop, Err(problem)) => unpack(Codec::Lz4Frame, packed, size)
+                .or_else(|_| unpack(Codec::Lz4Block, packed, size))
+                .map_err(|_| problem),
+            (_, unpacked) => unpacked,
+        }
+    }
+
+    /// A page whose numbers fit its bytes.
+    fn checked(&mut self, header: &PageHeader, bytes: Vec<u8>) -> Result<Page, String> {
+        let encoding = encoding(header.encoding)?;
+        let buf = Bytes::from(bytes);
+        let num_values = header.values;
+        if header.kind == PageKind::Dictionary {
+            if std::mem::replace(&mut self.is_dictionary_read, true) {
+                return Err("a second dictionary in one chunk".to_owned());
+            }
+            let least = match self.physical {
+                Physical::BOOLEAN => return Err("a dictionary of truth values".to_owned()),
+                Physical::INT32 | Physical::FLOAT | Physical::BYTE_ARRAY => 4,
+                Physical::INT64 | Physical::DOUBLE => 8,
+                Physical::INT96 => 12,
+                Physical::FIXED_LEN_BYTE_ARRAY => self.type_length.max(1),
+            };
+            if buf.len() / least < num_values as usize {
+                return Err(format!(
+                    "{num_values} values in a dictionary of {} bytes",
+                    buf.len()
+                ));
+            }
+            return Ok(Page::DictionaryPage {
+                buf,
+                num_values,
+                encoding,
+                is_sorted: false,
+            });
+        }
+        let handed = self
+            .handed
+            .fetch_add(u64::from(num_values), Ordering::Relaxed);
+        if self.max_repetition > 0
+            && handed.saturating_add(u64::from(num_values)) > limits::ROW_LEVELS
+        {
+            return Err(format!(
+                "rows of more than {} numbers are not accepted",
+                limits::ROW_LEVELS
+            ));
+        }
+        if encoding == Encoding::PLAIN && self.max_definition == 0 {
+            let bits = match self.physical {
+                Physical::BOOLEAN => 1,
+                Physical::INT32 | Physical::FLOAT | Physical::BYTE_ARRAY => 32,
+                Physical::INT64 | Physical::DOUBLE => 64,
+                Physical::INT96 => 96,
+                Physical::FIXED_LEN_BYTE_ARRAY => 8 * self.type_length as u64,
+            };
+            if u64::from(num_values) * bits > 8 * buf.len() as u64 {
+                return Err(format!(
+                    "{num_values} values in a page of {} bytes",
+                    buf.len()
+                ));
+            }
+        }
+        Ok(match header.kind {
+            PageKind::DataV2 => Page::DataPageV2 {
+                buf,
+                num_values,
+                encoding,
+                num_nulls: header.nulls,
+                num_rows: header.rows,
+                def_levels_byte_len: header.definition_bytes,
+                rep_levels_byte_len: header.repetition_bytes,
+                is_compressed: false,
+                statistics: None,
+            },
+            _ => Page::DataPage {
+                buf,
+                num_values,
+                encoding,
+                def_level_encoding: self::encoding(header.definition_encoding)?,
+                rep_level_encoding: self::encoding(header.repetition_encoding)?,
+                statistics: None,
+            },
+        })
+    }
+
+    fn damaged(&self, at: u64, problem: impl Into<String>) -> TableError {
+        self.source
+            .damaged(Place::byte(at).in_name(&self.name), problem)
+    }
+}
+
+fn encoding(code: i32) -> Result<Encoding, String> {
+    Ok(match code {
+        0 => Encoding::PLAIN,
+        2 => Encoding::PLAIN_DICTIONARY,
+        3 => Encoding::RLE,
+        #[expect(deprecated, reason = "older writers encode levels so")]
+        4 => Encoding::BIT_PACKED,
+        5 => Encoding::DELTA_BINARY_PACKED,
+        6 => Encoding::DELTA_LENGTH_BYTE_ARRAY,
+        7 => Encoding::DELTA_BYTE_ARRAY,
+        8 => Encoding::RLE_DICTIONARY,
+        9 => Encoding::BYTE_STREAM_SPLIT,
+        other => return Err(format!("values in encoding {other}, expected 0 to 9")),
+    })
+}
+
+/// An error of ours, through the crate that asked for a page.
+fn outer(error: TableError) -> ParquetError {
+    ParquetError::External(Box::new(error))
+}
+
+impl Iterator for Pages {
+    type Item = Result<Page, ParquetError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        self.get_next_page().transpose()
+    }
+}
+
+impl PageReader for Pages {
+    fn get_next_page(&mut self) -> Result<Option<Page>, ParquetError> {
+        self.next_page().map_err(outer)
+    }
+
+    fn peek_next_page(&mut self) -> Result<Option<PageMetadata>, ParquetError> {
+        loop {
+            let Some((header, _)) = self.header().map_err(outer)? else {
+                return Ok(None);
+            };
+            let values = header.values as usize;
+            let rows = header.rows as usize;
+            match header.kind {
+                PageKind::Index => self.pass(),
+                PageKind::Dictionary => {
+                    return Ok(Some(PageMetadata {
+                        num_rows: None,
+                        num_levels: None,
+                        is_dict: true,
+                    }));
+                }
+                PageKind::Data => {
+                    return Ok(Some(PageMetadata {
+                        num_rows: None,
+                        num_levels: Some(values),
+                        is_dict: false,
+                    }));
+                }
+                PageKind::DataV2 => {
+                    return Ok(Some(PageMetadata {
+                        num_rows: Some(rows),
+                        num_levels: Some(values),
+                        is_dict: false,
+                    }));
+                }
+            }
+        }
+    }
+
+    fn skip_next_page(&mut self) -> Result<(), ParquetError> {
+        self.header().map_err(outer)?;
+        self.pass();
+        Ok(())
+    }
+}

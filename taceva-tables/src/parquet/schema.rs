@@ -1,0 +1,238 @@
+//! The schema of a Parquet file as a tree of columns: structures, lists and leaves, with the levels that tell them apart.
+
+use parquet::basic::{ConvertedType, LogicalType, Repetition, TimeUnit};
+use parquet::schema::types::{SchemaDescriptor, Type};
+
+use crate::limits;
+
+/// A column or a part of one.
+#[derive(Clone, Debug)]
+pub(super) struct Node {
+    pub(super) name: String,
+    /// The definition level from which this is not null.
+    pub(super) definition: i16,
+    pub(super) kind: NodeKind,
+}
+
+#[derive(Clone, Debug)]
+pub(super) enum NodeKind {
+    Leaf {
+        column: usize,
+        form: LeafForm,
+    },
+    Struct(Vec<Node>),
+    List {
+        /// The definition level from which there is an element, and the repetition level of all but the first.
+        definition: i16,
+        repetition: i16,
+        element: Box<Node>,
+    },
+}
+
+/// What the bits of a leaf mean.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum LeafForm {
+    /// What the physical type says.
+    Plain,
+    Text,
+    Unsigned,
+    /// An integer over a power of ten.
+    Decimal {
+        scale: i32,
+    },
+    Half,
+    /// A time or a date as an integer, of this unit.
+    Time(&'static str),
+}
+
+/// The top-level columns of a schema; `Err` says what is not understood.
+pub(super) fn columns(schema: &SchemaDescriptor) -> Result<Vec<Node>, String> {
+    let mut leaves = 0;
+    let nodes = schema
+        .root_schema()
+        .get_fields()
+        .iter()
+        .map(|field| node(field, Levels::default(), &mut leaves, 0))
+        .collect::<Result<Vec<Node>, String>>()?;
+    match leaves == schema.num_columns() {
+        true => Ok(nodes),
+        false => Err(format!(
+            "{leaves} leaves in the schema, {} columns",
+            schema.num_columns()
+        )),
+    }
+}
+
+#[derive(Clone, Copy, Default)]
+struct Levels {
+    definition: i16,
+    repetition: i16,
+}
+
+fn node(field: &Type, above: Levels, leaves: &mut usize, depth: usize) -> Result<Node, String> {
+    let name = field.name();
+    if depth > limits::DEPTH {
+        return Err(format!(
+            "`{name}` nests deeper than {} levels",
+            limits::DEPTH
+        ));
+    }
+    let info = field.get_basic_info();
+    let repetition = match info.has_repetition() {
+        true => info.repetition(),
+        false => Repetition::REQUIRED,
+    };
+    if repetition == Repetition::REPEATED {
+        // A field that is repeated by itself is a list that is never null.
+        let levels = deeper(above, true)?;
+        let element = content(field, levels, leaves, depth)?;
+        return Ok(Node {
+            name: name.to_owned(),
+            definition: above.definition,
+            kind: NodeKind::List {
+                definition: levels.definition,
+                repetition: levels.repetition,
+                element: Box::new(element),
+            },
+        });
+    }
+    let levels = match repetition {
+        Repetition::OPTIONAL => Levels {
+            definition: above.definition + 1,
+            ..above
+        },
+        _ => above,
+    };
+    content(field, levels, leaves, depth)
+}
+
+/// The levels below a repeated field.
+fn deeper(above: Levels, is_repeated: bool) -> Result<Levels, String> {
+    let step = i16::from(is_repeated);
+    let more = |level: i16| level.checked_add(step).ok_or("a schema of too many levels");
+    Ok(Levels {
+        definition: more(above.definition)?,
+        repetition: more(above.repetition)?,
+    })
+}
+
+/// A field whose own repetition is already in `levels`.
+fn content(field: &Type, levels: Levels, leaves: &mut usize, depth: usize) -> Result<Node, String> {
+    let name = field.name().to_owned();
+    let definition = levels.definition;
+    if field.is_primitive() {
+        let column = *leaves;
+        *leaves += 1;
+        return Ok(Node {
+            name,
+            definition,
+            kind: NodeKind::Leaf {
+                column,
+                form: leaf_form(field)?,
+            },
+        });
+    }
+    let fields = field.get_fields();
+    if let ([only], true) = (fields, is_list(field)) {
+        let info = only.get_basic_info();
+        if info.has_repetition() && info.repetition() == Repetition::REPEATED {
+            let inner = deeper(levels, true)?;
+            let element = element(field, only, inner, leaves, depth + 1)?;
+            return Ok(Node {
+                name,
+                definition,
+                kind: NodeKind::List {
+                    definition: inner.definition,
+                    repetition: inner.repetition,
+                    element: Box::new(element),
+                },
+            });
+        }
+    }
+    let members = fields
+        .iter()
+        .map(|member| node(member, levels, leaves, depth + 1))
+        .collect::<Result<Vec<Node>, String>>()?;
+    match members.is_empty() {
+        true => Err(format!("the structure `{name}` has no members")),
+        false => Ok(Node {
+            name,
+            definition,
+            kind: NodeKind::Struct(members),
+        }),
+    }
+}
+
+/// The element of a list whose repeated group is `repeated`: the one field in it, or the group itself where it has several, or the
+/// name of one that older writers repeat themselves.
+fn element(
+    list: &Type,
+    repeated: &Type,
+    levels: Levels,
+    leaves: &mut usize,
+    depth: usize,
+) -> Result<Node, String> {
+    let name = repeated.name();
+    let is_element = repeated.is_primitive()
+        || repeated.get_fields().len() != 1
+        || name == "array"
+        || name == format!("{}_tuple", list.name());
+    match (
+        is_element,
+        repeated.is_group().then(|| repeated.get_fields()),
+    ) {
+        (false, Some([only])) => node(only, levels, leaves, depth + 1),
+        _ => content(repeated, levels, leaves, depth + 1),
+    }
+}
+
+fn is_list(field: &Type) -> bool {
+    let info = field.get_basic_info();
+    matches!(
+        info.logical_type_ref(),
+        Some(LogicalType::List | LogicalType::Map)
+    ) || matches!(
+        info.converted_type(),
+        ConvertedType::LIST | ConvertedType::MAP | ConvertedType::MAP_KEY_VALUE
+    )
+}
+
+fn leaf_form(field: &Type) -> Result<LeafForm, String> {
+    let info = field.get_basic_info();
+    let unit = |unit: &TimeUnit| match unit {
+        TimeUnit::MILLIS => "ms",
+        TimeUnit::MICROS => "us",
+        TimeUnit::NANOS => "ns",
+    };
+    let decimal = |scale: i32| match (0..=38).contains(&scale) {
+        true => Ok(LeafForm::Decimal { scale }),
+        false => Err(format!("`{}` has {scale} decimals", field.name())),
+    };
+    if let Some(logical) = info.logical_type_ref() {
+        return Ok(match logical {
+            LogicalType::String | LogicalType::Enum | LogicalType::Json => LeafForm::Text,
+            LogicalType::Integer(integer) if !integer.is_signed => LeafForm::Unsigned,
+            LogicalType::Decimal(number) => decimal(number.scale)?,
+            LogicalType::Float16 => LeafForm::Half,
+            LogicalType::Date => LeafForm::Time("d"),
+            LogicalType::Time(time) => LeafForm::Time(unit(&time.unit)),
+            LogicalType::Timestamp(time) => LeafForm::Time(unit(&time.unit)),
+            _ => LeafForm::Plain,
+        });
+    }
+    Ok(match info.converted_type() {
+        ConvertedType::UTF8 | ConvertedType::ENUM | ConvertedType::JSON => LeafForm::Text,
+        ConvertedType::UINT_8
+        | ConvertedType::UINT_16
+        | ConvertedType::UINT_32
+        | ConvertedType::UINT_64 => LeafForm::Unsigned,
+        ConvertedType::DATE => LeafForm::Time("d"),
+        ConvertedType::TIME_MILLIS | ConvertedType::TIMESTAMP_MILLIS => LeafForm::Time("ms"),
+        ConvertedType::TIME_MICROS | ConvertedType::TIMESTAMP_MICROS => LeafForm::Time("us"),
+        ConvertedType::DECIMAL => match field {
+            Type::PrimitiveType { scale, .. } => decimal(*scale)?,
+            _ => LeafForm::Plain,
+        },
+        _ => LeafForm::Plain,
+    })
+}

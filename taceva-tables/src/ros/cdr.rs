@@ -1,0 +1,255 @@
+//! Messages in CDR, the encoding of ROS 2: numbers aligned to their own size, counted from behind the first four bytes.
+
+use super::schema::{Count, Field, Kind, Message, RosSchema};
+use crate::cell::Cell;
+use crate::limits;
+
+/// What is wanted of a message or a field.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Want {
+    /// Nothing: it is passed over.
+    Nothing,
+    /// All of it, into the slot of this number.
+    Whole(usize),
+    /// The bytes of a list of `uint8`, into the slot of this number.
+    Bytes(usize),
+    /// Of each field something.
+    Fields(Vec<Want>),
+}
+
+/// The bytes of a message as they are read.
+#[derive(Debug)]
+pub(crate) struct Cdr<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    is_big_endian: bool,
+    /// Cells that were made of this message.
+    cells: usize,
+}
+
+impl<'a> Cdr<'a> {
+    /// The body of `message`, behind the four bytes that say how it is encoded.
+    pub(crate) fn new(message: &'a [u8]) -> Result<Cdr<'a>, String> {
+        let Some((head, bytes)) = message.split_first_chunk::<4>() else {
+            return Err(format!(
+                "a message of {} bytes has no head of CDR",
+                message.len()
+            ));
+        };
+        let is_big_endian = match head[..2] {
+            [0, 0] => true,
+            [0, 1] => false,
+            [0, kind] if kind < 12 => {
+                return Err(format!(
+                    "encapsulation {kind} of CDR, expected 0 or 1 as ROS 2 writes it"
+                ));
+            }
+            _ => {
+                return Err(format!(
+                    "the message begins with {:02x} {:02x}, which is no CDR",
+                    head[0], head[1]
+                ));
+            }
+        };
+        Ok(Cdr {
+            bytes,
+            at: 0,
+            is_big_endian,
+            cells: 0,
+        })
+    }
+
+    /// Reads the message, `slots` filled as `want` says.
+    pub(crate) fn read(
+        &mut self,
+        schema: &RosSchema,
+        want: &Want,
+        slots: &mut [Cell],
+    ) -> Result<(), String> {
+        self.message(schema, schema.root(), want, slots)
+    }
+
+    fn message(
+        &mut self,
+        schema: &RosSchema,
+        message: &Message,
+        want: &Want,
+        slots: &mut [Cell],
+    ) -> Result<(), String> {
+        if message.fields.is_empty() {
+            // ROS 2 gives a message without fields one byte.
+            self.take(1)?;
+        }
+        for (at, field) in message.fields.iter().enumerate() {
+            let want = match want {
+                Want::Fields(wants) => wants.get(at).unwrap_or(&Want::Nothing),
+                _ => &Want::Nothing,
+            };
+            self.field(schema, field, want, slots).map_err(|problem| {
+                match problem.starts_with('`') {
+                    true => problem,
+                    false => format!("`{}` of {}: {problem}", field.name, message.name),
+                }
+            })?;
+        }
+        Ok(())
+    }
+
+    fn field(
+        &mut self,
+        schema: &RosSchema,
+        field: &Field,
+        want: &Want,
+        slots: &mut [Cell],
+    ) -> Result<(), String> {
+        match want {
+            Want::Whole(slot) => {
+                let cell = self.cell(schema, field)?;
+                if let Some(slot) = slots.get_mut(*slot) {
+                    *slot = cell;
+                }
+                Ok(())
+            }
+            Want::Bytes(slot) => {
+                let count = self.count(field)?;
+                let bytes = self.take(count)?.to_vec();
+                if let Some(slot) = slots.get_mut(*slot) {
+                    *slot = Cell::Bytes(bytes);
+                }
+                Ok(())
+            }
+            Want::Fields(_) => match (field.kind, field.count) {
+                (Kind::Message(place), Count::One) => {
+                    self.message(schema, schema.message(place), want, slots)
+                }
+                _ => self.pass(schema, field),
+            },
+            Want::Nothing => self.pass(schema, field),
+        }
+    }
+
+    /// Passes over a field.
+    fn pass(&mut self, schema: &RosSchema, field: &Field) -> Result<(), String> {
+        let count = self.count(field)?;
+        if let Some(size) = field.kind.size() {
+            if count > 0 {
+                self.align(size);
+            }
+            return self.take(count.checked_mul(size).ok_or(CUT)?).map(drop);
+        }
+        for _ in 0..count {
+            match field.kind {
+                Kind::Message(place) => {
+                    self.message(schema, schema.message(place), &Want::Nothing, &mut [])?
+                }
+                _ => drop(self.text()?),
+            }
+        }
+        Ok(())
+    }
+
+    /// A field as a cell: a list where it holds several.
+    fn cell(&mut self, schema: &RosSchema, field: &Field) -> Result<Cell, String> {
+        if field.count == Count::One {
+            return self.one(schema, field.kind);
+        }
+        let count = self.count(field)?;
+        self.cells = self.cells.saturating_add(count);
+        if self.cells > limits::MESSAGE_CELLS {
+            return Err(format!(
+                "{count} elements, at most {} of a message are made cells",
+                limits::MESSAGE_CELLS
+            ));
+        }
+        let mut cells = Vec::with_capacity(count);
+        for _ in 0..count {
+            cells.push(self.one(schema, field.kind)?);
+        }
+        Ok(Cell::List(cells))
+    }
+
+    fn one(&mut self, schema: &RosSchema, kind: Kind) -> Result<Cell, String> {
+        Ok(match kind {
+            Kind::Bool => match self.number::<1>()? {
+                [0] => Cell::Bool(false),
+                [1] => Cell::Bool(true),
+                [other] => return Err(format!("a truth value of {other}")),
+            },
+            Kind::I8 => Cell::Integer(i8::from_le_bytes(self.number()?).into()),
+            Kind::U8 => Cell::Integer(u8::from_le_bytes(self.number()?).into()),
+            Kind::I16 => Cell::Integer(i16::from_le_bytes(self.number()?).into()),
+            Kind::U16 => Cell::Integer(u16::from_le_bytes(self.number()?).into()),
+            Kind::I32 => Cell::Integer(i32::from_le_bytes(self.number()?).into()),
+            Kind::U32 => Cell::Integer(u32::from_le_bytes(self.number()?).into()),
+            Kind::I64 => Cell::Integer(i64::from_le_bytes(self.number()?).into()),
+            Kind::U64 => Cell::Integer(u64::from_le_bytes(self.number()?).into()),
+            Kind::F32 => Cell::Number(f32::from_le_bytes(self.number()?).into()),
+            Kind::F64 => Cell::Number(f64::from_le_bytes(self.number()?)),
+            Kind::Text => Cell::Text(self.text()?.to_owned()),
+            Kind::Message(place) => {
+                let message = schema.message(place);
+                if message.fields.is_empty() {
+                    self.take(1)?;
+                }
+                let mut members = Vec::with_capacity(message.fields.len());
+                for field in &message.fields {
+                    members.push((field.name.clone(), self.cell(schema, field)?));
+                }
+                Cell::Struct(members)
+            }
+        })
+    }
+
+    /// How many of a field follow. Each takes a byte at least, so that no more are announced than there are bytes.
+    fn count(&mut self, field: &Field) -> Result<usize, String> {
+        let count = match field.count {
+            Count::One => 1,
+            Count::Fixed(count) => count,
+            Count::Any => u32::from_le_bytes(self.number()?) as usize,
+        };
+        let least = match field.kind {
+            Kind::Text => 4,
+            kind => kind.size().unwrap_or(1),
+        };
+        let left = self.bytes.len().saturating_sub(self.at);
+        match count.checked_mul(least).is_some_and(|bytes| bytes <= left) {
+            true => Ok(count),
+            false => Err(format!(
+                "{count} elements are announced, {left} bytes follow"
+            )),
+        }
+    }
+
+    fn text(&mut self) -> Result<&'a str, String> {
+        let length = u32::from_le_bytes(self.number()?) as usize;
+        let bytes = self.take(length)?;
+        // The length counts a zero at the end.
+        let text = bytes.strip_suffix(&[0]).unwrap_or(bytes);
+        std::str::from_utf8(text).map_err(|_| "a text that is no UTF-8".to_owned())
+    }
+
+    /// The bytes of the next number, the lowest first.
+    fn number<const N: usize>(&mut self) -> Result<[u8; N], String> {
+        self.align(N);
+        let bytes = self.take(N)?;
+        let mut number: [u8; N] = bytes.try_into().map_err(|_| CUT)?;
+        if self.is_big_endian {
+            number.reverse();
+        }
+        Ok(number)
+    }
+
+    fn align(&mut self, size: usize) {
+        self.at = self.at.next_multiple_of(size);
+    }
+
+    fn take(&mut self, count: usize) -> Result<&'a [u8], String> {
+        let end = self.at.checked_add(count).ok_or(CUT)?;
+        let taken = self.bytes.get(self.at..end).ok_or(CUT)?;
+        self.at = end;
+        Ok(taken)
+    }
+}
+
+/// A message that ends before its schema does.
+const CUT: &str = "the message is shorter than its schema";

@@ -1,0 +1,280 @@
+//! Pictures in messages: those that are encoded, such as JPEG, in the bytes they came in, and samples row by row, without padding.
+
+use super::cdr::{Cdr, Want};
+use super::schema::{Count, Kind, Message, RosSchema};
+use crate::cell::Cell;
+use crate::limits;
+
+/// A picture of a message.
+///
+/// ```
+/// use taceva_tables::{Mcap, Picture, TableError};
+/// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/presses.mcap");
+/// let table = Mcap::open(path.as_ref())?.table("/tactile/image_raw")?;
+/// table.visit_pictures::<TableError>("data", &[0], &mut |_, picture| {
+///     let Picture::Samples(samples) = picture else { unreachable!() };
+///     assert_eq!((samples.width, samples.height, samples.bytes.len()), (4, 3, 36));
+///     Ok(())
+/// })?;
+/// # Ok::<(), TableError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Picture {
+    /// A picture file, such as JPEG or PNG, as it came.
+    Encoded(Vec<u8>),
+    /// Samples that are not compressed.
+    Samples(Samples),
+}
+
+/// A picture that is not compressed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Samples {
+    /// Pixels in a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// What a pixel is.
+    pub form: SampleForm,
+    /// The samples row by row from the top, without padding; of two bytes the lower first.
+    pub bytes: Vec<u8>,
+}
+
+/// What a pixel is, by the names of `sensor_msgs/Image`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum SampleForm {
+    /// One byte of brightness.
+    Mono8,
+    /// Two bytes of brightness.
+    Mono16,
+    /// Red, green and blue of a byte each.
+    Rgb8,
+    /// Blue, green and red of a byte each.
+    Bgr8,
+}
+
+impl SampleForm {
+    /// Bytes of a pixel.
+    fn bytes(self) -> usize {
+        match self {
+            SampleForm::Mono8 => 1,
+            SampleForm::Mono16 => 2,
+            SampleForm::Rgb8 | SampleForm::Bgr8 => 3,
+        }
+    }
+}
+
+/// Where messages of a schema have a picture.
+#[derive(Debug)]
+pub(crate) struct PictureField {
+    want: Want,
+    is_raw: bool,
+}
+
+/// The slots of the fields of a picture.
+const DATA: usize = 0;
+const FORMAT: usize = 1;
+const HEIGHT: usize = 2;
+const WIDTH: usize = 3;
+const ENCODING: usize = 4;
+const IS_BIG_ENDIAN: usize = 5;
+const STEP: usize = 6;
+const SLOTS: usize = 7;
+
+impl PictureField {
+    /// The field called `name`, a list of `uint8`; `Err` says why it is none.
+    pub(crate) fn new(schema: &RosSchema, name: &str) -> Result<PictureField, String> {
+        let mut message = schema.root();
+        let mut places = Vec::new();
+        let (field, parents) = match name.rsplit_once('.') {
+            Some((parents, field)) => (field, parents),
+            None => (name, ""),
+        };
+        for parent in parents.split('.').filter(|parent| !parent.is_empty()) {
+            let place = position(message, parent)
+                .ok_or_else(|| format!("{} has no `{parent}`", message.name))?;
+            let Kind::Message(inner) = message.fields[place].kind else {
+                return Err(format!("`{parent}` of {} is no message", message.name));
+            };
+            places.push((place, message.fields.len()));
+            message = schema.message(inner);
+        }
+        let place =
+            position(message, field).ok_or_else(|| format!("{} has no `{field}`", message.name))?;
+        let is_bytes =
+            message.fields[place].kind == Kind::U8 && message.fields[place].count != Count::One;
+        if !is_bytes {
+            return Err(format!("`{field}` of {} is no list of uint8", message.name));
+        }
+        let is_raw = message.name == "sensor_msgs/Image";
+        let mut wants = vec![Want::Nothing; message.fields.len()];
+        wants[place] = Want::Bytes(DATA);
+        let others: &[(&str, usize)] = match is_raw {
+            true => &[
+                ("height", HEIGHT),
+                ("width", WIDTH),
+                ("encoding", ENCODING),
+                ("is_bigendian", IS_BIG_ENDIAN),
+                ("step", STEP),
+            ],
+            false => &[("format", FORMAT)],
+        };
+        for (name, slot) in others {
+            match position(message, name) {
+                Some(place) => wants[place] = Want::Whole(*slot),
+                None if is_raw => return Err(format!("{} has no `{name}`", message.name)),
+                None => {}
+            }
+        }
+        let mut want = Want::Fields(wants);
+        for (place, fields) in places.into_iter().rev() {
+            let mut wants = vec![Want::Nothing; fields];
+            wants[place] = want;
+            want = Want::Fields(wants);
+        }
+        Ok(PictureField { want, is_raw })
+    }
+
+    /// The picture of `message`; `Err` says what is wrong with it.
+    pub(crate) fn read(&self, schema: &RosSchema, message: &[u8]) -> Result<Picture, String> {
+        let mut slots = vec![Cell::Null; SLOTS];
+        Cdr::new(message)?.read(schema, &self.want, &mut slots)?;
+        let data = match std::mem::replace(&mut slots[DATA], Cell::Null) {
+            Cell::Bytes(bytes) => bytes,
+            _ => return Err("the message has no bytes".to_owned()),
+        };
+        if self.is_raw {
+            return samples(&slots, data).map(Picture::Samples);
+        }
+        if slots[FORMAT].text().contains("compressedDepth") {
+            return Err(
+                "the format is compressedDepth, which is not read; republish it as compressed"
+                    .to_owned(),
+            );
+        }
+        Ok(Picture::Encoded(data))
+    }
+}
+
+fn position(message: &Message, name: &str) -> Option<usize> {
+    message.fields.iter().position(|field| field.name == name)
+}
+
+fn samples(slots: &[Cell], data: Vec<u8>) -> Result<Samples, String> {
+    let number = |slot: usize| match slots[slot] {
+        Cell::Integer(value) => u32::try_from(value).map_err(|_| format!("a size of {value}")),
+        _ => Err("a size that is no number".to_owned()),
+    };
+    let (width, height, step) = (number(WIDTH)?, number(HEIGHT)?, number(STEP)?);
+    let encoding = slots[ENCODING].text();
+    let form = match &*encoding {
+        "mono8" | "8UC1" => SampleForm::Mono8,
+        "mono16" | "16UC1" => SampleForm::Mono16,
+        "rgb8" => SampleForm::Rgb8,
+        "bgr8" => SampleForm::Bgr8,
+        other => {
+            let other = crate::error::shown(other);
+            return Err(format!(
+                "the encoding is `{other}`, expected mono8, mono16, rgb8 or bgr8"
+            ));
+        }
+    };
+    let (step, rows) = (step as usize, height as usize);
+    let row = (width as usize).checked_mul(form.bytes());
+    let row = row.filter(|row| *row > 0 && rows > 0 && *row <= step);
+    let whole = step
+        .checked_mul(rows)
+        .filter(|whole| *whole as u64 <= limits::CELL_BYTES);
+    let (Some(row), Some(whole)) = (row, whole) else {
+        return Err(format!(
+            "{width}×{height} pixels of {encoding}, {step} bytes a row"
+        ));
+    };
+    if data.len() != whole {
+        return Err(format!(
+            "{} bytes of samples, {height} rows of {step} take {whole}",
+            data.len()
+        ));
+    }
+    let mut bytes = data;
+    if row < step {
+        let mut packed = Vec::with_capacity(row * rows);
+        for line in bytes.chunks_exact(step) {
+            packed.extend_from_slice(&line[..row]);
+        }
+        bytes = packed;
+    }
+    let is_big_endian = !matches!(slots[IS_BIG_ENDIAN], Cell::Integer(0) | Cell::Bool(false));
+    if is_big_endian && form == SampleForm::Mono16 {
+        bytes
+            .chunks_exact_mut(2)
+            .for_each(|sample| sample.reverse());
+    }
+    Ok(Samples {
+        width,
+        height,
+        form,
+        bytes,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn image(
+        encoding: &str,
+        width: u32,
+        step: u32,
+        is_big_endian: u8,
+        data: &[u8],
+    ) -> Result<Samples, String> {
+        let mut slots = vec![Cell::Null; SLOTS];
+        slots[WIDTH] = Cell::Integer(width.into());
+        slots[HEIGHT] = Cell::Integer(2);
+        slots[STEP] = Cell::Integer(step.into());
+        slots[ENCODING] = Cell::Text(encoding.to_owned());
+        slots[IS_BIG_ENDIAN] = Cell::Integer(is_big_endian.into());
+        samples(&slots, data.to_vec())
+    }
+
+    #[test]
+    fn padding_and_the_order_of_bytes_are_undone() {
+        let read = |image: Result<Samples, String>| image.expect("a picture").bytes;
+        assert_eq!(
+            read(image("mono8", 2, 3, 0, &[1, 2, 9, 3, 4, 9])),
+            [1, 2, 3, 4]
+        );
+        assert_eq!(read(image("mono16", 1, 2, 1, &[1, 2, 3, 4])), [2, 1, 4, 3]);
+        assert_eq!(read(image("mono16", 1, 2, 0, &[1, 2, 3, 4])), [1, 2, 3, 4]);
+        assert_eq!(
+            read(image("bgr8", 1, 4, 1, &[1, 2, 3, 0, 4, 5, 6, 0])),
+            [1, 2, 3, 4, 5, 6]
+        );
+    }
+
+    #[test]
+    fn other_pictures_are_refused_in_words() {
+        for (image, expected) in [
+            (
+                image("bayer_rggb8", 2, 2, 0, &[0; 4]),
+                "the encoding is `bayer_rggb8`, expected mono8",
+            ),
+            (
+                image("rgb8", 2, 5, 0, &[0; 10]),
+                "2×2 pixels of rgb8, 5 bytes a row",
+            ),
+            (image("mono8", 0, 0, 0, &[]), "0×2 pixels"),
+            (
+                image("mono8", 2, 2, 0, &[0; 3]),
+                "3 bytes of samples, 2 rows of 2 take 4",
+            ),
+            (image("mono8", u32::MAX, u32::MAX, 0, &[]), "bytes a row"),
+        ] {
+            let problem = image.expect_err(expected);
+            assert!(problem.contains(expected), "{problem}");
+        }
+    }
+}

@@ -1,0 +1,26 @@
+//! Rows that a caller asks for.
+
+use crate::error::TableError;
+use crate::source::Source;
+
+/// Whether `sorted` ascends and names rows below `rows`.
+pub(crate) fn check_sorted(
+    source: &Source,
+    name: &str,
+    sorted: &[u64],
+    rows: u64,
+) -> Result<(), TableError> {
+    if let Some(pair) = sorted.windows(2).find(|pair| pair[0] > pair[1]) {
+        let problem = format!(
+            "row {} is asked for after row {}: rows must ascend",
+            pair[1], pair[0]
+        );
+        return Err(source.mismatch(name, problem));
+    }
+    match sorted.last() {
+        Some(last) if *last >= rows => {
+            Err(source.mismatch(name, format!("no row {last}, there are {rows} from 0")))
+        }
+        _ => Ok(()),
+    }
+}

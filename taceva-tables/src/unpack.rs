@@ -1,0 +1,186 @@
+//! Compressed bytes unpacked to a size that is known before: no more is written, and nothing is allocated that the input cannot fill.
+
+use std::io::Read;
+
+/// How bytes are compressed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Codec {
+    /// Not at all.
+    Plain,
+    /// The block format of snappy.
+    Snappy,
+    /// Members of gzip.
+    Gzip,
+    /// Brotli.
+    Brotli,
+    /// A block of LZ4.
+    Lz4Block,
+    /// Blocks of LZ4, each after its two sizes, as Hadoop writes them.
+    Lz4Hadoop,
+    /// Frames of LZ4.
+    Lz4Frame,
+    /// A frame of Zstandard.
+    Zstd,
+}
+
+/// What a byte of snappy or of a block of LZ4 can become at most: a copy of 64 bytes takes 3, and 255 of LZ4 take 1.
+const SNAPPY_GROWTH: usize = 64;
+const LZ4_GROWTH: usize = 255;
+
+/// `packed` unpacked, which must give `size` bytes.
+///
+/// # Errors
+/// What is wrong, in words: other sizes, sums that do not match, bytes that the codec does not know.
+pub(crate) fn unpack(codec: Codec, packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
+    let unpacked = match codec {
+        Codec::Plain => packed.to_vec(),
+        Codec::Snappy => snappy(packed, size)?,
+        Codec::Gzip => streamed("gzip", flate2::read::MultiGzDecoder::new(packed), size)?,
+        Codec::Brotli => {
+            let buffer = packed.len().clamp(64, 64 << 10);
+            streamed(
+                "brotli",
+                brotli_decompressor::Decompressor::new(packed, buffer),
+                size,
+            )?
+        }
+        Codec::Lz4Block => lz4_block(packed, size)?,
+        Codec::Lz4Hadoop => lz4_hadoop(packed, size)?,
+        Codec::Lz4Frame => streamed("LZ4", lz4_flex::frame::FrameDecoder::new(packed), size)?,
+        Codec::Zstd => zstd(packed, size)?,
+    };
+    match unpacked.len() == size {
+        true => Ok(unpacked),
+        false => Err(format!(
+            "unpacked to {} bytes instead of {size}",
+            unpacked.len()
+        )),
+    }
+}
+
+/// All that `decoder` gives, up to one byte more than `size`, so that too much is noticed.
+fn streamed(name: &str, decoder: impl Read, size: usize) -> Result<Vec<u8>, String> {
+    let mut unpacked = Vec::new();
+    decoder
+        .take(size as u64 + 1)
+        .read_to_end(&mut unpacked)
+        .map_err(|error| format!("no whole {name}: {error}"))?;
+    Ok(unpacked)
+}
+
+fn snappy(packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
+    let wrong = |error: snap::Error| format!("no whole snappy: {error}");
+    let announced = snap::raw::decompress_len(packed).map_err(wrong)?;
+    if announced != size || size > packed.len().saturating_mul(SNAPPY_GROWTH) {
+        return Err(format!(
+            "{} bytes of snappy announce {announced} instead of {size}",
+            packed.len()
+        ));
+    }
+    snap::raw::Decoder::new()
+        .decompress_vec(packed)
+        .map_err(wrong)
+}
+
+fn lz4_block(packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
+    if size > packed.len().saturating_mul(LZ4_GROWTH) {
+        return Err(format!("{} bytes of LZ4 cannot hold {size}", packed.len()));
+    }
+    let mut unpacked = vec![0; size];
+    let length = lz4_flex::block::decompress_into(packed, &mut unpacked)
+        .map_err(|error| format!("no whole LZ4: {error}"))?;
+    unpacked.truncate(length);
+    Ok(unpacked)
+}
+
+fn lz4_hadoop(packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
+    let mut unpacked = Vec::new();
+    let mut rest = packed;
+    while let Some((sizes, after)) = rest.split_first_chunk::<8>() {
+        let [a, b, c, d, e, f, g, h] = *sizes;
+        let whole = u32::from_be_bytes([a, b, c, d]) as usize;
+        let part = u32::from_be_bytes([e, f, g, h]) as usize;
+        let block = after.get(..part).ok_or("a block of LZ4 is cut short")?;
+        if whole > size - unpacked.len() {
+            return Err(format!("blocks of LZ4 hold more than {size} bytes"));
+        }
+        unpacked.extend_from_slice(&lz4_block(block, whole)?);
+        rest = &after[part..];
+    }
+    match rest.is_empty() {
+        true => Ok(unpacked),
+        false => Err("bytes behind the last block of LZ4".to_owned()),
+    }
+}
+
+fn zstd(packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
+    let mut rest = packed;
+    let mut unpacked = Vec::new();
+    while !rest.is_empty() {
+        let mut decoder = ruzstd::decoding::StreamingDecoder::new(&mut rest)
+            .map_err(|error| format!("no whole Zstandard: {error}"))?;
+        let more = (size - unpacked.len()) as u64 + 1;
+        (&mut decoder)
+            .take(more)
+            .read_to_end(&mut unpacked)
+            .map_err(|error| format!("no whole Zstandard: {error}"))?;
+        if unpacked.len() > size {
+            break;
+        }
+        let (stated, formed) = (
+            decoder.decoder.get_checksum_from_data(),
+            decoder.decoder.get_calculated_checksum(),
+        );
+        if stated.is_some() && stated != formed {
+            return Err("the sum in the Zstandard frame does not match".to_owned());
+        }
+    }
+    Ok(unpacked)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_block_that_cannot_hold_what_it_announces_is_refused_before_it_is_unpacked() {
+        let bomb = [0xff, 0xff, 0xff, 0xff, 0x0f, 0];
+        for codec in [Codec::Snappy, Codec::Lz4Block] {
+            let problem = unpack(codec, &bomb, u32::MAX as usize).expect_err("too much");
+            assert!(problem.contains("4294967295"), "{problem}");
+        }
+    }
+
+    #[test]
+    fn another_size_than_announced_is_an_error() {
+        assert_eq!(unpack(Codec::Plain, b"abc", 3), Ok(b"abc".to_vec()));
+        assert!(unpack(Codec::Plain, b"abc", 2).is_err());
+        let mut packed = Vec::new();
+        flate2::read::GzEncoder::new(&[7_u8; 1000][..], flate2::Compression::fast())
+            .read_to_end(&mut packed)
+            .expect("packs");
+        assert_eq!(unpack(Codec::Gzip, &packed, 1000), Ok(vec![7; 1000]));
+        assert_eq!(
+            unpack(Codec::Gzip, &packed, 999),
+            Err("unpacked to 1000 bytes instead of 999".to_owned())
+        );
+        assert!(unpack(Codec::Gzip, &packed[..packed.len() - 1], 1000).is_err());
+    }
+
+    #[test]
+    fn blocks_of_hadoop_are_joined() {
+        let mut packed = Vec::new();
+        for part in [&b"force "[..], b"and torque"] {
+            let block = lz4_flex::block::compress(part);
+            packed.extend_from_slice(&u32::try_from(part.len()).expect("short").to_be_bytes());
+            packed.extend_from_slice(&u32::try_from(block.len()).expect("short").to_be_bytes());
+            packed.extend_from_slice(&block);
+        }
+        assert_eq!(
+            unpack(Codec::Lz4Hadoop, &packed, 16),
+            Ok(b"force and torque".to_vec())
+        );
+        assert!(unpack(Codec::Lz4Hadoop, &packed, 15).is_err());
+        assert!(unpack(Codec::Lz4Hadoop, &packed[..packed.len() - 1], 16).is_err());
+    }
+}

@@ -1,0 +1,180 @@
+"""Writes the small files that are not among the shared recordings, by pyarrow, and what pyarrow reads back of them as JSON.
+
+    python make.py [KIND ...]      kinds: nested mcap
+
+pyarrow 26, numpy, mcap 1.6, mcap-ros2-support 0.6, pillow. Numbers are drawn in closed form."""
+import datetime, decimal, json, sys
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+HERE = Path(__file__).parent
+
+
+def plain(value):
+    """As Rust's test compares it: bytes in hexadecimal digits, times as integers, NaN as a text."""
+    if isinstance(value, dict):
+        return {k: plain(v) for k, v in value.items()}
+    if isinstance(value, list):
+        return [plain(v) for v in value]
+    if isinstance(value, tuple):  # an entry of a map
+        return {"key": plain(value[0]), "value": plain(value[1])}
+    if isinstance(value, bytes):
+        return value.hex()
+    if isinstance(value, float) and value != value:
+        return "NaN"
+    if isinstance(value, decimal.Decimal):
+        return float(value)
+    return value
+
+
+def nested():
+    """Nulls, empty lists and structures at every depth, in every encoding that pyarrow writes, several pages a group."""
+    rows = 700
+    some = lambda k, value: None if k % 7 == 3 else value
+    deep = pa.list_(pa.list_(pa.struct([("a", pa.list_(pa.int32())), ("b", pa.string())])))
+    columns = {
+        "deep": pa.array([some(k, [some(k + i, [some(k + i + j, {"a": some(k + j, [i, j, None][: k % 4]), "b": some(k + i, f"é{k}")}) for j in range(i % 3)]) for i in range(k % 5)]) for k in range(rows)], deep),
+        "flag": pa.array([some(k, k % 3 == 0) for k in range(rows)]),
+        "small": pa.array([some(k, k % 256 - 128) for k in range(rows)], pa.int8()),
+        "unsigned": pa.array([some(k, 2**64 - 1 - k) for k in range(rows)], pa.uint64()),
+        "unsigned32": pa.array([some(k, 2**32 - 1 - k) for k in range(rows)], pa.uint32()),
+        "half": pa.array(np.array([k / 8 for k in range(rows)], np.float16)),
+        "single": pa.array([some(k, 0.1 * k) for k in range(rows)], pa.float32()),
+        "double": pa.array([float("nan") if k == 5 else 1 / (k + 1) for k in range(rows)]),
+        "money": pa.array([some(k, decimal.Decimal(k) / 100) for k in range(rows)], pa.decimal128(12, 2)),
+        "text": pa.array([some(k, "gel" * (k % 4)) for k in range(rows)]),
+        "kind": pa.array([some(k, ["cube", "ball"][k % 2]) for k in range(rows)]).dictionary_encode(),
+        "bytes": pa.array([some(k, bytes([k % 256]) * (k % 5)) for k in range(rows)]),
+        "fixed": pa.array([bytes([k % 256, 0xFF, 0]) for k in range(rows)], pa.binary(3)),
+        "map": pa.array([some(k, [(f"k{i}", some(i + k, float(i))) for i in range(k % 3)]) for k in range(rows)], pa.map_(pa.string(), pa.float64())),
+        "stamp": pa.array([some(k, 1_700_000_000_000_000_000 + k) for k in range(rows)], pa.timestamp("ns")),
+        "matrix": pa.array([[[k, k + 0.5], [1.0, None]] for k in range(rows)], pa.list_(pa.list_(pa.float64(), 2), 2)),
+        "odd.name[0]": pa.array(range(rows), pa.int64()),
+    }
+    table = pa.table(columns)
+    read = {name: plain(column.to_pylist()) for name, column in columns.items() if name != "stamp"}
+    read["stamp"] = columns["stamp"].cast(pa.int64()).to_pylist()
+    read["kind"] = columns["kind"].cast(pa.string()).to_pylist()
+    folder = HERE / "nested"
+    folder.mkdir(exist_ok=True)
+    how = {
+        "snappy": dict(compression="snappy", data_page_version="1.0"),
+        "plain": dict(compression="none", use_dictionary=False, write_page_checksum=True, data_page_version="2.0"),
+        "delta": dict(compression="zstd", use_dictionary=False, write_page_checksum=True, data_page_version="2.0", column_encoding={
+            "small": "DELTA_BINARY_PACKED", "unsigned": "DELTA_BINARY_PACKED", "text": "DELTA_BYTE_ARRAY", "bytes": "DELTA_LENGTH_BYTE_ARRAY",
+            "single": "BYTE_STREAM_SPLIT", "double": "BYTE_STREAM_SPLIT", "odd.name[0]": "DELTA_BINARY_PACKED"}),
+        "old": dict(compression="gzip", version="1.0", use_deprecated_int96_timestamps=True, use_compliant_nested_type=False),
+    }
+    for name, options in how.items():
+        pq.write_table(table, folder / f"{name}.parquet", row_group_size=300, data_page_size=600, write_statistics=name == "snappy", **options)
+        assert pq.read_table(folder / f"{name}.parquet").num_rows == rows
+    keep = [0, 3, 5, 8, 17, 24, 299, 300, 511, 699]
+    (folder / "expected.json").write_text(json.dumps({str(k): {name: column[k] for name, column in read.items()} for k in keep}, indent=1, ensure_ascii=False) + "\n")
+
+
+HEADER = "std_msgs/Header header\n"
+DEFINED = """
+================================================================================
+MSG: std_msgs/Header
+builtin_interfaces/Time stamp
+string frame_id
+================================================================================
+MSG: builtin_interfaces/Time
+int32 sec
+uint32 nanosec
+"""
+VECTOR = "================================================================================\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n"
+SCHEMAS = {
+    "sensor_msgs/msg/Image": HEADER + "uint32 height\nuint32 width\nstring encoding\nuint8 is_bigendian\nuint32 step\nuint8[] data" + DEFINED,
+    "geometry_msgs/msg/WrenchStamped": HEADER + "geometry_msgs/Wrench wrench" + DEFINED + "================================================================================\nMSG: geometry_msgs/Wrench\nVector3 force\nVector3 torque\n" + VECTOR,
+    "sensor_msgs/msg/JointState": HEADER + "string[] name\nfloat64[] position\nfloat64[] velocity\nfloat64[] effort" + DEFINED,
+    "geometry_msgs/msg/PoseStamped": HEADER + "Pose pose" + DEFINED + "================================================================================\nMSG: geometry_msgs/Pose\nPoint position\nQuaternion orientation\n================================================================================\nMSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1\n",
+    "std_msgs/msg/Float64MultiArray": "MultiArrayLayout layout\nfloat64[] data\n================================================================================\nMSG: std_msgs/MultiArrayLayout\nMultiArrayDimension[] dim\nuint32 data_offset\n================================================================================\nMSG: std_msgs/MultiArrayDimension\nstring label\nuint32 size\nuint32 stride\n",
+    "taxels_msgs/msg/Taxels": "uint8 FIRST=1\nbool is_touched\nint8 a\nuint16 b\nint64 c\nfloat32 d\nuint8[4] raw\nfloat32[<=3] some\nstring[2] names\nTaxel[] taxels\nduration_msgs/Empty nothing\nuint64 last\n================================================================================\nMSG: taxels_msgs/Taxel\nint16 place\nfloat64 value\n================================================================================\nMSG: duration_msgs/Empty\n",
+}
+
+
+def stamp(ns):
+    return {"stamp": {"sec": ns // 10**9, "nanosec": ns % 10**9}, "frame_id": "gel"}
+
+
+def messages(k):
+    """The messages at tick k, every 100 ms."""
+    ns = 1_700_000_000_000_000_000 + k * 100_000_007
+    v = lambda a: dict(zip("xyz", a))
+    yield "/pose", "geometry_msgs/msg/PoseStamped", ns, {"header": stamp(ns), "pose": {"position": v([0.1 * k, -0.5, 1e-12]), "orientation": {**v([0.0, 0.0, 0.1]), "w": 0.9}}}
+    yield "/joints", "sensor_msgs/msg/JointState", ns, {"header": stamp(ns), "name": ["a", "joint_b"], "position": [0.5 * k, 1 / 3], "velocity": [], "effort": [float(k)]}
+    yield "/array", "std_msgs/msg/Float64MultiArray", ns, {"layout": {"dim": [{"label": "row" * (k % 3), "size": 2, "stride": 4}], "data_offset": 0}, "data": [k + 0.25 * i for i in range(k % 4)]}
+    yield "/taxels", "taxels_msgs/msg/Taxels", ns - 250_000_000 * (k % 2), {"is_touched": k % 2 == 0, "a": -k, "b": 60_000 + k, "c": -(2**40) * k, "d": 0.1 * k, "raw": [k, 1, 2, 255], "some": [0.5] * (k % 4), "names": ["x" * k, ""], "taxels": [{"place": -i, "value": i / 7} for i in range(k % 3)], "nothing": {}, "last": 2**63 + k}
+    if k % 4 == 0:
+        width, height = 5, 3
+        a = (np.arange(height * width) * 1000 + k).astype("<u2").reshape(height, width)
+        padded = np.concatenate([a.view("u1"), np.full((height, 2), 0xEE, "u1")], 1)
+        yield "/depth", "sensor_msgs/msg/Image", ns, {"header": stamp(ns), "height": height, "width": width, "encoding": "mono16", "is_bigendian": 0, "step": 2 * width + 2, "data": padded.tobytes()}
+
+
+def attributes(value):
+    """A message of the peer as JSON."""
+    if hasattr(value, "__slots__"):
+        return {name: attributes(getattr(value, name)) for name in value.__slots__}
+    if isinstance(value, (list, tuple)) or type(value).__module__ == "numpy":
+        return [attributes(v) for v in value]
+    if isinstance(value, (bytes, bytearray, memoryview)):
+        return list(bytes(value))
+    return value
+
+
+def mcap():
+    from mcap.reader import make_reader
+    from mcap.writer import CompressionType, IndexType, Writer
+    from mcap_ros2._dynamic import generate_dynamic, serialize_dynamic
+    from mcap_ros2.reader import read_ros2_messages
+
+    folder = HERE / "mcap"
+    folder.mkdir(exist_ok=True)
+
+    def write(path, of=messages, ticks=12, **options):
+        with open(path, "wb") as file:
+            writer = Writer(file, **{"compression": CompressionType.NONE, "chunk_size": 3000, **options})
+            writer.start("ros2", "drawn")
+            schemas, channels, encoders = {}, {}, {}
+            for k in range(ticks):
+                for topic, kind, ns, message in of(k):
+                    if kind not in schemas:
+                        schemas[kind] = writer.register_schema(kind, "ros2msg", SCHEMAS[kind].encode())
+                        encoders[kind] = serialize_dynamic(kind, SCHEMAS[kind])[kind]
+                    if topic not in channels:
+                        channels[topic] = writer.register_channel(topic, "cdr", schemas[kind])
+                    writer.add_message(channels[topic], ns, encoders[kind](message), ns + 5)
+            if of is messages:
+                schema = writer.register_schema("Note", "jsonschema", b"{}")
+                channel = writer.register_channel("/notes", "json", schema)
+                for k in range(3):
+                    writer.add_message(channel, 10**9 * k, json.dumps({"object": {"name": f"cube{k}"}, "grip": [k, 0.5]}).encode(), 10**9 * k)
+            writer.finish()
+
+    write(folder / "chunks.mcap", compression=CompressionType.LZ4, enable_data_crcs=True)
+    write(folder / "loose.mcap", use_chunking=False, enable_data_crcs=True)
+    write(folder / "no_index.mcap", compression=CompressionType.ZSTD, index_types=IndexType.NONE)
+    write(folder / "no_summary.mcap", index_types=IndexType.NONE, use_statistics=False, use_summary_offsets=False, repeat_channels=False, repeat_schemas=False)
+    read = {}
+    for m in read_ros2_messages(str(folder / "chunks.mcap"), topics=["/pose", "/joints", "/array", "/taxels", "/depth"]):
+        read.setdefault(m.channel.topic, []).append({"log_time.ns": m.log_time_ns, "publish_time.ns": m.publish_time_ns, "message": attributes(m.ros_msg)})
+    (folder / "expected.json").write_text(json.dumps(read, indent=0) + "\n")
+
+    def presses(k):
+        ns = 1_700_000_000_000_000_000 + k * 500_000_000
+        v = lambda a: dict(zip("xyz", a))
+        yield "/ft/wrench", "geometry_msgs/msg/WrenchStamped", ns, {"header": stamp(ns), "wrench": {"force": v([0.0, 0.0, [2.0, 3.5, 1.25][k]]), "torque": v([0.0, 0.0, 0.0])}}
+        if k == 0:
+            yield "/tactile/image_raw", "sensor_msgs/msg/Image", ns, {"header": stamp(ns), "height": 3, "width": 4, "encoding": "rgb8", "is_bigendian": 0, "step": 12, "data": bytes(range(36))}
+
+    write(HERE.parent.parent / "examples" / "presses.mcap", of=presses, ticks=3, chunk_size=1 << 20)
+
+
+if __name__ == "__main__":
+    for kind in sys.argv[1:] or ["nested", "mcap"]:
+        globals()[kind]()

@@ -1,0 +1,100 @@
+//! Columns of every type and nesting that pyarrow writes, in its encodings, as pyarrow reads them back.
+
+mod recordings;
+
+use recordings::{expected, recording};
+use serde_json::Value;
+use taceva_tables::{Cell, ParquetTable};
+
+/// A cell as `make.py` writes it.
+fn plain(cell: &Cell) -> Value {
+    match cell {
+        Cell::Null => Value::Null,
+        Cell::Bool(value) => Value::from(*value),
+        Cell::Integer(value) => match u64::try_from(*value) {
+            Ok(value) => Value::from(value),
+            Err(_) => Value::from(i64::try_from(*value).expect("of 64 bits")),
+        },
+        Cell::Number(value) if value.is_nan() => Value::from("NaN"),
+        Cell::Number(value) => Value::from(*value),
+        Cell::Text(text) => Value::from(text.as_str()),
+        Cell::Bytes(bytes) => Value::from(
+            bytes
+                .iter()
+                .map(|byte| format!("{byte:02x}"))
+                .collect::<String>(),
+        ),
+        Cell::List(cells) => cells.iter().map(plain).collect(),
+        Cell::Struct(members) => members
+            .iter()
+            .map(|(name, cell)| (name.clone(), plain(cell)))
+            .collect(),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn every_type_nesting_and_encoding_is_read_as_pyarrow_reads_it() {
+    let expected = expected("nested");
+    for writing in ["snappy", "plain", "delta", "old"] {
+        let path = recording("nested").join(format!("{writing}.parquet"));
+        let table = ParquetTable::open(&path).expect(writing);
+        assert_eq!(table.rows(), 700);
+        for (row, cells) in expected.as_object().expect("rows") {
+            assert_eq!(cells.as_object().expect("columns").len(), 17);
+            let row: usize = row.parse().expect("a number");
+            for (name, value) in cells.as_object().expect("columns") {
+                let column = table.column(name).expect(name);
+                assert_eq!(column.len(), 700);
+                assert_eq!(plain(&column[row]), *value, "{writing}, {name}, row {row}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_place_in_a_nest_is_that_of_the_whole_column() {
+    let table = ParquetTable::open(&recording("nested").join("snappy.parquet")).expect("opens");
+    let whole = table.column("matrix").expect("reads");
+    for (part, at) in [
+        ("matrix[1,0]", "[1,0]"),
+        ("matrix[0][1]", "[0][1]"),
+        ("matrix[1]", "[1]"),
+    ] {
+        for (cell, part) in whole.iter().zip(table.column(part).expect("reads")) {
+            assert_eq!(cell.at(at), Some(&part));
+        }
+    }
+    let names = table.names();
+    assert!(names.contains(&"odd.name[0]".to_owned()), "{names:?}");
+    assert_eq!(
+        table.column("odd.name[0]").expect("reads")[699],
+        Cell::Integer(699)
+    );
+}
+
+#[test]
+fn rows_that_are_passed_over_leave_the_others_where_they_are() {
+    for writing in ["snappy", "plain", "delta", "old"] {
+        let path = recording("nested").join(format!("{writing}.parquet"));
+        let table = ParquetTable::open(&path).expect(writing);
+        for name in ["bytes", "text", "fixed"] {
+            let whole = table.column(name).expect(name);
+            let rows: Vec<u64> = (0..700)
+                .filter(|row| row % 13 == 3 || row % 50 < 4)
+                .collect();
+            table
+                .visit_bytes::<taceva_tables::TableError>(name, &rows, &mut |row, bytes| {
+                    let expected = match &whole[row as usize] {
+                        Cell::Null => None,
+                        Cell::Text(text) => Some(text.clone().into_bytes()),
+                        Cell::Bytes(bytes) => Some(bytes.clone()),
+                        other => panic!("{other:?}"),
+                    };
+                    assert_eq!(bytes, expected, "{writing}, {name}, row {row}");
+                    Ok(())
+                })
+                .expect(name);
+        }
+    }
+}

@@ -1,0 +1,165 @@
+//! Copies of a file cut short and with flipped bits, and what reading them may do: give a result or an error of ours, soon.
+
+use std::cell::RefCell;
+use std::panic::{self, AssertUnwindSafe};
+use std::path::{Path, PathBuf};
+use std::sync::Once;
+use std::time::{Duration, Instant};
+
+thread_local! {
+    static PANICKED_AT: RefCell<Option<String>> = const { RefCell::new(None) };
+}
+
+/// How reading damaged copies ended.
+#[derive(Debug, Default)]
+pub(crate) struct Endings {
+    pub(crate) read: usize,
+    pub(crate) refused: usize,
+    /// Panics of decoders that are not ours.
+    pub(crate) panicked: usize,
+}
+
+/// Reads six copies of the file at `path` that were cut short and forty with flipped bits; `read` reads a copy that lies in the place
+/// of the file, inside a copy of its folder `root`.
+///
+/// # Panics
+/// If code of ours panics, or a copy takes longer than ten seconds.
+pub(crate) fn damage<T, E: std::fmt::Display>(
+    root: &Path,
+    path: &Path,
+    endings: &mut Endings,
+    read: impl Fn(&Path) -> Result<T, E>,
+) {
+    let folder = tempfile::tempdir().expect("a folder");
+    copy(root, folder.path());
+    let relative = path.strip_prefix(root).expect("inside");
+    let target = folder.path().join(relative);
+    let bytes = std::fs::read(path).expect("readable");
+    for (name, copy) in copies(&bytes) {
+        std::fs::write(&target, copy).expect("written");
+        let start = Instant::now();
+        match attempt(|| read(folder.path())) {
+            Ok(Ok(_)) => endings.read += 1,
+            Ok(Err(error)) => {
+                let message = error.to_string();
+                let file = target
+                    .file_name()
+                    .expect("a name")
+                    .to_string_lossy()
+                    .into_owned();
+                assert!(
+                    !message.is_empty() && message.contains(&*file),
+                    "{name}: {message}"
+                );
+                endings.refused += 1;
+            }
+            Err(place) => {
+                assert!(
+                    !place.contains("taceva-tables"),
+                    "{name} of {}: {place}",
+                    path.display()
+                );
+                endings.panicked += 1;
+            }
+        }
+        let taken = start.elapsed();
+        assert!(
+            taken < Duration::from_secs(10),
+            "{name} of {}: {taken:?}",
+            path.display()
+        );
+    }
+}
+
+/// What `read` gives; if it panics, the file of the code that did.
+pub(crate) fn attempt<T>(read: impl FnOnce() -> T) -> Result<T, String> {
+    listen();
+    PANICKED_AT.with_borrow_mut(|at| *at = Some(String::new()));
+    let result = panic::catch_unwind(AssertUnwindSafe(read));
+    let place = PANICKED_AT.take().unwrap_or_default();
+    result.map_err(|_| place)
+}
+
+/// The most memory that this process has had, in bytes; none where the system does not say.
+pub(crate) fn peak_bytes() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status
+        .lines()
+        .find_map(|line| line.strip_prefix("VmHWM:"))?;
+    let kibibytes: u64 = line.trim().strip_suffix(" kB")?.parse().ok()?;
+    Some(kibibytes << 10)
+}
+
+fn copies(bytes: &[u8]) -> Vec<(String, Vec<u8>)> {
+    let length = bytes.len();
+    let cuts = [
+        1,
+        length / 7,
+        length / 3,
+        length / 2,
+        length - length / 8,
+        length - 1,
+    ];
+    let mut copies: Vec<(String, Vec<u8>)> = cuts
+        .iter()
+        .map(|cut| (format!("cut at {cut}"), bytes[..*cut].to_vec()))
+        .collect();
+    let mut seed = 0x9e37_79b9_7f4a_7c15_u64 ^ length as u64;
+    let mut draw = |below: usize| {
+        seed ^= seed << 13;
+        seed ^= seed >> 7;
+        seed ^= seed << 17;
+        usize::try_from(seed % below as u64).expect("small")
+    };
+    for copy in 0..40 {
+        let mut flipped = bytes.to_vec();
+        // Half of them where files describe themselves: at the beginning or at the end.
+        let within = if copy % 2 == 0 {
+            length
+        } else {
+            length.min(1200)
+        };
+        for _ in 0..if copy < 20 { 1 } else { 6 } {
+            let at = draw(within);
+            let at = if copy % 4 == 1 { length - 1 - at } else { at };
+            flipped[at] ^= if copy % 3 == 0 { 0xff } else { 1 << draw(8) };
+        }
+        copies.push((format!("flip {copy}"), flipped));
+    }
+    copies
+}
+
+/// Remembers where a panic of this thread began, instead of printing it.
+fn listen() {
+    static ONCE: Once = Once::new();
+    ONCE.call_once(|| {
+        let loud = panic::take_hook();
+        panic::set_hook(Box::new(move |info| {
+            let is_listening = PANICKED_AT.with_borrow_mut(|at| match at {
+                Some(place) => {
+                    *place = info
+                        .location()
+                        .map_or_else(String::new, |place| place.file().to_owned());
+                    true
+                }
+                None => false,
+            });
+            if !is_listening {
+                loud(info);
+            }
+        }));
+    });
+}
+
+fn copy(from: &Path, to: &Path) {
+    for entry in std::fs::read_dir(from).expect("a folder") {
+        let entry = entry.expect("an entry");
+        let target: PathBuf = to.join(entry.file_name());
+        if entry.path().is_dir() {
+            std::fs::create_dir(&target).expect("made");
+            copy(&entry.path(), &target);
+        } else {
+            std::fs::copy(entry.path(), &target).expect("copied");
+        }
+    }
+}

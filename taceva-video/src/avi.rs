@@ -1,0 +1,189 @@
+//! AVI files: the video stream's packets by walking through the chunks that hold them, and its indices where they are there.
+//!
+//! Chunks say their own kind and size, so a file without an index is read as one with it; an index that contradicts them is an error,
+//! since nobody knows then which of the two is right.
+
+mod chunk;
+mod header;
+mod index;
+
+use crate::error::VideoError;
+use crate::limits;
+use crate::packets::Packet;
+use crate::source::Source;
+
+use chunk::{Chunk, ChunkId, Chunks};
+use header::StreamHeader;
+use index::Index;
+
+/// What an AVI file holds of video.
+#[derive(Debug)]
+pub(crate) struct Avi {
+    pub(crate) stream: StreamHeader,
+    /// In the order in which they lie and are presented.
+    pub(crate) packets: Vec<Packet>,
+}
+
+/// Whether a file that begins with `start` is an AVI file.
+pub(crate) fn is_avi(start: &[u8]) -> bool {
+    start.starts_with(b"RIFF") && start.get(8..12) == Some(b"AVI ")
+}
+
+impl Avi {
+    /// Reads the headers and walks through all chunks.
+    pub(crate) fn read(source: &Source) -> Result<Avi, VideoError> {
+        let mut walk = Walk {
+            source,
+            stream: None,
+            packets: Vec::new(),
+            index: Index::default(),
+            chunks_left: limits::CHUNKS,
+        };
+        let mut parts = Chunks::new(source, 0, source.length());
+        while let Some(part) = parts.next()? {
+            // What follows the last part is no AVI: some writers leave padding there.
+            if part.id != ChunkId(*b"RIFF") {
+                break;
+            }
+            walk.count()?;
+            walk.part(&part)?;
+        }
+        let Some(stream) = walk.stream else {
+            return Err(source.damaged(12, "the file describes no video stream"));
+        };
+        walk.index.check(source, &walk.packets)?;
+        Ok(Avi {
+            stream,
+            packets: walk.packets,
+        })
+    }
+
+    /// Whether its packets are JPEG files.
+    pub(crate) fn is_motion_jpeg(&self) -> bool {
+        matches!(
+            self.stream.codec.to_ascii_uppercase().as_slice(),
+            b"MJPG" | b"JPEG"
+        )
+    }
+
+    /// The codec by its four letters, which are numbers of what is not compressed.
+    pub(crate) fn codec(&self) -> String {
+        let letters = self.stream.codec;
+        let name = match letters.to_ascii_uppercase().as_slice() {
+            b"H264" | b"X264" | b"AVC1" => "H.264",
+            b"HEVC" | b"H265" => "HEVC",
+            b"XVID" | b"DIVX" | b"DX50" | b"FMP4" | b"MP4V" => "MPEG-4 part 2",
+            b"FFV1" => "FFV1",
+            b"HFYU" => "Huffyuv",
+            [0, 0, 0, 0] => "raw pixels",
+            _ => return format!("`{}`", letters.escape_ascii()),
+        };
+        name.to_owned()
+    }
+
+    /// When each packet is presented, in s, if the file says at what rate.
+    pub(crate) fn times_s(&self) -> Option<Vec<f64>> {
+        let StreamHeader { scale, rate, .. } = self.stream;
+        if scale == 0 || rate == 0 {
+            return None;
+        }
+        let count = 0..self.packets.len() as u64;
+        Some(
+            count
+                .map(|at| at as f64 * f64::from(scale) / f64::from(rate))
+                .collect(),
+        )
+    }
+}
+
+/// What was found so far.
+struct Walk<'a> {
+    source: &'a Source,
+    stream: Option<StreamHeader>,
+    packets: Vec<Packet>,
+    index: Index,
+    chunks_left: u64,
+}
+
+impl Walk<'_> {
+    fn count(&mut self) -> Result<(), VideoError> {
+        self.chunks_left = self
+            .chunks_left
+            .checked_sub(1)
+            .ok_or_else(|| VideoError::TooLarge {
+                path: self.source.path().to_owned(),
+                what: "chunks of an AVI file",
+                found: limits::CHUNKS + 1,
+                limit: limits::CHUNKS,
+            })?;
+        Ok(())
+    }
+
+    /// One of the RIFF parts of the file: `AVI `, then `AVIX` for each further GiB or so.
+    fn part(&mut self, part: &Chunk) -> Result<(), VideoError> {
+        if part.size == 0 {
+            return Err(self.source.damaged(
+                part.at,
+                "the size of the recording is 0: it was never closed; `ffmpeg -i OLD -c copy NEW` writes what is there as a whole file",
+            ));
+        }
+        let first_packet = self.packets.len();
+        let mut chunks = part.list(self.source)?;
+        let mut packets_at = None;
+        while let Some(chunk) = chunks.next()? {
+            self.count()?;
+            match (&chunk.id.0, chunk.list_kind(self.source)?.as_ref()) {
+                (b"LIST", Some(b"hdrl")) if self.stream.is_none() => {
+                    self.stream = header::read(self.source, &chunk)?;
+                }
+                (b"LIST", Some(b"movi")) => {
+                    packets_at.get_or_insert(chunk.body);
+                    self.movie(&chunk, true)?;
+                }
+                (b"idx1", _) => {
+                    let base = packets_at.ok_or_else(|| {
+                        self.source
+                            .damaged(chunk.at, "an index before the frames that it lists")
+                    })?;
+                    let number = self.stream.as_ref().map_or(0, |stream| stream.number);
+                    let packets = &self.packets[first_packet..];
+                    index::check_idx1(self.source, &chunk, base, number, packets)?;
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// The packets of a list; `is_whole` unless it is a record within the list of all packets.
+    fn movie(&mut self, list: &Chunk, is_whole: bool) -> Result<(), VideoError> {
+        let Some(number) = self.stream.as_ref().map(|stream| stream.number) else {
+            return Err(self
+                .source
+                .damaged(list.at, "frames before the description of their stream"));
+        };
+        let mut chunks = list.list(self.source)?;
+        while let Some(chunk) = chunks.next()? {
+            self.count()?;
+            if chunk.id.is_picture_of(number) {
+                if self.packets.len() as u64 == limits::FRAMES {
+                    return Err(VideoError::TooLarge {
+                        path: self.source.path().to_owned(),
+                        what: "frames of a clip",
+                        found: limits::FRAMES + 1,
+                        limit: limits::FRAMES,
+                    });
+                }
+                self.packets.push(Packet {
+                    offset: chunk.body,
+                    size: chunk.size,
+                });
+            } else if chunk.id.is_index_of(number) {
+                self.index.add(self.source, &chunk)?;
+            } else if is_whole && chunk.list_kind(self.source)?.as_ref() == Some(b"rec ") {
+                self.movie(&chunk, false)?;
+            }
+        }
+        Ok(())
+    }
+}

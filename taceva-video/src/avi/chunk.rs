@@ -1,0 +1,118 @@
+//! Chunks of RIFF files: four letters, a size, that many bytes, padded to an even number.
+
+use std::fmt;
+
+use crate::error::VideoError;
+use crate::source::Source;
+
+/// The four letters of a chunk or list.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) struct ChunkId(pub(super) [u8; 4]);
+
+impl ChunkId {
+    /// Whether it is a picture of the stream `number`, compressed or not: `00dc`, `00db`.
+    pub(super) fn is_picture_of(self, number: u8) -> bool {
+        self.0[..2] == digits(number) && matches!(&self.0[2..], b"dc" | b"db")
+    }
+
+    /// Whether it is an index of the stream `number` among its pictures: `ix00`.
+    pub(super) fn is_index_of(self, number: u8) -> bool {
+        &self.0[..2] == b"ix" && self.0[2..] == digits(number)
+    }
+}
+
+fn digits(number: u8) -> [u8; 2] {
+    [b'0' + number / 10, b'0' + number % 10]
+}
+
+impl fmt::Display for ChunkId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "`{}`", self.0.escape_ascii())
+    }
+}
+
+/// Where a chunk lies.
+#[derive(Clone, Debug)]
+pub(super) struct Chunk {
+    pub(super) id: ChunkId,
+    /// Its first letter.
+    pub(super) at: u64,
+    /// Its content.
+    pub(super) body: u64,
+    /// Of its content, without padding.
+    pub(super) size: u64,
+}
+
+impl fmt::Debug for ChunkId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+impl Chunk {
+    /// The letters that say what a list is of; nothing for a chunk that is no list.
+    pub(super) fn list_kind(&self, source: &Source) -> Result<Option<[u8; 4]>, VideoError> {
+        if !matches!(&self.id.0, b"LIST" | b"RIFF") || self.size < 4 {
+            return Ok(None);
+        }
+        let mut kind = [0; 4];
+        source.read_into(self.body, &mut kind)?;
+        Ok(Some(kind))
+    }
+
+    /// The chunks of a list.
+    pub(super) fn list<'a>(&self, source: &'a Source) -> Result<Chunks<'a>, VideoError> {
+        if self.size < 4 {
+            return Err(source.damaged(self.at, "a list without its four letters"));
+        }
+        // The end was checked when the chunk was found.
+        Ok(Chunks::new(source, self.body + 4, self.body + self.size))
+    }
+}
+
+/// The chunks that lie one behind the other in a part of a file.
+pub(super) struct Chunks<'a> {
+    source: &'a Source,
+    at: u64,
+    end: u64,
+}
+
+impl<'a> Chunks<'a> {
+    pub(super) fn new(source: &'a Source, at: u64, end: u64) -> Chunks<'a> {
+        Chunks { source, at, end }
+    }
+
+    /// The next one, if there is room for one.
+    ///
+    /// # Errors
+    /// If it is larger than what it lies in, or does not begin with four letters.
+    pub(super) fn next(&mut self) -> Result<Option<Chunk>, VideoError> {
+        let left = self.end.saturating_sub(self.at);
+        if left < 8 {
+            return Ok(None);
+        }
+        let mut head = [0; 8];
+        self.source.read_into(self.at, &mut head)?;
+        let [a, b, c, d, size @ ..] = head;
+        let (id, size) = (ChunkId([a, b, c, d]), u64::from(u32::from_le_bytes(size)));
+        if !id.0.iter().all(|letter| (b' '..=b'~').contains(letter)) {
+            let problem = format!("a chunk called {id}, expected four letters");
+            return Err(self.source.damaged(self.at, problem));
+        }
+        if size > left - 8 {
+            let problem = format!(
+                "the chunk {id} says that it has {size} bytes, {} are left",
+                left - 8
+            );
+            return Err(self.source.damaged(self.at, problem));
+        }
+        let chunk = Chunk {
+            id,
+            at: self.at,
+            body: self.at + 8,
+            size,
+        };
+        self.at = chunk.body + size + size % 2;
+        Ok(Some(chunk))
+    }
+}

@@ -1,0 +1,92 @@
+//! What is known of a clip, and what its frames are given as.
+
+/// What is known of a clip without decoding it.
+///
+/// # Units
+/// Sizes are pixels, times are seconds from the beginning of the presentation.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct VideoInfo {
+    /// The format of the file, such as `AVI` or `MP4`.
+    pub container: String,
+    /// The codec, with its profile where that is known, such as `MJPEG` or `H.264 High`.
+    pub codec: String,
+    /// How pixels are stored, by the names of FFmpeg, such as `yuv420p`.
+    pub pixel_format: String,
+    /// Columns of every frame.
+    pub width: u32,
+    /// Rows of every frame.
+    pub height: u32,
+    /// How many frames are presented.
+    pub frames: u64,
+    /// When each is presented, where the container says so.
+    pub times_s: Option<Vec<f64>>,
+    /// Whether the codec loses detail; nothing where a codec can do either.
+    pub lossy: Option<bool>,
+    /// What decodes the frames, with its version where it says one; none where they are kept as they came.
+    pub decoder: Option<String>,
+}
+
+/// What is wanted of frames that are decoded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Colours {
+    /// The luma plane as it is stored, untouched.
+    Luma,
+    /// Red, green and blue, converted by the matrix and range that the stream names (else BT.601, limited range), chroma nearest.
+    Rgb,
+}
+
+/// A frame.
+#[derive(Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Picture {
+    /// A JPEG file, whatever [`Colours`] were asked for: the bytes that lie in the clip. Where these have no Huffman tables, as Motion JPEG may,
+    /// the standard ones stand in it before the scan, since nothing else could be read by others.
+    Jpeg(Vec<u8>),
+    /// Pixels of 8 bits a sample.
+    Pixels {
+        /// Columns.
+        width: u32,
+        /// Rows.
+        height: u32,
+        /// Row by row: one number a pixel of [`Colours::Luma`], red, green and blue of [`Colours::Rgb`].
+        samples: Vec<u8>,
+    },
+    /// The luma plane of a clip of more than 8 bits a sample.
+    Deep {
+        /// Columns.
+        width: u32,
+        /// Rows.
+        height: u32,
+        /// How many bits of each number are used: 9 to 16.
+        bits: u32,
+        /// Row by row, as in the stream: from 0 to below 2 to the power of `bits`.
+        samples: Vec<u16>,
+    },
+}
+
+impl Picture {
+    /// How many bytes it takes.
+    pub(crate) fn size(&self) -> usize {
+        match self {
+            Picture::Jpeg(bytes) => bytes.len(),
+            Picture::Pixels { samples, .. } => samples.len(),
+            Picture::Deep { samples, .. } => samples.len() * 2,
+        }
+    }
+}
+
+impl std::fmt::Debug for Picture {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Picture::Jpeg(bytes) => write!(f, "Jpeg({} bytes)", bytes.len()),
+            Picture::Pixels { width, height, .. } => write!(f, "Pixels({width}×{height})"),
+            Picture::Deep {
+                width,
+                height,
+                bits,
+                ..
+            } => write!(f, "Deep({width}×{height}, {bits} bits)"),
+        }
+    }
+}

@@ -1,0 +1,210 @@
+//! Luma and two differences of colour as red, green and blue, in whole numbers.
+
+use std::path::Path;
+
+use crate::error::VideoError;
+
+/// How luma and chroma stand for colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct YuvCoding {
+    /// The number of the matrix in ITU-T H.273, where the stream names one.
+    pub(crate) matrix: Option<u16>,
+    /// Whether samples use all 256 steps, or 16 to 235 (luma) and 16 to 240 (chroma).
+    pub(crate) is_full_range: bool,
+}
+
+/// The planes of a frame of 8 bits a sample.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Planes<'a> {
+    width: usize,
+    height: usize,
+    luma: &'a [u8],
+    /// The differences of blue and red, if there are any.
+    chroma: Option<[&'a [u8]; 2]>,
+    /// How many pixels share a sample of chroma, as powers of two: along a row, along a column.
+    shifts: (u32, u32),
+}
+
+/// A matrix that is not converted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct UnknownMatrix(u16);
+
+impl UnknownMatrix {
+    pub(crate) fn at(self, path: &Path) -> VideoError {
+        VideoError::Colours {
+            path: path.to_owned(),
+            matrix: self.0,
+        }
+    }
+}
+
+impl<'a> Planes<'a> {
+    /// Rows without padding; chroma with a sample for `1 << shifts.0` by `1 << shifts.1` pixels.
+    ///
+    /// # Panics
+    /// If a plane is smaller than that: whoever decoded it has checked.
+    pub(crate) fn new(
+        width: u32,
+        height: u32,
+        luma: &'a [u8],
+        chroma: Option<[&'a [u8]; 2]>,
+        shifts: (u32, u32),
+    ) -> Planes<'a> {
+        let (width, height) = (width as usize, height as usize);
+        assert!(luma.len() >= width * height, "luma of {} bytes", luma.len());
+        let least = shifted(width, shifts.0) * shifted(height, shifts.1);
+        for plane in chroma.into_iter().flatten() {
+            assert!(plane.len() >= least, "chroma of {} bytes", plane.len());
+        }
+        Planes {
+            width,
+            height,
+            luma: &luma[..width * height],
+            chroma,
+            shifts,
+        }
+    }
+
+    /// Red, green and blue of each pixel, by numbers of 8 bits behind the point; the nearest sample of chroma.
+    ///
+    /// # Errors
+    /// If the matrix is none of those of BT.601, BT.709, FCC, SMPTE 240M and BT.2020.
+    pub(crate) fn to_rgb(self, coding: YuvCoding) -> Result<Vec<u8>, UnknownMatrix> {
+        let Factors {
+            luma,
+            offset,
+            red_of_red,
+            green_of_blue,
+            green_of_red,
+            blue_of_blue,
+        } = Factors::of(coding)?;
+        let mut rgb = Vec::with_capacity(self.width * self.height * 3);
+        let chroma_width = shifted(self.width, self.shifts.0);
+        for (row, line) in self.luma.chunks_exact(self.width).enumerate() {
+            let from = (row >> self.shifts.1) * chroma_width;
+            for (column, &sample) in line.iter().enumerate() {
+                let at = from + (column >> self.shifts.0);
+                let [blue, red] = self.chroma.map_or([0, 0], |planes| {
+                    planes.map(|plane| i32::from(plane[at]) - 128)
+                });
+                // Half a step is added so that the division rounds to the nearest.
+                let light = (i32::from(sample) - offset) * luma + 128;
+                let mixed = [
+                    light + red_of_red * red,
+                    light - green_of_blue * blue - green_of_red * red,
+                    light + blue_of_blue * blue,
+                ];
+                rgb.extend(
+                    mixed.map(|value| u8::try_from((value >> 8).clamp(0, 255)).unwrap_or(0)),
+                );
+            }
+        }
+        Ok(rgb)
+    }
+}
+
+/// Half, a quarter … of a length, rounded up.
+fn shifted(length: usize, shift: u32) -> usize {
+    (length + (1 << shift) - 1) >> shift
+}
+
+/// What samples are multiplied by, in 256ths.
+struct Factors {
+    luma: i32,
+    /// The luma of black.
+    offset: i32,
+    red_of_red: i32,
+    green_of_blue: i32,
+    green_of_red: i32,
+    blue_of_blue: i32,
+}
+
+impl Factors {
+    /// With the weights K_r and K_b of red and blue in luma: R = Y + 2 (1 − K_r) V, B = Y + 2 (1 − K_b) U, and G from the sum.
+    fn of(coding: YuvCoding) -> Result<Factors, UnknownMatrix> {
+        // Unnamed: BT.601, as other decoders take it.
+        let (of_red, of_blue) = match coding.matrix.unwrap_or(2) {
+            1 => (0.2126, 0.0722),
+            2 | 3 | 5 | 6 => (0.299, 0.114),
+            4 => (0.30, 0.11),
+            7 => (0.212, 0.087),
+            9 | 10 => (0.2627, 0.0593),
+            other => return Err(UnknownMatrix(other)),
+        };
+        let (luma_scale, chroma_scale, offset) = match coding.is_full_range {
+            true => (1.0, 1.0, 0),
+            false => (255.0 / 219.0, 255.0 / 224.0, 16),
+        };
+        let green = 1.0 - of_red - of_blue;
+        #[expect(clippy::cast_possible_truncation, reason = "at most 3 times 256")]
+        let fixed = |factor: f64| (factor * 256.0).round() as i32;
+        Ok(Factors {
+            luma: fixed(luma_scale),
+            offset,
+            red_of_red: fixed(2.0 * (1.0 - of_red) * chroma_scale),
+            green_of_blue: fixed(2.0 * (1.0 - of_blue) * of_blue / green * chroma_scale),
+            green_of_red: fixed(2.0 * (1.0 - of_red) * of_red / green * chroma_scale),
+            blue_of_blue: fixed(2.0 * (1.0 - of_blue) * chroma_scale),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rgb(luma: u8, blue: u8, red: u8, matrix: Option<u16>, is_full_range: bool) -> [u8; 3] {
+        let planes = [[luma], [blue], [red]];
+        let planes = Planes::new(1, 1, &planes[0], Some([&planes[1], &planes[2]]), (0, 0));
+        let rgb = planes
+            .to_rgb(YuvCoding {
+                matrix,
+                is_full_range,
+            })
+            .expect("known");
+        rgb.try_into().expect("three")
+    }
+
+    #[test]
+    fn black_white_and_the_primaries_are_what_they_are_called() {
+        for matrix in [None, Some(1), Some(5), Some(9)] {
+            assert_eq!(rgb(16, 128, 128, matrix, false), [0, 0, 0]);
+            assert_eq!(rgb(235, 128, 128, matrix, false), [255, 255, 255]);
+            assert_eq!(rgb(77, 128, 128, matrix, true), [77, 77, 77]);
+        }
+        // BT.601, limited: red is (81, 90, 240), BT.709: (63, 102, 240).
+        for (coded, matrix) in [((81, 90, 240), Some(6)), ((63, 102, 240), Some(1))] {
+            let [red, green, blue] = rgb(coded.0, coded.1, coded.2, matrix, false);
+            assert!(
+                red >= 253 && green <= 2 && blue <= 2,
+                "{red} {green} {blue}"
+            );
+        }
+    }
+
+    #[test]
+    fn chroma_is_that_of_the_nearest_sample() {
+        // 3×3 pixels: chroma of 2×2 samples.
+        let luma = [128; 9];
+        let (blue, red) = ([128; 4], [128, 128, 128, 255]);
+        let planes = Planes::new(3, 3, &luma, Some([&blue, &red]), (1, 1));
+        let rgb = planes
+            .to_rgb(YuvCoding {
+                matrix: None,
+                is_full_range: true,
+            })
+            .expect("known");
+        let reds: Vec<u8> = rgb.chunks(3).map(|pixel| pixel[0]).collect();
+        assert_eq!(reds, [128, 128, 128, 128, 128, 128, 128, 128, 255]);
+    }
+
+    #[test]
+    fn a_matrix_of_no_known_kind_is_refused() {
+        let planes = Planes::new(1, 1, &[0], None, (0, 0));
+        let refused = planes.to_rgb(YuvCoding {
+            matrix: Some(8),
+            is_full_range: true,
+        });
+        assert_eq!(refused, Err(UnknownMatrix(8)));
+    }
+}

@@ -1,0 +1,180 @@
+//! MP4 and QuickTime files: the first video track, its samples in the order of decoding and of presentation.
+//!
+//! Everything is checked against the length of the file and against the other tables before it is believed. Files in fragments, with several
+//! edits or descriptions, or encrypted ones are left to others.
+
+mod boxes;
+mod edits;
+mod entry;
+mod samples;
+
+use crate::error::VideoError;
+use crate::limits;
+use crate::source::Source;
+
+use boxes::{BoxAt, Boxes};
+use edits::Edit;
+
+pub(crate) use entry::{Coding, Entry};
+pub(crate) use samples::Sample;
+
+/// The video track of a file.
+#[derive(Debug)]
+pub(crate) struct Track {
+    pub(crate) entry: Entry,
+    /// In the order of decoding.
+    pub(crate) samples: Vec<Sample>,
+    /// Numbers of samples in the order of presentation.
+    pub(crate) presented: Vec<u32>,
+    /// When each of those is presented, in s.
+    pub(crate) times_s: Vec<f64>,
+}
+
+/// What a file was found to be.
+#[derive(Debug)]
+pub(crate) enum Found {
+    Track(Track),
+    /// A file that is read by others alone: its codec, and why.
+    Elsewhere {
+        codec: String,
+        why: &'static str,
+    },
+}
+
+/// Whether a file that begins with `start` is one of MP4 or QuickTime.
+pub(crate) fn is_mp4(start: &[u8]) -> bool {
+    let kind = start.get(4..8).unwrap_or_default();
+    [b"ftyp", b"moov", b"mdat", b"wide", b"skip", b"free"]
+        .iter()
+        .any(|known| kind == *known)
+}
+
+/// Finds the first video track.
+pub(crate) fn read(source: &Source) -> Result<Found, VideoError> {
+    let mut boxes = Boxes::of_file(source);
+    let mut movie = None;
+    while let Some(found) = boxes.next()? {
+        match &found.kind {
+            b"moov" => movie = Some(found),
+            b"moof" => {
+                return Ok(Found::Elsewhere {
+                    codec: "MP4".to_owned(),
+                    why: "in fragments",
+                });
+            }
+            _ => {}
+        }
+    }
+    let Some(movie) = movie else {
+        return Err(source.damaged(
+            source.length(),
+            "the file ends without its tables (`moov`): it was cut, or its recording never closed",
+        ));
+    };
+    let ticks_per_s = time_scale(source, &movie.need(source, b"mvhd")?)?;
+    let mut tracks = movie.boxes(source, 0);
+    while let Some(track) = tracks.next()? {
+        if &track.kind == b"trak"
+            && let Some(found) = read_track(source, &movie, &track, ticks_per_s)?
+        {
+            return Ok(found);
+        }
+    }
+    Err(source.damaged(movie.at, "the file has no video track"))
+}
+
+/// A track if it is one of video.
+fn read_track(
+    source: &Source,
+    movie: &BoxAt,
+    track: &BoxAt,
+    movie_ticks_per_s: u32,
+) -> Result<Option<Found>, VideoError> {
+    let media = track.need(source, b"mdia")?;
+    let handler = media.need(source, b"hdlr")?;
+    let mut handler = handler.fields(source, "bytes of a handler", limits::HEADER_BYTES)?;
+    handler.skip(source, 8)?;
+    if &handler.take::<4>(source)? != b"vide" {
+        return Ok(None);
+    }
+    let ticks_per_s = time_scale(source, &media.need(source, b"mdhd")?)?;
+    let information = media.need(source, b"minf")?;
+    let tables = information.need(source, b"stbl")?;
+    let entry = entry::read(source, &tables.need(source, b"stsd")?)?;
+    let elsewhere = |why| {
+        let codec = entry.coding.name();
+        Ok(Some(Found::Elsewhere { codec, why }))
+    };
+    if entry.count != 1 {
+        return elsewhere("with several descriptions of its frames");
+    }
+    if matches!(entry.coding, Coding::Other(_)) {
+        return elsewhere("");
+    }
+    if movie.find(source, b"mvex")?.is_some() {
+        return elsewhere("in fragments");
+    }
+    entry::check_is_in_file(source, &information)?;
+    let edit = match track.find(source, b"edts")? {
+        Some(edits) => edits::read(source, &edits)?,
+        None => Some(Edit::default()),
+    };
+    let Some(edit) = edit else {
+        return elsewhere("with several edits");
+    };
+    let samples = samples::read(source, &tables)?;
+    let (presented, times_s) = present(&samples, edit, ticks_per_s, movie_ticks_per_s);
+    if presented.is_empty() {
+        return Err(source.damaged(track.at, "the clip presents no frame"));
+    }
+    Ok(Some(Found::Track(Track {
+        entry,
+        samples,
+        presented,
+        times_s,
+    })))
+}
+
+/// How many ticks a second has, of a header of a movie or a track.
+fn time_scale(source: &Source, header: &BoxAt) -> Result<u32, VideoError> {
+    let mut fields = header.fields(source, "bytes of a header", limits::HEADER_BYTES)?;
+    let times = match fields.version(source)? {
+        1 => 16,
+        _ => 8,
+    };
+    fields.skip(source, times)?;
+    let at = fields.offset();
+    match fields.u32(source)? {
+        0 => Err(source.damaged(at, "0 ticks a second")),
+        ticks => Ok(ticks),
+    }
+}
+
+/// The samples that the edit presents, in the order of their times, and these.
+fn present(
+    samples: &[Sample],
+    edit: Edit,
+    ticks_per_s: u32,
+    movie_ticks_per_s: u32,
+) -> (Vec<u32>, Vec<f64>) {
+    let (ticks, movie_ticks) = (i128::from(ticks_per_s), i128::from(movie_ticks_per_s));
+    let from = i128::from(edit.from);
+    // Rounded to the nearest tick of the track.
+    let end = edit
+        .duration
+        .map(|duration| from + (i128::from(duration) * ticks + movie_ticks / 2) / movie_ticks);
+    let mut presented: Vec<(i64, u32)> = (0..)
+        .zip(samples)
+        .map(|(number, sample)| (sample.time, number))
+        .filter(|(time, _)| {
+            i128::from(*time) >= from && end.is_none_or(|end| i128::from(*time) < end)
+        })
+        .collect();
+    presented.sort_by_key(|(time, _)| *time);
+    let delay_s = edit.delay as f64 / f64::from(movie_ticks_per_s);
+    let seconds = |time: i64| delay_s + (i128::from(time) - from) as f64 / f64::from(ticks_per_s);
+    presented
+        .into_iter()
+        .map(|(time, number)| (number, seconds(time)))
+        .unzip()
+}

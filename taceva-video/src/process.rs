@@ -1,0 +1,162 @@
+//! A program that decodes: what it says and gives comes in pieces of a bounded size, and it is killed when it falls silent or is no longer wanted.
+
+use std::io::{self, BufRead, BufReader, Read};
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
+use std::thread;
+use std::time::Duration;
+
+/// For how long a program may say and give nothing.
+pub(crate) const SILENCE: Duration = Duration::from_secs(60);
+/// A longer line is taken as several.
+const LINE_BYTES: u64 = 1 << 16;
+/// Pieces that wait for whoever reads them: memory is bounded by as many frames.
+const WAITING: usize = 4;
+
+/// What a program said or gave.
+#[derive(Debug)]
+pub(crate) enum Piece {
+    /// A line of its standard error, without its end.
+    Line(String),
+    /// As many bytes of its standard output as were asked for, or fewer at its end.
+    Block(Vec<u8>),
+}
+
+/// A program that runs until it ends or this is dropped.
+#[derive(Debug)]
+pub(crate) struct Running {
+    child: Child,
+    pieces: Receiver<Piece>,
+}
+
+/// Why there is no further piece.
+#[derive(Debug)]
+pub(crate) enum Ended {
+    /// The program ended.
+    By(ExitStatus),
+    /// It said nothing for [`SILENCE`], and was killed.
+    Silent,
+    /// It could not be waited for.
+    Unknown(io::Error),
+}
+
+impl Running {
+    /// Starts `command`, whose standard output comes in blocks of `block` bytes; without a size it is thrown away.
+    ///
+    /// # Errors
+    /// If it does not start.
+    pub(crate) fn start(mut command: Command, block: Option<usize>) -> io::Result<Running> {
+        command.stderr(Stdio::piped());
+        command.stdout(match block {
+            Some(_) => Stdio::piped(),
+            None => Stdio::null(),
+        });
+        let mut child = command.spawn()?;
+        let (send, pieces) = sync_channel(WAITING);
+        let lines = child.stderr.take().map(BufReader::new);
+        let blocks = child.stdout.take().zip(block);
+        let running = Running { child, pieces };
+        if let Some(lines) = lines {
+            let send = send.clone();
+            thread::Builder::new().spawn(move || send_lines(lines, &send))?;
+        }
+        if let Some((blocks, size)) = blocks {
+            thread::Builder::new().spawn(move || send_blocks(blocks, size, &send))?;
+        }
+        Ok(running)
+    }
+
+    /// The process.
+    pub(crate) fn child(&mut self) -> &mut Child {
+        &mut self.child
+    }
+
+    /// What comes next, or how it ended.
+    pub(crate) fn next(&mut self) -> Result<Piece, Ended> {
+        match self.pieces.recv_timeout(SILENCE) {
+            Ok(piece) => Ok(piece),
+            Err(RecvTimeoutError::Timeout) => {
+                self.kill();
+                Err(Ended::Silent)
+            }
+            // Both ends were closed, which is what a program does last.
+            Err(RecvTimeoutError::Disconnected) => Err(match self.child.wait() {
+                Ok(status) => Ended::By(status),
+                Err(error) => Ended::Unknown(error),
+            }),
+        }
+    }
+
+    fn kill(&mut self) {
+        // It may have ended by itself.
+        drop(self.child.kill());
+        drop(self.child.wait());
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        self.kill();
+    }
+}
+
+impl std::fmt::Display for Ended {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Ended::By(status) => write!(f, "ended with {status}"),
+            Ended::Silent => write!(f, "said nothing for {} s and was killed", SILENCE.as_secs()),
+            Ended::Unknown(error) => write!(f, "cannot be waited for: {error}"),
+        }
+    }
+}
+
+fn send_lines(mut lines: impl BufRead, send: &SyncSender<Piece>) {
+    loop {
+        let mut line = Vec::new();
+        match lines.by_ref().take(LINE_BYTES).read_until(b'\n', &mut line) {
+            Ok(0) | Err(_) => return,
+            Ok(_) => {}
+        }
+        let line = String::from_utf8_lossy(&line).trim_end().to_owned();
+        if send.send(Piece::Line(line)).is_err() {
+            return;
+        }
+    }
+}
+
+fn send_blocks(mut blocks: impl Read, size: usize, send: &SyncSender<Piece>) {
+    loop {
+        let mut block = Vec::with_capacity(size);
+        let read = blocks.by_ref().take(size as u64).read_to_end(&mut block);
+        if read.is_err() || block.is_empty() || send.send(Piece::Block(block)).is_err() {
+            return;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[cfg(unix)]
+    #[test]
+    fn blocks_and_lines_come_apart_and_the_end_is_known() {
+        let mut command = Command::new("sh");
+        command.args(["-c", "printf 1234567; echo one >&2; echo two >&2; exit 3"]);
+        let mut running = Running::start(command, Some(4)).expect("starts");
+        let (mut lines, mut blocks) = (Vec::new(), Vec::new());
+        let ended = loop {
+            match running.next() {
+                Ok(Piece::Line(line)) => lines.push(line),
+                Ok(Piece::Block(block)) => blocks.push(block),
+                Err(ended) => break ended,
+            }
+        };
+        assert_eq!(lines, ["one", "two"]);
+        assert_eq!(blocks, [b"1234".to_vec(), b"567".to_vec()]);
+        match ended {
+            Ended::By(status) => assert_eq!(status.code(), Some(3)),
+            other => panic!("{other}"),
+        }
+    }
+}

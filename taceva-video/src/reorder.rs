@@ -1,0 +1,62 @@
+//! Frames that are decoded in one order and shown in another.
+
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+
+use crate::clip::Picture;
+use crate::error::VideoError;
+use crate::limits;
+use crate::source::Source;
+
+/// Holds decoded frames back until all that are shown before them were shown.
+pub(crate) struct Reorder<'a> {
+    source: &'a Source,
+    /// The frames that are still to be shown, in their order.
+    wanted: std::slice::Iter<'a, u64>,
+    held: BTreeMap<u64, Picture>,
+    held_bytes: u64,
+}
+
+impl<'a> Reorder<'a> {
+    pub(crate) fn new(source: &'a Source, wanted: &'a [u64]) -> Reorder<'a> {
+        Reorder {
+            source,
+            wanted: wanted.iter(),
+            held: BTreeMap::new(),
+            held_bytes: 0,
+        }
+    }
+
+    /// Shows the frame and what waited for it, or holds it back.
+    ///
+    /// # Errors
+    /// If more is held back than any stream asks for.
+    pub(crate) fn add(
+        &mut self,
+        frame: u64,
+        picture: Picture,
+        each: &mut dyn FnMut(u64, Picture) -> ControlFlow<()>,
+    ) -> Result<ControlFlow<()>, VideoError> {
+        self.held_bytes += picture.size() as u64;
+        self.held.insert(frame, picture);
+        while let Some(next) = self.wanted.as_slice().first() {
+            let Some(picture) = self.held.remove(next) else {
+                break;
+            };
+            self.held_bytes -= picture.size() as u64;
+            self.wanted.next();
+            if each(*next, picture).is_break() {
+                return Ok(ControlFlow::Break(()));
+            }
+        }
+        if self.held_bytes > limits::HELD_BYTES {
+            return Err(VideoError::TooLarge {
+                path: self.source.path().to_owned(),
+                what: "bytes of frames that are presented long after they are decoded",
+                found: self.held_bytes,
+                limit: limits::HELD_BYTES,
+            });
+        }
+        Ok(ControlFlow::Continue(()))
+    }
+}
