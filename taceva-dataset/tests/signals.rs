@@ -181,7 +181,9 @@ fn a_recording_of_taxels_is_resumed_with_every_number() {
     let header = resumed.close().expect("closed");
     let at_once = folder.path().join("at once");
     let mut recorder = Recorder::create(&at_once, &spec()).expect("created");
-    (0..4).for_each(|row| drop(recorder.append(&sample(row)).expect("recorded")));
+    for row in 0..4 {
+        recorder.append(&sample(row)).expect("recorded");
+    }
     assert_eq!(recorder.close().expect("closed").signals, header.signals);
     let dataset = Dataset::open(&path).expect("opens");
     assert_eq!(

@@ -2,6 +2,7 @@
 
 mod kept;
 mod refused;
+mod signals;
 
 use taceva_core::{
     Channel, Channels, Features, Frame, FrameInfo, PixelFormat, SilentProgress, Targets,

@@ -1,5 +1,6 @@
 //! Recordings of taxels alone, from the file to the score.
 
+mod checks;
 mod drawn;
 
 use std::num::NonZeroUsize;
