@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use crate::element::ArrayInfo;
 use crate::error::{ArrayError, Problem};
@@ -10,6 +11,7 @@ use crate::fields::check_read;
 use crate::format::ArrayFormat;
 use crate::npy::NpyArray;
 use crate::npz::Npz;
+use crate::pickle::Pickle;
 use crate::source::FileBytes;
 use crate::store::{Arrays, Store};
 use crate::values::ArrayData;
@@ -167,6 +169,7 @@ impl ArrayFile {
 
 fn open(path: &Path, format: ArrayFormat) -> Result<Box<dyn Store>, Problem> {
     match format {
+        ArrayFormat::Pickle => Ok(Box::new(Pickle::open(Arc::new(FileBytes::open(path)?), 0)?)),
         ArrayFormat::Zarr => Ok(Box::new(Zarr::open(path)?)),
         #[cfg(feature = "hdf5")]
         ArrayFormat::Hdf5 => Ok(Box::new(crate::hdf5::Hdf5::open(FileBytes::open(path)?)?)),
@@ -177,8 +180,8 @@ fn open(path: &Path, format: ArrayFormat) -> Result<Box<dyn Store>, Problem> {
         )),
         ArrayFormat::Npz => Ok(Box::new(Npz::open(FileBytes::open(path)?)?)),
         ArrayFormat::Npy => Ok(Box::new(NpyArray::open(
-            "value",
-            Box::new(FileBytes::open(path)?),
+            "",
+            Arc::new(FileBytes::open(path)?),
         )?)),
         _ => Err(Problem::unsupported(
             "a form that is not read yet",

@@ -149,6 +149,11 @@ impl Problem {
             Problem::TooLarge { what, size, limit } => {
                 Problem::too_large(what.as_str(), *size, *limit)
             }
+            Problem::Global { at, global, mend } => Problem::Global {
+                at: *at,
+                global: global.clone(),
+                mend: mend.clone(),
+            },
             other => Problem::Structure {
                 problem: other.to_string(),
             },

@@ -3,6 +3,7 @@
 
 mod archive;
 mod array_file;
+mod block;
 mod codec;
 mod element;
 mod error;
@@ -18,6 +19,7 @@ mod npy;
 mod npz;
 mod order;
 mod pattern;
+mod pickle;
 mod scalar;
 mod source;
 mod store;

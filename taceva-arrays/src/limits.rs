@@ -20,6 +20,12 @@ pub(crate) const CHUNK_BYTES: u64 = 256 << 20;
 pub(crate) const CHUNKS: u64 = 1 << 16;
 /// A file of metadata of zarr.
 pub(crate) const METADATA_BYTES: u64 = 16 << 20;
+/// Values of a pickle that are no elements of arrays.
+pub(crate) const PICKLED_VALUES: u64 = 1 << 22;
+/// Operations of a pickle.
+pub(crate) const PICKLE_STEPS: u64 = 1 << 25;
+/// Groups within groups of a pickle.
+pub(crate) const PICKLE_DEPTH: usize = 64;
 /// The directory of an archive.
 pub(crate) const DIRECTORY_BYTES: u64 = 64 << 20;
 /// What the form allows at most: no deflated byte becomes more.

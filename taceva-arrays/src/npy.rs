@@ -1,13 +1,14 @@
 //! `.npy`: one array of NumPy, versions 1 to 3 of the form.
 
 use std::ops::Range;
+use std::sync::Arc;
 
+use crate::block::Block;
 use crate::error::Problem;
 use crate::fields::Item;
 use crate::limits;
 use crate::literal::Literal;
-use crate::order::ColumnMajor;
-use crate::scalar::shown;
+use crate::pickle::Pickle;
 use crate::source::{ByteSource, bytes_of};
 use crate::store::{Arrays, Store};
 use crate::values::ArrayData;
@@ -17,13 +18,16 @@ const MAGIC: &[u8; 6] = b"\x93NUMPY";
 /// An array of NumPy in any source of bytes.
 #[derive(Debug)]
 pub(crate) struct NpyArray {
+    /// Empty of a file that holds nothing else.
     name: String,
-    source: Box<dyn ByteSource>,
-    shape: Vec<u64>,
-    item: Item,
-    row_bytes: u64,
-    data_at: u64,
-    columns: Option<ColumnMajor>,
+    content: Content,
+}
+
+#[derive(Debug)]
+enum Content {
+    Numbers(Block),
+    /// Values of Python, pickled.
+    Objects(Pickle),
 }
 
 /// What the header of an array says.
@@ -93,67 +97,58 @@ impl NpyHeader {
 
 impl NpyArray {
     /// Reads the header and compares it with the length of the source.
-    pub(crate) fn open(name: &str, source: Box<dyn ByteSource>) -> Result<NpyArray, Problem> {
+    pub(crate) fn open(name: &str, source: Arc<dyn ByteSource>) -> Result<NpyArray, Problem> {
         let header = NpyHeader::read(&*source)?;
+        let name = name.to_owned();
+        if header.descr == Literal::Text("|O".to_owned()) {
+            let content = Content::Objects(Pickle::open(source, header.data_at)?);
+            return Ok(NpyArray { name, content });
+        }
         let item = Item::from_descr(&header.descr)?;
-        let item_bytes = item.bytes as u64;
-        let rest = header.shape.get(1..).unwrap_or(&[]);
-        let row_bytes = rest
-            .iter()
-            .try_fold(item_bytes, |bytes, side| bytes.checked_mul(*side));
-        let rows = header.shape.first().copied().unwrap_or(1);
-        let data = row_bytes.and_then(|bytes| bytes.checked_mul(rows));
-        let expected = data.and_then(|data| data.checked_add(header.data_at));
-        let (Some(row_bytes), Some(expected)) = (row_bytes, expected) else {
-            return Err(Problem::too_large(
-                "bytes of the shape",
-                u64::MAX,
-                source.length(),
-            ));
-        };
-        if expected != source.length() {
+        let length = source.length();
+        let block = Block::new(
+            source,
+            header.data_at,
+            header.shape,
+            item,
+            header.is_fortran,
+        )?;
+        if block.end() != length {
             return Err(Problem::damaged(
-                source.length(),
+                length,
                 "the end",
-                format!("it at byte {expected}, after {rows} rows of {row_bytes} bytes"),
+                format!("it at byte {}", block.end()),
             ));
         }
-        let columns = (header.is_fortran && header.shape.len() > 1)
-            .then(|| ColumnMajor::new(&header.shape, item_bytes, header.data_at));
-        Ok(NpyArray {
-            name: name.to_owned(),
-            source,
-            shape: header.shape,
-            item,
-            row_bytes,
-            data_at: header.data_at,
-            columns,
-        })
+        let content = Content::Numbers(block);
+        Ok(NpyArray { name, content })
+    }
+
+    /// The name of what is called `own` within this array.
+    fn full(&self, own: &str) -> String {
+        match (self.name.as_str(), own) {
+            ("", own) => own.to_owned(),
+            (name, "value") => name.to_owned(),
+            (name, own) => format!("{name}.{own}"),
+        }
     }
 }
 
 impl Store for NpyArray {
     fn arrays(&self) -> Arrays {
-        self.item.arrays(&self.name, &self.shape)
+        match &self.content {
+            Content::Numbers(block) => block.item().arrays(&self.full("value"), block.shape()),
+            Content::Objects(pickle) => {
+                let each = pickle.arrays().into_iter();
+                each.map(|(own, info)| (self.full(&own), info)).collect()
+            }
+        }
     }
 
     fn read(&self, index: usize, rows: Range<u64>) -> Result<ArrayData, Problem> {
-        let count = rows.end - rows.start;
-        let raw = match &self.columns {
-            Some(columns) => columns.rows(&*self.source, rows)?,
-            None => bytes_of(
-                &*self.source,
-                self.data_at + rows.start * self.row_bytes,
-                count * self.row_bytes,
-            )?,
-        };
-        let mut shape = self.shape.clone();
-        if let Some(first) = shape.first_mut() {
-            *first = count;
+        match &self.content {
+            Content::Numbers(block) => block.read(index, rows),
+            Content::Objects(pickle) => pickle.read(index, rows),
         }
-        let field = self.item.fields.get(index);
-        let field = field
-            .ok_or_else(|| Problem::unsupported(format!("no field {index}"), shown(&self.name)))?;
-        self.item.read(field, raw, &shape)
     }
 }

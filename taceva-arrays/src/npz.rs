@@ -57,10 +57,12 @@ impl Npz {
                 is_held,
                 read: Mutex::new(Read::Nothing),
             };
-            let array = NpyArray::open(&name, Box::new(source));
+            let array = NpyArray::open(&name, Arc::new(source));
             match array {
                 Ok(array) => arrays.push(array),
-                Err(reason @ Problem::Unsupported { .. }) => refused.push((name, reason)),
+                Err(reason @ (Problem::Unsupported { .. } | Problem::Global { .. })) => {
+                    refused.push((name, reason))
+                }
                 Err(problem) => {
                     return Err(problem.within(&format!("member `{}.npy`", shown(&name))));
                 }

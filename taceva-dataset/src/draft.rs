@@ -56,6 +56,17 @@ impl MapDraft {
                 Err(problem) => notes.push(format!("not read: {problem}")),
             }
         }
+        // A LeRobot dataset is one table, whatever files it has.
+        let lerobot = groups
+            .iter()
+            .find_map(|group| SeenTable::of_lerobot(&source, group));
+        if let Some(lerobot) = lerobot {
+            tables.clear();
+            match lerobot {
+                Ok(table) => tables.push(table),
+                Err(problem) => notes.push(format!("not read: {problem}")),
+            }
+        }
         let text = match main_table(&source, &tables) {
             Some(main) => written::of_table(&source, &groups, (main, &tables), &notes),
             None => match pictures.iter().max_by_key(|group| group.paths.len()) {

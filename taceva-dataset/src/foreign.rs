@@ -5,6 +5,7 @@ mod clips;
 mod columns;
 mod files;
 mod json;
+mod lerobot;
 mod messages;
 pub(crate) mod packed;
 mod parquet;
@@ -64,6 +65,8 @@ pub(crate) enum TableForm {
     Messages {
         topic: Option<String>,
     },
+    /// A folder as LeRobot writes it, versions 2.1 and 3.0.
+    LeRobot,
 }
 
 /// What an error says of the file at `path`, without the path, which is named around it.
@@ -88,6 +91,9 @@ impl ForeignTable {
             TableForm::Files => ForeignTable::Files(FileRows::one(path)),
             TableForm::Parquet => ForeignTable::Columns(ColumnTable::open(path, || {
                 parquet::ParquetRows::open(path)
+            })?),
+            TableForm::LeRobot => ForeignTable::Columns(ColumnTable::open(path, || {
+                lerobot::LeRobotRows::open(path)
             })?),
             TableForm::Messages { topic } => {
                 ForeignTable::Columns(ColumnTable::open(path, || {
@@ -183,6 +189,14 @@ impl ForeignTable {
             ForeignTable::Json(table) => table.names(),
             ForeignTable::Files(_) => Vec::new(),
             ForeignTable::Columns(table) => table.names(),
+        }
+    }
+
+    /// For each row the clip that `key` names, relative to the folder of the table, and the frame in it.
+    pub(crate) fn clips(&self, key: &str) -> Result<Vec<(String, u64)>, DatasetError> {
+        match self {
+            ForeignTable::Columns(table) => table.clips(key),
+            _ => Ok(Vec::new()),
         }
     }
 

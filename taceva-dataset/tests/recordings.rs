@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 use taceva_core::SilentProgress;
-use taceva_dataset::{Dataset, ImportMap, ImportPlan, MapDraft, Table};
+use taceva_dataset::{Dataset, Decoders, ImportMap, ImportPlan, MapDraft, Table};
+use taceva_needs::{Need, skip};
 
 /// What check names of labels stand under other names in a dataset, or are read from elsewhere.
 const ELSEWHERE: [&str; 3] = ["frame", "t_s", "file"];
@@ -29,7 +30,12 @@ fn own_map(name: &str) -> String {
 fn import(name: &str, text: &str, target: &Path) -> Result<(), String> {
     let folder = folder(name);
     let map = ImportMap::parse("map.toml".as_ref(), text).map_err(|error| error.to_string())?;
-    let plan = ImportPlan::new(&folder, &map).map_err(|error| error.to_string())?;
+    let decoders = Decoders {
+        ffmpeg: Some("ffmpeg".into()),
+        ..Decoders::default()
+    };
+    let plan = ImportPlan::with_decoders(&folder, &map, &decoders);
+    let plan = plan.map_err(|error| error.to_string())?;
     let threads = NonZeroUsize::new(2).expect("two");
     let report = plan.run(target, threads, &SilentProgress);
     report.map(drop).map_err(|error| error.to_string())
@@ -248,8 +254,52 @@ fn clips_of_motion_jpeg_and_h264() {
 }
 
 #[test]
+fn numbers_of_taxels_are_those_of_the_library_that_wrote_them_to_the_last_bit() {
+    all_as_expected(&["taxels-csv", "taxels-npy"]);
+    for name in ["taxels-csv", "taxels-npy"] {
+        let target = tempfile::tempdir().expect("a folder");
+        let target = target.path().join("dataset");
+        import(name, &own_map(name), &target).expect("imported");
+        let dataset = Dataset::open(&target).expect("a dataset");
+        let text = std::fs::read_to_string(folder(name).join("expected.json"));
+        let expected: Value = serde_json::from_str(&text.expect("there")).expect("JSON");
+        let rows = rows(name, dataset.table());
+        let expected = expected["signals"].as_object().expect("signals");
+        assert!(!expected.is_empty());
+        for (row, numbers) in expected {
+            let found = dataset.signals(rows[row]).expect("read").expect("there");
+            let numbers = numbers.as_array().expect("numbers").iter();
+            #[expect(clippy::cast_possible_truncation, reason = "as they are kept")]
+            let numbers = numbers.map(|number| number.as_f64().expect("a number") as f32);
+            assert_eq!(
+                found.values(),
+                numbers.collect::<Vec<f32>>(),
+                "{name} {row}"
+            );
+        }
+        dataset.verify_frames().expect("whole");
+    }
+}
+
+#[test]
 fn arrays_of_zarr() {
     all_as_expected(&["zarr-v2", "zarr-v3"]);
+}
+
+#[test]
+fn clips_that_ffmpeg_decodes() {
+    match std::process::Command::new("ffmpeg")
+        .arg("-version")
+        .output()
+    {
+        Ok(_) => all_as_expected(&["mkv-ffv1", "mp4-h264-444", "mp4-mpeg4"]),
+        Err(error) => skip(Need::Ffmpeg, error),
+    }
+}
+
+#[test]
+fn folders_of_lerobot() {
+    all_as_expected(&["lerobot-v3-h264"]);
 }
 
 #[test]
@@ -282,9 +332,29 @@ fn hdf5_of_a_layout_that_is_not_read_names_the_setting_that_writes_another() {
     }
 }
 
+/// The recording as its lab has it: without the map and what is expected of it.
+fn bare(name: &str) -> tempfile::TempDir {
+    fn copy(from: &Path, to: &Path) {
+        std::fs::create_dir_all(to).expect("made");
+        for entry in std::fs::read_dir(from).expect("a folder").flatten() {
+            let target = to.join(entry.file_name());
+            match entry.file_type().expect("known").is_dir() {
+                true => copy(&entry.path(), &target),
+                false => drop(std::fs::copy(entry.path(), target).expect("copied")),
+            }
+        }
+    }
+    let target = tempfile::tempdir().expect("a folder");
+    copy(&folder(name), target.path());
+    for own in ["map.toml", "expected.json"] {
+        std::fs::remove_file(target.path().join(own)).expect("it was there");
+    }
+    target
+}
+
 /// The draft of a map for the recording, its units, signs, offsets and scales filled in from the map of its lab.
 fn finished_draft(name: &str) -> Result<String, String> {
-    let draft = MapDraft::of(&folder(name)).map_err(|error| error.to_string())?;
+    let draft = MapDraft::of(bare(name).path()).map_err(|error| error.to_string())?;
     let own: toml::Table = own_map(name).parse().expect("TOML");
     let mut finished = String::new();
     for line in draft.text().lines() {

@@ -4,12 +4,14 @@ use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use taceva_core::shown as core_shown;
+
 /// Why a table was not read, or one of its columns.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum TableError {
     /// The system refused a file.
-    #[error("cannot read {}: {source}", path.display())]
+    #[error("cannot read {}: {source}", core_shown(path))]
     Io {
         /// The file.
         path: PathBuf,
@@ -17,7 +19,7 @@ pub enum TableError {
         source: io::Error,
     },
     /// Bytes that contradict the format: cut short, changed, or never written by a program that knew it.
-    #[error("{}{place}: {problem}", path.display())]
+    #[error("{}{place}: {}", core_shown(path), core_shown(problem))]
     Damaged {
         /// The file.
         path: PathBuf,
@@ -27,7 +29,7 @@ pub enum TableError {
         problem: String,
     },
     /// What the format allows and this crate does not read.
-    #[error("{}{place}: {problem}", path.display())]
+    #[error("{}{place}: {}", core_shown(path), core_shown(problem))]
     Unsupported {
         /// The file.
         path: PathBuf,
@@ -37,7 +39,7 @@ pub enum TableError {
         problem: String,
     },
     /// More than is read into memory at once.
-    #[error("{}{place}: {problem}", path.display())]
+    #[error("{}{place}: {}", core_shown(path), core_shown(problem))]
     TooLarge {
         /// The file.
         path: PathBuf,
@@ -47,7 +49,12 @@ pub enum TableError {
         problem: String,
     },
     /// A column, a field or a topic that is not there.
-    #[error("{}: no `{name}`, there are {}", path.display(), shown_list(known))]
+    #[error(
+        "{}: no `{}`, there are {}",
+        core_shown(path),
+        shown(name),
+        shown_list(known)
+    )]
     Missing {
         /// The file.
         path: PathBuf,
@@ -57,7 +64,7 @@ pub enum TableError {
         known: Vec<String>,
     },
     /// A column, or a place in it, that is not what was asked for.
-    #[error("{}, `{name}`: {problem}", path.display())]
+    #[error("{}, `{}`: {}", core_shown(path), shown(name), core_shown(problem))]
     Mismatch {
         /// The file.
         path: PathBuf,
@@ -136,23 +143,12 @@ impl fmt::Display for Place {
     }
 }
 
-/// A name from a file as a message shows it: without control characters, at most 80 characters.
+/// A name from a file as a message shows it: nothing in it that a terminal obeys, at most 80 characters.
 pub(crate) fn shown(name: &str) -> String {
-    let mut text: String = name
-        .chars()
-        .take(80)
-        .map(|letter| {
-            if letter.is_control() {
-                '\u{fffd}'
-            } else {
-                letter
-            }
-        })
-        .collect();
-    if text.len() < name.len() && name.chars().count() > 80 {
-        text.push('…');
+    match name.char_indices().nth(80) {
+        Some((end, _)) => format!("{}…", core_shown(&name[..end])),
+        None => core_shown(name).to_string(),
     }
-    text
 }
 
 /// Names as a message lists them: the first 40.

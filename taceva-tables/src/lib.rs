@@ -4,6 +4,7 @@
 mod bytes;
 mod cell;
 mod error;
+mod lerobot;
 mod limits;
 mod mcap;
 mod parquet;
@@ -15,6 +16,7 @@ mod unpack;
 
 pub use cell::Cell;
 pub use error::{Place, TableError};
+pub use lerobot::{Feature, LeRobot, VideoFrames};
 pub use mcap::{Mcap, McapTable, Topic};
 pub use parquet::ParquetTable;
 pub use ros::{Picture, SampleForm, Samples};

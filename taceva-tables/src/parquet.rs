@@ -108,18 +108,29 @@ impl ParquetTable {
     /// [`TableError::Missing`] if there is no such column, [`TableError::Mismatch`] if `name` leads into a list that is shorter in
     /// some row, [`TableError::TooLarge`] if the cells take more than 1 GiB of memory, [`TableError::Damaged`] if pages do not read.
     pub fn column(&self, name: &str) -> Result<Vec<Cell>, TableError> {
-        let found = self.find(name)?;
         let mut cells = Vec::new();
-        let mut bytes = 0_u64;
+        self.read_column(name, &mut 0, &mut cells)?;
+        Ok(cells)
+    }
+
+    /// Appends the column called `name` to `cells`, which take `bytes` bytes so far.
+    pub(crate) fn read_column(
+        &self,
+        name: &str,
+        bytes: &mut u64,
+        cells: &mut Vec<Cell>,
+    ) -> Result<(), TableError> {
+        let found = self.find(name)?;
+        let before = cells.len();
         for group in self.metadata.row_groups() {
             let mut assembly = Assembly::new(&self.source, group, &found.column)?;
             let mut left = rows_of(group);
             while left > 0 {
                 let rows = left.min(ROWS_AT_ONCE);
                 assembly.read(&self.source, rows, &mut |cell| {
-                    let cell = found.inside(&self.source, cells.len(), cell)?;
-                    bytes = bytes.saturating_add(cell.bytes());
-                    if bytes > limits::COLUMN_BYTES {
+                    let cell = found.inside(&self.source, cells.len() - before, cell)?;
+                    *bytes = bytes.saturating_add(cell.bytes());
+                    if *bytes > limits::COLUMN_BYTES {
                         let problem = format!(
                             "more than {} bytes in memory; ask for a part, as `{name}[0]`",
                             limits::COLUMN_BYTES
@@ -132,7 +143,7 @@ impl ParquetTable {
                 left -= rows;
             }
         }
-        Ok(cells)
+        Ok(())
     }
 
     /// Hands the bytes in the column called `name`, such as `image.bytes`, of the rows `sorted` to `each`, with the row; [`None`]

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use recordings::damage::{Endings, attempt, damage, peak_bytes};
 use recordings::recording;
-use taceva_tables::{Cell, Mcap, ParquetTable, TableError};
+use taceva_tables::{Cell, LeRobot, Mcap, ParquetTable, TableError};
 
 /// What damaged files of at most 100 KB may take.
 const BYTES: u64 = 512 << 20;
@@ -97,6 +97,68 @@ fn damaged_mcap_files_are_refused_or_read() {
         (7 * 46, 0)
     );
     assert!(endings.refused > 7 * 40, "{endings:?}");
+    check_memory();
+}
+
+fn every_row(folder: &Path) -> Result<usize, TableError> {
+    let dataset = LeRobot::open(folder)?;
+    let mut read = 0;
+    for name in dataset.names() {
+        read += dataset.column(name)?.len();
+    }
+    let videos = dataset
+        .features()
+        .iter()
+        .filter(|feature| feature.dtype == "video");
+    for feature in videos {
+        read += dataset.video(&feature.name)?.files().len();
+    }
+    Ok(read)
+}
+
+#[test]
+fn damaged_folders_of_lerobot_are_refused_or_read() {
+    let mut endings = Endings::default();
+    let mut files = 0;
+    for (folder, damaged) in [
+        (
+            "lerobot-v3-h264",
+            &[
+                "meta/info.json",
+                "meta/tasks.parquet",
+                "data/chunk-000/file-000.parquet",
+            ][..],
+        ),
+        (
+            "lerobot-v3-files",
+            &[
+                "meta/info.json",
+                "meta/episodes/chunk-000/file-001.parquet",
+                "data/chunk-001/file-000.parquet",
+            ],
+        ),
+        (
+            "lerobot-v2.1",
+            &[
+                "meta/info.json",
+                "meta/episodes.jsonl",
+                "meta/tasks.jsonl",
+                "data/chunk-000/episode_000001.parquet",
+            ],
+        ),
+    ] {
+        let root = recording(folder);
+        for file in damaged {
+            files += 1;
+            damage(&root, &root.join(file), &mut endings, every_row);
+        }
+    }
+    println!("{endings:?}, peak {:?} bytes", peak_bytes());
+    assert_eq!(
+        endings.read + endings.refused + endings.panicked,
+        files * 46
+    );
+    assert!(endings.refused > files * 6, "{endings:?}");
     check_memory();
 }
 

@@ -2,7 +2,7 @@
 
 mod recordings;
 
-use recordings::{expected, recording};
+use recordings::{at, expected, recording};
 use serde_json::Value;
 use taceva_tables::{Cell, ParquetTable};
 
@@ -85,7 +85,7 @@ fn rows_that_are_passed_over_leave_the_others_where_they_are() {
                 .collect();
             table
                 .visit_bytes::<taceva_tables::TableError>(name, &rows, &mut |row, bytes| {
-                    let expected = match &whole[row as usize] {
+                    let expected = match &whole[at(row)] {
                         Cell::Null => None,
                         Cell::Text(text) => Some(text.clone().into_bytes()),
                         Cell::Bytes(bytes) => Some(bytes.clone()),

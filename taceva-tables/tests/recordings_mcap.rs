@@ -2,7 +2,7 @@
 
 mod recordings;
 
-use recordings::{digest, expected, number, picture_digest, recording};
+use recordings::{at, digest, expected, number, picture_digest, recording};
 use serde_json::Value;
 use taceva_tables::{Cell, Mcap, McapTable, Picture, SampleForm, TableError};
 
@@ -94,7 +94,7 @@ fn forces_and_pictures_are_those_that_were_written() {
         }
         for row in THREE {
             let labels = &expected["labels"][row.to_string()];
-            let stamp = stamps[row as usize];
+            let stamp = stamps[at(row)];
             assert!((stamp - 1_700_000_000.0 - number(&labels["t_s"])).abs() < 3e-7);
             // The force whose stamp is nearest to 40 ms later.
             let distance = |at: &usize| (force_stamps[*at] - stamp - 0.040).abs();
@@ -226,7 +226,10 @@ fn places_inside_lists_and_messages_of_json_are_columns() {
     for written in WRITTEN {
         let recording = open("mcap", &format!("{written}.mcap"));
         let joints = recording.table("/joints").expect("a topic");
-        assert_eq!(numbers(&joints, "position[0]")[5], 2.5);
+        assert_eq!(
+            joints.column("position[0]").expect("numbers")[5],
+            Cell::Number(2.5)
+        );
         assert_eq!(
             joints.column("name[1]").expect("texts")[3].text(),
             "joint_b"
@@ -345,10 +348,8 @@ fn threads_share_a_table() {
             let (read, whole) = (&read, &whole);
             scope.spawn(move || {
                 let rows: Vec<u64> = (start..24).step_by(4).collect();
-                let expected: Vec<String> = rows
-                    .iter()
-                    .map(|row| whole[*row as usize].clone())
-                    .collect();
+                let expected: Vec<String> =
+                    rows.iter().map(|row| whole[at(*row)].clone()).collect();
                 assert_eq!(read(&rows), expected);
             });
         }

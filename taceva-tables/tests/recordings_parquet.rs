@@ -2,7 +2,7 @@
 
 mod recordings;
 
-use recordings::{expected, number, picture_digest, recording};
+use recordings::{at, expected, number, picture_digest, recording};
 use taceva_tables::{Cell, ParquetTable, TableError};
 
 const THREE: [u64; 3] = [0, 7, 23];
@@ -22,11 +22,11 @@ fn every_codec_gives_the_same_columns() {
             table.names(),
             ["t", "ft", "fixed", "pose.x", "pose.y", "pose.z", "png"]
         );
-        for (at, channel) in CHANNELS.iter().enumerate() {
-            let column = table.column(&format!("ft[{at}]")).expect(codec);
-            let single = table.column(&format!("fixed[{at}]")).expect(codec);
+        for (place, channel) in CHANNELS.iter().enumerate() {
+            let column = table.column(&format!("ft[{place}]")).expect(codec);
+            let single = table.column(&format!("fixed[{place}]")).expect(codec);
             for row in THREE {
-                let cell = &column[row as usize];
+                let cell = &column[at(row)];
                 assert_eq!(
                     *cell,
                     Cell::Number(number(&expected["labels"][row.to_string()][channel])),
@@ -40,18 +40,14 @@ fn every_codec_gives_the_same_columns() {
                     reason = "the file has it in single precision"
                 )]
                 let rounded = f64::from(*value as f32);
-                assert_eq!(single[row as usize], Cell::Number(rounded));
+                assert_eq!(single[at(row)], Cell::Number(rounded));
             }
         }
         for (name, channel) in [("pose.x", "Px"), ("t", "t_s")] {
             let column = table.column(name).expect(codec);
             for row in THREE {
                 let value = number(&expected["labels"][row.to_string()][channel]);
-                assert_eq!(
-                    column[row as usize],
-                    Cell::Number(value),
-                    "{codec} {row} {name}"
-                );
+                assert_eq!(column[at(row)], Cell::Number(value), "{codec} {row} {name}");
             }
         }
         let mut seen = Vec::new();
@@ -87,7 +83,7 @@ fn rows_that_are_visited_are_those_of_the_whole_column() {
             table
                 .visit_bytes::<TableError>("png", &rows, &mut |row, bytes| {
                     assert_eq!(Some(&row), next.next());
-                    assert_eq!(Cell::Bytes(bytes.expect("a picture")), whole[row as usize]);
+                    assert_eq!(Cell::Bytes(bytes.expect("a picture")), whole[at(row)]);
                     Ok(())
                 })
                 .expect(codec);
@@ -111,19 +107,19 @@ fn pictures_of_hugging_face_come_in_their_own_bytes() {
         let labels = table.column("label").expect(kind);
         assert_eq!(table.column("split").expect(kind)[23].text(), "train");
         for row in THREE {
-            assert_eq!(names[row as usize], Cell::Text(format!("{row}.{kind}")));
+            assert_eq!(names[at(row)], Cell::Text(format!("{row}.{kind}")));
             let object = ["cube", "ball"]
                 .iter()
                 .position(|name| expected["labels"][row.to_string()]["label"] == *name);
             assert_eq!(
-                labels[row as usize],
+                labels[at(row)],
                 Cell::Integer(object.expect("a label") as i128)
             );
             let wrench = table.column("wrench").expect(kind);
-            for (at, channel) in CHANNELS.iter().enumerate() {
+            for (place, channel) in CHANNELS.iter().enumerate() {
                 let value = number(&expected["labels"][row.to_string()][channel]);
                 assert_eq!(
-                    wrench[row as usize].at(&format!("[{at}]")),
+                    wrench[at(row)].at(&format!("[{place}]")),
                     Some(&Cell::Number(value))
                 );
             }
@@ -203,7 +199,7 @@ fn threads_share_a_table() {
                 let rows: Vec<u64> = (start..24).step_by(4).collect();
                 table
                     .visit_bytes::<TableError>("png", &rows, &mut |row, bytes| {
-                        assert_eq!(Cell::Bytes(bytes.expect("a picture")), whole[row as usize]);
+                        assert_eq!(Cell::Bytes(bytes.expect("a picture")), whole[at(row)]);
                         Ok(())
                     })
                     .expect("reads");

@@ -5,6 +5,7 @@ mod digest;
 #[cfg(feature = "hdf5")]
 mod hdf5;
 mod peers;
+mod pickle;
 mod recordings;
 mod refusals;
 mod zarr;

@@ -19,36 +19,33 @@ const RECORDINGS: &[(&str, &str, &str, &str, &str)] = &[
     ("zarr-v3", "run.zarr", "camera_0", "run.zarr", "force"),
     ("zarr-v3", "run.zarr", "camera_zstd", "run.zarr", "force"),
     ("zarr-v3", "run.zarr", "camera_blosc", "run.zarr", "force"),
-        "/tactile/left/rgb",
-        "run.h5",
-        "/force/wrench",
-    ),
-    (
-        "hdf5-gzip-shuffle-earliest",
-        "run.h5",
-        "/tactile/left/rgb",
-        "run.h5",
-        "/force/wrench",
-    ),
-    (
-        "hdf5-lzf-earliest",
-        "run.h5",
-        "/tactile/left/rgb",
-        "run.h5",
-        "/force/wrench",
-    ),
-    (
-        "hdf5-fletcher-earliest",
-        "run.h5",
-        "/tactile/left/rgb",
-        "run.h5",
-        "/force/wrench",
-    ),
+    ("pickle", "p4.pkl", "images", "p4.pkl", "ft"),
 ];
+
+/// The same of HDF5: the pictures are `/tactile/left/rgb`, the wrench is `/force/wrench`.
+#[cfg(feature = "hdf5")]
+const HDF5: &[&str] = &[
+    "hdf5-gzip-shuffle-earliest",
+    "hdf5-lzf-earliest",
+    "hdf5-fletcher-earliest",
+];
+#[cfg(not(feature = "hdf5"))]
+const HDF5: &[&str] = &[];
 
 #[test]
 fn labels_and_pictures_are_those_that_the_recording_states() {
-    for (folder, frames_file, frames, wrench_file, wrench) in RECORDINGS {
+    let of_hdf5 = |folder: &&'static str| {
+        (
+            *folder,
+            "run.h5",
+            "/tactile/left/rgb",
+            "run.h5",
+            "/force/wrench",
+        )
+    };
+    for (folder, frames_file, frames, wrench_file, wrench) in
+        RECORDINGS.iter().copied().chain(HDF5.iter().map(of_hdf5))
+    {
         let folder = data().join(folder);
         let text = fs::read_to_string(folder.join("expected.json")).expect("copied with it");
         let expected: Value = serde_json::from_str(&text).expect("JSON");

@@ -16,11 +16,17 @@ fn opened(name: &str) -> ArrayFile {
 #[test]
 fn groups_and_attributes_are_found_in_both_versions() {
     let two = opened("zarr/two.zarr");
-    assert_eq!(two.groups("/*"), ["/blosc", "/packed", "/texts", "/unwritten"]);
+    assert_eq!(
+        two.groups("/*"),
+        ["/blosc", "/packed", "/texts", "/unwritten"]
+    );
     assert_eq!(two.attribute("/", "sensor").as_deref(), Some("drawn gel"));
     assert_eq!(two.attribute("/", "rate_hz").as_deref(), Some("0.1"));
     let three = opened("zarr/three.zarr");
-    assert_eq!(three.attribute("/deeper", "object").as_deref(), Some("[\"cube\",3]"));
+    assert_eq!(
+        three.attribute("/deeper", "object").as_deref(),
+        Some("[\"cube\",3]")
+    );
     assert_eq!(three.attribute("/deeper", "gel"), None);
     assert_eq!(opened("zarr/alone.zarr").names(), ["/"]);
 }
@@ -35,17 +41,30 @@ fn a_slash_in_front_may_be_left_out() {
 #[test]
 fn what_is_not_read_says_so_and_leaves_the_others_alone() {
     let file = opened("refused/kinds.zarr");
-    assert_eq!(file.read("/x", 1..3).expect("plain").values, ArrayValues::I64(vec![1, 2]));
-    for (name, expected) in [("/blosclz", "Blosc with blosclz"), ("/delta", "a filter `delta`"), ("/complex", "imaginary")] {
+    assert_eq!(
+        file.read("/x", 1..3).expect("plain").values,
+        ArrayValues::I64(vec![1, 2])
+    );
+    for (name, expected) in [
+        ("/blosclz", "Blosc with blosclz"),
+        ("/delta", "a filter `delta`"),
+        ("/complex", "imaginary"),
+    ] {
         let message = file.read(name, 0..1).expect_err(name).to_string();
         assert!(message.contains(expected), "{name}: {message}");
     }
     let shards = opened("refused/shards.zarr");
-    let message = shards.read("/shards", 0..1).expect_err("shards").to_string();
+    let message = shards
+        .read("/shards", 0..1)
+        .expect_err("shards")
+        .to_string();
     assert!(message.contains("without `shards`"), "{message}");
     let folder = tempfile::tempdir().expect("a folder");
     let error = ArrayFile::open(folder.path(), ArrayFormat::Zarr).expect_err("empty");
-    assert!(error.to_string().contains("expected a folder of zarr"), "{error}");
+    assert!(
+        error.to_string().contains("expected a folder of zarr"),
+        "{error}"
+    );
 }
 
 /// Copies a store.
@@ -88,7 +107,9 @@ fn damaged_stores_are_refused_or_read_and_never_panic() {
         for (seed, file) in all.iter().enumerate().step_by(3) {
             let whole = fs::read(file).expect("readable");
             // Only the array that the file belongs to is read.
-            let array = file.ancestors().skip(1).find(|folder| folder.join("zarr.json").exists() || folder.join(".zarray").exists());
+            let array = file.ancestors().skip(1).find(|folder| {
+                folder.join("zarr.json").exists() || folder.join(".zarray").exists()
+            });
             let Some(array) = array else { continue };
             let array = array.to_owned();
             damaged(&whole, seed as u64, |what, bytes| {
@@ -118,7 +139,10 @@ fn links_out_of_the_store_are_not_followed() {
     std::os::unix::fs::symlink(&outside, &chunk).expect("linked");
     let file = ArrayFile::open(&store, ArrayFormat::Zarr).expect("its metadata is whole");
     let error = file.read("/", 0..1).expect_err("a link");
-    assert!(matches!(error.problem, Problem::Unsupported { .. }), "{error}");
+    assert!(
+        matches!(error.problem, Problem::Unsupported { .. }),
+        "{error}"
+    );
 }
 
 #[test]
@@ -132,7 +156,9 @@ fn a_shape_that_would_fill_a_memory_is_refused() {
         );
         fs::write(store.join(".zarray"), text).expect("written");
         let file = ArrayFile::open(&store, ArrayFormat::Zarr);
-        file.and_then(|file| file.read("/", 0..1)).expect_err("refused").to_string()
+        file.and_then(|file| file.read("/", 0..1))
+            .expect_err("refused")
+            .to_string()
     };
     assert!(write("[4,4000000000]", "[1,1]").contains("above the limit"));
     assert!(write("[4,18446744073709551615,9]", "[1,1,1]").contains("above the limit"));

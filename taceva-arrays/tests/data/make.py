@@ -162,6 +162,49 @@ def write_zarr():
     g3 = zarr.open_group(str(HERE / "refused" / "shards.zarr"), mode="w", zarr_format=3)
     x = g3.create_array("shards", shape=(8, 4), chunks=(2, 4), shards=(4, 4), dtype="<i4"); x[:] = 1
 
+def write_pickle():
+    from collections import OrderedDict
+    folder = fresh("pickle-kinds")
+    arrays = {t.replace("<", "little-").replace(">", "big-").replace("|", ""): numbers((5, 3), t, n + 500) for n, t in enumerate(TYPES)}
+    arrays["fortran"] = np.asfortranarray(numbers((5, 3, 2), "<f8", 530)); arrays["scalar"] = np.array(2.5); arrays["empty"] = np.zeros((0, 3)); arrays["strided"] = numbers((6, 4), "<i4", 531)[::2, 1:]
+    plain = OrderedDict(floats=[0.5, -1.5, 1e300], whole=[1, -2, 2**40, -2**63, 255, 256, 65535, -1], mixed=[1, 2.5, 3], texts=["a", "", "ü中", "x" * 300], bytes=[b"a", b"", b"z" * 300],
+        truth=[True, False], nested=[[1, 2, 3], [4, 5, 6]], deeper=[[[1.5], [2.5]], [[3.5], [4.5]]], tuple=(1, 2, 3), one=7, text="gel", number=2.5, numpy=[np.float32(1.5), np.float32(2.5)], numpy_one=np.int16(-3),
+        several=[numbers((2, 3), "<f4", 532), numbers((2, 3), "<f4", 533)], inner={"a": [1, 2], "b": {"c": np.arange(3)}}, nothing=[], objects=np.array([1, 2, 3], object))
+    plain[3] = [1.0, 2.0]
+    for p in (2, 3, 4, 5):
+        pickle.dump(arrays, open(folder / f"arrays-{p}.pkl", "wb"), protocol=p)
+        pickle.dump(plain, open(folder / f"plain-{p}.pickle", "wb"), protocol=p)
+    pickle.dump(numbers((4, 2), "<f8", 534), open(folder / "array.pkl", "wb"), protocol=4)
+    pickle.dump([1.5, 2.5, 3.5], open(folder / "list.p", "wb"), protocol=4)
+    pickle.dump([{"Fz": k / 2, "name": f"o{k}", "ft": np.arange(3.0) + k, "image": bytes([k] * k)} for k in range(5)], open(folder / "table.pkl", "wb"), protocol=4)
+    big = list(range(3000)); pickle.dump({"big": big, "again": big}, open(folder / "batches.pkl", "wb"), protocol=4)
+    np.save(folder / "objects.npy", np.array([{"Fz": k / 2, "ft": np.arange(3) + k} for k in range(4)], object), allow_pickle=True)
+    np.save(folder / "dictionary.npy", {"Fz": np.arange(4.0), "name": ["a", "b", "c", "d"]}, allow_pickle=True)
+    np.savez(folder / "objects.npz", x=np.arange(3), meta={"rate": 30.0, "gel": "soft"})
+    refused = HERE / "refused"; refused.mkdir(exist_ok=True)
+    class Ran:
+        def __reduce__(self): return (exec, ("raise SystemExit('a pickle was run')",))
+    pickle.dump({"x": np.arange(3), "y": Ran()}, open(refused / "exec.pkl", "wb"), protocol=4)
+    np.savez(refused / "exec.npz", x=np.arange(3), y=np.array([Ran()], object))
+    pickle.dump({"ragged": [[1], [2, 3]], "set": None, "x": [1, 2], "mixed": [1, "a"]}, open(refused / "ragged.pkl", "wb"), protocol=4)
+    for p in (0, 1): pickle.dump([1.5], open(refused / f"protocol-{p}.pkl", "wb"), protocol=p)
+
+def columns(name, x):
+    """The columns of a value, named as the crate names them."""
+    if isinstance(x, np.ndarray) and x.dtype == object: x = x[()] if x.shape == () else list(x)
+    full = lambda key: f"{name}.{key}" if name else str(key)
+    if isinstance(x, dict): return {k: v for key, value in x.items() for k, v in columns(full(key), value).items()}
+    if isinstance(x, (list, tuple)) and x and isinstance(x[0], dict): return {k: v for key in x[0] for k, v in columns(full(key), [row[key] for row in x]).items()}
+    if isinstance(x, bytes) or (isinstance(x, list) and x and isinstance(x[0], bytes)):
+        many = [np.frombuffer(b, "u1") for b in (x if isinstance(x, list) else [x])]
+        a = np.empty(len(many), object)
+        for k, b in enumerate(many): a[k] = b
+        x = a
+    return {name or "value": told(x)}
+
+def read_pickle(file):
+    with open(file, "rb") as f: return columns("", pickle.load(f))
+
 def read_zarr(folder):
     import zarr
     root, found = zarr.open(str(folder), mode="r"), {}
@@ -183,12 +226,14 @@ def read_hdf5(file):
     return found
 
 def read_npz(file):
-    with np.load(file) as z: return {k: v for name in z.files if name != "notes.txt" for k, v in flat(name, z[name]).items()}
+    with np.load(file, allow_pickle=True) as z: return {k: v for name in z.files if name != "notes.txt" for k, v in (columns if z[name].dtype == object else lambda n, a: flat(n, a))(name, z[name]).items()}
 
-def read_npy(file): return flat("value", np.load(file))
+def read_npy(file):
+    a = np.load(file, allow_pickle=True)
+    return columns("", a) if a.dtype == object else flat("value", a)
 
 WRITE = {k[6:]: f for k, f in list(globals().items()) if k.startswith("write_")}
-READ = {".npy": read_npy, ".npz": read_npz, ".h5": read_hdf5, ".hdf5": read_hdf5, ".zarr": read_zarr}
+READ = {".npy": read_npy, ".npz": read_npz, ".h5": read_hdf5, ".hdf5": read_hdf5, ".zarr": read_zarr, ".pkl": read_pickle, ".pickle": read_pickle, ".p": read_pickle}
 if __name__ == "__main__":
     for kind in sys.argv[1:] or WRITE: WRITE[kind]()
     found = {}

@@ -19,8 +19,11 @@ pub(crate) struct Import {
     /// A known layout: bristol, py3dcal
     #[arg(long, value_name = "NAME")]
     pub(crate) preset: Option<String>,
+    /// Look at the folder and write a first map for it, with reasons as comments and units left open; to --out, else to the terminal
+    #[arg(long, conflicts_with_all = ["map", "preset", "explain"])]
+    pub(crate) draft: bool,
     /// The dataset to write: a new folder
-    #[arg(long, value_name = "DATASET", required_unless_present_any = ["explain", "to"])]
+    #[arg(long, value_name = "DATASET", required_unless_present_any = ["explain", "to", "draft"])]
     pub(crate) out: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) former: FormerTo,

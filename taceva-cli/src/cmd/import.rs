@@ -1,9 +1,9 @@
 //! `taceva import`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use taceva_core::shown;
-use taceva_dataset::{Decoders, ImportMap, ImportPlan, Preset, settle};
+use taceva_dataset::{Decoders, ImportMap, ImportPlan, MapDraft, Preset, settle};
 
 use super::{Context, Usage};
 use crate::args::Import;
@@ -15,6 +15,9 @@ pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
         context.note_former_name("--to", "--out");
     }
     let target = args.out.as_deref().or(args.former.to.as_deref());
+    if args.draft {
+        return draft(args, target, context);
+    }
     if let Some(target) = target {
         // What a kill left of an earlier one first: a dataset that was set aside stands in its place again.
         settle(target)?;
@@ -42,6 +45,25 @@ pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
         writeln!(out, "wrote    {}", shown(&report.path))?;
         writeln!(out, "digest   {}", report.digest)
     })?;
+    Ok(exit::DONE)
+}
+
+/// Writes a first map for the folder.
+fn draft(args: &Import, target: Option<&Path>, context: &Context) -> anyhow::Result<u8> {
+    if let Some(target) = target {
+        output::check_free(target, args.force)?;
+    }
+    let draft = MapDraft::of(&args.source)?;
+    output::write(target, |out| write!(out, "{}", draft.text()))?;
+    if let Some(target) = target {
+        let open = draft.text().matches("\"?\"").count();
+        context.say(format_args!(
+            "{}: a draft, in which {open} places are `\"?\"`; fill them in, then: taceva import {} --map {} --explain",
+            shown(target),
+            shown(&args.source),
+            shown(target),
+        ));
+    }
     Ok(exit::DONE)
 }
 

@@ -125,6 +125,7 @@ fn in_array(picture: &PictureColumn, file: Option<&str>, others: &[PictureColumn
     };
     let mut is_gray = false;
     match (&picture.kind, file) {
+        (PictureKind::Clip, _) => lines.push(format!("video = {name:?}")),
         (PictureKind::Encoded, _) => lines.push(format!("bytes = {name:?}")),
         (PictureKind::Array { .. }, None) => lines.push(format!("array = {name:?}")),
         (PictureKind::Array { .. }, Some(file)) => {
@@ -143,7 +144,7 @@ fn in_array(picture: &PictureColumn, file: Option<&str>, others: &[PictureColumn
         }
         if let Some([least, greatest]) = range {
             let (black, full) = guessed_range(*least, *greatest);
-            lines.push(format!("# The first frame has numbers from {least} to {greatest}: which is black, which is full?"));
+            lines.push(format!("# The first frames have numbers from {least} to {greatest}: which is black, which is full?"));
             lines.push(format!("range = [{black}, {full}]"));
             lines.push("bits = 8".to_owned());
         }

@@ -10,6 +10,8 @@ use super::tables::SeenTable;
 pub(super) struct SeenJoin<'t, 'g> {
     pub(super) name: String,
     pub(super) table: &'t SeenTable<'g>,
+    /// What a map writes for the table.
+    pub(super) written: String,
     pub(super) lines: Vec<String>,
 }
 
@@ -18,16 +20,21 @@ pub(super) fn of<'t, 'g>(
     main: &SeenTable<'_>,
     tables: &'t [SeenTable<'g>],
 ) -> Vec<SeenJoin<'t, 'g>> {
-    let others = tables.iter().filter(|table| {
-        let is_alone = table.group.paths.len() == 1;
-        let is_other = table.group.first() != main.group.first();
-        is_alone && is_other && table.channels() > 0 && table.pictures.is_empty()
-    });
     let mut joins: Vec<SeenJoin<'t, 'g>> = Vec::new();
-    for table in others {
-        let Some(lines) = by_key(main, table)
-            .or_else(|| by_time(main, table))
-            .or_else(|| by_row(main, table))
+    for table in tables
+        .iter()
+        .filter(|table| table.group.first() != main.group.first())
+    {
+        let is_alone =
+            table.group.paths.len() == 1 && table.channels() > 0 && table.pictures.is_empty();
+        let found = match is_alone {
+            true => by_key(main, table)
+                .or_else(|| by_time(main, table))
+                .or_else(|| by_row(main, table)),
+            false => None,
+        };
+        let beside = beside(main, table);
+        let Some((written, lines)) = found.map(|lines| (table.written.clone(), lines)).or(beside)
         else {
             continue;
         };
@@ -42,10 +49,36 @@ pub(super) fn of<'t, 'g>(
             stem => stem.to_owned(),
         };
         if joins.iter().all(|join| join.name != name) {
-            joins.push(SeenJoin { name, table, lines });
+            joins.push(SeenJoin {
+                name,
+                table,
+                written,
+                lines,
+            });
         }
     }
     joins
+}
+
+/// A table of one row beside each of the main ones, such as a summary of a session.
+fn beside(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<(String, Vec<String>)> {
+    let are_pairs = main.group.paths.len() > 1
+        && other.group.paths.len() == main.group.paths.len()
+        && other.group.parts.names == main.group.parts.names
+        && other.rows == 1;
+    are_pairs.then(|| {
+        let pattern = other
+            .group
+            .parts
+            .pattern
+            .replace(":digits}", "}")
+            .replace(":number}", "}");
+        let written = format!("{:?}", pattern.replace('{', "{path."));
+        (
+            written,
+            vec!["on = \"all\"   # its only row, for every row".to_owned()],
+        )
+    })
 }
 
 /// A column of both whose cells in `main` are among those of `other`, where each stands once.
@@ -88,6 +121,13 @@ fn by_time(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
         let last: f64 = cells.last()?.parse().ok()?;
         Some((first * factor, last * factor))
     };
+    let is_rising = |cells: &[String]| {
+        let times = cells.iter().filter_map(|cell| cell.parse::<f64>().ok());
+        times.is_sorted()
+    };
+    if !is_rising(&there.cells) {
+        return None;
+    }
     let (begin, end) = seconds(&own.cells, own_unit)?;
     let (first, last) = seconds(&there.cells, unit)?;
     if first > end || last < begin {

@@ -85,10 +85,23 @@ impl PathParts {
                 continue;
             }
             let is_number = matches!(first[at], Token::Number(_));
-            let before = match at.checked_sub(1).map(|before| &first[before]) {
-                Some(Token::Letters(letters)) if is_number => letters,
-                _ if is_number => "number",
-                _ => "object",
+            // The nearest letters before it, where they are the same in all.
+            let letters = first[..at]
+                .iter()
+                .enumerate()
+                .rev()
+                .find_map(|(before, token)| match token {
+                    Token::Letters(letters) => {
+                        let is_same = rows.iter().all(|row| row[before] == *token);
+                        Some(is_same.then_some(*letters))
+                    }
+                    Token::Number(_) => Some(None),
+                    Token::Other(_) => None,
+                });
+            let before = match (is_number, letters) {
+                (true, Some(Some(letters))) => letters,
+                (true, _) => "number",
+                (false, _) => "object",
             };
             self.add_part(before, values, is_number);
         }

@@ -68,6 +68,9 @@ fn of_numbers(words: &[String], numbers: &[f64]) -> Role {
     if let Some(channel) = channel(words) {
         return Role::Channels(vec![(channel, String::new())]);
     }
+    if has(&["episode", "session", "trial"]) && are_counts(numbers) {
+        return Role::Attribute;
+    }
     if has(&["frame", "index", "idx", "image", "img"]) && are_counts(numbers) {
         return Role::Index;
     }

@@ -20,6 +20,8 @@ pub(super) struct SeenTable<'g> {
     /// What a map writes for it.
     pub(super) written: String,
     pub(super) is_single_array: bool,
+    /// Whether channels are guessed by their number alone.
+    pub(super) has_guessed_channels: bool,
     pub(super) rows: usize,
     pub(super) columns: Vec<SeenColumn>,
     pub(super) pictures: Vec<PictureColumn>,
@@ -40,10 +42,28 @@ impl<'g> SeenTable<'g> {
         group: &'g FileGroup,
     ) -> Result<Option<SeenTable<'g>>, String> {
         let path = folder.path().join(group.first());
-        let Some((form, extra)) = form_of(&path, group) else {
-            return Ok(None);
-        };
-        let table = ForeignTable::read(&path, &form).map_err(|error| error.to_string())?;
+        match form_of(&path, group) {
+            Some(form) => SeenTable::of_form(&path, group, (group.pattern(), form)).map(Some),
+            None => Ok(None),
+        }
+    }
+
+    /// The folder as LeRobot writes it, if it is one; `group` is the file that says so.
+    pub(super) fn of_lerobot(
+        folder: &SourceFolder,
+        group: &'g FileGroup,
+    ) -> Option<Result<SeenTable<'g>, String>> {
+        let form = (TableForm::LeRobot, "format = \"lerobot\"".to_owned());
+        (group.first() == "meta/info.json")
+            .then(|| SeenTable::of_form(folder.path(), group, (".", form)))
+    }
+
+    fn of_form(
+        path: &Path,
+        group: &'g FileGroup,
+        (pattern, (form, extra)): (&str, (TableForm, String)),
+    ) -> Result<SeenTable<'g>, String> {
+        let table = ForeignTable::read(path, &form).map_err(|error| error.to_string())?;
         let rows = table.rows();
         let pictures = table.picture_columns();
         let is_picture = |name: &String| pictures.iter().any(|picture| picture.name == *name);
@@ -59,11 +79,14 @@ impl<'g> SeenTable<'g> {
                 cells,
             }
         });
-        Ok(Some(SeenTable {
-            columns: columns.collect(),
+        let mut columns: Vec<SeenColumn> = columns.collect();
+        let has_guessed_channels = extra == "header = false" && guess_channels(&mut columns);
+        Ok(SeenTable {
+            columns,
+            has_guessed_channels,
             written: match extra.as_str() {
-                "" => format!("{:?}", group.pattern()),
-                extra => format!("{{ file = {:?}, {extra} }}", group.pattern()),
+                "" => format!("{pattern:?}"),
+                extra => format!("{{ file = {pattern:?}, {extra} }}"),
             },
             is_single_array: matches!(
                 form,
@@ -75,7 +98,12 @@ impl<'g> SeenTable<'g> {
             group,
             rows,
             pictures,
-        }))
+        })
+    }
+
+    /// Whether its rows are in several groups of one file.
+    pub(super) fn has_groups(&self) -> bool {
+        self.written.contains("/*\"") && self.group.ending != "json"
     }
 
     /// How many channels its columns hold.
@@ -95,6 +123,22 @@ impl<'g> SeenTable<'g> {
             _ => None,
         })
     }
+}
+
+/// Takes three numbers without names for forces, and six for forces and torques; whether there are so many.
+fn guess_channels(columns: &mut [SeenColumn]) -> bool {
+    let names = ["Fx", "Fy", "Fz", "Tx", "Ty", "Tz"];
+    let numbers: Vec<&mut SeenColumn> = columns
+        .iter_mut()
+        .filter(|column| column.role == Role::Number)
+        .collect();
+    let is_so_many = matches!(numbers.len(), 3 | 6);
+    if is_so_many {
+        for (column, name) in numbers.into_iter().zip(names) {
+            column.role = Role::Channels(vec![(name, String::new())]);
+        }
+    }
+    is_so_many
 }
 
 /// The form of a table, and what a map has to say of it beside its path.

@@ -81,12 +81,28 @@ pub(super) fn of_table(
     let mut ids = Lines::default();
     if let Some(parts) = parts {
         add_parts(parts, (&mut channels, &mut ids, &mut attributes));
+        let mut counted = parts
+            .names
+            .iter()
+            .filter(|(name, is_number)| *is_number && name.starts_with("number"));
+        if let Some((name, _)) = counted.next() {
+            ids.add("repeat", &format!("\"path.{name}\"   # a guess"));
+        }
+    }
+    if main.has_groups() {
+        attributes.add("group", "\"group\"");
     }
     let numbers: Vec<&str> = columns
         .iter()
         .filter(|(_, role)| *role == Role::Number)
         .map(|(name, _)| name.as_str())
         .collect();
+    if main.has_guessed_channels {
+        channels.0.insert_str(
+            0,
+            "# A guess: without a header, so many numbers are mostly these, in this order.\n",
+        );
+    }
     let numbers = match numbers.is_empty() {
         true => String::new(),
         false => format!(
@@ -111,10 +127,7 @@ pub(super) fn of_table(
         add_section(
             &mut text,
             "[join]",
-            &format!(
-                "name = {:?}\ntable = {}\n{lines}",
-                join.name, join.table.written
-            ),
+            &format!("name = {:?}\ntable = {}\n{lines}", join.name, join.written),
         );
     }
     add_section(&mut text, "ids", &ids.0);
@@ -214,10 +227,11 @@ impl Lines {
 }
 
 fn attribute_name(column: &str) -> String {
-    let last = column
+    // `/object/name` is the object, as `path.object` is.
+    let mut parts = column
         .rsplit(['/', '.'])
-        .find(|part| !part.is_empty())
-        .unwrap_or(column);
+        .filter(|part| !["", "name", "id", "value", "text"].contains(part));
+    let last = parts.next().unwrap_or(column);
     let name: String = last
         .chars()
         .map(|letter| {

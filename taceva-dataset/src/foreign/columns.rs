@@ -29,6 +29,13 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
 
     /// The pictures that belong to the rows, by the number of the row.
     fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, String>;
+
+    /// For each row the clip that `key` names, relative to the folder of the table, and the frame in it.
+    fn clips(&self, key: &str) -> Result<Vec<(String, u64)>, String> {
+        Err(format!(
+            "no clips belong to its rows that `{key}` could name"
+        ))
+    }
 }
 
 /// A column that seems to hold pictures.
@@ -43,10 +50,12 @@ pub(crate) struct PictureColumn {
 pub(crate) enum PictureKind {
     /// Bytes of a PNG or JPEG file.
     Encoded,
+    /// Frames of clips beside the table.
+    Clip,
     Array {
         is_gray: bool,
         is_planar: bool,
-        /// The least and the greatest number of the first frame, where they are no pixels as they are.
+        /// The least and the greatest number of the first frames, where they are no pixels as they are.
         range: Option<[f64; 2]>,
     },
 }
@@ -139,6 +148,12 @@ impl ColumnTable {
 
     pub(super) fn picture_columns(&self) -> Vec<PictureColumn> {
         guarded(|| self.source.picture_columns()).unwrap_or_default()
+    }
+
+    /// For each row the clip that `key` names, relative to the folder of the table, and the frame in it.
+    pub(super) fn clips(&self, key: &str) -> Result<Vec<(String, u64)>, DatasetError> {
+        let clips = guarded(|| self.source.clips(key)).and_then(|found| found);
+        clips.map_err(|problem| wrong(&self.path, problem))
     }
 
     /// The pictures that belong to the rows.

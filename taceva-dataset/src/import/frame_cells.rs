@@ -14,6 +14,8 @@ pub(super) enum FrameCells {
         file: Option<Vec<PatternPart>>,
         index: usize,
     },
+    /// The clip of each row and the frame in it, as the table itself says.
+    Clips(Vec<(String, u64)>),
     /// Each row of the table has its own.
     OfRow,
 }

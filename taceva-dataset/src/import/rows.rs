@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::frame_cells::{FrameCells, FrameName, columns_of, filled};
-use super::map::ImportMap;
+use super::map::{FrameNames, ImportMap};
 use super::resolve::{RowTable, resolve};
 use super::summary::JoinSummary;
 use crate::csv_table::CsvTable;
 use crate::error::{DatasetError, Place};
 use crate::file::SourceFolder;
-use crate::foreign::Pictures;
+use crate::foreign::{Pictures, TableForm};
 use crate::table::Row;
 use crate::text::shown;
 
@@ -51,6 +51,7 @@ impl<'a> MappedTable<'a> {
         folder: &SourceFolder,
         path: &Path,
     ) -> Result<MappedTable<'a>, DatasetError> {
+        let mut clips = None;
         let (table, unmentioned, joins, pictures, signals) = match map.is_extended {
             false => (
                 RowTable::AsItLies(CsvTable::read(path)?),
@@ -62,6 +63,9 @@ impl<'a> MappedTable<'a> {
             true => {
                 let found = resolve(map, folder, path)?;
                 let names = map.frame.as_ref().map(|frame| &frame.names);
+                if let (TableForm::LeRobot, Some(FrameNames::Video(video))) = (&map.form, names) {
+                    clips = Some(found.main.clips(&video.file)?);
+                }
                 let inside = names.filter(|names| names.is_in_table());
                 let pictures = inside.map(|names| found.main.pictures(names));
                 let table = RowTable::Resolved(found.table);
@@ -114,7 +118,10 @@ impl<'a> MappedTable<'a> {
             frame: map
                 .frame
                 .as_ref()
-                .map(|frame| FrameCells::find(&frame.names, &table))
+                .map(|frame| match clips {
+                    Some(clips) => Ok(FrameCells::Clips(clips)),
+                    None => FrameCells::find(&frame.names, &table),
+                })
                 .transpose()?,
             pictures,
             signals,
@@ -156,7 +163,7 @@ impl<'a> MappedTable<'a> {
                 mentioned.push(*index);
                 mentioned.extend(file.iter().flat_map(|parts| columns_of(parts)));
             }
-            Some(FrameCells::OfRow) | None => {}
+            Some(FrameCells::Clips(_) | FrameCells::OfRow) | None => {}
         }
         let names = self.table.names().iter().enumerate();
         names
@@ -292,6 +299,18 @@ impl<'a> MappedTable<'a> {
                 let cell = |column| self.table.cell(row, column);
                 let file = file.as_ref().map(|parts| filled(parts, cell));
                 (FrameName::Within(file, u64::from(at)), *index)
+            }
+            FrameCells::Clips(clips) => {
+                let (file, frame) = &clips[row];
+                let inside = self
+                    .table
+                    .source()
+                    .filter(|folder| !matches!(*folder, "" | "."));
+                let file = match inside {
+                    Some(folder) => format!("{folder}/{file}"),
+                    None => file.clone(),
+                };
+                (FrameName::Within(Some(file), *frame), usize::MAX)
             }
             FrameCells::OfRow => (FrameName::Within(None, row as u64), usize::MAX),
         };

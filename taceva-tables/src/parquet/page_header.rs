@@ -149,7 +149,7 @@ impl<R: BufRead> Thrift<'_, R> {
                 .ok_or("a field beyond all numbers")?,
         };
         fields.last = number;
-        Ok(Some((number, form(byte & 0x0f)?)))
+        Ok(Some((number, Form::of(byte & 0x0f)?)))
     }
 
     fn skip(&mut self, form: Form, depth: usize) -> Result<(), String> {
@@ -171,14 +171,13 @@ impl<R: BufRead> Thrift<'_, R> {
                     15 => self.varint()?,
                     count => u64::from(count),
                 };
-                self.skip_elements(form_of_element(byte & 0x0f)?, count, depth)
+                self.skip_elements(Form::of(byte & 0x0f)?, count, depth)
             }
             Form::Map => match self.varint()? {
                 0 => Ok(()),
                 count => {
                     let kinds = self.byte()?;
-                    let (key, value) =
-                        (form_of_element(kinds >> 4)?, form_of_element(kinds & 0x0f)?);
+                    let (key, value) = (Form::of(kinds >> 4)?, Form::of(kinds & 0x0f)?);
                     for _ in 0..count {
                         self.skip_elements(key, 1, depth)?;
                         self.skip_elements(value, 1, depth)?;
@@ -262,46 +261,38 @@ impl<R: BufRead> Thrift<'_, R> {
     }
 }
 
-fn form(code: u8) -> Result<Form, String> {
-    Ok(match code {
-        1 => Form::True,
-        2 => Form::False,
-        3 => Form::Byte,
-        4 => Form::I16,
-        5 => Form::I32,
-        6 => Form::I64,
-        7 => Form::Double,
-        8 => Form::Binary,
-        9 | 10 => Form::List,
-        11 => Form::Map,
-        12 => Form::Struct,
-        other => return Err(format!("a field of type {other} in a page header")),
-    })
-}
-
-fn form_of_element(code: u8) -> Result<Form, String> {
-    form(code)
+impl Form {
+    fn of(code: u8) -> Result<Form, String> {
+        Ok(match code {
+            1 => Form::True,
+            2 => Form::False,
+            3 => Form::Byte,
+            4 => Form::I16,
+            5 => Form::I32,
+            6 => Form::I64,
+            7 => Form::Double,
+            8 => Form::Binary,
+            9 | 10 => Form::List,
+            11 => Form::Map,
+            12 => Form::Struct,
+            other => return Err(format!("a field of type {other} in a page header")),
+        })
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// Fields 1 to 5 of a data page, with statistics that are passed over.
-    const HEADER: &[u8] = &[
-        0x15, 0, 0x15, 20, 0x15, 18, 0x25,
-        0x01, // kind 0, 10 bytes unpacked, 9 packed, field 5 follows below
-    ];
-
     #[test]
     fn a_header_is_read_with_its_length() {
-        let mut bytes = HEADER[..6].to_vec();
+        let mut bytes = vec![0x15, 0, 0x15, 20, 0x15, 18]; // kind 0, 10 bytes unpacked, 9 in the file
         bytes.extend_from_slice(&[0x15, 0x03]); // CRC -2
         bytes.extend_from_slice(&[0x1c, 0x15, 6, 0x15, 16, 0x15, 6, 0x15, 6]); // 3 values, encoding 8, levels 3 and 3
         bytes.extend_from_slice(&[0x1c, 0x18, 2, b'a', b'b', 0x11, 0]); // statistics: two bytes, a truth value
         bytes.extend_from_slice(&[0, 0, 99]);
         let (header, length) = read_header(&mut &bytes[..]).expect("a header");
-        assert_eq!(length as usize, bytes.len() - 1);
+        assert_eq!(length, bytes.len() as u64 - 1);
         assert_eq!(
             header,
             PageHeader {

@@ -97,9 +97,12 @@ impl Fields {
     }
 }
 
-/// The way to a field: its place in each message on the way, and what the name says behind it.
+/// The place of a field in each message on the way to it, and what the name says behind it.
+type Steps<'n> = Vec<(usize, &'n str)>;
+
+/// The way to a field, and how it is written.
 struct Way<'n> {
-    steps: Vec<(usize, &'n str)>,
+    steps: Steps<'n>,
     form: Form,
 }
 
@@ -122,10 +125,7 @@ impl<'n> Way<'n> {
 }
 
 /// The steps to what is called `name`, and the message that it is, if it is a single one.
-fn steps<'s, 'n>(
-    schema: &'s RosSchema,
-    name: &'n str,
-) -> Option<(Vec<(usize, &'n str)>, Option<&'s Message>)> {
+fn steps<'s, 'n>(schema: &'s RosSchema, name: &'n str) -> Option<(Steps<'n>, Option<&'s Message>)> {
     let mut message = schema.root();
     let mut steps = Vec::new();
     let mut rest = name;

@@ -1,6 +1,6 @@
 """Writes the small files that are not among the shared recordings, by pyarrow, and what pyarrow reads back of them as JSON.
 
-    python make.py [KIND ...]      kinds: nested mcap
+    python make.py [KIND ...]      kinds: nested mcap lerobot
 
 pyarrow 26, numpy, mcap 1.6, mcap-ros2-support 0.6, pillow. Numbers are drawn in closed form."""
 import datetime, decimal, json, sys
@@ -175,6 +175,86 @@ def mcap():
     write(HERE.parent.parent / "examples" / "presses.mcap", of=presses, ticks=3, chunk_size=1 << 20)
 
 
+def picture(value):
+    import io
+
+    from PIL import Image
+
+    file = io.BytesIO()
+    Image.new("RGB", (4, 3), (value, 2 * value, 3 * value)).save(file, "PNG")
+    return file.getvalue()
+
+
+def lerobot():
+    """LeRobot by its documented layout: 2.1 with a file an episode, 3.0 with several files of data, videos and descriptions."""
+    import shutil
+
+    fps = 10
+
+    def info(folder, version, rows, data, video, extra):
+        features = {"observation.state": {"dtype": "float32", "shape": [2], "names": ["Fx", "Fz"]}, **extra}
+        for name, dtype in [("timestamp", "float32"), ("frame_index", "int64"), ("episode_index", "int64"), ("index", "int64"), ("task_index", "int64")]:
+            features[name] = {"dtype": dtype, "shape": [1], "names": None}
+        (folder / "meta").mkdir(parents=True)
+        (folder / "meta/info.json").write_text(json.dumps({"codebase_version": version, "robot_type": "none", "total_episodes": len(rows), "total_frames": sum(rows), "total_tasks": 2, "chunks_size": 2, "fps": fps, "splits": {"train": f"0:{len(rows)}"}, "data_path": data, "video_path": video, "features": features}, indent=1) + "\n")
+
+    def table(episode, count, begin, states, with_picture):
+        columns = {"observation.state": pa.array(states, pa.list_(pa.float32()))}
+        if with_picture:
+            columns["observation.images.tip"] = pa.array([{"bytes": picture(10 * episode + k), "path": f"frame-{k:06d}.png"} for k in range(count)])
+        columns |= {
+            "timestamp": pa.array([k / fps for k in range(count)], pa.float32()),
+            "frame_index": pa.array(range(count), pa.int64()),
+            "episode_index": pa.array([episode] * count, pa.int64()),
+            "index": pa.array(range(begin, begin + count), pa.int64()),
+            "task_index": pa.array([episode % 2] * count, pa.int64()),
+        }
+        return pa.table(columns)
+
+    def state(episode, count):
+        return [[0.1 * (k + 1), episode + 0.25 * k] for k in range(count)]
+
+    def lines(path, rows):
+        path.write_text("".join(json.dumps(row) + "\n" for row in rows))
+
+    v21 = dict(data="data/chunk-{episode_chunk:03d}/episode_{episode_index:06d}.parquet", video="videos/chunk-{episode_chunk:03d}/{video_key}/episode_{episode_index:06d}.mp4")
+    video = {"observation.images.gel": {"dtype": "video", "shape": [3, 4, 3], "names": ["height", "width", "channels"], "info": {"video.fps": float(fps), "video.codec": "av1"}}}
+    image = {"observation.images.tip": {"dtype": "image", "shape": [3, 4, 3], "names": ["height", "width", "channels"]}}
+
+    def write_v21(folder, rows, states, extra):
+        shutil.rmtree(folder, ignore_errors=True)
+        info(folder, "v2.1", rows, v21["data"], v21["video"], extra)
+        lines(folder / "meta/tasks.jsonl", [{"task_index": k, "task": f"press the {name}"} for k, name in enumerate(["cube", "ball"])])
+        lines(folder / "meta/episodes.jsonl", [{"episode_index": e, "tasks": [f"press the {['cube', 'ball'][e % 2]}"], "length": n} for e, n in enumerate(rows)])
+        for e, n in enumerate(rows):
+            path = folder / v21["data"].format(episode_chunk=e // 2, episode_index=e)
+            path.parent.mkdir(parents=True, exist_ok=True)
+            pq.write_table(table(e, n, sum(rows[:e]), states(e, n), "observation.images.tip" in extra), path, compression="snappy", write_statistics=False)
+
+    write_v21(HERE / "lerobot-v2.1", [3, 2, 4], state, video | image)
+    write_v21(HERE.parent.parent / "examples/presses-lerobot", [2, 2], lambda e, n: [[0.0, [2.0, 3.5, 2.5, 1.25][2 * e + k]] for k in range(n)], video)
+
+    folder = HERE / "lerobot-v3-files"
+    shutil.rmtree(folder, ignore_errors=True)
+    rows = [3, 2, 4, 1, 2]
+    data, clip = "data/chunk-{chunk_index:03d}/file-{file_index:03d}.parquet", "videos/{video_key}/chunk-{chunk_index:03d}/file-{file_index:03d}.mp4"
+    info(folder, "v3.0", rows, data, clip, video | image)
+    # Episodes 0 and 1 in the first file of data, 2 in the second, 3 and 4 in the first of another chunk; the video is cut elsewhere.
+    of_data, of_video = [(0, 0), (0, 0), (0, 1), (1, 0), (1, 0)], [(0, 0), (0, 1), (0, 1), (0, 1), (1, 0)]
+    for place in dict.fromkeys(of_data):
+        path = folder / data.format(chunk_index=place[0], file_index=place[1])
+        path.parent.mkdir(parents=True, exist_ok=True)
+        pq.write_table(pa.concat_tables([table(e, rows[e], sum(rows[:e]), state(e, rows[e]), True) for e in range(5) if of_data[e] == place]), path, write_statistics=False)
+    key = "videos/observation.images.gel"
+    described = [{"episode_index": e, "tasks": ["press"], "length": rows[e], "data/chunk_index": of_data[e][0], "data/file_index": of_data[e][1], f"{key}/chunk_index": of_video[e][0], f"{key}/file_index": of_video[e][1],
+                  f"{key}/from_timestamp": sum(rows[f] for f in range(e) if of_video[f] == of_video[e]) / fps} for e in range(5)]
+    for at, part in enumerate([described[:3], described[3:]]):
+        path = folder / f"meta/episodes/chunk-000/file-{at:03d}.parquet"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        pq.write_table(pa.Table.from_pylist(part), path, write_statistics=False)
+    pq.write_table(pa.table({"task_index": [0, 1], "__index_level_0__": ["press the cube", "press the ball"]}), folder / "meta/tasks.parquet", write_statistics=False)
+
+
 if __name__ == "__main__":
-    for kind in sys.argv[1:] or ["nested", "mcap"]:
+    for kind in sys.argv[1:] or ["nested", "mcap", "lerobot"]:
         globals()[kind]()

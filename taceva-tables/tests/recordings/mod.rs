@@ -40,3 +40,8 @@ pub(crate) fn picture_digest(png: &[u8]) -> String {
     let picture = image::load_from_memory(png).expect("a picture");
     digest(&picture.into_rgb8())
 }
+
+/// A row as a place in a list.
+pub(crate) fn at(row: u64) -> usize {
+    usize::try_from(row).expect("a row of a small file")
+}

@@ -191,10 +191,12 @@ pub(super) fn kind_of(file: &ArrayFile, name: &str, info: &ArrayInfo) -> Option<
     let range = match info.element {
         Element::Unsigned(8 | 16) => None,
         _ => {
-            let first = file.read(name, 0..1).ok()?;
-            let first = first.values.to_f64()?;
-            let least = first.iter().copied().reduce(f64::min)?;
-            Some([least, first.iter().copied().reduce(f64::max)?])
+            let row_bytes = info.row_elements()?.checked_mul(8)?;
+            let rows = (READ_BYTES / row_bytes.max(1)).clamp(1, info.rows().max(1));
+            let numbers = file.read(name, 0..rows).ok()?;
+            let numbers = numbers.values.to_f64()?;
+            let least = numbers.iter().copied().reduce(f64::min)?;
+            Some([least, numbers.iter().copied().reduce(f64::max)?])
         }
     };
     Some(PictureKind::Array {

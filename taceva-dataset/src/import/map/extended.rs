@@ -50,6 +50,7 @@ enum Format {
     Pickle,
     Parquet,
     Mcap,
+    Lerobot,
 }
 
 impl Format {
@@ -60,7 +61,8 @@ impl Format {
             | Format::Json
             | Format::Jsonl
             | Format::Parquet
-            | Format::Mcap => return None,
+            | Format::Mcap
+            | Format::Lerobot => return None,
             Format::Npy => ArrayFormat::Npy,
             Format::Npz => ArrayFormat::Npz,
             Format::Hdf5 => ArrayFormat::Hdf5,
@@ -162,6 +164,7 @@ fn form_of(path: &str, format: Option<Format>) -> TableForm {
     match (format, ending.as_deref()) {
         (Some(Format::Json), _) | (None, Some("json")) => TableForm::Json { rows: None },
         (Some(Format::Parquet), _) | (None, Some("parquet")) => TableForm::Parquet,
+        (Some(Format::Lerobot), _) => TableForm::LeRobot,
         (Some(Format::Mcap), _) | (None, Some("mcap")) => TableForm::Messages { topic: None },
         (Some(Format::Jsonl), _) | (None, Some("jsonl" | "ndjson")) => TableForm::JsonLines,
         _ => TableForm::Delimited { has_header: true },

@@ -1,0 +1,45 @@
+//! The names that a pickle may ask for. None of them is ever called: each stands for something that is made here.
+
+use crate::error::Problem;
+use crate::scalar::shown;
+
+/// Module, name, and what it is called here.
+const KNOWN: &[(&str, &str, &str)] = &[
+    ("numpy", "ndarray", "ndarray"),
+    ("numpy", "dtype", "dtype"),
+    ("numpy.core.multiarray", "_reconstruct", "_reconstruct"),
+    ("numpy._core.multiarray", "_reconstruct", "_reconstruct"),
+    ("numpy.core.multiarray", "scalar", "scalar"),
+    ("numpy._core.multiarray", "scalar", "scalar"),
+    ("numpy.core.numeric", "_frombuffer", "_frombuffer"),
+    ("numpy._core.numeric", "_frombuffer", "_frombuffer"),
+    ("_codecs", "encode", "encode"),
+    // No bytes at all, of protocol 2.
+    ("__builtin__", "bytes", "bytes"),
+    ("collections", "OrderedDict", "OrderedDict"),
+];
+
+/// What a global is called here; others are refused by name.
+pub(crate) fn known(module: &str, name: &str, at: u64) -> Result<&'static str, Problem> {
+    let found = KNOWN
+        .iter()
+        .find(|(of, known, _)| *of == module && *known == name);
+    found
+        .map(|(_, _, here)| *here)
+        .ok_or_else(|| Problem::Global {
+            at,
+            global: shown(&format!("{module}.{name}")),
+            mend: mend(module).to_owned(),
+        })
+}
+
+/// What to do with the object in the program that wrote it.
+fn mend(module: &str) -> &'static str {
+    match module.split('.').next() {
+        Some("pandas") => {
+            "write the table in Python: `pandas.read_pickle(path).to_csv('table.csv', index=False)`"
+        }
+        Some("torch") => "write arrays in Python: `np.savez('run.npz', x=x.numpy())`",
+        _ => "write plain values or arrays: `np.savez('run.npz', x=x)`",
+    }
+}

@@ -1,0 +1,77 @@
+//! What a pickle holds. Values name one another by number, so that none of them owns another: nothing is nested, however deep the
+//! pickle is.
+
+use std::sync::Arc;
+
+use crate::fields::Item;
+use crate::scalar::Scalar;
+
+/// The number of a value.
+pub(crate) type Id = u32;
+
+/// Bytes of a pickle.
+#[derive(Clone, Debug)]
+pub(crate) enum Bytes {
+    /// They are read when they are asked for.
+    InFile { at: u64, length: u64 },
+    /// Of protocol 2, which writes bytes as text.
+    Held(Arc<Vec<u8>>),
+}
+
+impl Bytes {
+    pub(crate) fn length(&self) -> u64 {
+        match self {
+            Bytes::InFile { length, .. } => *length,
+            Bytes::Held(bytes) => bytes.len() as u64,
+        }
+    }
+}
+
+/// An array of NumPy.
+#[derive(Clone, Debug)]
+pub(crate) struct PickledArray {
+    pub(crate) shape: Vec<u64>,
+    pub(crate) is_fortran: bool,
+    pub(crate) content: Content,
+}
+
+/// The elements of an array.
+#[derive(Clone, Debug)]
+pub(crate) enum Content {
+    /// It is being made.
+    Nothing,
+    Numbers {
+        item: Item,
+        bytes: Bytes,
+    },
+    /// Values of Python: the number of the list.
+    Objects(Id),
+}
+
+/// The type of an array, as far as it is made.
+#[derive(Clone, Debug)]
+pub(crate) enum DType {
+    /// Without the order of its bytes: `f8`.
+    Named(String),
+    Known(Scalar),
+    Objects,
+}
+
+/// A value.
+#[derive(Clone, Debug)]
+pub(crate) enum Value {
+    None,
+    Bool(bool),
+    Whole(i64),
+    Float(f64),
+    /// UTF-8.
+    Text(Bytes),
+    Bytes(Bytes),
+    List(Vec<Id>),
+    Tuple(Vec<Id>),
+    Dictionary(Vec<(Id, Id)>),
+    /// One of the known globals.
+    Global(&'static str),
+    DType(DType),
+    Array(PickledArray),
+}

@@ -1,0 +1,150 @@
+//! What a pickle may hold, and what is never run.
+
+use std::fs;
+use std::path::PathBuf;
+
+use taceva_arrays::{ArrayFile, ArrayFormat, Problem};
+
+use crate::digest::data;
+
+fn refused(name: &str) -> String {
+    let path = data().join("refused").join(name);
+    ArrayFile::open(&path, ArrayFormat::of(&path).expect("known"))
+        .expect_err(name)
+        .to_string()
+}
+
+/// Opens `bytes` as a pickle.
+fn open(
+    bytes: &[u8],
+) -> (
+    Result<ArrayFile, taceva_arrays::ArrayError>,
+    tempfile::TempDir,
+) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path: PathBuf = folder.path().join("x.pkl");
+    fs::write(&path, bytes).expect("written");
+    (ArrayFile::open(&path, ArrayFormat::Pickle), folder)
+}
+
+#[test]
+fn globals_beyond_numpy_are_refused_by_name_with_what_to_do() {
+    let evil = refused("evil.pkl");
+    assert!(
+        evil.contains("wants `posix.system`, which is not run here"),
+        "{evil}"
+    );
+    assert!(!PathBuf::from("/tmp/pickle-was-executed").exists());
+    let exec = refused("exec.pkl");
+    assert!(exec.contains("wants `builtins.exec`"), "{exec}");
+    let table = refused("dataframe.pkl");
+    assert!(
+        table.contains("wants `pandas.") && table.contains("to_csv('table.csv', index=False)"),
+        "{table}"
+    );
+    for protocol in [0, 1] {
+        let message = refused(&format!("protocol-{protocol}.pkl"));
+        assert!(
+            message.contains("protocol 2 to 5") && message.contains("protocol=4"),
+            "{message}"
+        );
+    }
+}
+
+#[test]
+fn a_member_that_would_run_code_leaves_the_others_readable() {
+    let file = ArrayFile::open(&data().join("refused/exec.npz"), ArrayFormat::Npz).expect("opens");
+    assert_eq!(file.names(), ["x"]);
+    let error = file.read("y", 0..1).expect_err("would run");
+    assert!(matches!(error.problem, Problem::Global { .. }), "{error}");
+}
+
+#[test]
+fn lists_that_are_no_column_say_why() {
+    let file =
+        ArrayFile::open(&data().join("refused/ragged.pkl"), ArrayFormat::Pickle).expect("opens");
+    assert_eq!(file.names(), ["x"]);
+    for (name, expected) in [
+        ("ragged", "different lengths"),
+        ("mixed", "different kinds"),
+        ("set", "neither numbers nor texts"),
+    ] {
+        let message = file.read(name, 0..1).expect_err(name).to_string();
+        assert!(message.contains(expected), "{message}");
+    }
+}
+
+#[test]
+fn deep_wide_and_shared_pickles_end_soon() {
+    let within = |opens: usize, tail: &[u8]| [&b"\x80\x04"[..], &vec![b']'; opens], tail].concat();
+    // Two million lists, each within the one before it.
+    let deep = [within(2_000_000, b""), vec![b'a'; 1_999_999], b".".to_vec()].concat();
+    let (result, _folder) = open(&deep);
+    assert!(
+        result.is_ok_and(|file| file.names().is_empty()),
+        "nested too deep for a column"
+    );
+    let groups = [&b"\x80\x04"[..], &vec![b'('; 2_000_000]].concat();
+    assert!(
+        open(&groups)
+            .0
+            .expect_err("groups")
+            .to_string()
+            .contains("groups within groups")
+    );
+    let wide = [&b"\x80\x04"[..], &vec![b'N'; 8_000_000]].concat();
+    assert!(
+        open(&wide)
+            .0
+            .expect_err("values")
+            .to_string()
+            .contains("save arrays instead of lists")
+    );
+    // Each list holds the one before it twice: 2^60 elements.
+    let mut shared = b"\x80\x04]K\x01a\x94".to_vec();
+    for level in 0..60_u8 {
+        shared.extend([b']', b'(', b'h', level, b'h', level, b'e', 0x94]);
+    }
+    shared.push(b'.');
+    assert!(
+        open(&shared)
+            .0
+            .expect_err("shared")
+            .to_string()
+            .contains("counted each time")
+    );
+    // A list that holds itself.
+    let cycle = b"\x80\x04]\x94h\x00a.";
+    assert!(open(cycle).0.is_ok_and(|file| file.names().is_empty()));
+    // A dictionary that holds itself.
+    let cycle = b"\x80\x04}\x94X\x01\x00\x00\x00ah\x00s.";
+    assert!(open(cycle).0.is_err());
+    // 2^63 bytes that are not there.
+    let long = b"\x80\x04\x8e\xff\xff\xff\xff\xff\xff\xff\x7f.";
+    assert!(
+        open(long)
+            .0
+            .expect_err("cut")
+            .to_string()
+            .contains("expected the rest of a pickle")
+    );
+}
+
+#[test]
+fn a_text_that_is_encoded_again_and_again_is_refused() {
+    let text = vec![b'a'; 100_000];
+    let mut bytes = b"\x80\x02X\xa0\x86\x01\x00".to_vec();
+    bytes.extend(&text);
+    bytes.extend(b"q\x00X\x06\x00\x00\x00latin1q\x01c_codecs\nencode\nq\x02");
+    for _ in 0..50 {
+        bytes.extend(b"h\x02h\x00h\x01\x86R");
+    }
+    bytes.push(b'.');
+    assert!(
+        open(&bytes)
+            .0
+            .expect_err("a bomb")
+            .to_string()
+            .contains("bytes of texts")
+    );
+}

@@ -1,0 +1,126 @@
+//! A LeRobot dataset as a table: a folder of Parquet files, with the frames of its clips.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use taceva_tables::LeRobot;
+
+use super::columns::{ColumnSource, PictureColumn, PictureKind};
+use super::pictures::{Ended, Picture, Pictures, Visit, damaged, guarded_visit};
+use super::said;
+use crate::decode::ChannelOrder;
+use crate::error::DatasetError;
+use crate::import::FrameNames;
+
+/// The rows of all episodes, in order.
+#[derive(Debug)]
+pub(super) struct LeRobotRows {
+    dataset: Arc<LeRobot>,
+}
+
+/// The pictures of a feature that is no video.
+#[derive(Debug)]
+struct LeRobotPictures {
+    dataset: Arc<LeRobot>,
+    feature: String,
+}
+
+impl LeRobotRows {
+    pub(super) fn open(folder: &Path) -> Result<LeRobotRows, String> {
+        let dataset = LeRobot::open(folder).map_err(|error| said(folder, &error))?;
+        Ok(LeRobotRows {
+            dataset: Arc::new(dataset),
+        })
+    }
+}
+
+impl ColumnSource for LeRobotRows {
+    fn rows(&self) -> usize {
+        usize::try_from(self.dataset.rows()).unwrap_or(usize::MAX)
+    }
+
+    fn names(&self) -> Vec<String> {
+        self.dataset.names().to_vec()
+    }
+
+    fn has(&self, name: &str) -> bool {
+        self.dataset.names().iter().any(|known| known == name)
+    }
+
+    fn columns(&self, names: &[&str]) -> Result<Vec<Vec<String>>, String> {
+        let texts = |name: &&str| {
+            let cells = self.dataset.column(name);
+            let cells = cells.map_err(|error| said(self.dataset.folder(), &error))?;
+            Ok(cells.iter().map(|cell| cell.text().into_owned()).collect())
+        };
+        names.iter().map(texts).collect()
+    }
+
+    fn picture_columns(&self) -> Vec<PictureColumn> {
+        let features = self.dataset.features().iter().filter_map(|feature| {
+            let kind = match feature.dtype.as_str() {
+                "video" => PictureKind::Clip,
+                "image" => PictureKind::Encoded,
+                _ => return None,
+            };
+            Some(PictureColumn {
+                name: feature.name.clone(),
+                kind,
+            })
+        });
+        features.collect()
+    }
+
+    fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, String> {
+        let FrameNames::Bytes(feature) = names else {
+            return Err(
+                "frames of LeRobot are a `video` or `bytes`, by the name of their feature"
+                    .to_owned(),
+            );
+        };
+        Ok(Arc::new(LeRobotPictures {
+            dataset: Arc::clone(&self.dataset),
+            feature: feature.clone(),
+        }))
+    }
+
+    fn clips(&self, key: &str) -> Result<Vec<(String, u64)>, String> {
+        let frames = self.dataset.video(key);
+        let frames = frames.map_err(|error| said(self.dataset.folder(), &error))?;
+        let of_rows = (0..self.dataset.rows()).map(|row| {
+            let (path, frame) = frames
+                .at(row)
+                .ok_or_else(|| format!("row {row} has no frame in `{key}`"))?;
+            Ok((path.to_string_lossy().into_owned(), frame))
+        });
+        of_rows.collect()
+    }
+}
+
+impl Pictures for LeRobotPictures {
+    fn path(&self) -> &Path {
+        self.dataset.folder()
+    }
+
+    fn count(&self) -> u64 {
+        self.dataset.rows()
+    }
+
+    fn visit(
+        &self,
+        sorted: &[u64],
+        _order: ChannelOrder,
+        each: Visit<'_>,
+    ) -> Result<(), DatasetError> {
+        guarded_visit(self.path(), || {
+            self.dataset
+                .visit_bytes(&self.feature, sorted, &mut |row, bytes| {
+                    let bytes = bytes.ok_or_else(|| {
+                        let problem = format!("row {row} has no bytes in `{}`", self.feature);
+                        Ended::Picture(damaged(self.path(), problem))
+                    })?;
+                    each(row, Picture::Encoded(bytes)).map_err(Ended::Picture)
+                })
+        })
+    }
+}

@@ -1,0 +1,63 @@
+//! What reading a file takes: `measure FILE COLUMN [TOPIC]` hands every cell of bytes in COLUMN over once and prints processor time and
+//! peak memory of this process, and how loaded the machine was.
+//!
+//! ```text
+//! cargo run --release -p taceva-tables --example measure -- run.parquet image.bytes
+//! cargo run --release -p taceva-tables --example measure -- run.mcap data /tactile/image/compressed
+//! ```
+
+use std::path::Path;
+
+use rustix::time::{ClockId, clock_gettime};
+use taceva_tables::{Mcap, ParquetTable, Picture, TableError};
+
+fn main() -> Result<(), TableError> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let [file, column, topic @ ..] = arguments.as_slice() else {
+        print("measure FILE COLUMN [TOPIC]");
+        return Ok(());
+    };
+    let (mut pictures, mut bytes) = (0_u64, 0_u64);
+    let mut count = |length: usize| {
+        pictures += 1;
+        bytes += length as u64;
+        Ok::<(), TableError>(())
+    };
+    match topic {
+        [] => {
+            let table = ParquetTable::open(Path::new(file))?;
+            let rows: Vec<u64> = (0..table.rows()).collect();
+            table.visit_bytes(column, &rows, &mut |_, cell| {
+                count(cell.map_or(0, |cell| cell.len()))
+            })?;
+        }
+        [topic, ..] => {
+            let table = Mcap::open(Path::new(file))?.table(topic)?;
+            let rows: Vec<u64> = (0..table.rows()).collect();
+            table.visit_pictures(column, &rows, &mut |_, picture| match picture {
+                Picture::Encoded(encoded) => count(encoded.len()),
+                Picture::Samples(samples) => count(samples.bytes.len()),
+                _ => Ok(()),
+            })?;
+        }
+    }
+    let time = clock_gettime(ClockId::ProcessCPUTime);
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let peak = status
+        .lines()
+        .find_map(|line| line.strip_prefix("VmHWM:"))
+        .unwrap_or(" unknown");
+    let load = std::fs::read_to_string("/proc/loadavg").unwrap_or_default();
+    print(&format!(
+        "{pictures} pictures, {bytes} bytes: {}.{:03} s of processor time, peak{peak}, load {}",
+        time.tv_sec,
+        time.tv_nsec / 1_000_000,
+        load.split(' ').next().unwrap_or("unknown"),
+    ));
+    Ok(())
+}
+
+#[expect(clippy::print_stdout, reason = "an example prints")]
+fn print(text: &str) {
+    println!("{text}");
+}

@@ -1,0 +1,247 @@
+//! Folders of LeRobot.
+
+mod episodes;
+mod files;
+mod info;
+mod pattern;
+mod video;
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use self::files::{inside, json_file};
+use self::info::{Info, Layout};
+use self::pattern::Value as Filled;
+use crate::cell::Cell;
+use crate::error::{Place, TableError};
+use crate::limits;
+use crate::parquet::ParquetTable;
+use crate::rows::check_sorted;
+use crate::source::Source;
+
+pub use self::info::Feature;
+pub use self::video::VideoFrames;
+
+/// A dataset of LeRobot, version 2.1 or 3.0: the rows of all its data files, one after another.
+///
+/// Columns have the names of the data files; `task` says in words what `task_index` counts. What a video shows is not read: the table
+/// says which frame of which file belongs to a row.
+///
+/// ```
+/// use taceva_tables::{Cell, LeRobot};
+/// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/presses-lerobot");
+/// let dataset = LeRobot::open(path.as_ref())?;
+/// assert_eq!(dataset.rows(), 4);
+/// assert_eq!(dataset.column("observation.state[1]")?[3], Cell::Number(1.25));
+/// assert_eq!(dataset.column("task")?[2], Cell::Text("press the ball".into()));
+/// let frames = dataset.video("observation.images.gel")?;
+/// assert_eq!(frames.at(2), Some(("videos/chunk-000/observation.images.gel/episode_000001.mp4".as_ref(), 0)));
+/// # Ok::<(), taceva_tables::TableError>(())
+/// ```
+#[derive(Debug)]
+pub struct LeRobot {
+    folder: PathBuf,
+    source: Source,
+    info: Info,
+    files: Vec<DataFile>,
+    names: Vec<String>,
+    tasks: BTreeMap<i128, String>,
+    rows: u64,
+}
+
+#[derive(Clone, Debug)]
+struct DataFile {
+    path: PathBuf,
+    rows: u64,
+}
+
+impl LeRobot {
+    /// The dataset in `folder`: its descriptions are read, and the footers of all data files.
+    ///
+    /// # Errors
+    /// [`TableError::Unsupported`] if it has another version, or files lie outside the folder; else as [`ParquetTable::open`].
+    pub fn open(folder: &Path) -> Result<LeRobot, TableError> {
+        let (source, json) = json_file(folder, "meta/info.json")?;
+        let info = info::parse(&source, &json)?;
+        let paths = match info.layout {
+            Layout::V30 => info.data.files(folder).map_err(|error| source.io(error))?,
+            Layout::V21 => {
+                let fill = |episode: u64| {
+                    let values = [
+                        ("episode_chunk", Filled::Number(episode / info.chunks_size)),
+                        ("episode_index", Filled::Number(episode)),
+                    ];
+                    let path = info.data.fill(&values);
+                    path.map_err(|problem| source.damaged(Place::of("data_path"), problem))
+                };
+                let episodes = episodes::of_lines(folder)?;
+                episodes.into_iter().map(fill).collect::<Result<_, _>>()?
+            }
+        };
+        let mut files = Vec::with_capacity(paths.len());
+        let mut names: Vec<String> = Vec::new();
+        let mut rows = 0_u64;
+        for path in paths {
+            let path = inside(folder, &path)?;
+            let table = ParquetTable::open(&path)?;
+            match files.is_empty() {
+                true => names = table.names(),
+                false if names == table.names() => {}
+                false => {
+                    let problem = "its columns are not those of the first data file";
+                    return Err(Source::new(&path)?.damaged(Place::default(), problem));
+                }
+            }
+            rows = rows.saturating_add(table.rows());
+            files.push(DataFile {
+                path,
+                rows: table.rows(),
+            });
+        }
+        if files.is_empty() {
+            return Err(source.damaged(Place::of("data_path"), "no data file is where it leads to"));
+        }
+        if rows > limits::ROWS {
+            let problem = format!("{rows} rows, at most {} are accepted", limits::ROWS);
+            return Err(source.too_large(Place::default(), problem));
+        }
+        let mut tasks = BTreeMap::new();
+        if names.iter().any(|name| name == "task_index") && !names.iter().any(|name| name == "task")
+        {
+            tasks = episodes::tasks(folder, info.layout == Layout::V21)?;
+            names.push("task".to_owned());
+        }
+        Ok(LeRobot {
+            folder: folder.to_owned(),
+            source,
+            info,
+            files,
+            names,
+            tasks,
+            rows,
+        })
+    }
+
+    /// The folder.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// How many rows there are.
+    pub fn rows(&self) -> u64 {
+        self.rows
+    }
+
+    /// The columns of the data files, and `task`.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// What `meta/info.json` says of each column, and of videos, by name.
+    pub fn features(&self) -> &[Feature] {
+        &self.info.features
+    }
+
+    /// What is in the column called `name`, row by row, as [`ParquetTable::column`].
+    ///
+    /// # Errors
+    /// As [`ParquetTable::column`]; the limit is that of all files together.
+    pub fn column(&self, name: &str) -> Result<Vec<Cell>, TableError> {
+        if name == "task" && !self.tasks.is_empty() {
+            let indices = self.column("task_index")?;
+            let text = |index: Cell| match index {
+                Cell::Integer(index) => {
+                    let task = self.tasks.get(&index).cloned().map(Cell::Text);
+                    task.ok_or_else(|| {
+                        self.source
+                            .mismatch("task_index", format!("no task {index} is described"))
+                    })
+                }
+                _ => Ok(Cell::Null),
+            };
+            return indices.into_iter().map(text).collect();
+        }
+        let mut cells = Vec::new();
+        let mut bytes = 0;
+        for file in &self.files {
+            let table = file.open()?;
+            if !self.has(name) {
+                return Err(self.source.missing(name, self.names.clone()));
+            }
+            table.read_column(name, &mut bytes, &mut cells)?;
+        }
+        Ok(cells)
+    }
+
+    /// Hands the pictures of a feature of dtype `image` (or the bytes of another column) of the rows `sorted` to `each`, as
+    /// [`ParquetTable::visit_bytes`].
+    ///
+    /// # Errors
+    /// As [`ParquetTable::visit_bytes`].
+    pub fn visit_bytes<E: From<TableError>>(
+        &self,
+        name: &str,
+        sorted: &[u64],
+        each: &mut dyn FnMut(u64, Option<Vec<u8>>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let of_image = format!("{name}.bytes");
+        let name = match self.names.contains(&of_image) {
+            true => &of_image,
+            false => name,
+        };
+        if !self.has(name) {
+            return Err(self.source.missing(name, self.names.clone()).into());
+        }
+        check_sorted(&self.source, name, sorted, self.rows)?;
+        let mut wanted = sorted;
+        let mut begin = 0;
+        for file in &self.files {
+            let end = begin + file.rows;
+            let (here, later) = wanted.split_at(wanted.partition_point(|row| *row < end));
+            wanted = later;
+            if !here.is_empty() {
+                let rows: Vec<u64> = here.iter().map(|row| row - begin).collect();
+                file.open()?
+                    .visit_bytes(name, &rows, &mut |row, bytes| each(begin + row, bytes))?;
+            }
+            begin = end;
+        }
+        Ok(())
+    }
+
+    /// The frame of each row in the video called `key`, a feature of dtype `video`: at the time stamp of the row, after the beginning of
+    /// its episode in the file.
+    ///
+    /// # Errors
+    /// [`TableError::Missing`] if no video has this name; [`TableError::Damaged`] if an episode has no place in a file, or a time stamp is
+    /// further than a quarter of a frame from every frame.
+    pub fn video(&self, key: &str) -> Result<VideoFrames, TableError> {
+        video::frames(self, key)
+    }
+
+    fn has(&self, name: &str) -> bool {
+        crate::path::longest(name, self.names.iter().map(String::as_str)).is_some()
+            || self.names.iter().any(|known| {
+                known
+                    .strip_prefix(name)
+                    .is_some_and(|rest| rest.starts_with('.'))
+            })
+    }
+}
+
+impl DataFile {
+    fn open(&self) -> Result<ParquetTable, TableError> {
+        let table = ParquetTable::open(&self.path)?;
+        match table.rows() == self.rows {
+            true => Ok(table),
+            false => {
+                let problem = format!(
+                    "{} rows, it had {} when it was opened first",
+                    table.rows(),
+                    self.rows
+                );
+                Err(Source::new(&self.path)?.damaged(Place::default(), problem))
+            }
+        }
+    }
+}

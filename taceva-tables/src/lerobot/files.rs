@@ -1,0 +1,67 @@
+//! Files inside the folder of a dataset, and those that describe it.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use crate::error::{Place, TableError};
+use crate::limits;
+use crate::source::Source;
+
+/// `path` in `folder`, which no link leads out of.
+pub(super) fn inside(folder: &Path, path: &Path) -> Result<PathBuf, TableError> {
+    let whole = folder.join(path);
+    let io = |source: std::io::Error| TableError::Io {
+        path: whole.clone(),
+        source,
+    };
+    let (real, root) = (
+        whole.canonicalize().map_err(io)?,
+        folder.canonicalize().map_err(io)?,
+    );
+    match real.starts_with(&root) {
+        true => Ok(whole),
+        false => Err(TableError::Unsupported {
+            path: whole,
+            place: Place::default(),
+            problem: "a link leads out of the folder; copy the folder with what its links lead to (`cp -rL`)".to_owned(),
+        }),
+    }
+}
+
+/// The text of a description.
+fn description(folder: &Path, name: &str) -> Result<(Source, Vec<u8>), TableError> {
+    let source = Source::new(&inside(folder, name.as_ref())?)?;
+    let mut file = source.open()?;
+    let bytes = source.bytes(&mut file, 0, source.length(), limits::DESCRIPTION_BYTES)?;
+    Ok((source, bytes))
+}
+
+/// The value of a file of JSON.
+pub(super) fn json_file(folder: &Path, name: &str) -> Result<(Source, Value), TableError> {
+    let (source, bytes) = description(folder, name)?;
+    let json = serde_json::from_slice(&bytes);
+    let json =
+        json.map_err(|error| source.damaged(Place::default(), format!("no JSON: {error}")))?;
+    Ok((source, json))
+}
+
+/// The values of a file of a JSON value a line, each with the byte at which its line begins.
+pub(super) fn json_lines(
+    folder: &Path,
+    name: &str,
+) -> Result<(Source, Vec<(u64, Value)>), TableError> {
+    let (source, bytes) = description(folder, name)?;
+    let mut lines = Vec::new();
+    let mut at = 0_u64;
+    for line in bytes.split_inclusive(|byte| *byte == b'\n') {
+        if !line.trim_ascii().is_empty() {
+            let value = serde_json::from_slice(line);
+            let value = value
+                .map_err(|error| source.damaged(Place::byte(at), format!("no JSON: {error}")))?;
+            lines.push((at, value));
+        }
+        at += line.len() as u64;
+    }
+    Ok((source, lines))
+}

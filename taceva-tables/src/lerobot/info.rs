@@ -1,0 +1,104 @@
+//! `meta/info.json`: the version, where files lie, and what each column is.
+
+use serde_json::Value;
+
+use super::pattern::Pattern;
+use crate::error::{Place, TableError, shown};
+use crate::source::Source;
+
+/// The layouts that are read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Layout {
+    /// A file an episode, described by lines of JSON.
+    V21,
+    /// Episodes in shared files, described by Parquet files.
+    V30,
+}
+
+/// A column of a LeRobot dataset as `meta/info.json` describes it.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Feature {
+    /// Its name, as `observation.state`.
+    pub name: String,
+    /// `video`, `image`, or the type of its numbers, such as `float32`.
+    pub dtype: String,
+    /// Its shape in one row.
+    pub shape: Vec<u64>,
+    /// Frames a second of a video: its own where it states them, else those of the dataset.
+    pub fps: f64,
+}
+
+#[derive(Debug)]
+pub(super) struct Info {
+    pub(super) layout: Layout,
+    pub(super) data: Pattern,
+    pub(super) video: Option<Pattern>,
+    pub(super) chunks_size: u64,
+    pub(super) features: Vec<Feature>,
+}
+
+/// What the file at `source` says.
+pub(super) fn parse(source: &Source, json: &Value) -> Result<Info, TableError> {
+    let wrong = |name: &str, problem: String| source.damaged(Place::of(name), problem);
+    let text = |name: &str| {
+        let found = json.get(name).and_then(Value::as_str);
+        found.ok_or_else(|| wrong(name, "expected a text".to_owned()))
+    };
+    let layout = match text("codebase_version")? {
+        "v2.1" => Layout::V21,
+        "v3.0" => Layout::V30,
+        other => {
+            let problem = format!(
+                "version `{}`, expected v2.1 or v3.0; the scripts under `lerobot/datasets` convert older ones",
+                shown(other)
+            );
+            return Err(source.unsupported(Place::of("codebase_version"), problem));
+        }
+    };
+    let pattern = |name: &str| Pattern::parse(text(name)?).map_err(|problem| wrong(name, problem));
+    let video = match json.get("video_path") {
+        None | Some(Value::Null) => None,
+        Some(_) => Some(pattern("video_path")?),
+    };
+    let fps = json.get("fps").and_then(Value::as_f64);
+    let fps = fps
+        .filter(|fps| is_rate(*fps))
+        .ok_or_else(|| wrong("fps", "expected frames a second".to_owned()))?;
+    let listed = json.get("features").and_then(Value::as_object);
+    let listed = listed.ok_or_else(|| wrong("features", "expected an object".to_owned()))?;
+    let mut features = Vec::with_capacity(listed.len());
+    for (name, feature) in listed {
+        let dtype = feature.get("dtype").and_then(Value::as_str);
+        let dtype = dtype.ok_or_else(|| wrong(name, "a feature without a dtype".to_owned()))?;
+        let shape = feature.get("shape").and_then(Value::as_array);
+        let own = ["info", "video_info"]
+            .iter()
+            .find_map(|key| feature.get(*key)?.get("video.fps")?.as_f64());
+        features.push(Feature {
+            name: name.clone(),
+            dtype: dtype.to_owned(),
+            shape: shape
+                .into_iter()
+                .flatten()
+                .filter_map(Value::as_u64)
+                .collect(),
+            fps: own.filter(|fps| is_rate(*fps)).unwrap_or(fps),
+        });
+    }
+    Ok(Info {
+        layout,
+        data: pattern("data_path")?,
+        video,
+        chunks_size: json
+            .get("chunks_size")
+            .and_then(Value::as_u64)
+            .unwrap_or(1000)
+            .max(1),
+        features,
+    })
+}
+
+fn is_rate(fps: f64) -> bool {
+    fps > 0.0 && fps < 1e6
+}
