@@ -43,11 +43,13 @@ pub enum Field {
     Intensity,
     /// The digest of the picture's bytes: tells equal pictures without decoding them.
     FrameDigest,
+    /// The numbers of taxels, of a sensor that gives such.
+    Signals,
 }
 
 impl Field {
     /// Every field.
-    pub const ALL: [Field; 15] = [
+    pub const ALL: [Field; 16] = [
         Field::Frame,
         Field::Truth,
         Field::Prediction,
@@ -63,6 +65,7 @@ impl Field {
         Field::PredictedSpacing,
         Field::Intensity,
         Field::FrameDigest,
+        Field::Signals,
     ];
 
     /// The word used in plans and messages.
@@ -83,6 +86,7 @@ impl Field {
             Field::PredictedSpacing => "predicted spacing_mm",
             Field::Intensity => "intensity",
             Field::FrameDigest => "frame_sha256",
+            Field::Signals => "signals",
         }
     }
 }
@@ -102,7 +106,7 @@ impl fmt::Display for Field {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct FieldSet {
-    bits: u16,
+    bits: u32,
 }
 
 impl FieldSet {

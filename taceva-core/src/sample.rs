@@ -9,6 +9,7 @@ use crate::grating::GratingKind;
 use crate::nanometre::Nanometre;
 use crate::outcome::Limit;
 use crate::phase::Phase;
+use crate::signals::Signals;
 use crate::stamp::Stamp;
 use crate::wrench::Wrench;
 
@@ -57,6 +58,8 @@ pub struct Sample {
     pub frame_digest: Option<String>,
     /// The picture, decoded.
     pub frame: Option<Frame>,
+    /// The numbers of its taxels.
+    pub signals: Option<Signals>,
     /// What the reference instruments say, a value a channel of the stream.
     pub truth: Readings,
     /// What a model says, a value a channel of the stream.

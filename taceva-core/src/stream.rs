@@ -160,6 +160,7 @@ impl<S: SampleSink> SampleSink for Select<S> {
                 .clone()
                 .filter(|_| kept(Field::FrameDigest)),
             frame: sample.frame.clone().filter(|_| kept(Field::Frame)),
+            signals: sample.signals.clone().filter(|_| kept(Field::Signals)),
             truth: if kept(Field::Truth) {
                 sample.truth.clone()
             } else {

@@ -52,6 +52,27 @@ pub enum Unit {
     /// N/h, of forces that drift.
     #[cfg_attr(feature = "serde", serde(rename = "N/h"))]
     NewtonPerHour,
+    /// µT, of magnetic flux densities.
+    #[cfg_attr(feature = "serde", serde(rename = "uT"))]
+    Microtesla,
+    /// Steps of a converter.
+    #[cfg_attr(feature = "serde", serde(rename = "count"))]
+    Count,
+    /// V, of voltages.
+    #[cfg_attr(feature = "serde", serde(rename = "V"))]
+    Volt,
+    /// kPa, of pressures.
+    #[cfg_attr(feature = "serde", serde(rename = "kPa"))]
+    Kilopascal,
+    /// °C, of temperatures.
+    #[cfg_attr(feature = "serde", serde(rename = "degC"))]
+    DegreeCelsius,
+    /// Ω, of resistances.
+    #[cfg_attr(feature = "serde", serde(rename = "ohm"))]
+    Ohm,
+    /// pF, of capacitances.
+    #[cfg_attr(feature = "serde", serde(rename = "pF"))]
+    Picofarad,
     /// No unit: a ratio or a normalised value.
     #[cfg_attr(feature = "serde", serde(rename = "1"))]
     One,
@@ -59,7 +80,7 @@ pub enum Unit {
 
 impl Unit {
     /// Every unit, for tests and for help texts.
-    pub const ALL: [Unit; 13] = [
+    pub const ALL: [Unit; 20] = [
         Unit::Millimetre,
         Unit::Newton,
         Unit::NewtonMillimetre,
@@ -72,6 +93,13 @@ impl Unit {
         Unit::SquareMillimetre,
         Unit::MillimetrePerHour,
         Unit::NewtonPerHour,
+        Unit::Microtesla,
+        Unit::Count,
+        Unit::Volt,
+        Unit::Kilopascal,
+        Unit::DegreeCelsius,
+        Unit::Ohm,
+        Unit::Picofarad,
         Unit::One,
     ];
 
@@ -90,6 +118,13 @@ impl Unit {
             Unit::SquareMillimetre => "mm²",
             Unit::MillimetrePerHour => "mm/h",
             Unit::NewtonPerHour => "N/h",
+            Unit::Microtesla => "uT",
+            Unit::Count => "count",
+            Unit::Volt => "V",
+            Unit::Kilopascal => "kPa",
+            Unit::DegreeCelsius => "degC",
+            Unit::Ohm => "ohm",
+            Unit::Picofarad => "pF",
             Unit::One => "1",
         }
     }

@@ -2,6 +2,7 @@
 
 mod frames;
 mod pass;
+mod signals;
 mod verify;
 
 use std::collections::BTreeMap;
@@ -17,6 +18,7 @@ use crate::held::HeldFolder;
 use crate::import::advice;
 use crate::layout;
 use crate::scaled::DecodeScale;
+use crate::signals::SignalsReader;
 use crate::table::Table;
 use verify::read_table;
 
@@ -53,6 +55,8 @@ pub struct Dataset {
     scale: DecodeScale,
     /// The first frame of each pack that was looked into.
     firsts: Mutex<BTreeMap<String, Arc<Frame>>>,
+    /// The file of signals, once a row of it was asked for.
+    signals: Mutex<Option<Arc<SignalsReader>>>,
 }
 
 impl Dataset {
@@ -82,6 +86,7 @@ impl Dataset {
             table,
             scale: DecodeScale::Full,
             firsts: Mutex::default(),
+            signals: Mutex::default(),
         };
         dataset.check_consistency()?;
         Ok(dataset)

@@ -17,6 +17,8 @@ use crate::error::DatasetError;
 use crate::held::HeldFolder;
 use crate::layout;
 use crate::limits;
+use crate::signals::{SignalsInfo, WrittenSignals};
+use crate::store::{dataset_digest, digest_with_signals};
 use crate::toml_file::{parse_toml, toml_error, utf8};
 use crate::version::Version;
 use taceva_seal::{Opened, SealError};
@@ -77,9 +79,11 @@ pub struct Header {
     pub presses: BTreeMap<PressOutcome, u64>,
     /// What was lost of a stream that was recorded as it came; `None` of anything else, and before format 1.5.
     pub stream: Option<StreamFacts>,
+    /// What the numbers of taxels share, and what their file must be; `None` where there are none, and before format 1.7.
+    pub signals: Option<SignalsInfo>,
     /// What the table must be.
     pub table: TableInfo,
-    /// The digest of the dataset.
+    /// The digest of the dataset: of its table, its frames and its signals.
     pub digest: Digest,
     /// Whether the header is sealed, and the edits of it that were accepted.
     pub seal: Opened,
@@ -106,6 +110,8 @@ struct Written {
     presses: BTreeMap<PressOutcome, u64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     stream: Option<StreamFacts>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    signals: Option<WrittenSignals>,
     table: TableInfo,
     channels: Vec<ChannelInfo>,
 }
@@ -151,6 +157,8 @@ impl Header {
             .collect::<Result<Vec<_>, _>>()
             .and_then(Channels::new)
             .map_err(|error| toml_error(path, None, &error.to_string()))?;
+        let signals = written.signals.map(SignalsInfo::try_from).transpose();
+        let signals = signals.map_err(|problem| toml_error(path, None, &problem))?;
         Ok(Header {
             format,
             source: written.source,
@@ -165,7 +173,8 @@ impl Header {
             presses: written.presses,
             stream: written.stream,
             table: written.table,
-            digest: written.digest,
+            digest: digest_with_signals(written.digest, signals.as_ref()),
+            signals,
             seal,
         })
     }
@@ -183,13 +192,18 @@ impl Header {
             clock: self.clock,
             attributes: self.attributes.clone(),
             unmentioned_columns: self.unmentioned_columns.clone(),
-            digest: self.digest,
+            digest: match self.signals {
+                None => self.digest,
+                // Without them: a reader of before 1.7 knows nothing of signals.
+                Some(_) => dataset_digest(self.table.digest, self.frames.as_ref()),
+            },
             sensor: self.sensor.clone(),
             footprint: self.footprint,
             settings: self.settings.clone(),
             frames: self.frames.clone(),
             presses: self.presses.clone(),
             stream: self.stream,
+            signals: self.signals.as_ref().map(WrittenSignals::from),
             table: self.table,
             channels: self
                 .channels

@@ -9,6 +9,7 @@ mod plan;
 mod preset;
 mod resolve;
 mod rows;
+mod signals;
 mod source;
 mod summary;
 mod suspicion;

@@ -2,11 +2,12 @@
 
 pub(crate) const HEADER: &str = "dataset.toml";
 pub(crate) const SAMPLES: &str = "samples.parquet";
+pub(crate) const SIGNALS: &str = "signals.parquet";
 pub(crate) const FRAMES: &str = "frames";
 pub(crate) const JOURNAL: &str = "journal";
 
 /// Every name that stands in the folder of a dataset or of a recording.
-pub(crate) const ALL: [&str; 4] = [HEADER, SAMPLES, FRAMES, JOURNAL];
+pub(crate) const ALL: [&str; 5] = [HEADER, SAMPLES, SIGNALS, FRAMES, JOURNAL];
 
 /// Frames in one folder: some file systems slow down beyond a few thousand.
 const FRAMES_A_FOLDER: usize = 1_000;

@@ -5,7 +5,8 @@ use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
 use taceva_core::{
-    Channels, Field, FieldSet, Frame, FrameInfo, PressOutcome, Sample, SampleSink, SinkError,
+    Channels, Field, FieldSet, Frame, FrameInfo, PressOutcome, Sample, SampleSink, Signals,
+    SinkError,
 };
 use taceva_durable::parent_of;
 
@@ -17,6 +18,7 @@ use crate::journal::{Journal, JournalRecord, RecordKind};
 use crate::layout;
 use crate::pack::{PackEnd, PackWriter, cut_behind};
 use crate::samples::from_parquet;
+use crate::signals::{SignalsInfo, SignalsReader, SignalsSpec, SignalsWriter};
 use crate::staged::lock_folder;
 use crate::store::{Beside, RecordingFacts, write_table_and_header};
 use crate::table::{FrameEntry, Row, Table};
@@ -50,12 +52,27 @@ pub struct RecordingSpec {
     pub facts: RecordingFacts,
     /// The channels of the truth of each sample.
     pub channels: Channels,
+    /// The taxels of each sample, of a sensor that has such: then every sample must have their signals.
+    pub signals: Option<SignalsSpec>,
 }
 
 impl RecordingSpec {
     /// A recording with `facts`, whose samples have a truth for each of `channels`.
     pub fn new(facts: RecordingFacts, channels: Channels) -> RecordingSpec {
-        RecordingSpec { facts, channels }
+        RecordingSpec {
+            facts,
+            channels,
+            signals: None,
+        }
+    }
+
+    /// The same of a sensor with taxels: every sample must have their signals.
+    #[must_use]
+    pub fn with_signals(self, signals: SignalsSpec) -> RecordingSpec {
+        RecordingSpec {
+            signals: Some(signals),
+            ..self
+        }
     }
 }
 
@@ -97,6 +114,8 @@ pub struct Recorder {
     first: Option<(Digest, Frame)>,
     /// Frames without contact recorded so far.
     references: usize,
+    /// The file of signals, which is written anew from the journal where a recording is resumed.
+    signals: Option<SignalsWriter>,
 }
 
 impl Recorder {
@@ -112,7 +131,7 @@ impl Recorder {
         make_names_durable(parent_of(path))?;
         let start = WrittenStart::new(spec).to_toml();
         let journal = Journal::create(&path.join(layout::JOURNAL), start.as_bytes())?;
-        Ok(Recorder::new(path, lock, journal, spec.clone()))
+        Recorder::new(path, lock, journal, spec.clone())
     }
 
     /// Goes on with a recording that was not closed; what was torn by the interruption is cut away.
@@ -144,15 +163,15 @@ impl Recorder {
         let mut records = recovered.records.into_iter().enumerate();
         let (_, start) = records.next().ok_or_else(nothing)?;
         let spec = WrittenStart::parse(&journal_path, &start.payload)?;
-        let mut recorder = Recorder::new(path, lock, journal, spec);
+        let mut recorder = Recorder::new(path, lock, journal, spec)?;
         recorder.cut_bytes = recovered.cut_bytes;
         for (sequence, record) in records {
-            recorder.replay(&record).map_err(|error| {
-                let problem = format!("record {sequence}: {error}");
-                DatasetError::Damaged {
+            recorder.replay(&record).map_err(|error| match error {
+                ReplayError::Io(error) => error,
+                ReplayError::Damaged(problem) => DatasetError::Damaged {
                     path: journal_path.clone(),
-                    problem,
-                }
+                    problem: format!("record {sequence}: {problem}"),
+                },
             })?;
         }
         cut_behind(path, recorder.pack_end)?;
@@ -172,18 +191,30 @@ impl Recorder {
             Err(DatasetError::NoDataset { .. }) => return Recorder::create(path, spec),
             resumed => resumed?,
         };
-        if recorder.facts != spec.facts || recorder.table.channels() != &spec.channels {
+        let taxels = recorder.signals.as_ref().map(SignalsWriter::spec);
+        if recorder.facts != spec.facts
+            || recorder.table.channels() != &spec.channels
+            || taxels != spec.signals.as_ref()
+        {
             return Err(DatasetError::Request {
                 path: path.to_owned(),
-                problem: "the recording that was begun there is of another sensor, clock or set of channels"
+                problem: "the recording that was begun there is of another sensor, clock or set of channels or taxels"
                     .to_owned(),
             });
         }
         Ok(recorder)
     }
 
-    fn new(path: &Path, lock: File, journal: Journal, spec: RecordingSpec) -> Recorder {
-        Recorder {
+    fn new(
+        path: &Path,
+        lock: File,
+        journal: Journal,
+        spec: RecordingSpec,
+    ) -> Result<Recorder, DatasetError> {
+        let signals = spec.signals.as_ref();
+        let signals =
+            signals.map(|signals| SignalsWriter::create(&partial(path, layout::SIGNALS), signals));
+        Ok(Recorder {
             path: path.to_owned(),
             _lock: lock,
             journal,
@@ -199,7 +230,8 @@ impl Recorder {
             pack_end: PackEnd::default(),
             first: None,
             references: 0,
-        }
+            signals: signals.transpose()?,
+        })
     }
 
     /// Whether a sample of this name is recorded.
@@ -227,11 +259,12 @@ impl Recorder {
         let mut entries = self.write_frames(std::slice::from_ref(sample))?;
         let row = self.row(sample, entries.pop().flatten());
         let info = sample.frame.as_ref().map(Frame::info);
-        let written = WrittenSample::new(&row, self.table.channels(), info).to_toml();
+        let written =
+            WrittenSample::new(&row, self.table.channels(), (info, signals_of(sample))).to_toml();
         let sequence = self
             .journal
             .append(RecordKind::Sample, written.as_bytes())?;
-        self.take(row, info);
+        self.take(row, info, signals_of(sample))?;
         Ok(sequence)
     }
 
@@ -265,8 +298,9 @@ impl Recorder {
     ///
     /// # Errors
     /// [`DatasetError::Damaged`] if what was written does not read back; [`DatasetError::Io`].
-    pub fn close(self) -> Result<Header, DatasetError> {
-        let name = |name: &str| self.path.join(format!("{name}.partial"));
+    pub fn close(mut self) -> Result<Header, DatasetError> {
+        let signals = self.signals.take().map(SignalsWriter::finish).transpose()?;
+        let name = |name: &str| partial(&self.path, name);
         let (samples, header_path) = (name(layout::SAMPLES), name(layout::HEADER));
         let header = write_table_and_header(
             &samples,
@@ -276,25 +310,25 @@ impl Recorder {
             Beside {
                 presses: self.press_counts(),
                 stream: self.stream,
+                signals,
                 ..Beside::default()
             },
         )?;
         self.verify(&samples, &header)?;
+        if let Some(info) = &header.signals {
+            self.verify_signals(&name(layout::SIGNALS), info)?;
+            self.put_in_place(&name(layout::SIGNALS), layout::SIGNALS)?;
+        }
         self.put_in_place(&samples, layout::SAMPLES)?;
         self.put_in_place(&header_path, layout::HEADER)?;
         remove_journal(&self.path)?;
         Ok(header)
     }
 
-    fn replay(&mut self, record: &JournalRecord) -> Result<(), String> {
+    fn replay(&mut self, record: &JournalRecord) -> Result<(), ReplayError> {
         match record.kind {
-            RecordKind::Start => Err("a second beginning".to_owned()),
-            RecordKind::Sample => {
-                let (row, info) =
-                    WrittenSample::parse(&record.payload)?.into_row(self.table.channels())?;
-                self.take(row, info);
-                Ok(())
-            }
+            RecordKind::Start => Err("a second beginning".to_owned().into()),
+            RecordKind::Sample => self.replay_sample(WrittenSample::parse(&record.payload)?),
             RecordKind::Reference => {
                 self.take_reference(WrittenFrame::parse(&record.payload)?);
                 Ok(())
@@ -304,13 +338,28 @@ impl Recorder {
         }
     }
 
-    fn take(&mut self, row: Row, info: Option<FrameInfo>) {
+    fn replay_sample(&mut self, written: WrittenSample) -> Result<(), ReplayError> {
+        let (row, info, signals) = written.into_row(self.table.channels())?;
+        Ok(self.take(row, info, signals.as_deref())?)
+    }
+
+    /// Takes what is durable into the table and the file of signals.
+    fn take(
+        &mut self,
+        row: Row,
+        info: Option<FrameInfo>,
+        signals: Option<&[f32]>,
+    ) -> Result<(), DatasetError> {
+        if let Some(writer) = &mut self.signals {
+            writer.push(signals.unwrap_or_default())?;
+        }
         if let Some(frame) = &row.frame {
             self.pack_end = self.pack_end.behind(&frame.path, frame.span);
         }
         self.frame_info = self.frame_info.or(info);
         self.finished.insert(row.sample.clone());
         self.table.push(row);
+        Ok(())
     }
 
     fn take_reference(&mut self, written: WrittenFrame) {
@@ -366,10 +415,46 @@ impl Recorder {
         Ok(())
     }
 
+    fn verify_signals(&self, path: &Path, info: &SignalsInfo) -> Result<(), DatasetError> {
+        let file = File::open(path).map_err(DatasetError::io("open", path))?;
+        let rows = self.table.rows() as u64;
+        SignalsReader::open(path, file, (info, rows))?.verify()
+    }
+
     fn put_in_place(&self, from: &Path, name: &str) -> Result<(), DatasetError> {
         let to = self.path.join(name);
         fs::rename(from, &to).map_err(DatasetError::io("rename into place", &to))?;
         make_names_durable(&self.path)
+    }
+}
+
+/// Where the file called `name` stands until the recording is closed.
+fn partial(folder: &Path, name: &str) -> PathBuf {
+    folder.join(format!("{name}.partial"))
+}
+
+/// The numbers of the taxels of a sample, if it has any.
+fn signals_of(sample: &Sample) -> Option<&[f32]> {
+    sample.signals.as_ref().map(Signals::values)
+}
+
+/// Why a record of a journal cannot be taken again.
+enum ReplayError {
+    /// What is wrong with it.
+    Damaged(String),
+    /// What the disk said meanwhile.
+    Io(DatasetError),
+}
+
+impl From<String> for ReplayError {
+    fn from(problem: String) -> ReplayError {
+        ReplayError::Damaged(problem)
+    }
+}
+
+impl From<DatasetError> for ReplayError {
+    fn from(error: DatasetError) -> ReplayError {
+        ReplayError::Io(error)
     }
 }
 

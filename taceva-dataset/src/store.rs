@@ -10,6 +10,7 @@ use crate::error::DatasetError;
 use crate::file::write_durable;
 use crate::header::{Footprint, FramesInfo, Header, SensorFacts, Source, StreamFacts, TableInfo};
 use crate::samples::to_parquet;
+use crate::signals::SignalsInfo;
 use crate::table::Table;
 use crate::version::Version;
 use taceva_seal::Opened;
@@ -76,6 +77,8 @@ pub(crate) struct Beside {
     pub(crate) unmentioned_columns: Vec<String>,
     /// What was lost of a stream.
     pub(crate) stream: Option<StreamFacts>,
+    /// The file of signals, which is written already.
+    pub(crate) signals: Option<SignalsInfo>,
 }
 
 /// Writes the table and the header to the given files, durable but for their names.
@@ -94,7 +97,8 @@ pub(crate) fn write_table_and_header(
     let table_digest = table.digest();
     let mut written = Header {
         format: match table.source_row().iter().any(Option::is_some) {
-            true => Version::CURRENT,
+            _ if beside.signals.is_some() => Version::CURRENT,
+            true => Version::WITHOUT_SIGNALS,
             false if facts.settings.is_empty() && beside.stream.is_none() => {
                 Version::WITHOUT_SETTINGS
             }
@@ -108,10 +112,14 @@ pub(crate) fn write_table_and_header(
         channels: table.channels().clone(),
         attributes: table.attribute_names().to_vec(),
         unmentioned_columns: beside.unmentioned_columns,
-        digest: dataset_digest(table_digest, frames.as_ref()),
+        digest: digest_with_signals(
+            dataset_digest(table_digest, frames.as_ref()),
+            beside.signals.as_ref(),
+        ),
         frames,
         presses: beside.presses,
         stream: beside.stream,
+        signals: beside.signals,
         table: TableInfo {
             rows: table.rows() as u64,
             digest: table_digest,
@@ -143,5 +151,17 @@ pub(crate) fn dataset_digest(table: Digest, frames: Option<&FramesInfo>) -> Dige
             digest.fixed(reference.sha256.as_bytes());
         }
     }
+    digest.finish()
+}
+
+/// The digest of a dataset with its signals, where it has any; `others` is the digest without them, which its header states.
+pub(crate) fn digest_with_signals(others: Digest, signals: Option<&SignalsInfo>) -> Digest {
+    let Some(signals) = signals else {
+        return others;
+    };
+    let mut digest = PartsDigest::default();
+    digest.part(b"taceva.dataset/1 with signals");
+    digest.fixed(others.as_bytes());
+    digest.fixed(signals.digest.as_bytes());
     digest.finish()
 }

@@ -1,5 +1,6 @@
 //! A recording written anew with frames in another format.
 
+use std::fs::File;
 use std::path::Path;
 
 use taceva_core::{Frame, FrameInfo, Progress};
@@ -88,6 +89,14 @@ pub fn write_as_jpeg(
         footprint: header.footprint,
         settings: header.settings.clone(),
     };
+    if header.signals.is_some() {
+        let (from, to) = [dataset.path(), staged.path()]
+            .map(|folder| folder.join(layout::SIGNALS))
+            .into();
+        std::fs::copy(&from, &to).map_err(DatasetError::io("copy", &from))?;
+        let copied = File::open(&to).and_then(|file| file.sync_all());
+        copied.map_err(DatasetError::io("write", &to))?;
+    }
     let table = dataset.table().clone().with_frames(entries);
     let written = write_table_and_header(
         &staged.path().join(layout::SAMPLES),
@@ -98,6 +107,7 @@ pub fn write_as_jpeg(
             presses: header.presses.clone(),
             unmentioned_columns: header.unmentioned_columns.clone(),
             stream: header.stream,
+            signals: header.signals.clone(),
         },
     )?;
     staged.put_in_place(&folders)?;

@@ -27,7 +27,10 @@ pub struct Version {
 
 impl Version {
     /// The newest that this crate writes.
-    pub const CURRENT: Version = Version { major: 1, minor: 6 };
+    pub const CURRENT: Version = Version { major: 1, minor: 7 };
+
+    /// The version of a header of a recording without signals, so that it is what it was before 1.7.
+    pub(crate) const WITHOUT_SIGNALS: Version = Version { major: 1, minor: 6 };
 
     /// The version of a header of a recording whose rows do not say which row of a lab's table they were, so that it is what it was before 1.6.
     pub(crate) const WITHOUT_ORIGIN: Version = Version { major: 1, minor: 5 };

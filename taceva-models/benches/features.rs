@@ -43,7 +43,7 @@ fn extract_colours_640x480(bencher: Bencher, kind: &str) {
         kinds: kind.expect("a kind").into(),
         ..FeatureSpec::default()
     };
-    let extractor = Extractor::new(spec, frame.info(), Some(&frame)).expect("fits");
+    let extractor = Extractor::new(spec, frame.info(), Some((&frame).into())).expect("fits");
     let mut into = vec![0.0; extractor.shape().len()];
     bencher.bench_local(|| extractor.extract(divan::black_box(&frame), &mut into));
 }
@@ -61,7 +61,7 @@ fn extract_markers_640x480(bencher: Bencher) {
         height: 16,
         ..FeatureSpec::default()
     };
-    let extractor = Extractor::new(spec, info, Some(&frame)).expect("markers");
+    let extractor = Extractor::new(spec, info, Some((&frame).into())).expect("markers");
     let mut into = vec![0.0; extractor.shape().len()];
     bencher.bench_local(|| extractor.extract(divan::black_box(&frame), &mut into));
 }

@@ -1,4 +1,4 @@
-//! From frames to features.
+//! From frames and signals to features.
 
 mod area;
 mod cell_features;
@@ -13,6 +13,7 @@ mod kinds;
 mod markers;
 mod pca;
 mod pixels;
+pub(crate) mod signals;
 mod spec;
 mod statistics;
 

@@ -6,7 +6,7 @@ mod input;
 mod of_plugin;
 
 use taceva_core::{
-    Channel, Channels, ErrorKind, Features, Frame, FrameInfo, ModelError, Progress, Regressor,
+    Channel, Channels, ErrorKind, Features, Input, InputInfo, ModelError, Progress, Regressor,
     TrainingSet,
 };
 
@@ -14,11 +14,12 @@ pub use self::card::{ChannelCard, Form, ModelCard, Provenance, SampleCounts, Sou
 pub use self::input::FitInput;
 pub(crate) use self::of_plugin::plugin_from;
 use crate::features::choice::FeatureChoice;
+use crate::features::signals::{divided, spread};
 use crate::features::{Extractor, FeatureError, Pca};
 use crate::training::fit::ModelRegressor;
 use crate::training::problem::invalid;
 
-/// A fitted model: from pixels to the channels, in their units.
+/// A fitted model: from pixels, or from signals, to the channels, in their units.
 ///
 /// Where every step after the extraction is linear, scaling, principal components and weights are kept as one set of weights;
 /// a network keeps what it does to pictures beside its own.
@@ -42,25 +43,41 @@ impl Model {
                 shape
             )));
         }
+        let is_of_signals = input.features.channels.is_some();
+        let spread = is_of_signals.then(|| spread(input.training.features));
+        let even = |features| spread.as_ref().map(|spread| divided(features, spread));
+        let learnt = even(input.training.features);
+        let held = input.validation.and_then(|set| even(set.features));
         let pca = match input.features.pca {
             None => None,
-            Some(count) => Some(Pca::fit(input.training.features, count as usize, progress)?),
+            Some(count) => {
+                let training = learnt.as_ref().unwrap_or(input.training.features);
+                Some(Pca::fit(training, count as usize, progress)?)
+            }
         };
-        let seen =
-            |features: &Features| pca.as_ref().map(|pca| pca.transform(features)).transpose();
-        let learnt = seen(input.training.features)?;
+        let seen = |even: Option<Features>, features: &Features| match &pca {
+            None => Ok(even),
+            Some(pca) => pca.transform(even.as_ref().unwrap_or(features)).map(Some),
+        };
+        let learnt = seen(learnt, input.training.features)?;
         let held = match &input.validation {
-            Some(set) => seen(set.features)?,
+            Some(set) => seen(held, set.features)?,
             None => None,
         };
         let training = with_features(input.training, learnt.as_ref());
         let validation = input
             .validation
             .map(|set| with_features(set, held.as_ref()));
-        let chosen = input.estimator.choose(&training, progress)?;
+        let of_signals = match input.input {
+            InputInfo::Signals(info) => input.estimator.of_signals(info),
+            _ => Ok(None),
+        };
+        let of_signals = of_signals.map_err(|error| invalid(error.to_string()).because(error))?;
+        let estimator = of_signals.as_deref().unwrap_or(input.estimator);
+        let chosen = estimator.choose(&training, progress)?;
         let estimator = chosen
             .as_ref()
-            .map_or(input.estimator, |chosen| &*chosen.estimator);
+            .map_or(estimator, |chosen| &*chosen.estimator);
         let fit = estimator.fit_model(&training, validation.as_ref(), progress)?;
         let kept = pca.as_ref().map(|pca| pca.variance_ratio().iter().sum());
         let regressor = match pca {
@@ -71,7 +88,7 @@ impl Model {
             estimator.name(),
             chosen.as_ref().map(|chosen| chosen.card.clone()),
         );
-        let card = ModelCard::new(&input, &fit, how, kept);
+        let card = ModelCard::new(&input, &fit, how, (kept, spread));
         Ok(Model { card, regressor })
     }
 
@@ -97,32 +114,37 @@ impl Model {
         self.regressor.channels()
     }
 
-    /// What predicts the channels from the features of pixels.
+    /// What predicts the channels from the features of pixels, or from signals that are divided by their spread.
     pub fn regressor(&self) -> &ModelRegressor {
         &self.regressor
     }
 
-    /// Whether its predictions depend on what is seen; if not, no frame need be decoded for it.
+    /// Whether its predictions depend on what is seen; if not, no frame need be decoded, and no signals read, for it.
     pub fn reads_features(&self) -> bool {
         self.regressor.reads_features()
     }
 
-    /// Takes the features that this model was fitted on from frames of `info`.
+    /// Whether it looks at frames: not a model whose predictions depend on nothing that is seen, or on signals.
+    pub fn reads_frames(&self) -> bool {
+        self.reads_features() && matches!(self.card.input, InputInfo::Frame(_))
+    }
+
+    /// Takes the features that this model was fitted on from frames, or signals, of `info`.
     ///
     /// # Errors
-    /// [`FeatureError`] if the model was fitted on frames of another kind, or needs a `reference` frame and gets none.
+    /// [`FeatureError`] if the model was fitted on frames of another kind or signals of another grid, or needs a `reference` and gets none.
     pub fn extractor(
         &self,
-        info: FrameInfo,
-        reference: Option<&Frame>,
+        info: impl Into<InputInfo>,
+        reference: Option<Input<'_>>,
     ) -> Result<Extractor, FeatureError> {
-        if info != self.card.frame {
-            return Err(FeatureError::Kind {
-                expected: self.card.frame,
-                found: info,
-            });
+        match (self.card.input, info.into()) {
+            (InputInfo::Frame(expected), InputInfo::Frame(found)) if expected != found => {
+                Err(FeatureError::Kind { expected, found })
+            }
+            (expected, found) if expected != found => Err(FeatureError::Input { expected, found }),
+            (_, info) => Extractor::new(self.card.features, info, reference),
         }
-        Extractor::new(self.card.features, info, reference)
     }
 
     /// The prediction for every sample of `features`, within the [bounds](Model::bounds) of its channel.
@@ -149,7 +171,9 @@ impl Model {
     /// As [`predict`](Model::predict).
     pub fn predict_unbounded(&self, features: &Features) -> Result<Vec<f64>, ModelError> {
         let mut predictions = vec![0.0; features.samples() * self.channels().len()];
-        self.regressor.predict(features, &mut predictions)?;
+        let even = self.even(features)?;
+        self.regressor
+            .predict(even.as_ref().unwrap_or(features), &mut predictions)?;
         Ok(predictions)
     }
 
@@ -162,7 +186,22 @@ impl Model {
     /// # Errors
     /// [`ModelError`] if the features are of another shape.
     pub fn deviations(&self, features: &Features) -> Result<Option<Vec<f64>>, ModelError> {
-        self.regressor.deviations(features)
+        let even = self.even(features)?;
+        self.regressor.deviations(even.as_ref().unwrap_or(features))
+    }
+
+    /// Signals divided by their spread over the training part; `None` of frames, whose features are as they are.
+    fn even(&self, features: &Features) -> Result<Option<Features>, ModelError> {
+        let Some(spread) = &self.card.spread else {
+            return Ok(None);
+        };
+        let (found, expected) = (features.shape(), self.card.features.shape());
+        if found != expected {
+            return Err(invalid(format!(
+                "signals of shape {found:?} for a model of {expected:?}"
+            )));
+        }
+        Ok(Some(divided(features, spread)))
     }
 }
 

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use taceva_core::{
     ArgSpec, ArgValue, Channel, Channels, DriverKey, ErrorKind, EstimatorFactory, FeatureShape,
-    Features, FitRequest, FrameInfo, ModelError, PixelFormat, Regressor, Saved, SavedRegressor,
-    SilentProgress, Targets, TrainingSet,
+    Features, FitRequest, FrameInfo, InputInfo, ModelError, PixelFormat, Regressor, Saved,
+    SavedRegressor, SilentProgress, Targets, TrainingSet,
 };
 use taceva_models::{
     Color, FeatureSpec, FitInput, FormatError, Model, ModelSettings, Models, Provenance,
@@ -152,11 +152,11 @@ fn fit(way: Way, words: &[&str], features: FeatureSpec) -> Result<Model, ModelEr
         estimator: &*estimator,
         settings: &settings,
         features,
-        frame: FrameInfo {
+        input: InputInfo::Frame(FrameInfo {
             width: 4,
             height: 2,
             format: PixelFormat::Gray8,
-        },
+        }),
         training: TrainingSet::new(&seen, Targets::new(&channels, &labels)),
         validation: None,
         provenance: Provenance::default(),

@@ -3,6 +3,7 @@
 //! One file a check under `check/`; each is a pure function of the [`Evidence`] and has a stable code.
 
 mod channel_order;
+mod clipped_taxel;
 mod clusters;
 mod damaged_frames;
 mod duplicate_frames;
@@ -15,9 +16,12 @@ mod lost_frames;
 mod missing_labels;
 mod placeholder;
 mod pressed_reference;
+mod pressed_rest;
 mod run;
 mod saturation;
+mod signal_facts;
 mod stuck_channel;
+mod stuck_taxel;
 mod timing;
 mod units;
 mod unmentioned_columns;
@@ -25,9 +29,10 @@ mod unmentioned_columns;
 pub use evidence::{Evidence, FrameFacts};
 pub use finding::{Check, CheckReport, Finding, Severity};
 pub use run::{CheckRequest, check, check_plan};
+pub use signal_facts::{SignalFacts, TaxelFacts};
 
 /// Every check, in the order of its code.
-pub static ALL: [&Check; 16] = [
+pub static ALL: [&Check; 19] = [
     &units::CHECK,
     &duplicate_frames::CHECK,
     &channel_order::CHECK,
@@ -44,4 +49,7 @@ pub static ALL: [&Check; 16] = [
     &label_outliers::CHECK,
     &unmentioned_columns::CHECK,
     &lost_frames::CHECK,
+    &stuck_taxel::CHECK,
+    &clipped_taxel::CHECK,
+    &pressed_rest::CHECK,
 ];

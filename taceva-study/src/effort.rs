@@ -49,7 +49,7 @@ impl Effort {
             ModelChoice::Fitted(model) => {
                 let target = Target::new(dataset, model, request.part)?;
                 let spec = &model.card().features;
-                Ok(Effort::of_rows(target.rows, *spec, model.reads_features()))
+                Ok(Effort::of_rows(target.rows, *spec, model.reads_frames()))
             }
         }
     }

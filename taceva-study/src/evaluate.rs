@@ -88,7 +88,7 @@ pub fn evaluate_plan(dataset: &Dataset, request: &EvaluateRequest) -> Result<Pla
             (
                 Target::new(dataset, model, request.part)?,
                 model.channels().clone(),
-                model.reads_features(),
+                model.reads_frames(),
             )
         }
     };
@@ -133,7 +133,7 @@ pub fn evaluate(
                 dataset,
                 Some(fitted.divided),
                 request.part,
-                model.reads_features(),
+                model.reads_frames(),
             )?;
             let predicted = predict::run(dataset, model, &target, work)?;
             let mut scored = score(dataset, request, model, (&target, &predicted), work.jobs)?;
@@ -167,7 +167,7 @@ fn metrics(
     request: &EvaluateRequest,
 ) -> Result<MetricPlan, StudyError> {
     let wanted = catalogue::select(request.metrics.iter().map(String::as_str))?;
-    let available: FieldSet = dataset.table().fields().with(Field::Prediction);
+    let available: FieldSet = dataset.fields().with(Field::Prediction);
     let facts = facts::of_dataset(dataset, request.sensor.as_ref())?;
     Ok(MetricPlan::new(&with_skill(wanted), channels.clone(), available).with_facts(facts))
 }

@@ -1,26 +1,25 @@
-//! Frames of a dataset, turned into features: one decoded frame a worker, only the features stay.
+//! Frames or signals of a dataset, turned into features: one decoded frame a worker, only the features stay.
 
-use taceva_core::{FeatureShape, Features};
-use taceva_dataset::{Dataset, Pass};
+mod sight;
+
+use std::num::NonZeroUsize;
+
+use taceva_core::{FeatureShape, Features, Input, InputInfo};
+use taceva_dataset::{Dataset, DatasetError, Pass};
 use taceva_models::{Extractor, FeatureSpec};
 
 use crate::error::StudyError;
 use crate::work::Work;
 
-/// The extractor that `spec` asks for on the frames of `dataset`.
+pub(crate) use sight::{Sight, kinds};
+
+/// The extractor that `spec` asks for on the frames, or the signals, of `dataset`.
 pub(crate) fn extractor(dataset: &Dataset, spec: FeatureSpec) -> Result<Extractor, StudyError> {
-    let frames = dataset.header().frames.as_ref();
-    let info = frames
-        .ok_or_else(|| {
-            StudyError::Request("the dataset has no frames, the model needs them".to_owned())
-        })?
-        .info;
-    let reference = if spec.asks_for_reference().is_some() {
-        dataset.reference()?
-    } else {
-        None
-    };
-    Ok(Extractor::new(spec, info, reference.as_ref())?)
+    let sight = Sight::of(dataset, &spec)?;
+    let sight = sight.map_err(|absent| {
+        StudyError::Request(format!("the dataset has no {absent}, the model needs them"))
+    })?;
+    Ok(Extractor::new(spec, sight.info(), sight.reference())?)
 }
 
 /// The features of `rows`, in that order: those that were kept of them, or made now.
@@ -48,22 +47,45 @@ fn make(
 ) -> Result<Features, StudyError> {
     let shape = extractor.shape();
     let mut values = Vec::with_capacity(rows.len() * shape.len());
+    let of = |input: Input<'_>| {
+        let mut sample = vec![0.0; shape.len()];
+        extractor.extract(input, &mut sample).map(|()| sample)
+    };
     let pass = Pass::new(rows, work.jobs, work.progress);
-    dataset.map_frames(
-        pass,
-        |_, frame| {
-            let mut sample = vec![0.0; shape.len()];
-            extractor.extract(&frame, &mut sample).map(|()| sample)
-        },
-        |_, sample| {
-            values.extend(sample?);
-            Ok(())
-        },
-    )?;
+    match extractor.input() {
+        InputInfo::Signals(_) => {
+            // One thread: what they would share is one file.
+            let pass = Pass::new(rows, NonZeroUsize::MIN, work.progress);
+            let read = |row| {
+                let signals = dataset.signals(row)?;
+                let signals = signals.ok_or_else(|| DatasetError::Request {
+                    path: dataset.path().to_owned(),
+                    problem: format!("row {row} has no signals"),
+                })?;
+                Ok(of((&signals).into()))
+            };
+            dataset.map_rows(pass, "read signals", read, |row, sample| {
+                let sample = sample.map_err(|source| DatasetError::Sink {
+                    row,
+                    source: source.into(),
+                });
+                values.extend(sample?);
+                Ok(())
+            })?;
+        }
+        _ => dataset.map_frames(
+            pass,
+            |_, frame| of((&frame).into()),
+            |_, sample| {
+                values.extend(sample?);
+                Ok(())
+            },
+        )?,
+    }
     Ok(Features::new(shape, values)?)
 }
 
-/// Features of no information, for models that look at none: no frame is decoded for them.
+/// Features of no information, for models that look at none: nothing is read for them.
 pub(crate) fn blank(shape: FeatureShape, rows: usize) -> Result<Features, StudyError> {
     Ok(Features::new(shape, vec![0.0; rows * shape.len()])?)
 }

@@ -10,7 +10,7 @@ use taceva_dataset::Dataset;
 use taceva_models::Model;
 
 use crate::error::StudyError;
-use crate::features::{blank, extract};
+use crate::features::{Sight, blank, extract};
 use crate::rows::DataPart;
 use crate::work::Work;
 
@@ -63,21 +63,14 @@ pub(crate) fn numbers(
     Ok(Column::full(numbers))
 }
 
-/// The extractor of a fitted model on the frames of `dataset`.
+/// The extractor of a fitted model on the frames, or the signals, of `dataset`.
 pub(crate) fn extractor(
     dataset: &Dataset,
     model: &Model,
 ) -> Result<taceva_models::Extractor, StudyError> {
-    let frames = dataset.header().frames.as_ref();
-    let info = frames
-        .ok_or_else(|| {
-            StudyError::Unsuited("the dataset has no frames, the model needs them".to_owned())
-        })?
-        .info;
-    let reference = if model.card().features.asks_for_reference().is_some() {
-        dataset.reference()?
-    } else {
-        None
-    };
-    Ok(model.extractor(info, reference.as_ref())?)
+    let sight = Sight::of(dataset, &model.card().features)?;
+    let sight = sight.map_err(|absent| {
+        StudyError::Unsuited(format!("the dataset has no {absent}, the model needs them"))
+    })?;
+    Ok(model.extractor(sight.info(), sight.reference())?)
 }

@@ -6,6 +6,7 @@ use crate::grating::GratingKind;
 use crate::nanometre::Nanometre;
 use crate::outcome::Limit;
 use crate::phase::Phase;
+use crate::signals::Signals;
 use crate::stamp::Stamp;
 
 impl Sample {
@@ -122,6 +123,13 @@ impl Sample {
     #[must_use]
     pub fn with_frame(mut self, frame: impl Into<Option<Frame>>) -> Sample {
         self.frame = frame.into();
+        self
+    }
+
+    /// The same sample with the numbers of its taxels.
+    #[must_use]
+    pub fn with_signals(mut self, signals: impl Into<Option<Signals>>) -> Sample {
+        self.signals = signals.into();
         self
     }
 

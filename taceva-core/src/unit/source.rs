@@ -70,6 +70,19 @@ const SOURCE_UNITS: &[(&str, Unit, Scale)] = &[
     ("mm²", Unit::SquareMillimetre, Scale::Times(1.0)),
     ("mm/h", Unit::MillimetrePerHour, Scale::Times(1.0)),
     ("N/h", Unit::NewtonPerHour, Scale::Times(1.0)),
+    ("uT", Unit::Microtesla, Scale::Times(1.0)),
+    ("µT", Unit::Microtesla, Scale::Times(1.0)),
+    ("\u{3bc}T", Unit::Microtesla, Scale::Times(1.0)),
+    ("mT", Unit::Microtesla, Scale::Times(1e3)),
+    ("G", Unit::Microtesla, Scale::Times(100.0)),
+    ("count", Unit::Count, Scale::Times(1.0)),
+    ("V", Unit::Volt, Scale::Times(1.0)),
+    ("mV", Unit::Volt, Scale::Over(1e3)),
+    ("kPa", Unit::Kilopascal, Scale::Times(1.0)),
+    ("Pa", Unit::Kilopascal, Scale::Over(1e3)),
+    ("degC", Unit::DegreeCelsius, Scale::Times(1.0)),
+    ("ohm", Unit::Ohm, Scale::Times(1.0)),
+    ("pF", Unit::Picofarad, Scale::Times(1.0)),
     ("1", Unit::One, Scale::Times(1.0)),
     ("%", Unit::One, Scale::Over(100.0)),
 ];
@@ -180,6 +193,18 @@ mod tests {
     fn micrometres_divide_so_that_the_result_is_the_nearest_binary64() {
         let micrometres = SourceUnit::parse("um").expect("known");
         assert_eq!(micrometres.convert(2_343.0).to_bits(), 2.343_f64.to_bits());
+    }
+
+    #[test]
+    fn units_of_taxels_are_kept_in_one_of_each_quantity() {
+        let kept = |symbol, value| {
+            let source = SourceUnit::parse(symbol).expect("known");
+            (source.unit(), source.convert(value))
+        };
+        assert_eq!(kept("mT", 0.25), (Unit::Microtesla, 250.0));
+        assert_eq!(kept("G", 0.5), (Unit::Microtesla, 50.0));
+        assert_eq!(kept("mV", 512.0), (Unit::Volt, 0.512));
+        assert_eq!(kept("Pa", 101_325.0), (Unit::Kilopascal, 101.325));
     }
 
     #[test]

@@ -152,7 +152,7 @@ impl Dataset {
         self.pass(pass, stage, work, take)
     }
 
-    /// Pushes the sample of each row into `sink`, in order; frames are decoded only if the sink reads them.
+    /// Pushes the sample of each row into `sink`, in order; frames are decoded and signals read only if the sink reads them.
     ///
     /// # Errors
     /// Those of [`frame`](Dataset::frame); [`DatasetError::Sink`] if the sink refuses a sample; [`DatasetError::Cancelled`].
@@ -163,14 +163,19 @@ impl Dataset {
     ) -> Result<StreamReport, DatasetError> {
         let fields = sink.fields();
         let wants_frames = fields.contains(Field::Frame);
+        let wants_signals = fields.contains(Field::Signals);
         let mut report = StreamReport::default();
         let read = |row| {
             self.check_row(row)?;
-            if wants_frames {
-                self.frame(row)
-            } else {
-                Ok(None)
-            }
+            let frame = match wants_frames {
+                true => self.frame(row)?,
+                false => None,
+            };
+            let signals = match wants_signals {
+                true => self.signals(row)?,
+                false => None,
+            };
+            Ok((frame, signals))
         };
         // Without frames there is nothing to share among threads.
         let jobs = if wants_frames {
@@ -178,14 +183,20 @@ impl Dataset {
         } else {
             NonZeroUsize::MIN
         };
-        self.pass(Pass { jobs, ..pass }, "read", read, |row, frame| {
-            report.samples += 1;
-            report.frames_decoded += u64::from(frame.is_some());
-            let mut sample = self.table.sample(row, fields, frame);
-            sample.sensor_id = Some(self.header.sensor.model.clone());
-            sink.accept(&sample)
-                .map_err(|source| DatasetError::Sink { row, source })
-        })?;
+        self.pass(
+            Pass { jobs, ..pass },
+            "read",
+            read,
+            |row, (frame, signals)| {
+                report.samples += 1;
+                report.frames_decoded += u64::from(frame.is_some());
+                let mut sample = self.table.sample(row, fields, frame);
+                sample.signals = signals;
+                sample.sensor_id = Some(self.header.sensor.model.clone());
+                sink.accept(&sample)
+                    .map_err(|source| DatasetError::Sink { row, source })
+            },
+        )?;
         Ok(report)
     }
 

@@ -12,11 +12,11 @@ use crate::held::HeldFolder;
 use crate::layout;
 use crate::limits;
 use crate::samples::from_parquet;
-use crate::store::dataset_digest;
+use crate::store::{dataset_digest, digest_with_signals};
 use crate::table::Table;
 
 impl Dataset {
-    /// Reads every frame, and the one without contact, and checks that it is the one recorded; nothing is decoded.
+    /// Reads every frame, and the one without contact, and all signals, and checks that they are those recorded; no frame is decoded.
     ///
     /// # Errors
     /// As [`frame_bytes`](Dataset::frame_bytes), for the first that is not.
@@ -26,7 +26,7 @@ impl Dataset {
         for entry in frames {
             self.frame_bytes(entry)?;
         }
-        Ok(())
+        self.verify_signals()
     }
 
     /// Whether header and table agree. Paths are checked here once, so that reading a frame only joins them.
@@ -51,7 +51,10 @@ impl Dataset {
                 found: digest,
             });
         }
-        let digest = dataset_digest(digest, self.header.frames.as_ref());
+        let digest = digest_with_signals(
+            dataset_digest(digest, self.header.frames.as_ref()),
+            self.header.signals.as_ref(),
+        );
         if digest != self.header.digest {
             return Err(DatasetError::Digest {
                 path: self.path().join(layout::HEADER),

@@ -36,6 +36,7 @@ fn header() -> Header {
             reference: None,
         }),
         stream: None,
+        signals: None,
         presses: BTreeMap::from([
             (PressOutcome::Complete, 2),
             (PressOutcome::Limited(Limit::NormalForce), 1),

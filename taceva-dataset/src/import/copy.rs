@@ -95,6 +95,10 @@ impl ImportPlan {
             Some(frames) => copy_frames(&staged, frames, &mut table, jobs, progress)?,
             None => (None, Vec::new()),
         };
+        let signals = self.signals.as_ref().map(|signals| {
+            let path = staged.path().join(layout::SIGNALS);
+            signals.write(&path, progress)
+        });
         let info = frames.as_ref().map(|frames| frames.info);
         let header = write_table_and_header(
             &staged.path().join(layout::SAMPLES),
@@ -103,6 +107,7 @@ impl ImportPlan {
             (&table, frames),
             Beside {
                 unmentioned_columns: self.summary.columns_left_behind(),
+                signals: signals.transpose()?,
                 ..Beside::default()
             },
         )?;

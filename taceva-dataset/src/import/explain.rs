@@ -37,6 +37,9 @@ impl fmt::Display for ImportSummary {
                 self.rows_kept - conversion.present
             )?;
         }
+        if let Some(info) = self.signals {
+            writeln!(f, "signals  {} samples of {info}", self.rows_kept)?;
+        }
         self.write_unmentioned(f)?;
         let Some(order) = self.channel_order else {
             return self.write_suspicions(f);

@@ -7,6 +7,7 @@ mod frames;
 mod join;
 mod matrix;
 mod path_pattern;
+mod signals;
 #[cfg(test)]
 mod tests;
 mod written;
@@ -25,6 +26,7 @@ use crate::toml_file::read_toml_text;
 pub(crate) use join::{JoinBy, JoinMap, Pick, TimeJoin, Unmatched};
 pub(crate) use matrix::{MatrixMap, MatrixRows};
 pub(crate) use path_pattern::PathPattern;
+pub(crate) use signals::{SignalsFrom, SignalsMap};
 
 pub use columns::{ColumnMap, IdMap, TimeMap};
 pub use drop::{DropRules, Placeholder};
@@ -79,6 +81,8 @@ pub struct ImportMap {
     pub(crate) path: Option<PathPattern>,
     pub(crate) joins: Vec<JoinMap>,
     pub(crate) matrices: Vec<MatrixMap>,
+    /// Where the numbers of taxels are; without it the dataset has none.
+    pub(crate) signals: Option<SignalsMap>,
     /// Text columns whose values are of a closed list: name, column and list.
     pub(crate) classes: BTreeMap<String, ClassMap>,
     /// Whether names of columns may be ways into cells, paths and other tables: of map version 2.
@@ -110,6 +114,7 @@ impl ImportMap {
             path: None,
             joins: Vec::new(),
             matrices: Vec::new(),
+            signals: None,
             classes: BTreeMap::new(),
             is_extended: false,
         }

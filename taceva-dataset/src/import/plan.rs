@@ -9,6 +9,7 @@ use taceva_video::Decoders;
 use super::frame_cells::FrameName;
 use super::map::{FrameMap, FrameNames, ImportMap};
 use super::rows::MappedTable;
+use super::signals::{FoundSignals, PlannedSignals};
 use super::source::{matching_files, unnamed_images};
 use super::summary::{Conversion, ImportSummary};
 use super::suspicion::magnitude_suspicion_in;
@@ -45,6 +46,7 @@ pub struct ImportPlan {
     pub(super) facts: RecordingFacts,
     pub(super) table: Table,
     pub(super) frames: Option<PlannedFrames>,
+    pub(super) signals: Option<PlannedSignals>,
 }
 
 /// Where the frames come from.
@@ -119,6 +121,9 @@ impl ImportPlan {
         let folder = SourceFolder::open(source)?;
         let tables = matching_files(&folder, &map.table)?;
         let mut reading = Reading::new(&folder, map, decoders);
+        let signals = map.signals.as_ref();
+        let signals = signals.map(|signals| FoundSignals::new(signals, &folder));
+        reading.signals = signals.transpose()?;
         for path in &tables {
             reading.read(path)?;
         }
@@ -165,6 +170,7 @@ struct Reading<'a> {
     /// The files with pictures in them that rows named.
     opened: BTreeMap<PathBuf, Arc<dyn Pictures>>,
     frames: Vec<PlannedFrame>,
+    signals: Option<FoundSignals<'a>>,
     samples: HashSet<String>,
     /// Every image that a row names, dropped ones too.
     named: BTreeSet<PathBuf>,
@@ -184,6 +190,7 @@ impl<'a> Reading<'a> {
             opened: BTreeMap::new(),
             table: Table::new(map.channels.clone(), attributes),
             frames: Vec::new(),
+            signals: None,
             samples: HashSet::new(),
             named: BTreeSet::new(),
             bases: BTreeSet::new(),
@@ -237,6 +244,9 @@ impl<'a> Reading<'a> {
                 .frame_source(rows, base, name)
                 .map_err(|error| error.named_at(named_at.clone()))?;
             self.frames.push(PlannedFrame { from, named_at });
+        }
+        if let Some(signals) = &mut self.signals {
+            signals.take(rows, row, number)?;
         }
         self.table.push(labels);
         self.summary.rows_kept += 1;
@@ -324,7 +334,12 @@ impl<'a> Reading<'a> {
             None => None,
         };
         self.describe_channels();
+        let rows_read = self.summary.rows_read;
+        let signals = self.signals.take();
+        let signals = signals.map(|signals| signals.into_plan(rows_read));
+        self.summary.signals = self.map.signals.as_ref().map(|map| map.spec.info);
         Ok(ImportPlan {
+            signals: signals.transpose()?,
             summary: self.summary,
             facts: self.map.facts.clone(),
             table: self.table,

@@ -3,6 +3,7 @@
 mod columns;
 mod join;
 mod matrix;
+mod signals;
 mod table;
 
 use std::path::Path;
@@ -15,6 +16,7 @@ use crate::foreign::{ForeignTable, packed};
 use columns::{base_of, mentioned};
 use join::Joined;
 
+pub(super) use signals::place_first;
 pub(super) use table::RowTable;
 
 /// A table in which every column that the map names is found by that name.
@@ -25,6 +27,8 @@ pub(super) struct Resolved {
     pub(super) joins: Vec<JoinSummary>,
     /// The main table itself.
     pub(super) main: ForeignTable,
+    /// The numbers of taxels of every row, where they are in columns.
+    pub(super) signals: Option<Vec<f32>>,
 }
 
 /// What the cells of a row are taken from.
@@ -54,7 +58,9 @@ pub(super) fn resolve(
         joined: Vec::new(),
     };
     let names = mentioned(map);
-    let bases: Vec<&str> = names.iter().map(|name| base_of(name)).collect();
+    let of_signals = map.signals.iter().flat_map(|signals| signals.columns());
+    let bases = names.iter().chain(of_signals).map(|name| base_of(name));
+    let bases: Vec<&str> = bases.collect();
     sources.main.read_ahead(&bases)?;
     sources.capture()?;
     for join in &map.joins {
@@ -72,7 +78,13 @@ pub(super) fn resolve(
     for map in &map.matrices {
         matrix::apply(map, folder, &mut table)?;
     }
+    let in_columns = map
+        .signals
+        .as_ref()
+        .filter(|signals| !signals.columns().is_empty());
+    let signals = in_columns.map(|map| signals::numbers(&sources, map));
     Ok(Resolved {
+        signals: signals.transpose()?,
         unmentioned: sources.unmentioned(&table),
         joins: sources.joined.iter().map(Joined::summary).collect(),
         main: sources.main,
@@ -173,7 +185,14 @@ impl Sources<'_> {
         let keys = self.joined.iter().flat_map(Joined::own_columns);
         let of_path = self.map.path.iter().filter_map(|path| path.of.as_deref());
         let named: Vec<&str> = table.names().iter().map(String::as_str).collect();
-        let named: Vec<&str> = named.into_iter().chain(keys).chain(of_path).collect();
+        let signals = self
+            .map
+            .signals
+            .iter()
+            .flat_map(|signals| signals.columns());
+        let signals = signals.map(String::as_str);
+        let named = named.into_iter().chain(keys).chain(of_path).chain(signals);
+        let named: Vec<&str> = named.collect();
         let is_named = |name: &String| {
             named
                 .iter()

@@ -41,6 +41,8 @@ pub(super) struct MappedTable<'a> {
     frame: Option<FrameCells>,
     /// The pictures that the table itself holds.
     pub(super) pictures: Option<Arc<dyn Pictures>>,
+    /// The numbers of taxels of every row, where they are in columns.
+    signals: Option<Vec<f32>>,
 }
 
 impl<'a> MappedTable<'a> {
@@ -50,11 +52,12 @@ impl<'a> MappedTable<'a> {
         path: &Path,
     ) -> Result<MappedTable<'a>, DatasetError> {
         let mut clips = None;
-        let (table, unmentioned, joins, pictures) = match map.is_extended {
+        let (table, unmentioned, joins, pictures, signals) = match map.is_extended {
             false => (
                 RowTable::AsItLies(CsvTable::read(path)?),
                 None,
                 Vec::new(),
+                None,
                 None,
             ),
             true => {
@@ -71,6 +74,7 @@ impl<'a> MappedTable<'a> {
                     Some(found.unmentioned),
                     found.joins,
                     pictures.transpose()?,
+                    found.signals,
                 )
             }
         };
@@ -120,6 +124,7 @@ impl<'a> MappedTable<'a> {
                 })
                 .transpose()?,
             pictures,
+            signals,
             unmentioned,
             joins,
             table,
@@ -165,6 +170,20 @@ impl<'a> MappedTable<'a> {
             .filter(|(position, _)| !mentioned.contains(position))
             .map(|(_, name)| name.clone())
             .collect()
+    }
+
+    /// The numbers of taxels of a row, where they are in columns; NaN where there is none.
+    pub(super) fn signals(&self, row: usize) -> Option<&[f32]> {
+        let length = self.map.signals.as_ref()?.spec.info.len();
+        let first = row.checked_mul(length)?;
+        self.signals
+            .as_ref()?
+            .get(first..first.checked_add(length)?)
+    }
+
+    /// Where a row stands.
+    pub(super) fn place(&self, row: usize) -> Place {
+        self.table.place(row, usize::MAX)
     }
 
     pub(super) fn rows(&self) -> usize {

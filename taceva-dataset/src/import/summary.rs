@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
-use taceva_core::{SourceUnit, Unit};
+use taceva_core::{SignalInfo, SourceUnit, Unit};
 
 use super::suspicion::Suspicion;
 use crate::decode::ChannelOrder;
@@ -43,6 +43,8 @@ pub struct ImportSummary {
     pub joins: Vec<JoinSummary>,
     /// What happens to each channel.
     pub conversions: Vec<Conversion>,
+    /// The grid and the unit of the signals; `None` without such.
+    pub signals: Option<SignalInfo>,
     /// How the colours of the frames are stored; `None` without frames.
     pub channel_order: Option<ChannelOrder>,
     /// The frame without contact; `None` if none is known.

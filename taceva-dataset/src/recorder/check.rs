@@ -1,6 +1,6 @@
 //! What can be recorded: refused before anything is written.
 
-use taceva_core::{Frame, MAGNITUDE_MAX, Sample, is_scorable};
+use taceva_core::{Frame, MAGNITUDE_MAX, Sample, SignalInfo, Signals, is_scorable};
 
 use super::Recorder;
 use crate::error::DatasetError;
@@ -27,6 +27,19 @@ impl Recorder {
         if let Some(number) = numbers.find(|number| !is_scorable(*number)) {
             return Err(refused(format!(
                 "{number:e} is no finite number up to {MAGNITUDE_MAX:.3e}"
+            )));
+        }
+        let expected = self.signals.as_ref().map(|writer| writer.spec().info);
+        let found = sample.signals.as_ref().map(Signals::info);
+        if expected != found {
+            let named = |info: Option<SignalInfo>| match info {
+                Some(info) => format!("signals of {info}"),
+                None => "no signals".to_owned(),
+            };
+            return Err(refused(format!(
+                "{}, expected {} as the recording has",
+                named(found),
+                named(expected)
             )));
         }
         match &sample.frame {

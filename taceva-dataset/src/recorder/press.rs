@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use taceva_core::{Frame, PressOutcome, Sample};
 
-use super::Recorder;
 use super::written::{WrittenPress, WrittenSample};
+use super::{Recorder, ReplayError, signals_of};
 use crate::error::DatasetError;
 use crate::journal::RecordKind;
 
@@ -42,13 +42,13 @@ impl Recorder {
             .zip(entries)
             .map(|(sample, entry)| {
                 let info = sample.frame.as_ref().map(Frame::info);
-                (self.row(sample, entry), info)
+                (self.row(sample, entry), info, signals_of(sample))
             })
             .collect();
         let channels = self.table.channels();
         let written = rows
             .iter()
-            .map(|(row, info)| WrittenSample::new(row, channels, *info));
+            .map(|(row, info, signals)| WrittenSample::new(row, channels, (*info, *signals)));
         let written = WrittenPress {
             press: press.to_owned(),
             outcome,
@@ -57,17 +57,16 @@ impl Recorder {
         let sequence = self
             .journal
             .append(RecordKind::Press, written.to_toml().as_bytes())?;
-        for (row, info) in rows {
-            self.take(row, info);
+        for (row, info, signals) in rows {
+            self.take(row, info, signals)?;
         }
         self.presses.insert(press.to_owned(), outcome);
         Ok(sequence)
     }
 
-    pub(super) fn replay_press(&mut self, written: WrittenPress) -> Result<(), String> {
+    pub(super) fn replay_press(&mut self, written: WrittenPress) -> Result<(), ReplayError> {
         for sample in written.samples {
-            let (row, info) = sample.into_row(self.table.channels())?;
-            self.take(row, info);
+            self.replay_sample(sample)?;
         }
         self.presses.insert(written.press, written.outcome);
         Ok(())

@@ -2,8 +2,8 @@
 
 use taceva_core::{Frame, Sample};
 
-use super::Recorder;
 use super::written::{WrittenSample, WrittenStream};
+use super::{Recorder, ReplayError, signals_of};
 use crate::decode::{check_to_the_end, kind_of_whole};
 use crate::error::DatasetError;
 use crate::header::StreamFacts;
@@ -64,28 +64,27 @@ impl Recorder {
             .zip(entries)
             .map(|(sample, entry)| {
                 let info = sample.frame.as_ref().map(Frame::info);
-                (self.row(sample, entry), info)
+                (self.row(sample, entry), info, signals_of(sample))
             })
             .collect();
         let channels = self.table().channels();
         let written = rows
             .iter()
-            .map(|(row, info)| WrittenSample::new(row, channels, *info));
+            .map(|(row, info, signals)| WrittenSample::new(row, channels, (*info, *signals)));
         let written = WrittenStream::new(facts, written.collect());
         let sequence = self
             .journal
             .append(RecordKind::Stream, written.to_toml().as_bytes())?;
-        for (row, info) in rows {
-            self.take(row, info);
+        for (row, info, signals) in rows {
+            self.take(row, info, signals)?;
         }
         self.stream = Some(facts);
         Ok(sequence)
     }
 
-    pub(super) fn replay_stream(&mut self, written: WrittenStream) -> Result<(), String> {
+    pub(super) fn replay_stream(&mut self, written: WrittenStream) -> Result<(), ReplayError> {
         for sample in written.samples {
-            let (row, info) = sample.into_row(self.table.channels())?;
-            self.take(row, info);
+            self.replay_sample(sample)?;
         }
         self.stream = Some(written.stream);
         Ok(())

@@ -13,6 +13,7 @@ use crate::digest::Digest;
 use crate::error::DatasetError;
 use crate::file::check_relative;
 use crate::header::{Footprint, SensorFacts, Source, StreamFacts};
+use crate::signals::WrittenSignals;
 use crate::store::RecordingFacts;
 use crate::table::{FrameEntry, Row};
 use crate::toml_file::{parse_toml, toml_error};
@@ -28,6 +29,8 @@ pub(super) struct WrittenStart {
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     settings: BTreeMap<String, String>,
     channels: BTreeMap<String, Unit>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    signals: Option<WrittenSignals>,
 }
 
 impl WrittenStart {
@@ -43,6 +46,7 @@ impl WrittenStart {
                 .iter()
                 .map(|channel| (channel.name().to_owned(), channel.unit()))
                 .collect(),
+            signals: spec.signals.as_ref().map(WrittenSignals::of),
         }
     }
 
@@ -61,7 +65,9 @@ impl WrittenStart {
             .collect::<Result<Vec<_>, _>>()
             .and_then(Channels::new)
             .map_err(|error| wrong(&error.to_string()))?;
+        let signals = written.signals.as_ref().map(WrittenSignals::spec);
         Ok(RecordingSpec {
+            signals: signals.transpose().map_err(|problem| wrong(&problem))?,
             facts: RecordingFacts {
                 source: written.source,
                 clock: written.clock,
@@ -73,6 +79,9 @@ impl WrittenStart {
         })
     }
 }
+
+/// What a sample of a journal was: its row, the kind of its frame, the numbers of its taxels.
+type Taken = (Row, Option<FrameInfo>, Option<Vec<f32>>);
 
 /// One sample; absent values are not written.
 #[derive(Serialize, Deserialize)]
@@ -100,6 +109,8 @@ pub(super) struct WrittenSample {
     spacing_nm: Option<i64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     intensity: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    signals: Option<Vec<f32>>,
     truth: BTreeMap<String, f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     frame: Option<WrittenFrame>,
@@ -169,7 +180,12 @@ impl WrittenFrame {
 }
 
 impl WrittenSample {
-    pub(super) fn new(row: &Row, channels: &Channels, info: Option<FrameInfo>) -> WrittenSample {
+    /// A row with the kind of its frame and the numbers of its taxels, as far as it has such.
+    pub(super) fn new(
+        row: &Row,
+        channels: &Channels,
+        (info, signals): (Option<FrameInfo>, Option<&[f32]>),
+    ) -> WrittenSample {
         let truth = channels.iter().zip(&row.truth);
         WrittenSample {
             sample: row.sample.clone(),
@@ -184,6 +200,7 @@ impl WrittenSample {
             kind: row.kind,
             spacing_nm: row.spacing.map(|spacing| spacing.0),
             intensity: row.intensity,
+            signals: signals.map(<[f32]>::to_vec),
             truth: truth
                 .filter_map(|(channel, value)| Some((channel.name().to_owned(), (*value)?)))
                 .collect(),
@@ -207,7 +224,8 @@ impl WrittenSample {
         from_toml(payload)
     }
 
-    pub(super) fn into_row(self, channels: &Channels) -> Result<(Row, Option<FrameInfo>), String> {
+    /// The row, the kind of its frame, and the numbers of its taxels, which are not compared with those that the recording has.
+    pub(super) fn into_row(self, channels: &Channels) -> Result<Taken, String> {
         let stranger = self
             .truth
             .keys()
@@ -253,7 +271,7 @@ impl WrittenSample {
                 .frame
                 .map(|frame| FrameEntry::at(frame.path, frame.sha256)),
         };
-        Ok((row, info))
+        Ok((row, info, self.signals))
     }
 }
 

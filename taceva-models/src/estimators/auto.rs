@@ -4,13 +4,13 @@ mod card;
 mod cost;
 mod validate;
 
-use taceva_core::{ModelError, Progress, TrainingSet};
+use taceva_core::{ModelError, Progress, SignalInfo, TrainingSet};
 
 pub use self::card::{AutoCard, AutoTrial, Untried};
 use self::cost::{Sizes, seconds, trying};
 use self::validate::{FOLDS, Folds};
 use crate::estimators::library::{LibraryModel, LibrarySizes};
-use crate::features::FeatureSpec;
+use crate::features::{FeatureError, FeatureSpec};
 use crate::registry::{ALL, ModelInfo};
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 use crate::training::fit::{Chosen, ModelEstimator, ModelFit, estimator};
@@ -31,6 +31,8 @@ pub struct Auto {
     budget_s: f64,
     /// Models of libraries that are tried beside ours.
     libraries: Vec<&'static LibraryModel>,
+    /// The signals that are learnt from, where they are no pictures.
+    of_signals: Option<SignalInfo>,
 }
 
 const BUDGET: SettingInfo = SettingInfo {
@@ -59,6 +61,7 @@ impl Auto {
         Ok(Auto {
             budget_s: settings.value(&BUDGET, 60.0, |text| number(text, 0.0..=1e6))?,
             libraries: Vec::new(),
+            of_signals: None,
         })
     }
 
@@ -98,10 +101,36 @@ fn learnt(sizes: Sizes) -> LibrarySizes {
     }
 }
 
+impl Auto {
+    /// The model of `info` with default settings, as it learns from what is looked at here.
+    fn candidate(
+        &self,
+        info: &ModelInfo,
+    ) -> Result<Result<Box<dyn ModelEstimator>, FeatureError>, ModelError> {
+        let estimator = info
+            .estimator(&ModelSettings::default())
+            .map_err(|error| invalid(error.to_string()).because(error))?;
+        let of_signals = self.of_signals.map(|info| estimator.of_signals(info));
+        Ok(match of_signals.transpose() {
+            Ok(other) => Ok(other.flatten().unwrap_or(estimator)),
+            Err(error) => Err(error),
+        })
+    }
+}
+
 /// Models that are tried whatever the budget.
 const ALWAYS: [&str; 2] = ["baseline", "ridge"];
 
 impl ModelEstimator for Auto {
+    fn of_signals(
+        &self,
+        info: SignalInfo,
+    ) -> Result<Option<Box<dyn ModelEstimator>>, FeatureError> {
+        let mut own = self.clone();
+        own.of_signals = Some(info);
+        Ok(Some(Box::new(own)))
+    }
+
     fn choose(
         &self,
         training: &TrainingSet<'_>,
@@ -130,10 +159,11 @@ impl ModelEstimator for Auto {
             interrupted(progress)?;
             let affordable = spent_s + cost_s <= self.budget_s;
             if affordable || ALWAYS.contains(&info.name) {
-                let estimator = info
-                    .estimator(&ModelSettings::default())
-                    .map_err(|error| invalid(error.to_string()).because(error))?;
-                match folds.error(training, &*estimator, progress)? {
+                let error = match self.candidate(info)? {
+                    Ok(estimator) => folds.error(training, &*estimator, progress)?,
+                    Err(unsuited) => Err(unsuited.to_string()),
+                };
+                match error {
                     Ok(error) => {
                         spent_s += cost_s;
                         tried.push(AutoTrial {
@@ -170,9 +200,8 @@ impl ModelEstimator for Auto {
             .chain(libraries)
             .find(|info| Some(info.name) == card.best().map(|trial| trial.model.as_str()))
             .ok_or_else(|| invalid("no model could be tried"))?;
-        let estimator = info
-            .estimator(&ModelSettings::default())
-            .map_err(|error| invalid(error.to_string()).because(error))?;
+        let estimator = self.candidate(info)?;
+        let estimator = estimator.map_err(|error| invalid(error.to_string()).because(error))?;
         Ok(Some(Chosen { estimator, card }))
     }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
-use taceva_core::FrameInfo;
+use taceva_core::InputInfo;
 
 use crate::features::{DIFFERENCE, FeatureSpec, SIZE};
 use crate::settings::ModelSettings;
@@ -37,7 +37,7 @@ impl OpenFeatures {
     }
 
     /// The features to try around `spec`, the plainest first: grids a quarter, half, as fine and twice as fine, as far as frames of `info`
-    /// allow, each without and with the difference from the reference frame, where there is one.
+    /// allow; signals have one grid. Each without and with the difference from the reference frame, where there is one.
     ///
     /// ```
     /// use taceva_core::{FrameInfo, PixelFormat};
@@ -52,10 +52,14 @@ impl OpenFeatures {
     pub fn candidates(
         self,
         spec: &FeatureSpec,
-        info: FrameInfo,
+        info: impl Into<InputInfo>,
         has_reference: bool,
     ) -> Vec<FeatureSpec> {
-        let scales: &[(u32, u32)] = match self.size {
+        let frame = match info.into() {
+            InputInfo::Frame(frame) => Some(frame),
+            _ => None,
+        };
+        let scales: &[(u32, u32)] = match self.size && frame.is_some() {
             true => &[(1, 4), (1, 2), (1, 1), (2, 1)],
             false => &[(1, 1)],
         };
@@ -78,7 +82,9 @@ impl OpenFeatures {
         }
         // A frame that is too small for what was asked for says so itself.
         candidates.retain(|candidate| {
-            let fits = candidate.width <= info.width && candidate.height <= info.height;
+            let fits = frame.is_none_or(|frame| {
+                candidate.width <= frame.width && candidate.height <= frame.height
+            });
             candidate.is_valid() && (fits || !self.size)
         });
         candidates
@@ -230,7 +236,7 @@ impl fmt::Display for FeatureChoice {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use taceva_core::PixelFormat;
+    use taceva_core::{FrameInfo, PixelFormat};
 
     fn of_sides<const N: usize>(losses: [(u32, [f64; 6]); N]) -> FeatureChoice {
         let tried = losses.map(|(side, losses)| {

@@ -1,6 +1,6 @@
 //! Why features cannot be taken.
 
-use taceva_core::FrameInfo;
+use taceva_core::{FrameInfo, InputInfo, SignalInfo};
 
 use super::area::AreaSums;
 use super::spec::FeatureSpec;
@@ -59,6 +59,53 @@ pub enum FeatureError {
         expected: FrameInfo,
         /// What came.
         found: FrameInfo,
+    },
+    /// A frame where signals are expected, signals where a frame is, or signals of another grid.
+    #[error("{found}, expected {expected}")]
+    Input {
+        /// What was agreed on.
+        expected: InputInfo,
+        /// What came.
+        found: InputInfo,
+    },
+    /// Features of another grid than that of the signals.
+    #[error("signals of {info} for features of {spec}")]
+    OtherGrid {
+        /// The signals.
+        info: SignalInfo,
+        /// The features.
+        spec: FeatureSpec,
+    },
+    /// Differences of signals from those without contact, which nobody named.
+    #[error(
+        "`difference=true` needs rows without contact, and the recording names none; `rest` of `[signals]` names them"
+    )]
+    NoRest,
+    /// Frames are asked for and there are none.
+    #[error("`{asked}` is of frames, and the recording has {has}")]
+    NoFrames {
+        /// The setting that asks for them.
+        asked: String,
+        /// What it has.
+        has: &'static str,
+    },
+    /// Signals are asked for and there are none.
+    #[error("the recording has no signals; `input=frame` would be accepted")]
+    NoSignals,
+    /// Frames and signals, and nobody said which of them a model is to look at.
+    #[error(
+        "the recording has frames and signals: `input=frame` or `input=signals` says what the model looks at"
+    )]
+    TwoInputs,
+    /// A network over a grid of taxels that has too few of them.
+    #[error(
+        "a network slides over a grid of at least {least}×{least} places, and this one has {info}; every other model takes it"
+    )]
+    NarrowGrid {
+        /// The signals.
+        info: SignalInfo,
+        /// Places a side that a network needs.
+        least: u32,
     },
     /// The caller's buffer has another length than the features.
     #[error("a buffer of {found} numbers for {expected} features")]

@@ -1,8 +1,8 @@
-//! From one frame to one sample's features.
+//! From one frame, or the signals of one instant, to one sample's features.
 
 use std::sync::Arc;
 
-use taceva_core::{FeatureShape, Features, Frame, FrameInfo};
+use taceva_core::{FeatureShape, Features, Frame, FrameInfo, Input, InputInfo};
 
 use super::area::AreaSums;
 use super::cell_features::CellFeatures;
@@ -11,12 +11,13 @@ use super::gradients::Gradients;
 use super::kinds::FeatureKind;
 use super::markers::MarkerField;
 use super::pixels::Pixels;
+use super::signals::Taxels;
 use super::spec::{Color, FeatureSpec};
 use super::statistics::Statistics;
 
-/// Turns frames of one kind into features; shared freely between threads.
+/// Turns frames of one kind, or signals of one grid, into features; shared freely between threads.
 ///
-/// A feature is a function of its frame and of the reference frame alone.
+/// A feature is a function of its frame, or its signals, and of the reference alone.
 ///
 /// ```
 /// use taceva_core::{Frame, FrameInfo, PixelFormat};
@@ -27,7 +28,7 @@ use super::statistics::Statistics;
 /// let even = |light: [u8; 3]| Frame::new(info, light.repeat(16 * 16));
 /// let settings = ModelSettings::parse(["features=gradients+statistics", "size=1"])?;
 /// let spec = FeatureSpec::from_settings(&settings)?;
-/// let extractor = Extractor::new(spec, info, Some(&even([80, 80, 80])?))?;
+/// let extractor = Extractor::new(spec, info, Some((&even([80, 80, 80])?).into()))?;
 /// let features = extractor.extract_all([&even([90, 80, 80])?])?;
 /// // It leans towards that lamp by two thirds of that, and across by nothing; its mean is that of its luma, without any spread.
 /// let expected = [0.125 * 2.0 / 3.0, 0.0, 0.125 / 3.0, (80.0 + 0.299 * 10.0) / 255.0, 0.0];
@@ -39,48 +40,49 @@ use super::statistics::Statistics;
 #[derive(Clone, Debug)]
 pub struct Extractor {
     spec: FeatureSpec,
-    info: FrameInfo,
-    /// One for each kind that is asked for, in their order.
-    parts: Vec<Arc<dyn CellFeatures>>,
+    of: Of,
+}
+
+/// What features are taken of.
+#[derive(Clone, Debug)]
+enum Of {
+    /// Frames of a kind; one part for each kind of features that is asked for, in their order.
+    Frames(FrameInfo, Vec<Arc<dyn CellFeatures>>),
+    /// Signals of a grid.
+    Signals(Taxels),
 }
 
 impl Extractor {
-    /// An extractor of `spec` from frames of `info`; differences, markers and gradients need the `reference` frame.
+    /// An extractor of `spec` from frames or signals of `info`; differences, markers and gradients need the `reference`: the frame, or the
+    /// signals, without contact.
     ///
     /// # Errors
     /// [`FeatureError`] if the frame is smaller than the features, is gray where colour is asked for or has too many
-    /// rows, or if the reference frame is absent, of another kind, or without markers where they are asked for.
+    /// rows, or if the reference is absent, of another kind, or without markers where they are asked for; if the signals are of another grid
+    /// than `spec`.
     pub fn new(
         spec: FeatureSpec,
-        info: FrameInfo,
-        reference: Option<&Frame>,
+        info: impl Into<InputInfo>,
+        reference: Option<Input<'_>>,
     ) -> Result<Extractor, FeatureError> {
-        if info.width < spec.width || info.height < spec.height {
-            return Err(FeatureError::Small { info, spec });
-        }
-        if info.height > AreaSums::ROWS_MAX {
-            return Err(FeatureError::Tall { info });
-        }
-        if spec.color == Color::Rgb && info.format.samples() == 1 {
-            return Err(FeatureError::Colorless { info });
-        }
-        let reference = match (spec.asks_for_reference(), reference) {
-            (None, _) => None,
-            (Some(asked), None) => return Err(FeatureError::NoReference { asked }),
-            (Some(_), Some(frame)) => {
-                check(info, frame)?;
-                Some(frame)
-            }
+        let info = info.into();
+        let wrong = |found: Input<'_>| FeatureError::Input {
+            expected: info,
+            found: found.info(),
         };
-        let parts = spec
-            .kinds
-            .iter()
-            .map(|kind| part(kind, &spec, info, reference));
-        Ok(Extractor {
-            parts: parts.collect::<Result<_, _>>()?,
-            spec,
-            info,
-        })
+        let of = match (info, reference) {
+            (InputInfo::Frame(info), None) => Of::Frames(info, parts(&spec, info, None)?),
+            (InputInfo::Frame(info), Some(Input::Frame(reference))) => {
+                Of::Frames(info, parts(&spec, info, Some(reference))?)
+            }
+            (InputInfo::Signals(info), None) => Of::Signals(Taxels::new(&spec, info, None)?),
+            (InputInfo::Signals(info), Some(Input::Signals(rest))) => {
+                Of::Signals(Taxels::new(&spec, info, Some(rest))?)
+            }
+            (_, Some(other)) => return Err(wrong(other)),
+            (_, None) => return Err(FeatureError::NoSignals),
+        };
+        Ok(Extractor { spec, of })
     }
 
     /// The shape of one sample's features.
@@ -93,22 +95,30 @@ impl Extractor {
         &self.spec
     }
 
-    /// The kind of frame it takes.
-    pub fn frame_info(&self) -> FrameInfo {
-        self.info
+    /// What it takes: frames of a kind, or signals of a grid.
+    pub fn input(&self) -> InputInfo {
+        match &self.of {
+            Of::Frames(info, _) => (*info).into(),
+            Of::Signals(taxels) => taxels.info().into(),
+        }
     }
 
-    /// Writes the features of `frame`.
+    /// Writes the features of a frame, or of signals.
     ///
     /// # Shapes
     /// `into`: `[height, width, depth]` of [`shape`](Extractor::shape), the caller's.
     /// # Units
-    /// Of pixels, statistics and their differences full scale is 1; displacements of markers are in distances of a marker from the next,
+    /// Of signals their own; of pixels, statistics and their differences full scale is 1; displacements of markers are in distances of a marker from the next,
     /// slopes in units that depend on how flatly the lamps shine.
     /// # Errors
-    /// [`FeatureError::Kind`] if the frame is of another size or format, [`FeatureError::Buffer`] if `into` has another length.
-    pub fn extract(&self, frame: &Frame, into: &mut [f32]) -> Result<(), FeatureError> {
-        check(self.info, frame)?;
+    /// [`FeatureError::Kind`] if the frame is of another size or format, [`FeatureError::Input`] if it is none, or signals are of another
+    /// grid; [`FeatureError::Buffer`] if `into` has another length.
+    pub fn extract<'a>(
+        &self,
+        input: impl Into<Input<'a>>,
+        into: &mut [f32],
+    ) -> Result<(), FeatureError> {
+        let input = input.into();
         let shape = self.shape();
         let expected = shape.len();
         if into.len() != expected {
@@ -117,14 +127,35 @@ impl Extractor {
                 found: into.len(),
             });
         }
-        if let [only] = &self.parts[..] {
+        match (&self.of, input) {
+            (Of::Frames(info, parts), Input::Frame(frame)) => {
+                check(*info, frame)?;
+                self.write(parts, frame, into);
+            }
+            (Of::Signals(taxels), Input::Signals(signals)) if taxels.info() == signals.info() => {
+                taxels.write(signals, into);
+            }
+            (_, other) => {
+                return Err(FeatureError::Input {
+                    expected: self.input(),
+                    found: other.info(),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// What each of `parts` says of a frame, side by side in each cell.
+    fn write(&self, parts: &[Arc<dyn CellFeatures>], frame: &Frame, into: &mut [f32]) {
+        let shape = self.shape();
+        if let [only] = parts {
             only.write(frame, into);
-            return Ok(());
+            return;
         }
         let mut first = 0;
-        for part in &self.parts {
+        for part in parts {
             let depth = part.depth();
-            let mut own = vec![0.0; expected / shape.depth * depth];
+            let mut own = vec![0.0; shape.height * shape.width * depth];
             part.write(frame, &mut own);
             for (cell, own) in into
                 .chunks_exact_mut(shape.depth)
@@ -134,26 +165,54 @@ impl Extractor {
             }
             first += depth;
         }
-        Ok(())
     }
 
-    /// The features of some frames.
+    /// The features of some frames, or of signals of some instants.
     ///
     /// # Errors
     /// As [`extract`](Extractor::extract).
-    pub fn extract_all<'a>(
+    pub fn extract_all<'a, I: Into<Input<'a>>>(
         &self,
-        frames: impl IntoIterator<Item = &'a Frame>,
+        inputs: impl IntoIterator<Item = I>,
     ) -> Result<Features, FeatureError> {
         let length = self.shape().len();
         let mut values = Vec::new();
-        for frame in frames {
+        for input in inputs {
             let start = values.len();
             values.resize(start + length, 0.0);
-            self.extract(frame, &mut values[start..])?;
+            self.extract(input, &mut values[start..])?;
         }
         Ok(Features::new(self.shape(), values).expect("whole samples of this very shape"))
     }
+}
+
+/// One for each kind that is asked for, of frames of `info`.
+fn parts(
+    spec: &FeatureSpec,
+    info: FrameInfo,
+    reference: Option<&Frame>,
+) -> Result<Vec<Arc<dyn CellFeatures>>, FeatureError> {
+    if info.width < spec.width || info.height < spec.height {
+        return Err(FeatureError::Small { info, spec: *spec });
+    }
+    if info.height > AreaSums::ROWS_MAX {
+        return Err(FeatureError::Tall { info });
+    }
+    if spec.color == Color::Rgb && info.format.samples() == 1 {
+        return Err(FeatureError::Colorless { info });
+    }
+    let reference = match (spec.asks_for_reference(), reference) {
+        (None, _) => None,
+        (Some(asked), None) => return Err(FeatureError::NoReference { asked }),
+        (Some(_), Some(frame)) => {
+            check(info, frame)?;
+            Some(frame)
+        }
+    };
+    let kinds = spec.kinds.iter();
+    kinds
+        .map(|kind| part(kind, spec, info, reference))
+        .collect()
 }
 
 fn check(expected: FrameInfo, frame: &Frame) -> Result<(), FeatureError> {
@@ -177,6 +236,7 @@ fn part(
         FeatureKind::Pixels => Arc::new(Pixels::new(spec, info, subtracted)),
         FeatureKind::Statistics => Arc::new(Statistics::new(spec, info, subtracted)),
         FeatureKind::Gradients => Arc::new(Gradients::new(spec, reference.expect(ASKED))?),
+        FeatureKind::Signals => return Err(FeatureError::NoSignals),
         FeatureKind::Markers => Arc::new(MarkerField::new(spec, reference.expect(ASKED))?),
     })
 }
@@ -206,7 +266,8 @@ mod tests {
                 kinds: FeatureKinds::parse(kinds).expect("kinds"),
                 ..spec(4, 3, Color::Rgb)
             };
-            let extractor = Extractor::new(spec, frame.info(), Some(&untouched)).expect("fits");
+            let extractor =
+                Extractor::new(spec, frame.info(), Some((&untouched).into())).expect("fits");
             let features = extractor.extract_all([&frame]).expect("same kind");
             (features.shape().depth, features.values().to_vec())
         };

@@ -167,7 +167,8 @@ mod tests {
     }
 
     fn features(reference: &Frame, frame: &Frame, side: u32) -> Vec<f32> {
-        let extractor = Extractor::new(spec(side), frame.info(), Some(reference)).expect("fits");
+        let extractor =
+            Extractor::new(spec(side), frame.info(), Some(reference.into())).expect("fits");
         let features = extractor.extract_all([frame]).expect("same kind");
         features.values().to_vec()
     }
@@ -218,7 +219,7 @@ mod tests {
     #[test]
     fn frames_without_colour_and_recordings_without_a_reference_are_refused() {
         let gray = noise(40, 40, PixelFormat::Gray8, 1);
-        let error = Extractor::new(spec(32), gray.info(), Some(&gray)).expect_err("gray");
+        let error = Extractor::new(spec(32), gray.info(), Some((&gray).into())).expect_err("gray");
         assert_eq!(error, FeatureError::Lampless { info: gray.info() });
         let color = noise(40, 40, PixelFormat::Rgb8, 1);
         let error = Extractor::new(spec(32), color.info(), None).expect_err("no reference");

@@ -19,15 +19,18 @@ pub enum FeatureKind {
     Gradients,
     /// Mean, spread and quantiles of its pixels. Blind to where in the cell they lie.
     Statistics,
+    /// The numbers of a taxel, of a sensor without pictures: a cell a place. They stand alone, and are of all places.
+    Signals,
 }
 
 impl FeatureKind {
     /// Every kind, in the order in which the numbers of a cell stand.
-    pub const ALL: [FeatureKind; 4] = [
+    pub const ALL: [FeatureKind; 5] = [
         FeatureKind::Pixels,
         FeatureKind::Markers,
         FeatureKind::Gradients,
         FeatureKind::Statistics,
+        FeatureKind::Signals,
     ];
 
     /// How it is written in settings.
@@ -37,12 +40,14 @@ impl FeatureKind {
             FeatureKind::Markers => "markers",
             FeatureKind::Gradients => "gradients",
             FeatureKind::Statistics => "statistics",
+            FeatureKind::Signals => "signals",
         }
     }
 
-    /// Numbers a cell.
+    /// Numbers a cell; 0 of signals, of which the recording decides.
     pub const fn depth(self, color: Color) -> usize {
         match self {
+            FeatureKind::Signals => 0,
             FeatureKind::Pixels => color.depth(),
             FeatureKind::Markers | FeatureKind::Gradients => 3,
             FeatureKind::Statistics => 7 * color.depth(),
@@ -57,7 +62,7 @@ impl FeatureKind {
     /// Columns and rows where nobody asks for others, in features that begin with this kind.
     pub(super) const fn side(self) -> u32 {
         match self {
-            FeatureKind::Pixels | FeatureKind::Gradients => 32,
+            FeatureKind::Pixels | FeatureKind::Gradients | FeatureKind::Signals => 32,
             FeatureKind::Markers => 16,
             FeatureKind::Statistics => 8,
         }
@@ -85,7 +90,10 @@ impl FeatureKinds {
     /// Pixels alone.
     pub const PIXELS: FeatureKinds = FeatureKinds(FeatureKind::Pixels.bit());
 
-    /// The kinds that `text` names, joined by `+`; `None` if one does not exist or is named twice.
+    /// Signals alone, as they always are.
+    pub const SIGNALS: FeatureKinds = FeatureKinds(FeatureKind::Signals.bit());
+
+    /// The kinds that `text` names, joined by `+`; `None` if one does not exist or is named twice, or signals are not alone.
     pub fn parse(text: &str) -> Option<FeatureKinds> {
         let mut kinds = FeatureKinds(0);
         for word in text.split('+') {
@@ -97,7 +105,8 @@ impl FeatureKinds {
             }
             kinds.0 |= kind.bit();
         }
-        Some(kinds)
+        let is_mixed = kinds.contains(FeatureKind::Signals) && kinds != FeatureKinds::SIGNALS;
+        (!is_mixed).then_some(kinds)
     }
 
     /// The kinds, in the order of [`FeatureKind::ALL`].
@@ -167,7 +176,7 @@ mod tests {
 
     #[test]
     fn every_set_of_kinds_is_read_as_it_is_written() {
-        for bits in 1..16 {
+        for bits in 1..=16 {
             let kinds = FeatureKinds(bits);
             assert_eq!(FeatureKinds::parse(&kinds.to_string()), Some(kinds));
         }
@@ -175,7 +184,14 @@ mod tests {
 
     #[test]
     fn no_kind_and_one_named_twice_are_refused() {
-        for text in ["", "pixels+", "pixels+pixels", "Pixels", "pixels,markers"] {
+        for text in [
+            "",
+            "pixels+",
+            "pixels+pixels",
+            "Pixels",
+            "pixels,markers",
+            "pixels+signals",
+        ] {
             assert_eq!(FeatureKinds::parse(text), None, "{text}");
         }
     }

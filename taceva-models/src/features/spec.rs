@@ -3,8 +3,9 @@
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
-use taceva_core::FeatureShape;
+use taceva_core::{FeatureShape, FrameInfo, SignalInfo};
 
+use super::error::FeatureError;
 use super::kinds::{FeatureKind, FeatureKinds};
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 
@@ -53,6 +54,9 @@ pub struct FeatureSpec {
     pub difference: bool,
     /// How many principal components of the training part replace the pixels; all pixels where absent.
     pub pca: Option<u32>,
+    /// Numbers a place of the signals; absent of frames, and of signals whose recording nobody has looked at yet.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub channels: Option<u32>,
 }
 
 impl Default for FeatureSpec {
@@ -61,6 +65,12 @@ impl Default for FeatureSpec {
     }
 }
 
+const INPUT: SettingInfo = SettingInfo {
+    key: "input",
+    accepts: "frame or signals",
+    default: "what the recording has; it must be said where it has both",
+    about: "what the model looks at: the frames of a camera, or the signals of taxels",
+};
 const KINDS: SettingInfo = SettingInfo {
     key: "features",
     accepts: "pixels, markers, gradients, statistics, or several joined by +",
@@ -107,10 +117,11 @@ impl FeatureSpec {
         color: Color::Gray,
         difference: false,
         pca: None,
+        channels: None,
     };
 
     /// What can be set.
-    pub const SETTINGS: &'static [SettingInfo] = &[KINDS, SIZE, COLOR, DIFFERENCE, PCA];
+    pub const SETTINGS: &'static [SettingInfo] = &[INPUT, KINDS, SIZE, COLOR, DIFFERENCE, PCA];
 
     /// The features that `settings` ask for.
     ///
@@ -133,7 +144,20 @@ impl FeatureSpec {
     /// [`SettingError`] for an unknown key or a value out of range.
     pub fn changed_by(self, settings: &ModelSettings) -> Result<FeatureSpec, SettingError> {
         settings.check_keys(FeatureSpec::SETTINGS)?;
-        let kinds = settings.value(&KINDS, self.kinds, FeatureKinds::parse)?;
+        let own = settings.value(&INPUT, self.kinds, |text| match text {
+            "frame" => Some(self.kinds),
+            "signals" => Some(FeatureKinds::SIGNALS),
+            _ => None,
+        })?;
+        let kinds = settings.value(&KINDS, own, |text| {
+            let kinds = FeatureKinds::parse(text)?;
+            // Of two settings that say what is looked at, neither is right where they differ.
+            let is_signals = kinds == FeatureKinds::SIGNALS;
+            let agrees = settings
+                .get(INPUT.key)
+                .is_none_or(|input| (input == "signals") == is_signals);
+            agrees.then_some(kinds)
+        })?;
         let default = self.with_kinds(kinds);
         let (width, height) = settings.value(&SIZE, (default.width, default.height), |text| {
             let side = |text| number(text, 1..=FeatureSpec::SIDE_MAX);
@@ -156,6 +180,7 @@ impl FeatureSpec {
             pca: settings.value(&PCA, default.pca, |text| {
                 number(text, 1..=FeatureSpec::PCA_MAX).map(Some)
             })?,
+            channels: None,
         })
     }
 
@@ -171,12 +196,78 @@ impl FeatureSpec {
         }
     }
 
+    /// The same of the signals of `info`: a cell a place, whatever grid was asked for.
+    #[must_use]
+    pub fn of_signals(self, info: SignalInfo) -> FeatureSpec {
+        FeatureSpec {
+            kinds: FeatureKinds::SIGNALS,
+            width: info.columns,
+            height: info.rows,
+            color: Color::Gray,
+            channels: Some(info.channels),
+            ..self
+        }
+    }
+
+    /// The same of what a recording has: of its signals where they are asked for, or are all there is. `settings` are those that were
+    /// [asked for](FeatureSpec::changed_by).
+    ///
+    /// ```
+    /// use taceva_core::{SignalInfo, Unit};
+    /// use taceva_models::{FeatureError, FeatureSpec, ModelSettings};
+    /// let taxels = SignalInfo::new(5, 1, 3, Unit::Microtesla)?;
+    /// let settings = ModelSettings::default();
+    /// let spec = FeatureSpec::DEFAULT.on(&settings, None, Some(taxels))?;
+    /// assert_eq!(spec.to_string(), "signals of 5×1 places of 3");
+    /// let color = ModelSettings::parse(["color=rgb"])?;
+    /// assert!(matches!(spec.on(&color, None, Some(taxels)), Err(FeatureError::NoFrames { .. })));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`FeatureError::TwoInputs`] where a recording has both and nobody said which; [`FeatureError::NoFrames`] and
+    /// [`FeatureError::NoSignals`] where what is asked for is not there.
+    pub fn on(
+        self,
+        settings: &ModelSettings,
+        frame: Option<FrameInfo>,
+        signals: Option<SignalInfo>,
+    ) -> Result<FeatureSpec, FeatureError> {
+        let asked = settings.get(INPUT.key);
+        let wants_signals = asked == Some("signals") || self.kinds == FeatureKinds::SIGNALS;
+        let word = |key: &str| settings.get(key).map(|value| format!("{key}={value}"));
+        match (wants_signals, frame, signals) {
+            (true, _, None) => Err(FeatureError::NoSignals),
+            (false, Some(_), Some(_)) if asked.is_none() => Err(FeatureError::TwoInputs),
+            (false, _, None) | (false, Some(_), Some(_)) => Ok(self),
+            (true, _, Some(info)) | (false, None, Some(info)) => {
+                let of_signals = settings.get(KINDS.key) == Some("signals");
+                let kinds = word(KINDS.key).filter(|_| !of_signals);
+                let input = word(INPUT.key).filter(|_| asked != Some("signals"));
+                let of_frames = input.or(kinds).or(word(SIZE.key)).or(word(COLOR.key));
+                match of_frames {
+                    None => Ok(self.of_signals(info)),
+                    Some(asked) => Err(FeatureError::NoFrames {
+                        asked,
+                        has: match frame {
+                            None => "signals alone",
+                            Some(_) => "signals, which were asked for",
+                        },
+                    }),
+                }
+            }
+        }
+    }
+
     /// The shape of one sample's features, before principal components.
     pub fn shape(&self) -> FeatureShape {
         FeatureShape {
             height: self.height as usize,
             width: self.width as usize,
-            depth: self.kinds.iter().map(|kind| kind.depth(self.color)).sum(),
+            depth: match self.channels {
+                Some(channels) => channels as usize,
+                None => self.kinds.iter().map(|kind| kind.depth(self.color)).sum(),
+            },
         }
     }
 
@@ -194,8 +285,14 @@ impl FeatureSpec {
     /// Whether every number is within what [`from_settings`](FeatureSpec::from_settings) accepts.
     pub(crate) fn is_valid(&self) -> bool {
         let sides = 1..=FeatureSpec::SIDE_MAX;
-        sides.contains(&self.width)
-            && sides.contains(&self.height)
+        let is_grid = match self.channels {
+            None => sides.contains(&self.width) && sides.contains(&self.height),
+            Some(channels) => {
+                SignalInfo::new(self.height, self.width, channels, taceva_core::Unit::One).is_ok()
+            }
+        };
+        is_grid
+            && (self.kinds == FeatureKinds::SIGNALS) == self.channels.is_some()
             && self
                 .pca
                 .is_none_or(|count| (1..=FeatureSpec::PCA_MAX).contains(&count))
@@ -205,12 +302,17 @@ impl FeatureSpec {
 impl fmt::Display for FeatureSpec {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let FeatureSpec { width, height, .. } = self;
-        write!(f, "{width}×{height} {}", self.color.name())?;
-        if !self.kinds.are_pixels() {
+        match self.channels {
+            Some(channels) => write!(f, "signals of {height}×{width} places of {channels}")?,
+            None => write!(f, "{width}×{height} {}", self.color.name())?,
+        }
+        if self.channels.is_none() && !self.kinds.are_pixels() {
             write!(f, " {}", self.kinds)?;
         }
-        if self.difference {
-            f.write_str(", difference from the reference")?;
+        match (self.difference, self.channels) {
+            (false, _) => {}
+            (true, None) => f.write_str(", difference from the reference")?,
+            (true, Some(_)) => f.write_str(", difference from rest")?,
         }
         match self.pca {
             Some(count) => write!(f, ", {count} principal components"),

@@ -230,7 +230,7 @@ mod tests {
             difference: true,
             ..spec(4, 4, Color::Rgb)
         };
-        let extractor = Extractor::new(spec, frame.info(), Some(&frame)).expect("fits");
+        let extractor = Extractor::new(spec, frame.info(), Some((&frame).into())).expect("fits");
         let features = extractor.extract_all([&frame]).expect("same kind");
         assert!(features.values().iter().all(|value| value.to_bits() == 0));
     }

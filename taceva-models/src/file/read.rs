@@ -2,7 +2,7 @@
 
 use safetensors::tensor::{Dtype, SafeTensors};
 use serde::Deserialize;
-use taceva_core::{Channels, FeatureShape};
+use taceva_core::{Channels, FeatureShape, InputInfo};
 use taceva_network::{NamedTensor, Network, Picture};
 
 use super::bytes::check_sizes;
@@ -53,6 +53,7 @@ impl Models {
             channel.minimum.is_finite() && channel.span.is_finite() && channel.span > 0.0
         });
         if !card.features.is_valid()
+            || !is_of_its_input(&card)
             || card.choice.channels.len() != channels.len()
             || !(0.0..=1e6).contains(&margin)
             || !labels
@@ -76,6 +77,20 @@ impl Models {
             _ => return Err(FormatError::Card),
         };
         Ok(Model { card, regressor })
+    }
+}
+
+/// Whether what a card says of frames or signals is all of one or the other.
+fn is_of_its_input(card: &ModelCard) -> bool {
+    match (card.input, &card.spread) {
+        (InputInfo::Frame(_), None) => card.features.channels.is_none(),
+        (InputInfo::Signals(info), Some(spread)) => {
+            let is_divisor = |spread: &f64| spread.is_finite() && *spread > 0.0;
+            card.features.of_signals(info) == card.features
+                && spread.len() == info.channels as usize
+                && spread.iter().all(is_divisor)
+        }
+        _ => false,
     }
 }
 

@@ -1,7 +1,7 @@
 //! What a model is, what it was fitted on, and how well it did there.
 
 use serde::{Deserialize, Serialize};
-use taceva_core::{FrameInfo, Unit};
+use taceva_core::{InputInfo, Unit};
 
 use super::input::FitInput;
 use crate::estimators::auto::AutoCard;
@@ -32,12 +32,16 @@ pub struct ModelCard {
     pub choice: Choice,
     /// Whether the validation part was learnt from too, once the settings were chosen.
     pub refitted: bool,
-    /// What it sees of a frame.
+    /// What it sees of a frame, or of signals.
     pub features: FeatureSpec,
     /// The share of the training part's variance that the principal components keep, if there are any.
     pub pca_variance: Option<f64>,
-    /// The kind of frame it was fitted on, and the only one it takes.
-    pub frame: FrameInfo,
+    /// What it was fitted on, and the only thing it takes: `frame` in the file, as in every older one, or `signals`.
+    #[serde(flatten)]
+    pub input: InputInfo,
+    /// What the numbers of each channel of a place are divided by, a power of two next to its spread over the training part; of signals alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spread: Option<Vec<f64>>,
     /// How far beyond the labels of the training part predictions may go, as a share of their range; no bound where absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub margin: Option<f64>,
@@ -197,7 +201,7 @@ impl ModelCard {
         input: &FitInput<'_>,
         fit: &ModelFit,
         (model, auto): (&str, Option<AutoCard>),
-        pca_variance: Option<f64>,
+        (pca_variance, spread): (Option<f64>, Option<Vec<f64>>),
     ) -> ModelCard {
         let channels = input.training.targets.channels.iter().enumerate();
         let means = means(input.training.targets);
@@ -210,7 +214,8 @@ impl ModelCard {
             refitted: fit.refitted,
             features: input.features,
             pca_variance,
-            frame: input.frame,
+            input: input.input,
+            spread,
             margin: Some(MARGIN),
             channels: channels
                 .map(|(position, channel)| ChannelCard {

@@ -1,6 +1,6 @@
 //! All that a model is fitted from.
 
-use taceva_core::{FrameInfo, TrainingSet};
+use taceva_core::{InputInfo, TrainingSet};
 
 use super::card::Provenance;
 use crate::features::FeatureSpec;
@@ -13,10 +13,10 @@ pub struct FitInput<'a> {
     pub estimator: &'a dyn ModelEstimator,
     /// The settings it was made with, as typed.
     pub settings: &'a ModelSettings,
-    /// What it sees of a frame.
+    /// What it sees of a frame, or of signals.
     pub features: FeatureSpec,
-    /// The kind of frame that the features were taken from.
-    pub frame: FrameInfo,
+    /// What the features were taken from: frames of a kind, or signals of a grid.
+    pub input: InputInfo,
     /// What is learnt from. Its features are those of an [`Extractor`](crate::Extractor); principal components are found here.
     pub training: TrainingSet<'a>,
     /// What settings are chosen by.

@@ -1,7 +1,8 @@
 //! What fitting gives, whichever kind of model it is: a regressor that a model file can keep, and what was chosen on the way.
 
 use taceva_core::{
-    Channels, Estimator, FeatureShape, Features, ModelError, Progress, Regressor, TrainingSet,
+    Channels, Estimator, FeatureShape, Features, ModelError, Progress, Regressor, SignalInfo,
+    TrainingSet,
 };
 
 use crate::estimators::auto::AutoCard;
@@ -14,7 +15,7 @@ use crate::estimators::network::{Checkpoints, NetworkRegressor};
 use crate::estimators::plugin::PluginRegressor;
 use crate::estimators::projected::ProjectedRegressor;
 use crate::estimators::trees::TreeRegressor;
-use crate::features::Pca;
+use crate::features::{FeatureError, Pca};
 use crate::file::tensors::Raw;
 use crate::training::choice::Choice;
 use crate::training::label_scaling::LabelScaling;
@@ -74,6 +75,18 @@ pub trait ModelEstimator: Estimator {
         validation: Option<&TrainingSet<'_>>,
         progress: &dyn Progress,
     ) -> Result<ModelFit, ModelError>;
+
+    /// The estimator that takes the place of this one where signals of `info` are learnt from; `None` for every one but those that are made for
+    /// pictures.
+    ///
+    /// # Errors
+    /// [`FeatureError::NarrowGrid`] if it cannot learn from a grid of so few places.
+    fn of_signals(
+        &self,
+        _info: SignalInfo,
+    ) -> Result<Option<Box<dyn ModelEstimator>>, FeatureError> {
+        Ok(None)
+    }
 
     /// Keeps checkpoints of trainings from now on, and resumes from what is found there; a model that is fitted in one step keeps none.
     fn keep_checkpoints(&mut self, _: Checkpoints) {}

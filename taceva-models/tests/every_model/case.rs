@@ -95,7 +95,7 @@ impl Case {
             estimator: &*estimator,
             settings: &settings,
             features,
-            frame: FRAME,
+            input: FRAME.into(),
             training: training.set(),
             validation: None,
             provenance: Provenance::default(),

@@ -2,6 +2,7 @@
 
 mod kept;
 mod refused;
+mod signals;
 
 use taceva_core::{
     Channel, Channels, Features, Frame, FrameInfo, PixelFormat, SilentProgress, Targets,
@@ -73,7 +74,7 @@ pub(crate) fn fit(name: &str, words: &[&str], spec: FeatureSpec) -> (Model, Feat
         estimator: &*estimator,
         settings: &settings,
         features: spec,
-        frame: FRAME,
+        input: FRAME.into(),
         training: set(&training, &labels[..80]),
         validation: Some(set(&validation, &labels[80..])),
         provenance: Provenance {

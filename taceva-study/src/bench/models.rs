@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 use std::time::Instant;
 
-use taceva_core::{ErrorKind, Features, Progress, Unit};
+use taceva_core::{ErrorKind, Features, Input, Progress, Unit};
 use taceva_dataset::{Dataset, Pass};
 use taceva_metrics::ClusterSums;
 use taceva_models::Model;
@@ -276,7 +276,7 @@ impl Raced {
     }
 }
 
-/// The median time from a decoded frame to its prediction.
+/// The median time from a decoded frame, or from signals, to the prediction.
 fn latency(
     dataset: &Dataset,
     model: &Model,
@@ -288,22 +288,30 @@ fn latency(
     let rows = &target.rows[..target.rows.len().min(SINGLES)];
     if model.reads_features() {
         let extractor = extractor(dataset, model)?;
-        let pass = Pass::new(rows, NonZeroUsize::MIN, progress);
-        let predict = |frame| -> Result<f64, StudyError> {
+        let predict = |input: Input<'_>| -> Result<f64, StudyError> {
             let start = Instant::now();
             let mut sample = vec![0.0; shape.len()];
-            extractor.extract(&frame, &mut sample)?;
+            extractor.extract(input, &mut sample)?;
             model.predict(&Features::new(shape, sample)?)?;
             Ok(start.elapsed().as_secs_f64())
         };
-        dataset.map_frames(
-            pass,
-            |_, frame| predict(frame),
-            |_, time| {
-                times.push(time?);
-                Ok(())
-            },
-        )?;
+        if !model.reads_frames() {
+            for &row in rows {
+                let signals = dataset.signals(row)?;
+                let time = signals.map(|signals| predict((&signals).into()));
+                times.extend(time.transpose()?);
+            }
+        } else {
+            let pass = Pass::new(rows, NonZeroUsize::MIN, progress);
+            dataset.map_frames(
+                pass,
+                |_, frame| predict((&frame).into()),
+                |_, time| {
+                    times.push(time?);
+                    Ok(())
+                },
+            )?;
+        }
     } else {
         let blank = Features::new(shape, vec![0.0; shape.len()])?;
         for _ in rows {

@@ -1,4 +1,4 @@
-//! Features of frames that are kept for the next model, the oldest of them dropped where they come to too much.
+//! Features of frames and signals that are kept for the next model, the oldest of them dropped where they come to too much.
 
 use std::fs::{self, File};
 use std::io;
@@ -21,7 +21,7 @@ pub(crate) const ONE_MAX: u64 = ALL_MAX / 4;
 impl Cache {
     /// The features of `rows` of `dataset` by `extractor`: those kept, or what `make` gives, which is kept from then on.
     ///
-    /// Features are a function of frames and reference frame, which the digest of a dataset covers.
+    /// Features are a function of frames and reference frame, or of signals and those at rest, which the digest of a dataset covers.
     pub(crate) fn features(
         &self,
         (dataset, extractor, rows): (&Dataset, &Extractor, &[usize]),
@@ -38,7 +38,7 @@ impl Cache {
         };
         let key = Key::of(CachedStage::Features)
             .part("dataset", &dataset.digest().to_string())
-            .whole("frame", &extractor.frame_info())
+            .whole("input", &extractor.input())
             .whole("features", &spec)
             .whole("rows", &rows)
             .finish();

@@ -1,5 +1,7 @@
 //! TAC003: red and blue swapped, in all frames or in some.
 
+use taceva_core::Field;
+
 use super::evidence::{Evidence, FrameFacts};
 use super::finding::{Check, Found, Severity};
 
@@ -8,7 +10,7 @@ pub(super) static CHECK: Check = Check {
     name: "channel-order",
     looks_for: "frames whose colours fit better with red and blue swapped",
     hint: "OpenCV writes blue first; set channel_order in the map to what the files really hold",
-    reads_frames: true,
+    reads: Some(Field::Frame),
     find,
 };
 

@@ -10,7 +10,7 @@ pub(super) static CHECK: Check = Check {
     name: "few-points",
     looks_for: "test parts without contact points, or with fewer than five",
     hint: "name what repeats share as point_id in the map, record more points, or test on more of them: --split 'by-point 50/10/40'",
-    reads_frames: false,
+    reads: None,
     find,
 };
 

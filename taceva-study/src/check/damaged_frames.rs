@@ -1,5 +1,7 @@
 //! TAC020: pictures that decode although something in them is missing or corrupt.
 
+use taceva_core::Field;
+
 use super::evidence::Evidence;
 use super::finding::{Check, Found, Severity};
 
@@ -8,7 +10,7 @@ pub(super) static CHECK: Check = Check {
     name: "damaged-frames",
     looks_for: "JPEG files cut or damaged inside, which decoders fill with gray or guesses",
     hint: "fetch these pictures again from where they were recorded, or drop their rows, and import once more",
-    reads_frames: true,
+    reads: Some(Field::Frame),
     find,
 };
 

@@ -10,7 +10,7 @@ pub(super) static CHECK: Check = Check {
     name: "duplicate-frames",
     looks_for: "frames that are the same file, byte for byte",
     hint: "a camera that repeats frames is slower than it says; copies under other labels teach a model to contradict itself",
-    reads_frames: false,
+    reads: None,
     find,
 };
 

@@ -5,6 +5,7 @@ use taceva_dataset::{Header, Table};
 use taceva_models::Split;
 
 use crate::acquire::RecordedSessions;
+use crate::check::signal_facts::SignalFacts;
 
 /// A recording as checks see it.
 #[derive(Debug)]
@@ -19,6 +20,8 @@ pub struct Evidence<'a> {
     pub frames: &'a [Option<FrameFacts>],
     /// The same of the frame without contact.
     pub reference: Option<&'a FrameFacts>,
+    /// A few numbers of every taxel; `None` if there is none, or no check reads signals.
+    pub signals: Option<&'a SignalFacts>,
     /// The rows whose pictures are damaged inside although they decode, and how.
     pub damaged: &'a [(usize, String)],
     /// The sessions on a real rig in which it was made, if it was.

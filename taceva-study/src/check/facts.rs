@@ -10,7 +10,7 @@ pub(super) static CHECK: Check = Check {
     name: "unknown-facts",
     looks_for: "serial, gel, clock or reference frame that nobody wrote down",
     hint: "ask the person who recorded it, today; every report carries `unknown` until then",
-    reads_frames: false,
+    reads: None,
     find,
 };
 

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use serde::Serialize;
-use taceva_core::Skipped;
+use taceva_core::{Field, Skipped};
 
 use super::evidence::Evidence;
 
@@ -40,8 +40,8 @@ pub struct Check {
     pub looks_for: &'static str,
     /// What to do about a finding.
     pub hint: &'static str,
-    /// Whether every frame must be decoded for it.
-    pub reads_frames: bool,
+    /// What must be read of every sample for it beside its labels: frames, signals, or nothing.
+    pub reads: Option<Field>,
     /// Looks.
     pub(crate) find: fn(&Evidence<'_>) -> Vec<Found>,
 }

@@ -8,7 +8,7 @@ pub(super) static CHECK: Check = Check {
     name: "label-outliers",
     looks_for: "labels beyond 3 interquartile ranges of the quartiles, further from the next one than that range and than half as far as the next one is from the quartile",
     hint: "look at these samples: a transducer that was overloaded or read while the tip moved gives such labels; drop them in the map, or say why they are right",
-    reads_frames: false,
+    reads: None,
     find,
 };
 

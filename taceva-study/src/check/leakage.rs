@@ -10,7 +10,7 @@ pub(super) static CHECK: Check = Check {
     name: "leakage",
     looks_for: "contact points, or identical frames, in both the training and the test part",
     hint: "divide with --split by-point, or by-column a session or an object; a score on seen points flatters",
-    reads_frames: false,
+    reads: None,
     find,
 };
 

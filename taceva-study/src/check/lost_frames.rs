@@ -8,7 +8,7 @@ pub(super) static CHECK: Check = Check {
     name: "lost-frames",
     looks_for: "frames that a capture lost, by its own count",
     hint: "leave the machine to the capture, record to a faster disk, or let the camera send fewer or smaller frames",
-    reads_frames: false,
+    reads: None,
     find,
 };
 

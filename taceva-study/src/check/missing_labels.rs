@@ -8,7 +8,7 @@ pub(super) static CHECK: Check = Check {
     name: "missing",
     looks_for: "samples that lack a label or a frame which others have",
     hint: "such samples are left out where the missing part is needed, and counted; drop them in the map if they are rubbish",
-    reads_frames: false,
+    reads: None,
     find,
 };
 

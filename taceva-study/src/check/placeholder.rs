@@ -10,7 +10,7 @@ pub(super) static CHECK: Check = Check {
     name: "placeholder-zeros",
     looks_for: "samples whose forces, or whose labels, are all exactly zero",
     hint: "a transducer at rest reads noise, not zero; drop such rows in the map with [drop] placeholders",
-    reads_frames: false,
+    reads: None,
     find,
 };
 

@@ -1,5 +1,7 @@
 //! TAC006: a reference frame that was taken while the gel was pressed.
 
+use taceva_core::Field;
+
 use super::evidence::Evidence;
 use super::finding::{Check, Found, Severity};
 
@@ -8,14 +10,14 @@ pub(super) static CHECK: Check = Check {
     name: "pressed-reference",
     looks_for: "a reference frame that resembles deep presses more than light ones",
     hint: "take the reference with nothing touching the gel; differences from a pressed one hide the press",
-    reads_frames: true,
+    reads: Some(Field::Frame),
     find,
 };
 
 /// Samples below which a rank correlation says nothing.
 const LEAST: usize = 10;
 /// Rank correlation of load and distance below which the reference is suspected; for a true one it is clearly positive.
-const SUSPECT: f64 = -0.3;
+pub(super) const SUSPECT: f64 = -0.3;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let table = evidence.table;
@@ -45,7 +47,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
 }
 
 /// Spearman's rank correlation, ties by their order.
-fn rank_correlation(pairs: &[(f64, f64)]) -> f64 {
+pub(super) fn rank_correlation(pairs: &[(f64, f64)]) -> f64 {
     let ranks = |values: Vec<f64>| -> Vec<usize> {
         let mut order: Vec<usize> = (0..values.len()).collect();
         order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));

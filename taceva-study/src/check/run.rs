@@ -11,6 +11,7 @@ use super::damaged_frames;
 use super::evidence::{Evidence, FrameFacts};
 use super::finding::{Check, CheckReport, Finding};
 use super::leakage;
+use super::signal_facts::SignalFacts;
 use crate::acquire::sessions::recorded_in;
 use crate::error::StudyError;
 use crate::plan::Plan;
@@ -47,7 +48,11 @@ pub fn check_plan(dataset: &Dataset, request: &CheckRequest) -> Result<Plan, Stu
             shown(&dataset.path())
         ),
     );
-    if wanted.iter().any(|check| check.reads_frames) {
+    if reads(&wanted, Field::Signals) {
+        let rows = dataset.table().rows();
+        plan.step("read", format!("the signals of {rows} rows"));
+    }
+    if reads(&wanted, Field::Frame) {
         plan.step(
             "decode",
             format!(
@@ -93,8 +98,7 @@ pub fn check(
         }
         divided => Some(divided?),
     };
-    let reads_frames = wanted.iter().any(|check| check.reads_frames);
-    let (frames, reference) = if reads_frames {
+    let (frames, reference) = if reads(&wanted, Field::Frame) {
         look(dataset, request.jobs, progress)?
     } else {
         Default::default()
@@ -106,6 +110,10 @@ pub fn check(
         true => damaged(dataset, request.jobs, progress)?,
         false => Vec::new(),
     };
+    let signals = match reads(&wanted, Field::Signals) {
+        true => SignalFacts::of(dataset, progress)?,
+        false => None,
+    };
     let sessions = recorded_in(dataset.path());
     let evidence = Evidence {
         header: dataset.header(),
@@ -113,6 +121,7 @@ pub fn check(
         split: divided.as_ref().map(|divided| &divided.split),
         frames: &frames,
         reference: reference.as_ref(),
+        signals: signals.as_ref(),
         damaged: &damaged,
         sessions: sessions.as_ref(),
     };
@@ -137,6 +146,11 @@ pub fn check(
     })
 }
 
+/// Whether one of `wanted` reads `field` of every sample.
+fn reads(wanted: &[&Check], field: Field) -> bool {
+    wanted.iter().any(|check| check.reads == Some(field))
+}
+
 type Wanted = (Vec<&'static Check>, Vec<Skipped>);
 
 fn wanted(dataset: &Dataset, only: &[String]) -> Result<Wanted, StudyError> {
@@ -153,7 +167,7 @@ fn wanted(dataset: &Dataset, only: &[String]) -> Result<Wanted, StudyError> {
             known.join(", ")
         )));
     }
-    let has_frames = dataset.table().fields().contains(Field::Frame);
+    let fields = dataset.fields();
     let mut skipped = Vec::new();
     let mut skip =
         |check: &Check, reason| skipped.push(Skipped::new(format!("check:{}", check.code), reason));
@@ -162,10 +176,11 @@ fn wanted(dataset: &Dataset, only: &[String]) -> Result<Wanted, StudyError> {
         if !only.is_empty() && !only.iter().any(|word| is_called(check, word)) {
             continue;
         }
-        if check.reads_frames && !has_frames {
-            skip(check, SkipReason::FieldAbsent(Field::Frame));
-        } else {
-            kept.push(check);
+        match check.reads.filter(|field| !fields.contains(*field)) {
+            None => kept.push(check),
+            // Of a camera nobody misses taxels.
+            Some(Field::Signals) if only.is_empty() && fields.contains(Field::Frame) => {}
+            Some(absent) => skip(check, SkipReason::FieldAbsent(absent)),
         }
     }
     Ok((kept, skipped))

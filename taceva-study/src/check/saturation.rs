@@ -1,5 +1,7 @@
 //! TAC004: pixels at full scale, where light can rise and the number cannot.
 
+use taceva_core::Field;
+
 use super::evidence::Evidence;
 use super::finding::{Check, Found, Severity};
 
@@ -8,7 +10,7 @@ pub(super) static CHECK: Check = Check {
     name: "saturated-pixels",
     looks_for: "frames with more than 2 % of their numbers at full scale",
     hint: "lower the exposure or the gain; where a pixel is full, a deeper press changes nothing",
-    reads_frames: true,
+    reads: Some(Field::Frame),
     find,
 };
 

@@ -8,7 +8,7 @@ pub(super) static CHECK: Check = Check {
     name: "stuck-channel",
     looks_for: "channels with the same value in every sample",
     hint: "leave the channel out of the map: R² is undefined on it, and its error says nothing",
-    reads_frames: false,
+    reads: None,
     find,
 };
 

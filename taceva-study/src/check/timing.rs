@@ -8,7 +8,7 @@ pub(super) static CHECK: Check = Check {
     name: "timing",
     looks_for: "the true frame rate, its gaps, and times that repeat, run backwards or are whole seconds",
     hint: "stamp frames when they are exposed, with a clock that does not jump, and keep the fractions of a second",
-    reads_frames: false,
+    reads: None,
     find,
 };
 

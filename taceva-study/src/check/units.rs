@@ -10,7 +10,7 @@ pub(super) static CHECK: Check = Check {
     name: "units-by-magnitude",
     looks_for: "labels too large or too small for their unit",
     hint: "look up the unit where the labels were written, and state it in the map; N, gf and mN, mm and m are the usual mix-ups",
-    reads_frames: false,
+    reads: None,
     find,
 };
 

@@ -11,7 +11,7 @@ pub(super) static CHECK: Check = Check {
     name: "unmentioned-columns",
     looks_for: "columns of the imported table that no key of its map names, quality flags above all",
     hint: "import again with a map that names what decides which samples are good, under [drop] or [attributes]",
-    reads_frames: false,
+    reads: None,
     find,
 };
 

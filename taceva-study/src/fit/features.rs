@@ -2,12 +2,13 @@
 
 use std::collections::BTreeSet;
 
-use taceva_core::{ErrorKind, Features};
+use taceva_core::{ErrorKind, Features, InputInfo};
 use taceva_models::{FeatureChoice, FeatureSpec, Model, ModelEstimator, OpenFeatures};
 
 use super::FitPlan;
 use super::learn::groups;
 use crate::error::StudyError;
+use crate::features::kinds;
 use crate::work::Work;
 
 /// One group of so many is left out.
@@ -33,11 +34,19 @@ impl FitPlan<'_> {
         open: OpenFeatures,
         work: Work<'_>,
     ) -> Result<FeatureChoice, StudyError> {
-        let frames = self.dataset.header().frames.as_ref();
-        let frames = frames.ok_or_else(|| {
-            StudyError::Request("the dataset has no frames, the model needs them".to_owned())
-        })?;
-        let candidates = open.candidates(&self.features, frames.info, frames.reference.is_some());
+        let header = self.dataset.header();
+        let (input, has_reference) = match (kinds(self.dataset), &header.frames, &header.signals) {
+            ((_, Some(info)), _, Some(signals)) if self.features.channels.is_some() => {
+                (InputInfo::from(info), !signals.spec.rest.is_empty())
+            }
+            ((Some(info), _), Some(frames), _) => (info.into(), frames.reference.is_some()),
+            _ => {
+                return Err(StudyError::Request(
+                    "the dataset has no frames, the model needs them".to_owned(),
+                ));
+            }
+        };
+        let candidates = open.candidates(&self.features, input, has_reference);
         let parts = self.parts()?;
         // Without a checkpoint, which is of one kind of features.
         let estimator = self.model.estimator(&self.of_model)?;

@@ -1,21 +1,21 @@
-//! Carrying a fit out: features of frames, then the model.
+//! Carrying a fit out: features of frames or signals, then the model.
 
 use std::collections::BTreeMap;
 
-use taceva_core::{Features, FrameInfo, PixelFormat, Targets, TrainingSet};
+use taceva_core::{Features, FrameInfo, InputInfo, PixelFormat, Targets, TrainingSet};
 use taceva_dataset::{Dataset, Source};
 use taceva_models::{FeatureSpec, FitInput, Model, ModelEstimator, Provenance, SplitCard};
 
 use super::{FitPlan, Fitted};
 use crate::error::StudyError;
-use crate::features::{blank, extract, extractor};
+use crate::features::{blank, extract, extractor, kinds};
 use crate::work::Work;
 
-/// Features of the training part and then of the validation part, what they are, and the kind of frame they are of.
+/// Features of the training part and then of the validation part, what they are, and what they are of.
 pub(super) struct Seen {
     spec: FeatureSpec,
     pub(super) features: Features,
-    frame: FrameInfo,
+    input: InputInfo,
 }
 
 impl FitPlan<'_> {
@@ -42,22 +42,22 @@ impl FitPlan<'_> {
         })
     }
 
-    /// What `spec` takes of the frames of the training part, then of the validation part.
+    /// What `spec` takes of the frames or signals of the training part, then of the validation part.
     pub(super) fn see(&self, spec: FeatureSpec, work: Work<'_>) -> Result<Seen, StudyError> {
         // Of both parts whatever is learnt from: what is kept of features is found by its rows.
         let rows = [&self.train[..], &self.validation].concat();
-        if !self.reads_frames() {
+        if !self.model.reads_features() {
             return Ok(Seen {
                 spec,
                 features: blank(spec.shape(), rows.len())?,
-                frame: self.any_frame(),
+                input: self.any_input(spec),
             });
         }
         let extractor = extractor(self.dataset, spec)?;
         Ok(Seen {
             spec,
             features: extract(self.dataset, &extractor, &rows, work)?,
-            frame: extractor.frame_info(),
+            input: extractor.input(),
         })
     }
 
@@ -72,7 +72,7 @@ impl FitPlan<'_> {
         let Seen {
             spec,
             features: seen,
-            frame,
+            input,
         } = seen;
         let train: Vec<usize> = positions.iter().map(|&at| self.train[at]).collect();
         let train_features = seen.select(positions);
@@ -84,17 +84,17 @@ impl FitPlan<'_> {
         let set = |features, values, groups| {
             TrainingSet::new(features, Targets::new(&self.channels, values)).with_groups(groups)
         };
-        let input = FitInput {
+        let whole = FitInput {
             estimator,
             settings: &self.settings,
             features: spec,
-            frame,
+            input,
             training: set(&train_features, &train_labels, groups.as_deref()),
             validation: (!self.validation.is_empty())
                 .then(|| set(&held_features, &held_labels, None)),
             provenance: self.provenance(),
         };
-        Ok(Model::fit(input, work.progress)?)
+        Ok(Model::fit(whole, work.progress)?)
     }
 
     pub(super) fn labels(&self, rows: &[usize]) -> Vec<f64> {
@@ -116,18 +116,17 @@ impl FitPlan<'_> {
             .collect()
     }
 
-    /// What the card says of frames where none is looked at.
-    fn any_frame(&self) -> FrameInfo {
+    /// What the card says of what nobody looks at.
+    fn any_input(&self, spec: FeatureSpec) -> InputInfo {
         let unseen = FrameInfo {
             width: 1,
             height: 1,
             format: PixelFormat::Gray8,
         };
-        self.dataset
-            .header()
-            .frames
-            .as_ref()
-            .map_or(unseen, |frames| frames.info)
+        match kinds(self.dataset) {
+            (_, Some(signals)) if spec.channels.is_some() => signals.into(),
+            (frame, _) => frame.unwrap_or(unseen).into(),
+        }
     }
 
     fn provenance(&self) -> Provenance {

@@ -8,6 +8,7 @@ use taceva_models::{
 
 use super::{FitRequest, Recipe};
 use crate::error::StudyError;
+use crate::features::kinds;
 use crate::plan::Plan;
 use crate::rows::{
     DataPart, Divided, Need, chosen_channels, require_samples, seen_channels, usable,
@@ -57,14 +58,22 @@ impl<'a> FitPlan<'a> {
             open,
         } = recipe;
         let model_reads = model.reads_features();
+        let (frame, signals) = kinds(dataset);
+        let features = match (model_reads, frame, signals) {
+            (true, _, _) => features.on(&request.settings, frame, signals)?,
+            // A model that looks at nothing is of whatever there is.
+            (false, None, Some(info)) => features.of_signals(info),
+            (false, _, _) => features,
+        };
+        let reads_frames = model_reads && features.channels.is_none();
         let mut channels = chosen_channels(dataset, &request.channels)?;
-        if request.channels.is_empty() {
+        if request.channels.is_empty() && features.channels.is_none() {
             // Of a recording of a run: heights of the surface are met without a picture. A model that looks at no picture is compared with
             // those that do, and no sample carries all channels of a run.
             channels = seen_channels(dataset, &channels);
         }
         let need = || Need {
-            frame: model_reads,
+            frame: reads_frames,
             labels: Some(&channels),
         };
         let whole = [
@@ -89,11 +98,12 @@ impl<'a> FitPlan<'a> {
         })
     }
 
+    /// Whether frames are decoded: not of a model that looks at nothing, or at signals.
     pub(crate) fn reads_frames(&self) -> bool {
-        self.model.reads_features()
+        self.model.reads_features() && self.features.channels.is_none()
     }
 
-    /// The features of frames; where some of them are still to be chosen, those that the model asks for.
+    /// The features of frames or signals; where some of them are still to be chosen, those that the model asks for.
     pub(crate) fn features(&self) -> FeatureSpec {
         self.features
     }
@@ -110,12 +120,15 @@ impl<'a> FitPlan<'a> {
     /// Says what [`run`](FitPlan::run) would do.
     pub(crate) fn explain(&self, plan: &mut Plan) {
         let rows = self.train.len() + self.validation.len();
-        if self.reads_frames() {
+        if self.model.reads_features() {
             let features = match self.open {
                 Some(_) => format!("{} and others, of which some are chosen", self.features),
                 None => self.features.to_string(),
             };
-            plan.step("decode", format!("{rows} frames to features {features}"));
+            match self.reads_frames() {
+                true => plan.step("decode", format!("{rows} frames to features {features}")),
+                false => plan.step("read", format!("{features} of {rows} samples")),
+            }
         }
         let names: Vec<&str> = self.channels.iter().map(|channel| channel.name()).collect();
         plan.step(

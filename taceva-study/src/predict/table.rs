@@ -54,7 +54,7 @@ pub(crate) fn table(
             })
             .collect(),
         constants: constants(model),
-        frames_decoded: if model.reads_features() {
+        frames_decoded: if model.reads_frames() {
             rows.len() as u64
         } else {
             0

@@ -23,7 +23,7 @@ impl Target {
     ) -> Result<Target, StudyError> {
         require_samples(dataset)?;
         let divided = Divided::by_model(dataset, model)?;
-        Target::of(dataset, divided, part, model.reads_features())
+        Target::of(dataset, divided, part, model.reads_frames())
     }
 
     pub(crate) fn of(

@@ -8,6 +8,7 @@ use taceva_core::{Channel, Channels, Clock, SourceUnit, is_scorable};
 use toml::Spanned;
 
 use super::extended::{WrittenClass, WrittenJoin, WrittenMatrix, WrittenPath, WrittenTable};
+use super::signals::WrittenSignals;
 use super::written_frame::WrittenFrame;
 use super::{ColumnMap, DropRules, IdMap, ImportMap, MatrixMap, Placeholder, TimeMap};
 use crate::error::DatasetError;
@@ -38,6 +39,7 @@ struct WrittenMap {
     matrix: Vec<Spanned<WrittenMatrix>>,
     #[serde(default)]
     classes: BTreeMap<String, Spanned<WrittenClass>>,
+    signals: Option<Spanned<WrittenSignals>>,
     time: WrittenTime,
     #[serde(default)]
     drop: WrittenDrop,
@@ -103,11 +105,11 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
     let (table, form) = check.table(&written.table)?;
     let matrices = check.matrices(&written.matrix)?;
     let (channels, columns) = check.columns(&written.columns, &matrices)?;
-    if channels.is_empty() && written.frame.is_none() {
+    if channels.is_empty() && written.frame.is_none() && written.signals.is_none() {
         return Err(toml_error(
             path,
             None,
-            "neither [columns] nor [frame]: there is nothing to import",
+            "neither [columns] nor [frame] nor [signals]: there is nothing to import",
         ));
     }
     let attributes = written.attributes.iter();
@@ -138,6 +140,10 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
         path: check.path_pattern(written.path)?,
         joins: check.joins(written.join)?,
         classes: check.classes(&written.classes)?,
+        signals: written
+            .signals
+            .map(|signals| check.signals(signals))
+            .transpose()?,
         is_extended,
         table,
         form,
@@ -196,6 +202,7 @@ impl Check<'_> {
                 "classes",
                 written.classes.values().next().map(Spanned::span),
             ),
+            ("signals", written.signals.as_ref().map(Spanned::span)),
             ("offset` or `scale", scaled.map(Spanned::span)),
         ];
         let newer = newer.into_iter().find_map(|(key, span)| Some((key, span?)));

@@ -1,12 +1,12 @@
 //! Networks before they are fitted: what can be set.
 
-use taceva_core::FeatureShape;
+use taceva_core::{FeatureShape, SignalInfo};
 use taceva_gpu::GpuKind;
 use taceva_network::{Architecture, Augmentation, Depth, Jitter, Loss, Optimizer, Recipe};
 
 use super::regressor::picture;
 use super::{Checkpoints, Preprocessing};
-use crate::features::{Color, FeatureKinds, FeatureSpec};
+use crate::features::{Color, FeatureError, FeatureKinds, FeatureSpec};
 use crate::registry::ModelInfo;
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 
@@ -17,9 +17,19 @@ pub struct NetworkEstimator {
     kind: Kind,
     pub(super) recipe: Recipe,
     pub(super) preprocessing: Preprocessing,
+    /// What takes the place of that where signals are learnt from.
+    of_signals: OfSignals,
     /// How the GPU that trains is reached, where the processor does not.
     pub(super) gpu: Option<GpuKind>,
     pub(super) checkpoints: Option<Checkpoints>,
+}
+
+/// What a network does to signals: nothing but what a person asked for. The mean of a picture and its contrast say little about a touch;
+/// those of taxels are the touch, and a taxel that is shifted by one is another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct OfSignals {
+    preprocessing: Preprocessing,
+    jitter_px: usize,
 }
 
 /// Which network.
@@ -68,7 +78,7 @@ const PATIENCE: SettingInfo = SettingInfo {
 const JITTER: SettingInfo = SettingInfo {
     key: "jitter",
     accepts: "a number of pixels from 0 to 100",
-    default: "3",
+    default: "3, 0 of signals",
     about: "how far training pictures are shifted",
 };
 const NOISE: SettingInfo = SettingInfo {
@@ -86,13 +96,13 @@ const BRIGHTNESS: SettingInfo = SettingInfo {
 const LOCAL_MEAN: SettingInfo = SettingInfo {
     key: "local_mean",
     accepts: "a number of pixels from 0 to 100",
-    default: "6",
+    default: "6, 0 of signals",
     about: "the standard deviation of the Gaussian whose mean is subtracted around each pixel; 0 subtracts nothing",
 };
 const CONTRAST: SettingInfo = SettingInfo {
     key: "contrast",
     accepts: "true or false",
-    default: "true",
+    default: "true, false of signals",
     about: "whether each picture is divided by its standard deviation",
 };
 const DEVICE: SettingInfo = SettingInfo {
@@ -107,6 +117,9 @@ const SETTINGS: &[SettingInfo] = &[
     DEVICE,
 ];
 
+/// Places along a side of a grid over which five layers, each of half as many, have something to slide.
+const PLACES_LEAST: u32 = 8;
+
 /// What networks see where nothing else is asked for.
 const FEATURES: FeatureSpec = FeatureSpec {
     kinds: FeatureKinds::PIXELS,
@@ -115,6 +128,7 @@ const FEATURES: FeatureSpec = FeatureSpec {
     color: Color::Gray,
     difference: false,
     pca: None,
+    channels: None,
 };
 
 /// A [`ModelInfo`] of a network.
@@ -179,7 +193,15 @@ impl NetworkEstimator {
             kind.check_built()
                 .map_err(|source| SettingError::Device { kind, source })?;
         }
-        let pixels = settings.value(&JITTER, 3, |text| number(text, 0..=100))?;
+        let pixels = |default| settings.value(&JITTER, default, |text| number(text, 0..=100));
+        let preprocessing = |local_mean_px, contrast| {
+            Ok::<_, SettingError>(Preprocessing {
+                local_mean_px: settings.value(&LOCAL_MEAN, local_mean_px, |text| {
+                    number(text, 0.0..=Preprocessing::LOCAL_MEAN_MAX)
+                })?,
+                contrast: settings.value(&CONTRAST, contrast, |text| text.parse().ok())?,
+            })
+        };
         Ok(NetworkEstimator {
             kind,
             recipe: Recipe {
@@ -200,21 +222,32 @@ impl NetworkEstimator {
                     brightness: settings.value(&BRIGHTNESS, 0.0, |text| number(text, 0.0..=1.0))?,
                     noise: settings.value(&NOISE, 0.1, |text| number(text, 0.0..=10.0))?,
                     jitter: Jitter {
-                        pixels,
+                        pixels: pixels(3)?,
                         label_per_pixel: Vec::new(),
                     },
                 },
                 ..Recipe::default()
             },
-            preprocessing: Preprocessing {
-                local_mean_px: settings.value(&LOCAL_MEAN, 6.0, |text| {
-                    number(text, 0.0..=Preprocessing::LOCAL_MEAN_MAX)
-                })?,
-                contrast: settings.value(&CONTRAST, true, |text| text.parse().ok())?,
+            preprocessing: preprocessing(6.0, true)?,
+            of_signals: OfSignals {
+                preprocessing: preprocessing(0.0, false)?,
+                jitter_px: pixels(0)?,
             },
             gpu,
             checkpoints: None,
         })
+    }
+
+    /// The same for signals of `info`.
+    pub(super) fn for_signals(&self, info: SignalInfo) -> Result<NetworkEstimator, FeatureError> {
+        if info.rows.min(info.columns) < PLACES_LEAST {
+            let least = PLACES_LEAST;
+            return Err(FeatureError::NarrowGrid { info, least });
+        }
+        let mut own = self.clone();
+        own.preprocessing = self.of_signals.preprocessing;
+        own.recipe.augmentation.jitter.pixels = self.of_signals.jitter_px;
+        Ok(own)
     }
 
     pub(super) fn info(&self) -> ModelInfo {

@@ -1,11 +1,12 @@
 //! How a network is fitted: what is learnt from which samples, and what its card says of it.
 
-use taceva_core::{ModelError, Progress, TrainingSet};
+use taceva_core::{ModelError, Progress, SignalInfo, TrainingSet};
 use taceva_gpu::Gpu;
 use taceva_network::{Isa, LabelScale, Labels, Network, Samples, Trained};
 
 use super::training::{Training, no_gpu, refused};
 use super::{Checkpoints, NetworkCard, NetworkEstimator, NetworkRegressor};
+use crate::features::FeatureError;
 use crate::training::choice::{ChannelChoice, Choice, ChosenBy, errors};
 use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, NO_PICTURE, estimator};
 use crate::training::problem::{Problem, invalid};
@@ -18,6 +19,13 @@ fn labels_of(set: &TrainingSet<'_>, varying: &[usize]) -> Vec<f64> {
 }
 
 impl ModelEstimator for NetworkEstimator {
+    fn of_signals(
+        &self,
+        info: SignalInfo,
+    ) -> Result<Option<Box<dyn ModelEstimator>>, FeatureError> {
+        Ok(Some(Box::new(self.for_signals(info)?)))
+    }
+
     fn fit_model(
         &self,
         training: &TrainingSet<'_>,

@@ -94,7 +94,7 @@ fn a_difference_from_itself_is_zero_and_from_black_is_the_frame() {
         ..plain
     };
     let of = |reference: &Frame| {
-        Extractor::new(difference, bright.info(), Some(reference))
+        Extractor::new(difference, bright.info(), Some(reference.into()))
             .expect("fits")
             .extract_all([&bright])
             .expect("same kind")

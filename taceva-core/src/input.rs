@@ -1,0 +1,99 @@
+//! What a model looks at: the picture of a camera, or the numbers of taxels.
+
+use std::fmt;
+
+use crate::field::Field;
+use crate::frame::{Frame, FrameInfo};
+use crate::signals::{SignalInfo, Signals};
+
+/// What a model looks at of one sample, borrowed.
+///
+/// ```
+/// use taceva_core::{Field, Input, SignalInfo, Signals, Unit};
+/// let info = SignalInfo::new(1, 2, 1, Unit::Count)?;
+/// let signals = Signals::new(info, vec![512.0, 498.0])?;
+/// let input = Input::from(&signals);
+/// assert_eq!((input.info(), input.info().field()), (info.into(), Field::Signals));
+/// # Ok::<(), taceva_core::SignalError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Input<'a> {
+    /// A picture.
+    Frame(&'a Frame),
+    /// Numbers.
+    Signals(&'a Signals),
+}
+
+impl Input<'_> {
+    /// Its kind and size.
+    pub fn info(&self) -> InputInfo {
+        match self {
+            Input::Frame(frame) => InputInfo::Frame(frame.info()),
+            Input::Signals(signals) => InputInfo::Signals(signals.info()),
+        }
+    }
+}
+
+impl<'a> From<&'a Frame> for Input<'a> {
+    fn from(frame: &'a Frame) -> Input<'a> {
+        Input::Frame(frame)
+    }
+}
+
+impl<'a> From<&'a Signals> for Input<'a> {
+    fn from(signals: &'a Signals) -> Input<'a> {
+        Input::Signals(signals)
+    }
+}
+
+/// The kind of what a model looks at, and its size.
+///
+/// In files it is one key, `frame` or `signals`, with the numbers of that kind.
+///
+/// ```
+/// use taceva_core::{FrameInfo, InputInfo, PixelFormat};
+/// let info = FrameInfo { width: 64, height: 48, format: PixelFormat::Gray8 };
+/// assert_eq!(InputInfo::from(info).to_string(), "a frame of 64×48 gray8");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
+#[non_exhaustive]
+pub enum InputInfo {
+    /// A picture.
+    Frame(FrameInfo),
+    /// Numbers.
+    Signals(SignalInfo),
+}
+
+impl InputInfo {
+    /// The field of a sample that it is in.
+    pub const fn field(&self) -> Field {
+        match self {
+            InputInfo::Frame(_) => Field::Frame,
+            InputInfo::Signals(_) => Field::Signals,
+        }
+    }
+}
+
+impl From<FrameInfo> for InputInfo {
+    fn from(info: FrameInfo) -> InputInfo {
+        InputInfo::Frame(info)
+    }
+}
+
+impl From<SignalInfo> for InputInfo {
+    fn from(info: SignalInfo) -> InputInfo {
+        InputInfo::Signals(info)
+    }
+}
+
+impl fmt::Display for InputInfo {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            InputInfo::Frame(info) => write!(f, "a frame of {info}"),
+            InputInfo::Signals(info) => write!(f, "signals of {info}"),
+        }
+    }
+}

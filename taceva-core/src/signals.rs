@@ -1,0 +1,192 @@
+//! What a sensor without pictures says at one instant: a grid of taxels, or a row of channels.
+
+mod error;
+
+pub use error::SignalError;
+
+use std::fmt;
+
+use crate::unit::Unit;
+
+/// The places of a tactile sensor that gives numbers, how many numbers each gives, and their unit.
+///
+/// A sensor whose places form no grid has one row of them.
+///
+/// ```
+/// use taceva_core::{SignalInfo, Unit};
+/// // Five magnetometers behind each other, of three axes each.
+/// let info = SignalInfo::new(5, 1, 3, Unit::Microtesla)?;
+/// assert_eq!((info.len(), info.to_string().as_str()), (15, "5×1 places of 3 in uT"));
+/// # Ok::<(), taceva_core::SignalError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
+pub struct SignalInfo {
+    /// Rows of places.
+    pub rows: u32,
+    /// Places a row.
+    pub columns: u32,
+    /// Numbers a place.
+    pub channels: u32,
+    /// The unit of every number.
+    pub unit: Unit,
+}
+
+impl SignalInfo {
+    /// Most numbers a sample.
+    pub const LEN_MAX: u32 = 16_384;
+
+    /// A grid of `rows` × `columns` places, each of `channels` numbers in `unit`.
+    ///
+    /// # Errors
+    /// [`SignalError`] if a side is 0, or a sample would have more than [`LEN_MAX`](SignalInfo::LEN_MAX) numbers.
+    pub const fn new(
+        rows: u32,
+        columns: u32,
+        channels: u32,
+        unit: Unit,
+    ) -> Result<SignalInfo, SignalError> {
+        let info = SignalInfo {
+            rows,
+            columns,
+            channels,
+            unit,
+        };
+        match info.is_valid() {
+            true => Ok(info),
+            false => Err(SignalError::Grid { info }),
+        }
+    }
+
+    /// Whether it has a number, and no more than [`LEN_MAX`](SignalInfo::LEN_MAX): not every one that was read from a file does.
+    pub const fn is_valid(&self) -> bool {
+        let (rows, columns) = (self.rows as u64, self.columns as u64);
+        // Two 32-bit numbers have a 64-bit product.
+        match (rows * columns).checked_mul(self.channels as u64) {
+            Some(length) => length > 0 && length <= SignalInfo::LEN_MAX as u64,
+            None => false,
+        }
+    }
+
+    /// Numbers a sample; 0 of one that is not [valid](SignalInfo::is_valid).
+    pub const fn len(&self) -> usize {
+        match self.is_valid() {
+            true => self.rows as usize * self.columns as usize * self.channels as usize,
+            false => 0,
+        }
+    }
+
+    /// Whether a sample has no number.
+    pub const fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+impl fmt::Display for SignalInfo {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let SignalInfo {
+            rows,
+            columns,
+            channels,
+            unit,
+        } = self;
+        write!(f, "{rows}×{columns} places of {channels} in {unit}")
+    }
+}
+
+/// The numbers of all places at one instant, each finite.
+///
+/// # Shapes
+/// `[rows, columns, channels]`, contiguous: all numbers of a place stand together, place after place along a row, row after row.
+/// # Units
+/// That of its [`SignalInfo`].
+///
+/// ```
+/// use taceva_core::{SignalInfo, Signals, Unit};
+/// let info = SignalInfo::new(1, 2, 3, Unit::Microtesla)?;
+/// let signals = Signals::new(info, vec![0.1, 0.2, 0.3, 1.1, 1.2, 1.3])?;
+/// // The second place.
+/// assert_eq!(signals.values()[3..], [1.1, 1.2, 1.3]);
+/// assert!(Signals::new(info, vec![0.0; 5]).is_err());
+/// # Ok::<(), taceva_core::SignalError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Signals {
+    info: SignalInfo,
+    values: Vec<f32>,
+}
+
+impl Signals {
+    /// Signals of `values`, place first.
+    ///
+    /// # Shapes
+    /// `values`: rows × columns × channels.
+    /// # Errors
+    /// [`SignalError`] if there are more or fewer numbers, or one is not finite.
+    pub fn new(info: SignalInfo, values: Vec<f32>) -> Result<Signals, SignalError> {
+        if !info.is_valid() {
+            return Err(SignalError::Grid { info });
+        }
+        if values.len() != info.len() {
+            return Err(SignalError::Count {
+                info,
+                found: values.len(),
+            });
+        }
+        match values.iter().position(|value| !value.is_finite()) {
+            None => Ok(Signals { info, values }),
+            Some(position) => Err(SignalError::NotFinite {
+                position,
+                found: values[position].to_string(),
+            }),
+        }
+    }
+
+    /// The grid and the unit.
+    pub fn info(&self) -> SignalInfo {
+        self.info
+    }
+
+    /// The numbers, place first.
+    pub fn values(&self) -> &[f32] {
+        &self.values
+    }
+
+    /// The numbers, given away.
+    pub fn into_values(self) -> Vec<f32> {
+        self.values
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_grid_without_places_or_beyond_every_sensor_is_refused() {
+        for (rows, columns, channels) in [(0, 1, 1), (1, 0, 1), (1, 1, 0), (u32::MAX, 2, 2)] {
+            let error = SignalInfo::new(rows, columns, channels, Unit::Count).expect_err("refused");
+            assert!(error.to_string().contains("16384"), "{error}");
+        }
+        assert!(SignalInfo::new(u32::MAX, u32::MAX, u32::MAX, Unit::Volt).is_err());
+        let most = SignalInfo::new(128, 128, 1, Unit::Count).expect("as many as there may be");
+        assert_eq!(most.len(), 16_384);
+    }
+
+    #[test]
+    fn numbers_that_are_none_are_named_with_their_place() {
+        let info = SignalInfo::new(1, 3, 1, Unit::Volt).expect("three places");
+        let error = Signals::new(info, vec![0.0, f32::NAN, 1.0]).expect_err("no number");
+        assert_eq!(
+            error.to_string(),
+            "signal 1 is NaN, expected a finite number"
+        );
+        let error = Signals::new(info, vec![0.0; 4]).expect_err("one too many");
+        assert_eq!(
+            error.to_string(),
+            "4 signals for 1×3 places of 1 in V, which are 3"
+        );
+    }
+}

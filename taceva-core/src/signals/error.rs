@@ -1,0 +1,55 @@
+//! Numbers that are no signals of a sensor.
+
+use std::fmt;
+
+use super::SignalInfo;
+
+/// Why numbers are not the signals of a sensor.
+///
+/// ```
+/// use taceva_core::{SignalError, SignalInfo, Unit};
+/// assert!(matches!(SignalInfo::new(0, 4, 1, Unit::Count), Err(SignalError::Grid { .. })));
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum SignalError {
+    /// A grid without a number, or with more than any sensor has.
+    Grid {
+        /// The grid.
+        info: SignalInfo,
+    },
+    /// More or fewer numbers than the grid has.
+    Count {
+        /// The grid.
+        info: SignalInfo,
+        /// How many numbers there are.
+        found: usize,
+    },
+    /// A number that is not finite.
+    NotFinite {
+        /// Which one, from 0, place first.
+        position: usize,
+        /// As it is written.
+        found: String,
+    },
+}
+
+impl fmt::Display for SignalError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            SignalError::Grid { info } => write!(
+                f,
+                "{info}: a sample has at least one number and at most {}",
+                SignalInfo::LEN_MAX
+            ),
+            SignalError::Count { info, found } => {
+                write!(f, "{found} signals for {info}, which are {}", info.len())
+            }
+            SignalError::NotFinite { position, found } => {
+                write!(f, "signal {position} is {found}, expected a finite number")
+            }
+        }
+    }
+}
+
+impl std::error::Error for SignalError {}

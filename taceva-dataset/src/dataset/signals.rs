@@ -1,0 +1,101 @@
+//! Signals of a dataset: their file is opened and verified when the first row of them is asked for.
+
+use std::sync::{Arc, PoisonError};
+
+use taceva_core::{Field, FieldSet, Signals};
+
+use super::Dataset;
+use crate::error::DatasetError;
+use crate::layout;
+use crate::signals::SignalsReader;
+
+impl Dataset {
+    /// The fields that at least one sample carries: those of the table, and signals, which are beside it.
+    pub fn fields(&self) -> FieldSet {
+        let fields = self.table.fields();
+        match self.header.signals {
+            Some(_) => fields.with(Field::Signals),
+            None => fields,
+        }
+    }
+
+    /// The signals of a row; `None` if the recording has none. The first row that is asked for has their whole file verified.
+    ///
+    /// # Errors
+    /// [`DatasetError::Digest`] if the file is not the one recorded, [`DatasetError::Damaged`] if it is not what its header says;
+    /// [`DatasetError::Request`] if there is no such row; [`DatasetError::Io`].
+    pub fn signals(&self, row: usize) -> Result<Option<Signals>, DatasetError> {
+        self.check_row(row)?;
+        match self.signals_reader()? {
+            Some(reader) => reader.row(row).map(Some),
+            None => Ok(None),
+        }
+    }
+
+    /// What the taxels say without contact: the mean over the rows that are known to be without; `None` if none is known.
+    ///
+    /// # Errors
+    /// As [`signals`](Dataset::signals).
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "means are formed in double precision and kept in single, as signals are"
+    )]
+    pub fn rest(&self) -> Result<Option<Signals>, DatasetError> {
+        let (Some(info), Some(reader)) = (&self.header.signals, self.signals_reader()?) else {
+            return Ok(None);
+        };
+        let mut sums = vec![0.0_f64; info.spec.info.len()];
+        let mut count = 0.0;
+        for row in self.rest_rows() {
+            let signals = reader.row(row)?;
+            let places = sums.iter_mut().zip(signals.values());
+            places.for_each(|(sum, value)| *sum += f64::from(*value));
+            count += 1.0;
+        }
+        if count < 1.0 {
+            return Ok(None);
+        }
+        let means = sums.iter().map(|sum| (sum / count) as f32).collect();
+        let rest = Signals::new(info.spec.info, means);
+        rest.map(Some).map_err(|error| DatasetError::Damaged {
+            path: self.path().join(layout::SIGNALS),
+            problem: format!("the mean of its rows without contact: {error}"),
+        })
+    }
+
+    /// The rows that are known to be without contact, by their taxels.
+    pub fn rest_rows(&self) -> impl Iterator<Item = usize> + '_ {
+        let info = self.header.signals.iter();
+        let runs = info.flat_map(|info| &info.spec.rest);
+        // Of a header that was not compared with the file yet a run may reach beyond the rows.
+        let rows = self.table.rows();
+        runs.flat_map(move |[first, last]| {
+            let bound = |row: u64| usize::try_from(row).unwrap_or(rows).min(rows);
+            bound(*first)..bound(last.saturating_add(1))
+        })
+    }
+
+    /// Reads all signals and checks that they are those recorded.
+    pub(super) fn verify_signals(&self) -> Result<(), DatasetError> {
+        match self.signals_reader()? {
+            Some(reader) => reader.verify(),
+            None => Ok(()),
+        }
+    }
+
+    fn signals_reader(&self) -> Result<Option<Arc<SignalsReader>>, DatasetError> {
+        let Some(info) = &self.header.signals else {
+            return Ok(None);
+        };
+        let mut opened = self.signals.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(reader) = &*opened {
+            return Ok(Some(Arc::clone(reader)));
+        }
+        let (file, _) = self.folder.file(layout::SIGNALS, u64::MAX)?;
+        let path = self.path().join(layout::SIGNALS);
+        let rows = self.table.rows() as u64;
+        let reader = Arc::new(SignalsReader::open(&path, file, (info, rows))?);
+        *opened = Some(Arc::clone(&reader));
+        Ok(Some(reader))
+    }
+}

@@ -1,0 +1,228 @@
+//! Where the numbers of taxels are, as it is written and checked.
+
+use serde::Deserialize;
+use taceva_core::{SignalInfo, SourceUnit};
+use toml::Spanned;
+
+use super::written::{Check, ColumnName};
+use crate::error::DatasetError;
+use crate::signals::SignalsSpec;
+
+/// Where the numbers of taxels are.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct SignalsMap {
+    pub(crate) from: SignalsFrom,
+    /// The unit that they are in.
+    pub(crate) unit: SourceUnit,
+    /// The taxels, in the unit that they are kept in; no row without contact is in it.
+    pub(crate) spec: SignalsSpec,
+    /// Whether all places of a channel stand together, and not all channels of a place.
+    pub(crate) is_channel_first: bool,
+    /// Runs of rows without contact, of the tables as they are read, each by its first and its last, from 0.
+    pub(crate) rest: Vec<[u64; 2]>,
+}
+
+/// What holds the numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum SignalsFrom {
+    /// Columns, one a number, or one whose cells pack all of them.
+    Columns(Vec<String>),
+    /// An array in another file, whose rows are those of the table.
+    Array { file: String, path: Option<String> },
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub(super) struct WrittenSignals {
+    from: Spanned<WrittenFrom>,
+    unit: Spanned<String>,
+    places: [u32; 2],
+    channels: Vec<String>,
+    order: Option<Order>,
+    rest: Option<Spanned<WrittenRest>>,
+}
+
+#[derive(Deserialize)]
+#[serde(
+    untagged,
+    expecting = "a column, several as \"1..15\" or a list, or { file = …, path = … }"
+)]
+enum WrittenFrom {
+    Text(String),
+    Columns(Vec<ColumnName>),
+    Array(WrittenArray),
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenArray {
+    file: String,
+    path: Option<String>,
+}
+
+#[derive(Clone, Copy, PartialEq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Order {
+    PlaceFirst,
+    ChannelFirst,
+}
+
+#[derive(Deserialize)]
+#[serde(
+    untagged,
+    expecting = "rows such as \"0..99\", the last one included, or a list of such"
+)]
+enum WrittenRest {
+    Run(String),
+    Runs(Vec<String>),
+}
+
+impl SignalsMap {
+    /// The columns that it names.
+    pub(crate) fn columns(&self) -> &[String] {
+        match &self.from {
+            SignalsFrom::Columns(columns) => columns,
+            SignalsFrom::Array { .. } => &[],
+        }
+    }
+
+    /// Whether the row of that number, among those of all tables, is without contact.
+    pub(crate) fn is_rest(&self, row: u64) -> bool {
+        let mut runs = self.rest.iter();
+        runs.any(|[first, last]| (first..=last).contains(&&row))
+    }
+}
+
+impl Check<'_> {
+    pub(super) fn signals(
+        &self,
+        written: Spanned<WrittenSignals>,
+    ) -> Result<SignalsMap, DatasetError> {
+        let offset = written.span().start;
+        let written = written.into_inner();
+        let unit = self.unit(&written.unit)?;
+        let [rows, columns] = written.places;
+        let channels = u32::try_from(written.channels.len()).unwrap_or(u32::MAX);
+        let info = SignalInfo::new(rows, columns, channels, unit.unit());
+        let info = info.map_err(|error| self.at(offset, &error.to_string()))?;
+        let spec = SignalsSpec::new(info, written.channels);
+        let spec = spec.map_err(|problem| self.at(offset, &problem))?;
+        let has_order = info.channels > 1 && info.rows.max(info.columns) > 1;
+        if has_order && written.order.is_none() {
+            return Err(self.at(
+                offset,
+                "of several numbers at several places [signals] says `order`: \"place-first\" if all numbers of a place stand together, \
+                 \"channel-first\" if those of all places",
+            ));
+        }
+        let from_at = written.from.span().start;
+        let from = self.signals_from(written.from.into_inner(), from_at)?;
+        if let SignalsFrom::Columns(columns) = &from
+            && columns.len() > 1
+            && columns.len() != info.len()
+        {
+            return Err(self.at(
+                from_at,
+                &format!(
+                    "{} columns for {info}, which are {} numbers",
+                    columns.len(),
+                    info.len()
+                ),
+            ));
+        }
+        Ok(SignalsMap {
+            from,
+            unit,
+            spec,
+            is_channel_first: written.order == Some(Order::ChannelFirst),
+            rest: self.rest(written.rest)?,
+        })
+    }
+
+    fn signals_from(
+        &self,
+        written: WrittenFrom,
+        offset: usize,
+    ) -> Result<SignalsFrom, DatasetError> {
+        Ok(match written {
+            WrittenFrom::Array(WrittenArray { file, path }) => {
+                self.relative(&file, offset)?;
+                SignalsFrom::Array { file, path }
+            }
+            WrittenFrom::Columns(columns) => {
+                if columns.is_empty() {
+                    return Err(self.at(offset, "no column, expected at least one"));
+                }
+                let names = columns.into_iter().map(ColumnName::into_name);
+                SignalsFrom::Columns(names.collect())
+            }
+            WrittenFrom::Text(text) => {
+                let columns = columns_of(&text).map_err(|problem| self.at(offset, &problem))?;
+                SignalsFrom::Columns(columns)
+            }
+        })
+    }
+
+    fn rest(&self, written: Option<Spanned<WrittenRest>>) -> Result<Vec<[u64; 2]>, DatasetError> {
+        let Some(written) = written else {
+            return Ok(Vec::new());
+        };
+        let offset = written.span().start;
+        let texts = match written.into_inner() {
+            WrittenRest::Run(text) => vec![text],
+            WrittenRest::Runs(texts) => texts,
+        };
+        let runs = texts.iter().map(|text| {
+            let (first, last) = text.split_once("..").unwrap_or((text, text));
+            let bounds = [first, last].map(|bound| bound.trim().parse::<u64>().ok());
+            match bounds {
+                [Some(first), Some(last)] if first <= last => Ok([first, last]),
+                _ => Err(self.at(
+                    offset,
+                    &format!(
+                        "`{}`: expected rows such as \"0..99\", the last one included",
+                        crate::text::shown(text)
+                    ),
+                )),
+            }
+        });
+        runs.collect()
+    }
+}
+
+/// The columns that `text` means: `1..15` those of these numbers, behind any text, the last one included; one column else.
+fn columns_of(text: &str) -> Result<Vec<String>, String> {
+    let Some((before, last)) = text.split_once("..") else {
+        return Ok(vec![text.to_owned()]);
+    };
+    let prefix = before.trim_end_matches(|letter: char| letter.is_ascii_digit());
+    let bounds = [&before[prefix.len()..], last].map(|bound| bound.parse::<u32>().ok());
+    match bounds {
+        [Some(first), Some(last)] if first <= last && last - first < SignalInfo::LEN_MAX => {
+            Ok((first..=last)
+                .map(|number| format!("{prefix}{number}"))
+                .collect())
+        }
+        _ => Err(format!(
+            "`{}`: expected columns by number such as \"1..15\" or \"s0..s3\" written \"s0..3\", the last one included, and at most {} of them",
+            crate::text::shown(text),
+            SignalInfo::LEN_MAX
+        )),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_run_of_columns_has_its_last_one_and_keeps_what_stands_before() {
+        let names = |text| columns_of(text).expect("columns");
+        assert_eq!(names("1..3"), ["1", "2", "3"]);
+        assert_eq!(names("skin.s8..10"), ["skin.s8", "skin.s9", "skin.s10"]);
+        assert_eq!(names("value"), ["value"]);
+        for wrong in ["3..1", "1..", "..2", "0..4294967295", "a..b"] {
+            assert!(columns_of(wrong).is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,157 @@
+//! The signals of an import: found with the rows that are kept, written when it is run.
+
+mod array;
+
+use std::path::Path;
+
+use taceva_core::Progress;
+
+use super::map::{SignalsFrom, SignalsMap};
+use super::rows::MappedTable;
+use crate::error::{DatasetError, Place};
+use crate::file::SourceFolder;
+use crate::signals::{SignalsInfo, SignalsSpec, SignalsWriter};
+use array::ArraySignals;
+
+/// The signals of the rows that are kept, as they are found.
+#[derive(Debug)]
+pub(super) struct FoundSignals<'a> {
+    map: &'a SignalsMap,
+    from: Found,
+    /// Rows that are kept so far.
+    kept: u64,
+    /// Runs of those that are without contact.
+    rest: Vec<[u64; 2]>,
+}
+
+#[derive(Debug)]
+enum Found {
+    /// The numbers themselves, row by row.
+    Numbers(Vec<f32>),
+    /// Rows of an array, which is read when the import is run.
+    Array(ArraySignals, Vec<u64>),
+}
+
+/// The signals that an import writes.
+#[derive(Debug)]
+pub(super) struct PlannedSignals {
+    map: SignalsMap,
+    spec: SignalsSpec,
+    from: Found,
+}
+
+impl<'a> FoundSignals<'a> {
+    pub(super) fn new(
+        map: &'a SignalsMap,
+        folder: &SourceFolder,
+    ) -> Result<FoundSignals<'a>, DatasetError> {
+        let from = match &map.from {
+            SignalsFrom::Columns(_) => Found::Numbers(Vec::new()),
+            SignalsFrom::Array { file, path } => {
+                let file = folder.file(folder.path(), file)?;
+                let length = map.spec.info.len() as u64;
+                let array = ArraySignals::open(&file, path.as_deref(), length)?;
+                Found::Array(array, Vec::new())
+            }
+        };
+        Ok(FoundSignals {
+            map,
+            from,
+            kept: 0,
+            rest: Vec::new(),
+        })
+    }
+
+    /// Takes the signals of a row that is kept; `number` is its place among the rows of all tables.
+    pub(super) fn take(
+        &mut self,
+        rows: &MappedTable<'_>,
+        row: usize,
+        number: u64,
+    ) -> Result<(), DatasetError> {
+        match &mut self.from {
+            Found::Numbers(numbers) => {
+                let own = rows.signals(row).unwrap_or_default();
+                if let Some(position) = own.iter().position(|number| !number.is_finite()) {
+                    return Err(self.none_at(rows, row, position));
+                }
+                numbers.extend_from_slice(own);
+            }
+            Found::Array(array, taken) => {
+                array.check_row(number)?;
+                taken.push(number);
+            }
+        }
+        if self.map.is_rest(number) {
+            match self.rest.last_mut() {
+                Some([_, last]) if *last + 1 == self.kept => *last = self.kept,
+                _ => self.rest.push([self.kept; 2]),
+            }
+        }
+        self.kept += 1;
+        Ok(())
+    }
+
+    /// That a row has no number for one of its signals.
+    fn none_at(&self, rows: &MappedTable<'_>, row: usize, position: usize) -> DatasetError {
+        let columns = self.map.columns();
+        let length = self.map.spec.info.len();
+        let expected = format!("a finite number of {}", self.map.unit.symbol());
+        let (column, problem) = match columns {
+            [only] => (
+                Some(only),
+                format!("expected {length} numbers in the cell, each {expected}"),
+            ),
+            _ => {
+                let info = self.map.spec.info;
+                let (depth, places) = (info.channels as usize, length / info.channels as usize);
+                let at = match self.map.is_channel_first {
+                    true => position % depth * places + position / depth,
+                    false => position,
+                };
+                (columns.get(at), format!("no number, expected {expected}"))
+            }
+        };
+        DatasetError::Table {
+            place: Place {
+                column: column.cloned(),
+                ..rows.place(row)
+            },
+            problem: format!("[signals]: {problem}"),
+        }
+    }
+
+    pub(super) fn into_plan(self, rows_read: u64) -> Result<PlannedSignals, DatasetError> {
+        if let Found::Array(array, _) = &self.from {
+            array.check_rows(rows_read)?;
+        }
+        Ok(PlannedSignals {
+            spec: self.map.spec.clone().with_rest(self.rest),
+            map: self.map.clone(),
+            from: self.from,
+        })
+    }
+}
+
+impl PlannedSignals {
+    /// Writes them to `path`; of an array no more than some rows are in memory.
+    pub(super) fn write(
+        &self,
+        path: &Path,
+        progress: &dyn Progress,
+    ) -> Result<SignalsInfo, DatasetError> {
+        let mut writer = SignalsWriter::create(path, &self.spec)?;
+        match &self.from {
+            Found::Numbers(numbers) => {
+                for row in numbers.chunks_exact(self.spec.info.len()) {
+                    if progress.is_cancelled() {
+                        return Err(DatasetError::Cancelled);
+                    }
+                    writer.push(row)?;
+                }
+            }
+            Found::Array(array, rows) => array.write(&self.map, rows, (&mut writer, progress))?,
+        }
+        writer.finish()
+    }
+}

@@ -1,0 +1,168 @@
+//! Signals in an array of another file, read some rows at a time.
+
+use std::path::{Path, PathBuf};
+
+use taceva_arrays::{ArrayFile, ArrayFormat};
+use taceva_core::Progress;
+
+use crate::error::{DatasetError, Place};
+use crate::guard::guarded;
+use crate::import::map::SignalsMap;
+use crate::import::resolve::place_first;
+use crate::signals::SignalsWriter;
+
+/// Numbers that are read at once: 8 MiB as 64 bits.
+const READ_VALUES: u64 = 1 << 20;
+
+/// An array of signals.
+#[derive(Debug)]
+pub(super) struct ArraySignals {
+    path: PathBuf,
+    file: ArrayFile,
+    name: String,
+    rows: u64,
+    length: u64,
+}
+
+impl ArraySignals {
+    /// The array called `name`, or the only one, of the file at `path`, which has `length` numbers a row.
+    pub(super) fn open(
+        path: &Path,
+        name: Option<&str>,
+        length: u64,
+    ) -> Result<ArraySignals, DatasetError> {
+        let wrong = |problem| wrong(path, problem);
+        let format = ArrayFormat::of(path).ok_or_else(|| {
+            wrong(
+                "no file of arrays by its name: .npy, .npz, .h5, .hdf5, .zarr, .mat or .pkl"
+                    .to_owned(),
+            )
+        })?;
+        let opened = guarded(|| ArrayFile::open(path, format)).map_err(wrong)?;
+        let file = opened.map_err(|error| wrong(error.to_string()))?;
+        let names = file.names();
+        let name = match (name, &names[..]) {
+            (Some(name), _) => name.to_owned(),
+            (None, [only]) => only.clone(),
+            (None, _) => {
+                let some: Vec<&str> = names.iter().take(16).map(String::as_str).collect();
+                return Err(wrong(format!(
+                    "{} arrays ({}): `from = {{ file = …, path = … }}` says which",
+                    names.len(),
+                    crate::text::shown(&some.join(", "))
+                )));
+            }
+        };
+        let info = file.info(&name);
+        let info =
+            info.ok_or_else(|| wrong(format!("no array `{}`", crate::text::shown(&name))))?;
+        let (rows, beside) = match &info.shape[..] {
+            [rows, beside @ ..] => (*rows, beside),
+            [] => (0, &[][..]),
+        };
+        let found = beside
+            .iter()
+            .try_fold(1_u64, |product, side| product.checked_mul(*side));
+        if found != Some(length) || rows == 0 {
+            return Err(wrong(format!(
+                "an array of shape {:?}, expected rows of {length} numbers, as `places` and `channels` of [signals] say",
+                info.shape
+            )));
+        }
+        Ok(ArraySignals {
+            path: path.to_owned(),
+            file,
+            name,
+            rows,
+            length,
+        })
+    }
+
+    pub(super) fn check_row(&self, row: u64) -> Result<(), DatasetError> {
+        match row < self.rows {
+            true => Ok(()),
+            false => Err(wrong(
+                &self.path,
+                format!("{} rows of signals, and the table has more", self.rows),
+            )),
+        }
+    }
+
+    /// Whether there are as many rows as in the table.
+    pub(super) fn check_rows(&self, rows: u64) -> Result<(), DatasetError> {
+        match rows == self.rows {
+            true => Ok(()),
+            false => Err(wrong(
+                &self.path,
+                format!("{} rows of signals for {rows} rows of the table", self.rows),
+            )),
+        }
+    }
+
+    /// Writes the signals of `rows`, which ascend.
+    pub(super) fn write(
+        &self,
+        map: &SignalsMap,
+        rows: &[u64],
+        (writer, progress): (&mut SignalsWriter, &dyn Progress),
+    ) -> Result<(), DatasetError> {
+        let step = (READ_VALUES / self.length).max(1);
+        for chunk in rows.chunk_by(|left, right| left / step == right / step) {
+            if progress.is_cancelled() {
+                return Err(DatasetError::Cancelled);
+            }
+            let (Some(first), Some(last)) = (chunk.first(), chunk.last()) else {
+                continue;
+            };
+            let values = self.read(*first..last + 1)?;
+            for row in chunk {
+                let at = usize::try_from((row - first) * self.length).unwrap_or(usize::MAX);
+                let length = usize::try_from(self.length).unwrap_or(0);
+                let own = values.get(at..).and_then(|own| own.get(..length));
+                let own = own.ok_or_else(|| wrong(&self.path, format!("row {row} is missing")))?;
+                let kept: Vec<f32> = own.iter().map(|value| kept(*value, map)).collect();
+                if let Some(position) = kept.iter().position(|value| !value.is_finite()) {
+                    return Err(wrong(
+                        &self.path,
+                        format!(
+                            "row {row}: number {position} of its signals is {}, expected a finite number",
+                            own[position]
+                        ),
+                    ));
+                }
+                let ordered: Vec<f32> = place_first(map, &kept).collect();
+                writer.push(&ordered)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn read(&self, rows: std::ops::Range<u64>) -> Result<Vec<f64>, DatasetError> {
+        let wrong = |problem| wrong(&self.path, problem);
+        let read = guarded(|| self.file.read(&self.name, rows)).map_err(wrong)?;
+        let read = read.map_err(|error| wrong(error.to_string()))?;
+        let numbers = read.values.to_f64();
+        numbers.ok_or_else(|| {
+            wrong(format!(
+                "`{}` holds no numbers, or some that 64 bits of floating point cannot say",
+                crate::text::shown(&self.name)
+            ))
+        })
+    }
+}
+
+/// A number in the unit that it is kept in.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "signals are kept in single precision; this is the one rounding"
+)]
+fn kept(value: f64, map: &SignalsMap) -> f32 {
+    map.unit.convert(value) as f32
+}
+
+fn wrong(path: &Path, problem: String) -> DatasetError {
+    DatasetError::Table {
+        place: Place::file(path),
+        problem,
+    }
+}

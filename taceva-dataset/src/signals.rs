@@ -1,0 +1,20 @@
+//! `signals.parquet`: the numbers of taxels, a FLOAT column a number of a sample, beside the table of labels.
+
+mod read;
+mod spec;
+#[cfg(test)]
+mod tests;
+mod write;
+
+pub(crate) use read::SignalsReader;
+pub(crate) use spec::WrittenSignals;
+pub use spec::{SignalsInfo, SignalsSpec};
+pub(crate) use write::SignalsWriter;
+
+/// Numbers of a row group: 4 MiB, whatever the number of taxels.
+const GROUP_VALUES: usize = 1 << 20;
+
+/// Rows of a row group of samples of `length` numbers.
+fn rows_of_group(length: usize) -> usize {
+    (GROUP_VALUES / length.max(1)).max(1)
+}

@@ -1,0 +1,122 @@
+//! Numbers of taxels as features: they are what they are, less what they say without contact.
+
+use taceva_core::{FeatureShape, Features, SignalInfo, Signals};
+
+use super::error::FeatureError;
+use super::spec::FeatureSpec;
+
+/// Takes signals of one grid.
+#[derive(Clone, Debug)]
+pub(super) struct Taxels {
+    info: SignalInfo,
+    /// What they say without contact, where that is subtracted.
+    rest: Option<Signals>,
+}
+
+impl Taxels {
+    pub(super) fn new(
+        spec: &FeatureSpec,
+        info: SignalInfo,
+        rest: Option<&Signals>,
+    ) -> Result<Taxels, FeatureError> {
+        if spec.of_signals(info) != *spec {
+            return Err(FeatureError::OtherGrid { info, spec: *spec });
+        }
+        let rest = match (spec.difference, rest) {
+            (false, _) => None,
+            (true, None) => return Err(FeatureError::NoRest),
+            (true, Some(rest)) if rest.info() != info => {
+                return Err(FeatureError::Input {
+                    expected: info.into(),
+                    found: rest.info().into(),
+                });
+            }
+            (true, Some(rest)) => Some(rest.clone()),
+        };
+        Ok(Taxels { info, rest })
+    }
+
+    pub(super) fn info(&self) -> SignalInfo {
+        self.info
+    }
+
+    /// Writes the numbers of `signals`, whose grid the caller has checked, in their unit.
+    pub(super) fn write(&self, signals: &Signals, into: &mut [f32]) {
+        into.copy_from_slice(signals.values());
+        if let Some(rest) = &self.rest {
+            let places = into.iter_mut().zip(rest.values());
+            places.for_each(|(place, rest)| *place -= rest);
+        }
+    }
+}
+
+/// How far each channel of a place spreads over `training`, as the power of two next to it: numbers that are divided by it are
+/// about 1, and not a bit of them is lost, so that a model that scales each feature itself is what it is without.
+///
+/// The spread of a channel is the root mean square, over places, of the standard deviation of its number there; 1 where nothing changes.
+///
+/// # Shapes
+/// `[depth]` of the features.
+pub(crate) fn spread(training: &Features) -> Vec<f64> {
+    let FeatureShape {
+        height,
+        width,
+        depth,
+    } = training.shape();
+    let length = height * width * depth;
+    let count = training.samples().max(1) as f64;
+    let mut means = vec![0.0_f64; length];
+    for sample in training.values().chunks_exact(length.max(1)) {
+        let places = means.iter_mut().zip(sample);
+        places.for_each(|(mean, value)| *mean += f64::from(*value) / count);
+    }
+    let mut variances = vec![0.0_f64; depth];
+    for sample in training.values().chunks_exact(length.max(1)) {
+        for (position, (value, mean)) in sample.iter().zip(&means).enumerate() {
+            variances[position % depth] += (f64::from(*value) - mean).powi(2);
+        }
+    }
+    let places = (height * width).max(1) as f64;
+    let spreads = variances.iter().map(|sum| (sum / count / places).sqrt());
+    spreads.map(power_of_two).collect()
+}
+
+/// The power of two nearest to `spread`, as far as single precision reaches it; 1 of none.
+fn power_of_two(spread: f64) -> f64 {
+    match spread > 0.0 {
+        true => spread.log2().round().clamp(-100.0, 100.0).exp2(),
+        false => 1.0,
+    }
+}
+
+/// `features`, each divided by the spread of its channel.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "features are kept in single precision, and quotients by a power of two are exact there"
+)]
+pub(crate) fn divided(features: &Features, spread: &[f64]) -> Features {
+    let factors = spread.iter().cycle().map(|spread| 1.0 / spread);
+    let values = features.values().iter().zip(factors);
+    let values = values.map(|(value, factor)| (f64::from(*value) * factor) as f32);
+    Features::new(features.shape(), values.collect()).expect("as many values as there were")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn channels_are_divided_by_their_own_spread_and_lose_no_bit() {
+        // Two places of two channels: one spreads by 3 at both, with an offset that counts for nothing, the other never changes.
+        let shape = FeatureShape {
+            height: 1,
+            width: 2,
+            depth: 2,
+        };
+        let values = vec![97.0, 5.0, -3.0, 5.0, 103.0, 5.0, 3.0, 5.0];
+        let features = Features::new(shape, values).expect("two samples");
+        assert_eq!(spread(&features), [4.0, 1.0]);
+        let divided = divided(&features, &spread(&features));
+        assert_eq!(divided.sample(0), [24.25, 5.0, -0.75, 5.0]);
+    }
+}

@@ -1,0 +1,63 @@
+//! What a recording has for a model to look at.
+
+use taceva_core::{Field, Frame, FrameInfo, Input, InputInfo, SignalInfo, Signals};
+use taceva_dataset::{Dataset, DatasetError};
+use taceva_models::FeatureSpec;
+
+/// The frames or the signals of a recording, and what they are without contact, where that is asked for.
+pub(crate) enum Sight {
+    /// Frames.
+    Frames(FrameInfo, Option<Frame>),
+    /// Signals.
+    Signals(SignalInfo, Option<Signals>),
+}
+
+impl Sight {
+    /// What `dataset` has of what `spec` is of, or the name of what it lacks.
+    ///
+    /// # Errors
+    /// Those of reading what it is without contact.
+    pub(crate) fn of(
+        dataset: &Dataset,
+        spec: &FeatureSpec,
+    ) -> Result<Result<Sight, &'static str>, DatasetError> {
+        let (frame, signals) = kinds(dataset);
+        let is_compared = spec.asks_for_reference().is_some();
+        Ok(match (spec.channels.is_some(), frame, signals) {
+            (false, Some(info), _) => {
+                let reference = is_compared.then(|| dataset.reference()).transpose()?;
+                Ok(Sight::Frames(info, reference.flatten()))
+            }
+            (true, _, Some(info)) => {
+                let rest = is_compared.then(|| dataset.rest()).transpose()?;
+                Ok(Sight::Signals(info, rest.flatten()))
+            }
+            (false, None, _) => Err("frames"),
+            (true, _, None) => Err(Field::Signals.name()),
+        })
+    }
+
+    /// The kind and the size.
+    pub(crate) fn info(&self) -> InputInfo {
+        match self {
+            Sight::Frames(info, _) => (*info).into(),
+            Sight::Signals(info, _) => (*info).into(),
+        }
+    }
+
+    /// What it is without contact, where that is asked for and known.
+    pub(crate) fn reference(&self) -> Option<Input<'_>> {
+        match self {
+            Sight::Frames(_, reference) => reference.as_ref().map(Input::from),
+            Sight::Signals(_, rest) => rest.as_ref().map(Input::from),
+        }
+    }
+}
+
+/// The frames and the signals of `dataset`, as far as it has such.
+pub(crate) fn kinds(dataset: &Dataset) -> (Option<FrameInfo>, Option<SignalInfo>) {
+    let header = dataset.header();
+    let frame = header.frames.as_ref().map(|frames| frames.info);
+    let signals = header.signals.as_ref().map(|signals| signals.spec.info);
+    (frame, signals)
+}
