@@ -57,5 +57,17 @@ fn main() -> Result<(), Box<dyn Error>> {
         Ok(())
     })?;
     writeln!(out, "{bytes} bytes")?;
+    if let Some(peak) = peak() {
+        writeln!(out, "most memory:{peak}")?;
+    }
     Ok(())
+}
+
+/// The most memory that this process had, where the system says so.
+fn peak() -> Option<String> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status
+        .lines()
+        .find_map(|line| line.strip_prefix("VmHWM:"))?;
+    Some(line.trim_end().to_owned())
 }
