@@ -1,4 +1,4 @@
-//! What a clip is, and the digest of the luma plane of each of its frames: `frames CLIP [--digests] [--ffmpeg PROGRAM] [--child PROGRAM]`.
+//! What a clip is, and the time (in s) and the digest of the luma plane of each of its frames: `frames CLIP [--digests] [--ffmpeg PROGRAM] [--child PROGRAM]`.
 
 use std::error::Error;
 use std::io::Write;
@@ -37,7 +37,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     )?;
     let all: Vec<u64> = (0..info.frames).collect();
     let mut bytes = 0;
-    clip.visit(&all, Colours::Luma, &mut |_, picture| {
+    clip.visit(&all, Colours::Luma, &mut |index, picture| {
         let luma = match picture {
             Picture::Jpeg(bytes) => bytes,
             Picture::Pixels { samples, .. } => samples,
@@ -52,10 +52,24 @@ fn main() -> Result<(), Box<dyn Error>> {
                 .iter()
                 .map(|byte| format!("{byte:02x}"))
                 .collect();
-            writeln!(out, "{digest}")?;
+            let times = info.times_s.as_ref().zip(usize::try_from(index).ok());
+            let time_s = times.and_then(|(times, index)| times.get(index));
+            writeln!(out, "{digest} {}", time_s.copied().unwrap_or(f64::NAN))?;
         }
         Ok(())
     })?;
     writeln!(out, "{bytes} bytes")?;
+    if let Some(peak) = peak() {
+        writeln!(out, "most memory:{peak}")?;
+    }
     Ok(())
+}
+
+/// The most memory that this process had, where the system says so.
+fn peak() -> Option<String> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status
+        .lines()
+        .find_map(|line| line.strip_prefix("VmHWM:"))?;
+    Some(line.trim_end().to_owned())
 }

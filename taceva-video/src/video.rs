@@ -168,3 +168,14 @@ impl Video {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn threads_may_share_a_clip() {
+        fn shared<T: Send + Sync>() {}
+        shared::<Video>();
+    }
+}
