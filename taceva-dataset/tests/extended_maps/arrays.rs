@@ -4,7 +4,7 @@ use super::{FACTS, NO_TIME, planned};
 use taceva_dataset::{Dataset, ImportMap, ImportPlan};
 
 /// A NumPy file of version 1.
-fn npy(kind: &str, shape: &str, data: &[u8]) -> Vec<u8> {
+pub(super) fn npy(kind: &str, shape: &str, data: &[u8]) -> Vec<u8> {
     let header = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}");
     let length = u16::try_from(header.len()).expect("short");
     [
@@ -16,7 +16,7 @@ fn npy(kind: &str, shape: &str, data: &[u8]) -> Vec<u8> {
     .concat()
 }
 
-fn bytes_of(numbers: &[f32]) -> Vec<u8> {
+pub(super) fn bytes_of(numbers: &[f32]) -> Vec<u8> {
     numbers
         .iter()
         .flat_map(|number| number.to_le_bytes())

@@ -1,7 +1,8 @@
 //! Models of signals on disk, and what the card of one may not say.
 
 use taceva_core::{
-    Channel, Channels, Features, SignalInfo, Signals, SilentProgress, Targets, TrainingSet, Unit,
+    Channel, Channels, Features, Regressor, SignalInfo, Signals, SilentProgress, Targets,
+    TrainingSet, Unit,
 };
 use taceva_models::{
     Extractor, FeatureError, FeatureSpec, FitInput, FormatError, Model, ModelSettings, Provenance,
@@ -76,6 +77,38 @@ fn a_model_of_signals_comes_back_and_predicts_the_same_bits() {
         let flat = Features::new(taceva_core::FeatureShape::flat(12), vec![0.0; 12]);
         assert!(model.predict(&flat.expect("one sample")).is_err());
     }
+}
+
+#[test]
+fn a_model_that_scales_features_itself_predicts_the_same_bits_without_the_division() {
+    let (model, features) = of_signals(&[]);
+    assert!(
+        model
+            .card()
+            .spread
+            .iter()
+            .flatten()
+            .all(|spread| *spread > 1.0)
+    );
+    let channels = Channels::new([Channel::FZ]).expect("one");
+    let forces: Vec<f64> = (0..30_u8).map(f64::from).collect();
+    let training = TrainingSet::new(&features, Targets::new(&channels, &forces));
+    let settings = ModelSettings::default();
+    let estimator = find("ridge")
+        .expect("there")
+        .estimator(&settings)
+        .expect("valid");
+    let plain = estimator
+        .fit_model(&training, None, &SilentProgress)
+        .expect("learnable");
+    let mut expected = vec![0.0; 30];
+    plain
+        .regressor
+        .predict(&features, &mut expected)
+        .expect("finite");
+    let found = model.predict_unbounded(&features).expect("finite");
+    let bits = |values: Vec<f64>| values.into_iter().map(f64::to_bits).collect::<Vec<_>>();
+    assert_eq!(bits(found), bits(expected));
 }
 
 #[test]
