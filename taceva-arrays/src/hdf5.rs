@@ -215,6 +215,10 @@ impl Store for Hdf5 {
         self.groups.clone()
     }
 
+    fn attributes(&self, owner: &str) -> Vec<String> {
+        attribute::names(&self.file, owner)
+    }
+
     fn attribute(&self, owner: &str, name: &str) -> Option<String> {
         attribute::read(&self.file, owner, name)
     }
