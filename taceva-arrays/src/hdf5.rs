@@ -231,6 +231,17 @@ impl Store for Hdf5 {
         if let Some(first) = shape.first_mut() {
             *first = rows.end - rows.start;
         }
+        if let (Some(scalar), None, Some(at)) = (
+            listed.item.scalar(),
+            field.scalar.heap_text(),
+            self.opened(dataset)?.at,
+        ) {
+            let count =
+                (rows.end - rows.start) * (listed.row_bytes / (scalar.bytes() as u64).max(1));
+            let count = usize::try_from(count).unwrap_or(usize::MAX);
+            let values = scalar.read(&*self.bytes, at + rows.start * listed.row_bytes, count)?;
+            return Ok(ArrayData { shape, values });
+        }
         let raw = self.raw_rows(dataset, rows)?;
         match field.scalar.heap_text() {
             None => listed.item.read(field, raw, &shape),
