@@ -1,25 +1,12 @@
-//! The directory of a zip archive: which members there are, and where their bytes lie. Members are stored or deflated, archives of
+//! The directory of a zip archive: which members there are, and where their bytes lie. Packeds are stored or deflated, archives of
 //! more than 4 GiB (zip64) included; the directory at the end is believed, and each local header is compared with it.
 
 use crate::error::Problem;
+use crate::inflate::Wrapping;
 use crate::limits;
+use crate::packed::Packed;
 use crate::scalar::shown;
 use crate::source::{ByteSource, bytes_of};
-
-/// A member of an archive.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Member {
-    pub(crate) name: String,
-    pub(crate) is_deflated: bool,
-    /// The checksum of its bytes as they were before they were deflated.
-    pub(crate) crc32: u32,
-    /// Where its bytes begin in the archive.
-    pub(crate) at: u64,
-    /// Bytes in the archive.
-    pub(crate) packed_bytes: u64,
-    /// Bytes once they are inflated.
-    pub(crate) bytes: u64,
-}
 
 const END: u32 = 0x0605_4b50;
 const END_64: u32 = 0x0606_4b50;
@@ -35,7 +22,7 @@ const ELSEWHERE: u64 = 0xffff_ffff;
 const ELSEWHERE_16: u64 = 0xffff;
 
 /// Reads the directory.
-pub(crate) fn members(archive: &dyn ByteSource) -> Result<Vec<Member>, Problem> {
+pub(crate) fn members(archive: &dyn ByteSource) -> Result<Vec<Packed>, Problem> {
     let directory = directory(archive)?;
     let bytes = bytes_of(archive, directory.at, directory.bytes)?;
     let mut rest = bytes.as_slice();
@@ -133,7 +120,7 @@ fn directory(archive: &dyn ByteSource) -> Result<Directory, Problem> {
 }
 
 /// One entry of the directory, and what follows it. The offset is that of the local header. A folder is none.
-fn entry(rest: &[u8], at: u64) -> Result<(Option<Member>, &[u8]), Problem> {
+fn entry(rest: &[u8], at: u64) -> Result<(Option<Packed>, &[u8]), Problem> {
     let cut = || Problem::damaged(at, "the end of the directory", "an entry");
     if number(rest, 0, 4).ok_or_else(cut)? != u64::from(ENTRY) {
         return Err(Problem::damaged(
@@ -181,64 +168,23 @@ fn entry(rest: &[u8], at: u64) -> Result<(Option<Member>, &[u8]), Problem> {
             "save it by `np.savez` or `np.savez_compressed`",
         ));
     }
-    let member = Member {
+    let member = Packed {
         name,
-        is_deflated: method == 8,
-        crc32,
+        wrapping: (method == 8).then_some(Wrapping::Raw),
+        crc32: Some(crc32),
         at: local_at,
         packed_bytes,
         bytes,
     };
-    check_size(&member)?;
+    member.check_size()?;
     Ok((Some(member), behind))
 }
 
-/// Refuses what cannot be, and what is made to fill a memory or to cost hours.
-fn check_size(member: &Member) -> Result<(), Problem> {
-    let wrong = |expected: u64| {
-        Problem::damaged(
-            member.at,
-            format!(
-                "member `{}` of {} bytes, said to become {}",
-                shown(&member.name),
-                member.packed_bytes,
-                member.bytes
-            ),
-            format!("at most {expected}"),
-        )
-    };
-    if !member.is_deflated {
-        return if member.bytes == member.packed_bytes {
-            Ok(())
-        } else {
-            Err(wrong(member.packed_bytes))
-        };
-    }
-    let most = member.packed_bytes.saturating_mul(limits::DEFLATE_RATIO);
-    if member.bytes > most {
-        return Err(wrong(most));
-    }
-    let usual = member.packed_bytes.saturating_mul(limits::USUAL_RATIO);
-    if member.bytes > limits::INFLATED_BYTES && member.bytes > usual {
-        return Err(Problem::too_large(
-            format!(
-                "bytes of `{}` once inflated, {} times as many as it has (above {} times, no more than the limit is accepted; save it by `np.savez`)",
-                shown(&member.name),
-                member.bytes / member.packed_bytes.max(1),
-                limits::USUAL_RATIO
-            ),
-            member.bytes,
-            limits::INFLATED_BYTES,
-        ));
-    }
-    Ok(())
-}
-
 /// The member with the place of its bytes, which the local header tells.
-fn located(archive: &dyn ByteSource, listed: Member) -> Result<Member, Problem> {
+fn located(archive: &dyn ByteSource, listed: Packed) -> Result<Packed, Problem> {
     let header = bytes_of(archive, listed.at, 30)?;
     let field = |place: usize, bytes: usize| number(&header, place, bytes).unwrap_or(0);
-    let method = if listed.is_deflated { 8 } else { 0 };
+    let method = if listed.wrapping.is_some() { 8 } else { 0 };
     if field(0, 4) != u64::from(LOCAL) || field(8, 2) != method {
         return Err(Problem::damaged(
             listed.at,
@@ -261,7 +207,7 @@ fn located(archive: &dyn ByteSource, listed: Member) -> Result<Member, Problem> 
             ),
         ));
     }
-    Ok(Member { at, ..listed })
+    Ok(Packed { at, ..listed })
 }
 
 fn extra_field(mut extra: &[u8], wanted: u64) -> Option<&[u8]> {

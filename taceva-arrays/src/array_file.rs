@@ -169,6 +169,7 @@ impl ArrayFile {
 
 fn open(path: &Path, format: ArrayFormat) -> Result<Box<dyn Store>, Problem> {
     match format {
+        ArrayFormat::Matlab => crate::matlab::open(FileBytes::open(path)?),
         ArrayFormat::Pickle => Ok(Box::new(Pickle::open(Arc::new(FileBytes::open(path)?), 0)?)),
         ArrayFormat::Zarr => Ok(Box::new(Zarr::open(path)?)),
         #[cfg(feature = "hdf5")]
@@ -183,9 +184,5 @@ fn open(path: &Path, format: ArrayFormat) -> Result<Box<dyn Store>, Problem> {
             "",
             Arc::new(FileBytes::open(path)?),
         )?)),
-        _ => Err(Problem::unsupported(
-            "a form that is not read yet",
-            "save it as `.npy`",
-        )),
     }
 }

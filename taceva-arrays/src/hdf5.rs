@@ -198,10 +198,6 @@ impl Hdf5 {
     pub(crate) fn datasets(&self) -> &[Listed] {
         &self.datasets
     }
-
-    pub(crate) fn file(&self) -> &File {
-        &self.file
-    }
 }
 
 impl Store for Hdf5 {

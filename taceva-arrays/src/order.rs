@@ -10,6 +10,9 @@ use crate::source::{ByteSource, bytes_of};
 /// Columns are read so many bytes at a time where they are short.
 const PIECE_BYTES: u64 = 1 << 20;
 
+/// Rows that were turned, and which they are.
+type Turned = (Range<u64>, Arc<Vec<u8>>);
+
 /// An array whose first axis is fastest. Rows are turned in blocks of up to 64 MiB, the last of which is kept, so that reading row after
 /// row goes through the file once for every 64 MiB of it.
 #[derive(Debug)]
@@ -20,7 +23,7 @@ pub(crate) struct ColumnMajor {
     rest: Vec<u64>,
     row_elements: u64,
     data_at: u64,
-    kept: Mutex<Option<(Range<u64>, Arc<Vec<u8>>)>>,
+    kept: Mutex<Option<Turned>>,
 }
 
 impl ColumnMajor {
@@ -148,6 +151,12 @@ pub(crate) fn c_order(
         }
     }
     Ok(turned)
+}
+
+/// The place in C order of each element that lies column by column; the sides were checked.
+pub(crate) fn c_places(sides: &[u64]) -> impl Iterator<Item = usize> {
+    let mut places = Places::new(sides);
+    std::iter::repeat_with(move || places.next_place())
 }
 
 /// Where the columns, the second axis fastest, stand in a row whose last axis is fastest.

@@ -46,7 +46,7 @@ impl Scalar {
             Kind::Unsigned | Kind::Signed => matches!(bytes, 1 | 2 | 4 | 8),
             Kind::Float => matches!(bytes, 2 | 4 | 8),
             Kind::Text(_) | Kind::HeapText | Kind::HeapBytes => true,
-            Kind::WideText => bytes % 4 == 0,
+            Kind::WideText => bytes.is_multiple_of(4),
         };
         is_known.then_some(Scalar {
             kind,
@@ -172,11 +172,13 @@ impl Scalar {
     /// The `count` elements that `raw` holds.
     pub(crate) fn decode(self, raw: Vec<u8>, count: usize) -> Result<ArrayValues, Problem> {
         debug_assert_eq!(raw.len(), count * self.bytes, "whole elements");
+        /// What makes an element of its bytes, little-endian and big-endian.
+        type InEitherOrder<const N: usize, T> = (fn([u8; N]) -> T, fn([u8; N]) -> T);
         /// Elements of `N` bytes, each made by one of the two functions.
         fn each<const N: usize, T>(
             raw: &[u8],
             is_big_endian: bool,
-            (little, big): (fn([u8; N]) -> T, fn([u8; N]) -> T),
+            (little, big): InEitherOrder<N, T>,
         ) -> Vec<T> {
             let (all, _) = raw.as_chunks::<N>();
             if is_big_endian {

@@ -1,5 +1,7 @@
 //! What is read of an array.
 
+mod convert;
+
 /// Rows of an array: their shape, and the elements row by row (C order).
 ///
 /// ```no_run

@@ -1,5 +1,6 @@
 //! zarr, versions 2 and 3: a folder of arrays in chunks, a file each. A chunk that is not there holds the fill value.
 
+mod array;
 mod codecs;
 mod fill;
 mod grid;
@@ -21,14 +22,17 @@ use crate::source::{ByteSource, FileBytes, bytes_of};
 use crate::store::{Arrays, Store};
 use crate::values::ArrayData;
 
+use array::ZarrArray;
 use grid::Grid;
-use metadata::ZarrArray;
 
 /// Groups within groups.
 const DEPTH: usize = 16;
 
+/// Chunks that were read, by the number of their array and their place in its grid.
+type Chunks = Kept<(usize, Vec<u64>), Vec<u8>>;
+
 /// A folder of zarr.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct Zarr {
     groups: Vec<String>,
     arrays: Vec<(PathBuf, ZarrArray)>,
@@ -37,7 +41,7 @@ pub(crate) struct Zarr {
     /// Attributes of groups and arrays that have any, by full name.
     attributes: Vec<(String, Value)>,
     refused: Vec<(String, Problem)>,
-    chunks: Option<Mutex<Kept<(usize, Vec<u64>), Vec<u8>>>>,
+    chunks: Mutex<Chunks>,
 }
 
 impl Zarr {
@@ -50,8 +54,12 @@ impl Zarr {
             ));
         }
         let mut zarr = Zarr {
-            chunks: Some(Mutex::new(Kept::new(limits::HELD_BYTES))),
-            ..Zarr::default()
+            groups: Vec::new(),
+            arrays: Vec::new(),
+            listed: Vec::new(),
+            attributes: Vec::new(),
+            refused: Vec::new(),
+            chunks: Mutex::new(Kept::new(limits::HELD_BYTES)),
         };
         zarr.visit(folder, "", 0)?;
         if zarr.groups.is_empty() && zarr.arrays.is_empty() && zarr.refused.is_empty() {
@@ -128,13 +136,11 @@ impl Zarr {
     /// One chunk, row by row, or `None` where none was written.
     fn chunk(&self, index: usize, place: &[u64]) -> Result<Option<Arc<Vec<u8>>>, Problem> {
         let key = (index, place.to_vec());
-        let kept = self
-            .chunks
-            .as_ref()
-            .map(|chunks| chunks.lock().unwrap_or_else(PoisonError::into_inner));
-        if let Some(chunk) = kept.and_then(|mut kept| kept.get(&key)) {
+        let mut kept = self.chunks.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(chunk) = kept.get(&key) {
             return Ok(Some(chunk));
         }
+        drop(kept);
         let (folder, array) = &self.arrays[index];
         let name = array.key(place);
         let path = folder.join(&name);
@@ -163,10 +169,9 @@ impl Zarr {
             .unpack(packed)
             .map_err(|problem| problem.within(&format!("chunk `{name}`")))?;
         let chunk = Arc::new(chunk);
-        if let Some(chunks) = &self.chunks {
-            let mut kept = chunks.lock().unwrap_or_else(PoisonError::into_inner);
-            kept.keep(key, chunk.len() as u64, Arc::clone(&chunk));
-        }
+        let mut kept = self.chunks.lock().unwrap_or_else(PoisonError::into_inner);
+        kept.keep(key, chunk.len() as u64, Arc::clone(&chunk));
+        drop(kept);
         Ok(Some(chunk))
     }
 }

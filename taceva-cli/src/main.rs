@@ -3,6 +3,7 @@
 //! Arguments in, renderings out. The work of each command is done in `taceva-study` and `taceva-dataset`, which other programs can use.
 
 mod args;
+mod av1_child;
 mod cmd;
 mod date;
 mod disk_space;
@@ -31,6 +32,8 @@ fn main() -> ExitCode {
     // Before anything else: the program runs itself again to keep a plugin in a process of its own.
     #[cfg(target_os = "linux")]
     taceva_host::main_if_child();
+    #[cfg(feature = "av1")]
+    av1_child::main_if_child();
     if process_limits::standard_output_is_closed() {
         stderr::say(format_args!(
             "standard output is closed, and the result would be lost: nothing was done; redirect it to a file or to /dev/null"

@@ -50,6 +50,13 @@ impl MapDraft {
             .filter(|group| !frames::is_clip(&group.ending))
             .take(TABLES)
         {
+            if group.ending == "mcap" {
+                match SeenTable::of_messages(&source, group) {
+                    Ok(topics) => tables.extend(topics),
+                    Err(problem) => notes.push(format!("not read: {problem}")),
+                }
+                continue;
+            }
             match SeenTable::read(&source, group) {
                 Ok(Some(table)) => tables.push(table),
                 Ok(None) => notes.extend(written::refused_form(group)),

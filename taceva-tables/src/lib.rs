@@ -11,6 +11,7 @@ mod parquet;
 mod path;
 mod ros;
 mod rows;
+mod snappy;
 mod source;
 mod unpack;
 

@@ -2,16 +2,19 @@
 
 mod assemble;
 mod leaf;
+mod levels;
 mod page_header;
 mod pages;
 mod schema;
+mod stream;
 
 use std::path::Path;
 
 use parquet::file::metadata::{ParquetMetaData, ParquetMetaDataReader, RowGroupMetaData};
 
 use self::assemble::Assembly;
-use self::schema::{Node, NodeKind};
+use self::schema::{LeafForm, Node, NodeKind};
+use self::stream::Stream;
 use crate::cell::Cell;
 use crate::error::{Place, TableError};
 use crate::limits;
@@ -147,7 +150,7 @@ impl ParquetTable {
     }
 
     /// Hands the bytes in the column called `name`, such as `image.bytes`, of the rows `sorted` to `each`, with the row; [`None`]
-    /// where the cell is null. A page is in memory at a time.
+    /// where the cell is null. One cell is in memory at a time, and what unpacks it; of pages in other encodings than the plain one, a page.
     ///
     /// `sorted` must ascend; a row that stands in it twice is handed over twice.
     ///
@@ -169,27 +172,13 @@ impl ParquetTable {
             let (here, later) = wanted.split_at(wanted.partition_point(|row| *row < end));
             wanted = later;
             if !here.is_empty() {
-                let mut assembly = Assembly::new(&self.source, group, &found.column)?;
+                let mut cells = Cells::new(&self.source, group, &found)?;
                 let mut next = begin;
                 for run in here.chunk_by(|a, b| a == b) {
                     let row = run[0];
-                    assembly.skip(usize::try_from(row - next).unwrap_or(usize::MAX))?;
+                    cells.skip(row - next)?;
                     next = row + 1;
-                    let mut cell = Cell::Null;
-                    assembly.read(&self.source, 1, &mut |read| {
-                        cell = found.inside(
-                            &self.source,
-                            usize::try_from(row).unwrap_or(usize::MAX),
-                            read,
-                        )?;
-                        Ok(())
-                    })?;
-                    let bytes = match cell {
-                        Cell::Null => None,
-                        Cell::Bytes(bytes) => Some(bytes),
-                        Cell::Text(text) => Some(text.into_bytes()),
-                        _ => return Err(self.source.mismatch(name, "it holds no bytes").into()),
-                    };
+                    let bytes = cells.next(&self.source, &found, row)?;
                     for _ in &run[1..] {
                         each(row, bytes.clone())?;
                     }
@@ -236,6 +225,74 @@ impl Found {
                 format!("row {row} (from 0) has no such element"),
             )
         })
+    }
+}
+
+/// Cells of bytes in one group of rows, one after another.
+enum Cells {
+    Stream(Stream),
+    Assembly(Assembly),
+}
+
+impl Cells {
+    fn new(source: &Source, group: &RowGroupMetaData, found: &Found) -> Result<Cells, TableError> {
+        let chunk = leaf_of_bytes(&found.column, &found.rest)
+            .and_then(|column| group.columns().get(column));
+        let stream = match chunk {
+            Some(chunk) => Stream::new(source, chunk)?,
+            None => None,
+        };
+        Ok(match stream {
+            Some(stream) => Cells::Stream(stream),
+            None => Cells::Assembly(Assembly::new(source, group, &found.column)?),
+        })
+    }
+
+    fn skip(&mut self, rows: u64) -> Result<(), TableError> {
+        match self {
+            Cells::Stream(stream) => stream.skip(rows),
+            Cells::Assembly(assembly) => assembly.skip(usize::try_from(rows).unwrap_or(usize::MAX)),
+        }
+    }
+
+    fn next(
+        &mut self,
+        source: &Source,
+        found: &Found,
+        row: u64,
+    ) -> Result<Option<Vec<u8>>, TableError> {
+        let assembly = match self {
+            Cells::Stream(stream) => return stream.next(),
+            Cells::Assembly(assembly) => assembly,
+        };
+        let row = usize::try_from(row).unwrap_or(usize::MAX);
+        let mut cell = Cell::Null;
+        assembly.read(source, 1, &mut |read| {
+            cell = found.inside(source, row, read)?;
+            Ok(())
+        })?;
+        match cell {
+            Cell::Null => Ok(None),
+            Cell::Bytes(bytes) => Ok(Some(bytes)),
+            Cell::Text(text) => Ok(Some(text.into_bytes())),
+            _ => Err(source.mismatch(&found.name, "it holds no bytes")),
+        }
+    }
+}
+
+/// The leaf that `rest` leads to inside `node`, through structures alone, if its cells are bytes as they are.
+fn leaf_of_bytes(node: &Node, rest: &str) -> Option<usize> {
+    match &node.kind {
+        NodeKind::Leaf {
+            column,
+            form: LeafForm::Plain,
+        } => Some(*column),
+        NodeKind::Struct(members) if !rest.is_empty() => {
+            let names = members.iter().map(|member| member.name.as_str());
+            let (member, rest) = longest(rest, names)?;
+            leaf_of_bytes(&members[member], rest)
+        }
+        NodeKind::Struct(_) | NodeKind::Leaf { .. } | NodeKind::List { .. } => None,
     }
 }
 

@@ -1,6 +1,9 @@
 //! Compressed bytes unpacked to a size that is known before: no more is written, and nothing is allocated that the input cannot fill.
 
-use std::io::Read;
+use std::io::{self, BufRead, Cursor, Read};
+
+use crate::limits;
+use crate::snappy::SnappyStream;
 
 /// How bytes are compressed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,6 +58,58 @@ pub(crate) fn unpack(codec: Codec, packed: &[u8], size: usize) -> Result<Vec<u8>
             "unpacked to {} bytes instead of {size}",
             unpacked.len()
         )),
+    }
+}
+
+/// What unpacks `packed` as it is read, which must give `size` bytes. Blocks are unpacked as a whole, in at most [`limits::PAGE_BYTES`].
+///
+/// # Errors
+/// As [`unpack`]; what is wrong later is an error of the reader.
+pub(crate) fn stream(
+    codec: Codec,
+    mut packed: impl BufRead + 'static,
+    size: u32,
+) -> Result<Box<dyn Read>, String> {
+    Ok(match codec {
+        Codec::Plain => Box::new(packed),
+        Codec::Gzip => Box::new(flate2::bufread::MultiGzDecoder::new(packed)),
+        Codec::Brotli => Box::new(brotli_decompressor::Decompressor::new(packed, 64 << 10)),
+        Codec::Zstd => Box::new(ZstdStream(
+            ruzstd::decoding::StreamingDecoder::new(packed)
+                .map_err(|error| format!("no whole Zstandard: {error}"))?,
+        )),
+        Codec::Snappy => Box::new(SnappyStream::new(packed, size)?),
+        Codec::Lz4Block | Codec::Lz4Hadoop | Codec::Lz4Frame => {
+            let mut whole = Vec::new();
+            let limit = limits::PAGE_BYTES;
+            let read = packed.by_ref().take(limit + 1).read_to_end(&mut whole);
+            read.map_err(|error| error.to_string())?;
+            if whole.len() as u64 > limit || u64::from(size) > limit {
+                return Err(format!(
+                    "a page of {size} bytes, at most {limit} are unpacked at once"
+                ));
+            }
+            Box::new(Cursor::new(unpack(codec, &whole, size as usize)?))
+        }
+    })
+}
+
+/// A frame of Zstandard, its sum checked at its end.
+struct ZstdStream<R: Read>(ruzstd::decoding::StreamingDecoder<R, ruzstd::decoding::FrameDecoder>);
+
+impl<R: Read> Read for ZstdStream<R> {
+    fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
+        let read = self.0.read(into)?;
+        if read == 0 && !into.is_empty() {
+            let decoder = &self.0.decoder;
+            let stated = decoder.get_checksum_from_data();
+            if stated.is_some() && stated != decoder.get_calculated_checksum() {
+                return Err(io::Error::other(
+                    "the sum in the Zstandard frame does not match",
+                ));
+            }
+        }
+        Ok(read)
     }
 }
 

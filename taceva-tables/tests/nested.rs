@@ -4,7 +4,7 @@ mod recordings;
 
 use recordings::{at, expected, recording};
 use serde_json::Value;
-use taceva_tables::{Cell, ParquetTable};
+use taceva_tables::{Cell, ParquetTable, TableError};
 
 /// A cell as `make.py` writes it.
 fn plain(cell: &Cell) -> Value {
@@ -84,7 +84,7 @@ fn rows_that_are_passed_over_leave_the_others_where_they_are() {
                 .filter(|row| row % 13 == 3 || row % 50 < 4)
                 .collect();
             table
-                .visit_bytes::<taceva_tables::TableError>(name, &rows, &mut |row, bytes| {
+                .visit_bytes::<TableError>(name, &rows, &mut |row, bytes| {
                     let expected = match &whole[at(row)] {
                         Cell::Null => None,
                         Cell::Text(text) => Some(text.clone().into_bytes()),
@@ -95,6 +95,41 @@ fn rows_that_are_passed_over_leave_the_others_where_they_are() {
                     Ok(())
                 })
                 .expect(name);
+        }
+    }
+}
+
+#[test]
+fn cells_that_are_streamed_are_those_that_pages_decode_to() {
+    for codec in ["none", "snappy", "gzip", "brotli", "lz4", "zstd"] {
+        for version in [1, 2] {
+            let path = recording("plain").join(format!("{codec}-{version}.parquet"));
+            let table = ParquetTable::open(&path).expect(codec);
+            for name in ["image.bytes", "raw"] {
+                let whole = table.column(name).expect(name);
+                let nulls = whole.iter().filter(|cell| **cell == Cell::Null).count();
+                assert_eq!(nulls, if name == "raw" { 0 } else { 24 });
+                for (first, step) in [(0, 1), (3, 7), (0, 49), (89, 1)] {
+                    let rows: Vec<u64> = (first..90).step_by(step).collect();
+                    let mut seen = 0;
+                    table
+                        .visit_bytes::<TableError>(name, &rows, &mut |row, bytes| {
+                            let cell = bytes.map_or(Cell::Null, Cell::Bytes);
+                            assert_eq!(
+                                cell,
+                                whole[at(row)],
+                                "{codec}, {version}, {name}, row {row}"
+                            );
+                            seen += 1;
+                            Ok(())
+                        })
+                        .expect(name);
+                    assert_eq!(seen, rows.len());
+                }
+            }
+            let problem = table.visit_bytes::<TableError>("image", &[0], &mut |_, _| Ok(()));
+            let problem = problem.expect_err("a structure").to_string();
+            assert!(problem.contains("holds no bytes"), "{problem}");
         }
     }
 }

@@ -20,8 +20,11 @@ use index::Index;
 #[derive(Debug)]
 pub(crate) struct Avi {
     pub(crate) stream: StreamHeader,
-    /// In the order in which they lie and are presented.
+    /// In the order in which they lie and are presented. An empty one stands for a frame that was lost while it was recorded: it is left out, as
+    /// other readers do, and the times of the others say where.
     pub(crate) packets: Vec<Packet>,
+    /// When each is presented, in frames of the stream.
+    places: Vec<u64>,
 }
 
 /// Whether a file that begins with `start` is an AVI file.
@@ -52,9 +55,14 @@ impl Avi {
             return Err(source.damaged(12, "the file describes no video stream"));
         };
         walk.index.check(source, &walk.packets)?;
+        let presented = (0..)
+            .zip(walk.packets)
+            .filter(|(_, packet)| packet.size > 0);
+        let (places, packets) = presented.unzip();
         Ok(Avi {
             stream,
-            packets: walk.packets,
+            packets,
+            places,
         })
     }
 
@@ -87,12 +95,8 @@ impl Avi {
         if scale == 0 || rate == 0 {
             return None;
         }
-        let count = 0..self.packets.len() as u64;
-        Some(
-            count
-                .map(|at| at as f64 * f64::from(scale) / f64::from(rate))
-                .collect(),
-        )
+        let seconds = |place: &u64| *place as f64 * f64::from(scale) / f64::from(rate);
+        Some(self.places.iter().map(seconds).collect())
     }
 }
 

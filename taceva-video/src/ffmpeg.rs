@@ -19,7 +19,7 @@ use crate::clip::{Colours, Picture, VideoInfo};
 use crate::colour::YuvCoding;
 use crate::error::VideoError;
 use crate::limits;
-use crate::process::{Ended, Piece, Running};
+use crate::process::{Ended, Piece, Running, blocks_of};
 
 use format::Layout;
 use picture::{RawFrame, Refused};
@@ -37,15 +37,23 @@ pub(crate) struct ForeignClip {
 }
 
 /// What is known of a clip before ffmpeg looks at it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Known {
-    pub(crate) container: Option<&'static str>,
-    pub(crate) codec: Option<String>,
+    container: Option<&'static str>,
+    codec: Option<String>,
     /// Why it is not decoded here, behind the name of the codec; empty where the codec says it all.
-    pub(crate) why: &'static str,
+    why: &'static str,
 }
 
 impl Known {
+    pub(crate) fn new(container: &'static str, codec: Option<String>, why: &'static str) -> Known {
+        Known {
+            container: Some(container),
+            codec,
+            why,
+        }
+    }
+
     /// The codec and what is the matter with it.
     fn codec(&self) -> String {
         let codec = self
@@ -178,7 +186,7 @@ impl ForeignClip {
         let count = (last + 1).to_string();
         let raw = ["-frames:v", &count, "-f", "rawvideo", "pipe:1"];
         let command = command(&self.path, &self.program, &raw)?;
-        let running = Running::start(command, Some(self.frame_bytes));
+        let running = Running::start(command, Some(blocks_of(self.frame_bytes)));
         let mut running = running.map_err(not_started(&self.path, &self.program))?;
         bound_memory(&mut running);
         let mut wanted = sorted.iter().peekable();

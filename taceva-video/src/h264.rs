@@ -13,9 +13,9 @@ use rusty_h264_decoder::{DecodeError, Decoder};
 use crate::clip::{Colours, Picture};
 use crate::colour::{Planes, YuvCoding};
 use crate::error::VideoError;
+use crate::gop::{self, SampleDecoder, Wanted};
 use crate::limits;
 use crate::mp4::{Sample, Track};
-use crate::reorder::Reorder;
 use crate::source::Source;
 
 use units::{Settings, UnitKind, push_unit};
@@ -107,103 +107,19 @@ impl H264Clip {
         (self.sequence.width, self.sequence.height)
     }
 
-    /// Shows the frames of `sorted`, which are there.
+    /// Shows the frames of `sorted`.
     pub(crate) fn visit(
         &self,
         sorted: &[u64],
         colours: Colours,
         each: &mut dyn FnMut(u64, Picture) -> ControlFlow<()>,
     ) -> Result<(), Refusal> {
-        // What is wanted in the order of decoding: sample, frame.
-        let place =
-            |frame: &u64| self.presented[usize::try_from(*frame).unwrap_or(usize::MAX)] as usize;
-        let mut wanted: Vec<(usize, u64)> =
-            sorted.iter().map(|frame| (place(frame), *frame)).collect();
-        wanted.sort_unstable();
-        let mut reorder = Reorder::new(&self.source, sorted);
-        let mut decoder: Option<Decoder> = None;
-        let mut next = 0;
-        for (sample, frame) in wanted {
-            if let Some(key) = self.key_between(next, sample)? {
-                next = key;
-                decoder = None;
-            }
-            let decoder = match &mut decoder {
-                Some(decoder) => decoder,
-                none => none.insert(self.start(frame)?),
-            };
-            while next <= sample {
-                let picture = self.decode(decoder, next, frame)?;
-                if next == sample {
-                    let picture = picture.ok_or_else(|| {
-                        let offset = self.samples[sample].offset;
-                        self.source
-                            .damaged(offset, format!("no whole picture for frame {frame}"))
-                    })?;
-                    let picture = self.convert(picture, frame, colours)?;
-                    if reorder.add(frame, picture, each)?.is_break() {
-                        return Ok(());
-                    }
-                }
-                next += 1;
-            }
-        }
-        Ok(())
-    }
-
-    /// The last sample from `from` to `to` at which decoding can begin; nothing where it has to go on as it is.
-    fn key_between(&self, from: usize, to: usize) -> Result<Option<usize>, VideoError> {
-        for at in (from..=to).rev() {
-            let sample = &self.samples[at];
-            if sample.is_sync
-                && self
-                    .settings
-                    .is_key(&self.source, sample.offset, sample.size)?
-            {
-                return Ok(Some(at));
-            }
-        }
-        Ok(None)
-    }
-
-    /// A decoder that knows the parameters of the stream.
-    fn start(&self, frame: u64) -> Result<Decoder, Refusal> {
-        let mut decoder = Decoder::new();
-        match decoder.decode(&self.settings.parameters) {
-            Ok(_) => Ok(decoder),
-            Err(error) => Err(self.refusal(&error, frame, 0)),
-        }
-    }
-
-    /// The picture of a sample, if it completes one. `frame` is what is on the way to.
-    fn decode(
-        &self,
-        decoder: &mut Decoder,
-        sample: usize,
-        frame: u64,
-    ) -> Result<Option<Decoded>, Refusal> {
-        let Sample { offset, size, .. } = self.samples[sample];
-        let bytes = self.source.read(
-            offset,
-            u64::from(size),
-            "bytes of a packet",
-            limits::PACKET_BYTES,
-        )?;
-        let mut stream = Vec::with_capacity(bytes.len() + 64);
-        for (at, unit) in self.settings.units(&self.source, &bytes, offset)? {
-            if UnitKind::of(unit[0]) == UnitKind::Sequence {
-                self.check_sequence(unit, at, frame)?;
-            }
-            push_unit(&mut stream, unit);
-        }
-        let picture = decoder.decode(&stream);
-        let picture = picture.map_err(|error| self.refusal(&error, frame, offset))?;
-        Ok(picture.map(|picture| Decoded {
-            width: picture.width,
-            height: picture.height,
-            luma: picture.y,
-            chroma: [picture.u, picture.v],
-        }))
+        let mut session = Session {
+            clip: self,
+            colours,
+            decoder: None,
+        };
+        gop::visit(&mut session, &self.source, &self.presented, sorted, each)
     }
 
     /// Whether a parameter set within the stream says what those at its beginning do.
@@ -266,15 +182,94 @@ impl H264Clip {
             expected: format!("{expected_width}×{expected_height}"),
         }
     }
+}
 
-    fn refusal(&self, error: &DecodeError, frame: u64, offset: u64) -> Refusal {
-        match error {
+/// A visit of a clip.
+struct Session<'a> {
+    clip: &'a H264Clip,
+    colours: Colours,
+    /// None before the first sample, and before one that decoding begins at.
+    decoder: Option<Decoder>,
+}
+
+impl SampleDecoder for Session<'_> {
+    type Refusal = Refusal;
+
+    fn is_key(&self, sample: usize) -> Result<bool, VideoError> {
+        let H264Clip {
+            samples,
+            settings,
+            source,
+            ..
+        } = self.clip;
+        let Sample {
+            offset,
+            size,
+            is_sync,
+            ..
+        } = samples[sample];
+        Ok(is_sync && settings.is_key(source, offset, size)?)
+    }
+
+    fn restart(&mut self) {
+        self.decoder = None;
+    }
+
+    fn decode(&mut self, sample: usize, towards: Wanted) -> Result<Option<Picture>, Refusal> {
+        let H264Clip {
+            source,
+            settings,
+            samples,
+            ..
+        } = self.clip;
+        let Sample { offset, size, .. } = samples[sample];
+        let refusal = |error: DecodeError| match error {
             DecodeError::Unsupported(tool) => Refusal::Tool(tool),
-            other => Refusal::Video(
-                self.source
-                    .damaged(offset, format!("on the way to frame {frame}: {other}")),
-            ),
+            other => {
+                let problem = format!("on the way to frame {}: {other}", towards.frame);
+                Refusal::Video(source.damaged(offset, problem))
+            }
+        };
+        let decoder = match &mut self.decoder {
+            Some(decoder) => decoder,
+            none => {
+                let decoder = none.insert(Decoder::new());
+                decoder.decode(&settings.parameters).map_err(refusal)?;
+                decoder
+            }
+        };
+        let bytes = source.read(
+            offset,
+            u64::from(size),
+            "bytes of a packet",
+            limits::PACKET_BYTES,
+        )?;
+        let mut stream = Vec::with_capacity(bytes.len() + 64);
+        for (at, unit) in settings.units(source, &bytes, offset)? {
+            if UnitKind::of(unit[0]) == UnitKind::Sequence {
+                self.clip.check_sequence(unit, at, towards.frame)?;
+            }
+            push_unit(&mut stream, unit);
         }
+        let picture = decoder.decode(&stream).map_err(refusal)?;
+        if sample != towards.sample {
+            return Ok(None);
+        }
+        let Some(picture) = picture else {
+            let problem = format!("no whole picture for frame {}", towards.frame);
+            return Err(source.damaged(offset, problem).into());
+        };
+        let decoded = Decoded {
+            width: picture.width,
+            height: picture.height,
+            luma: picture.y,
+            chroma: [picture.u, picture.v],
+        };
+        Ok(Some(self.clip.convert(
+            decoded,
+            towards.frame,
+            self.colours,
+        )?))
     }
 }
 

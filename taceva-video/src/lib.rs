@@ -1,16 +1,18 @@
 #![doc = include_str!("../README.md")]
-#![forbid(unsafe_code)]
 
+pub mod av1;
 mod avi;
 mod clip;
 mod colour;
 mod error;
 mod ffmpeg;
+mod gop;
 mod h264;
 mod jpeg;
 mod limits;
 mod matroska;
 mod mp4;
+mod open;
 mod packets;
 mod process;
 mod reorder;

@@ -1,11 +1,12 @@
 //! MP4 and QuickTime files: the first video track, its samples in the order of decoding and of presentation.
 //!
-//! Everything is checked against the length of the file and against the other tables before it is believed. Files in fragments, with several
-//! edits or descriptions, or encrypted ones are left to others.
+//! Everything is checked against the length of the file and against the other tables before it is believed. Files with several edits or
+//! descriptions, or encrypted ones are left to others.
 
 mod boxes;
 mod edits;
 mod entry;
+mod fragments;
 mod samples;
 
 use crate::error::VideoError;
@@ -52,16 +53,11 @@ pub(crate) fn is_mp4(start: &[u8]) -> bool {
 /// Finds the first video track.
 pub(crate) fn read(source: &Source) -> Result<Found, VideoError> {
     let mut boxes = Boxes::of_file(source);
-    let mut movie = None;
+    let (mut movie, mut has_fragments) = (None, false);
     while let Some(found) = boxes.next()? {
         match &found.kind {
             b"moov" => movie = Some(found),
-            b"moof" => {
-                return Ok(Found::Elsewhere {
-                    codec: "MP4".to_owned(),
-                    why: "in fragments",
-                });
-            }
+            b"moof" => has_fragments = true,
             _ => {}
         }
     }
@@ -71,11 +67,12 @@ pub(crate) fn read(source: &Source) -> Result<Found, VideoError> {
             "the file ends without its tables (`moov`): it was cut, or its recording never closed",
         ));
     };
+    has_fragments |= movie.find(source, b"mvex")?.is_some();
     let ticks_per_s = time_scale(source, &movie.need(source, b"mvhd")?)?;
     let mut tracks = movie.boxes(source, 0);
     while let Some(track) = tracks.next()? {
         if &track.kind == b"trak"
-            && let Some(found) = read_track(source, &movie, &track, ticks_per_s)?
+            && let Some(found) = read_track(source, &movie, &track, ticks_per_s, has_fragments)?
         {
             return Ok(found);
         }
@@ -89,6 +86,7 @@ fn read_track(
     movie: &BoxAt,
     track: &BoxAt,
     movie_ticks_per_s: u32,
+    has_fragments: bool,
 ) -> Result<Option<Found>, VideoError> {
     let media = track.need(source, b"mdia")?;
     let handler = media.need(source, b"hdlr")?;
@@ -111,9 +109,6 @@ fn read_track(
     if matches!(entry.coding, Coding::Other(_)) {
         return elsewhere("");
     }
-    if movie.find(source, b"mvex")?.is_some() {
-        return elsewhere("in fragments");
-    }
     entry::check_is_in_file(source, &information)?;
     let edit = match track.find(source, b"edts")? {
         Some(edits) => edits::read(source, &edits)?,
@@ -122,7 +117,13 @@ fn read_track(
     let Some(edit) = edit else {
         return elsewhere("with several edits");
     };
-    let samples = samples::read(source, &tables)?;
+    let mut samples = samples::read(source, &tables)?;
+    if has_fragments {
+        let number = track_number(source, &track.need(source, b"tkhd")?)?;
+        if !fragments::append(source, movie, number, &mut samples)? {
+            return elsewhere("in fragments that do not say where and when");
+        }
+    }
     let (presented, times_s) = present(&samples, edit, ticks_per_s, movie_ticks_per_s);
     if presented.is_empty() {
         return Err(source.damaged(track.at, "the clip presents no frame"));
@@ -148,6 +149,17 @@ fn time_scale(source: &Source, header: &BoxAt) -> Result<u32, VideoError> {
         0 => Err(source.damaged(at, "0 ticks a second")),
         ticks => Ok(ticks),
     }
+}
+
+/// The number by which fragments name a track, of its header.
+fn track_number(source: &Source, header: &BoxAt) -> Result<u32, VideoError> {
+    let mut fields = header.fields(source, "bytes of a header", limits::HEADER_BYTES)?;
+    let times = match fields.version(source)? {
+        1 => 16,
+        _ => 8,
+    };
+    fields.skip(source, times)?;
+    fields.u32(source)
 }
 
 /// The samples that the edit presents, in the order of their times, and these.

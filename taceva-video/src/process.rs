@@ -18,8 +18,20 @@ const WAITING: usize = 4;
 pub(crate) enum Piece {
     /// A line of its standard error, without its end.
     Line(String),
-    /// As many bytes of its standard output as were asked for, or fewer at its end.
+    /// What was taken at once of its standard output.
     Block(Vec<u8>),
+}
+
+/// Takes the next block of a program's standard output; an empty one ends it.
+pub(crate) type Take = Box<dyn FnMut(&mut dyn Read) -> io::Result<Vec<u8>> + Send>;
+
+/// Blocks of `size` bytes, of which the last may be shorter.
+pub(crate) fn blocks_of(size: usize) -> Take {
+    Box::new(move |output| {
+        let mut block = Vec::with_capacity(size);
+        output.take(size as u64).read_to_end(&mut block)?;
+        Ok(block)
+    })
 }
 
 /// A program that runs until it ends or this is dropped.
@@ -41,27 +53,27 @@ pub(crate) enum Ended {
 }
 
 impl Running {
-    /// Starts `command`, whose standard output comes in blocks of `block` bytes; without a size it is thrown away.
+    /// Starts `command`, whose standard output comes in blocks as `take` takes them; without that it is thrown away.
     ///
     /// # Errors
     /// If it does not start.
-    pub(crate) fn start(mut command: Command, block: Option<usize>) -> io::Result<Running> {
+    pub(crate) fn start(mut command: Command, take: Option<Take>) -> io::Result<Running> {
         command.stderr(Stdio::piped());
-        command.stdout(match block {
+        command.stdout(match take {
             Some(_) => Stdio::piped(),
             None => Stdio::null(),
         });
         let mut child = command.spawn()?;
         let (send, pieces) = sync_channel(WAITING);
         let lines = child.stderr.take().map(BufReader::new);
-        let blocks = child.stdout.take().zip(block);
+        let blocks = child.stdout.take().zip(take);
         let running = Running { child, pieces };
         if let Some(lines) = lines {
             let send = send.clone();
             thread::Builder::new().spawn(move || send_lines(lines, &send))?;
         }
-        if let Some((blocks, size)) = blocks {
-            thread::Builder::new().spawn(move || send_blocks(blocks, size, &send))?;
+        if let Some((blocks, take)) = blocks {
+            thread::Builder::new().spawn(move || send_blocks(blocks, take, &send))?;
         }
         Ok(running)
     }
@@ -124,11 +136,9 @@ fn send_lines(mut lines: impl BufRead, send: &SyncSender<Piece>) {
     }
 }
 
-fn send_blocks(mut blocks: impl Read, size: usize, send: &SyncSender<Piece>) {
-    loop {
-        let mut block = Vec::with_capacity(size);
-        let read = blocks.by_ref().take(size as u64).read_to_end(&mut block);
-        if read.is_err() || block.is_empty() || send.send(Piece::Block(block)).is_err() {
+fn send_blocks(mut blocks: impl Read, mut take: Take, send: &SyncSender<Piece>) {
+    while let Ok(block) = take(&mut blocks) {
+        if block.is_empty() || send.send(Piece::Block(block)).is_err() {
             return;
         }
     }
@@ -143,7 +153,7 @@ mod tests {
     fn blocks_and_lines_come_apart_and_the_end_is_known() {
         let mut command = Command::new("sh");
         command.args(["-c", "printf 1234567; echo one >&2; echo two >&2; exit 3"]);
-        let mut running = Running::start(command, Some(4)).expect("starts");
+        let mut running = Running::start(command, Some(blocks_of(4))).expect("starts");
         let (mut lines, mut blocks) = (Vec::new(), Vec::new());
         let ended = loop {
             match running.next() {

@@ -5,15 +5,13 @@ use std::ffi::OsString;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-use crate::avi::{self, Avi};
+use crate::av1::Av1Clip;
 use crate::clip::{Colours, Picture, VideoInfo};
 use crate::error::{VideoError, VisitError};
 use crate::ffmpeg::{ForeignClip, Known};
-use crate::h264::{self, H264Clip, Refusal};
-use crate::matroska;
-use crate::mp4::{self, Coding, Found, Track};
-use crate::packets::{self, JpegClip, Packet};
-use crate::source::Source;
+use crate::h264::{H264Clip, Refusal};
+use crate::open;
+use crate::packets::JpegClip;
 
 /// Programs that decode what is not decoded here.
 ///
@@ -47,13 +45,14 @@ pub struct Video {
 
 /// How frames are come by.
 #[derive(Debug)]
-enum Frames {
+pub(crate) enum Frames {
     Jpeg(JpegClip),
     H264 {
         clip: Box<H264Clip>,
         /// ffmpeg, for tools of the codec that only show once a frame is decoded.
         else_by: Option<PathBuf>,
     },
+    Av1(Box<Av1Clip>),
     Foreign(ForeignClip),
 }
 
@@ -63,175 +62,11 @@ impl Video {
     /// # Errors
     /// [`VideoError`]: what is wrong with the file, or [`VideoError::NoDecoder`] if nothing at hand decodes its codec.
     pub fn open(path: &Path, decoders: &Decoders) -> Result<Video, VideoError> {
-        let source = Source::open(path)?;
-        let mut start = [0; 16];
-        let known = usize::try_from(source.length()).map_or(16, |length| length.min(16));
-        source.read_into(0, &mut start[..known])?;
-        let start = &start[..known];
-        if avi::is_avi(start) {
-            return Video::open_avi(source, decoders);
-        }
-        if mp4::is_mp4(start) {
-            return Video::open_mp4(source, decoders);
-        }
-        if matroska::is_matroska(start) {
-            let known = Known {
-                container: Some("Matroska"),
-                codec: matroska::codec(&source)?,
-                why: "",
-            };
-            return Video::open_foreign(path, known, decoders);
-        }
-        match decoders.ffmpeg {
-            Some(_) => {
-                let known = Known {
-                    container: None,
-                    codec: None,
-                    why: "",
-                };
-                Video::open_foreign(path, known, decoders)
-            }
-            None => Err(source.damaged(
-                0,
-                "no container of video that is read without ffmpeg begins here, expected AVI, MP4, QuickTime or Matroska",
-            )),
-        }
-    }
-
-    /// A clip that is decoded by ffmpeg, if there is one.
-    fn open_foreign(path: &Path, known: Known, decoders: &Decoders) -> Result<Video, VideoError> {
-        let Some(program) = &decoders.ffmpeg else {
-            return Err(known.no_decoder(path));
-        };
-        let (info, clip) = ForeignClip::open(path, program, &known)?;
+        let (info, frames) = open::open(path, decoders)?;
         Ok(Video {
             info,
             path: path.to_owned(),
-            frames: Frames::Foreign(clip),
-        })
-    }
-
-    fn open_avi(source: Source, decoders: &Decoders) -> Result<Video, VideoError> {
-        let clip = Avi::read(&source)?;
-        let foreign = |codec: String, why| {
-            let known = Known {
-                container: Some("AVI"),
-                codec: Some(codec),
-                why,
-            };
-            Video::open_foreign(source.path(), known, decoders)
-        };
-        if !clip.is_motion_jpeg() {
-            return foreign(clip.codec(), "");
-        }
-        if let Some(&first) = clip.packets.first() {
-            let (_, header) = packets::read_packet(&source, first)?;
-            if header.width == clip.stream.width && header.height * 2 == clip.stream.height {
-                return foreign("MJPEG".to_owned(), "of two fields a frame");
-            }
-        }
-        let about = About {
-            container: "AVI",
-            codec: "MJPEG".to_owned(),
-            size: (clip.stream.width, clip.stream.height),
-            times_s: clip.times_s(),
-        };
-        Video::of_jpegs(source, about, clip.packets)
-    }
-
-    fn open_mp4(source: Source, decoders: &Decoders) -> Result<Video, VideoError> {
-        let track = match mp4::read(&source)? {
-            Found::Track(track) => track,
-            Found::Elsewhere { codec, why } => {
-                let known = Known {
-                    container: Some("MP4"),
-                    codec: Some(codec),
-                    why,
-                };
-                return Video::open_foreign(source.path(), known, decoders);
-            }
-        };
-        let about = About {
-            container: "MP4",
-            codec: track.entry.coding.name(),
-            size: (track.entry.width, track.entry.height),
-            times_s: Some(track.times_s.clone()),
-        };
-        match &track.entry.coding {
-            Coding::Jpeg => {
-                let packets = packets_of(&track);
-                Video::of_jpegs(source, about, packets)
-            }
-            Coding::H264(settings, offset) => {
-                let (clip, foreign) = H264Clip::open(source, &track, settings, *offset)?;
-                let sequence = &clip.sequence;
-                if let Some(why) = foreign {
-                    let known = Known {
-                        container: Some("MP4"),
-                        codec: Some(sequence.codec()),
-                        why,
-                    };
-                    return Video::open_foreign(clip.source().path(), known, decoders);
-                }
-                let (width, height) = clip.size();
-                let info = VideoInfo {
-                    container: about.container.to_owned(),
-                    codec: sequence.codec(),
-                    pixel_format: sequence.pixel_format(),
-                    width,
-                    height,
-                    frames: track.presented.len() as u64,
-                    times_s: about.times_s,
-                    lossy: Some(true),
-                    decoder: Some(h264::DECODER.to_owned()),
-                };
-                Ok(Video {
-                    path: clip.source().path().to_owned(),
-                    info,
-                    frames: Frames::H264 {
-                        clip: Box::new(clip),
-                        else_by: decoders.ffmpeg.clone(),
-                    },
-                })
-            }
-            other @ (Coding::Av1(_) | Coding::Other(_)) => {
-                let known = Known {
-                    container: Some("MP4"),
-                    codec: Some(other.name()),
-                    why: "",
-                };
-                Video::open_foreign(source.path(), known, decoders)
-            }
-        }
-    }
-
-    /// A clip whose packets are JPEG files.
-    fn of_jpegs(source: Source, about: About, packets: Vec<Packet>) -> Result<Video, VideoError> {
-        let Some(&first) = packets.first() else {
-            return Err(source.damaged(source.length(), "the clip has no frame"));
-        };
-        let (_, header) = packets::read_packet(&source, first)?;
-        let (width, height) = about.size;
-        let info = VideoInfo {
-            container: about.container.to_owned(),
-            codec: about.codec,
-            pixel_format: header.pixel_format.to_owned(),
-            width,
-            height,
-            frames: packets.len() as u64,
-            times_s: about.times_s,
-            lossy: Some(true),
-            decoder: None,
-        };
-        Ok(Video {
-            path: source.path().to_owned(),
-            info,
-            frames: Frames::Jpeg(JpegClip {
-                source,
-                packets,
-                width,
-                height,
-            }),
+            frames,
         })
     }
 
@@ -276,6 +111,7 @@ impl Video {
                     self.go_on(else_by.as_deref(), tool, rest, colours, &mut show)?;
                 }
             },
+            Frames::Av1(clip) => clip.visit(sorted, colours, &mut show)?,
             Frames::Foreign(clip) => clip.visit(sorted, colours, &mut show)?,
         }
         refused.map_or(Ok(()), |error| Err(VisitError::Caller(error)))
@@ -290,11 +126,8 @@ impl Video {
         colours: Colours,
         show: &mut dyn FnMut(u64, Picture) -> ControlFlow<()>,
     ) -> Result<(), VideoError> {
-        let known = Known {
-            container: Some("MP4"),
-            codec: Some(format!("{} with", self.info.codec)),
-            why: tool,
-        };
+        let codec = format!("{} with", self.info.codec);
+        let known = Known::new("MP4", Some(codec), tool);
         let Some(program) = program else {
             return Err(known.no_decoder(&self.path));
         };
@@ -336,23 +169,13 @@ impl Video {
     }
 }
 
-/// What a container says of its clip.
-struct About {
-    container: &'static str,
-    codec: String,
-    size: (u32, u32),
-    times_s: Option<Vec<f64>>,
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-/// Where the frames of a track lie in the order of presentation.
-fn packets_of(track: &Track) -> Vec<Packet> {
-    let samples = track
-        .presented
-        .iter()
-        .map(|number| track.samples[*number as usize]);
-    let packet = |sample: mp4::Sample| Packet {
-        offset: sample.offset,
-        size: u64::from(sample.size),
-    };
-    samples.map(packet).collect()
+    #[test]
+    fn threads_may_share_a_clip() {
+        fn shared<T: Send + Sync>() {}
+        shared::<Video>();
+    }
 }

@@ -4,7 +4,7 @@ mod support;
 
 use std::path::{Path, PathBuf};
 
-use support::{damage, digests, expected, path, sha256};
+use support::{bytes, damage, digests, expected, path, sha256};
 use taceva_video::{Colours, Decoders, Picture, Video, VideoError};
 
 const CLIPS: [&str; 3] = ["ball_1.avi", "cube_1.avi", "cube_2.avi"];
@@ -202,6 +202,121 @@ fn a_picture_without_huffman_tables_is_given_with_the_standard_ones() {
 /// Of the tables in a picture that Pillow 13.0 wrote with `optimize=False`.
 const STANDARD_TABLES_SHA256: &str =
     "f361ab42f71ff019275c522494accedf9fadd13f16af71632ca28255a7554a15";
+
+#[test]
+fn a_frame_that_was_lost_is_left_out_and_the_times_say_so() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = changed(folder.path(), |bytes| {
+        // The third picture becomes an empty one, and padding as large as it was.
+        let index = find(bytes, b"idx1");
+        let entry = index + 8 + 2 * 16;
+        let word = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().expect("four"));
+        let offset = usize::try_from(word(entry + 8)).expect("small");
+        let at = find(bytes, b"movi") + offset;
+        let size = word(at + 4) + word(at + 4) % 2;
+        bytes[at + 4..at + 8].fill(0);
+        bytes[at + 8..at + 12].copy_from_slice(b"JUNK");
+        bytes[at + 12..at + 16].copy_from_slice(&(size - 8).to_le_bytes());
+        bytes[entry + 12..entry + 16].fill(0);
+    });
+    let clip = open(&file).expect("opens");
+    assert_eq!(clip.info().frames, 7);
+    let times = clip.info().times_s.as_ref().expect("a rate");
+    assert!((times[1] - 1.0 / 30.0).abs() < 1e-12 && (times[2] - 3.0 / 30.0).abs() < 1e-12);
+    let whole = open(&path("avi-mjpeg", "ball_1.avi")).expect("opens");
+    let (left, all) = (
+        digests(&clip, &[1, 2], Colours::Luma),
+        digests(&whole, &[1, 3], Colours::Luma),
+    );
+    assert_eq!((&left[0].1, &left[1].1), (&all[0].1, &all[1].1));
+}
+
+/// A chunk, padded to an even number of bytes.
+fn chunk(id: &[u8; 4], content: &[u8]) -> Vec<u8> {
+    let mut chunk = id.to_vec();
+    chunk.extend(u32::try_from(content.len()).expect("small").to_le_bytes());
+    chunk.extend_from_slice(content);
+    chunk.extend(vec![0; content.len() % 2]);
+    chunk
+}
+
+/// A file in two parts, each with the index of OpenDML behind its frames, and where the entries of the second one lie.
+fn in_two_parts(frames: &[Vec<u8>]) -> (Vec<u8>, usize) {
+    let mut header = [
+        b"vids".as_slice(),
+        b"MJPG",
+        &[0; 12],
+        &[1, 0, 0, 0, 30, 0, 0, 0],
+    ]
+    .concat();
+    header.resize(56, 0);
+    let mut format = [40_u32, 64, 48].map(u32::to_le_bytes).concat();
+    format.extend([1, 0, 24, 0]);
+    format.extend_from_slice(b"MJPG");
+    format.resize(40, 0);
+    let stream = [
+        b"strl".to_vec(),
+        chunk(b"strh", &header),
+        chunk(b"strf", &format),
+    ]
+    .concat();
+    let headers = chunk(
+        b"LIST",
+        &[b"hdrl".to_vec(), chunk(b"LIST", &stream)].concat(),
+    );
+    let mut file: Vec<u8> = Vec::new();
+    let mut entries_at = 0;
+    for (kind, frames, before) in [
+        (b"AVI ", &frames[..3], headers),
+        (b"AVIX", &frames[3..], Vec::new()),
+    ] {
+        // Behind the heads of the part and of the list.
+        let mut at = file.len() + 12 + before.len() + 12;
+        let (mut movie, mut entries) = (b"movi".to_vec(), Vec::new());
+        for frame in frames {
+            entries.extend(u32::try_from(at + 8).expect("small").to_le_bytes());
+            entries.extend(u32::try_from(frame.len()).expect("small").to_le_bytes());
+            let packet = chunk(b"00dc", frame);
+            at += packet.len();
+            movie.extend(packet);
+        }
+        let count = u32::try_from(frames.len()).expect("small").to_le_bytes();
+        let index = [&[2, 0, 0, 1], count.as_slice(), b"00dc", &[0; 12], &entries].concat();
+        entries_at = at + 8 + 24;
+        movie.extend(chunk(b"ix00", &index));
+        let part = [kind.to_vec(), before, chunk(b"LIST", &movie)].concat();
+        file.extend(chunk(b"RIFF", &part));
+    }
+    (file, entries_at)
+}
+
+#[test]
+fn a_file_in_several_parts_is_one_clip_and_its_indices_are_checked() {
+    let whole = open(&path("avi-mjpeg", "ball_1.avi")).expect("opens");
+    let all = [0, 1, 2, 3, 4, 5, 6, 7];
+    let mut frames = Vec::new();
+    whole
+        .visit(&all, Colours::Luma, &mut |_, picture| {
+            frames.push(bytes(picture));
+            Ok::<(), String>(())
+        })
+        .expect("visited");
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("parts.avi");
+    let (mut parts, entries_at) = in_two_parts(&frames);
+    std::fs::write(&file, &parts).expect("written");
+    let clip = open(&file).expect("opens");
+    assert_eq!(
+        digests(&clip, &all, Colours::Luma),
+        digests(&whole, &all, Colours::Luma)
+    );
+    parts[entries_at + 8] ^= 2;
+    std::fs::write(&file, &parts).expect("written");
+    match open(&file).expect_err("refused") {
+        VideoError::Index { offset, .. } => assert_eq!(offset, entries_at as u64 + 8),
+        other => panic!("{other}"),
+    }
+}
 
 #[test]
 fn damaged_clips_give_frames_or_a_typed_error() {

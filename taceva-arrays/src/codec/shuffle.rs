@@ -14,7 +14,7 @@ pub(crate) fn unshuffled_bytes(block: &mut [u8], element: usize) {
 /// All first bits of the elements, all second ones, and so on, eight elements a byte. Only a multiple of eight elements is shuffled.
 pub(crate) fn unshuffled_bits(block: &mut [u8], element: usize) {
     let count = block.len() / element;
-    if count % 8 != 0 {
+    if !count.is_multiple_of(8) {
         return;
     }
     let shuffled = block[..count * element].to_vec();

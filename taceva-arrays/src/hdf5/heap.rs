@@ -112,7 +112,7 @@ impl GlobalHeap {
         if let Some(collection) = collections.get(&address) {
             return Ok(collection);
         }
-        let at = self.base.checked_add(address).unwrap_or(u64::MAX);
+        let at = self.base.saturating_add(address);
         let header = bytes_of(&*self.file, at, 8 + self.length_bytes as u64)?;
         if !header.starts_with(b"GCOL\x01") {
             return Err(Problem::damaged(

@@ -1,6 +1,5 @@
 //! What is done to a chunk when it is written, and how it is undone.
 
-use super::metadata::ZarrArray;
 use crate::codec::{blosc, gzip, lz4_with_length, zlib, zstd};
 use crate::error::Problem;
 use crate::order::c_order;
@@ -41,15 +40,15 @@ impl Codec {
         !matches!(self, Codec::Transposed(_) | Codec::Crc32c)
     }
 
-    /// Undoes it; more than `most` bytes are refused.
+    /// Undoes it to a chunk of such sides and elements; more than `most` bytes are refused.
     pub(crate) fn undo(
         &self,
         chunk: Vec<u8>,
         most: usize,
-        array: &ZarrArray,
+        (sides, item_bytes): (&[u64], usize),
     ) -> Result<Vec<u8>, Problem> {
         match self {
-            Codec::Transposed(order) => c_order(&chunk, &array.chunk, order, array.item.bytes),
+            Codec::Transposed(order) => c_order(&chunk, sides, order, item_bytes),
             Codec::Gzip => gzip(&chunk, most),
             Codec::Zlib => zlib(&chunk, most),
             Codec::Zstd => zstd(&chunk, most),

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::metadata::ZarrArray;
+use super::array::ZarrArray;
 use crate::error::Problem;
 use crate::limits;
 

@@ -5,111 +5,11 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use super::codecs::Codec;
+use super::array::ZarrArray;
 use super::{version_2, version_3};
 use crate::error::Problem;
-use crate::fields::Item;
 use crate::limits;
 use crate::source::{ByteSource, FileBytes, bytes_of};
-
-/// An array in chunks.
-#[derive(Debug)]
-pub(crate) struct ZarrArray {
-    /// Its full name.
-    pub(crate) name: String,
-    pub(crate) shape: Vec<u64>,
-    /// Lengths of a chunk; those at an edge are stored whole.
-    pub(crate) chunk: Vec<u64>,
-    pub(crate) item: Item,
-    /// One element of what was never written.
-    pub(crate) fill: Option<Vec<u8>>,
-    /// What was done to a chunk, in order.
-    pub(crate) codecs: Vec<Codec>,
-    /// What stands in front of the numbers of a chunk, and between them.
-    pub(crate) prefix: &'static str,
-    pub(crate) separator: char,
-}
-
-impl ZarrArray {
-    /// The name of the file of a chunk.
-    pub(crate) fn key(&self, place: &[u64]) -> String {
-        let numbers: Vec<String> = place.iter().map(u64::to_string).collect();
-        let numbers = numbers.join(&self.separator.to_string());
-        match (self.prefix, numbers.as_str()) {
-            ("", "") => "0".to_owned(),
-            ("", _) => numbers,
-            (prefix, "") => prefix.to_owned(),
-            (prefix, _) => format!("{prefix}{}{numbers}", self.separator),
-        }
-    }
-
-    /// Bytes of a chunk once everything is undone.
-    pub(crate) fn chunk_bytes(&self) -> Option<u64> {
-        let bytes = self
-            .chunk
-            .iter()
-            .try_fold(self.item.bytes as u64, |bytes, side| {
-                bytes.checked_mul(*side)
-            });
-        bytes.filter(|bytes| *bytes <= limits::CHUNK_BYTES)
-    }
-
-    /// Refuses shapes and chunks that cannot be.
-    pub(crate) fn check(self) -> Result<ZarrArray, Problem> {
-        let is_grid = self.shape.len() == self.chunk.len()
-            && self.shape.len() <= limits::AXES
-            && self.chunk.iter().all(|side| *side > 0);
-        if !is_grid {
-            return Err(Problem::damaged(
-                0,
-                format!("shape {:?} in chunks of {:?}", self.shape, self.chunk),
-                "as many axes of each, chunks of at least 1",
-            ));
-        }
-        if self.chunk_bytes().is_none() {
-            let bytes = self
-                .chunk
-                .iter()
-                .fold(self.item.bytes as u64, |bytes, side| {
-                    bytes.saturating_mul(*side)
-                });
-            return Err(Problem::too_large(
-                "bytes of one chunk (write it with smaller ones)",
-                bytes,
-                limits::CHUNK_BYTES,
-            ));
-        }
-        Ok(self)
-    }
-
-    /// Undoes what was done to a chunk.
-    pub(crate) fn unpack(&self, packed: Vec<u8>) -> Result<Vec<u8>, Problem> {
-        let bytes = usize::try_from(self.chunk_bytes().unwrap_or(0)).unwrap_or(0);
-        let mut chunk = packed;
-        let packings = self
-            .codecs
-            .iter()
-            .filter(|codec| codec.is_packing())
-            .count();
-        // What is packed twice may be a little larger in between.
-        let most = if packings > 1 {
-            bytes + bytes / 8 + (64 << 10)
-        } else {
-            bytes + 4
-        };
-        for codec in self.codecs.iter().rev() {
-            chunk = codec.undo(chunk, most, self)?;
-        }
-        if chunk.len() != bytes {
-            return Err(Problem::damaged(
-                0,
-                format!("{} bytes once unpacked", chunk.len()),
-                format!("{bytes}"),
-            ));
-        }
-        Ok(chunk)
-    }
-}
 
 /// What one folder is.
 #[derive(Debug, Default)]
@@ -169,12 +69,4 @@ fn json(folder: &Path, name: &str) -> Result<Option<Value>, Problem> {
             "JSON",
         )
     })
-}
-
-/// Lengths of axes.
-pub(crate) fn lengths(metadata: &Value, key: &str) -> Result<Vec<u64>, Problem> {
-    let sides = metadata
-        .as_array()
-        .and_then(|sides| sides.iter().map(Value::as_u64).collect());
-    sides.ok_or_else(|| Problem::damaged(0, format!("`{key}`: {metadata}"), "a list of lengths"))
 }

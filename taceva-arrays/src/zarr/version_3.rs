@@ -2,9 +2,9 @@
 
 use serde_json::Value;
 
+use super::array::{ZarrArray, lengths};
 use super::codecs::Codec;
 use super::fill::fill;
-use super::metadata::{ZarrArray, lengths};
 use crate::error::Problem;
 use crate::fields::Item;
 use crate::scalar::{Filler, Kind, Scalar};

@@ -4,6 +4,7 @@ mod damage;
 mod digest;
 #[cfg(feature = "hdf5")]
 mod hdf5;
+mod matlab;
 mod peers;
 mod pickle;
 mod recordings;

@@ -71,13 +71,14 @@ fn archive_of_zeros(stated: u64, packed: &[u8]) -> Vec<u8> {
         &small(stated),
     ]
     .concat();
-    let lengths = [name.len() as u16, extra.len() as u16]
+    let short = |size: usize| u16::try_from(size).expect("short");
+    let lengths = [short(name.len()), short(extra.len())]
         .map(u16::to_le_bytes)
         .concat();
     let local = [
         &b"PK\x03\x04\x14\0\0\0\x08\0\0\0\0\0"[..],
         &sizes,
-        &(name.len() as u16).to_le_bytes(),
+        &short(name.len()).to_le_bytes(),
         &[0, 0],
         name,
         packed,
@@ -92,7 +93,6 @@ fn archive_of_zeros(stated: u64, packed: &[u8]) -> Vec<u8> {
         &extra,
     ]
     .concat();
-    // Version made by, version needed, flags, method: the member's flags are zero.
     let end = [
         &b"PK\x05\x06\0\0\0\0\x01\0\x01\0"[..],
         &small(entry.len() as u64),

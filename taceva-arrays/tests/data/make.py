@@ -189,6 +189,53 @@ def write_pickle():
     pickle.dump({"ragged": [[1], [2, 3]], "set": None, "x": [1, 2], "mixed": [1, "a"]}, open(refused / "ragged.pkl", "wb"), protocol=4)
     for p in (0, 1): pickle.dump([1.5], open(refused / f"protocol-{p}.pkl", "wb"), protocol=p)
 
+def write_matlab():
+    import scipy.io, scipy.sparse, hdf5storage
+    folder = fresh("matlab")
+    def cells_of(items, shape):
+        a = np.empty(len(items), object)
+        for k, item in enumerate(items): a[k] = item
+        return a.reshape(shape)
+    x = {f"x_{t[1:]}": numbers((5, 3), t, n + 600) for n, t in enumerate(t for t in TYPES if t[0] != ">" and t[1] not in "SU" and t != "<f2")}
+    x |= {"frames": numbers((4, 3, 6), "u1", 620), "row": np.arange(7.0), "column": np.arange(7.0)[:, None], "scalar": np.array(2.5), "empty": np.zeros((0, 3)), "whole_doubles": np.arange(12.0).reshape(4, 3), "text": "gel ü", "lines": np.array(["ab", "cde", "f"])}
+    more = {"cells": cells_of([numbers((2, 3), "f8", 621), numbers((2, 3), "f8", 622)], (2, 1)), "numbers_in_cells": cells_of([np.array([[k + 0.5]]) for k in range(6)], (2, 3)), "names": cells_of(["cube", "ball", "gel"], (3, 1)), "session": {"Fz": np.arange(4.0)[:, None], "inner": {"name": "gel", "rate": np.array([[30.0]])}},
+        "presses": np.array([[(np.array([[k * 1.0, 2.0]]), np.array([[k]], "i4"))] for k in range(3)], [("ft", "O"), ("id", "O")])}
+    scipy.io.savemat(folder / "plain-5.mat", x | more, do_compression=False); scipy.io.savemat(folder / "packed-5.mat", x | more, do_compression=True)
+    refused = HERE / "refused"; refused.mkdir(exist_ok=True)
+    scipy.io.savemat(refused / "kinds.mat", {"complex": np.ones((2, 2)) * 1j, "sparse": scipy.sparse.eye(3).tocsc(), "ragged": cells_of([np.ones((1, 2)), np.ones((1, 3))], (2, 1)), "x": np.arange(3.0)[:, None]})
+    scipy.io.savemat(refused / "four.mat", {"x": np.arange(3.0)}, format="4")
+    (folder / "seven-3.mat").unlink(missing_ok=True)
+    del x["empty"], x["lines"]
+    hdf5storage.savemat(str(folder / "seven-3.mat"), x | {"session": {"Fz": np.arange(4.0)[:, None]}}, format="7.3", oned_as="row", store_python_metadata=False, matlab_compatible=True)
+    with __import__("h5py").File(folder / "seven-3.mat", "a") as f:                            # as MATLAB itself writes long ones
+        d = f.create_dataset("chunked", data=numbers((20, 6, 5), "<u2", 623), chunks=(4, 6, 5), compression="gzip"); d.attrs["MATLAB_class"] = np.bytes_("uint16")
+
+def matlab(name, x):
+    """The variables of a value of loadmat, named as the crate names them."""
+    full = lambda key: f"{name}.{key}"
+    if x.dtype.names:
+        one = x.shape in ((1, 1), ())
+        return {k: v for field in x.dtype.names for k, v in (matlab(full(field), x[field].ravel()[0]) if one else matlab(full(field), x[field])).items()}
+    if x.dtype == object:
+        items = [i if isinstance(i, np.ndarray) else np.asarray(i) for i in x.ravel()]
+        inner = items[0].shape if items[0].size != 1 else ()
+        return {name: told(np.stack([i.reshape(inner) for i in items]).reshape(x.shape + inner))}
+    return {name: told(x)}
+
+def read_mat(file):
+    import scipy.io, h5py
+    if not h5py.is_hdf5(file):
+        return {k: v for name, x in scipy.io.loadmat(file, mat_dtype=True).items() if not name.startswith("__") for k, v in matlab(name, x).items()}
+    found = {}
+    def one(name, d):
+        if not isinstance(d, h5py.Dataset) or name.startswith("#"): return
+        kind = d.attrs["MATLAB_class"].decode(); a = d[()].T
+        if kind == "char": a = np.array(["".join(map(chr, row)) for row in a])
+        elif kind == "logical": a = a.astype(bool)
+        found.update({name.replace("/", "."): told(a)})
+    with h5py.File(file) as f: f.visititems(one)
+    return found
+
 def columns(name, x):
     """The columns of a value, named as the crate names them."""
     if isinstance(x, np.ndarray) and x.dtype == object: x = x[()] if x.shape == () else list(x)
@@ -233,7 +280,7 @@ def read_npy(file):
     return columns("", a) if a.dtype == object else flat("value", a)
 
 WRITE = {k[6:]: f for k, f in list(globals().items()) if k.startswith("write_")}
-READ = {".npy": read_npy, ".npz": read_npz, ".h5": read_hdf5, ".hdf5": read_hdf5, ".zarr": read_zarr, ".pkl": read_pickle, ".pickle": read_pickle, ".p": read_pickle}
+READ = {".npy": read_npy, ".npz": read_npz, ".h5": read_hdf5, ".hdf5": read_hdf5, ".zarr": read_zarr, ".pkl": read_pickle, ".pickle": read_pickle, ".p": read_pickle, ".mat": read_mat}
 if __name__ == "__main__":
     for kind in sys.argv[1:] or WRITE: WRITE[kind]()
     found = {}

@@ -8,7 +8,7 @@ use taceva_dataset::{Decoders, ImportMap, ImportPlan, MapDraft, Preset, settle};
 use super::{Context, Usage};
 use crate::args::Import;
 use crate::disk_space::{self, Need};
-use crate::{exit, output};
+use crate::{av1_child, exit, output};
 
 pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
     if args.former.to.is_some() {
@@ -73,7 +73,7 @@ fn decoders(args: &Import) -> Decoders {
     let named = named.or_else(|| std::env::var_os("TACEVA_FFMPEG").map(PathBuf::from));
     Decoders {
         ffmpeg: named.or_else(|| on_path("ffmpeg")),
-        ..Decoders::default()
+        av1: av1_child::command(),
     }
 }
 

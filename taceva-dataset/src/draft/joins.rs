@@ -21,10 +21,7 @@ pub(super) fn of<'t, 'g>(
     tables: &'t [SeenTable<'g>],
 ) -> Vec<SeenJoin<'t, 'g>> {
     let mut joins: Vec<SeenJoin<'t, 'g>> = Vec::new();
-    for table in tables
-        .iter()
-        .filter(|table| table.group.first() != main.group.first())
-    {
+    for table in tables.iter().filter(|table| table.written != main.written) {
         let is_alone =
             table.group.paths.len() == 1 && table.channels() > 0 && table.pictures.is_empty();
         let found = match is_alone {
@@ -38,12 +35,15 @@ pub(super) fn of<'t, 'g>(
         else {
             continue;
         };
-        let stem: String = table
-            .group
-            .stem()
-            .chars()
-            .filter(char::is_ascii_alphanumeric)
-            .collect();
+        // A topic is called by its name, another table by its file.
+        let stem = table
+            .written
+            .split("rows = \"")
+            .nth(1)
+            .map_or(table.group.stem(), |rows| {
+                rows.trim_end_matches([' ', '}', '"'])
+            });
+        let stem: String = stem.chars().filter(char::is_ascii_alphanumeric).collect();
         let name = match stem.as_str() {
             "" | "path" | "row" | "file" | "key" => "other".to_owned(),
             stem => stem.to_owned(),

@@ -11,6 +11,8 @@ pub(super) struct PathParts {
     pub(super) pattern: String,
     /// The names of the parts, in order, and whether each is a number.
     pub(super) names: Vec<(String, bool)>,
+    /// Of the parts that are words, what they are.
+    pub(super) words: Vec<(String, Vec<String>)>,
 }
 
 /// A stretch of a name: letters, a number, or a separator.
@@ -40,6 +42,7 @@ pub(super) fn varying(paths: &[&str]) -> Option<PathParts> {
         glob: String::new(),
         pattern: String::new(),
         names: Vec::new(),
+        words: Vec::new(),
     };
     for level in 0..depth {
         if level > 0 {
@@ -128,6 +131,10 @@ impl PathParts {
         self.pattern.push_str(&format!("{{{name}{kind}}}"));
         if !self.glob.ends_with('*') {
             self.glob.push('*');
+        }
+        if !is_number {
+            let words = values.iter().map(|value| (*value).to_owned()).collect();
+            self.words.push((name.clone(), words));
         }
         self.names.push((name, is_number));
     }

@@ -8,7 +8,7 @@ use super::roles::{Role, role};
 use super::survey::FileGroup;
 use crate::csv_table::number;
 use crate::file::SourceFolder;
-use crate::foreign::{ForeignTable, PictureColumn, TableForm, packed};
+use crate::foreign::{ForeignTable, PictureColumn, TableForm, packed, topics};
 
 /// Rows whose cells are looked at.
 const SAMPLED: usize = 200;
@@ -56,6 +56,36 @@ impl<'g> SeenTable<'g> {
         let form = (TableForm::LeRobot, "format = \"lerobot\"".to_owned());
         (group.first() == "meta/info.json")
             .then(|| SeenTable::of_form(folder.path(), group, (".", form)))
+    }
+
+    /// The topics of an MCAP recording that are read, those with pictures first.
+    pub(super) fn of_messages(
+        folder: &SourceFolder,
+        group: &'g FileGroup,
+    ) -> Result<Vec<SeenTable<'g>>, String> {
+        let path = folder.path().join(group.first());
+        let mut tables = Vec::new();
+        for topic in topics(&path)? {
+            let form = TableForm::Messages {
+                topic: Some(topic.clone()),
+            };
+            let extra = format!("rows = {topic:?}");
+            // A topic whose messages are not read is none of the tables.
+            tables.extend(SeenTable::of_form(
+                &path,
+                group,
+                (group.pattern(), (form, extra)),
+            ));
+        }
+        tables.sort_by_key(|table| std::cmp::Reverse((table.pictures.len(), table.rows)));
+        // Pictures that are not compressed stand beside those that are.
+        let others = tables
+            .iter()
+            .skip(1)
+            .filter(|table| !table.pictures.is_empty())
+            .count();
+        tables.drain(1..=others);
+        Ok(tables)
     }
 
     fn of_form(
@@ -115,13 +145,21 @@ impl<'g> SeenTable<'g> {
         self.columns.iter().map(of).sum()
     }
 
-    /// The column of the time.
+    /// The column of the time: when it was taken rather than when it was logged.
     pub(super) fn time(&self) -> Option<(&SeenColumn, &'static str, bool)> {
-        let mut columns = self.columns.iter();
-        columns.find_map(|column| match &column.role {
-            Role::Time { unit, is_unix } => Some((column, *unit, *is_unix)),
-            _ => None,
-        })
+        let is_logged = |column: &&SeenColumn| {
+            ["log_time", "publish_time"]
+                .iter()
+                .any(|name| column.name.starts_with(name))
+        };
+        let (logged, taken): (Vec<_>, Vec<_>) = self.columns.iter().partition(is_logged);
+        taken
+            .into_iter()
+            .chain(logged)
+            .find_map(|column| match &column.role {
+                Role::Time { unit, is_unix } => Some((column, *unit, *is_unix)),
+                _ => None,
+            })
     }
 }
 

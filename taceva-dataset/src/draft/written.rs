@@ -164,6 +164,17 @@ pub(super) fn of_files(group: &FileGroup, notes: &[String]) -> String {
             ..FrameLines::default()
         }),
     );
+    if channels.0.is_empty()
+        && let Some((name, words)) = group.parts.words.first()
+    {
+        let names: Vec<String> = words.iter().map(|word| format!("{word:?}")).collect();
+        let class = format!(
+            "class = {{ from = \"path.{name}\", names = [{}] }}   # a guess: nothing else could be a label\n",
+            names.join(", ")
+        );
+        add_section(&mut text, "classes", &class);
+        attributes.0.clear();
+    }
     add_section(&mut text, "columns", &channels.0);
     add_section(&mut text, "time", "clock = \"unknown\"\n");
     add_section(&mut text, "ids", &ids.0);

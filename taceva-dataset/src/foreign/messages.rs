@@ -11,6 +11,7 @@ use super::pictures::{Ended, Picture, Pictures, Visit, damaged, guarded_visit};
 use super::said;
 use crate::decode::ChannelOrder;
 use crate::error::DatasetError;
+use crate::guard::guarded;
 use crate::import::FrameNames;
 
 /// Messages of these types are pictures in their field `data`.
@@ -30,12 +31,14 @@ struct MessagePictures {
     field: String,
 }
 
-/// The topics of the recording at `path`, each with its schema and how many messages it has.
-pub(crate) fn topics(path: &Path) -> Result<Vec<(String, String, u64)>, String> {
-    let recording = Mcap::open(path).map_err(|error| said(path, &error))?;
-    let topics = recording.topics().iter();
-    Ok(topics
-        .map(|topic| (topic.name.clone(), topic.schema.clone(), topic.count))
+/// The topics of the recording at `path`.
+pub(crate) fn topics(path: &Path) -> Result<Vec<String>, String> {
+    let opened =
+        guarded(|| Mcap::open(path)).and_then(|opened| opened.map_err(|error| said(path, &error)));
+    Ok(opened?
+        .topics()
+        .iter()
+        .map(|topic| topic.name.clone())
         .collect())
 }
 

@@ -4,7 +4,7 @@
 //! before anything is allocated.
 
 use std::fs::File;
-use std::io::{BufReader, Read, Seek, SeekFrom};
+use std::io::{BufRead, BufReader, Read, Seek, SeekFrom};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -143,6 +143,50 @@ impl Pages {
         }
     }
 
+    /// The next header, of whatever kind, and where its page begins; the page is passed over.
+    pub(super) fn next_header(&mut self) -> Result<Option<(PageHeader, u64)>, TableError> {
+        let found = self.header()?.cloned();
+        self.pass();
+        Ok(found)
+    }
+
+    pub(super) fn codec(&self) -> Codec {
+        self.codec
+    }
+
+    /// Checks the sum of the page that `file` stands before, which begins at `begin`.
+    pub(super) fn check_sum(
+        &self,
+        header: &PageHeader,
+        begin: u64,
+        file: &mut impl BufRead,
+    ) -> Result<(), TableError> {
+        let mut hasher = crc32fast::Hasher::new();
+        let mut rest = file.take(header.packed.into());
+        loop {
+            let bytes = rest.fill_buf().map_err(|error| self.source.io(error))?;
+            if bytes.is_empty() {
+                break;
+            }
+            hasher.update(bytes);
+            let length = bytes.len();
+            rest.consume(length);
+        }
+        self.compare_sum(header, begin, hasher.finalize())
+    }
+
+    fn compare_sum(&self, header: &PageHeader, begin: u64, formed: u32) -> Result<(), TableError> {
+        match header.crc.filter(|crc| *crc != formed) {
+            None => Ok(()),
+            Some(crc) => {
+                let problem = format!(
+                    "the sum of the page is {formed:08x} instead of {crc:08x}: it was changed after it was written"
+                );
+                Err(self.damaged(begin, problem))
+            }
+        }
+    }
+
     fn next_page(&mut self) -> Result<Option<Page>, TableError> {
         loop {
             let Some((header, begin)) = self.header()?.cloned() else {
@@ -162,7 +206,7 @@ impl Pages {
         let limit = limits::PAGE_BYTES;
         if u64::from(header.packed.max(header.unpacked)) > limit {
             let problem = format!(
-                "a page of {} bytes, {} unpacked; at most {limit} are accepted",
+                "a page of {} bytes, {} unpacked; at most {limit} are accepted: write it with fewer rows a group",
                 header.packed, header.unpacked
             );
             return Err(self
@@ -174,12 +218,8 @@ impl Pages {
             .seek(SeekFrom::Start(begin))
             .and_then(|_| self.file.read_exact(&mut packed))
             .map_err(|source| self.source.io(source))?;
-        let formed = crc32fast::hash(&packed);
-        if let Some(crc) = header.crc.filter(|crc| *crc != formed) {
-            let problem = format!(
-                "the sum of the page is {formed:08x} instead of {crc:08x}: it was changed after it was written"
-            );
-            return Err(self.damaged(begin, problem));
+        if header.crc.is_some() {
+            self.compare_sum(header, begin, crc32fast::hash(&packed))?;
         }
         let bytes = self
             .unpacked(header, packed)

@@ -1,6 +1,6 @@
 """Writes the small files that are not among the shared recordings, by pyarrow, and what pyarrow reads back of them as JSON.
 
-    python make.py [KIND ...]      kinds: nested mcap lerobot
+    python make.py [KIND ...]      kinds: nested plain mcap lerobot
 
 pyarrow 26, numpy, mcap 1.6, mcap-ros2-support 0.6, pillow. Numbers are drawn in closed form."""
 import datetime, decimal, json, sys
@@ -73,6 +73,20 @@ def nested():
         assert pq.read_table(folder / f"{name}.parquet").num_rows == rows
     keep = [0, 3, 5, 8, 17, 24, 299, 300, 511, 699]
     (folder / "expected.json").write_text(json.dumps({str(k): {name: column[k] for name, column in read.items()} for k in keep}, indent=1, ensure_ascii=False) + "\n")
+
+
+def plain():
+    """Cells of bytes in plain pages, of both versions and of every codec, with nulls at both depths."""
+    rows = 90
+    cell = lambda k: None if k % 6 == 4 else {"bytes": None if k % 10 == 7 else bytes((k * i) % 251 for i in range(k * 7 % 400)) + bytes([k]) * (k % 50)}
+    table = pa.table({"image": pa.array([cell(k) for k in range(rows)], pa.struct([("bytes", pa.binary())])), "raw": pa.array([bytes([k, 255 - k]) * k for k in range(rows)], pa.binary()), "row": list(range(rows))},
+                     schema=pa.schema([("image", pa.struct([("bytes", pa.binary())])), pa.field("raw", pa.binary(), nullable=False), ("row", pa.int64())]))
+    folder = HERE / "plain"
+    folder.mkdir(exist_ok=True)
+    for codec in ["none", "snappy", "gzip", "brotli", "lz4", "zstd"]:
+        for version in ["1.0", "2.0"]:
+            pq.write_table(table, folder / f"{codec}-{version[0]}.parquet", compression=codec, data_page_version=version, use_dictionary=False, row_group_size=50, data_page_size=1500, write_batch_size=8,
+                           write_statistics=False, write_page_checksum=codec in ("none", "gzip"), store_schema=False)
 
 
 HEADER = "std_msgs/Header header\n"
@@ -256,5 +270,5 @@ def lerobot():
 
 
 if __name__ == "__main__":
-    for kind in sys.argv[1:] or ["nested", "mcap", "lerobot"]:
+    for kind in sys.argv[1:] or ["nested", "plain", "mcap", "lerobot"]:
         globals()[kind]()

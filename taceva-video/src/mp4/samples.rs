@@ -46,7 +46,7 @@ fn table(source: &Source, found: &BoxAt) -> Result<(Fields, u8), VideoError> {
     Ok((fields, version))
 }
 
-fn too_many(source: &Source, found: u64) -> VideoError {
+pub(super) fn too_many(source: &Source, found: u64) -> VideoError {
     VideoError::TooLarge {
         path: source.path().to_owned(),
         what: "frames of a clip",

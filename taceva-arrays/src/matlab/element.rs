@@ -1,0 +1,100 @@
+//! Elements of a MATLAB file: a tag that says type and length, and the bytes behind it, up to a multiple of 8.
+
+use crate::error::Problem;
+use crate::scalar::{Kind, Scalar};
+use crate::source::{ByteSource, bytes_of};
+
+pub(crate) const TYPE_UTF_8: u32 = 16;
+pub(crate) const TYPE_UTF_16: u32 = 17;
+pub(crate) const TYPE_MATRIX: u32 = 14;
+pub(crate) const TYPE_COMPRESSED: u32 = 15;
+
+/// Where an element begins, in a file of which order of bytes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Place {
+    pub(crate) at: u64,
+    pub(crate) is_big_endian: bool,
+}
+
+/// The tag of an element.
+#[derive(Clone, Debug)]
+pub(crate) struct Tag {
+    pub(crate) kind: u32,
+    pub(crate) data_at: u64,
+    /// Behind the last byte of it, before what fills it up.
+    pub(crate) end: u64,
+    /// Where the next element begins.
+    pub(crate) next: u64,
+}
+
+/// The two numbers of a tag.
+pub(crate) fn words(bytes: [u8; 8], is_big_endian: bool) -> (u32, u32) {
+    let [a, b, c, d, e, f, g, h] = bytes;
+    let word = if is_big_endian {
+        u32::from_be_bytes
+    } else {
+        u32::from_le_bytes
+    };
+    (word([a, b, c, d]), word([e, f, g, h]))
+}
+
+/// Reads the tag at `place`; the element lies within the source.
+pub(crate) fn tag(source: &dyn ByteSource, place: Place) -> Result<Tag, Problem> {
+    let bytes = bytes_of(source, place.at, 8)?;
+    let first = bytes.first_chunk::<8>().copied().unwrap_or_default();
+    let (kind, length) = words(first, place.is_big_endian);
+    // Up to 4 bytes stand in the tag itself, their length above the type.
+    let (kind, data_at, length, next) = if kind >> 16 != 0 {
+        (
+            kind & 0xffff,
+            place.at + 4,
+            u64::from(kind >> 16),
+            place.at + 8,
+        )
+    } else {
+        let length = u64::from(length);
+        (
+            kind,
+            place.at + 8,
+            length,
+            (place.at + 8 + length).next_multiple_of(8),
+        )
+    };
+    let end = data_at + length;
+    if end > source.length() || (next == place.at + 8 && length > 4 && data_at == place.at + 4) {
+        return Err(Problem::damaged(
+            place.at,
+            format!("an element of {length} bytes"),
+            format!("it to end before byte {}", source.length()),
+        ));
+    }
+    Ok(Tag {
+        kind,
+        data_at,
+        end,
+        next,
+    })
+}
+
+/// The bytes of an element.
+pub(crate) fn content(source: &dyn ByteSource, tag: &Tag) -> Result<Vec<u8>, Problem> {
+    bytes_of(source, tag.data_at, tag.end - tag.data_at)
+}
+
+/// The numbers of a type, if it is one of numbers.
+pub(crate) fn scalar(kind: u32, is_big_endian: bool) -> Option<Scalar> {
+    let (kind, bytes) = match kind {
+        1 => (Kind::Signed, 1),
+        2 => (Kind::Unsigned, 1),
+        3 => (Kind::Signed, 2),
+        4 | TYPE_UTF_16 => (Kind::Unsigned, 2),
+        5 => (Kind::Signed, 4),
+        6 => (Kind::Unsigned, 4),
+        7 => (Kind::Float, 4),
+        9 => (Kind::Float, 8),
+        12 => (Kind::Signed, 8),
+        13 => (Kind::Unsigned, 8),
+        _ => return None,
+    };
+    Scalar::new(kind, bytes, is_big_endian)
+}

@@ -1,0 +1,27 @@
+//! The program runs itself again to decode AV1 in a process that can do nothing else.
+
+use std::ffi::OsString;
+
+/// What the second argument of such a process is.
+const WORD: &str = "decode-av1-for-its-parent";
+
+/// Decodes for the parent and ends the process, if that is what it was started for.
+#[cfg(feature = "av1")]
+pub(crate) fn main_if_child() {
+    let mut arguments = std::env::args_os().skip(1);
+    if arguments.next().is_none_or(|word| word != WORD) || arguments.next().is_some() {
+        return;
+    }
+    let served = taceva_video::av1::serve(std::io::stdin().lock(), std::io::stdout().lock());
+    if let Err(error) = &served {
+        // The parent passes it on.
+        crate::stderr::write(&format!("{error}\n"));
+    }
+    std::process::exit(i32::from(served.is_err()));
+}
+
+/// The program and the argument that decode AV1; `None` without them.
+pub(crate) fn command() -> Option<Vec<OsString>> {
+    let program = std::env::current_exe().ok()?;
+    cfg!(feature = "av1").then(|| vec![program.into_os_string(), WORD.into()])
+}
