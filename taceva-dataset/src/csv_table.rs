@@ -7,6 +7,7 @@ mod split;
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use crate::digest::Digest;
 use crate::error::{DatasetError, Place};
@@ -42,6 +43,8 @@ pub struct CsvTable {
     rows: usize,
     /// The line of each row, where quoted cells may hold line ends; else lines are counted in the text.
     lines: Option<Vec<u64>>,
+    /// The same counted there, once somebody asks for one.
+    counted: OnceLock<Vec<u64>>,
     /// Lines of the text that the file does not have: the names of columns of a file without a header.
     added_lines: u64,
 }
@@ -192,12 +195,23 @@ impl CsvTable {
     fn line(&self, row: usize) -> u64 {
         let line = match &self.lines {
             Some(lines) => lines[row],
-            None => {
-                let start = self.block_of(row).cell(row, 0).start;
-                line_at(self.text.as_bytes(), start)
-            }
+            None => self.counted.get_or_init(|| self.count_lines())[row],
         };
         line - self.added_lines
+    }
+
+    /// The line of each row, in one pass over the text: where rows keep their place, every one is asked for.
+    fn count_lines(&self) -> Vec<u64> {
+        let (mut line, mut counted) = (1, 0);
+        let rows = 0..self.rows;
+        rows.map(|row| {
+            let start = self.block_of(row).cell(row, 0).start;
+            let between = &self.text.as_bytes()[counted..start];
+            line += between.iter().filter(|byte| **byte == b'\n').count() as u64;
+            counted = start;
+            line
+        })
+        .collect()
     }
 
     /// The block that holds `row`.

@@ -69,6 +69,7 @@ pub(super) fn read(path: &Path, text: &str, delimiter: u8) -> Result<CsvTable, D
         text: unquoted,
         blocks: vec![block],
         lines: Some(lines),
+        counted: std::sync::OnceLock::new(),
         added_lines: 0,
     })
 }

@@ -75,6 +75,7 @@ pub(super) fn read(
         blocks,
         rows,
         lines: None,
+        counted: std::sync::OnceLock::new(),
         added_lines: 0,
     })
 }

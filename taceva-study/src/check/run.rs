@@ -178,8 +178,8 @@ fn wanted(dataset: &Dataset, only: &[String]) -> Result<Wanted, StudyError> {
         }
         match check.reads.filter(|field| !fields.contains(*field)) {
             None => kept.push(check),
-            // Of a camera nobody misses taxels.
-            Some(Field::Signals) if only.is_empty() && fields.contains(Field::Frame) => {}
+            // Where there are no taxels nobody misses them, unless somebody asked.
+            Some(Field::Signals) if only.is_empty() => {}
             Some(absent) => skip(check, SkipReason::FieldAbsent(absent)),
         }
     }
