@@ -419,12 +419,8 @@ fn a_draft_needs_nothing_but_units_of_most_recordings() {
             Ok(map) => differences(name, &map),
             Err(problem) => vec![problem],
         };
-        match problems.first() {
-            None => println!("{name}: as its library reads it"),
-            Some(problem) => {
-                println!("{name}: {problem}");
-                open.push(name.as_str());
-            }
+        if !problems.is_empty() {
+            open.push(name.as_str());
         }
     }
     assert_eq!(

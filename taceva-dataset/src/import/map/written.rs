@@ -7,9 +7,10 @@ use serde::Deserialize;
 use taceva_core::{Channel, Channels, Clock, SourceUnit, is_scorable};
 use toml::Spanned;
 
-use super::extended::{WrittenClass, WrittenJoin, WrittenMatrix, WrittenPath, WrittenTable};
+use super::extended::{WrittenClass, WrittenJoin, WrittenMatrix, WrittenPath};
 use super::signals::WrittenSignals;
 use super::written_frame::WrittenFrame;
+use super::written_table::WrittenTable;
 use super::{ColumnMap, DropRules, IdMap, ImportMap, MatrixMap, Placeholder, TimeMap};
 use crate::error::DatasetError;
 use crate::file::check_relative;
