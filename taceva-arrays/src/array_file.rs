@@ -101,6 +101,20 @@ impl ArrayFile {
         groups
     }
 
+    /// The names of the attributes of the group or array `owner`; none where the form has no attributes.
+    ///
+    /// ```no_run
+    /// # fn of(file: &taceva_arrays::ArrayFile) {
+    /// for name in file.attributes("/data/demo_0") {
+    ///     println!("{name}: {:?}", file.attribute("/data/demo_0", &name));
+    /// }
+    /// # }
+    /// ```
+    #[must_use]
+    pub fn attributes(&self, owner: &str) -> Vec<String> {
+        self.store.attributes(owner)
+    }
+
     /// The attribute `name` of the group or array `owner`; numbers in the shortest text that reads back to the same number, several of
     /// them in brackets.
     #[must_use]

@@ -98,7 +98,15 @@ impl Block {
         if let Some(first) = shape.first_mut() {
             *first = rows.end - rows.start;
         }
+        let field = &self.item.fields[field];
+        if let (None, Some(scalar)) = (&self.columns, self.item.scalar()) {
+            let count = (rows.end - rows.start) * (self.row_bytes / (scalar.bytes() as u64).max(1));
+            let count = usize::try_from(count).unwrap_or(usize::MAX);
+            let values =
+                scalar.read(&*self.source, self.at + rows.start * self.row_bytes, count)?;
+            return Ok(ArrayData { shape, values });
+        }
         let raw = self.raw_rows(rows)?;
-        self.item.read(&self.item.fields[field], raw, &shape)
+        self.item.read(field, raw, &shape)
     }
 }

@@ -40,6 +40,20 @@ impl Item {
         }
     }
 
+    /// The type of elements that are no records, but for those of no bytes, whose number nothing tells.
+    pub(crate) fn scalar(&self) -> Option<Scalar> {
+        match self.fields.as_slice() {
+            [field]
+                if field.extent.is_empty()
+                    && field.scalar.bytes() == self.bytes
+                    && self.bytes > 0 =>
+            {
+                Some(field.scalar)
+            }
+            _ => None,
+        }
+    }
+
     /// What NumPy calls the `descr` of a type: a name, or a list of fields with their names.
     pub(crate) fn from_descr(descr: &Literal) -> Result<Item, Problem> {
         let mut item = Item {

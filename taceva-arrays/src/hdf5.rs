@@ -215,6 +215,10 @@ impl Store for Hdf5 {
         self.groups.clone()
     }
 
+    fn attributes(&self, owner: &str) -> Vec<String> {
+        attribute::names(&self.file, owner)
+    }
+
     fn attribute(&self, owner: &str, name: &str) -> Option<String> {
         attribute::read(&self.file, owner, name)
     }
@@ -226,6 +230,17 @@ impl Store for Hdf5 {
         let mut shape = listed.shape.clone();
         if let Some(first) = shape.first_mut() {
             *first = rows.end - rows.start;
+        }
+        if let (Some(scalar), None, Some(at)) = (
+            listed.item.scalar(),
+            field.scalar.heap_text(),
+            self.opened(dataset)?.at,
+        ) {
+            let count =
+                (rows.end - rows.start) * (listed.row_bytes / (scalar.bytes() as u64).max(1));
+            let count = usize::try_from(count).unwrap_or(usize::MAX);
+            let values = scalar.read(&*self.bytes, at + rows.start * listed.row_bytes, count)?;
+            return Ok(ArrayData { shape, values });
         }
         let raw = self.raw_rows(dataset, rows)?;
         match field.scalar.heap_text() {

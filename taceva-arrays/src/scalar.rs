@@ -1,8 +1,9 @@
 //! How one element lies in a file, and how its bytes become values.
 
+mod decode;
+
 use crate::element::Element;
 use crate::error::Problem;
-use crate::values::ArrayValues;
 
 /// What the bytes of an element mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -168,98 +169,6 @@ impl Scalar {
             _ => None,
         }
     }
-
-    /// The `count` elements that `raw` holds.
-    pub(crate) fn decode(self, raw: Vec<u8>, count: usize) -> Result<ArrayValues, Problem> {
-        debug_assert_eq!(raw.len(), count * self.bytes, "whole elements");
-        /// What makes an element of its bytes, little-endian and big-endian.
-        type InEitherOrder<const N: usize, T> = (fn([u8; N]) -> T, fn([u8; N]) -> T);
-        /// Elements of `N` bytes, each made by one of the two functions.
-        fn each<const N: usize, T>(
-            raw: &[u8],
-            is_big_endian: bool,
-            (little, big): InEitherOrder<N, T>,
-        ) -> Vec<T> {
-            let (all, _) = raw.as_chunks::<N>();
-            if is_big_endian {
-                all.iter().map(|bytes| big(*bytes)).collect()
-            } else {
-                all.iter().map(|bytes| little(*bytes)).collect()
-            }
-        }
-        let big = self.is_big_endian;
-        Ok(match (self.kind, self.bytes) {
-            (Kind::Bool, _) => ArrayValues::Bool(raw.iter().map(|byte| *byte != 0).collect()),
-            (Kind::Unsigned, 1) => ArrayValues::U8(raw),
-            (Kind::Unsigned, 2) => {
-                ArrayValues::U16(each(&raw, big, (u16::from_le_bytes, u16::from_be_bytes)))
-            }
-            (Kind::Unsigned, 4) => {
-                ArrayValues::U32(each(&raw, big, (u32::from_le_bytes, u32::from_be_bytes)))
-            }
-            (Kind::Unsigned, _) => {
-                ArrayValues::U64(each(&raw, big, (u64::from_le_bytes, u64::from_be_bytes)))
-            }
-            (Kind::Signed, 1) => {
-                ArrayValues::I8(raw.iter().map(|byte| byte.cast_signed()).collect())
-            }
-            (Kind::Signed, 2) => {
-                ArrayValues::I16(each(&raw, big, (i16::from_le_bytes, i16::from_be_bytes)))
-            }
-            (Kind::Signed, 4) => {
-                ArrayValues::I32(each(&raw, big, (i32::from_le_bytes, i32::from_be_bytes)))
-            }
-            (Kind::Signed, _) => {
-                ArrayValues::I64(each(&raw, big, (i64::from_le_bytes, i64::from_be_bytes)))
-            }
-            (Kind::Float, 2) => {
-                let halves = each(&raw, big, (u16::from_le_bytes, u16::from_be_bytes));
-                ArrayValues::F32(halves.into_iter().map(widened).collect())
-            }
-            (Kind::Float, 4) => {
-                ArrayValues::F32(each(&raw, big, (f32::from_le_bytes, f32::from_be_bytes)))
-            }
-            (Kind::Float, _) => {
-                ArrayValues::F64(each(&raw, big, (f64::from_le_bytes, f64::from_be_bytes)))
-            }
-            (Kind::Text(filler), _) => self.texts(&raw, count, |bytes| utf8(bytes, filler))?,
-            (Kind::WideText, _) => {
-                let of = if big {
-                    u32::from_be_bytes
-                } else {
-                    u32::from_le_bytes
-                };
-                self.texts(&raw, count, |bytes| utf32(bytes, of))?
-            }
-            // Whoever lists such elements reads them from its heap.
-            (Kind::HeapText | Kind::HeapBytes, _) => {
-                return Err(Problem::unsupported(
-                    "references to values elsewhere",
-                    "write the values themselves",
-                ));
-            }
-        })
-    }
-
-    fn texts(
-        self,
-        raw: &[u8],
-        count: usize,
-        read: impl Fn(&[u8]) -> Option<String>,
-    ) -> Result<ArrayValues, Problem> {
-        let element = |place: usize| {
-            let bytes = &raw[place * self.bytes..(place + 1) * self.bytes];
-            read(bytes).ok_or_else(|| {
-                Problem::unsupported(
-                    format!("element {place} of these rows is no text of Unicode"),
-                    "write texts as UTF-8",
-                )
-            })
-        };
-        Ok(ArrayValues::Text(
-            (0..count).map(element).collect::<Result<_, _>>()?,
-        ))
-    }
 }
 
 /// What foreign text looks like in a message: cut, and without control characters.
@@ -271,77 +180,9 @@ pub(crate) fn shown(text: &str) -> String {
     short
 }
 
-/// UTF-8 up to what fills the field.
-fn utf8(bytes: &[u8], filler: Filler) -> Option<String> {
-    let up_to_last = |filled: u8| {
-        bytes
-            .iter()
-            .rposition(|byte| *byte != filled)
-            .map_or(0, |last| last + 1)
-    };
-    let end = match filler {
-        Filler::Zeros => up_to_last(0),
-        Filler::FirstZero => bytes
-            .iter()
-            .position(|byte| *byte == 0)
-            .unwrap_or(bytes.len()),
-        Filler::Spaces => up_to_last(b' '),
-    };
-    std::str::from_utf8(&bytes[..end]).ok().map(str::to_owned)
-}
-
-/// UTF-32 up to the zeros that fill the field.
-fn utf32(bytes: &[u8], of: fn([u8; 4]) -> u32) -> Option<String> {
-    let (codes, _) = bytes.as_chunks::<4>();
-    let end = codes
-        .iter()
-        .rposition(|code| *code != [0; 4])
-        .map_or(0, |last| last + 1);
-    codes[..end]
-        .iter()
-        .map(|code| char::from_u32(of(*code)))
-        .collect()
-}
-
-/// An IEEE 754 number of 16 bits as one of 32, which is exact.
-fn widened(half: u16) -> f32 {
-    let sign = u32::from(half >> 15) << 31;
-    let exponent = u32::from(half >> 10) & 0x1f;
-    let fraction = u32::from(half) & 0x3ff;
-    let bits = match (exponent, fraction) {
-        (0, 0) => 0,
-        (0, _) => {
-            // Subnormal: the highest set bit becomes the hidden one.
-            let shift = fraction.leading_zeros() - 21;
-            ((113 - shift) << 23) | ((fraction << (shift + 13)) & 0x007f_ffff)
-        }
-        (0x1f, _) => 0x7f80_0000 | (fraction << 13),
-        _ => ((exponent + 112) << 23) | (fraction << 13),
-    };
-    f32::from_bits(sign | bits)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn halves_are_widened_exactly() {
-        for (half, expected) in [
-            (0x3c00, 1.0),
-            (0xc000, -2.0),
-            (0x3555, 0.333_251_95),
-            (0x7bff, 65504.0),
-            (0x0001, 2.0_f32.powi(-24)),
-            (0x03ff, 1023.0 * 2.0_f32.powi(-24)),
-            (0x0400, 2.0_f32.powi(-14)),
-            (0x8000, -0.0),
-            (0x7c00, f32::INFINITY),
-        ] {
-            assert_eq!(widened(half).to_bits(), expected.to_bits(), "{half:#06x}");
-        }
-        assert!(widened(0x7e00).is_nan());
-    }
 
     #[test]
     fn names_of_numpy_are_understood_and_others_refused_with_what_to_do() {
@@ -362,23 +203,5 @@ mod tests {
             let message = Scalar::from_numpy(name).expect_err(name).to_string();
             assert!(message.contains(expected), "{message}");
         }
-    }
-
-    #[test]
-    fn text_ends_before_the_zeros_that_fill_it() {
-        let plain = Scalar::from_numpy("|S4").expect("known");
-        let values = plain
-            .decode(b"ab\0\0\xc3\xbcx\0".to_vec(), 2)
-            .expect("UTF-8");
-        assert_eq!(values, ArrayValues::Text(vec!["ab".into(), "üx".into()]));
-        assert!(plain.decode(vec![0xff; 4], 1).is_err());
-        let wide = Scalar::from_numpy(">U2").expect("known");
-        let values = wide
-            .decode(vec![0, 0, 0x4e, 0x2d, 0, 0, 0, 0], 1)
-            .expect("UTF-32");
-        assert_eq!(values, ArrayValues::Text(vec!["中".into()]));
-        assert!(wide.decode(vec![0, 0, 0xd8, 0, 0, 0, 0, 0], 1).is_err());
-        let empty = Scalar::from_numpy("<U0").expect("known");
-        assert_eq!(empty.decode(Vec::new(), 3).expect("empty").len(), 3);
     }
 }

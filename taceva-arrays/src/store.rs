@@ -24,6 +24,11 @@ pub(crate) trait Store: std::fmt::Debug + Send + Sync {
         Vec::new()
     }
 
+    /// The names of the attributes of the group or array `owner`.
+    fn attributes(&self, _owner: &str) -> Vec<String> {
+        Vec::new()
+    }
+
     /// The attribute `name` of the group or array `owner`, as text.
     fn attribute(&self, _owner: &str, _name: &str) -> Option<String> {
         None

@@ -45,6 +45,14 @@ pub(crate) struct Zarr {
 }
 
 impl Zarr {
+    /// What the group or array `owner` is described by beside its data.
+    fn attributes_of(&self, owner: &str) -> Option<&Value> {
+        let owner = owner.trim_matches('/');
+        let mut attributes = self.attributes.iter();
+        let (_, found) = attributes.find(|(of, _)| of.trim_matches('/') == owner)?;
+        Some(found)
+    }
+
     pub(crate) fn open(folder: &Path) -> Result<Zarr, Problem> {
         let metadata = fs::metadata(folder).map_err(Problem::io("open"))?;
         if !metadata.is_dir() {
@@ -191,12 +199,17 @@ impl Store for Zarr {
         self.groups.clone()
     }
 
+    fn attributes(&self, owner: &str) -> Vec<String> {
+        let attributes = self.attributes_of(owner).and_then(Value::as_object);
+        attributes
+            .into_iter()
+            .flatten()
+            .map(|(name, _)| name.clone())
+            .collect()
+    }
+
     fn attribute(&self, owner: &str, name: &str) -> Option<String> {
-        let owner = owner.trim_matches('/');
-        let (_, attributes) = self
-            .attributes
-            .iter()
-            .find(|(of, _)| of.trim_matches('/') == owner)?;
+        let attributes = self.attributes_of(owner)?;
         match attributes.get(name)? {
             Value::String(text) => Some(text.clone()),
             Value::Null => None,

@@ -216,6 +216,14 @@ impl ForeignTable {
         }
     }
 
+    /// The closed lists of classes that numbers of columns are positions in, as the file states them.
+    pub(crate) fn classes(&self) -> Vec<(String, Vec<String>)> {
+        match self {
+            ForeignTable::Columns(table) => table.classes(),
+            _ => Vec::new(),
+        }
+    }
+
     /// What of it seems to hold pictures.
     pub(crate) fn picture_columns(&self) -> Vec<PictureColumn> {
         match self {

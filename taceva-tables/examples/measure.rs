@@ -1,5 +1,5 @@
-//! What reading a file takes: `measure FILE COLUMN [TOPIC]` hands every cell of bytes in COLUMN over once and prints processor time and
-//! peak memory of this process, and how loaded the machine was.
+//! What reading a file takes: `measure FILE COLUMN [TOPIC]` hands every picture in COLUMN over once, or reads the column as a whole where it
+//! holds none, and prints processor time and peak memory of this process, and how loaded the machine was.
 //!
 //! ```text
 //! cargo run --release -p taceva-tables --example measure -- run.parquet image.bytes
@@ -9,7 +9,7 @@
 use std::path::Path;
 
 use rustix::time::{ClockId, clock_gettime};
-use taceva_tables::{Mcap, ParquetTable, Picture, TableError};
+use taceva_tables::{ColumnKind, Mcap, ParquetTable, Picture, TableError};
 
 fn main() -> Result<(), TableError> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -27,12 +27,24 @@ fn main() -> Result<(), TableError> {
         [] => {
             let table = ParquetTable::open(Path::new(file))?;
             let rows: Vec<u64> = (0..table.rows()).collect();
+            if table.kind(column)? != ColumnKind::Bytes {
+                for cell in table.column(column)? {
+                    count(cell.text().len())?;
+                }
+                return report(pictures, bytes);
+            }
             table.visit_bytes(column, &rows, &mut |_, cell| {
                 count(cell.map_or(0, |cell| cell.len()))
             })?;
         }
         [topic, ..] => {
             let table = Mcap::open(Path::new(file))?.table(topic)?;
+            if !table.topic().schema.ends_with("Image") {
+                for cell in table.column(column)? {
+                    count(cell.text().len())?;
+                }
+                return report(pictures, bytes);
+            }
             let rows: Vec<u64> = (0..table.rows()).collect();
             table.visit_pictures(column, &rows, &mut |_, picture| match picture {
                 Picture::Encoded(encoded) => count(encoded.len()),
@@ -41,6 +53,11 @@ fn main() -> Result<(), TableError> {
             })?;
         }
     }
+    report(pictures, bytes)
+}
+
+/// What this process took.
+fn report(cells: u64, bytes: u64) -> Result<(), TableError> {
     let time = clock_gettime(ClockId::ProcessCPUTime);
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let peak = status
@@ -49,7 +66,7 @@ fn main() -> Result<(), TableError> {
         .unwrap_or(" unknown");
     let load = std::fs::read_to_string("/proc/loadavg").unwrap_or_default();
     print(&format!(
-        "{pictures} pictures, {bytes} bytes: {}.{:03} s of processor time, peak{peak}, load {}",
+        "{cells} cells, {bytes} bytes: {}.{:03} s of processor time, peak{peak}, load {}",
         time.tv_sec,
         time.tv_nsec / 1_000_000,
         load.split(' ').next().unwrap_or("unknown"),

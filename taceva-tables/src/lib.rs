@@ -19,5 +19,5 @@ pub use cell::Cell;
 pub use error::{Place, TableError};
 pub use lerobot::{Feature, LeRobot, VideoFrames};
 pub use mcap::{Mcap, McapTable, Topic};
-pub use parquet::ParquetTable;
+pub use parquet::{ColumnKind, ParquetTable};
 pub use ros::{Picture, SampleForm, Samples};

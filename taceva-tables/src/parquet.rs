@@ -1,25 +1,31 @@
 //! Tables in Parquet files.
 
 mod assemble;
+mod cells;
+mod kind;
 mod leaf;
 mod levels;
 mod page_header;
 mod pages;
 mod schema;
+mod select;
 mod stream;
+mod values;
 
 use std::path::Path;
 
 use parquet::file::metadata::{ParquetMetaData, ParquetMetaDataReader, RowGroupMetaData};
 
 use self::assemble::Assembly;
-use self::schema::{LeafForm, Node, NodeKind};
-use self::stream::Stream;
+use self::cells::Cells;
+use self::schema::Node;
+use self::select::Found;
 use crate::cell::Cell;
 use crate::error::{Place, TableError};
 use crate::limits;
-use crate::path::longest;
 use crate::source::Source;
+
+pub use self::kind::ColumnKind;
 
 /// Rows that are decoded at once.
 const ROWS_AT_ONCE: usize = 256;
@@ -95,13 +101,30 @@ impl ParquetTable {
         self.rows
     }
 
+    /// What the file says beside its data under `key`, such as `huggingface`, the features of a dataset as JSON.
+    ///
+    /// ```no_run
+    /// let table = taceva_tables::ParquetTable::open("data/train.parquet".as_ref())?;
+    /// println!("{:?}", table.metadata("huggingface"));
+    /// # Ok::<(), taceva_tables::TableError>(())
+    /// ```
+    pub fn metadata(&self, key: &str) -> Option<&str> {
+        let all = self.metadata.file_metadata().key_value_metadata()?;
+        all.iter().find(|entry| entry.key == key)?.value.as_deref()
+    }
+
     /// The columns in the order of the schema; of a structure the members, as `pose.x`.
     pub fn names(&self) -> Vec<String> {
-        let mut names = Vec::new();
-        for node in &self.columns {
-            add_names(node, &node.name, &mut names);
-        }
-        names
+        select::names(&self.columns)
+    }
+
+    /// What the cells of the column called `name` are, which may be a structure, or a place inside lists.
+    ///
+    /// # Errors
+    /// [`TableError::Missing`] if there is no such column.
+    pub fn kind(&self, name: &str) -> Result<ColumnKind, TableError> {
+        let kind = Found::new(&self.source, &self.columns, name)?.kind();
+        kind.ok_or_else(|| self.source.missing(name, self.names()))
     }
 
     /// What is in the column called `name`, row by row: one of [`names`](Self::names), a structure as a whole, or a place inside lists:
@@ -123,10 +146,10 @@ impl ParquetTable {
         bytes: &mut u64,
         cells: &mut Vec<Cell>,
     ) -> Result<(), TableError> {
-        let found = self.find(name)?;
+        let found = Found::new(&self.source, &self.columns, name)?;
         let before = cells.len();
         for group in self.metadata.row_groups() {
-            let mut assembly = Assembly::new(&self.source, group, &found.column)?;
+            let mut assembly = Assembly::new(&self.source, group, found.column())?;
             let mut left = rows_of(group);
             while left > 0 {
                 let rows = left.min(ROWS_AT_ONCE);
@@ -163,7 +186,7 @@ impl ParquetTable {
         sorted: &[u64],
         each: &mut dyn FnMut(u64, Option<Vec<u8>>) -> Result<(), E>,
     ) -> Result<(), E> {
-        let found = self.find(name)?;
+        let found = Found::new(&self.source, &self.columns, name)?;
         crate::rows::check_sorted(&self.source, name, sorted, self.rows)?;
         let mut wanted = sorted;
         let mut begin = 0;
@@ -188,166 +211,6 @@ impl ParquetTable {
             begin = end;
         }
         Ok(())
-    }
-
-    /// The column that `name` begins with, without the members of structures that it does not lead to.
-    fn find(&self, name: &str) -> Result<Found, TableError> {
-        let names = self.columns.iter().map(|node| node.name.as_str());
-        let Some((at, rest)) = longest(name, names) else {
-            return Err(self.source.missing(name, self.names()));
-        };
-        let column = narrow(&self.columns[at], rest)
-            .ok_or_else(|| self.source.missing(name, self.names()))?;
-        Ok(Found {
-            column,
-            name: name.to_owned(),
-            rest: rest.to_owned(),
-        })
-    }
-}
-
-/// A column and the place in its cells that was asked for.
-struct Found {
-    column: Node,
-    name: String,
-    rest: String,
-}
-
-impl Found {
-    /// The part of `cell` that was asked for; null where a structure or a list on the way is.
-    fn inside(&self, source: &Source, row: usize, cell: Cell) -> Result<Cell, TableError> {
-        if self.rest.is_empty() {
-            return Ok(cell);
-        }
-        cell.into_inside(&self.rest).ok_or_else(|| {
-            source.mismatch(
-                &self.name,
-                format!("row {row} (from 0) has no such element"),
-            )
-        })
-    }
-}
-
-/// Cells of bytes in one group of rows, one after another.
-enum Cells {
-    Stream(Stream),
-    Assembly(Assembly),
-}
-
-impl Cells {
-    fn new(source: &Source, group: &RowGroupMetaData, found: &Found) -> Result<Cells, TableError> {
-        let chunk = leaf_of_bytes(&found.column, &found.rest)
-            .and_then(|column| group.columns().get(column));
-        let stream = match chunk {
-            Some(chunk) => Stream::new(source, chunk)?,
-            None => None,
-        };
-        Ok(match stream {
-            Some(stream) => Cells::Stream(stream),
-            None => Cells::Assembly(Assembly::new(source, group, &found.column)?),
-        })
-    }
-
-    fn skip(&mut self, rows: u64) -> Result<(), TableError> {
-        match self {
-            Cells::Stream(stream) => stream.skip(rows),
-            Cells::Assembly(assembly) => assembly.skip(usize::try_from(rows).unwrap_or(usize::MAX)),
-        }
-    }
-
-    fn next(
-        &mut self,
-        source: &Source,
-        found: &Found,
-        row: u64,
-    ) -> Result<Option<Vec<u8>>, TableError> {
-        let assembly = match self {
-            Cells::Stream(stream) => return stream.next(),
-            Cells::Assembly(assembly) => assembly,
-        };
-        let row = usize::try_from(row).unwrap_or(usize::MAX);
-        let mut cell = Cell::Null;
-        assembly.read(source, 1, &mut |read| {
-            cell = found.inside(source, row, read)?;
-            Ok(())
-        })?;
-        match cell {
-            Cell::Null => Ok(None),
-            Cell::Bytes(bytes) => Ok(Some(bytes)),
-            Cell::Text(text) => Ok(Some(text.into_bytes())),
-            _ => Err(source.mismatch(&found.name, "it holds no bytes")),
-        }
-    }
-}
-
-/// The leaf that `rest` leads to inside `node`, through structures alone, if its cells are bytes as they are.
-fn leaf_of_bytes(node: &Node, rest: &str) -> Option<usize> {
-    match &node.kind {
-        NodeKind::Leaf {
-            column,
-            form: LeafForm::Plain,
-        } => Some(*column),
-        NodeKind::Struct(members) if !rest.is_empty() => {
-            let names = members.iter().map(|member| member.name.as_str());
-            let (member, rest) = longest(rest, names)?;
-            leaf_of_bytes(&members[member], rest)
-        }
-        NodeKind::Struct(_) | NodeKind::Leaf { .. } | NodeKind::List { .. } => None,
-    }
-}
-
-/// `node` with no more of its members than `rest` leads to; none where it leads nowhere.
-fn narrow(node: &Node, rest: &str) -> Option<Node> {
-    if rest.is_empty() {
-        return Some(node.clone());
-    }
-    let kind = match &node.kind {
-        NodeKind::Leaf { .. } => return None,
-        NodeKind::Struct(members) => {
-            let (at, left) = longest(rest, members.iter().map(|member| member.name.as_str()))?;
-            NodeKind::Struct(vec![narrow(&members[at], left)?])
-        }
-        NodeKind::List {
-            definition,
-            repetition,
-            element,
-        } => {
-            let (numbers, left) = crate::path::indices(rest)?;
-            let mut inner = element.as_ref();
-            for _ in &numbers[1..] {
-                let NodeKind::List { element, .. } = &inner.kind else {
-                    return None;
-                };
-                inner = element;
-            }
-            let element = match numbers.len() {
-                1 => narrow(element, left)?,
-                _ => {
-                    narrow(inner, left)?;
-                    element.as_ref().clone()
-                }
-            };
-            NodeKind::List {
-                definition: *definition,
-                repetition: *repetition,
-                element: Box::new(element),
-            }
-        }
-    };
-    Some(Node {
-        kind,
-        ..node.clone()
-    })
-}
-
-fn add_names(node: &Node, name: &str, into: &mut Vec<String>) {
-    match &node.kind {
-        NodeKind::Struct(members) => {
-            for member in members {
-                add_names(member, &format!("{name}.{}", member.name), into);
-            }
-        }
-        NodeKind::Leaf { .. } | NodeKind::List { .. } => into.push(name.to_owned()),
     }
 }
 

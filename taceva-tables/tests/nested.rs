@@ -4,7 +4,7 @@ mod recordings;
 
 use recordings::{at, expected, recording};
 use serde_json::Value;
-use taceva_tables::{Cell, ParquetTable, TableError};
+use taceva_tables::{Cell, ColumnKind, ParquetTable, TableError};
 
 /// A cell as `make.py` writes it.
 fn plain(cell: &Cell) -> Value {
@@ -132,4 +132,31 @@ fn cells_that_are_streamed_are_those_that_pages_decode_to() {
             assert!(problem.contains("holds no bytes"), "{problem}");
         }
     }
+}
+
+#[test]
+fn columns_say_what_they_hold() {
+    use ColumnKind::{Bool, Bytes, Integer, List, Number, Struct, Text, Time};
+    let table = ParquetTable::open(&recording("nested").join("snappy.parquet")).expect("opens");
+    for (name, kind) in [
+        ("flag", Bool),
+        ("unsigned", Integer),
+        ("half", Number),
+        ("money", Number),
+        ("kind", Text),
+        ("bytes", Bytes),
+        ("fixed", Bytes),
+        ("stamp", Time("ns")),
+        ("matrix", List(Box::new(List(Box::new(Number))))),
+        ("matrix[0]", List(Box::new(Number))),
+        ("matrix[0,1]", Number),
+        ("map[0]", Struct),
+        ("map[0].value", Number),
+        ("deep[0][1].b", Text),
+    ] {
+        assert_eq!(table.kind(name).expect(name), kind, "{name}");
+    }
+    assert!(table.kind("matrix[0,1,2]").is_err());
+    let old = ParquetTable::open(&recording("nested").join("old.parquet")).expect("opens");
+    assert_eq!(old.kind("stamp").expect("a column"), Time("ns"));
 }

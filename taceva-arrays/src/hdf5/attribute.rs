@@ -1,17 +1,31 @@
 //! Attributes of groups and datasets, as text.
 
+use std::collections::HashMap;
+
 use hdf5_pure::{AttrValue, File};
 
 /// The attribute `name` of `owner`, if there is one of a kind that has a text.
 pub(crate) fn read(file: &File, owner: &str, name: &str) -> Option<String> {
-    let value = if owner.trim_matches('/').is_empty() {
-        file.root().attrs().ok()?.remove(name)?
-    } else {
-        let group = file.group(owner).and_then(|group| group.attrs());
-        let mut attributes = group.or_else(|_| file.dataset(owner)?.attrs()).ok()?;
-        attributes.remove(name)?
-    };
-    text(value)
+    text(all(file, owner)?.remove(name)?)
+}
+
+/// The names of the attributes of `owner`, sorted.
+pub(crate) fn names(file: &File, owner: &str) -> Vec<String> {
+    let mut names: Vec<String> = all(file, owner)
+        .into_iter()
+        .flatten()
+        .map(|(name, _)| name)
+        .collect();
+    names.sort_unstable();
+    names
+}
+
+fn all(file: &File, owner: &str) -> Option<HashMap<String, AttrValue>> {
+    if owner.trim_matches('/').is_empty() {
+        return file.root().attrs().ok();
+    }
+    let group = file.group(owner).and_then(|group| group.attrs());
+    group.or_else(|_| file.dataset(owner)?.attrs()).ok()
 }
 
 fn text(value: AttrValue) -> Option<String> {

@@ -67,7 +67,7 @@ impl Variable {
                         Some(all) => all.append(values),
                     }
                 }
-                all.unwrap_or_else(|| ArrayValues::empty(*element))
+                all.unwrap_or_else(|| ArrayValues::with_capacity(*element, 0))
             }
         };
         Ok(ArrayData { shape, values })

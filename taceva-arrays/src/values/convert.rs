@@ -5,22 +5,22 @@ use crate::element::Element;
 use crate::error::Problem;
 
 impl ArrayValues {
-    /// No elements.
-    pub(crate) fn empty(element: Element) -> ArrayValues {
+    /// Room for so many elements.
+    pub(crate) fn with_capacity(element: Element, count: usize) -> ArrayValues {
         match element {
-            Element::Bool => ArrayValues::Bool(Vec::new()),
-            Element::Unsigned(8) => ArrayValues::U8(Vec::new()),
-            Element::Unsigned(16) => ArrayValues::U16(Vec::new()),
-            Element::Unsigned(32) => ArrayValues::U32(Vec::new()),
-            Element::Unsigned(_) => ArrayValues::U64(Vec::new()),
-            Element::Signed(8) => ArrayValues::I8(Vec::new()),
-            Element::Signed(16) => ArrayValues::I16(Vec::new()),
-            Element::Signed(32) => ArrayValues::I32(Vec::new()),
-            Element::Signed(_) => ArrayValues::I64(Vec::new()),
-            Element::Float(64) => ArrayValues::F64(Vec::new()),
-            Element::Float(_) => ArrayValues::F32(Vec::new()),
-            Element::Text => ArrayValues::Text(Vec::new()),
-            Element::Bytes => ArrayValues::Bytes(Vec::new()),
+            Element::Bool => ArrayValues::Bool(Vec::with_capacity(count)),
+            Element::Unsigned(8) => ArrayValues::U8(Vec::with_capacity(count)),
+            Element::Unsigned(16) => ArrayValues::U16(Vec::with_capacity(count)),
+            Element::Unsigned(32) => ArrayValues::U32(Vec::with_capacity(count)),
+            Element::Unsigned(_) => ArrayValues::U64(Vec::with_capacity(count)),
+            Element::Signed(8) => ArrayValues::I8(Vec::with_capacity(count)),
+            Element::Signed(16) => ArrayValues::I16(Vec::with_capacity(count)),
+            Element::Signed(32) => ArrayValues::I32(Vec::with_capacity(count)),
+            Element::Signed(_) => ArrayValues::I64(Vec::with_capacity(count)),
+            Element::Float(64) => ArrayValues::F64(Vec::with_capacity(count)),
+            Element::Float(_) => ArrayValues::F32(Vec::with_capacity(count)),
+            Element::Text => ArrayValues::Text(Vec::with_capacity(count)),
+            Element::Bytes => ArrayValues::Bytes(Vec::with_capacity(count)),
         }
     }
 

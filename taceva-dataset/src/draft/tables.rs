@@ -13,6 +13,10 @@ use crate::foreign::{ForeignTable, PictureColumn, TableForm, packed, topics};
 /// Rows whose cells are looked at.
 const SAMPLED: usize = 200;
 
+/// Numbers of a row that are taken for taxels.
+const LEAST_TAXELS: usize = 8;
+const MOST_TAXELS: usize = 4_096;
+
 /// A table, or the first of several that were written alike.
 #[derive(Debug)]
 pub(super) struct SeenTable<'g> {
@@ -25,6 +29,8 @@ pub(super) struct SeenTable<'g> {
     pub(super) rows: usize,
     pub(super) columns: Vec<SeenColumn>,
     pub(super) pictures: Vec<PictureColumn>,
+    /// Lists of classes that the file states.
+    pub(super) classes: Vec<(String, Vec<String>)>,
 }
 
 #[derive(Debug)]
@@ -127,6 +133,7 @@ impl<'g> SeenTable<'g> {
             ),
             group,
             rows,
+            classes: table.classes(),
             pictures,
         })
     }
@@ -134,6 +141,24 @@ impl<'g> SeenTable<'g> {
     /// Whether its rows are in several groups of one file.
     pub(super) fn has_groups(&self) -> bool {
         self.written.contains("/*\"") && self.group.ending != "json"
+    }
+
+    /// How many numbers a row has, if it is an array of many and of nothing else: those of taxels.
+    pub(super) fn taxels(&self) -> Option<usize> {
+        let [column] = self.columns.as_slice() else {
+            return None;
+        };
+        let cell = column.cells.first()?;
+        // Lists in lists are one grid.
+        let numbers = cell
+            .split(['[', ']', ',', ' '])
+            .filter(|part| !part.is_empty());
+        let numbers: Option<Vec<f64>> = numbers
+            .map(|part| number::number(part).ok().flatten())
+            .collect();
+        let count = numbers?.len();
+        let is_many = (LEAST_TAXELS..=MOST_TAXELS).contains(&count);
+        (self.is_single_array && self.pictures.is_empty() && is_many).then_some(count)
     }
 
     /// How many channels its columns hold.

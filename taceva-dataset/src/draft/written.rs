@@ -74,6 +74,7 @@ pub(super) fn of_table(
                     channels.add(channel, &format!("{{ from = \"{name}{index}\", {unit} }}"));
                 }
             }
+            _ if main.classes.iter().any(|(column, _)| column == name) => {}
             Role::Attribute => attributes.add(&attribute_name(name), &format!("{name:?}")),
             Role::Time { .. } | Role::Index | Role::Number | Role::Other => {}
         }
@@ -132,7 +133,34 @@ pub(super) fn of_table(
     }
     add_section(&mut text, "ids", &ids.0);
     add_section(&mut text, "attributes", &attributes.0);
+    let mut classes = Lines::default();
+    for (column, names) in &main.classes {
+        let names: Vec<String> = names.iter().map(|name| format!("{name:?}")).collect();
+        classes.add(
+            &attribute_name(column),
+            &format!("{{ from = {column:?}, names = [{}] }}", names.join(", ")),
+        );
+    }
+    add_section(&mut text, "classes", &classes.0);
+    let mut taxels = tables
+        .iter()
+        .filter(|table| table.rows == main.rows && table.written != main.written);
+    if let Some((table, count)) = taxels.find_map(|table| Some((table, table.taxels()?))) {
+        add_section(&mut text, "signals", &signals(table, count));
+    }
     ended(text)
+}
+
+/// The taxels in an array beside the table.
+fn signals(table: &SeenTable<'_>, count: usize) -> String {
+    let (places, channels) = match count % 3 {
+        0 => (count / 3, "[\"x\", \"y\", \"z\"]"),
+        _ => (count, "[\"value\"]"),
+    };
+    format!(
+        "from = {{ file = {:?} }}\nunit = \"?\"\nplaces = [{places}, 1]   # a guess: rows and columns of the grid\nchannels = {channels}   # a guess\norder = \"place-first\"   # a guess: x y z x y z …\n",
+        table.group.first()
+    )
 }
 
 /// The map of a folder of pictures without a table.
@@ -240,6 +268,7 @@ impl Lines {
 fn attribute_name(column: &str) -> String {
     // `/object/name` is the object, as `path.object` is.
     let mut parts = column
+        .trim_start_matches('@')
         .rsplit(['/', '.'])
         .filter(|part| !["", "name", "id", "value", "text"].contains(part));
     let last = parts.next().unwrap_or(column);

@@ -139,7 +139,16 @@ impl ColumnSource for ArrayRows {
             }
         };
         let names = self.file.names().into_iter();
-        names.filter_map(named).take(LISTED).collect()
+        let attributes = match group.path.as_str() {
+            "" => Vec::new(),
+            path => self.file.attributes(path),
+        };
+        let attributes = attributes.into_iter().map(|name| format!("@{name}"));
+        names
+            .filter_map(named)
+            .chain(attributes)
+            .take(LISTED)
+            .collect()
     }
 
     fn has(&self, name: &str) -> bool {

@@ -27,6 +27,11 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
     /// What of it seems to hold pictures.
     fn picture_columns(&self) -> Vec<PictureColumn>;
 
+    /// The closed lists of classes that numbers of columns are positions in, as the file states them.
+    fn classes(&self) -> Vec<(String, Vec<String>)> {
+        Vec::new()
+    }
+
     /// The pictures that belong to the rows, by the number of the row.
     fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, String>;
 
@@ -148,6 +153,10 @@ impl ColumnTable {
 
     pub(super) fn picture_columns(&self) -> Vec<PictureColumn> {
         guarded(|| self.source.picture_columns()).unwrap_or_default()
+    }
+
+    pub(super) fn classes(&self) -> Vec<(String, Vec<String>)> {
+        self.source.classes()
     }
 
     /// For each row the clip that `key` names, relative to the folder of the table, and the frame in it.

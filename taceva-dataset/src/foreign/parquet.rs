@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use serde_json::Value;
 use taceva_tables::{ParquetTable, TableError};
 
 use super::columns::{ColumnSource, PictureColumn, PictureKind};
@@ -72,6 +73,24 @@ impl ColumnSource for ParquetRows {
                 kind: PictureKind::Encoded,
             })
             .collect()
+    }
+
+    /// As Hugging Face writes them: `{"info": {"features": {"label": {"names": […]}}}}`.
+    fn classes(&self) -> Vec<(String, Vec<String>)> {
+        let stated = self.table.metadata("huggingface");
+        let stated: Option<Value> = stated.and_then(|text| serde_json::from_str(text).ok());
+        let features = stated
+            .as_ref()
+            .and_then(|stated| stated.pointer("/info/features")?.as_object());
+        let classes = features
+            .into_iter()
+            .flatten()
+            .filter_map(|(name, feature)| {
+                let names = feature.get("names")?.as_array()?.iter();
+                let names = names.map(|name| name.as_str().map(str::to_owned));
+                Some((name.clone(), names.collect::<Option<Vec<String>>>()?))
+            });
+        classes.collect()
     }
 
     fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, String> {

@@ -72,7 +72,7 @@ impl Assembly {
 impl Part {
     fn new(source: &Source, group: &RowGroupMetaData, node: &Node) -> Result<Part, TableError> {
         let kind = match &node.kind {
-            NodeKind::Leaf { column, form } => {
+            NodeKind::Leaf { column, form, .. } => {
                 PartKind::Leaf(Box::new(Leaf::new(source, group, *column, *form)?))
             }
             NodeKind::Struct(members) => PartKind::Struct(

@@ -9,12 +9,13 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use bytes::Bytes;
-use parquet::basic::{Compression, Encoding, Type as Physical};
+use parquet::basic::{Compression, Encoding};
 use parquet::column::page::{Page, PageMetadata, PageReader};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::ColumnChunkMetaData;
 
 use super::page_header::{PageHeader, PageKind, read_header};
+use super::values::{ValueSize, encoding};
 use crate::error::{Place, TableError};
 use crate::limits;
 use crate::source::Source;
@@ -29,10 +30,9 @@ pub(super) struct Pages {
     at: u64,
     end: u64,
     codec: Codec,
-    physical: Physical,
-    type_length: usize,
-    max_definition: i16,
-    max_repetition: i16,
+    values: ValueSize,
+    has_nulls: bool,
+    has_lists: bool,
     /// A header that was looked at, and where its page begins.
     peeked: Option<(PageHeader, u64)>,
     /// Values of all pages handed over since whoever shares this set it to zero.
@@ -99,10 +99,9 @@ impl Pages {
             at,
             end,
             codec,
-            physical: column.physical_type(),
-            type_length: usize::try_from(column.type_length()).unwrap_or(0),
-            max_definition: column.max_def_level(),
-            max_repetition: column.max_rep_level(),
+            values: ValueSize::of(column),
+            has_nulls: column.max_def_level() > 0,
+            has_lists: column.max_rep_level() > 0,
             peeked: None,
             handed,
             is_dictionary_read: false,
@@ -277,19 +276,7 @@ impl Pages {
             if std::mem::replace(&mut self.is_dictionary_read, true) {
                 return Err("a second dictionary in one chunk".to_owned());
             }
-            let least = match self.physical {
-                Physical::BOOLEAN => return Err("a dictionary of truth values".to_owned()),
-                Physical::INT32 | Physical::FLOAT | Physical::BYTE_ARRAY => 4,
-                Physical::INT64 | Physical::DOUBLE => 8,
-                Physical::INT96 => 12,
-                Physical::FIXED_LEN_BYTE_ARRAY => self.type_length.max(1),
-            };
-            if buf.len() / least < num_values as usize {
-                return Err(format!(
-                    "{num_values} values in a dictionary of {} bytes",
-                    buf.len()
-                ));
-            }
+            self.values.check_dictionary(num_values, buf.len())?;
             return Ok(Page::DictionaryPage {
                 buf,
                 num_values,
@@ -297,31 +284,16 @@ impl Pages {
                 is_sorted: false,
             });
         }
-        let handed = self
-            .handed
-            .fetch_add(u64::from(num_values), Ordering::Relaxed);
-        if self.max_repetition > 0
-            && handed.saturating_add(u64::from(num_values)) > limits::ROW_LEVELS
-        {
+        let values = u64::from(num_values);
+        let handed = self.handed.fetch_add(values, Ordering::Relaxed);
+        if self.has_lists && handed.saturating_add(values) > limits::ROW_LEVELS {
+            let limit = limits::ROW_LEVELS;
             return Err(format!(
-                "rows of more than {} numbers are not accepted",
-                limits::ROW_LEVELS
+                "rows of more than {limit} numbers are not accepted"
             ));
         }
-        if encoding == Encoding::PLAIN && self.max_definition == 0 {
-            let bits = match self.physical {
-                Physical::BOOLEAN => 1,
-                Physical::INT32 | Physical::FLOAT | Physical::BYTE_ARRAY => 32,
-                Physical::INT64 | Physical::DOUBLE => 64,
-                Physical::INT96 => 96,
-                Physical::FIXED_LEN_BYTE_ARRAY => 8 * self.type_length as u64,
-            };
-            if u64::from(num_values) * bits > 8 * buf.len() as u64 {
-                return Err(format!(
-                    "{num_values} values in a page of {} bytes",
-                    buf.len()
-                ));
-            }
+        if encoding == Encoding::PLAIN && !self.has_nulls {
+            self.values.check_plain(num_values, buf.len())?;
         }
         Ok(match header.kind {
             PageKind::DataV2 => Page::DataPageV2 {
@@ -350,22 +322,6 @@ impl Pages {
         self.source
             .damaged(Place::byte(at).in_name(&self.name), problem)
     }
-}
-
-fn encoding(code: i32) -> Result<Encoding, String> {
-    Ok(match code {
-        0 => Encoding::PLAIN,
-        2 => Encoding::PLAIN_DICTIONARY,
-        3 => Encoding::RLE,
-        #[expect(deprecated, reason = "older writers encode levels so")]
-        4 => Encoding::BIT_PACKED,
-        5 => Encoding::DELTA_BINARY_PACKED,
-        6 => Encoding::DELTA_LENGTH_BYTE_ARRAY,
-        7 => Encoding::DELTA_BYTE_ARRAY,
-        8 => Encoding::RLE_DICTIONARY,
-        9 => Encoding::BYTE_STREAM_SPLIT,
-        other => return Err(format!("values in encoding {other}, expected 0 to 9")),
-    })
 }
 
 /// An error of ours, through the crate that asked for a page.

@@ -3,6 +3,7 @@
 use parquet::basic::{ConvertedType, LogicalType, Repetition, TimeUnit};
 use parquet::schema::types::{SchemaDescriptor, Type};
 
+use super::kind::ColumnKind;
 use crate::limits;
 
 /// A column or a part of one.
@@ -19,6 +20,7 @@ pub(super) enum NodeKind {
     Leaf {
         column: usize,
         form: LeafForm,
+        kind: ColumnKind,
     },
     Struct(Vec<Node>),
     List {
@@ -123,12 +125,14 @@ fn content(field: &Type, levels: Levels, leaves: &mut usize, depth: usize) -> Re
     if field.is_primitive() {
         let column = *leaves;
         *leaves += 1;
+        let form = leaf_form(field)?;
         return Ok(Node {
             name,
             definition,
             kind: NodeKind::Leaf {
                 column,
-                form: leaf_form(field)?,
+                form,
+                kind: ColumnKind::of_leaf(field.get_physical_type(), form),
             },
         });
     }

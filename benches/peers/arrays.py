@@ -1,0 +1,123 @@
+"""Arrays of other programs' files, read row by row, against the library of each form, in turn.
+
+usage: python3 benches/peers/arrays.py [FRAMES]
+
+Ours: `cargo run --release -p taceva-arrays --example read`, a process of its own, its start included. Theirs: one process each that
+imports the library, opens the file and reads frame after frame; only the latter two are counted. Both in seconds of processor time (one
+thread of each library, where it has more), with the peak of the memory of the whole process. Frames of 240 x 320 x 3 bytes: a bump over a
+pattern with noise, so that it can be compressed, but not far.
+"""
+import os
+import pathlib
+import pickle
+import shutil
+import subprocess
+import sys
+import tempfile
+
+from common import ROOT, need
+
+READERS = {
+    "npy": "a = np.load(path, mmap_mode='r')\nfor k in range(len(a)): t += int(np.array(a[k])[0, 0, 0])",
+    "npy float32": "a = np.load(path, mmap_mode='r')\nfor k in range(len(a)): t += float(np.array(a[k])[0, 0, 0])",
+    "npy column by column": "a = np.load(path)\nfor k in range(len(a)): t += int(np.ascontiguousarray(a[k])[0, 0, 0])",
+    "npz stored": "a = np.load(path)['rgb']\nfor k in range(len(a)): t += int(a[k][0, 0, 0])",
+    "npz deflated": "a = np.load(path)['rgb']\nfor k in range(len(a)): t += int(a[k][0, 0, 0])",
+    "pickle": "a = pickle.load(open(path, 'rb'))['rgb']\nfor k in range(len(a)): t += int(a[k][0, 0, 0])",
+    **{f"hdf5 {kind}": "a = h5py.File(path)['rgb']\nfor k in range(len(a)): t += int(a[k][0, 0, 0])" for kind in ("contiguous", "gzip", "lzf")},
+    **{f"zarr {kind}": "a = zarr.open(path, mode='r')['rgb']\nfor k in range(a.shape[0]): t += int(a[k][0, 0, 0])" for kind in ("gzip", "zstd", "blosc")},
+}
+ENDINGS = {"npy": "npy", "npz": "npz", "pickle": "pkl", "hdf5": "h5", "zarr": "zarr"}
+PROGRAM = """import time, sys, pickle
+import numpy as np
+{imports}
+path, t = sys.argv[1], 0
+begun = time.process_time()
+{reader}
+print(time.process_time() - begun)
+print(*[line for line in open('/proc/self/status') if line.startswith('VmHWM')])
+"""
+
+
+def write(folder, count):
+    import h5py
+    import numpy as np
+    import zarr
+    import numcodecs
+
+    y, x = np.mgrid[0:240, 0:320]
+    noise = np.random.default_rng(1).integers(0, 4, (8, 240, 320, 3), dtype=np.uint8)
+
+    def frame(k):
+        bump = 100 * np.exp(-((x - 160 - 60 * np.sin(k / 9)) ** 2 + (y - 120) ** 2) / 2000)
+        marks = 40 * ((x % 16 < 4) & (y % 16 < 4))
+        return (60 + bump + marks).astype(np.uint8)[..., None] + noise[k % 8]
+
+    frames = np.stack([frame(k) for k in range(count)])
+
+    def path(name):
+        return folder / f"{name.replace(' ', '-')}.{ENDINGS[name.split()[0]]}"
+
+    np.save(path("npy"), frames)
+    np.save(path("npy float32"), frames[: count // 4].astype("f4"))
+    np.save(path("npy column by column"), np.asfortranarray(frames))
+    np.savez(path("npz stored"), rgb=frames)
+    np.savez_compressed(path("npz deflated"), rgb=frames)
+    with open(path("pickle"), "wb") as f:
+        pickle.dump({"rgb": frames}, f, protocol=4)
+    for kind, how in (("contiguous", {}), ("gzip", dict(chunks=(1, 240, 320, 3), compression="gzip")), ("lzf", dict(chunks=(1, 240, 320, 3), compression="lzf"))):
+        with h5py.File(path(f"hdf5 {kind}"), "w", libver=("earliest", "v114")) as f:
+            f.create_dataset("rgb", data=frames, **how)
+    for kind, codec in (("gzip", numcodecs.GZip(5)), ("zstd", numcodecs.Zstd(3)), ("blosc", numcodecs.Blosc("lz4"))):
+        g = zarr.open_group(str(path(f"zarr {kind}")), mode="w", zarr_format=2)
+        a = g.create_array("rgb", shape=frames.shape, chunks=(8, 240, 320, 3), dtype="u1", compressors=codec)
+        a[:] = frames
+
+
+def measured(command):
+    """Processor time of a command in seconds, its peak in MiB as it says itself, and what it printed."""
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+    printed = process.stdout.read()
+    _, status, usage = os.wait4(process.pid, 0)
+    if status:
+        sys.exit(f"{command}: failed")
+    peak = [word for line in printed.splitlines() if "HWM" in line or "memory" in line for word in line.split() if word.isdigit()]
+    return usage.ru_utime + usage.ru_stime, int(peak[0]) / 1024, printed
+
+
+def main(count):
+    need("numpy", "h5py", "zarr", "numcodecs")
+    target = pathlib.Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
+    subprocess.run(["cargo", "build", "--release", "-p", "taceva-arrays", "--example", "read"], cwd=ROOT, check=True)
+    binary = target / "release" / "examples" / "read"
+    folder = pathlib.Path(tempfile.mkdtemp())
+    os.environ |= {name: "1" for name in ("OMP_NUM_THREADS", "BLOSC_NTHREADS", "NUMEXPR_NUM_THREADS")}
+    try:
+        subprocess.run([sys.executable, __file__, str(count), str(folder)], check=True)
+        files = {name: folder / f"{name.replace(' ', '-')}.{ENDINGS[name.split()[0]]}" for name in READERS}
+        print(f"{count} frames; {os.cpu_count()} processors, load {os.getloadavg()[0]:.1f} at the beginning")
+        print(f"{'form':<22}{'ours s':>9}{'theirs s':>10}{'ratio':>8}{'ours MiB':>10}{'theirs MiB':>12}")
+        for name, path in files.items():
+            imports = {"hdf5": "import h5py", "zarr": "import zarr, numcodecs; numcodecs.blosc.use_threads = False; zarr.config.set({'threading.max_workers': 1})"}.get(name.split()[0], "")
+            program = PROGRAM.format(imports=imports, reader=READERS[name])
+            array = {"npy": "value"}.get(name.split()[0], "rgb")
+            ours, theirs = [], []
+            for _ in range(5):
+                seconds, peak, _ = measured([str(binary), str(path), array, "1"])
+                ours.append((seconds, peak))
+                _, peak, printed = measured([sys.executable, "-c", program, str(path)])
+                theirs.append((float(printed.split()[0]), peak))
+            (mine, my_peak), (other, other_peak) = sorted(ours)[2], sorted(theirs)[2]
+            print(f"{name:<22}{mine:>9.3f}{other:>10.3f}{mine / other:>8.2f}{my_peak:>10.0f}{other_peak:>12.0f}", flush=True)
+        print(f"load {os.getloadavg()[0]:.1f} at the end; medians of 5, in turn")
+    finally:
+        shutil.rmtree(folder)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) > 3:
+        sys.exit(__doc__)
+    if len(sys.argv) == 3:
+        write(pathlib.Path(sys.argv[2]), int(sys.argv[1]))
+        sys.exit()
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else 300)

@@ -1,0 +1,63 @@
+//! What a column holds, by its schema.
+
+use parquet::basic::Type as Physical;
+
+use super::schema::{LeafForm, Node, NodeKind};
+
+/// What the cells of a column are, where they are not null.
+///
+/// ```
+/// use taceva_tables::{ColumnKind, ParquetTable};
+/// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/presses.parquet");
+/// let table = ParquetTable::open(path.as_ref())?;
+/// assert_eq!(table.kind("image.bytes")?, ColumnKind::Bytes);
+/// assert_eq!(table.kind("ft")?, ColumnKind::List(Box::new(ColumnKind::Number)));
+/// assert_eq!(table.kind("ft[0]")?, ColumnKind::Number);
+/// # Ok::<(), taceva_tables::TableError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ColumnKind {
+    /// Truth values.
+    Bool,
+    /// Integers.
+    Integer,
+    /// Numbers of single, double or half precision, or decimal ones.
+    Number,
+    /// Texts.
+    Text,
+    /// Bytes, such as encoded pictures.
+    Bytes,
+    /// Times as integers of a unit: `d`, `ms`, `us` or `ns`; points in time since 1970, times of day since midnight.
+    Time(&'static str),
+    /// Lists of cells of a kind.
+    List(Box<ColumnKind>),
+    /// Structures.
+    Struct,
+}
+
+impl ColumnKind {
+    pub(super) fn of_leaf(physical: Physical, form: LeafForm) -> ColumnKind {
+        match form {
+            LeafForm::Text => ColumnKind::Text,
+            LeafForm::Unsigned => ColumnKind::Integer,
+            LeafForm::Decimal { .. } | LeafForm::Half => ColumnKind::Number,
+            LeafForm::Time(unit) => ColumnKind::Time(unit),
+            LeafForm::Plain => match physical {
+                Physical::BOOLEAN => ColumnKind::Bool,
+                Physical::INT32 | Physical::INT64 => ColumnKind::Integer,
+                Physical::INT96 => ColumnKind::Time("ns"),
+                Physical::FLOAT | Physical::DOUBLE => ColumnKind::Number,
+                Physical::BYTE_ARRAY | Physical::FIXED_LEN_BYTE_ARRAY => ColumnKind::Bytes,
+            },
+        }
+    }
+
+    pub(super) fn of(node: &Node) -> ColumnKind {
+        match &node.kind {
+            NodeKind::Leaf { kind, .. } => kind.clone(),
+            NodeKind::Struct(_) => ColumnKind::Struct,
+            NodeKind::List { element, .. } => ColumnKind::List(Box::new(ColumnKind::of(element))),
+        }
+    }
+}
