@@ -30,7 +30,7 @@ fn spec() -> RecordingSpec {
 
 fn values(row: u16) -> Vec<f32> {
     (0..15_u16)
-        .map(|place| f32::from(row) + f32::from(place) / 16.0)
+        .map(|place| f32::from(row) + f32::from(place) / 15.0)
         .collect()
 }
 
@@ -87,7 +87,7 @@ fn signals_are_recorded_and_streamed_in_the_order_of_rows() {
     }
     // The mean of the two rows without contact.
     let rest = dataset.rest().expect("read").expect("known");
-    assert_eq!(rest.values()[..2], [0.5, 0.5625]);
+    assert_eq!(rest.values()[..2], [0.5, 0.5 + 1.0 / 15.0]);
     dataset.verify_frames().expect("whole");
 }
 

@@ -33,7 +33,8 @@ pub(crate) struct OptionalModelArgs {
 #[derive(Debug, Args)]
 pub(crate) struct SettingArgs {
     /// A setting of the features or of the model, such as features=markers (pixels, markers, gradients, statistics, or several joined by +),
-    /// size=32x32, color=gray, difference=true, strength=0.1, and device=wgpu for networks in a program built for GPUs; may be repeated
+    /// size=32x32, color=gray, difference=true, strength=0.1, input=signals where a recording has frames too, and device=wgpu for networks
+    /// in a program built for GPUs; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) set: Vec<String>,
     /// Channels to predict, separated by commas [default: all]

@@ -109,8 +109,9 @@ pub(super) struct WrittenSample {
     spacing_nm: Option<i64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     intensity: Option<f64>,
+    /// In double precision, whose text reads back to the same number in single.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    signals: Option<Vec<f32>>,
+    signals: Option<Vec<f64>>,
     truth: BTreeMap<String, f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     frame: Option<WrittenFrame>,
@@ -200,7 +201,7 @@ impl WrittenSample {
             kind: row.kind,
             spacing_nm: row.spacing.map(|spacing| spacing.0),
             intensity: row.intensity,
-            signals: signals.map(<[f32]>::to_vec),
+            signals: signals.map(|values| values.iter().copied().map(f64::from).collect()),
             truth: truth
                 .filter_map(|(channel, value)| Some((channel.name().to_owned(), (*value)?)))
                 .collect(),
@@ -271,7 +272,12 @@ impl WrittenSample {
                 .frame
                 .map(|frame| FrameEntry::at(frame.path, frame.sha256)),
         };
-        Ok((row, info, self.signals))
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "numbers of single precision, written in double"
+        )]
+        let single = |values: Vec<f64>| values.into_iter().map(|value| value as f32).collect();
+        Ok((row, info, self.signals.map(single)))
     }
 }
 

@@ -1,0 +1,99 @@
+//! A sensor of taxels from its table to its scores, by the program alone.
+
+mod support;
+
+use std::fmt::Write as _;
+use std::fs;
+
+use support::Bench;
+
+const MAP: &str = r#"
+map_version = 2
+source = "synthetic"
+table = { file = "skin.csv", header = false }
+[columns]
+Fz = { from = 0, unit = "N" }
+[time]
+clock = "unknown"
+[signals]
+from = "1..4"
+unit = "mV"
+places = [2, 2]
+channels = ["pressure"]
+rest = "0..9"
+[sensor]
+model = "drawn skin"
+serial = "unknown"
+gel = "unknown"
+opaque = true
+"#;
+
+/// Presses on four taxels: a force, and voltages in mV that follow it with a little noise; at first nothing is touched.
+fn table() -> String {
+    let mut state = 7_u32;
+    let mut draw = || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        f64::from(state >> 8) / 16_777_216.0
+    };
+    let mut text = String::new();
+    for row in 0..200 {
+        let drawn = 5.0 * draw();
+        let force = if row < 10 { 0.0 } else { drawn };
+        write!(text, "{force}").expect("text");
+        for gain in [100.0, 60.0, 30.0, 10.0] {
+            write!(text, ",{}", 500.0 + gain * force + 4.0 * draw()).expect("text");
+        }
+        text.push('\n');
+    }
+    text
+}
+
+#[test]
+fn taxels_are_imported_checked_fitted_and_evaluated() {
+    let bench = Bench::new();
+    let lab = bench.path("lab");
+    fs::create_dir(&lab).expect("made");
+    fs::write(lab.join("skin.csv"), table()).expect("written");
+    fs::write(lab.join("map.toml"), MAP).expect("written");
+    let said = bench.ok("import lab --map lab/map.toml --out data");
+    assert!(
+        said.contains("signals  200 samples of 2×2 places of 1 in V"),
+        "{said}"
+    );
+    let checked = bench.ok("check data");
+    assert!(
+        !checked.contains("TAC016") && !checked.contains("TAC018"),
+        "{checked}"
+    );
+    let found = bench.json("evaluate data --model ridge --metrics r2");
+    let model = &found["provenance"]["model"];
+    assert_eq!(
+        model["settings"]["features"], "signals of 2×2 places of 1",
+        "{model}"
+    );
+    assert_eq!(found["provenance"]["frames_decoded"], 0);
+    bench.ok("fit data --model auto --set difference=true --out skin.safetensors");
+    bench.ok("evaluate data --with skin.safetensors --metrics r2");
+    bench.ok("predict data --with skin.safetensors --out predicted.csv");
+    bench.refused(
+        "evaluate data --model cnn",
+        3,
+        "a network slides over a grid of at least 8×8 places, and this one has 2×2 places of 1 in V",
+    );
+    bench.refused(
+        "evaluate data --model ridge --set size=8",
+        3,
+        "`size=8` is of frames, and the recording has signals alone",
+    );
+    bench.record("pictures", 64);
+    bench.refused(
+        "evaluate pictures --model ridge --set input=signals",
+        3,
+        "the recording has no signals; `input=frame` would be accepted",
+    );
+    bench.refused(
+        "evaluate pictures --with skin.safetensors",
+        3,
+        "the dataset has no signals, the model needs them",
+    );
+}
