@@ -101,18 +101,6 @@ impl ParquetTable {
         self.rows
     }
 
-    /// What the file says beside its data under `key`, such as `huggingface`, the features of a dataset as JSON.
-    ///
-    /// ```no_run
-    /// let table = taceva_tables::ParquetTable::open("data/train.parquet".as_ref())?;
-    /// println!("{:?}", table.metadata("huggingface"));
-    /// # Ok::<(), taceva_tables::TableError>(())
-    /// ```
-    pub fn metadata(&self, key: &str) -> Option<&str> {
-        let all = self.metadata.file_metadata().key_value_metadata()?;
-        all.iter().find(|entry| entry.key == key)?.value.as_deref()
-    }
-
     /// The columns in the order of the schema; of a structure the members, as `pose.x`.
     pub fn names(&self) -> Vec<String> {
         select::names(&self.columns)
