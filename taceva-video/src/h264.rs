@@ -40,8 +40,8 @@ pub(crate) struct H264Clip {
 /// Why a frame was not decoded.
 pub(crate) enum Refusal {
     Video(VideoError),
-    /// The stream needs a tool of the codec that the decoder does not have.
-    Tool(&'static str),
+    /// The stream needs a tool of the codec that the decoder does not have; said as what stands behind the name of the codec.
+    Tool(String),
 }
 
 /// A picture as the decoder gives it: rows without padding, chroma half as wide and high.
@@ -142,7 +142,7 @@ impl H264Clip {
                 .into());
         }
         match sequence.foreign() {
-            Some(tool) => Err(Refusal::Tool(tool)),
+            Some(tool) => Err(Refusal::Tool(tool.to_owned())),
             None => Ok(()),
         }
     }
@@ -224,7 +224,7 @@ impl SampleDecoder for Session<'_> {
         } = self.clip;
         let Sample { offset, size, .. } = samples[sample];
         let refusal = |error: DecodeError| match error {
-            DecodeError::Unsupported(tool) => Refusal::Tool(tool),
+            DecodeError::Unsupported(tool) => Refusal::Tool(format!("with {tool}")),
             other => {
                 let problem = format!("on the way to frame {}: {other}", towards.frame);
                 Refusal::Video(source.damaged(offset, problem))
