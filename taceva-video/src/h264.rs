@@ -157,6 +157,17 @@ impl H264Clip {
         if (picture.width as u64, picture.height as u64) != (u64::from(width), u64::from(height)) {
             return Err(self.changed_size(frame, picture.width as u64, picture.height as u64));
         }
+        let pixels = width as usize * height as usize;
+        let is_whole = picture.luma.len() == pixels
+            && picture.chroma.iter().all(|plane| plane.len() == pixels / 4);
+        if !is_whole {
+            return Err(VideoError::Decoder {
+                path: self.source.path().to_owned(),
+                decoder: DECODER,
+                frame,
+                problem: format!("planes that are not those of {width}×{height} pixels"),
+            });
+        }
         let samples = match colours {
             Colours::Luma => picture.luma,
             Colours::Rgb => {
