@@ -42,15 +42,15 @@ pub(crate) struct Known {
     container: Option<&'static str>,
     codec: Option<String>,
     /// Why it is not decoded here, behind the name of the codec; empty where the codec says it all.
-    why: &'static str,
+    why: String,
 }
 
 impl Known {
-    pub(crate) fn new(container: &'static str, codec: Option<String>, why: &'static str) -> Known {
+    pub(crate) fn new(container: &'static str, codec: Option<String>, why: &str) -> Known {
         Known {
             container: Some(container),
             codec,
-            why,
+            why: why.to_owned(),
         }
     }
 
@@ -60,7 +60,7 @@ impl Known {
             .codec
             .as_deref()
             .unwrap_or("the codec of a container that is not known here");
-        [codec, self.why].join(" ").trim().to_owned()
+        [codec, &self.why].join(" ").trim().to_owned()
     }
 
     /// That nothing at hand decodes it.
