@@ -1,8 +1,12 @@
-//! A dataset's table as CSV, for every other program.
+//! A dataset for other programs: its table as CSV, the whole as Parquet with pictures.
+
+mod hugging_face;
 
 use std::io::{self, Write};
 
 use crate::dataset::Dataset;
+
+pub use hugging_face::export_hugging_face;
 
 /// Writes the labels of `dataset` as CSV: a row a sample, bare channel names, an empty cell where there is no value.
 ///

@@ -9,7 +9,7 @@ use super::{ExplainArgs, Output, SplitArgs};
 
 /// The map says, in TOML, which column is which channel, in which unit, and where the pictures are.
 #[derive(Debug, Args)]
-#[command(group = ArgGroup::new("layout").required(true).args(["map", "preset"]))]
+#[command(group = ArgGroup::new("layout").required(true).args(["map", "preset", "draft"]))]
 pub(crate) struct Import {
     /// The folder that holds the table and the pictures
     pub(crate) source: PathBuf,
@@ -20,7 +20,7 @@ pub(crate) struct Import {
     #[arg(long, value_name = "NAME")]
     pub(crate) preset: Option<String>,
     /// Look at the folder and write a first map for it, with reasons as comments and units left open; to --out, else to the terminal
-    #[arg(long, conflicts_with_all = ["map", "preset", "explain"])]
+    #[arg(long, conflicts_with = "explain")]
     pub(crate) draft: bool,
     /// The dataset to write: a new folder
     #[arg(long, value_name = "DATASET", required_unless_present_any = ["explain", "to", "draft"])]

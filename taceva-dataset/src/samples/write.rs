@@ -1,5 +1,7 @@
 //! A table as the bytes of a Parquet file.
 
+use std::io::Write;
+use std::ops::Range;
 use std::sync::Arc;
 
 use parquet::basic::{Compression, LogicalType, Repetition, Type as PhysicalType};
@@ -21,27 +23,37 @@ pub(super) fn write(table: &Table) -> Result<Vec<u8>, ParquetError> {
     let schema = Type::group_type_builder("samples")
         .with_fields(fields)
         .build()?;
+    let properties = properties(units(table));
+    let mut writer = SerializedFileWriter::new(Vec::new(), Arc::new(schema), Arc::new(properties))?;
+    let mut group = writer.next_row_group()?;
+    for column in &columns {
+        write_column(&mut group, &column.cells, 0..table.rows())?;
+    }
+    group.close()?;
+    writer.into_inner()
+}
+
+/// The unit of each channel, beside the data of a file.
+pub(crate) fn units(table: &Table) -> Vec<KeyValue> {
     let units = table.channels().iter().map(|channel| {
         KeyValue::new(
             format!("unit.{}", channel.name()),
             channel.unit().symbol().to_owned(),
         )
     });
-    let properties = WriterProperties::builder()
-        .set_compression(Compression::SNAPPY)
-        .set_created_by("taceva".to_owned())
-        .set_key_value_metadata(Some(units.collect()))
-        .build();
-    let mut writer = SerializedFileWriter::new(Vec::new(), Arc::new(schema), Arc::new(properties))?;
-    let mut group = writer.next_row_group()?;
-    for column in &columns {
-        write_column(&mut group, &column.cells, table.rows())?;
-    }
-    group.close()?;
-    writer.into_inner()
+    units.collect()
 }
 
-fn field(column: &NamedColumn<'_>) -> Result<Type, ParquetError> {
+/// How files are written: the same table is the same bytes.
+pub(crate) fn properties(metadata: Vec<KeyValue>) -> WriterProperties {
+    WriterProperties::builder()
+        .set_compression(Compression::SNAPPY)
+        .set_created_by("taceva".to_owned())
+        .set_key_value_metadata(Some(metadata))
+        .build()
+}
+
+pub(crate) fn field(column: &NamedColumn<'_>) -> Result<Type, ParquetError> {
     let (physical, logical) = match column.cells {
         Cells::Number(_) | Cells::Measured(_) | Cells::Spacing(_) => (PhysicalType::DOUBLE, None),
         Cells::Count(_) => (PhysicalType::INT64, None),
@@ -53,36 +65,42 @@ fn field(column: &NamedColumn<'_>) -> Result<Type, ParquetError> {
         .build()
 }
 
-fn write_column(
-    group: &mut SerializedRowGroupWriter<'_, Vec<u8>>,
+/// Writes those rows of a column.
+pub(crate) fn write_column<W: Write + Send>(
+    group: &mut SerializedRowGroupWriter<'_, W>,
     cells: &Cells<'_>,
-    rows: usize,
+    rows: Range<usize>,
 ) -> Result<(), ParquetError> {
     match cells {
         Cells::Number(_) | Cells::Measured(_) | Cells::Spacing(_) => {
-            write_values::<DoubleType>(group, (0..rows).map(|row| cells.number(row)))
+            write_values::<DoubleType, W>(group, rows.map(|row| cells.number(row)), 1)
         }
-        Cells::Count(counts) => {
-            write_values::<Int64Type>(group, counts.iter().map(|count| count.map(i64::from)))
-        }
-        _ => write_values::<ByteArrayType>(
+        Cells::Count(counts) => write_values::<Int64Type, W>(
             group,
-            (0..rows).map(|row| {
+            counts[rows].iter().map(|count| count.map(i64::from)),
+            1,
+        ),
+        _ => write_values::<ByteArrayType, W>(
+            group,
+            rows.map(|row| {
                 cells
                     .text(row)
                     .map(|text| ByteArray::from(text.into_bytes()))
             }),
+            1,
         ),
     }
 }
 
-fn write_values<T: DataType>(
-    group: &mut SerializedRowGroupWriter<'_, Vec<u8>>,
+/// Writes the next column; a value that is there is at the definition level `level`.
+pub(crate) fn write_values<T: DataType, W: Write + Send>(
+    group: &mut SerializedRowGroupWriter<'_, W>,
     cells: impl Iterator<Item = Option<T::T>>,
+    level: i16,
 ) -> Result<(), ParquetError> {
     let mut levels = Vec::new();
     let values: Vec<T::T> = cells
-        .inspect(|cell| levels.push(i16::from(cell.is_some())))
+        .inspect(|cell| levels.push(if cell.is_some() { level } else { 0 }))
         .flatten()
         .collect();
     let mut column = group
