@@ -18,8 +18,9 @@ import tempfile
 from common import ROOT, need
 
 READERS = {
-    "npy": "a = np.load(path, mmap_mode='r')\nfor k in range(len(a)): t += int(np.array(a[k])[0, 0, 0])",
-    "npy float32": "a = np.load(path, mmap_mode='r')\nfor k in range(len(a)): t += float(np.array(a[k])[0, 0, 0])",
+    "npy": "a = np.load(path)\nfor k in range(len(a)): t += int(a[k][0, 0, 0])",
+    "npy mapped": "a = np.load(path, mmap_mode='r')\nfor k in range(len(a)): t += int(np.array(a[k])[0, 0, 0])",
+    "npy float32": "a = np.load(path)\nfor k in range(len(a)): t += float(a[k][0, 0, 0])",
     "npy column by column": "a = np.load(path)\nfor k in range(len(a)): t += int(np.ascontiguousarray(a[k])[0, 0, 0])",
     "npz stored": "a = np.load(path)['rgb']\nfor k in range(len(a)): t += int(a[k][0, 0, 0])",
     "npz deflated": "a = np.load(path)['rgb']\nfor k in range(len(a)): t += int(a[k][0, 0, 0])",
@@ -59,6 +60,7 @@ def write(folder, count):
         return folder / f"{name.replace(' ', '-')}.{ENDINGS[name.split()[0]]}"
 
     np.save(path("npy"), frames)
+    np.save(path("npy mapped"), frames)
     np.save(path("npy float32"), frames[: count // 4].astype("f4"))
     np.save(path("npy column by column"), np.asfortranarray(frames))
     np.savez(path("npz stored"), rgb=frames)

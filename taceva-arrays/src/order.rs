@@ -58,6 +58,8 @@ impl ColumnMajor {
             _ => {
                 let fit = (limits::TURNED_BYTES / row_bytes).max(rows.end - rows.start);
                 let block = rows.start..rows.start.saturating_add(fit).min(self.rows);
+                // The block before goes first: there is room for one.
+                *kept = None;
                 let turned = Arc::new(self.turned(source, block.clone())?);
                 *kept = Some((block.clone(), Arc::clone(&turned)));
                 (block, turned)
