@@ -3,15 +3,11 @@
 mod recordings;
 
 use std::path::PathBuf;
-use std::sync::Arc;
 
-use parquet::basic::Compression;
 use parquet::column::writer::ColumnWriter;
 use parquet::data_type::ByteArray;
-use parquet::file::properties::WriterProperties;
-use parquet::file::writer::SerializedFileWriter;
-use parquet::schema::parser::parse_message_type;
 use recordings::damage::peak_bytes;
+use recordings::written::parquet_file;
 use taceva_tables::{Cell, Mcap, ParquetTable, TableError};
 
 /// Writes `bytes` into a folder that lasts as long as what is returned.
@@ -216,29 +212,6 @@ fn messages_are_in_the_order_of_their_times_and_at_one_time_in_that_of_the_file(
         .expect("a topic");
     let column = table.column("x").expect("reads");
     assert_eq!(column, [1, 3, 2, 4, 0].map(Cell::Integer));
-}
-
-/// A Parquet file of one column, `message` by the language of the format, that `write` fills.
-fn parquet_file(
-    message: &str,
-    write: impl FnOnce(&mut ColumnWriter<'_>),
-) -> (tempfile::TempDir, PathBuf) {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("x.parquet");
-    let schema = Arc::new(parse_message_type(message).expect("a schema"));
-    let properties = WriterProperties::builder()
-        .set_compression(Compression::UNCOMPRESSED)
-        .build();
-    let file = std::fs::File::create(&path).expect("created");
-    let mut writer =
-        SerializedFileWriter::new(file, schema, Arc::new(properties)).expect("a writer");
-    let mut group = writer.next_row_group().expect("a group");
-    let mut column = group.next_column().expect("a column").expect("one");
-    write(column.untyped());
-    column.close().expect("closed");
-    group.close().expect("closed");
-    writer.close().expect("closed");
-    (folder, path)
 }
 
 #[test]
