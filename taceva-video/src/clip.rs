@@ -4,6 +4,16 @@
 ///
 /// # Units
 /// Sizes are pixels, times are seconds from the beginning of the presentation.
+///
+/// ```
+/// use taceva_video::{Decoders, Video};
+/// # let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/avi-mjpeg/cube_1.avi");
+/// let clip = Video::open(file.as_ref(), &Decoders::default())?;
+/// let info = clip.info();
+/// assert_eq!((info.width, info.height, info.frames), (64, 48, 8));
+/// assert_eq!((info.lossy, info.decoder.as_deref()), (Some(true), None));
+/// # Ok::<(), taceva_video::VideoError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct VideoInfo {
@@ -28,15 +38,43 @@ pub struct VideoInfo {
 }
 
 /// What is wanted of frames that are decoded.
+///
+/// ```
+/// use taceva_video::{Colours, Decoders, Picture, Video};
+/// # let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/mp4-h264-baseline/clip.mp4");
+/// let clip = Video::open(file.as_ref(), &Decoders::default())?;
+/// for (colours, numbers) in [(Colours::Luma, 1), (Colours::Rgb, 3)] {
+///     clip.visit(&[0], colours, &mut |_, picture| match picture {
+///         Picture::Pixels { samples, .. } if samples.len() == 64 * 48 * numbers => Ok(()),
+///         other => Err(format!("{other:?}")),
+///     })?;
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colours {
     /// The luma plane as it is stored, untouched.
     Luma,
-    /// Red, green and blue, converted by the matrix and range that the stream names (else BT.601, limited range), chroma nearest.
+    /// Red, green and blue of 8 bits, converted by the matrix and range that the stream names (else BT.601, limited range), with the nearest sample
+    /// of chroma. Of a stream of more than 8 bits the upper 8 are converted.
     Rgb,
 }
 
 /// A frame.
+///
+/// # Shapes
+/// Samples lie row by row: `[height, width]`, with three colours `[height, width, 3]`.
+///
+/// ```
+/// use taceva_video::Picture;
+/// let whole = |picture: &Picture| match picture {
+///     Picture::Jpeg(bytes) => bytes.starts_with(&[0xff, 0xd8]),
+///     Picture::Pixels { width, height, samples } => samples.len() % (width * height) as usize == 0,
+///     Picture::Deep { width, height, samples, .. } => samples.len() == (width * height) as usize,
+///     _ => false,
+/// };
+/// assert!(whole(&Picture::Pixels { width: 2, height: 1, samples: vec![7, 9] }));
+/// ```
 #[derive(Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Picture {

@@ -174,6 +174,17 @@ impl VideoError {
 }
 
 /// Why a visit of frames ended early.
+///
+/// ```
+/// use taceva_video::{Colours, Decoders, Video, VisitError};
+/// # let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/avi-mjpeg/cube_1.avi");
+/// let clip = Video::open(file.as_ref(), &Decoders::default())?;
+/// let enough = clip.visit(&[0, 1], Colours::Luma, &mut |_, _| Err("enough"));
+/// assert!(matches!(enough, Err(VisitError::Caller("enough"))));
+/// let beyond = clip.visit(&[99], Colours::Luma, &mut |_, _| Ok::<(), &str>(()));
+/// assert!(matches!(beyond, Err(VisitError::Video(_))));
+/// # Ok::<(), taceva_video::VideoError>(())
+/// ```
 #[derive(Debug, thiserror::Error)]
 pub enum VisitError<E> {
     /// The clip could not be read or decoded.

@@ -62,14 +62,14 @@ impl H264Clip {
     /// The clip of a track, with why others must decode it, if so.
     pub(crate) fn open(
         source: Source,
-        track: &Track,
+        track: Track,
         settings: &[u8],
         offset: u64,
     ) -> Result<(H264Clip, Option<&'static str>), VideoError> {
         let settings = Settings::read(&source, settings, offset)?;
         let sequence = match &settings.sequence {
             Some(sequence) => sequence.clone(),
-            None => first_sequence(&source, &settings, track)?,
+            None => first_sequence(&source, &settings, &track)?,
         };
         if sequence.is_too_large() {
             return Err(VideoError::TooLarge {
@@ -90,8 +90,8 @@ impl H264Clip {
         let foreign = sequence.foreign();
         let clip = H264Clip {
             source,
-            samples: track.samples.clone(),
-            presented: track.presented.clone(),
+            samples: track.samples,
+            presented: track.presented,
             settings,
             sequence,
             coding,

@@ -1,13 +1,17 @@
 //! How large clips may be. Beyond these a clip is refused before anything is allocated for it.
 
-/// Frames of a clip, and chunks or samples of its container.
-pub(crate) const FRAMES: u64 = 1 << 24;
+/// Frames of a clip: 38 hours of 30 a second. What is known of each takes some 70 bytes while a clip is opened.
+pub(crate) const FRAMES: u64 = 1 << 22;
 /// One packet as it is compressed.
 pub(crate) const PACKET_BYTES: u64 = 64 << 20;
 /// Pixels along one side of a frame.
 pub(crate) const SIDE: u32 = 16_384;
 /// Chunks of an AVI file, those of sound and padding included.
-pub(crate) const CHUNKS: u64 = 1 << 25;
+pub(crate) const CHUNKS: u64 = 1 << 23;
+/// Boxes of an MP4 file that lie in no other: a file in fragments has two for each.
+pub(crate) const OUTER_BOXES: u32 = 1 << 23;
+/// Boxes that lie in another.
+pub(crate) const INNER_BOXES: u32 = 1 << 16;
 /// The description of an AVI file's streams, or the headers of one of its chunks that are read whole.
 pub(crate) const HEADER_BYTES: u64 = 1 << 20;
 /// The index at the end of an AVI file: 16 bytes a chunk.

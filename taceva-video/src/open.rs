@@ -75,7 +75,7 @@ fn open_avi(source: Source, decoders: &Decoders) -> Result<Opened, VideoError> {
 }
 
 fn open_mp4(source: Source, decoders: &Decoders) -> Result<Opened, VideoError> {
-    let track = match mp4::read(&source)? {
+    let mut track = match mp4::read(&source)? {
         Found::Track(track) => track,
         Found::Elsewhere { codec, why } => {
             return open_foreign(source.path(), Known::new("MP4", Some(codec), why), decoders);
@@ -88,17 +88,17 @@ fn open_mp4(source: Source, decoders: &Decoders) -> Result<Opened, VideoError> {
         width: track.entry.width,
         height: track.entry.height,
         frames: track.presented.len() as u64,
-        times_s: Some(track.times_s.clone()),
+        times_s: Some(std::mem::take(&mut track.times_s)),
         lossy: Some(true),
         decoder: None,
     };
-    match &track.entry.coding {
+    match track.entry.coding.clone() {
         Coding::Jpeg => {
             let packets = packets_of(&track);
             of_jpegs(source, info, packets, decoders)
         }
         Coding::H264(settings, offset) => {
-            let (clip, foreign) = H264Clip::open(source, &track, settings, *offset)?;
+            let (clip, foreign) = H264Clip::open(source, track, &settings, offset)?;
             let codec = clip.sequence.codec();
             if let Some(why) = foreign {
                 let known = Known::new("MP4", Some(codec), why);
@@ -120,7 +120,7 @@ fn open_mp4(source: Source, decoders: &Decoders) -> Result<Opened, VideoError> {
             Ok((info, frames))
         }
         Coding::Av1(settings) => {
-            let format = Av1Clip::pixel_format(settings);
+            let format = Av1Clip::pixel_format(&settings);
             let (Some(format), Some(program)) = (format, &decoders.av1) else {
                 let why = if format.is_some() {
                     ""
@@ -133,7 +133,7 @@ fn open_mp4(source: Source, decoders: &Decoders) -> Result<Opened, VideoError> {
                     decoders,
                 );
             };
-            let clip = Av1Clip::open(source, &track, settings, program)?;
+            let clip = Av1Clip::open(source, track, &settings, program)?;
             let info = VideoInfo {
                 pixel_format: format.to_owned(),
                 lossy: None,
@@ -142,11 +142,9 @@ fn open_mp4(source: Source, decoders: &Decoders) -> Result<Opened, VideoError> {
             };
             Ok((info, Frames::Av1(Box::new(clip))))
         }
-        Coding::Other(codec) => open_foreign(
-            source.path(),
-            Known::new("MP4", Some(codec.clone()), ""),
-            decoders,
-        ),
+        Coding::Other(codec) => {
+            open_foreign(source.path(), Known::new("MP4", Some(codec), ""), decoders)
+        }
     }
 }
 

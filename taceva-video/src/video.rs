@@ -16,6 +16,20 @@ use crate::packets::JpegClip;
 /// Programs that decode what is not decoded here.
 ///
 /// Complete: a codec is decoded in this process, in a confined child, or by a program of others.
+///
+/// ```
+/// use std::path::PathBuf;
+/// use taceva_video::Decoders;
+/// // An ffmpeg that somebody named, or that of the path; this program itself as the child, if it has such a command.
+/// let named = std::env::var_os("TACEVA_FFMPEG").map(PathBuf::from);
+/// let this = std::env::current_exe()?;
+/// let decoders = Decoders {
+///     ffmpeg: Some(named.unwrap_or_else(|| "ffmpeg".into())),
+///     av1: Some(vec![this.into(), "decode-av1".into()]),
+/// };
+/// assert!(decoders != Decoders::default());
+/// # Ok::<(), std::io::Error>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Decoders {
     /// The program ffmpeg, for everything that is not named elsewhere.
@@ -26,14 +40,16 @@ pub struct Decoders {
 
 /// A clip whose frames are read by their place in the order of presentation.
 ///
-/// ```no_run
+/// ```
 /// use taceva_video::{Colours, Decoders, Video};
-/// let clip = Video::open("press.mp4".as_ref(), &Decoders::default())?;
-/// println!("{} frames of {}", clip.info().frames, clip.info().codec);
-/// clip.visit(&[0, 10], Colours::Luma, &mut |index, picture| {
-///     println!("{index}: {picture:?}");
+/// # let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/mp4-h264-baseline/clip.mp4");
+/// let clip = Video::open(file.as_ref(), &Decoders::default())?;
+/// let mut shown = Vec::new();
+/// clip.visit(&[3, 10], Colours::Luma, &mut |index, picture| {
+///     shown.push((index, format!("{picture:?}")));
 ///     Ok::<(), std::convert::Infallible>(())
 /// })?;
+/// assert_eq!(shown, [(3, "Pixels(64×48)".to_owned()), (10, "Pixels(64×48)".to_owned())]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]

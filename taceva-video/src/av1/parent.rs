@@ -50,7 +50,7 @@ impl Av1Clip {
     /// The clip of a track with its `settings`, decoded by `program`.
     pub(crate) fn open(
         source: Source,
-        track: &Track,
+        track: Track,
         settings: &[u8],
         program: &[OsString],
     ) -> Result<Av1Clip, VideoError> {
@@ -67,8 +67,8 @@ impl Av1Clip {
         let colour = track.entry.colour;
         Ok(Av1Clip {
             source,
-            samples: track.samples.clone(),
-            presented: track.presented.clone(),
+            samples: track.samples,
+            presented: track.presented,
             // Behind four bytes that say what the sequence says again.
             settings: settings.get(4..).unwrap_or_default().to_vec(),
             size: Greeting { width, height },

@@ -75,11 +75,44 @@ pub(super) struct Chunks<'a> {
     source: &'a Source,
     at: u64,
     end: u64,
+    /// What was read last, and from where: many small chunks are read at once.
+    window: Vec<u8>,
+    window_at: u64,
 }
+
+/// How much of a file is read at once to find chunks in it.
+const WINDOW_BYTES: u64 = 1 << 10;
 
 impl<'a> Chunks<'a> {
     pub(super) fn new(source: &'a Source, at: u64, end: u64) -> Chunks<'a> {
-        Chunks { source, at, end }
+        Chunks {
+            source,
+            at,
+            end,
+            window: Vec::new(),
+            window_at: 0,
+        }
+    }
+
+    /// The eight bytes at the present place, which are there.
+    fn head(&mut self) -> Result<[u8; 8], VideoError> {
+        let in_window = |chunks: &Chunks<'_>| -> Option<[u8; 8]> {
+            let from = usize::try_from(chunks.at.checked_sub(chunks.window_at)?).ok()?;
+            chunks.window.get(from..)?.first_chunk().copied()
+        };
+        if let Some(head) = in_window(self) {
+            return Ok(head);
+        }
+        let left = self.end.min(self.source.length()).saturating_sub(self.at);
+        let size = left.min(WINDOW_BYTES);
+        self.window = self
+            .source
+            .read(self.at, size, "bytes of chunks", WINDOW_BYTES)?;
+        self.window_at = self.at;
+        in_window(self).ok_or_else(|| {
+            self.source
+                .damaged(self.at, "the file ends within a chunk's head")
+        })
     }
 
     /// The next one, if there is room for one.
@@ -91,9 +124,7 @@ impl<'a> Chunks<'a> {
         if left < 8 {
             return Ok(None);
         }
-        let mut head = [0; 8];
-        self.source.read_into(self.at, &mut head)?;
-        let [a, b, c, d, size @ ..] = head;
+        let [a, b, c, d, size @ ..] = self.head()?;
         let (id, size) = (ChunkId([a, b, c, d]), u64::from(u32::from_le_bytes(size)));
         if !id.0.iter().all(|letter| (b' '..=b'~').contains(letter)) {
             let problem = format!("a chunk called {id}, expected four letters");

@@ -1,6 +1,7 @@
 //! Boxes of MP4 and QuickTime files: a size, four letters, content.
 
 use crate::error::VideoError;
+use crate::limits;
 use crate::source::Source;
 
 /// Where a box lies.
@@ -26,6 +27,7 @@ impl BoxAt {
             source,
             at: self.body.saturating_add(skipped),
             end: self.end,
+            left: limits::INNER_BOXES,
         }
     }
 
@@ -72,6 +74,8 @@ pub(super) struct Boxes<'a> {
     source: &'a Source,
     at: u64,
     end: u64,
+    /// How many more are looked at.
+    left: u32,
 }
 
 impl<'a> Boxes<'a> {
@@ -81,6 +85,7 @@ impl<'a> Boxes<'a> {
             source,
             at: 0,
             end: source.length(),
+            left: limits::OUTER_BOXES,
         }
     }
 
@@ -90,6 +95,10 @@ impl<'a> Boxes<'a> {
         if left < 8 {
             return Ok(None);
         }
+        self.left = self.left.checked_sub(1).ok_or_else(|| {
+            let problem = "boxes beyond what is accepted in one place";
+            self.source.damaged(self.at, problem)
+        })?;
         let mut head = [0; 8];
         self.source.read_into(self.at, &mut head)?;
         let [s0, s1, s2, s3, kind @ ..] = head;

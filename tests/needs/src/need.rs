@@ -36,7 +36,7 @@ pub enum Need {
     Gpu,
     /// Python with the public clients of devices, and ports that they expect: what proves that emulated devices speak as real ones.
     PublicClients,
-    /// `ffmpeg`, which serves a stream of pictures.
+    /// `ffmpeg`, which serves a stream of pictures and decodes clips.
     Ffmpeg,
     /// QEMU, a static busybox and a kernel with its modules: a virtual machine for devices that only a kernel can emulate.
     Kernel,
