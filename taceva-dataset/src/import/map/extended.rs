@@ -7,7 +7,7 @@ use serde::Deserialize;
 use taceva_arrays::ArrayFormat;
 use toml::Spanned;
 
-use super::written::{Check, ColumnName};
+use super::check::{Check, ColumnName};
 use super::{
     ClassMap, JoinBy, JoinMap, MatrixMap, MatrixRows, PathPattern, Pick, TimeJoin, Unmatched,
 };
