@@ -13,6 +13,7 @@ pub(crate) const TURNED_BYTES: u64 = 64 << 20;
 /// Arrays of one file, groups of one file, members of one archive.
 pub(crate) const ARRAYS: u64 = 1 << 16;
 /// One element: a fixed text, or a record.
+#[cfg(feature = "hdf5")]
 pub(crate) const ELEMENT_BYTES: u64 = 64 << 20;
 /// A chunk once its filters are undone.
 pub(crate) const CHUNK_BYTES: u64 = 256 << 20;

@@ -7,6 +7,10 @@ use crate::error::Problem;
 
 /// What the bytes of an element mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(
+    not(feature = "hdf5"),
+    expect(dead_code, reason = "HDF5 alone has such elements")
+)]
 pub(crate) enum Kind {
     Bool,
     Unsigned,
@@ -24,6 +28,10 @@ pub(crate) enum Kind {
 
 /// What follows a text in a field that is longer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(
+    not(feature = "hdf5"),
+    expect(dead_code, reason = "HDF5 alone has such elements")
+)]
 pub(crate) enum Filler {
     Zeros,
     /// A zero, and anything behind it.
@@ -162,6 +170,7 @@ impl Scalar {
     }
 
     /// Of a reference to a value elsewhere: whether that is text.
+    #[cfg(feature = "hdf5")]
     pub(crate) fn heap_text(self) -> Option<bool> {
         match self.kind {
             Kind::HeapText => Some(true),

@@ -2,7 +2,6 @@
 
 use std::fs::File;
 use std::path::Path;
-#[cfg(not(unix))]
 use std::sync::Mutex;
 
 use crate::error::Problem;
@@ -15,6 +14,13 @@ pub(crate) trait ByteSource: std::fmt::Debug + Send + Sync {
 
     /// Fills `into` with the bytes from `at`, which were checked against the length.
     fn read_at(&self, at: u64, into: &mut [u8]) -> Result<(), Problem>;
+
+    /// The same into memory of its own.
+    fn read_new(&self, at: u64, size: usize) -> Result<Vec<u8>, Problem> {
+        let mut bytes = vec![0; size];
+        self.read_at(at, &mut bytes)?;
+        Ok(bytes)
+    }
 }
 
 /// The `length` bytes from `at`, allocated once it is known that they are there.
@@ -34,9 +40,7 @@ pub(crate) fn bytes_of(source: &dyn ByteSource, at: u64, length: u64) -> Result<
             format!("{length} bytes from byte {at}"),
         ));
     };
-    let mut bytes = vec![0; size];
-    source.read_at(at, &mut bytes)?;
-    Ok(bytes)
+    source.read_new(at, size)
 }
 
 /// A file.
@@ -44,6 +48,9 @@ pub(crate) fn bytes_of(source: &dyn ByteSource, at: u64, length: u64) -> Result<
 pub(crate) struct FileBytes {
     #[cfg(unix)]
     file: File,
+    /// Whoever holds it may move where the file is read next.
+    #[cfg(unix)]
+    cursor: Mutex<()>,
     #[cfg(not(unix))]
     file: Mutex<File>,
     length: u64,
@@ -60,6 +67,8 @@ impl FileBytes {
         Ok(FileBytes {
             #[cfg(unix)]
             file,
+            #[cfg(unix)]
+            cursor: Mutex::new(()),
             #[cfg(not(unix))]
             file: Mutex::new(file),
             length: metadata.len(),
@@ -78,6 +87,29 @@ impl ByteSource for FileBytes {
         self.file
             .read_exact_at(into, at)
             .map_err(Problem::io("read"))
+    }
+
+    /// Memory that is filled by the system needs no zeros before; the other way is for threads that meet here.
+    #[cfg(unix)]
+    fn read_new(&self, at: u64, size: usize) -> Result<Vec<u8>, Problem> {
+        use std::io::{Read, Seek, SeekFrom};
+        let Ok(_held) = self.cursor.try_lock() else {
+            let mut bytes = vec![0; size];
+            self.read_at(at, &mut bytes)?;
+            return Ok(bytes);
+        };
+        let mut bytes = Vec::with_capacity(size);
+        let mut file = &self.file;
+        let read = file
+            .seek(SeekFrom::Start(at))
+            .and_then(|_| file.take(size as u64).read_to_end(&mut bytes));
+        match read {
+            Ok(count) if count == size => Ok(bytes),
+            Ok(_) => Err(Problem::io("read")(
+                std::io::ErrorKind::UnexpectedEof.into(),
+            )),
+            Err(error) => Err(Problem::io("read")(error)),
+        }
     }
 
     #[cfg(not(unix))]

@@ -105,7 +105,7 @@ fn main_table<'t, 'g>(
 ) -> Option<&'t SeenTable<'g>> {
     let candidates = tables
         .iter()
-        .filter(|table| !(table.is_single_array && !table.pictures.is_empty()));
+        .filter(|table| !table.is_single_array || table.pictures.is_empty());
     candidates
         .filter(|table| table.rows > 0 && !table.columns.is_empty())
         .max_by_key(|table| {

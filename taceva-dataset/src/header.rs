@@ -23,7 +23,7 @@ use crate::toml_file::{parse_toml, toml_error, utf8};
 use crate::version::Version;
 use taceva_seal::{Opened, SealError};
 
-pub use facts::{FramesInfo, Known, ReferenceInfo, SensorFacts, Source, TableInfo};
+pub use facts::{FrameCodec, FramesInfo, Known, ReferenceInfo, SensorFacts, Source, TableInfo};
 pub use footprint::{Footprint, Shape};
 pub use stream::StreamFacts;
 

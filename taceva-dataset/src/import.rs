@@ -16,6 +16,7 @@ mod suspicion;
 
 pub(crate) use advice::advice;
 pub use copy::ImportReport;
+pub(crate) use map::converter;
 pub use map::{
     ArrayFrames, ArrayLayout, ColumnMap, DropRules, FrameMap, FrameNames, IdMap, ImportMap,
     PixelRange, Placeholder, TimeMap, VideoFrames,

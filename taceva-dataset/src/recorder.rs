@@ -384,6 +384,7 @@ impl Recorder {
             limited_by: sample.limited_by,
             source_table: None,
             source_row: None,
+            source_frame: None,
             part: None,
             t_s: sample.stamp.map(|stamp| stamp.valid_s),
             kind: sample.kind,

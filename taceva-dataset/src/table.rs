@@ -43,6 +43,7 @@ pub struct Table {
     limited_by: Vec<Option<Limit>>,
     source_table: Vec<Option<String>>,
     source_row: Vec<Option<u32>>,
+    source_frame: Vec<Option<String>>,
     part: Vec<Option<String>>,
     t_s: Vec<Option<f64>>,
     kind: Vec<Option<GratingKind>>,
@@ -86,6 +87,7 @@ impl Table {
         self.limited_by.push(row.limited_by);
         self.source_table.push(row.source_table);
         self.source_row.push(row.source_row);
+        self.source_frame.push(row.source_frame);
         self.part.push(row.part);
         self.t_s.push(row.t_s);
         self.kind.push(row.kind);
@@ -172,6 +174,11 @@ impl Table {
     /// Which row of that table each was, from 0.
     pub fn source_row(&self) -> &[Option<u32>] {
         &self.source_row
+    }
+
+    /// The picture that each sample came with in the folder of its lab, such as `clip.mp4#12`; of imports by maps of version 2.
+    pub fn source_frame(&self) -> &[Option<String>] {
+        &self.source_frame
     }
 
     /// The declared part of each row.
@@ -333,6 +340,7 @@ impl Table {
             named("limited_by", Cells::Limit(&self.limited_by)),
             named("source_table", Cells::Text(&self.source_table)),
             named("source_row", Cells::Count(&self.source_row)),
+            named("source_frame", Cells::Text(&self.source_frame)),
             named("part", Cells::Text(&self.part)),
             named("t_s", Cells::Measured(&self.t_s)),
             named("kind", Cells::Kind(&self.kind)),

@@ -10,6 +10,7 @@ mod duplicate_frames;
 mod evidence;
 mod facts;
 mod finding;
+mod label_lag;
 mod label_outliers;
 mod leakage;
 mod lost_frames;
@@ -32,7 +33,7 @@ pub use run::{CheckRequest, check, check_plan};
 pub use signal_facts::{SignalFacts, TaxelFacts};
 
 /// Every check, in the order of its code.
-pub static ALL: [&Check; 19] = [
+pub static ALL: [&Check; 20] = [
     &units::CHECK,
     &duplicate_frames::CHECK,
     &channel_order::CHECK,
@@ -52,4 +53,5 @@ pub static ALL: [&Check; 19] = [
     &stuck_taxel::CHECK,
     &clipped_taxel::CHECK,
     &pressed_rest::CHECK,
+    &label_lag::CHECK,
 ];

@@ -101,21 +101,23 @@ impl ParquetTable {
         self.rows
     }
 
-    /// What the file says beside its data under `key`, such as `huggingface`, the features of a dataset as JSON.
+    /// The columns in the order of the schema; of a structure the members, as `pose.x`.
+    pub fn names(&self) -> Vec<String> {
+        select::names(&self.columns)
+    }
+
+    /// What a writer put beside the table under `key`, such as `huggingface`, where the names of classes stand in JSON.
     ///
-    /// ```no_run
-    /// let table = taceva_tables::ParquetTable::open("data/train.parquet".as_ref())?;
-    /// println!("{:?}", table.metadata("huggingface"));
+    /// ```
+    /// # use taceva_tables::ParquetTable;
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/presses.parquet");
+    /// assert_eq!(ParquetTable::open(path.as_ref())?.metadata("huggingface"), None);
     /// # Ok::<(), taceva_tables::TableError>(())
     /// ```
     pub fn metadata(&self, key: &str) -> Option<&str> {
         let all = self.metadata.file_metadata().key_value_metadata()?;
-        all.iter().find(|entry| entry.key == key)?.value.as_deref()
-    }
-
-    /// The columns in the order of the schema; of a structure the members, as `pose.x`.
-    pub fn names(&self) -> Vec<String> {
-        select::names(&self.columns)
+        let found = all.iter().find(|entry| entry.key == key)?;
+        found.value.as_deref()
     }
 
     /// What the cells of the column called `name` are, which may be a structure, or a place inside lists.
@@ -132,7 +134,7 @@ impl ParquetTable {
     ///
     /// # Errors
     /// [`TableError::Missing`] if there is no such column, [`TableError::Mismatch`] if `name` leads into a list that is shorter in
-    /// some row, [`TableError::TooLarge`] if the cells take more than 1 GiB of memory, [`TableError::Damaged`] if pages do not read.
+    /// some row, [`TableError::TooLarge`] if the cells take more than 320 MiB of memory, [`TableError::Damaged`] if pages do not read.
     pub fn column(&self, name: &str) -> Result<Vec<Cell>, TableError> {
         let mut cells = Vec::new();
         self.read_column(name, &mut 0, &mut cells)?;

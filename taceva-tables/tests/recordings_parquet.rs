@@ -103,6 +103,11 @@ fn pictures_of_hugging_face_come_in_their_own_bytes() {
             table.names(),
             ["image.bytes", "image.path", "wrench", "label", "split"]
         );
+        let features = table.metadata("huggingface").expect("written by datasets");
+        let features: serde_json::Value = serde_json::from_str(features).expect("JSON");
+        let classes = &features["info"]["features"]["label"]["names"];
+        assert_eq!(*classes, serde_json::json!(["cube", "ball"]));
+        assert_eq!(table.metadata("absent"), None);
         let names = table.column("image.path").expect(kind);
         let labels = table.column("label").expect(kind);
         assert_eq!(table.column("split").expect(kind)[23].text(), "train");

@@ -40,8 +40,8 @@ pub(crate) struct H264Clip {
 /// Why a frame was not decoded.
 pub(crate) enum Refusal {
     Video(VideoError),
-    /// The stream needs a tool of the codec that the decoder does not have.
-    Tool(&'static str),
+    /// The stream needs a tool of the codec that the decoder does not have; said as what stands behind the name of the codec.
+    Tool(String),
 }
 
 /// A picture as the decoder gives it: rows without padding, chroma half as wide and high.
@@ -142,7 +142,7 @@ impl H264Clip {
                 .into());
         }
         match sequence.foreign() {
-            Some(tool) => Err(Refusal::Tool(tool)),
+            Some(tool) => Err(Refusal::Tool(tool.to_owned())),
             None => Ok(()),
         }
     }
@@ -156,6 +156,17 @@ impl H264Clip {
         let (width, height) = self.size();
         if (picture.width as u64, picture.height as u64) != (u64::from(width), u64::from(height)) {
             return Err(self.changed_size(frame, picture.width as u64, picture.height as u64));
+        }
+        let pixels = width as usize * height as usize;
+        let is_whole = picture.luma.len() == pixels
+            && picture.chroma.iter().all(|plane| plane.len() == pixels / 4);
+        if !is_whole {
+            return Err(VideoError::Decoder {
+                path: self.source.path().to_owned(),
+                decoder: DECODER,
+                frame,
+                problem: format!("planes that are not those of {width}×{height} pixels"),
+            });
         }
         let samples = match colours {
             Colours::Luma => picture.luma,
@@ -224,7 +235,7 @@ impl SampleDecoder for Session<'_> {
         } = self.clip;
         let Sample { offset, size, .. } = samples[sample];
         let refusal = |error: DecodeError| match error {
-            DecodeError::Unsupported(tool) => Refusal::Tool(tool),
+            DecodeError::Unsupported(tool) => Refusal::Tool(format!("with {tool}")),
             other => {
                 let problem = format!("on the way to frame {}: {other}", towards.frame);
                 Refusal::Video(source.damaged(offset, problem))

@@ -108,7 +108,7 @@ impl Video {
                 Err(Refusal::Video(error)) => return Err(error.into()),
                 Err(Refusal::Tool(tool)) => {
                     let rest = &sorted[shown.get()..];
-                    self.go_on(else_by.as_deref(), tool, rest, colours, &mut show)?;
+                    self.go_on(else_by.as_deref(), &tool, rest, colours, &mut show)?;
                 }
             },
             Frames::Av1(clip) => clip.visit(sorted, colours, &mut show)?,
@@ -121,13 +121,12 @@ impl Video {
     fn go_on(
         &self,
         program: Option<&Path>,
-        tool: &'static str,
+        tool: &str,
         rest: &[u64],
         colours: Colours,
         show: &mut dyn FnMut(u64, Picture) -> ControlFlow<()>,
     ) -> Result<(), VideoError> {
-        let codec = format!("{} with", self.info.codec);
-        let known = Known::new("MP4", Some(codec), tool);
+        let known = Known::new("MP4", Some(self.info.codec.clone()), tool);
         let Some(program) = program else {
             return Err(known.no_decoder(&self.path));
         };

@@ -229,6 +229,11 @@ fn lists_that_name_other_files_are_not_followed() {
     };
     let folder = tempfile::tempdir().expect("a folder");
     let secret = path("mkv-ffv1", "clip.mkv");
+    assert_eq!(
+        open(&secret, &decoders).info().frames,
+        24,
+        "it can be read by itself"
+    );
     let secret = secret.display();
     for (name, text) in [
         (
@@ -242,13 +247,8 @@ fn lists_that_name_other_files_are_not_followed() {
     ] {
         let list = folder.path().join(name);
         std::fs::write(&list, text).expect("written");
-        let error = Video::open(&list, &decoders)
-            .expect_err("refused")
-            .to_string();
-        assert!(
-            error.contains("Invalid data found") || error.contains("whitelist"),
-            "{error}"
-        );
+        let refused = Video::open(&list, &decoders).expect_err("refused");
+        assert!(matches!(refused, VideoError::Process { .. }), "{refused}");
     }
 }
 
@@ -285,6 +285,92 @@ fn a_part_that_was_cut_out_presents_what_it_says() {
         digests(&by_us, &all, Colours::Luma),
         digests(&by_them, &all, Colours::Luma)
     );
+}
+
+#[test]
+fn a_stream_that_begins_to_need_more_than_the_decoder_has_goes_on_by_ffmpeg() {
+    let Some(decoders) = ffmpeg() else {
+        return;
+    };
+    let program = decoders.ffmpeg.as_ref().expect("there");
+    let encoders = Command::new(program)
+        .args(["-hide_banner", "-encoders"])
+        .output();
+    let encoders = encoders.expect("starts").stdout;
+    if !String::from_utf8_lossy(&encoders).contains(" libx264 ") {
+        skip(Need::Ffmpeg, "without libx264");
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut whole = Vec::new();
+    // Frames, then fields.
+    for fields in ["bframes=0", "bframes=0:tff=1:interlaced=1"] {
+        let part = folder.path().join("part.h264");
+        let source = "testsrc=size=64x48:rate=25:duration=0.4";
+        let to = [
+            "-c:v",
+            "libx264",
+            "-pix_fmt",
+            "yuv420p",
+            "-x264-params",
+            fields,
+        ];
+        make(
+            &decoders,
+            &[["-f", "lavfi", "-i", source].as_slice(), &to].concat(),
+            &part,
+        );
+        whole.extend(std::fs::read(&part).expect("readable"));
+    }
+    let stream = folder.path().join("whole.h264");
+    std::fs::write(&stream, whole).expect("written");
+    let (file, other) = (
+        folder.path().join("whole.mp4"),
+        folder.path().join("whole.mkv"),
+    );
+    make(
+        &decoders,
+        &["-i", stream.to_str().expect("text"), "-c", "copy"],
+        &file,
+    );
+    make(
+        &decoders,
+        &[
+            "-i",
+            file.to_str().expect("text"),
+            "-fps_mode",
+            "passthrough",
+            "-c:v",
+            "ffv1",
+        ],
+        &other,
+    );
+    let (clip, peer) = (open(&file, &decoders), open(&other, &decoders));
+    assert!(
+        clip.info()
+            .decoder
+            .as_ref()
+            .is_some_and(|decoder| decoder.starts_with("rusty_h264"))
+    );
+    assert_eq!((clip.info().frames, peer.info().frames), (20, 20));
+    let all: Vec<u64> = (0..20).collect();
+    assert_eq!(
+        digests(&clip, &all, Colours::Luma),
+        digests(&peer, &all, Colours::Luma)
+    );
+    // Without ffmpeg the first part is shown, and then the reason is.
+    let mut shown = 0;
+    let alone = open(&file, &Decoders::default());
+    let ended = alone.visit(&all, Colours::Luma, &mut |_, _| {
+        shown += 1;
+        Ok::<(), String>(())
+    });
+    let error = ended.expect_err("refused").to_string();
+    assert!(
+        error.contains("nothing at hand decodes H.264 High with fields"),
+        "{error}"
+    );
+    assert_eq!(shown, 10);
 }
 
 #[test]

@@ -9,4 +9,5 @@ mod peers;
 mod pickle;
 mod recordings;
 mod refusals;
+mod threads;
 mod zarr;

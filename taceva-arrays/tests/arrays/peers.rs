@@ -18,6 +18,10 @@ fn every_array_is_what_its_own_library_reads() {
     for (name, expected) in &files {
         let path = data().join(name);
         let format = ArrayFormat::of(&path).expect("an ending that is known");
+        let is_hdf5 = format == ArrayFormat::Hdf5 || name.ends_with("seven-3.mat");
+        if is_hdf5 && !cfg!(feature = "hdf5") {
+            continue;
+        }
         let file = match ArrayFile::open(&path, format) {
             Ok(file) => file,
             Err(error) => {

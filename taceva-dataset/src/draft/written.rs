@@ -9,6 +9,7 @@ use super::roles::{Role, channel, words};
 use super::survey::FileGroup;
 use super::tables::SeenTable;
 use crate::file::SourceFolder;
+use crate::import::converter;
 use crate::table::is_attribute_name;
 
 const HEAD: &str = "\
@@ -19,15 +20,8 @@ map_version = 2
 
 /// Why a file is not read, and what reads it.
 pub(super) fn refused_form(group: &FileGroup) -> Option<String> {
-    let remedy = match group.ending.as_str() {
-        "xlsx" | "xls" | "ods" => "libreoffice --headless --convert-to csv",
-        "bag" | "db3" => "`mcap convert IN OUT.mcap` of the mcap program",
-        _ => return None,
-    };
-    Some(format!(
-        "{} is not read: convert it first, {remedy}",
-        group.first()
-    ))
+    let remedy = converter(group.first())?;
+    Some(format!("{} is not read: {remedy}", group.first()))
 }
 
 /// The map of a folder whose samples are the rows of `main`.
@@ -236,7 +230,7 @@ fn add_parts(parts: &PathParts, (channels, ids, attributes): (&mut Lines, &mut L
             (true, Some(channel)) => {
                 channels.add(channel, &format!("{{ from = {from:?}, unit = \"?\" }}"))
             }
-            (true, None) if name.to_ascii_lowercase() == "unit" => {
+            (true, None) if name.eq_ignore_ascii_case("unit") => {
                 ids.add("unit_id", &format!("{from:?}"))
             }
             (true, None)

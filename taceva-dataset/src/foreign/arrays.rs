@@ -1,16 +1,19 @@
 //! Arrays as tables: a row is what the arrays hold at one place of their first axis.
 
+mod cells;
+mod form;
 mod frames;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use taceva_arrays::{ArrayError, ArrayFile, ArrayFormat, ArrayInfo, ArrayValues};
+use taceva_arrays::{ArrayError, ArrayFile, ArrayFormat, ArrayInfo};
 
 use super::columns::{ColumnSource, PictureColumn};
 use super::pictures::Pictures;
 use crate::import::FrameNames;
+use cells::Texts;
 pub(crate) use frames::ArrayPictures;
 
 /// How long a column may be, as text in memory, bytes.
@@ -183,7 +186,7 @@ impl ColumnSource for ArrayRows {
         };
         let seems = |name: String| {
             let (path, info) = self.info(group, &name)?;
-            let kind = frames::kind_of(&self.file, &path, info)?;
+            let kind = form::kind_of(&self.file, &path, info)?;
             Some(PictureColumn { name, kind })
         };
         self.names().into_iter().filter_map(seems).collect()
@@ -269,48 +272,5 @@ fn problem(error: ArrayError) -> String {
     match error.array {
         Some(array) => format!("`{array}`: {}", error.problem),
         None => error.problem.to_string(),
-    }
-}
-
-/// Values of an array as the cells of a table.
-struct Texts<'a>(&'a ArrayValues);
-
-impl Texts<'_> {
-    /// The values from `first` on that have this shape, as lists in lists.
-    fn packed(&self, first: usize, shape: &[usize]) -> String {
-        let Some((count, rest)) = shape.split_first() else {
-            return self.one(first);
-        };
-        let width: usize = rest.iter().product();
-        let parts: Vec<String> = (0..*count)
-            .map(|at| self.packed(first + at * width, rest))
-            .collect();
-        format!("[{}]", parts.join(", "))
-    }
-
-    fn one(&self, at: usize) -> String {
-        match self.0 {
-            ArrayValues::Bool(all) => all[at].to_string(),
-            ArrayValues::U8(all) => all[at].to_string(),
-            ArrayValues::U16(all) => all[at].to_string(),
-            ArrayValues::U32(all) => all[at].to_string(),
-            ArrayValues::U64(all) => all[at].to_string(),
-            ArrayValues::I8(all) => all[at].to_string(),
-            ArrayValues::I16(all) => all[at].to_string(),
-            ArrayValues::I32(all) => all[at].to_string(),
-            ArrayValues::I64(all) => all[at].to_string(),
-            ArrayValues::F32(all) => number(f64::from(all[at])),
-            ArrayValues::F64(all) => number(all[at]),
-            ArrayValues::Text(all) => all[at].clone(),
-            _ => String::new(),
-        }
-    }
-}
-
-/// A number as a cell; one that is none is an empty cell.
-fn number(value: f64) -> String {
-    match value.is_nan() {
-        true => String::new(),
-        false => format!("{value:?}"),
     }
 }

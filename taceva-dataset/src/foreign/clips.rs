@@ -10,6 +10,7 @@ use super::said;
 use crate::decode::ChannelOrder;
 use crate::error::DatasetError;
 use crate::guard::guarded;
+use crate::header::FrameCodec;
 
 /// The frames of a clip in the order in which they are shown. The file is opened for each visit: a recording may have a clip a press.
 #[derive(Debug)]
@@ -17,13 +18,19 @@ pub(crate) struct ClipPictures {
     path: PathBuf,
     decoders: Decoders,
     count: u64,
+    codec: FrameCodec,
 }
 
 impl ClipPictures {
     /// The clip at `path`.
     pub(crate) fn open(path: &Path, decoders: &Decoders) -> Result<ClipPictures, DatasetError> {
         let video = open(path, decoders)?;
+        let info = video.info();
+        let mut codec = FrameCodec::new(&info.codec, &info.pixel_format);
+        codec.lossy = info.lossy;
+        codec.decoder.clone_from(&info.decoder);
         Ok(ClipPictures {
+            codec,
             path: path.to_owned(),
             decoders: decoders.clone(),
             count: video.info().frames,
@@ -44,6 +51,10 @@ impl Pictures for ClipPictures {
 
     fn count(&self) -> u64 {
         self.count
+    }
+
+    fn codec(&self) -> Option<FrameCodec> {
+        Some(self.codec.clone())
     }
 
     fn visit(

@@ -9,6 +9,7 @@ use super::said;
 use crate::decode::ChannelOrder;
 use crate::error::DatasetError;
 use crate::guard::guarded;
+use crate::header::FrameCodec;
 
 /// Pictures by their number, from 0.
 pub(crate) trait Pictures: fmt::Debug + Send + Sync {
@@ -28,6 +29,11 @@ pub(crate) trait Pictures: fmt::Debug + Send + Sync {
         order: ChannelOrder,
         each: Visit<'_>,
     ) -> Result<(), DatasetError>;
+
+    /// How they were coded, where they are frames of a clip.
+    fn codec(&self) -> Option<FrameCodec> {
+        None
+    }
 
     /// Whether there is a picture at `index`.
     fn check_index(&self, index: u64) -> Result<(), DatasetError> {

@@ -178,9 +178,45 @@ pub struct FramesInfo {
     pub info: FrameInfo,
     /// The order of the colours in the files.
     pub channel_order: ChannelOrder,
+    /// How the frames of clips, of several those of the first, were coded and decoded; absent of all others.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub codec: Option<FrameCodec>,
     /// The frame without contact; absent if the lab does not know one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reference: Option<ReferenceInfo>,
+}
+
+/// How frames were coded in the clips that they came in, and what decoded them.
+///
+/// ```
+/// let codec: taceva_dataset::FrameCodec = toml::from_str("name = \"H.264 High\"\npixel_format = \"yuv420p\"\nlossy = true\n")?;
+/// assert_eq!((codec.lossy, codec.decoder), (Some(true), None));
+/// # Ok::<(), toml::de::Error>(())
+/// ```
+#[non_exhaustive]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FrameCodec {
+    /// The codec, with its profile where that is known.
+    pub name: String,
+    /// How its pixels are stored, by the names of FFmpeg.
+    pub pixel_format: String,
+    /// Whether it loses detail; absent where it can do either.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lossy: Option<bool>,
+    /// What decoded it, with its version where it says one; absent where frames are kept as they came.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub decoder: Option<String>,
+}
+
+impl FrameCodec {
+    pub(crate) fn new(name: &str, pixel_format: &str) -> FrameCodec {
+        FrameCodec {
+            name: name.to_owned(),
+            pixel_format: pixel_format.to_owned(),
+            lossy: None,
+            decoder: None,
+        }
+    }
 }
 
 /// The frame without contact.

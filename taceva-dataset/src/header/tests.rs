@@ -33,6 +33,7 @@ fn header() -> Header {
                 format: PixelFormat::Rgb8,
             },
             channel_order: ChannelOrder::Bgr,
+            codec: None,
             reference: None,
         }),
         stream: None,

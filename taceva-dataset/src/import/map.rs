@@ -13,6 +13,7 @@ mod signals;
 mod tests;
 mod written;
 mod written_frame;
+mod written_table;
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -28,6 +29,7 @@ pub(crate) use join::{JoinBy, JoinMap, Pick, TimeJoin, Unmatched};
 pub(crate) use matrix::{MatrixMap, MatrixRows};
 pub(crate) use path_pattern::PathPattern;
 pub(crate) use signals::{SignalsFrom, SignalsMap};
+pub(crate) use written_table::converter;
 
 pub use columns::{ColumnMap, IdMap, TimeMap};
 pub use drop::{DropRules, Placeholder};

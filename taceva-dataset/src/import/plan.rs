@@ -73,6 +73,17 @@ pub(super) enum FrameSource {
 }
 
 impl FrameSource {
+    /// Where it is in the folder of the lab.
+    fn origin(&self, folder: &Path) -> String {
+        let path = self.path();
+        let inside = path.strip_prefix(folder).unwrap_or(path);
+        let inside = inside.to_string_lossy().replace('\\', "/");
+        match self {
+            FrameSource::File(_) => inside,
+            FrameSource::Within(_, index) => format!("{inside}#{index}"),
+        }
+    }
+
     pub(super) fn path(&self) -> &Path {
         match self {
             FrameSource::File(path) => path,
@@ -235,7 +246,7 @@ impl<'a> Reading<'a> {
             }
             return Ok(());
         }
-        let labels = rows.row(row, number)?;
+        let mut labels = rows.row(row, number)?;
         if !self.samples.insert(labels.sample.clone()) {
             return Err(rows.duplicate(row, &labels.sample));
         }
@@ -243,6 +254,9 @@ impl<'a> Reading<'a> {
             let from = self
                 .frame_source(rows, base, name)
                 .map_err(|error| error.named_at(named_at.clone()))?;
+            if labels.source_table.is_some() {
+                labels.source_frame = Some(from.origin(self.folder.path()));
+            }
             self.frames.push(PlannedFrame { from, named_at });
         }
         if let Some(signals) = &mut self.signals {

@@ -255,6 +255,7 @@ impl<'a> MappedTable<'a> {
                 Some(_) => u32::try_from(row).ok(),
                 None => None,
             },
+            source_frame: None,
             part: text(self.part),
             t_s: self.time(row)?,
             kind: self.kind(row)?,

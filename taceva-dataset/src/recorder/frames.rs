@@ -182,6 +182,7 @@ impl Recorder {
             } else {
                 ChannelOrder::Rgb
             },
+            codec: None,
             reference: self.reference.clone(),
         })
     }

@@ -258,6 +258,7 @@ impl WrittenSample {
             limited_by: self.limited_by,
             source_table: None,
             source_row: None,
+            source_frame: None,
             part: None,
             t_s: self.t_s,
             kind: self.kind,

@@ -62,8 +62,8 @@ pub(super) fn assemble(
     }
     // Before format 1.2, and 1.6, a lab could give these names to columns of its own.
     let is_own = |name: &str| attributes.iter().any(|attribute| attribute == name);
-    let [is_own_limit, is_own_table, is_own_row] =
-        ["limited_by", "source_table", "source_row"].map(is_own);
+    let [is_own_limit, is_own_table, is_own_row, is_own_frame] =
+        ["limited_by", "source_table", "source_row", "source_frame"].map(is_own);
     let mut columns = Columns(columns);
     let mut table = Table::new(channels.clone(), attributes.to_vec());
     for row in 0..rows {
@@ -78,6 +78,10 @@ pub(super) fn assemble(
         let source_row = match is_own_row {
             true => None,
             false => columns.count("source_row", row)?,
+        };
+        let source_frame = match is_own_frame {
+            true => None,
+            false => columns.text("source_frame", row)?,
         };
         let frame = columns.text("frame", row)?;
         let digest = columns.text("frame_sha256", row)?;
@@ -96,6 +100,7 @@ pub(super) fn assemble(
                 .ok_or_else(|| format!("row {row}: no such limit"))?,
             source_table,
             source_row,
+            source_frame,
             part: columns.text("part", row)?,
             t_s: columns.number("t_s", row)?,
             kind: known(columns.text("kind", row)?, GratingKind::from_name)

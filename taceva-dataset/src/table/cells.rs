@@ -6,7 +6,7 @@ use super::FrameEntry;
 use crate::digest::PartsDigest;
 
 /// Names that columns beside the channels have on disk; no channel and no attribute may be called so.
-pub(crate) const RESERVED: [&str; 17] = [
+pub(crate) const RESERVED: [&str; 18] = [
     "sample",
     "point_id",
     "unit_id",
@@ -17,6 +17,7 @@ pub(crate) const RESERVED: [&str; 17] = [
     "limited_by",
     "source_table",
     "source_row",
+    "source_frame",
     "part",
     "t_s",
     "kind",

@@ -99,6 +99,8 @@ pub struct Row {
     pub source_table: Option<String>,
     /// Which row of that table it was, from 0.
     pub source_row: Option<u32>,
+    /// The picture that it came with, relative to the folder of its lab: a file, or a file and the number of the picture in it, from 0, `clip.mp4#12`.
+    pub source_frame: Option<String>,
     /// The part of a declared split it belongs to.
     pub part: Option<String>,
     /// The time in seconds of the recording's clock.

@@ -33,7 +33,7 @@ pub(super) fn inside(folder: &Path, path: &Path) -> Result<PathBuf, TableError> 
 fn description(folder: &Path, name: &str) -> Result<(Source, Vec<u8>), TableError> {
     let source = Source::new(&inside(folder, name.as_ref())?)?;
     let mut file = source.open()?;
-    let bytes = source.bytes(&mut file, 0, source.length(), limits::DESCRIPTION_BYTES)?;
+    let bytes = source.bytes(&mut file, 0, source.length(), limits::JSON_BYTES)?;
     Ok((source, bytes))
 }
 

@@ -136,9 +136,16 @@ fn summary(
     while !bytes.rest().is_empty() {
         let at = begin + bytes.at() as u64;
         let read = match record::next(&mut bytes) {
-            Some((code::CHUNK_INDEX, fields)) => record::chunk_index(fields)
-                .ok_or(CUT)
-                .map(|index| contents.chunks.push(index)),
+            Some((code::CHUNK_INDEX, fields)) => match record::chunk_index(fields) {
+                Some(index) if index.end().is_none_or(|end| end > begin) => {
+                    Err("a chunk that does not lie before the summary")
+                }
+                Some(index) => {
+                    contents.chunks.push(index);
+                    Ok(())
+                }
+                None => Err(CUT),
+            },
             Some((code::STATISTICS, fields)) => record::statistics(fields)
                 .ok_or(CUT)
                 .map(|read| statistics = Some(read)),

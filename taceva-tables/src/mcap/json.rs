@@ -7,7 +7,7 @@ use crate::limits;
 
 /// A message as a cell; `Err` says why it is no JSON. `serde_json` reads no deeper than 128 levels.
 pub(super) fn cell(message: &[u8]) -> Result<Cell, String> {
-    if message.len() as u64 > limits::DESCRIPTION_BYTES {
+    if message.len() as u64 > limits::JSON_BYTES {
         return Err(format!("{} bytes of JSON", message.len()));
     }
     serde_json::from_slice(message)

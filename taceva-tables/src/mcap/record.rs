@@ -65,6 +65,13 @@ pub(super) struct ChunkIndex {
     pub(super) indices: BTreeMap<u16, u64>,
 }
 
+impl ChunkIndex {
+    /// Where the chunk ends; none beyond all files.
+    pub(super) fn end(&self) -> Option<u64> {
+        self.at.checked_add(self.length)
+    }
+}
+
 /// How much there is.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Statistics {

@@ -112,7 +112,7 @@ impl McapTable {
     /// What is in the columns called `names`, a column each, row by row. The file is read once, whatever their number.
     ///
     /// # Errors
-    /// [`TableError::Missing`] if there is no such field, [`TableError::TooLarge`] if the cells take more than 1 GiB of memory,
+    /// [`TableError::Missing`] if there is no such field, [`TableError::TooLarge`] if the cells take more than 320 MiB of memory,
     /// [`TableError::Damaged`] if a chunk or a message does not read.
     pub fn columns(&self, names: &[&str]) -> Result<Vec<Vec<Cell>>, TableError> {
         let is_time = |name: &&str| TIMES.iter().any(|(time, _)| time == name);
@@ -122,6 +122,21 @@ impl McapTable {
             .filter(|name| !is_time(name))
             .collect();
         let read = self.reader(&of_message)?;
+        let too_large = || {
+            let problem = format!(
+                "more than {} bytes in memory; ask for fewer fields",
+                limits::COLUMN_BYTES
+            );
+            self.inner
+                .source
+                .too_large(Place::of(&self.topic.name), problem)
+        };
+        let least = (names.len() as u64)
+            .saturating_mul(self.rows())
+            .saturating_mul(size_of::<Cell>() as u64);
+        if least > limits::COLUMN_BYTES {
+            return Err(too_large());
+        }
         let mut columns = vec![vec![Cell::Null; self.entries.len()]; names.len()];
         let mut bytes = 0_u64;
         // In the order of the file, so that every chunk is unpacked once.
@@ -152,14 +167,7 @@ impl McapTable {
                 Ok(())
             })?;
             if bytes > limits::COLUMN_BYTES {
-                let problem = format!(
-                    "more than {} bytes in memory; ask for fewer fields",
-                    limits::COLUMN_BYTES
-                );
-                return Err(self
-                    .inner
-                    .source
-                    .too_large(Place::of(&self.topic.name), problem));
+                return Err(too_large());
             }
         }
         Ok(columns)

@@ -15,7 +15,7 @@ use parquet::errors::ParquetError;
 use parquet::file::metadata::ColumnChunkMetaData;
 
 use super::page_header::{PageHeader, PageKind, read_header};
-use super::values::{ValueSize, encoding};
+use super::values::{ValueSize, encoding, level_encoding};
 use crate::error::{Place, TableError};
 use crate::limits;
 use crate::source::Source;
@@ -284,6 +284,13 @@ impl Pages {
                 is_sorted: false,
             });
         }
+        let is_of_dictionary = matches!(
+            encoding,
+            Encoding::RLE_DICTIONARY | Encoding::PLAIN_DICTIONARY
+        );
+        if is_of_dictionary && !self.is_dictionary_read {
+            return Err("values of a dictionary that the chunk does not have".to_owned());
+        }
         let values = u64::from(num_values);
         let handed = self.handed.fetch_add(values, Ordering::Relaxed);
         if self.has_lists && handed.saturating_add(values) > limits::ROW_LEVELS {
@@ -311,8 +318,8 @@ impl Pages {
                 buf,
                 num_values,
                 encoding,
-                def_level_encoding: self::encoding(header.definition_encoding)?,
-                rep_level_encoding: self::encoding(header.repetition_encoding)?,
+                def_level_encoding: level_encoding(header.definition_encoding, self.has_nulls)?,
+                rep_level_encoding: level_encoding(header.repetition_encoding, self.has_lists)?,
                 statistics: None,
             },
         })

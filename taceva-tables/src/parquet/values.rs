@@ -55,6 +55,15 @@ pub(super) fn encoding(code: i32) -> Result<Encoding, String> {
     })
 }
 
+/// The encoding of levels of this number; where there are none, writers state any.
+pub(super) fn level_encoding(code: i32, are_there: bool) -> Result<Encoding, String> {
+    match (code, are_there) {
+        (3 | 4, _) => encoding(code),
+        (_, false) => Ok(Encoding::RLE),
+        (other, true) => Err(format!("levels in encoding {other}, expected 3 or 4")),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

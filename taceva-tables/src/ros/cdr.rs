@@ -142,7 +142,7 @@ impl<'a> Cdr<'a> {
                 Kind::Message(place) => {
                     self.message(schema, schema.message(place), &Want::Nothing, &mut [])?
                 }
-                _ => drop(self.text()?),
+                _ => drop(self.text_bytes()?),
             }
         }
         Ok(())
@@ -220,9 +220,14 @@ impl<'a> Cdr<'a> {
         }
     }
 
-    fn text(&mut self) -> Result<&'a str, String> {
+    /// The bytes of a text, behind their number.
+    fn text_bytes(&mut self) -> Result<&'a [u8], String> {
         let length = u32::from_le_bytes(self.number()?) as usize;
-        let bytes = self.take(length)?;
+        self.take(length)
+    }
+
+    fn text(&mut self) -> Result<&'a str, String> {
+        let bytes = self.text_bytes()?;
         // The length counts a zero at the end.
         let text = bytes.strip_suffix(&[0]).unwrap_or(bytes);
         std::str::from_utf8(text).map_err(|_| "a text that is no UTF-8".to_owned())

@@ -4,6 +4,7 @@
 
 use std::io::{self, Read, Write};
 
+#[cfg(feature = "av1")]
 use crate::limits;
 
 /// The letters that a conversation begins with, the last of them its version.
@@ -55,7 +56,7 @@ impl std::fmt::Debug for Yuv {
     }
 }
 
-/// How many bytes the planes of such a picture have; its sides are at most [`limits::SIDE`].
+/// How many bytes the planes of such a picture have; its sides are at most those that a clip may have.
 pub(super) fn plane_bytes(width: u32, height: u32, is_gray: bool) -> u64 {
     let (width, height) = (u64::from(width), u64::from(height));
     width * height
@@ -129,6 +130,7 @@ impl Unit {
 /// Bytes before the planes of a picture.
 const PICTURE_HEAD: usize = 12;
 /// Bytes of a refusal's words.
+#[cfg(feature = "av1")]
 const MOST_WORDS: usize = 1024;
 
 impl Answer {

@@ -62,6 +62,13 @@ pub(super) fn copy_frames(
         count: count as u64,
         info,
         channel_order: frames.order,
+        codec: frames
+            .of_rows
+            .iter()
+            .find_map(|planned| match &planned.from {
+                FrameSource::File(_) => None,
+                FrameSource::Within(pictures, _) => pictures.codec(),
+            }),
         reference,
     };
     Ok((Some(shared), folders))

@@ -1,77 +1,17 @@
-//! What a map of version 2 may say beside: forms of tables, labels in paths, joins, matrices, classes.
+//! What a map of version 2 may say beside: labels in paths, joins, matrices, classes.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
 use serde::Deserialize;
-use taceva_arrays::ArrayFormat;
 use toml::Spanned;
 
 use super::check::{Check, ColumnName};
+use super::written_table::WrittenTable;
 use super::{
     ClassMap, JoinBy, JoinMap, MatrixMap, MatrixRows, PathPattern, Pick, TimeJoin, Unmatched,
 };
 use crate::error::DatasetError;
 use crate::foreign::TableForm;
-
-/// A table: its path, or what more there is to say of it.
-#[derive(Deserialize)]
-#[serde(
-    untagged,
-    expecting = "the path of a table, { file = …, format = …, header = false, rows = … }, or { files = … }"
-)]
-pub(super) enum WrittenTable {
-    Path(String),
-    Described(WrittenForm),
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct WrittenForm {
-    file: Option<String>,
-    files: Option<String>,
-    format: Option<Format>,
-    header: Option<bool>,
-    rows: Option<String>,
-}
-
-#[derive(Clone, Copy, Deserialize)]
-#[serde(rename_all = "lowercase")]
-enum Format {
-    Csv,
-    Tsv,
-    Json,
-    Jsonl,
-    Npy,
-    Npz,
-    Hdf5,
-    Zarr,
-    Mat,
-    Pickle,
-    Parquet,
-    Mcap,
-    Lerobot,
-}
-
-impl Format {
-    fn of_arrays(self) -> Option<ArrayFormat> {
-        Some(match self {
-            Format::Csv
-            | Format::Tsv
-            | Format::Json
-            | Format::Jsonl
-            | Format::Parquet
-            | Format::Mcap
-            | Format::Lerobot => return None,
-            Format::Npy => ArrayFormat::Npy,
-            Format::Npz => ArrayFormat::Npz,
-            Format::Hdf5 => ArrayFormat::Hdf5,
-            Format::Zarr => ArrayFormat::Zarr,
-            Format::Mat => ArrayFormat::Matlab,
-            Format::Pickle => ArrayFormat::Pickle,
-        })
-    }
-}
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table")]
@@ -139,89 +79,7 @@ pub(super) struct WrittenClass {
     names: Vec<String>,
 }
 
-impl WrittenTable {
-    /// Whether maps of version 1 cannot say it.
-    pub(super) fn is_extended(&self) -> bool {
-        let WrittenTable::Path(path) = self else {
-            return true;
-        };
-        !matches!(form_of(path, None), TableForm::Delimited { .. })
-    }
-}
-
-/// The form of the table at `path`, by `format` or what its name ends with.
-fn form_of(path: &str, format: Option<Format>) -> TableForm {
-    let ending = path
-        .rsplit_once('.')
-        .map(|(_, ending)| ending.to_ascii_lowercase());
-    let arrays = match format {
-        Some(format) => format.of_arrays(),
-        None => ArrayFormat::of(Path::new(path)),
-    };
-    if let Some(format) = arrays {
-        return TableForm::Arrays { format, rows: None };
-    }
-    match (format, ending.as_deref()) {
-        (Some(Format::Json), _) | (None, Some("json")) => TableForm::Json { rows: None },
-        (Some(Format::Parquet), _) | (None, Some("parquet")) => TableForm::Parquet,
-        (Some(Format::Lerobot), _) => TableForm::LeRobot,
-        (Some(Format::Mcap), _) | (None, Some("mcap")) => TableForm::Messages { topic: None },
-        (Some(Format::Jsonl), _) | (None, Some("jsonl" | "ndjson")) => TableForm::JsonLines,
-        _ => TableForm::Delimited { has_header: true },
-    }
-}
-
 impl Check<'_> {
-    /// The pattern of the files of a table, and their form.
-    pub(super) fn table(
-        &self,
-        written: &Spanned<WrittenTable>,
-    ) -> Result<(String, TableForm), DatasetError> {
-        let offset = written.span().start;
-        let (file, form) = match written.get_ref() {
-            WrittenTable::Path(path) => (path, form_of(path, None)),
-            WrittenTable::Described(described) => self.described(described, offset)?,
-        };
-        self.relative(file, offset)?;
-        Ok((file.clone(), form))
-    }
-
-    fn described<'w>(
-        &self,
-        described: &'w WrittenForm,
-        offset: usize,
-    ) -> Result<(&'w String, TableForm), DatasetError> {
-        let (file, form) = match (&described.file, &described.files) {
-            (Some(file), None) => (file, form_of(file, described.format)),
-            (None, Some(files)) => (files, TableForm::Files),
-            _ => {
-                return Err(self.at(
-                    offset,
-                    "a table is one `file`, or rows are `files`: expected one of both",
-                ));
-            }
-        };
-        let form = match (form, described.header, &described.rows) {
-            (TableForm::Delimited { .. }, header, None) => TableForm::Delimited {
-                has_header: header.unwrap_or(true),
-            },
-            (TableForm::Json { .. }, None, rows) => TableForm::Json { rows: rows.clone() },
-            (TableForm::Messages { .. }, None, rows) => TableForm::Messages {
-                topic: rows.clone(),
-            },
-            (TableForm::Arrays { format, .. }, None, rows) => TableForm::Arrays {
-                format,
-                rows: rows.clone(),
-            },
-            (form, None, None) => form,
-            (_, Some(_), _) => return Err(self.at(offset, "`header` is for CSV and TSV alone")),
-            (_, _, Some(_)) => {
-                return Err(self.at(offset, "`rows` is for JSON, files of arrays and MCAP"));
-            }
-        };
-        Ok((file, form))
-    }
-
     pub(super) fn path_pattern(
         &self,
         written: Option<Spanned<WrittenPath>>,

@@ -8,9 +8,10 @@ use taceva_core::{Channel, Channels, Clock, is_scorable};
 use toml::Spanned;
 
 use super::check::{Check, ColumnName};
-use super::extended::{WrittenClass, WrittenJoin, WrittenMatrix, WrittenPath, WrittenTable};
+use super::extended::{WrittenClass, WrittenJoin, WrittenMatrix, WrittenPath};
 use super::signals::WrittenSignals;
 use super::written_frame::WrittenFrame;
+use super::written_table::WrittenTable;
 use super::{ColumnMap, DropRules, IdMap, ImportMap, MatrixMap, Placeholder, TimeMap};
 use crate::error::DatasetError;
 use crate::header::{Footprint, SensorFacts, Source};

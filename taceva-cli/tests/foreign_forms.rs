@@ -1,0 +1,132 @@
+//! Recordings of other people's libraries through the program: drafts of maps, clips, and what nothing at hand decodes.
+
+mod support;
+
+use std::path::{Path, PathBuf};
+
+use support::Bench;
+
+/// The bench with the recording `name` of the repository in the folder `lab`, and its map beside it.
+fn bench(name: &str) -> Bench {
+    let bench = Bench::new();
+    let own = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../tests/recordings")
+        .join(name);
+    copy(&own, &bench.path("lab"));
+    std::fs::rename(bench.path("lab/map.toml"), bench.path("map.toml")).expect("its map");
+    std::fs::remove_file(bench.path("lab/expected.json")).expect("it was there");
+    bench
+}
+
+fn copy(from: &Path, to: &Path) {
+    std::fs::create_dir_all(to).expect("made");
+    for entry in std::fs::read_dir(from).expect("a folder").flatten() {
+        let target: PathBuf = to.join(entry.file_name());
+        match entry.file_type().expect("known").is_dir() {
+            true => copy(&entry.path(), &target),
+            false => drop(std::fs::copy(entry.path(), target).expect("copied")),
+        }
+    }
+}
+
+#[test]
+fn a_draft_is_refused_by_the_line_of_its_first_open_unit_and_imports_once_they_are_filled_in() {
+    let bench = bench("hdf5-groups");
+    let draft = bench.ok("import --draft lab --out draft.toml");
+    assert!(draft.is_empty(), "{draft}");
+    bench.refused(
+        "import lab --map draft.toml --out data",
+        3,
+        "`?` is the unit that a draft leaves open",
+    );
+    let text = std::fs::read_to_string(bench.path("draft.toml")).expect("written");
+    let units = text.lines().map(|line| {
+        let unit = if line.starts_with('T') {
+            "\"Nm\""
+        } else {
+            "\"N\""
+        };
+        line.replace("unit = \"?\"", &format!("unit = {unit}"))
+    });
+    let filled: Vec<String> = units.collect();
+    bench.write("filled.toml", &filled.join("\n"));
+    let done = bench.ok("import lab --map filled.toml --out data");
+    assert!(done.contains("rows     24 read, 24 kept"), "{done}");
+    // Without `--out` it goes to standard output; what is there is not written over.
+    assert_eq!(bench.ok("import --draft lab"), text);
+    bench.refused("import --draft lab --out draft.toml", 2, "exists already");
+}
+
+#[test]
+fn a_folder_without_any_table_or_picture_has_no_draft() {
+    let bench = Bench::new();
+    bench.write("lab/notes.txt", "pressed on Monday");
+    bench.refused("import --draft lab", 2, "no table and no picture is in it");
+    bench.write("lab/run.bag", "#ROSBAG V2.0");
+    bench.refused("import --draft lab", 2, "mcap convert");
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn av1_is_decoded_where_no_other_program_is() {
+    let bench = bench("mp4-av1");
+    let done = bench
+        .command("import lab --map map.toml --out data")
+        .env("PATH", "")
+        .output();
+    let done = done.expect("it starts");
+    assert!(
+        done.status.success(),
+        "{}",
+        String::from_utf8_lossy(&done.stderr)
+    );
+    assert!(String::from_utf8_lossy(&done.stdout).contains("12 read, 12 kept"));
+}
+
+#[test]
+fn a_clip_that_nothing_at_hand_decodes_names_its_codec_and_what_mends_it() {
+    let bench = bench("mkv-ffv1");
+    let mut command = bench.command("import lab --map map.toml --out data");
+    let refused = command
+        .env("PATH", "")
+        .env_remove("TACEVA_FFMPEG")
+        .output()
+        .expect("it starts");
+    let message = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert_eq!(refused.status.code(), Some(3), "{message}");
+    for word in [
+        "FFV1",
+        "--ffmpeg PROGRAM",
+        "TACEVA_FFMPEG",
+        "pip install imageio-ffmpeg",
+    ] {
+        assert!(message.contains(word), "no `{word}` in {message}");
+    }
+    assert!(!bench.path("data").exists());
+    let absent = bench.run("import lab --map map.toml --out data --ffmpeg no/such/program");
+    assert_eq!(absent.code, 3, "{}", absent.err);
+    assert!(absent.err.contains("no/such/program"), "{}", absent.err);
+}
+
+#[test]
+fn workbooks_and_bags_name_the_command_that_converts_them() {
+    let bench = Bench::new();
+    let rest = "[time]\nclock = \"unknown\"\n[columns]\nFz = { from = \"Fz\", unit = \"N\" }\n[sensor]\nmodel = \"m\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = true\n";
+    for (table, command) in [
+        ("labels.xlsx", "libreoffice --headless"),
+        ("run.db3", "mcap convert"),
+        ("run.bag", "mcap convert"),
+    ] {
+        bench.write(&format!("lab/{table}"), "x");
+        bench.write(
+            "map.toml",
+            &format!("map_version = 2\ntable = \"{table}\"\n{rest}"),
+        );
+        bench.refused("import lab --map map.toml --out data", 3, command);
+        bench.refused(
+            "import lab --map map.toml --out data",
+            3,
+            "map.toml, line 2",
+        );
+    }
+}

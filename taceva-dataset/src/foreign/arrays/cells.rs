@@ -1,0 +1,46 @@
+//! Values of arrays as the cells of a table.
+
+use taceva_arrays::ArrayValues;
+
+/// Values of an array as the cells of a table.
+pub(super) struct Texts<'a>(pub(super) &'a ArrayValues);
+
+impl Texts<'_> {
+    /// The values from `first` on that have this shape, as lists in lists.
+    pub(super) fn packed(&self, first: usize, shape: &[usize]) -> String {
+        let Some((count, rest)) = shape.split_first() else {
+            return self.one(first);
+        };
+        let width: usize = rest.iter().product();
+        let parts: Vec<String> = (0..*count)
+            .map(|at| self.packed(first + at * width, rest))
+            .collect();
+        format!("[{}]", parts.join(", "))
+    }
+
+    fn one(&self, at: usize) -> String {
+        match self.0 {
+            ArrayValues::Bool(all) => all[at].to_string(),
+            ArrayValues::U8(all) => all[at].to_string(),
+            ArrayValues::U16(all) => all[at].to_string(),
+            ArrayValues::U32(all) => all[at].to_string(),
+            ArrayValues::U64(all) => all[at].to_string(),
+            ArrayValues::I8(all) => all[at].to_string(),
+            ArrayValues::I16(all) => all[at].to_string(),
+            ArrayValues::I32(all) => all[at].to_string(),
+            ArrayValues::I64(all) => all[at].to_string(),
+            ArrayValues::F32(all) => number(f64::from(all[at])),
+            ArrayValues::F64(all) => number(all[at]),
+            ArrayValues::Text(all) => all[at].clone(),
+            _ => String::new(),
+        }
+    }
+}
+
+/// A number as a cell; one that is none is an empty cell.
+fn number(value: f64) -> String {
+    match value.is_nan() {
+        true => String::new(),
+        false => format!("{value:?}"),
+    }
+}

@@ -1,0 +1,106 @@
+//! How ffmpeg is started, what it may do, and whether it did what it was asked for.
+
+use std::ffi::OsStr;
+use std::fs::File;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use super::said::Said;
+use crate::error::VideoError;
+use crate::limits;
+use crate::process::{Ended, Running};
+
+/// ffmpeg with the clip as its input, every frame of its first video stream taken as it is, and `output`.
+pub(super) fn command(path: &Path, program: &Path, output: &[&str]) -> Result<Command, VideoError> {
+    let file = File::open(path).map_err(VideoError::io("open", path))?;
+    let mut command = Command::new(program);
+    command.args(["-nostdin", "-nostats", "-loglevel", "level+info"]);
+    // Damage is an error and not a guess; sizes are bounded; nothing but files is opened, and no list that names others is read.
+    command.args([
+        "-xerror",
+        "-max_pixels",
+        MAX_PIXELS,
+        "-max_alloc",
+        MAX_ALLOCATED,
+    ]);
+    command.args([
+        "-protocol_whitelist",
+        "file",
+        "-format_whitelist",
+        CONTAINERS,
+    ]);
+    command.arg("-noautorotate").arg("-i");
+    #[cfg(unix)]
+    command.arg("file:/dev/fd/0");
+    #[cfg(not(unix))]
+    command.arg({
+        let mut named = std::ffi::OsString::from("file:");
+        named.push(path);
+        named
+    });
+    command.args(["-map", "0:v:0"].iter().chain(output).map(OsStr::new));
+    command.stdin(Stdio::from(file));
+    // It would write a file of its own.
+    command.env_remove("FFREPORT");
+    Ok(command)
+}
+
+const MAX_PIXELS: &str = "67108864";
+const MAX_ALLOCATED: &str = "1073741824";
+
+/// Containers and bare streams that hold their frames themselves, by the names of ffmpeg.
+const CONTAINERS: &str = "avi,matroska,mov,mpegts,mpeg,mpegvideo,m4v,h264,hevc,obu,ivf,ogg,flv,asf,mxf,nut,dv,gif,mjpeg,yuv4mpegpipe";
+
+pub(super) fn not_started(
+    path: &Path,
+    program: &Path,
+) -> impl FnOnce(std::io::Error) -> VideoError {
+    let (path, program) = (path.to_owned(), program.display().to_string());
+    move |error| VideoError::Process {
+        path,
+        program,
+        problem: format!("does not start: {error}"),
+    }
+}
+
+/// Bounds the memory of the program, where the system can do that from without.
+pub(super) fn bound_memory(running: &mut Running) {
+    #[cfg(target_os = "linux")]
+    {
+        use rustix::process::{Pid, Resource, Rlimit, prlimit};
+        let limit = Rlimit {
+            current: Some(limits::PROGRAM_BYTES),
+            maximum: Some(limits::PROGRAM_BYTES),
+        };
+        // One that has ended already needs no limit.
+        let _ = prlimit(Some(Pid::from_child(running.child())), Resource::As, limit);
+    }
+    #[cfg(not(target_os = "linux"))]
+    let _ = running;
+}
+
+pub(super) fn note_fault(fault: &mut Option<String>, line: &str) {
+    let said = Said::parse(line);
+    if fault.is_none() && said.is_fault() {
+        *fault = Some(said.text.trim().to_owned());
+    }
+}
+
+/// Whether a program that ended did what it was asked for.
+pub(super) fn check_end(
+    path: &Path,
+    program: &Path,
+    ended: &Ended,
+    fault: Option<String>,
+) -> Result<(), VideoError> {
+    let problem = match (ended, fault) {
+        (Ended::By(status), None) if status.success() => return Ok(()),
+        (_, None) => ended.to_string(),
+        (_, Some(fault)) => taceva_core::shown(&fault).to_string(),
+    };
+    Err(VideoError::Process {
+        path: path.to_owned(),
+        program: program.display().to_string(),
+        problem,
+    })
+}
