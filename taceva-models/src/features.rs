@@ -13,6 +13,7 @@ mod kinds;
 mod markers;
 mod pca;
 mod pixels;
+mod seen;
 pub(crate) mod signals;
 mod spec;
 mod statistics;

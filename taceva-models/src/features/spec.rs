@@ -3,9 +3,8 @@
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
-use taceva_core::{FeatureShape, FrameInfo, SignalInfo};
+use taceva_core::{FeatureShape, SignalInfo};
 
-use super::error::FeatureError;
 use super::kinds::{FeatureKind, FeatureKinds};
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 
@@ -65,13 +64,13 @@ impl Default for FeatureSpec {
     }
 }
 
-const INPUT: SettingInfo = SettingInfo {
+pub(super) const INPUT: SettingInfo = SettingInfo {
     key: "input",
     accepts: "frame or signals",
     default: "what the recording has; it must be said where it has both",
     about: "what the model looks at: the frames of a camera, or the signals of taxels",
 };
-const KINDS: SettingInfo = SettingInfo {
+pub(super) const KINDS: SettingInfo = SettingInfo {
     key: "features",
     accepts: "pixels, markers, gradients, statistics, or several joined by +",
     default: "pixels",
@@ -83,7 +82,7 @@ pub(crate) const SIZE: SettingInfo = SettingInfo {
     default: "32x32, 128x96 for networks; 16x16 with markers, 8x8 with statistics",
     about: "how many cells every frame is divided into; auto tries grids from a quarter as fine to twice as fine, and takes the coarsest whose error is within a standard error of the least",
 };
-const COLOR: SettingInfo = SettingInfo {
+pub(super) const COLOR: SettingInfo = SettingInfo {
     key: "color",
     accepts: "gray or rgb",
     default: "gray",
@@ -206,56 +205,6 @@ impl FeatureSpec {
             color: Color::Gray,
             channels: Some(info.channels),
             ..self
-        }
-    }
-
-    /// The same of what a recording has: of its signals where they are asked for, or are all there is. `settings` are those that were
-    /// [asked for](FeatureSpec::changed_by).
-    ///
-    /// ```
-    /// use taceva_core::{SignalInfo, Unit};
-    /// use taceva_models::{FeatureError, FeatureSpec, ModelSettings};
-    /// let taxels = SignalInfo::new(5, 1, 3, Unit::Microtesla)?;
-    /// let settings = ModelSettings::default();
-    /// let spec = FeatureSpec::DEFAULT.on(&settings, None, Some(taxels))?;
-    /// assert_eq!(spec.to_string(), "signals of 5×1 places of 3");
-    /// let color = ModelSettings::parse(["color=rgb"])?;
-    /// assert!(matches!(spec.on(&color, None, Some(taxels)), Err(FeatureError::NoFrames { .. })));
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`FeatureError::TwoInputs`] where a recording has both and nobody said which; [`FeatureError::NoFrames`] and
-    /// [`FeatureError::NoSignals`] where what is asked for is not there.
-    pub fn on(
-        self,
-        settings: &ModelSettings,
-        frame: Option<FrameInfo>,
-        signals: Option<SignalInfo>,
-    ) -> Result<FeatureSpec, FeatureError> {
-        let asked = settings.get(INPUT.key);
-        let wants_signals = asked == Some("signals") || self.kinds == FeatureKinds::SIGNALS;
-        let word = |key: &str| settings.get(key).map(|value| format!("{key}={value}"));
-        match (wants_signals, frame, signals) {
-            (true, _, None) => Err(FeatureError::NoSignals),
-            (false, Some(_), Some(_)) if asked.is_none() => Err(FeatureError::TwoInputs),
-            (false, _, None) | (false, Some(_), Some(_)) => Ok(self),
-            (true, _, Some(info)) | (false, None, Some(info)) => {
-                let of_signals = settings.get(KINDS.key) == Some("signals");
-                let kinds = word(KINDS.key).filter(|_| !of_signals);
-                let input = word(INPUT.key).filter(|_| asked != Some("signals"));
-                let of_frames = input.or(kinds).or(word(SIZE.key)).or(word(COLOR.key));
-                match of_frames {
-                    None => Ok(self.of_signals(info)),
-                    Some(asked) => Err(FeatureError::NoFrames {
-                        asked,
-                        has: match frame {
-                            None => "signals alone",
-                            Some(_) => "signals, which were asked for",
-                        },
-                    }),
-                }
-            }
         }
     }
 

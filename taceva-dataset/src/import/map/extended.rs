@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::written::{Check, ColumnName};
+use super::check::{Check, ColumnName};
 use super::written_table::WrittenTable;
 use super::{
     ClassMap, JoinBy, JoinMap, MatrixMap, MatrixRows, PathPattern, Pick, TimeJoin, Unmatched,

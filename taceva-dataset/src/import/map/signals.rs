@@ -4,7 +4,7 @@ use serde::Deserialize;
 use taceva_core::{SignalInfo, SourceUnit};
 use toml::Spanned;
 
-use super::written::{Check, ColumnName};
+use super::check::{Check, ColumnName};
 use crate::error::DatasetError;
 use crate::signals::SignalsSpec;
 

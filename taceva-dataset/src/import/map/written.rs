@@ -4,20 +4,20 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::Deserialize;
-use taceva_core::{Channel, Channels, Clock, SourceUnit, is_scorable};
+use taceva_core::{Channel, Channels, Clock, is_scorable};
 use toml::Spanned;
 
+use super::check::{Check, ColumnName};
 use super::extended::{WrittenClass, WrittenJoin, WrittenMatrix, WrittenPath};
 use super::signals::WrittenSignals;
 use super::written_frame::WrittenFrame;
 use super::written_table::WrittenTable;
 use super::{ColumnMap, DropRules, IdMap, ImportMap, MatrixMap, Placeholder, TimeMap};
 use crate::error::DatasetError;
-use crate::file::check_relative;
 use crate::header::{Footprint, SensorFacts, Source};
 use crate::store::RecordingFacts;
 use crate::table::{RESERVED, is_attribute_name};
-use crate::toml_file::{line_of, parse_toml, toml_error};
+use crate::toml_file::{parse_toml, toml_error};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table")]
@@ -57,23 +57,6 @@ struct WrittenColumn {
     sign: i64,
     offset: Option<f64>,
     scale: Option<f64>,
-}
-
-/// The name of a column, or its position where a table has no header.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(untagged, expecting = "the name of a column, or its position from 0")]
-pub(super) enum ColumnName {
-    Name(String),
-    Position(u32),
-}
-
-impl ColumnName {
-    pub(super) fn into_name(self) -> String {
-        match self {
-            ColumnName::Name(name) => name,
-            ColumnName::Position(position) => position.to_string(),
-        }
-    }
 }
 
 #[derive(Deserialize)]
@@ -167,18 +150,7 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
     })
 }
 
-/// Checks what a parser of types cannot, and says where.
-pub(super) struct Check<'a> {
-    path: &'a Path,
-    text: &'a str,
-}
-
 impl Check<'_> {
-    pub(super) fn at(&self, offset: usize, problem: &str) -> DatasetError {
-        let line = line_of(self.text.as_bytes(), offset);
-        toml_error(self.path, Some(line), problem)
-    }
-
     /// Keys of version 2 in a map that says 1 would have meant nothing to whoever wrote it.
     fn version(&self, written: &WrittenMap) -> Result<(), DatasetError> {
         let scaled = written.columns.values().find(|column| {
@@ -218,22 +190,6 @@ impl Check<'_> {
                 &format!("map version {other} is not known here, expected 1 or 2"),
             )),
         }
-    }
-
-    pub(super) fn relative(&self, written: &str, offset: usize) -> Result<(), DatasetError> {
-        check_relative(written)
-            .map_err(|problem| self.at(offset, &format!("`{written}`: {problem}")))
-    }
-
-    pub(super) fn unit(&self, unit: &Spanned<String>) -> Result<SourceUnit, DatasetError> {
-        if unit.get_ref() == "?" {
-            return Err(self.at(
-                unit.span().start,
-                "`?` is the unit that a draft leaves open: write the one that the numbers are in, such as \"N\", \"mN\", \"gf\" or \"mm\"",
-            ));
-        }
-        SourceUnit::parse(unit.get_ref())
-            .map_err(|error| self.at(unit.span().start, &error.to_string()))
     }
 
     fn columns(

@@ -3,7 +3,7 @@
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::written::{Check, ColumnName};
+use super::check::{Check, ColumnName};
 use super::{ArrayFrames, ArrayLayout, FrameMap, FrameNames, PixelRange, VideoFrames};
 use crate::decode::ChannelOrder;
 use crate::error::DatasetError;

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use taceva_arrays::ArrayFormat;
 use toml::Spanned;
 
-use super::written::Check;
+use super::check::Check;
 use crate::error::DatasetError;
 use crate::foreign::TableForm;
 

@@ -1,0 +1,57 @@
+//! Checks that a parser of types cannot make, each with the line of the map.
+
+use std::path::Path;
+
+use serde::Deserialize;
+use taceva_core::SourceUnit;
+use toml::Spanned;
+
+use crate::error::DatasetError;
+use crate::file::check_relative;
+use crate::toml_file::{line_of, toml_error};
+
+/// Checks what a parser of types cannot, and says where.
+pub(super) struct Check<'a> {
+    pub(super) path: &'a Path,
+    pub(super) text: &'a str,
+}
+
+impl Check<'_> {
+    pub(super) fn at(&self, offset: usize, problem: &str) -> DatasetError {
+        let line = line_of(self.text.as_bytes(), offset);
+        toml_error(self.path, Some(line), problem)
+    }
+
+    pub(super) fn relative(&self, written: &str, offset: usize) -> Result<(), DatasetError> {
+        check_relative(written)
+            .map_err(|problem| self.at(offset, &format!("`{written}`: {problem}")))
+    }
+
+    pub(super) fn unit(&self, unit: &Spanned<String>) -> Result<SourceUnit, DatasetError> {
+        if unit.get_ref() == "?" {
+            return Err(self.at(
+                unit.span().start,
+                "`?` is the unit that a draft leaves open: write the one that the numbers are in, such as \"N\", \"mN\", \"gf\" or \"mm\"",
+            ));
+        }
+        SourceUnit::parse(unit.get_ref())
+            .map_err(|error| self.at(unit.span().start, &error.to_string()))
+    }
+}
+
+/// The name of a column, or its position where a table has no header.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged, expecting = "the name of a column, or its position from 0")]
+pub(super) enum ColumnName {
+    Name(String),
+    Position(u32),
+}
+
+impl ColumnName {
+    pub(super) fn into_name(self) -> String {
+        match self {
+            ColumnName::Name(name) => name,
+            ColumnName::Position(position) => position.to_string(),
+        }
+    }
+}
