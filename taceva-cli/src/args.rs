@@ -16,7 +16,7 @@ use clap::{Args, Parser, Subcommand};
 
 pub(crate) use self::bench::{Bench, BenchDecode, BenchKernels, BenchModels, BenchSubject};
 pub(crate) use self::cache::{CacheCommand, CacheList, CachePrune, CacheSubject};
-pub(crate) use self::dataset::{Check, Import, Reseal};
+pub(crate) use self::dataset::{Check, Export, ExportForm, Import, Reseal};
 pub(crate) use self::live::{Capture, LiveArgs, Preview};
 pub(crate) use self::model::{Evaluate, Fit, Merge, Predict, Score};
 pub(crate) use self::plugin::{
@@ -75,6 +75,8 @@ pub(crate) enum Command {
     Import(Import),
     /// Check a recording for defects, before any number is computed
     Check(Check),
+    /// Write a dataset in a form that other programs read
+    Export(Export),
     /// Fit a model on the training part of a dataset and write it to a file
     Fit(Fit),
     /// Fit a model, or take a fitted one, and score it on data it has not seen

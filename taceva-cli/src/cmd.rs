@@ -16,6 +16,7 @@ pub(crate) mod devices;
 pub(crate) mod doctor;
 mod effort;
 pub(crate) mod evaluate;
+pub(crate) mod export;
 pub(crate) mod fit;
 pub(crate) mod import;
 pub(crate) mod merge;

@@ -59,6 +59,7 @@ fn run(command: &Command, context: &Context) -> anyhow::Result<u8> {
     match command {
         Command::Import(args) => cmd::import::run(args, context),
         Command::Check(args) => cmd::check::run(args, context),
+        Command::Export(args) => cmd::export::run(args, context),
         Command::Fit(args) => cmd::fit::run(args, context),
         Command::Evaluate(args) => cmd::evaluate::run(args, context),
         Command::Predict(args) => cmd::predict::run(args, context),

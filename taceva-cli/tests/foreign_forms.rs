@@ -104,7 +104,7 @@ fn a_clip_that_nothing_at_hand_decodes_names_its_codec_and_what_mends_it() {
     }
     assert!(!bench.path("data").exists());
     let absent = bench.run("import lab --map map.toml --out data --ffmpeg no/such/program");
-    assert_eq!(absent.code, 3, "{}", absent.err);
+    assert_eq!(absent.code, 2, "{}", absent.err);
     assert!(absent.err.contains("no/such/program"), "{}", absent.err);
 }
 

@@ -37,6 +37,26 @@ pub(crate) struct Import {
     pub(crate) ffmpeg: Option<PathBuf>,
 }
 
+/// Other programs read what is written: `datasets.load_dataset("FOLDER")` of Hugging Face, pandas, pyarrow.
+#[derive(Debug, Args)]
+pub(crate) struct Export {
+    /// The dataset
+    pub(crate) dataset: PathBuf,
+    /// The new folder
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) out: PathBuf,
+    /// In which form
+    #[arg(long, value_name = "FORM", value_enum, default_value_t = ExportForm::Huggingface)]
+    pub(crate) format: ExportForm,
+}
+
+/// The form of an export.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum ExportForm {
+    /// Parquet with the pictures in a column, as Hugging Face writes it
+    Huggingface,
+}
+
 /// Files that decide a number or a claim are sealed: dataset.toml, results, states and models. One that was changed is refused until the edit
 /// is accepted here; reports show the history. A model is not edited but fitted again.
 #[derive(Debug, Args)]

@@ -23,7 +23,7 @@ pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
         settle(target)?;
         output::check_free(target, args.force)?;
     }
-    let plan = ImportPlan::with_decoders(&args.source, &map(args)?, &decoders(args))?;
+    let plan = ImportPlan::with_decoders(&args.source, &map(args)?, &decoders(args)?)?;
     let Some(target) = target.filter(|_| !args.explain.is_wanted) else {
         output::write(None, |out| write!(out, "{}", plan.summary()))?;
         return Ok(exit::DONE);
@@ -68,17 +68,26 @@ fn draft(args: &Import, target: Option<&Path>, context: &Context) -> anyhow::Res
 }
 
 /// The programs that decode clips which are not decoded here.
-fn decoders(args: &Import) -> Decoders {
+fn decoders(args: &Import) -> anyhow::Result<Decoders> {
     let named = args.ffmpeg.clone();
     let named = named.or_else(|| std::env::var_os("TACEVA_FFMPEG").map(PathBuf::from));
-    Decoders {
-        ffmpeg: named.or_else(|| on_path("ffmpeg")),
-        av1: av1_child::command(),
+    if let Some(program) = &named
+        && !program.is_file()
+        && on_path(program).is_none()
+    {
+        return Err(Usage::error(format!(
+            "no program `{}` is there, neither as a file nor on the PATH: --ffmpeg, or TACEVA_FFMPEG, names ffmpeg 5.1 or later",
+            shown(program)
+        )));
     }
+    Ok(Decoders {
+        ffmpeg: named.or_else(|| on_path("ffmpeg".as_ref())),
+        av1: av1_child::command(),
+    })
 }
 
 /// The program of this name in a folder of PATH.
-fn on_path(name: &str) -> Option<PathBuf> {
+fn on_path(name: &Path) -> Option<PathBuf> {
     let folders = std::env::var_os("PATH")?;
     let mut programs = std::env::split_paths(&folders).map(|folder| folder.join(name));
     programs.find(|program| program.is_file())

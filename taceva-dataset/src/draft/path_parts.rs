@@ -94,6 +94,12 @@ impl PathParts {
                 .enumerate()
                 .rev()
                 .find_map(|(before, token)| match token {
+                    // Letters right behind a number are its unit.
+                    Token::Letters(_)
+                        if before > 0 && matches!(first[before - 1], Token::Number(_)) =>
+                    {
+                        Some(None)
+                    }
                     Token::Letters(letters) => {
                         let is_same = rows.iter().all(|row| row[before] == *token);
                         Some(is_same.then_some(*letters))
