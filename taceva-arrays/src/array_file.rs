@@ -14,7 +14,7 @@ use crate::npz::Npz;
 use crate::pickle::Pickle;
 use crate::source::FileBytes;
 use crate::store::{Arrays, Store};
-use crate::values::ArrayData;
+use crate::values::{ArrayData, ArrayValues};
 use crate::zarr::Zarr;
 
 /// Names that an error about a missing array lists.
@@ -143,6 +143,12 @@ impl ArrayFile {
             return Err(Problem::Rows {
                 asked: rows,
                 rows: info.rows(),
+            });
+        }
+        if info.shape.is_empty() && rows.is_empty() {
+            return Ok(ArrayData {
+                shape: vec![0],
+                values: ArrayValues::with_capacity(info.element, 0),
             });
         }
         let mut shape = info.shape.clone();

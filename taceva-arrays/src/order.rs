@@ -33,7 +33,10 @@ impl ColumnMajor {
         ColumnMajor {
             rows: shape.first().copied().unwrap_or(1),
             item_bytes,
-            row_elements: rest.iter().product(),
+            // Beyond 64 bits only where another length, or that of an element, is 0: then nothing is read.
+            row_elements: rest
+                .iter()
+                .fold(1, |product: u64, side| product.saturating_mul(*side)),
             rest,
             data_at,
             kept: Mutex::new(None),
@@ -46,7 +49,7 @@ impl ColumnMajor {
         source: &dyn ByteSource,
         rows: Range<u64>,
     ) -> Result<Vec<u8>, Problem> {
-        let row_bytes = self.row_elements * self.item_bytes;
+        let row_bytes = self.row_elements.saturating_mul(self.item_bytes);
         if row_bytes == 0 || rows.is_empty() {
             return Ok(Vec::new());
         }

@@ -46,6 +46,57 @@ fn names_and_rows_that_are_not_there_are_refused_with_those_that_are() {
     assert_eq!(file.read("ft", 24..24).expect("none").shape, [0, 6]);
 }
 
+#[test]
+fn nothing_is_read_of_nothing() {
+    for (name, array) in [
+        ("npy/scalar.npy", "value"),
+        ("npy/record.npy", "value.t"),
+        ("npy/S6.npy", "value"),
+        ("zarr/two.zarr", "/scalar"),
+        ("pickle-kinds/plain-4.pickle", "one"),
+        ("matlab/packed-5.mat", "names"),
+    ] {
+        let read = opened(name).read(array, 0..0).expect("no rows");
+        assert!(
+            read.values.is_empty() && read.shape[0] == 0,
+            "{name}: {read:?}"
+        );
+    }
+}
+
+#[test]
+fn shapes_beyond_64_bits_are_refused_whatever_is_zero_in_them() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("x.npy");
+    for (descr, shape) in [
+        ("<f4", "(4294967296, 4294967296, 4294967296)"),
+        ("<f4", "(0, 4294967296, 4294967296)"),
+        ("<U0", "(5, 4294967296, 4294967296)"),
+        ("<U0", "(18446744073709551615,)"),
+        ("<f4", "(4294967296, 0)"),
+    ] {
+        for order in ["True", "False"] {
+            let header =
+                format!("{{'descr': '{descr}', 'fortran_order': {order}, 'shape': {shape}, }}\n");
+            let length = u16::try_from(header.len()).expect("short").to_le_bytes();
+            fs::write(
+                &path,
+                [b"\x93NUMPY\x01\x00".as_slice(), &length, header.as_bytes()].concat(),
+            )
+            .expect("written");
+            // Read or refused, without a panic and without memory for what is not there.
+            if let Ok(file) = ArrayFile::open(&path, ArrayFormat::Npy) {
+                let rows = file.info("value").expect("listed").rows();
+                let read = file.read("value", 0..rows.min(5));
+                assert!(
+                    read.map_or(true, |read| read.values.len() < 10),
+                    "{descr} {shape}"
+                );
+            }
+        }
+    }
+}
+
 /// An archive of one deflated member of zeros.
 fn archive_of_zeros(stated: u64, packed: &[u8]) -> Vec<u8> {
     let name = b"bomb.npy";
@@ -129,6 +180,28 @@ fn a_zip_bomb_is_refused_before_it_is_inflated() {
         message.contains("said to become 1125899906842624"),
         "{message}"
     );
+}
+
+#[test]
+fn encrypted_and_otherwise_packed_members_are_refused_by_name() {
+    let whole = fs::read(data().join("npz-stored/run.npz")).expect("readable");
+    let entry = whole
+        .windows(4)
+        .rposition(|bytes| bytes == b"PK\x01\x02")
+        .expect("an entry");
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("run.npz");
+    // Flags stand 8 bytes behind the beginning of an entry, the method 10.
+    for (at, value, expected) in [
+        (8, 1, "`obj.npy` is encrypted"),
+        (10, 12, "`obj.npy` is packed by method 12"),
+    ] {
+        let mut changed = whole.clone();
+        changed[entry + at] = value;
+        fs::write(&path, changed).expect("written");
+        let message = refused(&path).to_string();
+        assert!(message.contains(expected), "{message}");
+    }
 }
 
 #[test]
