@@ -53,24 +53,11 @@ impl<R: BufRead> SnappyStream<R> {
 
     /// The next element; its length is more than 0.
     fn next(&mut self) -> io::Result<Element> {
-        let tag = byte(&mut self.packed)?;
-        let high = usize::from(tag >> 2);
-        Ok(match tag & 3 {
-            0 if high < 60 => Element::Literal(high + 1),
-            0 => Element::Literal(number(&mut self.packed, high - 59)? + 1),
-            1 => Element::Copy {
-                from: (usize::from(tag >> 5) << 8) | number(&mut self.packed, 1)?,
-                length: (high & 7) + 4,
-            },
-            2 => Element::Copy {
-                from: number(&mut self.packed, 2)?,
-                length: high + 1,
-            },
-            _ => Element::Copy {
-                from: number(&mut self.packed, 4)?,
-                length: high + 1,
-            },
-        })
+        let mut bytes = [byte(&mut self.packed)?, 0, 0, 0, 0];
+        let extra = numbers(bytes[0]);
+        self.packed.read_exact(&mut bytes[1..=extra])?;
+        let found = element(&bytes, 0).map(|(element, _)| element);
+        found.ok_or_else(|| wrong("an element of snappy that does not fit the memory"))
     }
 
     /// Unpacks some more into the window.
@@ -80,7 +67,14 @@ impl<R: BufRead> SnappyStream<R> {
             self.window.drain(..cut);
             self.handed = WINDOW;
         }
-        if let Element::Literal(0) | Element::Copy { length: 0, .. } = self.element {
+        let is_between = matches!(
+            self.element,
+            Element::Literal(0) | Element::Copy { length: 0, .. }
+        );
+        if is_between && self.fill_from_buffer()? {
+            return Ok(());
+        }
+        if is_between {
             self.element = self.next()?;
         }
         match &mut self.element {
@@ -98,18 +92,42 @@ impl<R: BufRead> SnappyStream<R> {
                 self.left -= some;
             }
             Element::Copy { from, length } => {
-                let begin = self.window.len().checked_sub(*from).filter(|_| *from > 0);
-                let Some(begin) = begin.filter(|_| *length <= self.left) else {
-                    return Err(wrong("a copy of snappy from outside of what was unpacked"));
-                };
-                self.left -= *length;
-                // A copy may reach into itself, which repeats what it begins with.
-                for at in begin..begin + std::mem::take(length) {
-                    self.window.push(self.window[at]);
-                }
+                let length = std::mem::take(length);
+                copy(&mut self.window, *from, length, self.left)?;
+                self.left -= length;
             }
         }
         Ok(())
+    }
+
+    /// Unpacks the elements that lie whole in the buffer of what is packed; whether there was one.
+    fn fill_from_buffer(&mut self) -> io::Result<bool> {
+        let (packed, window) = (self.packed.fill_buf()?, &mut self.window);
+        let (mut at, mut left) = (0, self.left);
+        while let (true, Some((element, begin))) =
+            (left > 0 && window.len() < 3 * WINDOW, element(packed, at))
+        {
+            let (from, length) = match element {
+                Element::Literal(length) => {
+                    let end = begin.checked_add(length);
+                    let Some(literal) = end.and_then(|end| packed.get(begin..end)) else {
+                        break;
+                    };
+                    if length > left {
+                        return Err(wrong("the snappy is longer than it announces"));
+                    }
+                    window.extend_from_slice(literal);
+                    (at, left) = (begin + length, left - length);
+                    continue;
+                }
+                Element::Copy { from, length } => (from, length),
+            };
+            copy(window, from, length, left)?;
+            (at, left) = (begin, left - length);
+        }
+        self.left = left;
+        self.packed.consume(at);
+        Ok(at > 0)
     }
 }
 
@@ -129,17 +147,61 @@ impl<R: BufRead> Read for SnappyStream<R> {
     }
 }
 
+/// Appends `length` bytes from so far back, of at most `left`.
+fn copy(window: &mut Vec<u8>, from: usize, length: usize, left: usize) -> io::Result<()> {
+    let begin = window.len().checked_sub(from).filter(|_| from > 0);
+    let Some(begin) = begin.filter(|_| length <= left) else {
+        return Err(wrong("a copy of snappy from outside of what was unpacked"));
+    };
+    if length <= from {
+        window.extend_from_within(begin..begin + length);
+    } else {
+        // A copy that reaches into itself repeats what it begins with.
+        for at in begin..begin + length {
+            window.push(window[at]);
+        }
+    }
+    Ok(())
+}
+
+/// The element at `at`, and where what follows its numbers begins; none if they do not lie in `packed`.
+fn element(packed: &[u8], at: usize) -> Option<(Element, usize)> {
+    let tag = *packed.get(at)?;
+    let high = usize::from(tag >> 2);
+    let extra = numbers(tag);
+    let begin = at + 1 + extra;
+    let mut bytes = [0; 8];
+    bytes[..extra].copy_from_slice(packed.get(at + 1..begin)?);
+    let number = usize::try_from(u64::from_le_bytes(bytes)).ok()?;
+    let element = match tag & 3 {
+        0 if extra == 0 => Element::Literal(high + 1),
+        0 => Element::Literal(number + 1),
+        1 => Element::Copy {
+            from: (usize::from(tag >> 5) << 8) | number,
+            length: (high & 7) + 4,
+        },
+        _ => Element::Copy {
+            from: number,
+            length: high + 1,
+        },
+    };
+    Some((element, begin))
+}
+
 fn byte(from: &mut impl BufRead) -> io::Result<u8> {
     let mut byte = [0];
     from.read_exact(&mut byte)?;
     Ok(byte[0])
 }
 
-/// A number of so many bytes, the lowest first.
-fn number(from: &mut impl BufRead, bytes: usize) -> io::Result<usize> {
-    let mut number = [0; 8];
-    from.read_exact(&mut number[..bytes.min(4)])?;
-    usize::try_from(u64::from_le_bytes(number)).map_err(io::Error::other)
+/// How many bytes of numbers follow a tag.
+fn numbers(tag: u8) -> usize {
+    match tag & 3 {
+        0 => usize::from(tag >> 2).saturating_sub(59),
+        1 => 1,
+        2 => 2,
+        _ => 4,
+    }
 }
 
 fn wrong(problem: &str) -> io::Error {
@@ -170,13 +232,19 @@ mod tests {
         bytes
     }
 
+    /// What is unpacked at once, which must be what is unpacked out of a small buffer.
     fn unpacked(packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
-        let mut bytes = Vec::new();
         let size = u32::try_from(size).expect("small");
-        SnappyStream::new(packed, size)?
-            .read_to_end(&mut bytes)
-            .map_err(|error| error.to_string())?;
-        Ok(bytes)
+        let read = |mut stream: Box<dyn Read + '_>| {
+            let mut bytes = Vec::new();
+            let read = stream.read_to_end(&mut bytes);
+            read.map(|_| bytes).map_err(|error| error.to_string())
+        };
+        let small = io::BufReader::with_capacity(7, packed);
+        let small = SnappyStream::new(small, size).and_then(|stream| read(Box::new(stream)));
+        let whole = SnappyStream::new(packed, size).and_then(|stream| read(Box::new(stream)));
+        assert_eq!(small.as_ref().ok(), whole.as_ref().ok());
+        whole
     }
 
     #[test]

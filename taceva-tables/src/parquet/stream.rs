@@ -134,7 +134,7 @@ impl Stream {
 
     fn open(&self, header: &PageHeader, begin: u64) -> Result<Open, TableError> {
         let io = |error| self.source.io(error);
-        let mut file = BufReader::new(self.source.open()?);
+        let mut file = BufReader::with_capacity(1 << 16, self.source.open()?);
         file.seek(SeekFrom::Start(begin)).map_err(io)?;
         if header.crc.is_some() {
             self.pages.check_sum(header, begin, &mut file)?;
