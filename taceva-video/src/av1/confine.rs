@@ -1,6 +1,6 @@
 //! What the child gives up before it reads a clip.
 
-/// Gives up all but reading and writing what is open, and `memory` bytes; there must be one thread.
+/// Gives up all but reading and writing what is open, and `memory` bytes, on all threads.
 #[cfg(not(target_os = "linux"))]
 pub(super) fn confine(_memory: u64) -> Result<(), String> {
     Ok(())
@@ -18,7 +18,7 @@ mod linux {
     };
     use seccompiler::{
         BackendError, BpfProgram, SeccompAction, SeccompCmpArgLen, SeccompCmpOp, SeccompCondition,
-        SeccompFilter, SeccompRule, TargetArch, apply_filter,
+        SeccompFilter, SeccompRule, TargetArch, apply_filter_all_threads,
     };
 
     /// Calls that are allowed whatever their arguments: what is open, memory, time, and the end.
@@ -65,7 +65,8 @@ mod linux {
         }
         let filter =
             filter().map_err(|error| format!("system calls cannot be filtered: {error}"))?;
-        apply_filter(&filter).map_err(|error| format!("system calls cannot be filtered: {error}"))
+        apply_filter_all_threads(&filter)
+            .map_err(|error| format!("system calls cannot be filtered: {error}"))
     }
 
     fn filter() -> Result<BpfProgram, BackendError> {

@@ -25,7 +25,7 @@ pub enum ServeError {
 ///
 /// The whole process is confined for good before the first byte of a clip is decoded. On Linux it can then open no file, make no connection,
 /// start no process, and use no more memory than such frames take; that needs seccomp filters, on x86-64 or a 64-bit ARM. Elsewhere nothing is
-/// taken from it. It is the program's last act: call it from a command of its own, before any thread is started.
+/// taken from it. It is the program's last act: call it from a command of its own.
 ///
 /// # Errors
 /// [`ServeError`]; the parent sees the child end. A panic in the decoder ends the process.
