@@ -1,4 +1,4 @@
-//! The recordings under `tests/data`, and what the libraries that wrote them read back.
+//! The recordings under `tests/data` and `../tests/recordings`, and what the libraries that wrote them read back.
 
 #![allow(dead_code, reason = "each test program uses a part")]
 
@@ -9,11 +9,14 @@ use std::path::PathBuf;
 
 use sha2::{Digest, Sha256};
 
-/// The folder of a recording.
+/// The folder of a recording: of this crate, or else of those that all crates share.
 pub(crate) fn recording(name: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/data")
-        .join(name)
+    let crate_folder = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+    let own = crate_folder.join("tests/data").join(name);
+    match own.exists() {
+        true => own,
+        false => crate_folder.join("../tests/recordings").join(name),
+    }
 }
 
 /// The `expected.json` of a recording.

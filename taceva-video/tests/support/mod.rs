@@ -10,12 +10,15 @@ use std::time::{Duration, Instant};
 use sha2::{Digest, Sha256};
 use taceva_video::{Colours, Decoders, Picture, Video, VideoError, VisitError};
 
-/// The file `name` of the folder `clip`.
+/// The file `name` of the folder `clip`: of this crate, or else of the recordings that all crates share.
 pub(crate) fn path(clip: &str, name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/data")
-        .join(clip)
-        .join(name)
+    let crate_folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let own = crate_folder.join("tests/data").join(clip);
+    let folder = match own.exists() {
+        true => own,
+        false => crate_folder.join("../tests/recordings").join(clip),
+    };
+    folder.join(name)
 }
 
 /// Number of a frame → digest, as `expected.json` of the folder `clip` says under `key`.
