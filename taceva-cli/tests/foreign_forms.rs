@@ -54,16 +54,16 @@ fn a_draft_is_refused_by_the_line_of_its_first_open_unit_and_imports_once_they_a
     assert!(done.contains("rows     24 read, 24 kept"), "{done}");
     // Without `--out` it goes to standard output; what is there is not written over.
     assert_eq!(bench.ok("import --draft lab"), text);
-    bench.refused("import --draft lab --out draft.toml", 2, "exists already");
+    bench.refused("import --draft lab --out draft.toml", 3, "exists already");
 }
 
 #[test]
 fn a_folder_without_any_table_or_picture_has_no_draft() {
     let bench = Bench::new();
     bench.write("lab/notes.txt", "pressed on Monday");
-    bench.refused("import --draft lab", 2, "no table and no picture is in it");
+    bench.refused("import --draft lab", 3, "no table and no picture is in it");
     bench.write("lab/run.bag", "#ROSBAG V2.0");
-    bench.refused("import --draft lab", 2, "mcap convert");
+    bench.refused("import --draft lab", 3, "mcap convert");
 }
 
 #[test]
