@@ -83,6 +83,32 @@ impl ArrayFile {
         self.arrays.get(index).map(|(_, info)| info)
     }
 
+    /// Shape and type of the array `name`, or why there is none.
+    ///
+    /// ```no_run
+    /// # fn of(file: &taceva_arrays::ArrayFile) -> Result<(), taceva_arrays::ArrayError> {
+    /// // `…/run.mat: contacts: a sparse matrix; save a matrix: …`, or the names that are there.
+    /// let contacts = file.find("contacts")?;
+    /// println!("{} rows", contacts.rows());
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// # Errors
+    /// [`ArrayError`] if there is no such array, or one that is not read here.
+    pub fn find(&self, name: &str) -> Result<&ArrayInfo, ArrayError> {
+        self.info(name)
+            .ok_or_else(|| self.wrong(name, self.absent(name)))
+    }
+
+    fn wrong(&self, name: &str, problem: Problem) -> ArrayError {
+        ArrayError {
+            path: self.path.clone(),
+            array: Some(name.to_owned()),
+            problem,
+        }
+    }
+
     /// Full names may be said without their first slash.
     fn index(&self, name: &str) -> Option<usize> {
         let found = self
@@ -127,11 +153,8 @@ impl ArrayFile {
     /// # Errors
     /// [`ArrayError`] if there is no such array or row, if the rows take more than 1 GiB, or if the file is damaged where they lie.
     pub fn read(&self, name: &str, rows: Range<u64>) -> Result<ArrayData, ArrayError> {
-        self.rows(name, rows).map_err(|problem| ArrayError {
-            path: self.path.clone(),
-            array: Some(name.to_owned()),
-            problem,
-        })
+        self.rows(name, rows)
+            .map_err(|problem| self.wrong(name, problem))
     }
 
     fn rows(&self, name: &str, rows: Range<u64>) -> Result<ArrayData, Problem> {
@@ -161,9 +184,10 @@ impl ArrayFile {
 
     fn absent(&self, name: &str) -> Problem {
         // A record that cannot be read is asked for by its fields.
+        let name = name.trim_start_matches('/');
         let is_of = |array: &str| {
-            name.strip_prefix(array)
-                .is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+            let rest = name.strip_prefix(array.trim_start_matches('/'));
+            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
         };
         if let Some((_, reason)) = self.store.refused().iter().find(|(array, _)| is_of(array)) {
             return reason.again();
