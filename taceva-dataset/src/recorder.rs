@@ -13,26 +13,28 @@ use taceva_durable::parent_of;
 use crate::digest::Digest;
 use crate::error::DatasetError;
 use crate::file::make_names_durable;
-use crate::header::{Header, ReferenceInfo, StreamFacts};
-use crate::journal::{Journal, JournalRecord, RecordKind};
+use crate::header::{ReferenceInfo, StreamFacts};
+use crate::journal::{Journal, RecordKind};
 use crate::layout;
 use crate::pack::{PackEnd, PackWriter, cut_behind};
-use crate::samples::from_parquet;
-use crate::signals::{SignalsInfo, SignalsReader, SignalsSpec, SignalsWriter};
+use crate::signals::{SignalsSpec, SignalsWriter};
 use crate::staged::lock_folder;
-use crate::store::{Beside, RecordingFacts, write_table_and_header};
+use crate::store::RecordingFacts;
 use crate::table::{FrameEntry, Row, Table};
 
 mod check;
+mod close;
 mod folder;
 mod frames;
 mod press;
+mod replay;
 mod stream;
 mod written;
 
 use folder::{empty_folder, remove_journal};
+use replay::ReplayError;
 pub use stream::Streamed;
-use written::{WrittenFrame, WrittenPress, WrittenSample, WrittenStart, WrittenStream};
+use written::{WrittenFrame, WrittenSample, WrittenStart};
 
 /// What a recording is of.
 ///
@@ -294,55 +296,6 @@ impl Recorder {
         Ok(sequence)
     }
 
-    /// Makes the recording a dataset. Until its header is in place the journal stays and the recording can be resumed.
-    ///
-    /// # Errors
-    /// [`DatasetError::Damaged`] if what was written does not read back; [`DatasetError::Io`].
-    pub fn close(mut self) -> Result<Header, DatasetError> {
-        let signals = self.signals.take().map(SignalsWriter::finish).transpose()?;
-        let name = |name: &str| partial(&self.path, name);
-        let (samples, header_path) = (name(layout::SAMPLES), name(layout::HEADER));
-        let header = write_table_and_header(
-            &samples,
-            &header_path,
-            &self.facts,
-            (&self.table, self.frames_info()),
-            Beside {
-                presses: self.press_counts(),
-                stream: self.stream,
-                signals,
-                ..Beside::default()
-            },
-        )?;
-        self.verify(&samples, &header)?;
-        if let Some(info) = &header.signals {
-            self.verify_signals(&name(layout::SIGNALS), info)?;
-            self.put_in_place(&name(layout::SIGNALS), layout::SIGNALS)?;
-        }
-        self.put_in_place(&samples, layout::SAMPLES)?;
-        self.put_in_place(&header_path, layout::HEADER)?;
-        remove_journal(&self.path)?;
-        Ok(header)
-    }
-
-    fn replay(&mut self, record: &JournalRecord) -> Result<(), ReplayError> {
-        match record.kind {
-            RecordKind::Start => Err("a second beginning".to_owned().into()),
-            RecordKind::Sample => self.replay_sample(WrittenSample::parse(&record.payload)?),
-            RecordKind::Reference => {
-                self.take_reference(WrittenFrame::parse(&record.payload)?);
-                Ok(())
-            }
-            RecordKind::Press => self.replay_press(WrittenPress::parse(&record.payload)?),
-            RecordKind::Stream => self.replay_stream(WrittenStream::parse(&record.payload)?),
-        }
-    }
-
-    fn replay_sample(&mut self, written: WrittenSample) -> Result<(), ReplayError> {
-        let (row, info, signals) = written.into_row(self.table.channels())?;
-        Ok(self.take(row, info, signals.as_deref())?)
-    }
-
     /// Takes what is durable into the table and the file of signals.
     fn take(
         &mut self,
@@ -400,33 +353,6 @@ impl Recorder {
             frame,
         }
     }
-
-    fn verify(&self, samples: &Path, header: &Header) -> Result<(), DatasetError> {
-        let damaged = |problem: String| DatasetError::Damaged {
-            path: samples.to_owned(),
-            problem,
-        };
-        let file = File::open(samples).map_err(DatasetError::io("open", samples))?;
-        let read = from_parquet(file, &header.channels, &header.attributes).map_err(damaged)?;
-        if read != self.table {
-            return Err(damaged(
-                "it does not read back as it was written".to_owned(),
-            ));
-        }
-        Ok(())
-    }
-
-    fn verify_signals(&self, path: &Path, info: &SignalsInfo) -> Result<(), DatasetError> {
-        let file = File::open(path).map_err(DatasetError::io("open", path))?;
-        let rows = self.table.rows() as u64;
-        SignalsReader::open(path, file, (info, rows))?.verify()
-    }
-
-    fn put_in_place(&self, from: &Path, name: &str) -> Result<(), DatasetError> {
-        let to = self.path.join(name);
-        fs::rename(from, &to).map_err(DatasetError::io("rename into place", &to))?;
-        make_names_durable(&self.path)
-    }
 }
 
 /// Where the file called `name` stands until the recording is closed.
@@ -437,26 +363,6 @@ fn partial(folder: &Path, name: &str) -> PathBuf {
 /// The numbers of the taxels of a sample, if it has any.
 fn signals_of(sample: &Sample) -> Option<&[f32]> {
     sample.signals.as_ref().map(Signals::values)
-}
-
-/// Why a record of a journal cannot be taken again.
-enum ReplayError {
-    /// What is wrong with it.
-    Damaged(String),
-    /// What the disk said meanwhile.
-    Io(DatasetError),
-}
-
-impl From<String> for ReplayError {
-    fn from(problem: String) -> ReplayError {
-        ReplayError::Damaged(problem)
-    }
-}
-
-impl From<DatasetError> for ReplayError {
-    fn from(error: DatasetError) -> ReplayError {
-        ReplayError::Io(error)
-    }
 }
 
 impl SampleSink for Recorder {

@@ -1,5 +1,7 @@
 //! What an import would read, convert and leave out, before anything is written.
 
+mod channels;
+
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -11,8 +13,7 @@ use super::map::{FrameMap, FrameNames, ImportMap};
 use super::rows::MappedTable;
 use super::signals::{FoundSignals, PlannedSignals};
 use super::source::{matching_files, unnamed_images};
-use super::summary::{Conversion, ImportSummary};
-use super::suspicion::magnitude_suspicion_in;
+use super::summary::ImportSummary;
 use crate::decode::ChannelOrder;
 use crate::error::{DatasetError, Place};
 use crate::file::SourceFolder;
@@ -383,26 +384,5 @@ impl<'a> Reading<'a> {
             reference,
             of_rows: std::mem::take(&mut self.frames),
         })
-    }
-
-    fn describe_channels(&mut self) {
-        for (position, channel) in self.map.channels.iter().enumerate() {
-            let map = &self.map.columns[position];
-            let column = self.table.truth(position);
-            let values = || (0..column.len()).filter_map(|row| column.get(row));
-            self.summary.conversions.push(Conversion {
-                channel: channel.name().to_owned(),
-                column: map.from.clone(),
-                from: map.unit,
-                to: channel.unit(),
-                is_negated: map.is_negated,
-                offset: map.offset,
-                scale: map.scale,
-                present: values().count() as u64,
-            });
-            self.summary
-                .suspicions
-                .extend(magnitude_suspicion_in(channel, &map.unit, values()));
-        }
     }
 }

@@ -1,0 +1,74 @@
+//! The end of a recording: it becomes a dataset.
+
+use std::fs::{self, File};
+use std::path::Path;
+
+use super::folder::remove_journal;
+use super::{Recorder, partial};
+use crate::error::DatasetError;
+use crate::file::make_names_durable;
+use crate::header::Header;
+use crate::layout;
+use crate::samples::from_parquet;
+use crate::signals::{SignalsInfo, SignalsReader, SignalsWriter};
+use crate::store::{Beside, write_table_and_header};
+
+impl Recorder {
+    /// Makes the recording a dataset. Until its header is in place the journal stays and the recording can be resumed.
+    ///
+    /// # Errors
+    /// [`DatasetError::Damaged`] if what was written does not read back; [`DatasetError::Io`].
+    pub fn close(mut self) -> Result<Header, DatasetError> {
+        let signals = self.signals.take().map(SignalsWriter::finish).transpose()?;
+        let name = |name: &str| partial(&self.path, name);
+        let (samples, header_path) = (name(layout::SAMPLES), name(layout::HEADER));
+        let header = write_table_and_header(
+            &samples,
+            &header_path,
+            &self.facts,
+            (&self.table, self.frames_info()),
+            Beside {
+                presses: self.press_counts(),
+                stream: self.stream,
+                signals,
+                ..Beside::default()
+            },
+        )?;
+        self.verify(&samples, &header)?;
+        if let Some(info) = &header.signals {
+            self.verify_signals(&name(layout::SIGNALS), info)?;
+            self.put_in_place(&name(layout::SIGNALS), layout::SIGNALS)?;
+        }
+        self.put_in_place(&samples, layout::SAMPLES)?;
+        self.put_in_place(&header_path, layout::HEADER)?;
+        remove_journal(&self.path)?;
+        Ok(header)
+    }
+
+    fn verify(&self, samples: &Path, header: &Header) -> Result<(), DatasetError> {
+        let damaged = |problem: String| DatasetError::Damaged {
+            path: samples.to_owned(),
+            problem,
+        };
+        let file = File::open(samples).map_err(DatasetError::io("open", samples))?;
+        let read = from_parquet(file, &header.channels, &header.attributes).map_err(damaged)?;
+        if read != self.table {
+            return Err(damaged(
+                "it does not read back as it was written".to_owned(),
+            ));
+        }
+        Ok(())
+    }
+
+    fn verify_signals(&self, path: &Path, info: &SignalsInfo) -> Result<(), DatasetError> {
+        let file = File::open(path).map_err(DatasetError::io("open", path))?;
+        let rows = self.table.rows() as u64;
+        SignalsReader::open(path, file, (info, rows))?.verify()
+    }
+
+    fn put_in_place(&self, from: &Path, name: &str) -> Result<(), DatasetError> {
+        let to = self.path.join(name);
+        fs::rename(from, &to).map_err(DatasetError::io("rename into place", &to))?;
+        make_names_durable(&self.path)
+    }
+}
