@@ -253,7 +253,8 @@ mod tests {
     use super::*;
 
     fn member(is_held: bool, name: &str) -> PackedBytes {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/npz-deflated/run.npz");
+        let path =
+            Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/recordings/npz-deflated/run.npz");
         let file = FileBytes::open(&path).expect("there");
         let mut all = members(&file).expect("an archive").into_iter();
         PackedBytes {

@@ -57,7 +57,7 @@ fn damaged(bytes: &[u8], number: u64, numbers: &mut Numbers) -> Vec<u8> {
         true => damaged.truncate(numbers.below(bytes.len())),
         false => {
             // Headers are hit as often as what follows them.
-            let within = if number % 2 == 0 {
+            let within = if number.is_multiple_of(2) {
                 bytes.len()
             } else {
                 bytes.len().min(512)

@@ -7,7 +7,7 @@
 ///
 /// ```
 /// use taceva_video::{Decoders, Video};
-/// # let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/avi-mjpeg/cube_1.avi");
+/// # let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/recordings/avi-mjpeg/cube_1.avi");
 /// let clip = Video::open(file.as_ref(), &Decoders::default())?;
 /// let info = clip.info();
 /// assert_eq!((info.width, info.height, info.frames), (64, 48, 8));
@@ -41,7 +41,7 @@ pub struct VideoInfo {
 ///
 /// ```
 /// use taceva_video::{Colours, Decoders, Picture, Video};
-/// # let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/mp4-h264-baseline/clip.mp4");
+/// # let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/recordings/mp4-h264-baseline/clip.mp4");
 /// let clip = Video::open(file.as_ref(), &Decoders::default())?;
 /// for (colours, numbers) in [(Colours::Luma, 1), (Colours::Rgb, 3)] {
 ///     clip.visit(&[0], colours, &mut |_, picture| match picture {

@@ -177,7 +177,7 @@ impl VideoError {
 ///
 /// ```
 /// use taceva_video::{Colours, Decoders, Video, VisitError};
-/// # let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/avi-mjpeg/cube_1.avi");
+/// # let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/recordings/avi-mjpeg/cube_1.avi");
 /// let clip = Video::open(file.as_ref(), &Decoders::default())?;
 /// let enough = clip.visit(&[0, 1], Colours::Luma, &mut |_, _| Err("enough"));
 /// assert!(matches!(enough, Err(VisitError::Caller("enough"))));

@@ -42,7 +42,7 @@ pub struct Decoders {
 ///
 /// ```
 /// use taceva_video::{Colours, Decoders, Video};
-/// # let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/mp4-h264-baseline/clip.mp4");
+/// # let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/recordings/mp4-h264-baseline/clip.mp4");
 /// let clip = Video::open(file.as_ref(), &Decoders::default())?;
 /// let mut shown = Vec::new();
 /// clip.visit(&[3, 10], Colours::Luma, &mut |index, picture| {

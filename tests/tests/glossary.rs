@@ -14,8 +14,6 @@ const REPLACED: &[(&str, &str)] = &[
     ("dealer", "assign"),
     ("deals", "assign"),
     ("dealt", "assigned"),
-    ("draft", "collect"),
-    ("drafts", "collect"),
     ("hands", "what it is, such as BenchClock"),
     ("station", "waypoint"),
     ("stations", "waypoints"),
@@ -29,6 +27,8 @@ const REPLACED: &[(&str, &str)] = &[
 
 /// The same for words that some crates keep, with these crates.
 const REPLACED_BUT_IN: &[(&str, &str, &[&str])] = &[
+    // A first map for a folder of a lab.
+    ("draft", "collect", &["taceva-cli", "taceva-dataset"]),
     // What comparisons stand on.
     ("ground", "samples, group", &["taceva-report"]),
     // Whoever judges a simulated run, and who judges published numbers.

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use taceva_arrays::{ArrayFile, ArrayFormat};
 
-use crate::digest::data;
+use crate::digest::{SHARED, at, data};
 
 /// Bytes that are read of one array at a time.
 const ROWS: u64 = 8;
@@ -84,6 +84,9 @@ pub(crate) fn damaged(bytes: &[u8], seed: u64, mut look: impl FnMut(&str, &[u8])
 fn damaged_files_are_refused_or_read_and_never_panic() {
     let mut all = Vec::new();
     files(&data(), &mut all);
+    for name in SHARED {
+        files(&at(name), &mut all);
+    }
     all.sort_unstable();
     let folder = tempfile::tempdir().expect("a folder");
     let mut bad = Vec::new();

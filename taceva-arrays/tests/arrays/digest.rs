@@ -5,9 +5,34 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 use taceva_arrays::{ArrayFile, ArrayValues};
 
-/// The files of these tests.
+/// The recordings that all crates share of which these tests read files.
+pub(crate) const SHARED: [&str; 12] = [
+    "hdf5-fletcher-earliest",
+    "hdf5-groups",
+    "hdf5-gzip-shuffle-earliest",
+    "hdf5-lzf-earliest",
+    "hdf5-vlen-compound",
+    "npy-fortran",
+    "npz-deflated",
+    "npz-stored",
+    "pickle",
+    "taxels-npy",
+    "zarr-v2",
+    "zarr-v3",
+];
+
+/// The files of these tests alone.
 pub(crate) fn data() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data")
+}
+
+/// A file or folder of these tests, or else of the recordings that all crates share.
+pub(crate) fn at(name: impl AsRef<Path>) -> PathBuf {
+    let own = data().join(&name);
+    match own.exists() {
+        true => own,
+        false => data().join("../../../tests/recordings").join(name),
+    }
 }
 
 /// Adds the elements: numbers little-endian, texts and bytes behind a letter and their length.

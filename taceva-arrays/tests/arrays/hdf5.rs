@@ -4,10 +4,10 @@ use std::fs;
 
 use taceva_arrays::{ArrayFile, ArrayFormat, ArrayValues, Problem};
 
-use crate::digest::data;
+use crate::digest::at;
 
 fn opened(name: &str) -> ArrayFile {
-    ArrayFile::open(&data().join(name), ArrayFormat::Hdf5).expect("opens")
+    ArrayFile::open(&at(name), ArrayFormat::Hdf5).expect("opens")
 }
 
 fn why(file: &ArrayFile, name: &str) -> String {
@@ -119,7 +119,7 @@ fn links_are_not_followed_and_cycles_end() {
 
 #[test]
 fn checksums_of_chunks_are_compared() {
-    let path = data().join("hdf5-fletcher-earliest/run.h5");
+    let path = at("hdf5-fletcher-earliest/run.h5");
     let mut bytes = fs::read(path).expect("readable");
     let folder = tempfile::tempdir().expect("a folder");
     let copy = folder.path().join("run.h5");

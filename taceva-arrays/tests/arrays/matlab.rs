@@ -4,7 +4,7 @@ use std::fs;
 
 use taceva_arrays::{ArrayFile, ArrayFormat, ArrayValues};
 
-use crate::digest::data;
+use crate::digest::at;
 
 /// A file of version 5 with one matrix, all numbers in the order of bytes that `word` gives.
 fn file(is_big_endian: bool, class: u32, shape: [u32; 2], content: &[u8]) -> Vec<u8> {
@@ -78,7 +78,7 @@ fn files_of_the_other_order_of_bytes_are_read() {
 
 #[test]
 fn what_is_not_read_says_so_and_leaves_the_others_alone() {
-    let path = data().join("refused/kinds.mat");
+    let path = at("refused/kinds.mat");
     let file = ArrayFile::open(&path, ArrayFormat::Matlab).expect("opens");
     assert_eq!(
         file.read("x", 0..3).expect("reads").values,
@@ -92,7 +92,7 @@ fn what_is_not_read_says_so_and_leaves_the_others_alone() {
         let message = file.read(name, 0..1).expect_err(name).to_string();
         assert!(message.contains(expected), "{name}: {message}");
     }
-    let four = ArrayFile::open(&data().join("refused/four.mat"), ArrayFormat::Matlab)
-        .expect_err("version 4");
+    let four =
+        ArrayFile::open(&at("refused/four.mat"), ArrayFormat::Matlab).expect_err("version 4");
     assert!(four.to_string().contains("save('x.mat', '-v7')"), "{four}");
 }

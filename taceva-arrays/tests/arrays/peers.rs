@@ -6,17 +6,17 @@ use std::fs;
 use serde_json::Value;
 use taceva_arrays::{ArrayFile, ArrayFormat};
 
-use crate::digest::{by_rows, data, digest};
+use crate::digest::{at, by_rows, digest};
 
 #[test]
 fn every_array_is_what_its_own_library_reads() {
-    let text = fs::read_to_string(data().join("expected.json")).expect("make.py wrote it");
+    let text = fs::read_to_string(at("expected.json")).expect("make.py wrote it");
     let files: BTreeMap<String, BTreeMap<String, Value>> =
         serde_json::from_str(&text).expect("JSON");
     let mut wrong = Vec::new();
     let mut arrays = 0;
     for (name, expected) in &files {
-        let path = data().join(name);
+        let path = at(name);
         let format = ArrayFormat::of(&path).expect("an ending that is known");
         let is_hdf5 = format == ArrayFormat::Hdf5 || name.ends_with("seven-3.mat");
         if is_hdf5 && !cfg!(feature = "hdf5") {

@@ -5,10 +5,10 @@ use std::path::PathBuf;
 
 use taceva_arrays::{ArrayFile, ArrayFormat, Problem};
 
-use crate::digest::data;
+use crate::digest::at;
 
 fn refused(name: &str) -> String {
-    let path = data().join("refused").join(name);
+    let path = at("refused").join(name);
     ArrayFile::open(&path, ArrayFormat::of(&path).expect("known"))
         .expect_err(name)
         .to_string()
@@ -53,7 +53,7 @@ fn globals_beyond_numpy_are_refused_by_name_with_what_to_do() {
 
 #[test]
 fn a_member_that_would_run_code_leaves_the_others_readable() {
-    let file = ArrayFile::open(&data().join("refused/exec.npz"), ArrayFormat::Npz).expect("opens");
+    let file = ArrayFile::open(&at("refused/exec.npz"), ArrayFormat::Npz).expect("opens");
     assert_eq!(file.names(), ["x"]);
     let error = file.read("y", 0..1).expect_err("would run");
     assert!(matches!(error.problem, Problem::Global { .. }), "{error}");
@@ -61,8 +61,7 @@ fn a_member_that_would_run_code_leaves_the_others_readable() {
 
 #[test]
 fn lists_that_are_no_column_say_why() {
-    let file =
-        ArrayFile::open(&data().join("refused/ragged.pkl"), ArrayFormat::Pickle).expect("opens");
+    let file = ArrayFile::open(&at("refused/ragged.pkl"), ArrayFormat::Pickle).expect("opens");
     assert_eq!(file.names(), ["x"]);
     for (name, expected) in [
         ("ragged", "different lengths"),

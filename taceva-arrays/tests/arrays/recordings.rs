@@ -6,7 +6,7 @@ use serde_json::Value;
 use sha2::{Digest, Sha256};
 use taceva_arrays::{ArrayFile, ArrayFormat, ArrayValues};
 
-use crate::digest::{data, hex};
+use crate::digest::{at, hex};
 
 /// Folder, file and array of the pictures, file and array of the wrench.
 const RECORDINGS: &[(&str, &str, &str, &str, &str)] = &[
@@ -46,7 +46,7 @@ fn labels_and_pictures_are_those_that_the_recording_states() {
     for (folder, frames_file, frames, wrench_file, wrench) in
         RECORDINGS.iter().copied().chain(HDF5.iter().map(of_hdf5))
     {
-        let folder = data().join(folder);
+        let folder = at(folder);
         let text = fs::read_to_string(folder.join("expected.json")).expect("copied with it");
         let expected: Value = serde_json::from_str(&text).expect("JSON");
         let open = |name: &str| {

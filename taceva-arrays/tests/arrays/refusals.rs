@@ -5,10 +5,10 @@ use std::path::Path;
 
 use taceva_arrays::{ArrayError, ArrayFile, ArrayFormat, Problem};
 
-use crate::digest::data;
+use crate::digest::at;
 
 fn opened(name: &str) -> ArrayFile {
-    let path = data().join(name);
+    let path = at(name);
     ArrayFile::open(&path, ArrayFormat::of(&path).expect("known")).expect("opens")
 }
 
@@ -184,7 +184,7 @@ fn a_zip_bomb_is_refused_before_it_is_inflated() {
 
 #[test]
 fn encrypted_and_otherwise_packed_members_are_refused_by_name() {
-    let whole = fs::read(data().join("npz-stored/run.npz")).expect("readable");
+    let whole = fs::read(at("npz-stored/run.npz")).expect("readable");
     let entry = whole
         .windows(4)
         .rposition(|bytes| bytes == b"PK\x01\x02")
@@ -208,7 +208,7 @@ fn encrypted_and_otherwise_packed_members_are_refused_by_name() {
 fn a_member_that_was_changed_is_found_by_its_checksum() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("run.npz");
-    let mut bytes = fs::read(data().join("npz-stored/run.npz")).expect("readable");
+    let mut bytes = fs::read(at("npz-stored/run.npz")).expect("readable");
     bytes[100_000] ^= 1;
     fs::write(&path, &bytes).expect("written");
     let file = ArrayFile::open(&path, ArrayFormat::Npz).expect("its headers are whole");
@@ -223,7 +223,7 @@ fn a_member_that_was_changed_is_found_by_its_checksum() {
 fn an_array_of_numpy_that_is_longer_or_shorter_than_its_header_says_is_refused() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("ft.npy");
-    let bytes = fs::read(data().join("npy-fortran/ft.npy")).expect("readable");
+    let bytes = fs::read(at("npy-fortran/ft.npy")).expect("readable");
     fs::write(&path, &bytes[..bytes.len() - 1]).expect("written");
     let message = refused(&path).to_string();
     assert!(

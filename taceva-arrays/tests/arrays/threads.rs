@@ -2,7 +2,7 @@
 
 use taceva_arrays::{ArrayFile, ArrayFormat};
 
-use crate::digest::data;
+use crate::digest::at;
 
 #[test]
 fn threads_that_share_a_file_read_the_same_rows() {
@@ -22,7 +22,7 @@ fn threads_that_share_a_file_read_the_same_rows() {
         ("pickle/p4.pkl", "images"),
     ];
     for (name, array) in others.iter().chain(of_hdf5) {
-        let path = data().join(name);
+        let path = at(name);
         let format = ArrayFormat::of(&path).expect("known");
         let file = ArrayFile::open(&path, format).expect("opens");
         let alone: Vec<_> = (0..24)

@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use taceva_arrays::{ArrayFile, ArrayFormat, ArrayValues, Problem};
 
 use crate::damage::{damaged, read_all};
-use crate::digest::data;
+use crate::digest::at;
 
 fn opened(name: &str) -> ArrayFile {
-    ArrayFile::open(&data().join(name), ArrayFormat::Zarr).expect("opens")
+    ArrayFile::open(&at(name), ArrayFormat::Zarr).expect("opens")
 }
 
 #[test]
@@ -103,7 +103,7 @@ fn damaged_stores_are_refused_or_read_and_never_panic() {
     for store in ["zarr/two.zarr", "zarr/three.zarr"] {
         let folder = tempfile::tempdir().expect("a folder");
         let copy = folder.path().join("run.zarr");
-        copied(&data().join(store), &copy);
+        copied(&at(store), &copy);
         let mut all = Vec::new();
         files(&copy, &mut all);
         all.sort_unstable();
@@ -136,7 +136,7 @@ fn damaged_stores_are_refused_or_read_and_never_panic() {
 fn links_out_of_the_store_are_not_followed() {
     let folder = tempfile::tempdir().expect("a folder");
     let store = folder.path().join("run.zarr");
-    copied(&data().join("zarr/alone.zarr"), &store);
+    copied(&at("zarr/alone.zarr"), &store);
     let chunk = store.join("c/0/0");
     let outside = folder.path().join("outside");
     fs::rename(&chunk, &outside).expect("moved");

@@ -1,14 +1,16 @@
-"""Writes the small files of these tests with the libraries that own the formats, then reads every file of this folder back with them
+"""Writes the small files of these tests with the libraries that own the formats, then reads every file of this folder, and of the recordings that are tests too, back with them
 into expected.json: shape, type and SHA-256 of the elements, row by row, little-endian, 16 bit floats widened to 32.
 
     python -m venv v && v/bin/pip install numpy h5py hdf5storage scipy zarr numcodecs && v/bin/python make.py [KIND ...]
 
-Kinds: npy npz hdf5 zarr pickle matlab; all of them without an argument. The folders named as recordings are (`npz-stored` and others)
-are copies of drawn recordings, which nothing here writes."""
+Kinds: npy npz hdf5 zarr pickle matlab; all of them without an argument. The files of `tests/recordings` that these
+tests read beside are written there."""
 import hashlib, json, pickle, shutil, struct, sys
 from pathlib import Path
 import numpy as np
 HERE = Path(__file__).parent
+RECORDINGS = HERE.parents[2] / "tests" / "recordings"
+SHARED = "hdf5-fletcher-earliest hdf5-groups hdf5-gzip-shuffle-earliest hdf5-lzf-earliest hdf5-vlen-compound npy-fortran npz-deflated npz-stored pickle taxels-npy zarr-v2 zarr-v3".split()
 
 def fresh(name):
     folder = HERE / name
@@ -284,7 +286,9 @@ READ = {".npy": read_npy, ".npz": read_npz, ".h5": read_hdf5, ".hdf5": read_hdf5
 if __name__ == "__main__":
     for kind in sys.argv[1:] or WRITE: WRITE[kind]()
     found = {}
-    for file in sorted(p for p in HERE.rglob("*") if p.suffix in READ and not any(q.suffix == ".zarr" for q in p.parents) and "refused" not in p.parts):
-        found[str(file.relative_to(HERE))] = READ[file.suffix](file)
+    kept = lambda p: p.suffix in READ and not any(q.suffix == ".zarr" for q in p.parents) and "refused" not in p.parts
+    files = [(str(p.relative_to(HERE)), p) for p in HERE.rglob("*") if kept(p)]
+    files += [(str(p.relative_to(RECORDINGS)), p) for name in SHARED for p in (RECORDINGS / name).rglob("*") if kept(p) and p.name not in ("evil.pkl", "dataframe.pkl")]
+    for name, file in sorted(files): found[name] = READ[file.suffix](file)
     (HERE / "expected.json").write_text("{\n" + ",\n".join(f" {json.dumps(k)}: {json.dumps(v, ensure_ascii=False)}" for k, v in found.items()) + "\n}\n")
     print(len(found), "files")
