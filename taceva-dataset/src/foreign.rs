@@ -3,6 +3,7 @@
 mod arrays;
 mod clips;
 mod columns;
+mod encoded;
 mod files;
 mod json;
 mod lerobot;

@@ -6,23 +6,15 @@ use std::sync::Arc;
 use taceva_tables::LeRobot;
 
 use super::columns::{ColumnSource, PictureColumn, PictureKind};
-use super::pictures::{Ended, Picture, Pictures, Visit, damaged, guarded_visit};
+use super::encoded::{ByteColumns, EncodedPictures};
+use super::pictures::Pictures;
 use super::said;
-use crate::decode::ChannelOrder;
-use crate::error::DatasetError;
 use crate::import::FrameNames;
 
 /// The rows of all episodes, in order.
 #[derive(Debug)]
 pub(super) struct LeRobotRows {
     dataset: Arc<LeRobot>,
-}
-
-/// The pictures of a feature that is no video.
-#[derive(Debug)]
-struct LeRobotPictures {
-    dataset: Arc<LeRobot>,
-    feature: String,
 }
 
 impl LeRobotRows {
@@ -48,12 +40,7 @@ impl ColumnSource for LeRobotRows {
     }
 
     fn columns(&self, names: &[&str]) -> Result<Vec<Vec<String>>, String> {
-        let texts = |name: &&str| {
-            let cells = self.dataset.column(name);
-            let cells = cells.map_err(|error| said(self.dataset.folder(), &error))?;
-            Ok(cells.iter().map(|cell| cell.text().into_owned()).collect())
-        };
-        names.iter().map(texts).collect()
+        self.dataset.texts(names)
     }
 
     fn picture_columns(&self) -> Vec<PictureColumn> {
@@ -78,9 +65,9 @@ impl ColumnSource for LeRobotRows {
                     .to_owned(),
             );
         };
-        Ok(Arc::new(LeRobotPictures {
-            dataset: Arc::clone(&self.dataset),
-            feature: feature.clone(),
+        Ok(Arc::new(EncodedPictures {
+            table: Arc::clone(&self.dataset),
+            column: feature.clone(),
         }))
     }
 
@@ -94,33 +81,5 @@ impl ColumnSource for LeRobotRows {
             Ok((path.to_string_lossy().into_owned(), frame))
         });
         of_rows.collect()
-    }
-}
-
-impl Pictures for LeRobotPictures {
-    fn path(&self) -> &Path {
-        self.dataset.folder()
-    }
-
-    fn count(&self) -> u64 {
-        self.dataset.rows()
-    }
-
-    fn visit(
-        &self,
-        sorted: &[u64],
-        _order: ChannelOrder,
-        each: Visit<'_>,
-    ) -> Result<(), DatasetError> {
-        guarded_visit(self.path(), || {
-            self.dataset
-                .visit_bytes(&self.feature, sorted, &mut |row, bytes| {
-                    let bytes = bytes.ok_or_else(|| {
-                        let problem = format!("row {row} has no bytes in `{}`", self.feature);
-                        Ended::Picture(damaged(self.path(), problem))
-                    })?;
-                    each(row, Picture::Encoded(bytes)).map_err(Ended::Picture)
-                })
-        })
     }
 }

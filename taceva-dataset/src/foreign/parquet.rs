@@ -7,23 +7,16 @@ use serde_json::Value;
 use taceva_tables::{ParquetTable, TableError};
 
 use super::columns::{ColumnSource, PictureColumn, PictureKind};
-use super::pictures::{Ended, Picture, Pictures, Visit, damaged, guarded_visit};
+use super::encoded::{ByteColumns, EncodedPictures};
+use super::pictures::Pictures;
 use super::said;
-use crate::decode::{ChannelOrder, ImageKind};
-use crate::error::DatasetError;
+use crate::decode::ImageKind;
 use crate::import::FrameNames;
 
 /// The rows of a Parquet file.
 #[derive(Debug)]
 pub(super) struct ParquetRows {
     table: Arc<ParquetTable>,
-}
-
-/// The encoded pictures in one of its columns.
-#[derive(Debug)]
-struct ParquetPictures {
-    table: Arc<ParquetTable>,
-    column: String,
 }
 
 impl ParquetRows {
@@ -49,12 +42,7 @@ impl ColumnSource for ParquetRows {
     }
 
     fn columns(&self, names: &[&str]) -> Result<Vec<Vec<String>>, String> {
-        let texts = |name: &&str| {
-            let cells = self.table.column(name);
-            let cells = cells.map_err(|error| said(self.table.path(), &error))?;
-            Ok(cells.iter().map(|cell| cell.text().into_owned()).collect())
-        };
-        names.iter().map(texts).collect()
+        self.table.texts(names)
     }
 
     fn picture_columns(&self) -> Vec<PictureColumn> {
@@ -105,37 +93,9 @@ impl ColumnSource for ParquetRows {
                 "no column `{column}` for the frames; the columns are {there}"
             ));
         }
-        Ok(Arc::new(ParquetPictures {
+        Ok(Arc::new(EncodedPictures {
             table: Arc::clone(&self.table),
             column: column.clone(),
         }))
-    }
-}
-
-impl Pictures for ParquetPictures {
-    fn path(&self) -> &Path {
-        self.table.path()
-    }
-
-    fn count(&self) -> u64 {
-        self.table.rows()
-    }
-
-    fn visit(
-        &self,
-        sorted: &[u64],
-        _order: ChannelOrder,
-        each: Visit<'_>,
-    ) -> Result<(), DatasetError> {
-        guarded_visit(self.path(), || {
-            self.table
-                .visit_bytes(&self.column, sorted, &mut |row, bytes| {
-                    let bytes = bytes.ok_or_else(|| {
-                        let problem = format!("row {row} has no bytes in `{}`", self.column);
-                        Ended::Picture(damaged(self.path(), problem))
-                    })?;
-                    each(row, Picture::Encoded(bytes)).map_err(Ended::Picture)
-                })
-        })
     }
 }

@@ -29,6 +29,14 @@ pub struct Evidence<'a> {
 }
 
 impl Evidence<'_> {
+    /// The channel that says how hard was pressed, by its position: the normal force, or else the depth.
+    pub(crate) fn load(&self) -> Option<usize> {
+        let channels = self.table.channels();
+        ["Fz", "Pz"]
+            .into_iter()
+            .find_map(|name| channels.position(name))
+    }
+
     /// The names of `rows`.
     pub(crate) fn names<'b>(&'b self, rows: &'b [usize]) -> impl Iterator<Item = &'b str> {
         rows.iter().map(|&row| self.table.samples()[row].as_str())

@@ -28,10 +28,7 @@ const BETTER: f64 = 1.5;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let table = evidence.table;
-    let Some(load) = ["Fz", "Pz"]
-        .into_iter()
-        .find_map(|name| table.channels().position(name))
-    else {
+    let Some(load) = evidence.load() else {
         return Vec::new();
     };
     let rows = evidence.frames.iter().enumerate();

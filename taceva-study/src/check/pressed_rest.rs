@@ -22,11 +22,7 @@ const SHARE: f64 = 0.1;
 const LEAST: usize = 10;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
-    let table = evidence.table;
-    let load = ["Fz", "Pz"]
-        .into_iter()
-        .find_map(|name| table.channels().position(name));
-    let (Some(facts), Some(load)) = (evidence.signals, load) else {
+    let (Some(facts), Some(load)) = (evidence.signals, evidence.load()) else {
         return Vec::new();
     };
     [

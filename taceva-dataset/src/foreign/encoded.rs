@@ -1,0 +1,118 @@
+//! Pictures whose files are the cells of a column.
+
+use std::fmt;
+use std::path::Path;
+use std::sync::Arc;
+
+use taceva_tables::{Cell, LeRobot, ParquetTable, TableError};
+
+use super::pictures::{Ended, Picture, Pictures, Visit, damaged, guarded_visit};
+use super::said;
+use crate::decode::ChannelOrder;
+use crate::error::DatasetError;
+
+/// What is done with the bytes of each cell.
+type VisitBytes<'v> = &'v mut dyn FnMut(u64, Option<Vec<u8>>) -> Result<(), Ended<TableError>>;
+
+/// A table with columns of bytes.
+pub(super) trait ByteColumns: fmt::Debug + Send + Sync {
+    fn place(&self) -> &Path;
+    fn count(&self) -> u64;
+    fn cells(&self, name: &str) -> Result<Vec<Cell>, TableError>;
+    fn visit(
+        &self,
+        name: &str,
+        sorted: &[u64],
+        each: VisitBytes<'_>,
+    ) -> Result<(), Ended<TableError>>;
+
+    /// The cells of columns as texts.
+    fn texts(&self, names: &[&str]) -> Result<Vec<Vec<String>>, String> {
+        let texts = |name: &&str| {
+            let cells = self.cells(name);
+            let cells = cells.map_err(|error| said(self.place(), &error))?;
+            Ok(cells.iter().map(|cell| cell.text().into_owned()).collect())
+        };
+        names.iter().map(texts).collect()
+    }
+}
+
+impl ByteColumns for ParquetTable {
+    fn place(&self) -> &Path {
+        self.path()
+    }
+
+    fn count(&self) -> u64 {
+        self.rows()
+    }
+
+    fn cells(&self, name: &str) -> Result<Vec<Cell>, TableError> {
+        self.column(name)
+    }
+
+    fn visit(
+        &self,
+        name: &str,
+        sorted: &[u64],
+        each: VisitBytes<'_>,
+    ) -> Result<(), Ended<TableError>> {
+        self.visit_bytes(name, sorted, each)
+    }
+}
+
+impl ByteColumns for LeRobot {
+    fn place(&self) -> &Path {
+        self.folder()
+    }
+
+    fn count(&self) -> u64 {
+        self.rows()
+    }
+
+    fn cells(&self, name: &str) -> Result<Vec<Cell>, TableError> {
+        self.column(name)
+    }
+
+    fn visit(
+        &self,
+        name: &str,
+        sorted: &[u64],
+        each: VisitBytes<'_>,
+    ) -> Result<(), Ended<TableError>> {
+        self.visit_bytes(name, sorted, each)
+    }
+}
+
+/// The encoded pictures in a column.
+#[derive(Debug)]
+pub(super) struct EncodedPictures<T> {
+    pub(super) table: Arc<T>,
+    pub(super) column: String,
+}
+
+impl<T: ByteColumns> Pictures for EncodedPictures<T> {
+    fn path(&self) -> &Path {
+        self.table.place()
+    }
+
+    fn count(&self) -> u64 {
+        self.table.count()
+    }
+
+    fn visit(
+        &self,
+        sorted: &[u64],
+        _order: ChannelOrder,
+        each: Visit<'_>,
+    ) -> Result<(), DatasetError> {
+        guarded_visit(self.path(), || {
+            self.table.visit(&self.column, sorted, &mut |row, bytes| {
+                let bytes = bytes.ok_or_else(|| {
+                    let problem = format!("row {row} has no bytes in `{}`", self.column);
+                    Ended::Picture(damaged(self.path(), problem))
+                })?;
+                each(row, Picture::Encoded(bytes)).map_err(Ended::Picture)
+            })
+        })
+    }
+}
