@@ -73,6 +73,8 @@ fn what_is_exported_for_hugging_face_comes_back_the_same() {
     );
     let map = ImportMap::parse("map.toml".as_ref(), MAP).expect("a map");
     let plan = ImportPlan::new(&exported, &map).expect("planned");
+    let unmentioned = &plan.summary().unmentioned_columns;
+    assert!(!unmentioned.contains("image.bytes"), "{unmentioned:?}");
     let target = folder.path().join("again");
     plan.run(&target, NonZeroUsize::MIN, &SilentProgress)
         .expect("imported");

@@ -8,7 +8,7 @@ mod table;
 
 use std::path::Path;
 
-use super::map::ImportMap;
+use super::map::{FrameNames, ImportMap};
 use super::summary::JoinSummary;
 use crate::error::{DatasetError, Place};
 use crate::file::SourceFolder;
