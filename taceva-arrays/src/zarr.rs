@@ -164,6 +164,13 @@ impl Zarr {
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
             Err(error) => return Err(Problem::io("open")(error)),
         }
+        let real = |path: &Path| fs::canonicalize(path).map_err(Problem::io("open"));
+        if !real(&path)?.starts_with(real(folder)?) {
+            return Err(Problem::unsupported(
+                format!("chunk `{name}` is outside of its array, through a link"),
+                "copy the store",
+            ));
+        }
         let file = FileBytes::open(&path)?;
         if file.length() > limits::CHUNK_BYTES {
             return Err(Problem::too_large(

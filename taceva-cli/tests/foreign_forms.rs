@@ -130,3 +130,20 @@ fn workbooks_and_bags_name_the_command_that_converts_them() {
         );
     }
 }
+
+#[test]
+fn a_draft_does_not_take_the_place_of_a_file_of_the_lab() {
+    let bench = Bench::new();
+    bench.write("lab/labels.csv", "Fz\n1\n2\n");
+    bench.refused(
+        "import --draft lab --out lab/labels.csv --force",
+        2,
+        "is no map",
+    );
+    assert_eq!(
+        std::fs::read_to_string(bench.path("lab/labels.csv")).expect("there"),
+        "Fz\n1\n2\n"
+    );
+    bench.ok("import --draft lab --out map.toml");
+    bench.ok("import --draft lab --out map.toml --force");
+}

@@ -418,7 +418,8 @@ fn checks_that_need_frames_are_skipped_by_name_where_there_are_none() {
             "check:TAC003",
             "check:TAC004",
             "check:TAC006",
-            "check:TAC020"
+            "check:TAC020",
+            "check:TAC019"
         ]
     );
     assert_eq!(report.frames_decoded, 0);

@@ -172,7 +172,16 @@ impl ForeignClip {
             return Ok(());
         };
         let count = (last + 1).to_string();
-        let raw = ["-frames:v", &count, "-f", "rawvideo", "pipe:1"];
+        // A frame as often as it is in the clip, whatever its times: without it ffmpeg repeats and drops frames of a varying rate.
+        let raw = [
+            "-frames:v",
+            &count,
+            "-fps_mode",
+            "passthrough",
+            "-f",
+            "rawvideo",
+            "pipe:1",
+        ];
         let command = command(&self.path, &self.program, &raw)?;
         let running = Running::start(command, Some(blocks_of(self.frame_bytes)));
         let mut running = running.map_err(not_started(&self.path, &self.program))?;

@@ -450,3 +450,51 @@ fn colours_are_within_three_steps_of_those_of_the_peer() {
     let most = ours.iter().zip(&theirs).map(|(a, b)| a.abs_diff(*b)).max();
     assert!(most <= Some(3), "{most:?} steps");
 }
+
+#[test]
+fn frames_of_a_varying_rate_are_each_shown_once() {
+    let Some(decoders) = ffmpeg() else {
+        return;
+    };
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("varying.mkv");
+    // Of thirty frames a second these ten, at the times that they have.
+    let chosen = "select='lt(n,4)+eq(n,9)+eq(n,10)+eq(n,21)+gt(n,40)'";
+    make(
+        &decoders,
+        &[
+            "-f",
+            "lavfi",
+            "-i",
+            "testsrc=size=64x48:rate=30",
+            "-vf",
+            chosen,
+            "-fps_mode",
+            "vfr",
+            "-frames:v",
+            "10",
+            "-c:v",
+            "ffv1",
+        ],
+        &file,
+    );
+    let clip = open(&file, &decoders);
+    assert_eq!(clip.info().frames, 10);
+    let all: Vec<u64> = (0..10).collect();
+    let mut seen = Vec::new();
+    clip.visit(&all, Colours::Rgb, &mut |_, picture| {
+        seen.push(picture);
+        Ok::<(), std::convert::Infallible>(())
+    })
+    .expect("visited");
+    // The source counts in its pictures, so that no two are alike.
+    assert_eq!(seen.len(), 10);
+    assert!(seen.windows(2).all(|pair| pair[0] != pair[1]));
+    let mut alone = Vec::new();
+    clip.visit(&[6], Colours::Rgb, &mut |_, picture| {
+        alone.push(picture);
+        Ok::<(), std::convert::Infallible>(())
+    })
+    .expect("visited");
+    assert_eq!(alone, seen[6..7]);
+}

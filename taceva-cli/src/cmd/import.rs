@@ -52,11 +52,18 @@ pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
 fn draft(args: &Import, target: Option<&Path>, context: &Context) -> anyhow::Result<u8> {
     if let Some(target) = target {
         output::check_free(target, args.force)?;
+        let former = std::fs::read_to_string(target).unwrap_or_default();
+        if target.exists() && !former.contains("map_version") {
+            return Err(Usage::error(format!(
+                "{} is no map, which --force would replace: choose another place",
+                shown(target)
+            )));
+        }
     }
     let draft = MapDraft::of(&args.source)?;
     output::write(target, |out| write!(out, "{}", draft.text()))?;
     if let Some(target) = target {
-        let open = draft.text().matches("\"?\"").count();
+        let open = draft.text().matches(" = \"?\"").count();
         context.say(format_args!(
             "{}: a draft, in which {open} places are `\"?\"`; fill them in, then: taceva import {} --map {} --explain",
             shown(target),

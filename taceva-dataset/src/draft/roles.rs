@@ -244,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn lists_times_texts_and_counters_are_told_apart() {
+    fn lists_times_texts_and_counters_are_distinguished() {
         let of = |name, texts: &[&str]| role(name, "ft", &cells(texts));
         let Role::Channels(channels) = of("value", &["[1, 2, 3, 4, 5, 6]", "1 2 3 4 5 6"]) else {
             panic!("forces and torques");

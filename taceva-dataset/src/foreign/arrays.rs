@@ -13,6 +13,7 @@ use taceva_arrays::{ArrayError, ArrayFile, ArrayFormat, ArrayInfo};
 use super::columns::{ColumnSource, PictureColumn};
 use super::pictures::Pictures;
 use crate::import::FrameNames;
+use crate::limits;
 use cells::Texts;
 pub(crate) use frames::ArrayPictures;
 
@@ -166,7 +167,8 @@ impl ColumnSource for ArrayRows {
 
     fn columns(&self, names: &[&str]) -> Result<Vec<Vec<String>>, String> {
         let of = |name: &&str| {
-            let mut cells = Vec::with_capacity(self.rows());
+            // As many as are read: what a file states may be any number.
+            let mut cells = Vec::new();
             for group in &self.groups {
                 cells.extend(self.cells(group, name)?);
             }
@@ -193,6 +195,16 @@ impl ColumnSource for ArrayRows {
     }
 
     fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, String> {
+        if let FrameNames::Array(array) = names
+            && self.groups.len() > 1
+            && array.index != "row"
+        {
+            return Err(format!(
+                "`index = \"{}\"` counts in which of the {} groups? A row of a group has the picture of its own place: leave `index` out",
+                array.index,
+                self.groups.len()
+            ));
+        }
         let name = match names {
             FrameNames::Array(array) => array.path.as_deref().unwrap_or("value"),
             FrameNames::Bytes(column) => column,
@@ -202,8 +214,16 @@ impl ColumnSource for ArrayRows {
             .groups
             .iter()
             .map(|group| {
-                let found = self.info(group, name).map(|(path, _)| path);
-                found.ok_or_else(|| {
+                let found = self.info(group, name);
+                let pictures = found.as_ref().map_or(0, |(_, info)| info.rows());
+                // Otherwise the pictures of the groups behind it would be those of other rows.
+                if self.groups.len() > 1 && found.is_some() && pictures != group.rows as u64 {
+                    return Err(format!(
+                        "`{name}` of {} has {pictures} pictures for {} rows",
+                        group.path, group.rows
+                    ));
+                }
+                found.map(|(path, _)| path).ok_or_else(|| {
                     format!(
                         "there is no array `{name}` for the frames in {}; there are {}",
                         match group.path.as_str() {
@@ -255,6 +275,10 @@ fn rows_of(file: &ArrayFile, group: &str) -> Result<usize, String> {
         .iter()
         .max_by_key(|(length, count)| (**count, **length));
     match most {
+        Some((length, _)) if *length > limits::ROWS => Err(format!(
+            "{length} rows, more than the {} that are accepted",
+            limits::ROWS
+        )),
         Some((length, _)) => usize::try_from(*length).map_err(|error| error.to_string()),
         None => Err(format!(
             "no array with rows {}; there are {}",
@@ -262,7 +286,10 @@ fn rows_of(file: &ArrayFile, group: &str) -> Result<usize, String> {
                 "" => "in it".to_owned(),
                 group => format!("in `{group}`"),
             },
-            names.join(", ")
+            match names.is_empty() {
+                true => "none that is read".to_owned(),
+                false => names.join(", "),
+            }
         )),
     }
 }

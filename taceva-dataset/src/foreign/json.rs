@@ -135,7 +135,10 @@ impl JsonRows {
     pub(super) fn place(&self, row: usize) -> Place {
         match self.rows[row].line {
             Some(line) => Place::line(&self.path, line),
-            None => Place::file(&self.path),
+            None => Place {
+                row: Some(row as u64),
+                ..Place::file(&self.path)
+            },
         }
     }
 

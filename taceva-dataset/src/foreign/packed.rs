@@ -6,8 +6,17 @@ const DEEPEST: usize = 16;
 /// The value at `index` of what `cell` packs, position by position from the outermost list; why there is none.
 pub(crate) fn item<'a>(cell: &'a str, index: &[usize]) -> Result<&'a str, String> {
     let mut found = cell.trim();
-    for position in index {
+    for (depth, position) in index.iter().enumerate() {
+        if depth > 0 && !found.starts_with(['[', '(']) {
+            return Err(format!("`{found}` is one value, where a list is expected"));
+        }
         let parts = parts(found)?;
+        if parts.contains(&"...") {
+            return Err(
+                "`...` stands for values that are not there: the array was cut when it was printed"
+                    .to_owned(),
+            );
+        }
         found = parts.get(*position).copied().ok_or_else(|| {
             let count = parts.len();
             format!("there is no value [{position}] among the {count} of this cell, counted from 0")
@@ -44,7 +53,12 @@ fn parts(cell: &str) -> Result<Vec<&str>, String> {
     if inside.is_empty() {
         return Ok(Vec::new());
     }
-    let separators = ends(inside, |letter| matches!(letter, ',' | ';'))?;
+    // Between semicolons a comma belongs to a number, which then is none that is read.
+    let semicolons = ends(inside, |letter| letter == ';')?;
+    let separators = match semicolons.is_empty() {
+        true => ends(inside, |letter| letter == ',')?,
+        false => semicolons,
+    };
     let separators = match separators.is_empty() {
         false => separators,
         true => ends(inside, char::is_whitespace)?,
@@ -103,6 +117,7 @@ mod tests {
             ("[np.float64(1.5), 2]", &[0], "1.5"),
             ("[[1 2]\n [3 4]]", &[1, 1], "4"),
             ("7", &[0], "7"),
+            ("[1,5; 2,5]", &[1], "2,5"),
         ] {
             assert_eq!(item(cell, index).as_deref(), Ok(expected), "{cell}");
         }
@@ -112,6 +127,8 @@ mod tests {
     fn what_is_not_there_or_not_closed_is_said() {
         for (cell, index, expected) in [
             ("[1, 2]", &[2][..], "no value [2] among the 2"),
+            ("[1. 2. ... 8. 9.]", &[1], "`...` stands for values"),
+            ("[1, 2, 3]", &[1, 0], "`2` is one value"),
             ("", &[0], "no value [0] among the 0"),
             ("[1, [2, 3]", &[0], "never closed"),
             ("1]", &[0], "not opened"),

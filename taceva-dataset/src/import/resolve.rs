@@ -113,8 +113,13 @@ impl Sources<'_> {
             None => vec![captured(&self.relative, Place::file(self.main.path()))?],
             Some(column) => {
                 let rows = 0..self.main.rows();
+                // A row without a path has no parts of one; [drop] may leave it out.
+                let nothing = vec![String::new(); pattern.names().count()];
                 let captures: Result<Vec<Vec<String>>, DatasetError> = rows
-                    .map(|row| captured(&self.cell(row, column)?, self.main.place(row, column)))
+                    .map(|row| match self.cell(row, column)? {
+                        path if path.is_empty() => Ok(nothing.clone()),
+                        path => captured(&path, self.main.place(row, column)),
+                    })
                     .collect();
                 captures?
             }
@@ -191,7 +196,15 @@ impl Sources<'_> {
             .iter()
             .flat_map(|signals| signals.columns());
         let signals = signals.map(String::as_str);
+        let of_frame = match self.map.frame.as_ref().map(|frame| &frame.names) {
+            Some(FrameNames::Bytes(column)) => Some(column.as_str()),
+            Some(FrameNames::Array(array)) if array.file.is_none() => array.path.as_deref(),
+            _ => None,
+        };
+        // An array is listed without the slash of the root.
+        let of_frame = of_frame.map(|name| name.trim_start_matches('/'));
         let named = named.into_iter().chain(keys).chain(of_path).chain(signals);
+        let named = named.chain(of_frame);
         let named: Vec<&str> = named.collect();
         let is_named = |name: &String| {
             named

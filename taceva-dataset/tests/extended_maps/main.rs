@@ -322,3 +322,47 @@ fn a_join_that_is_written_wrongly_names_its_line_and_what_is_missing() {
             .contains("two joins are called `b`")
     );
 }
+
+#[test]
+fn keys_beyond_the_digits_of_a_double_are_distinguished_and_empty_ones_match_nothing() {
+    let map = format!(
+        "table = \"a.csv\"\n[[join]]\nname = \"b\"\ntable = \"b.csv\"\non = {{ id = \"id\" }}\nunmatched = \"drop\"\n[columns]\nFz = {{ from = \"b.Fz\", unit = \"N\" }}\n{NO_TIME}"
+    );
+    let files = [
+        (
+            "a.csv",
+            "id\n1700000000000000001\n1700000000000000003\n12e4\n\"\"\n",
+        ),
+        ("b.csv", "id,Fz\n1700000000000000003,3\n120000,4\n\"\",5\n"),
+    ];
+    let (summary, found) = imported(&files, &map, &["Fz"]);
+    assert_eq!(found[0], ["3.0"]);
+    assert_eq!(
+        (summary.joins[0].matched, summary.joins[0].unmatched),
+        (1, 3)
+    );
+}
+
+#[test]
+fn of_two_rows_at_one_time_the_first_counts() {
+    let map = "table = \"a.csv\"\n[[join]]\nname = \"b\"\ntable = \"b.csv\"\ntime = { column = \"t\", unit = \"s\" }\npick = \"nearest\"\ntolerance_ms = 500\nlag_ms = 0\n[columns]\nFz = { from = \"b.Fz\", unit = \"N\" }\n[time]\nclock = \"unknown\"\ncolumn = \"t\"\nunit = \"s\"\n";
+    let files = [
+        ("a.csv", "t\n0.9\n1.0\n1.1\n"),
+        ("b.csv", "t,Fz\n1,10\n1,11\n"),
+    ];
+    let (_, found) = imported(&files, map, &["Fz"]);
+    assert_eq!(found[0], ["10.0", "10.0", "10.0"]);
+}
+
+#[test]
+fn a_row_without_a_path_is_left_out_by_its_rule_and_is_no_error_of_the_pattern() {
+    let map = format!(
+        "table = \"a.csv\"\n[path]\nof = \"name\"\npattern = \"x{{x:number}}.png\"\n[columns]\nPx = {{ from = \"path.x\", unit = \"mm\" }}\n{NO_TIME}"
+    );
+    let files = [("a.csv", "name\nx1.5.png\n\"\"\n")];
+    let (summary, found) = imported(&files, &map, &["Px"]);
+    assert_eq!(
+        (summary.rows_kept, found[0].as_slice()),
+        (2, ["1.5".to_owned(), String::new()].as_slice())
+    );
+}

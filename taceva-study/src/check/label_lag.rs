@@ -26,6 +26,9 @@ const SHARE: usize = 4;
 const CLEAR: f64 = 0.6;
 const BETTER: f64 = 1.5;
 
+/// Of the square of its mean, the variance above which a series varies.
+const VARIES: f64 = 1e-20;
+
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let table = evidence.table;
     let Some(load) = evidence.load() else {
@@ -144,7 +147,9 @@ fn correlation(
         one += first * first;
         other += second * second;
     }
-    match one * other > 0.0 {
+    // What rounding leaves of a series that does not vary is no variation.
+    let varies = |squares: f64, mean: f64| squares > VARIES * count * mean * mean;
+    match varies(one, mean[0]) && varies(other, mean[1]) {
         true => both / (one * other).sqrt(),
         false => 0.0,
     }

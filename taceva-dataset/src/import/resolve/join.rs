@@ -279,7 +279,10 @@ impl Candidates {
                     let cells = columns.iter().map(|(_, other)| cell_of(table, *row, other));
                     let key: Result<Vec<String>, DatasetError> =
                         cells.map(|cell| Ok(comparable(&cell?))).collect();
-                    by_key.entry(key?).or_default().push(*row);
+                    let key = key?;
+                    if !key.iter().any(String::is_empty) {
+                        by_key.entry(key).or_default().push(*row);
+                    }
                 }
             }
             JoinBy::Time(join) => {
@@ -289,7 +292,10 @@ impl Candidates {
                     by_time.extend(seconds(&cell, &join.time, place)?.map(|time| (time, *row)));
                 }
                 let back = by_time.windows(2).find(|pair| pair[1].0 < pair[0].0);
-                if let Some([_, (_, row)]) = back {
+                let back = back.map(<[_]>::to_vec);
+                // Of several at one time the first.
+                by_time.dedup_by(|later, first| later.0.total_cmp(&first.0).is_eq());
+                if let Some([_, (_, row)]) = back.as_deref() {
                     return Err(DatasetError::Table {
                         place: table.place(*row, &join.time.column),
                         problem: format!(
@@ -304,11 +310,16 @@ impl Candidates {
     }
 }
 
-/// A key as it is compared: 3, 3.0 and `np.int64(3)` are one, and so are texts that are equal.
+/// A key as it is compared: 3, 3.0 and `np.int64(3)` are one, and so are texts that are equal; an empty one is none. Whole numbers are compared
+/// digit by digit, however many they have; what is written with an exponent may be an id and is a text.
 fn comparable(cell: &str) -> String {
     let cell = packed::plain(cell.trim());
+    let whole = cell.strip_suffix(".0").unwrap_or(cell);
+    if let Ok(number) = whole.parse::<i128>() {
+        return number.to_string();
+    }
     match number::number(cell) {
-        Ok(Some(number)) => format!("{:?}", number + 0.0),
+        Ok(Some(number)) if !cell.contains(['e', 'E']) => format!("{:?}", number + 0.0),
         _ => cell.to_owned(),
     }
 }
@@ -391,6 +402,12 @@ mod tests {
         assert_eq!(comparable("3"), comparable(" 3.0"));
         assert_eq!(comparable("np.int64(3)"), comparable("3"));
         assert_eq!(comparable("-0"), comparable("0"));
+        assert_eq!(comparable("2.50"), comparable("2.5"));
+        assert_ne!(
+            comparable("1700000000000000001"),
+            comparable("1700000000000000003")
+        );
+        assert_ne!(comparable("12e4"), comparable("120000"));
         assert_ne!(comparable("a3"), comparable("3"));
     }
 }
