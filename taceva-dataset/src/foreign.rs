@@ -7,6 +7,7 @@ mod encoded;
 mod files;
 mod json;
 mod lerobot;
+mod members;
 mod messages;
 pub(crate) mod packed;
 mod parquet;

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
+use super::members::in_order;
 use crate::error::{DatasetError, Place};
 use crate::file::read_capped;
 use crate::limits;
@@ -62,6 +63,9 @@ impl JsonRows {
             (false, found) => vec![row(None, found)],
             (true, Value::Array(list)) => list.into_iter().map(|value| row(None, value)).collect(),
             (true, Value::Object(members)) => {
+                // Rows are numbered, and joined, as they lie in the file.
+                let members =
+                    in_order(&whole, way).unwrap_or_else(|| members.into_iter().collect());
                 let members = members.into_iter();
                 members.map(|(key, value)| row(Some(key), value)).collect()
             }
@@ -234,6 +238,15 @@ mod tests {
         assert_eq!(of(r#"[{"a": "p"}, {"a": null}]"#, None), ["-:p", "-:"]);
         assert_eq!(of(r#"{"a": [1, 2]}"#, None), ["-:[1,2]"]);
         assert_eq!(of(r#"{"in": [{"a": 3}]}"#, Some("/in/*")), ["-:3"]);
+    }
+
+    #[test]
+    fn members_are_rows_in_the_order_of_the_file() {
+        let file = file(r#"{"2": {"a": 20}, "10": {"a": 100}, "1": {"a": 10}}"#);
+        let table = JsonRows::read(file.path(), Some("/*")).expect("rows");
+        let keys: Vec<Option<&str>> = (0..3).map(|row| table.key(row)).collect();
+        assert_eq!(keys, [Some("2"), Some("10"), Some("1")]);
+        assert_eq!(table.cell(1, "/a"), "100");
     }
 
     #[test]
