@@ -23,8 +23,9 @@ struct Entry {
 /// ```
 /// use taceva_drivers::Switches;
 /// let switches = Switches::builtin();
-/// let refused = switches.check(&"lab/arm".parse().unwrap()).unwrap_err();
+/// let refused = switches.check(&"lab/arm".parse()?).unwrap_err();
 /// assert!(refused.to_string().contains("is no enabling switch"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Default)]
 pub struct Switches(BTreeMap<String, Entry>);

@@ -37,51 +37,36 @@ pub(super) trait ByteColumns: fmt::Debug + Send + Sync {
     }
 }
 
-impl ByteColumns for ParquetTable {
-    fn place(&self) -> &Path {
-        self.path()
-    }
+/// The readers of both forms have the same methods, but for what they call the place of the table.
+macro_rules! byte_columns {
+    ($table:ty, $place:ident) => {
+        impl ByteColumns for $table {
+            fn place(&self) -> &Path {
+                self.$place()
+            }
 
-    fn count(&self) -> u64 {
-        self.rows()
-    }
+            fn count(&self) -> u64 {
+                self.rows()
+            }
 
-    fn cells(&self, name: &str) -> Result<Vec<Cell>, TableError> {
-        self.column(name)
-    }
+            fn cells(&self, name: &str) -> Result<Vec<Cell>, TableError> {
+                self.column(name)
+            }
 
-    fn visit(
-        &self,
-        name: &str,
-        sorted: &[u64],
-        each: VisitBytes<'_>,
-    ) -> Result<(), Ended<TableError>> {
-        self.visit_bytes(name, sorted, each)
-    }
+            fn visit(
+                &self,
+                name: &str,
+                sorted: &[u64],
+                each: VisitBytes<'_>,
+            ) -> Result<(), Ended<TableError>> {
+                self.visit_bytes(name, sorted, each)
+            }
+        }
+    };
 }
 
-impl ByteColumns for LeRobot {
-    fn place(&self) -> &Path {
-        self.folder()
-    }
-
-    fn count(&self) -> u64 {
-        self.rows()
-    }
-
-    fn cells(&self, name: &str) -> Result<Vec<Cell>, TableError> {
-        self.column(name)
-    }
-
-    fn visit(
-        &self,
-        name: &str,
-        sorted: &[u64],
-        each: VisitBytes<'_>,
-    ) -> Result<(), Ended<TableError>> {
-        self.visit_bytes(name, sorted, each)
-    }
-}
+byte_columns!(ParquetTable, path);
+byte_columns!(LeRobot, folder);
 
 /// The encoded pictures in a column.
 #[derive(Debug)]

@@ -53,7 +53,11 @@ pub(super) fn resolve(
     let mut sources = Sources {
         map,
         main,
-        relative: inside.to_string_lossy().replace('\\', "/"),
+        // A table that is the folder itself is called as its map calls it.
+        relative: match inside.as_os_str().is_empty() {
+            true => ".".to_owned(),
+            false => inside.to_string_lossy().replace('\\', "/"),
+        },
         captures: Vec::new(),
         joined: Vec::new(),
     };

@@ -7,24 +7,11 @@ use std::path::{Path, PathBuf};
 use taceva_core::SilentProgress;
 use taceva_dataset::{Decoders, ImportMap, ImportPlan, MapDraft};
 
+use crate::{copy, folder};
+
 /// Copies of each file that are cut, and that have flipped bits.
 const CUTS: u64 = 2;
 const FLIPS: u64 = 6;
-
-fn recordings() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/recordings")
-}
-
-fn copy(from: &Path, to: &Path) {
-    std::fs::create_dir_all(to).expect("made");
-    for entry in std::fs::read_dir(from).expect("a folder").flatten() {
-        let target = to.join(entry.file_name());
-        match entry.file_type().expect("known").is_dir() {
-            true => copy(&entry.path(), &target),
-            false => drop(std::fs::copy(entry.path(), target).expect("copied")),
-        }
-    }
-}
 
 /// The files below `folder` but pictures, of which tests of their own have damaged copies, and what belongs to the tests.
 fn files(folder: &Path, found: &mut Vec<PathBuf>) {
@@ -91,18 +78,15 @@ fn is_refused(folder: &Path, map: &ImportMap) -> bool {
 fn a_damaged_file_of_any_form_is_refused_in_words_or_read_and_leaves_nothing_behind() {
     let mut numbers = Numbers(0x2026_1123);
     let mut counts = (0, 0);
-    for entry in std::fs::read_dir(recordings())
-        .expect("recordings")
-        .flatten()
-    {
+    for entry in std::fs::read_dir(folder("")).expect("recordings").flatten() {
         let own = entry.path();
         let Ok(map) = ImportMap::read(&own.join("map.toml")) else {
             continue;
         };
-        let folder = tempfile::tempdir().expect("a folder");
-        copy(&own, folder.path());
+        let lab = tempfile::tempdir().expect("a folder");
+        copy(&own, lab.path());
         let mut all = Vec::new();
-        files(folder.path(), &mut all);
+        files(lab.path(), &mut all);
         all.sort();
         // Stores of chunks have many files that are alike.
         for file in all.iter().step_by(all.len() / 8 + 1) {
@@ -113,7 +97,7 @@ fn a_damaged_file_of_any_form_is_refused_in_words_or_read_and_leaves_nothing_beh
             for number in 0..CUTS + FLIPS {
                 std::fs::write(file, damaged(&bytes, number, &mut numbers)).expect("written");
                 counts.0 += 1;
-                counts.1 += u32::from(is_refused(folder.path(), &map));
+                counts.1 += u32::from(is_refused(lab.path(), &map));
             }
             std::fs::write(file, &bytes).expect("written");
         }
