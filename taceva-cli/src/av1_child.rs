@@ -1,13 +1,18 @@
 //! The program runs itself again to decode AV1 in a process that can do nothing else.
 
 use std::ffi::OsString;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// What the second argument of such a process is.
 const WORD: &str = "decode-av1-for-its-parent";
 
+/// Whether the `main` of this program would serve such a process.
+static CAN_BE_CHILD: AtomicBool = AtomicBool::new(false);
+
 /// Decodes for the parent and ends the process, if that is what it was started for.
 #[cfg(feature = "av1")]
 pub(crate) fn main_if_child() {
+    CAN_BE_CHILD.store(true, Ordering::Relaxed);
     let mut arguments = std::env::args_os().skip(1);
     if arguments.next().is_none_or(|word| word != WORD) || arguments.next().is_some() {
         return;
@@ -20,8 +25,11 @@ pub(crate) fn main_if_child() {
     std::process::exit(i32::from(served.is_err()));
 }
 
-/// The program and the argument that decode AV1; `None` without them.
+/// The program and the argument that decode AV1; `None` without the feature, and in a program whose `main` does not begin with [`main_if_child`](crate::main_if_child).
 pub(crate) fn command() -> Option<Vec<OsString>> {
+    if !CAN_BE_CHILD.load(Ordering::Relaxed) {
+        return None;
+    }
     let program = std::env::current_exe().ok()?;
-    cfg!(feature = "av1").then(|| vec![program.into_os_string(), WORD.into()])
+    Some(vec![program.into_os_string(), WORD.into()])
 }

@@ -62,6 +62,7 @@ pub use run::{Existing, RunFolder, run_scene};
 pub use samples::Samples;
 pub use scene::{Instead, PlannedScene, PlannedStudy, SceneText};
 pub use score::{ScoreRequest, Scored, Scoring};
+pub use skill::with_skill;
 pub use state_file::{STATE_SCHEMA, StateFile, merge};
 pub use subject::Subject;
 pub use viewer::Viewer;

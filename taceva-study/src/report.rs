@@ -3,6 +3,7 @@
 use serde::ser::SerializeSeq;
 use serde::{Serialize, Serializer};
 use taceva_core::Skipped;
+use taceva_dataset::SensorFile;
 use taceva_metrics::Evaluation;
 
 use crate::over_seeds::OverSeeds;
@@ -47,6 +48,19 @@ impl EvaluationReport {
             over_seeds: None,
             samples: None,
         }
+    }
+
+    /// Scores of numbers that a program held in memory: of what sensor they are is not known, nor whether it was a real one.
+    pub fn of_arrays(evaluation: Evaluation) -> EvaluationReport {
+        let provenance = Provenance {
+            taceva: env!("CARGO_PKG_VERSION").to_owned(),
+            ..Provenance::default()
+        };
+        EvaluationReport::new(
+            Subject::of_file(&SensorFile::default()),
+            evaluation,
+            provenance,
+        )
     }
 
     /// The same with the samples it was made of.

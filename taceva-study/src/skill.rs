@@ -3,7 +3,7 @@
 use taceva_metrics::{Metric, catalogue};
 
 /// `wanted`, and the skill score where one of them is formed from predictions.
-pub(crate) fn with_skill(mut wanted: Vec<&'static Metric>) -> Vec<&'static Metric> {
+pub fn with_skill(mut wanted: Vec<&'static Metric>) -> Vec<&'static Metric> {
     if wanted.iter().any(|metric| metric.reads_predictions()) {
         wanted.push(skill());
     }

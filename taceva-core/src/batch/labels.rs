@@ -38,6 +38,40 @@ impl Labels {
         self.index.push(index);
     }
 
+    /// Whole numbers as names, a number a row, called by their digits.
+    ///
+    /// ```
+    /// use taceva_core::Labels;
+    /// let labels = Labels::of_numbers([7, -1, 7]);
+    /// assert_eq!((labels.names(), labels.index()), (&["7".to_owned(), "-1".to_owned()][..], &[0, 1, 0][..]));
+    /// ```
+    ///
+    /// # Panics
+    /// Beyond 2³² distinct names, which no memory holds.
+    pub fn of_numbers(numbers: impl IntoIterator<Item = i64>) -> Labels {
+        let mut labels = Labels::default();
+        let mut known: HashMap<i64, u32> = HashMap::new();
+        let mut last = None;
+        for number in numbers {
+            // Samples of one point mostly follow each other, and looking a number up costs less than a text.
+            let found = match last {
+                Some((before, index)) if before == number => Some(index),
+                _ => known.get(&number).copied(),
+            };
+            let index = found.unwrap_or_else(|| {
+                labels.push(&number.to_string());
+                // Its row is added below, as every other.
+                labels.index.pop().expect("just pushed")
+            });
+            if found.is_none() {
+                known.insert(number, index);
+            }
+            last = Some((number, index));
+            labels.index.push(index);
+        }
+        labels
+    }
+
     /// Adds a row without a name.
     pub fn push_absent(&mut self) {
         self.index.push(Labels::ABSENT);

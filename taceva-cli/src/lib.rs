@@ -1,0 +1,162 @@
+//! The commands of `taceva`: how well does a vision-based tactile sensor measure?
+//!
+//! Arguments in, renderings out. The work of each command is done in `taceva-study` and `taceva-dataset`, which other programs can use. The
+//! program is [`main_if_child`] and then [`main_with`]; a program in another language that has the commands built in calls the latter alone.
+
+mod args;
+mod av1_child;
+mod cmd;
+mod date;
+mod disk_space;
+mod exit;
+mod output;
+mod process_limits;
+mod progress;
+mod report;
+mod stderr;
+
+// Its drivers are found by being linked, and what is only named in Cargo.toml is not linked.
+use taceva_sim as _;
+
+use std::ffi::OsString;
+
+use anyhow::Error;
+use clap::Parser;
+use taceva_core::{ErrorKind, ModelError};
+use taceva_dataset::DatasetError;
+use taceva_study::StudyError;
+
+use args::{Cli, Command};
+use cmd::Context;
+
+/// Serves as the child process of another `taceva` and ends, if this process was started for that; returns otherwise. A `main` that does not
+/// begin with it has no child processes: plugins in libraries are refused, and clips of AV1 are decoded by an ffmpeg, if there is one.
+///
+/// ```
+/// taceva_cli::main_if_child();
+/// ```
+pub fn main_if_child() {
+    #[cfg(target_os = "linux")]
+    taceva_host::main_if_child();
+    #[cfg(feature = "av1")]
+    av1_child::main_if_child();
+}
+
+/// Carries out the command that `arguments` say, of which the first is the name of the program; the exit code. SIGINT and SIGTERM of the
+/// process are handled from then on, so it is called once, by what ends with it.
+///
+/// ```
+/// assert_eq!(taceva_cli::main_with(["taceva", "catalogue", "show", "TacTip", "--quiet"]), 0);
+/// ```
+pub fn main_with(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> u8 {
+    if process_limits::standard_output_is_closed() {
+        stderr::say(format_args!(
+            "standard output is closed, and the result would be lost: nothing was done; redirect it to a file or to /dev/null"
+        ));
+        return exit::BAD_INPUT;
+    }
+    let cli = match typed(arguments) {
+        Ok(cli) => cli,
+        Err(code) => return code,
+    };
+    progress::listen_for_signals();
+    process_limits::refuse_to_end_at_the_limit_of_file_sizes();
+    let context = Context::new(&cli.everywhere);
+    let done = cmd::check_isa().and_then(|()| run(&cli.command, &context));
+    done.unwrap_or_else(|error| {
+        complain(&error);
+        code_of(&error)
+    })
+}
+
+fn run(command: &Command, context: &Context) -> anyhow::Result<u8> {
+    match command {
+        Command::Import(args) => cmd::import::run(args, context),
+        Command::Check(args) => cmd::check::run(args, context),
+        Command::Export(args) => cmd::export::run(args, context),
+        Command::Fit(args) => cmd::fit::run(args, context),
+        Command::Evaluate(args) => cmd::evaluate::run(args, context),
+        Command::Predict(args) => cmd::predict::run(args, context),
+        Command::Score(args) => cmd::score::run(args, context),
+        Command::Merge(args) => cmd::merge::run(args, context),
+        Command::Reseal(args) => cmd::reseal::run(args, context),
+        Command::Compare(args) => cmd::compare::run(args, context),
+        Command::Choose(args) => cmd::choose::run(args, context),
+        Command::Accept(args) => cmd::accept::run(args, context),
+        Command::Catalogue(args) => cmd::catalogue::run(args, context),
+        Command::Cache(args) => cmd::cache::run(args, context),
+        Command::Bench(args) => cmd::bench::run(args, context),
+        Command::Capture(args) => cmd::capture::run(args, context),
+        Command::Preview(args) => cmd::preview::run(args, context),
+        Command::Run(args) => cmd::run::run(args, context),
+        Command::Plan(args) => cmd::plan::run(args, context),
+        Command::Rig(args) => cmd::rig::run(args, context),
+        Command::Devices(args) => cmd::devices::run(args, context),
+        Command::Plugin(which) => cmd::plugin::run(which, context),
+        Command::Doctor(args) => cmd::doctor::run(args, context),
+        Command::Completions(args) => cmd::completions::run(args),
+    }
+}
+
+/// Prints an error and its causes in one line.
+fn complain(error: &Error) {
+    let mut text = String::new();
+    for cause in error.chain().map(ToString::to_string) {
+        // An error that already names its cause need not be followed by it.
+        if !text.contains(&cause) {
+            text.push_str(if text.is_empty() { "" } else { ": " });
+            text.push_str(&cause);
+        }
+    }
+    stderr::say(format_args!("{text}"));
+}
+
+/// The parsed arguments; help goes to standard output, and wrong arguments end the program.
+fn typed(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> Result<Cli, u8> {
+    Cli::try_parse_from(arguments).map_err(|error| {
+        if error.use_stderr() {
+            // The error quotes the arguments, whose control characters are escaped.
+            stderr::write(&error.render().to_string());
+            return exit::USAGE;
+        }
+        // This fails if the reader has closed the pipe.
+        drop(error.print());
+        exit::DONE
+    })
+}
+
+/// The exit code of an error.
+fn code_of(error: &Error) -> u8 {
+    if progress::is_stopped() {
+        return exit::STOPPED;
+    }
+    for cause in error.chain() {
+        if let Some(usage) = cause.downcast_ref::<cmd::Usage>() {
+            return usage.code();
+        }
+        if let Some(study) = cause.downcast_ref::<StudyError>() {
+            return if study.is_usage() {
+                exit::USAGE
+            } else if study.is_of_device() {
+                exit::DEVICE
+            } else {
+                code_of_kind(study.kind())
+            };
+        }
+        if let Some(dataset) = cause.downcast_ref::<DatasetError>() {
+            return code_of_kind(dataset.kind());
+        }
+        if let Some(model) = cause.downcast_ref::<ModelError>() {
+            return code_of_kind(model.kind());
+        }
+    }
+    exit::BAD_INPUT
+}
+
+fn code_of_kind(kind: ErrorKind) -> u8 {
+    match kind {
+        ErrorKind::Interrupted => exit::STOPPED,
+        ErrorKind::Internal => exit::BUG,
+        _ => exit::BAD_INPUT,
+    }
+}

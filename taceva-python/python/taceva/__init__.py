@@ -1,0 +1,42 @@
+"""How well does a vision-based tactile sensor measure?
+
+Exact metrics with intervals over arrays, recordings on disk, and models, fitted and scored as the command ``taceva`` does.
+
+>>> import numpy as np
+>>> import taceva
+>>> truth = np.array([0.25, 0.50, 1.00])
+>>> result = taceva.score(truth, truth + 0.125, channels=["Fz"])
+>>> result["mae", "Fz"].value
+0.125
+"""
+
+from taceva._bar import progress
+from taceva._compare import Comparison, compare
+from taceva._dataset import Dataset, Rows, open
+from taceva._evaluate import evaluate
+from taceva._metrics import SIX, TactileMetrics, score, score_tables
+from taceva._result import Interval, Result, Score, load
+from taceva._taceva import DatasetError, ModelError
+from taceva._taceva import version as _version
+
+__version__: str = _version()
+
+__all__ = [
+    "SIX",
+    "Comparison",
+    "Dataset",
+    "DatasetError",
+    "Interval",
+    "ModelError",
+    "Result",
+    "Rows",
+    "Score",
+    "TactileMetrics",
+    "compare",
+    "evaluate",
+    "load",
+    "open",
+    "progress",
+    "score",
+    "score_tables",
+]

@@ -1,0 +1,60 @@
+"""Progress of long work: a bar of tqdm where tqdm is installed and somebody looks, else nothing."""
+
+from __future__ import annotations
+
+import sys
+from typing import Any, Protocol
+
+
+class Bar(Protocol):
+    """What hears of long work."""
+
+    def begin(self, stage: str, steps: int | None) -> None:
+        """A stage begins, of so many steps where that is known."""
+
+    def advance(self, steps: int) -> None:
+        """So many more steps are done."""
+
+    def end(self) -> None:
+        """The stage is over."""
+
+
+class _Tqdm:
+    """A bar a stage."""
+
+    def __init__(self, tqdm: Any) -> None:
+        self._tqdm = tqdm
+        self._bar: Any = None
+
+    def begin(self, stage: str, steps: int | None) -> None:
+        self._bar = self._tqdm(total=steps, desc=stage, leave=False)
+
+    def advance(self, steps: int) -> None:
+        if self._bar is not None:
+            self._bar.update(steps)
+
+    def end(self) -> None:
+        if self._bar is not None:
+            self._bar.close()
+            self._bar = None
+
+
+_shown: bool | None = None
+
+
+def progress(shown: bool | None) -> None:
+    """Show bars always (``True``), never (``False``), or on terminals and in notebooks (``None``, as at the start)."""
+    global _shown
+    _shown = shown
+
+
+def bar() -> Bar | None:
+    """Return a bar for the work that begins now, if one is to be shown and tqdm is installed."""
+    is_notebook = "ipykernel" in sys.modules
+    if _shown is False or (_shown is None and not is_notebook and not sys.stderr.isatty()):
+        return None
+    try:
+        from tqdm.auto import tqdm
+    except ImportError:
+        return None
+    return _Tqdm(tqdm)

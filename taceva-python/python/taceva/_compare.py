@@ -1,0 +1,61 @@
+"""Which of two results and more is better, and whether that is shown."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from taceva import _taceva
+from taceva._result import Result
+
+
+class Comparison:
+    """Differences with intervals and tests, adjusted by Holm over all of them."""
+
+    def __init__(self, results: Sequence[Result], metrics: Sequence[str], margins: Mapping[str, float], seed: int) -> None:
+        self._asked = ([result.text for result in results], list(metrics), dict(margins), seed)
+
+    def _form(self, form: str) -> str:
+        return _taceva.comparison(*self._asked, form)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the JSON that ``taceva compare --format json`` writes, as a dictionary."""
+        return dict(json.loads(self._form("json")))
+
+    def to_latex(self) -> str:
+        """Return a table for a paper."""
+        return self._form("tex")
+
+    def __str__(self) -> str:
+        return self._form("text")
+
+    def _repr_html_(self) -> str:
+        return self._form("html")
+
+
+def compare(
+    *results: Result,
+    metrics: Sequence[str] = (),
+    margins: Mapping[str, float] | None = None,
+    seed: int = 0,
+) -> Comparison:
+    """Compare two results or more, as ``taceva compare`` does.
+
+    Parameters
+    ----------
+    metrics
+        Metrics and groups by name; all that the results share, if empty.
+    margins
+        By ``metric.channel`` or ``metric``, a difference below which it does not matter, in the unit of the metric.
+
+    >>> import taceva
+    >>> truth = [[0.0], [1.0], [2.0], [3.0], [4.0], [5.0]]
+    >>> close, far = ([[row[0] + error] for row in truth] for error in (0.01, 0.5))
+    >>> results = [taceva.score(truth, found, channels=["Fz"]) for found in (close, far)]
+    >>> taceva.compare(*results).to_dict()["schema"]
+    'taceva.comparison/2'
+    """
+    if len(results) < 2:
+        raise ValueError(f"{len(results)} results: expected at least two")
+    return Comparison(results, metrics, margins or {}, seed)

@@ -1,0 +1,170 @@
+"""Scores with their intervals, as the JSON of the command holds them."""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from taceva import _taceva
+
+
+@dataclass(frozen=True)
+class Interval:
+    """A confidence interval of 95 %, with the method it comes from."""
+
+    low: float
+    high: float
+    method: str
+
+
+@dataclass(frozen=True)
+class Score:
+    """A score of one metric and channel. Where it is undefined, ``value`` is ``None`` and ``reason`` says why."""
+
+    metric: str
+    channel: str
+    value: float | None
+    unit: str
+    #: ``None`` where there is none, as of samples without contact points.
+    interval: Interval | None
+    n: int
+    n_invalid: int
+    reason: str | None
+    #: Why the score takes part in no verdict, where it does not: ``no skill``, ``skill unknown``, ``bounded``, …
+    standing: str | None
+
+    def __float__(self) -> float:
+        if self.value is None:
+            raise ValueError(f"{self.metric} of {self.channel} is undefined: {self.reason}")
+        return self.value
+
+
+class Result:
+    """The scores of an evaluation: what ``taceva evaluate`` and ``taceva score`` write as JSON.
+
+    >>> import taceva
+    >>> result = taceva.score([[0.0], [1.0]], [[0.5], [1.0]], channels=["Fz"])
+    >>> round(float(result["mae", "Fz"]), 3), result["mae", "Fz"].unit
+    (0.25, 'N')
+    """
+
+    def __init__(self, text: str) -> None:
+        _taceva.check_seal(text)
+        self._text = text
+        self._report: dict[str, Any] = json.loads(text)
+
+    @property
+    def text(self) -> str:
+        """The JSON, sealed, byte for byte as ``save`` writes it."""
+        return self._text
+
+    @property
+    def metrics(self) -> list[str]:
+        """Names of the metrics that have scores."""
+        return list(self._report["metrics"])
+
+    @property
+    def notes(self) -> list[str]:
+        """What a reader of the scores must know."""
+        return list(self._report["provenance"].get("notes", []))
+
+    @property
+    def skipped(self) -> dict[str, str]:
+        """What was left out, and why."""
+        return {line["what"]: line["reason"] for line in self._report["skipped"]}
+
+    @property
+    def source(self) -> str:
+        """Where samples come from: ``recorded``, ``simulated``, ``synthetic``, or ``unknown`` of arrays."""
+        return str(self._report["subject"]["source"])
+
+    def __getitem__(self, key: tuple[str, str]) -> Score:
+        metric, channel = key
+        scores = self._report["metrics"].get(metric)
+        if scores is None:
+            left_out = self.skipped.get(f"metric:{metric}")
+            why = f"left out: {left_out}" if left_out else f"known are {', '.join(self.metrics)}"
+            raise KeyError(f"no metric {metric!r}: {why}")
+        found = scores.get(channel)
+        if found is None:
+            raise KeyError(f"no channel {channel!r} of {metric}: known are {', '.join(scores)}")
+        return _score(metric, channel, found)
+
+    def scores(self) -> list[Score]:
+        """Every score, in the order of reports."""
+        metrics = self._report["metrics"].items()
+        return [_score(metric, channel, found) for metric, of in metrics for channel, found in of.items()]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the JSON as a dictionary, a new one at each call."""
+        return dict(json.loads(self._text))
+
+    def to_frame(self) -> Any:
+        """Return a ``pandas.DataFrame``, a row a score; ``attrs`` holds the source of the samples and the notes."""
+        import pandas
+
+        rows = []
+        for score in self.scores():
+            row = dict(vars(score))
+            interval = row.pop("interval")
+            row["ci95_low"] = interval.low if interval else None
+            row["ci95_high"] = interval.high if interval else None
+            row["method"] = interval.method if interval else None
+            rows.append(row)
+        frame = pandas.DataFrame(rows)
+        frame.attrs.update(source=self.source, notes=self.notes)
+        return frame
+
+    def to_latex(self) -> str:
+        """Return a table for a paper, in the symbols of the field; it needs ``booktabs``."""
+        return _taceva.score_table([self._text], "tex")
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the JSON to ``path``, which must not exist: the same bytes as ``taceva … --format json --out``."""
+        with Path(path).open("x", encoding="utf-8", newline="\n") as file:
+            file.write(self._text)
+
+    def __str__(self) -> str:
+        return _taceva.score_table([self._text], "text")
+
+    def __repr__(self) -> str:
+        return f"<taceva.Result of {len(self.scores())} scores, {self.source}>"
+
+    def _repr_html_(self) -> str:
+        return _taceva.score_table([self._text], "html")
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Result) and other._text == self._text
+
+    def __hash__(self) -> int:
+        return hash(self._text)
+
+    def __reduce__(self) -> tuple[type[Result], tuple[str]]:
+        return Result, (self._text,)
+
+
+def load(path: str | os.PathLike[str]) -> Result:
+    """Read the JSON of one evaluation that ``save`` or the command wrote; one that was changed since is refused."""
+    return Result(Path(path).read_text(encoding="utf-8"))
+
+
+def _score(metric: str, channel: str, found: dict[str, Any]) -> Score:
+    value = found.get("value")
+    ends = found.get("ci95")
+    interval = None
+    if isinstance(ends, list) and all(isinstance(end, int | float) for end in ends):
+        interval = Interval(float(ends[0]), float(ends[1]), str(found.get("method", "")))
+    return Score(
+        metric=metric,
+        channel=channel,
+        value=float(value) if isinstance(value, int | float) else None,
+        unit=str(found.get("unit", "1")),
+        interval=interval,
+        n=int(found.get("n", 0)),
+        n_invalid=int(found.get("n_invalid", 0)),
+        reason=found.get("undefined"),
+        standing=found.get("standing"),
+    )

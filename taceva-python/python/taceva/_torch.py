@@ -1,0 +1,30 @@
+"""A recording as torch sees it; imported where torch is asked for."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import torch
+
+if TYPE_CHECKING:
+    from taceva._dataset import Dataset
+
+
+class Frames(torch.utils.data.Dataset):  # type: ignore[misc, unused-ignore]
+    """Frames with labels; a worker opens the recording anew, so any number of them may read."""
+
+    def __init__(self, dataset: Dataset, rows: list[int]) -> None:
+        self._dataset = dataset
+        self._rows = rows
+
+    def __len__(self) -> int:
+        return len(self._rows)
+
+    def __getitem__(self, index: int) -> tuple[Any, Any]:
+        row = self._rows[index]
+        frame = self._dataset.frame(row)
+        scale = np.float32(np.iinfo(frame.dtype).max)
+        picture = np.ascontiguousarray(frame.transpose(2, 0, 1), dtype=np.float32) / scale
+        labels = self._dataset.labels()[row].astype(np.float32)
+        return torch.from_numpy(picture), torch.from_numpy(labels)

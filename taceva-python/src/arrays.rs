@@ -1,0 +1,113 @@
+//! Arrays of Python on their way in.
+
+use std::ops::Range;
+
+use pyo3::buffer::PyBuffer;
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use taceva_core::Labels;
+
+use crate::buffer::values;
+use crate::errors::value_error;
+
+/// An array of float32 or float64 numbers in the order of C, `[rows, width]` or, of one channel, `[rows]`.
+pub(crate) enum Table {
+    Single(PyBuffer<f32>),
+    Double(PyBuffer<f64>),
+}
+
+impl Table {
+    /// `array` as a table of `width` columns; `name` says in errors which one it is.
+    pub(crate) fn of(array: &Bound<'_, PyAny>, name: &str, width: usize) -> PyResult<Table> {
+        let table = match PyBuffer::<f64>::get(array) {
+            Ok(buffer) => Table::Double(buffer),
+            Err(_) => Table::Single(PyBuffer::<f32>::get(array).map_err(|_| {
+                PyTypeError::new_err(format!("{name}: expected an array of float32 or float64"))
+            })?),
+        };
+        let (shape, is_contiguous) = match &table {
+            Table::Single(buffer) => (buffer.shape(), buffer.is_c_contiguous()),
+            Table::Double(buffer) => (buffer.shape(), buffer.is_c_contiguous()),
+        };
+        if !is_contiguous {
+            return Err(value_error(format_args!(
+                "{name}: expected an array in the order of C"
+            )));
+        }
+        match shape {
+            [_] if width == 1 => Ok(table),
+            [_, columns] if *columns == width => Ok(table),
+            shape => Err(value_error(format_args!(
+                "{name} has the shape {shape:?}, expected [rows, {width}]: a column a channel"
+            ))),
+        }
+    }
+
+    /// The number of rows.
+    pub(crate) fn rows(&self) -> usize {
+        match self {
+            Table::Single(buffer) => buffer.shape()[0],
+            Table::Double(buffer) => buffer.shape()[0],
+        }
+    }
+
+    /// Some rows as a column a channel, behind what `columns` hold.
+    pub(crate) fn read(&self, py: Python<'_>, rows: Range<usize>, columns: &mut [Vec<f64>]) {
+        let cells = rows.start * columns.len()..rows.end * columns.len();
+        match self {
+            Table::Single(buffer) => gather(values(py, buffer, cells), columns),
+            Table::Double(buffer) => gather(values(py, buffer, cells), columns),
+        }
+    }
+}
+
+/// Rows after each other as a column a channel.
+fn gather<T: Copy + Into<f64>>(rows: Vec<T>, columns: &mut [Vec<f64>]) {
+    let width = columns.len();
+    for (at, column) in columns.iter_mut().enumerate() {
+        let own = rows.iter().skip(at).step_by(width);
+        column.extend(own.map(|value| (*value).into()));
+    }
+}
+
+/// Contact points, a name or a whole number a row.
+pub(crate) enum Points {
+    Numbers(PyBuffer<i64>),
+    Names(Vec<String>),
+}
+
+impl Points {
+    /// `points` as an array of int64, or as texts.
+    pub(crate) fn of(points: &Bound<'_, PyAny>) -> PyResult<Points> {
+        if let Ok(buffer) = PyBuffer::<i64>::get(points)
+            && buffer.dimensions() == 1
+            && buffer.is_c_contiguous()
+        {
+            return Ok(Points::Numbers(buffer));
+        }
+        let names = points.extract().map_err(|_| {
+            PyTypeError::new_err("points: expected whole numbers or texts, one a row")
+        })?;
+        Ok(Points::Names(names))
+    }
+
+    /// The number of rows.
+    pub(crate) fn rows(&self) -> usize {
+        match self {
+            Points::Numbers(buffer) => buffer.shape()[0],
+            Points::Names(names) => names.len(),
+        }
+    }
+
+    /// Those of some rows. A whole number is called by its digits, as a table would have it.
+    pub(crate) fn read(&self, py: Python<'_>, rows: Range<usize>) -> Labels {
+        match self {
+            Points::Numbers(buffer) => Labels::of_numbers(values(py, buffer, rows)),
+            Points::Names(names) => {
+                let mut labels = Labels::default();
+                names[rows].iter().for_each(|name| labels.push(name));
+                labels
+            }
+        }
+    }
+}

@@ -1,0 +1,163 @@
+//! The buffer protocol, in both directions: the one file that holds `unsafe`.
+
+use std::ffi::{CStr, c_int, c_void};
+use std::ops::Range;
+use std::ptr;
+
+use pyo3::buffer::{Element, PyBuffer};
+use pyo3::exceptions::PyBufferError;
+use pyo3::ffi;
+use pyo3::prelude::*;
+
+/// Some numbers of an array in the order of C, copied.
+///
+/// # Panics
+/// Beyond the end of `array`.
+#[expect(unsafe_code, reason = "the memory is Python's")]
+pub(crate) fn values<T: Element>(
+    _py: Python<'_>,
+    array: &PyBuffer<T>,
+    wanted: Range<usize>,
+) -> Vec<T> {
+    assert!(
+        array.is_c_contiguous() && wanted.start <= wanted.end && wanted.end <= array.item_count(),
+        "a caller has checked the form of the array"
+    );
+    let mut values = Vec::with_capacity(wanted.len());
+    // SAFETY: the buffer holds the memory of `item_count` numbers, which `get` has found to be aligned numbers of this type. The lock of the
+    // interpreter is held, so no Python code writes to it; of C code that writes without it, numpy gives no better promise, and any bits are
+    // a number.
+    unsafe {
+        let start = array.buf_ptr().cast::<T>().add(wanted.start);
+        ptr::copy_nonoverlapping(start, values.as_mut_ptr(), wanted.len());
+        values.set_len(wanted.len());
+    }
+    values
+}
+
+/// The type of the numbers of a buffer.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Number {
+    U8,
+    U16,
+    F32,
+    F64,
+}
+
+impl Number {
+    /// Its letter in the `struct` module, and its size in bytes.
+    const fn form(self) -> (&'static CStr, isize) {
+        match self {
+            Number::U8 => (c"B", 1),
+            Number::U16 => (c"H", 2),
+            Number::F32 => (c"f", 4),
+            Number::F64 => (c"d", 8),
+        }
+    }
+}
+
+/// An array that never changes, in the order of C; `numpy.asarray` takes it without a copy and keeps it alive.
+#[pyclass(module = "taceva._taceva", frozen)]
+pub(crate) struct Buffer {
+    bytes: Vec<u8>,
+    number: Number,
+    shape: Vec<isize>,
+    strides: Vec<isize>,
+}
+
+impl Buffer {
+    /// `bytes` as numbers of `shape`; the product of the shape and of a number's size is their length.
+    pub(crate) fn new(bytes: Vec<u8>, number: Number, shape: &[usize]) -> PyResult<Buffer> {
+        let sizes: Option<Vec<isize>> = shape
+            .iter()
+            .map(|size| isize::try_from(*size).ok())
+            .collect();
+        let (_, size) = number.form();
+        let shape = sizes.ok_or_else(|| PyBufferError::new_err("an array larger than memory"))?;
+        let stated = shape
+            .iter()
+            .try_fold(size, |product, size| product.checked_mul(*size));
+        if stated.and_then(|stated| usize::try_from(stated).ok()) != Some(bytes.len()) {
+            return Err(PyBufferError::new_err(format!(
+                "{} bytes cannot be {shape:?} numbers of {size} bytes; this is a bug of taceva",
+                bytes.len()
+            )));
+        }
+        let mut strides = vec![size; shape.len()];
+        for at in (1..shape.len()).rev() {
+            strides[at - 1] = strides[at] * shape[at];
+        }
+        Ok(Buffer {
+            bytes,
+            number,
+            shape,
+            strides,
+        })
+    }
+
+    /// Rows of `width` numbers.
+    pub(crate) fn of_rows(numbers: &[f64], width: usize) -> PyResult<Buffer> {
+        let bytes = numbers
+            .iter()
+            .flat_map(|number| number.to_ne_bytes())
+            .collect();
+        let rows = numbers.len() / width.max(1);
+        Buffer::new(bytes, Number::F64, &[rows, width])
+    }
+}
+
+#[expect(
+    unsafe_code,
+    reason = "the buffer protocol is a C interface, and this file alone speaks it"
+)]
+#[pymethods]
+impl Buffer {
+    /// Fills `view`.
+    ///
+    /// # Safety
+    /// CPython calls it with a view that is null or may be written to.
+    unsafe fn __getbuffer__(
+        slf: Bound<'_, Self>,
+        view: *mut ffi::Py_buffer,
+        flags: c_int,
+    ) -> PyResult<()> {
+        if view.is_null() {
+            return Err(PyBufferError::new_err("no view to fill"));
+        }
+        // SAFETY: CPython hands over a view that is its to fill.
+        unsafe { (*view).obj = ptr::null_mut() };
+        if flags & ffi::PyBUF_WRITABLE == ffi::PyBUF_WRITABLE {
+            return Err(PyBufferError::new_err(
+                "this array is read-only: copy it with numpy.array",
+            ));
+        }
+        let this = slf.get();
+        let (format, size) = this.number.form();
+        let is_asked = |flag: c_int| flags & flag == flag;
+        let filled = ffi::Py_buffer {
+            buf: this.bytes.as_ptr().cast_mut().cast::<c_void>(),
+            len: this.bytes.len().cast_signed(),
+            readonly: 1,
+            itemsize: size,
+            format: match is_asked(ffi::PyBUF_FORMAT) {
+                true => format.as_ptr().cast_mut(),
+                false => ptr::null_mut(),
+            },
+            ndim: c_int::try_from(this.shape.len()).unwrap_or(c_int::MAX),
+            shape: match is_asked(ffi::PyBUF_ND) {
+                true => this.shape.as_ptr().cast_mut(),
+                false => ptr::null_mut(),
+            },
+            strides: match is_asked(ffi::PyBUF_STRIDES) {
+                true => this.strides.as_ptr().cast_mut(),
+                false => ptr::null_mut(),
+            },
+            suboffsets: ptr::null_mut(),
+            internal: ptr::null_mut(),
+            obj: slf.clone().into_any().into_ptr(),
+        };
+        // SAFETY: as above; the object that the view holds a reference to keeps every pointer of it alive, and never changes.
+        unsafe { ptr::write(view, filled) };
+        Ok(())
+    }
+}

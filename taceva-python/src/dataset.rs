@@ -1,0 +1,225 @@
+//! Recordings, read.
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+use taceva_core::FrameInfo;
+use taceva_dataset::{Dataset, Pass};
+use taceva_models::Models;
+use taceva_study::{CheckRequest, Divided, Subject};
+
+use crate::buffer::{Buffer, Number};
+use crate::errors::{dataset_error, study_error, value_error};
+use crate::watched;
+
+/// A recording on disk. Its rows are samples: labels, and perhaps a frame or signals.
+#[pyclass(module = "taceva._taceva", frozen)]
+pub(crate) struct Recording {
+    pub(crate) dataset: Dataset,
+}
+
+impl Recording {
+    fn frames_info(&self) -> PyResult<FrameInfo> {
+        let frames = self.dataset.header().frames.as_ref();
+        frames.map(|frames| frames.info).ok_or_else(|| {
+            dataset_error(format_args!(
+                "{}: the recording has no frames",
+                taceva_core::shown(self.dataset.path())
+            ))
+        })
+    }
+
+    fn buffer_of(&self, rows: usize, bytes: Vec<u8>) -> PyResult<Buffer> {
+        let info = self.frames_info()?;
+        let number = match info.format.bytes_per_sample() {
+            1 => Number::U8,
+            _ => Number::U16,
+        };
+        let size = |pixels: u32| usize::try_from(pixels).map_err(value_error);
+        let shape = [
+            rows,
+            size(info.height)?,
+            size(info.width)?,
+            info.format.samples(),
+        ];
+        Buffer::new(native(bytes, number), number, &shape)
+    }
+}
+
+/// 16-bit samples lie in files and frames with the low byte first, and in arrays as the machine has them.
+fn native(mut bytes: Vec<u8>, number: Number) -> Vec<u8> {
+    if matches!(number, Number::U16) && cfg!(target_endian = "big") {
+        bytes.chunks_exact_mut(2).for_each(<[u8]>::reverse);
+    }
+    bytes
+}
+
+#[pymethods]
+impl Recording {
+    /// Opens the folder at `path`, and checks its seal.
+    #[new]
+    fn open(py: Python<'_>, path: PathBuf) -> PyResult<Recording> {
+        let opened = py.detach(|| Dataset::open(&path));
+        opened
+            .map(|dataset| Recording { dataset })
+            .map_err(dataset_error)
+    }
+
+    fn rows(&self) -> usize {
+        self.dataset.table().rows()
+    }
+
+    fn path(&self) -> PathBuf {
+        self.dataset.path().to_owned()
+    }
+
+    fn digest(&self) -> String {
+        self.dataset.digest().to_string()
+    }
+
+    fn sensor(&self) -> String {
+        self.dataset.header().sensor.model.clone()
+    }
+
+    /// `recorded`, `simulated` or `synthetic`.
+    fn source(&self) -> String {
+        Subject::of(&self.dataset).source
+    }
+
+    /// Names and units.
+    fn channels(&self) -> Vec<(String, &'static str)> {
+        let channels = self.dataset.table().channels().iter();
+        channels
+            .map(|channel| (channel.name().to_owned(), channel.unit().symbol()))
+            .collect()
+    }
+
+    /// `[rows, channels]`; a label that is absent is NaN.
+    fn labels(&self) -> PyResult<Buffer> {
+        let table = self.dataset.table();
+        let width = table.channels().len();
+        let label = |row: usize, channel: usize| table.truth(channel).get(row).unwrap_or(f64::NAN);
+        let rows = (0..table.rows()).flat_map(|row| (0..width).map(move |channel| (row, channel)));
+        let labels: Vec<f64> = rows.map(|(row, channel)| label(row, channel)).collect();
+        Buffer::of_rows(&labels, width)
+    }
+
+    /// A column of the table as texts, `None` where a cell is empty or there is no such column.
+    fn column(&self, name: &str) -> Option<Vec<Option<String>>> {
+        let table = self.dataset.table();
+        match name {
+            "sample" => Some(table.samples().iter().cloned().map(Some).collect()),
+            _ => table.as_text(name),
+        }
+    }
+
+    /// Names of what a row says beside channels.
+    fn attributes(&self) -> Vec<String> {
+        self.dataset.table().attribute_names().to_vec()
+    }
+
+    /// `(height, width, samples a pixel)`.
+    fn frame_shape(&self) -> Option<(u32, u32, usize)> {
+        let info = self.dataset.header().frames.as_ref()?.info;
+        Some((info.height, info.width, info.format.samples()))
+    }
+
+    /// `[rows, height, width, samples]` of the frames of `rows`.
+    #[pyo3(signature = (rows, jobs, bar = None))]
+    fn frames(
+        &self,
+        py: Python<'_>,
+        rows: Vec<usize>,
+        jobs: usize,
+        bar: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Buffer> {
+        let length = self.frames_info()?.byte_len().unwrap_or(usize::MAX);
+        let mut bytes = Vec::new();
+        let length = length
+            .checked_mul(rows.len())
+            .ok_or_else(|| value_error("an array larger than memory"))?;
+        bytes.try_reserve_exact(length).map_err(value_error)?;
+        let decoded = watched::run(py, bar, |progress| {
+            let pass = Pass::new(&rows, jobs_of(jobs), progress);
+            let take = |_, frame: taceva_core::Frame| {
+                bytes.extend_from_slice(frame.bytes());
+                Ok(())
+            };
+            self.dataset.map_frames(pass, |_, frame| frame, take)
+        })?;
+        decoded.map_err(dataset_error)?;
+        self.buffer_of(rows.len(), bytes)
+    }
+
+    /// `[height, width, samples]` of the picture of the untouched gel, if there is one.
+    fn reference(&self, py: Python<'_>) -> PyResult<Option<Buffer>> {
+        let reference = py
+            .detach(|| self.dataset.reference())
+            .map_err(dataset_error)?;
+        reference
+            .map(|frame| self.buffer_of(1, frame.into_bytes()))
+            .transpose()
+    }
+
+    /// `[rows, taxels, axes]` of the signals of `rows`.
+    fn signals(&self, py: Python<'_>, rows: Vec<usize>) -> PyResult<Buffer> {
+        let mut bytes = Vec::new();
+        let mut width = 0;
+        py.detach(|| {
+            for row in &rows {
+                let signals = self.dataset.signals(*row)?;
+                let values = signals.as_ref().map_or(&[][..], |signals| signals.values());
+                width = values.len();
+                bytes.extend(values.iter().flat_map(|value| value.to_ne_bytes()));
+            }
+            Ok(())
+        })
+        .map_err(|error: taceva_dataset::DatasetError| dataset_error(error))?;
+        Buffer::new(bytes, Number::F32, &[rows.len(), width])
+    }
+
+    /// Rows by part, `(train, validation, test)`, as `evaluate` divides them, and what the division is called.
+    #[pyo3(signature = (split, seed))]
+    fn split(&self, split: Option<&str>, seed: u64) -> PyResult<([Vec<usize>; 3], String)> {
+        use taceva_study::DataPart::{Test, Train, Validation};
+        let divided =
+            Divided::of(&self.dataset, split, seed).map_err(|error| study_error(&error))?;
+        let parts = [Train, Validation, Test].map(|part| divided.rows(part));
+        Ok((parts, divided.spec.to_string()))
+    }
+
+    /// What `taceva check` finds, as the JSON it writes.
+    #[pyo3(signature = (jobs, bar = None))]
+    fn check<'py>(
+        &self,
+        py: Python<'py>,
+        jobs: usize,
+        bar: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyBytes>> {
+        let checked = watched::run(py, bar, |progress| {
+            let request = CheckRequest {
+                only: Vec::new(),
+                split: None,
+                seed: 0,
+                jobs: jobs_of(jobs),
+            };
+            taceva_study::check(&self.dataset, &request, progress)
+        })?;
+        let report = checked.map_err(|error| study_error(&error))?;
+        let text = serde_json::to_vec(&report).map_err(value_error)?;
+        Ok(PyBytes::new(py, &text))
+    }
+}
+
+/// Threads: as many as asked for, or as the machine has where nothing was asked for.
+pub(crate) fn jobs_of(jobs: usize) -> NonZeroUsize {
+    let all = || std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
+    NonZeroUsize::new(jobs).unwrap_or_else(all)
+}
+
+/// Every model: those built in and those of libraries.
+pub(crate) fn models() -> Models {
+    Models::builtin().with_libraries(taceva_baselines::all())
+}

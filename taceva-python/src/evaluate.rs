@@ -1,0 +1,112 @@
+//! Evaluations by the pipeline of the program: tables of predictions, and models by name or from a file.
+
+use std::path::PathBuf;
+
+use pyo3::prelude::*;
+use taceva_models::ModelSettings;
+use taceva_study::{
+    DataPart, EvaluateRequest, FitRequest, ModelChoice, ScoreRequest, Scoring, StudyError, Work,
+};
+
+use crate::dataset::{Recording, jobs_of, models};
+use crate::errors::{ModelError, study_error, value_error};
+use crate::{results, watched};
+
+/// The results file of two tables, as `taceva score` writes it.
+#[pyfunction]
+#[pyo3(signature = (truth, prediction, metrics, sensor, allow_invalid, jobs, bar = None))]
+#[expect(clippy::too_many_arguments, reason = "the Python side names them")]
+pub(crate) fn score_tables(
+    py: Python<'_>,
+    truth: PathBuf,
+    prediction: PathBuf,
+    metrics: Vec<String>,
+    sensor: Option<PathBuf>,
+    allow_invalid: bool,
+    jobs: usize,
+    bar: Option<&Bound<'_, PyAny>>,
+) -> PyResult<String> {
+    let request = ScoreRequest {
+        truth,
+        prediction,
+        units: Vec::new(),
+        sensor,
+        metrics,
+        allow_invalid,
+        jobs: jobs_of(jobs),
+    };
+    let scored = watched::run(py, bar, |progress| Scoring::read(request)?.run(progress))?;
+    results::sealed(&scored.map_err(|error| study_error(&error))?.report)
+}
+
+/// The results file of a model on a recording, as `taceva evaluate` writes it: `model` is a name, or the file of a fitted model.
+#[pyfunction]
+#[pyo3(signature = (recording, model, settings, channels, split, seed, part, metrics, jobs, bar = None))]
+#[expect(clippy::too_many_arguments, reason = "the Python side names them")]
+pub(crate) fn evaluate_named(
+    py: Python<'_>,
+    recording: &Recording,
+    model: String,
+    settings: Vec<String>,
+    channels: Vec<String>,
+    split: Option<String>,
+    seed: u64,
+    part: Option<&str>,
+    metrics: Vec<String>,
+    jobs: usize,
+    bar: Option<&Bound<'_, PyAny>>,
+) -> PyResult<String> {
+    let part = part.map(part_of).transpose()?;
+    let known = models();
+    let path = PathBuf::from(&model);
+    // What looks like a path is one; a name that no file has is a model's.
+    let fitted = match path.is_file() {
+        true => Some(
+            known
+                .open(&path)
+                .map_err(|error| ModelError::new_err(error.to_string()))?,
+        ),
+        false => None,
+    };
+    let work = |progress: &dyn taceva_core::Progress| {
+        let model = match fitted {
+            Some(fitted) => ModelChoice::Fitted(Box::new(fitted)),
+            None => ModelChoice::Fit(FitRequest {
+                model: known.find(&model)?,
+                settings: ModelSettings::parse(settings.iter().map(String::as_str))?,
+                channels,
+                split,
+                seed,
+            }),
+        };
+        let request = EvaluateRequest {
+            model,
+            metrics,
+            part,
+            sensor: None,
+        };
+        let work = Work {
+            jobs: jobs_of(jobs),
+            progress,
+            cache: None,
+        };
+        taceva_study::evaluate(&recording.dataset, &request, work)
+    };
+    let evaluated: Result<_, StudyError> = watched::run(py, bar, work)?;
+    results::sealed(&evaluated.map_err(|error| study_error(&error))?.report)
+}
+
+fn part_of(name: &str) -> PyResult<DataPart> {
+    let all = [
+        DataPart::Train,
+        DataPart::Validation,
+        DataPart::Test,
+        DataPart::All,
+    ];
+    let named = all.into_iter().find(|part| part.name() == name);
+    named.ok_or_else(|| {
+        value_error(format_args!(
+            "part {name:?}: expected train, validation, test or all"
+        ))
+    })
+}

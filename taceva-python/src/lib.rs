@@ -1,0 +1,47 @@
+//! The module `taceva._taceva`: what the Python package asks of the crates, and nothing of its own.
+//!
+//! Arrays come in by the buffer protocol, native float32 or float64; the Python side has brought them to that form. They go out as buffers
+//! that numpy sees without a copy. The lock of the interpreter is released while numbers are summed, frames decoded and models fitted.
+
+mod arrays;
+mod buffer;
+mod dataset;
+mod errors;
+mod evaluate;
+mod metrics;
+mod results;
+mod watched;
+
+use pyo3::prelude::*;
+
+#[pymodule(gil_used = false)]
+mod _taceva {
+    use std::ffi::OsString;
+
+    use pyo3::prelude::*;
+
+    #[pymodule_export]
+    use super::buffer::Buffer;
+    #[pymodule_export]
+    use super::dataset::Recording;
+    #[pymodule_export]
+    use super::errors::{DatasetError, ModelError};
+    #[pymodule_export]
+    use super::evaluate::{evaluate_named, score_tables};
+    #[pymodule_export]
+    use super::metrics::{Sums, unit_of};
+    #[pymodule_export]
+    use super::results::{check_seal, comparison, score_table};
+
+    /// Carries out the command that `arguments` say, the first being the name of the program; the exit code. Signals are its own from then on.
+    #[pyfunction]
+    fn command(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
+        py.detach(|| taceva_cli::main_with(arguments))
+    }
+
+    /// The version of the crates that the module was built from.
+    #[pyfunction]
+    fn version() -> &'static str {
+        env!("CARGO_PKG_VERSION")
+    }
+}

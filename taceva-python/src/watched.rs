@@ -1,0 +1,122 @@
+//! Long work for a Python program: in a thread of its own, while the thread that asked for it hears Ctrl-C and moves the caller's bar.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::sync::{Mutex, PoisonError};
+use std::thread;
+use std::time::Duration;
+
+use pyo3::prelude::*;
+use taceva_core::Progress;
+
+use crate::errors::value_error;
+
+/// How often signals are looked at, which is half of what Ctrl-C may take, and the bar is moved.
+const PERIOD: Duration = Duration::from_millis(50);
+
+/// What happened to a stage.
+enum Event {
+    Begun(String, Option<u64>),
+    Advanced(u64),
+    Ended,
+}
+
+/// The work's side: notes what happens, and learns whether to stop.
+struct Noted<'a> {
+    events: Mutex<Vec<Event>>,
+    is_stopped: &'a AtomicBool,
+}
+
+impl Noted<'_> {
+    fn note(&self, event: Event) {
+        let mut events = self.events.lock().unwrap_or_else(PoisonError::into_inner);
+        match (&event, events.last_mut()) {
+            (Event::Advanced(more), Some(Event::Advanced(steps))) => *steps += more,
+            _ => events.push(event),
+        }
+    }
+
+    fn take(&self) -> Vec<Event> {
+        std::mem::take(&mut *self.events.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+}
+
+impl Progress for Noted<'_> {
+    fn begin(&self, stage: &str, steps: Option<u64>) {
+        self.note(Event::Begun(stage.to_owned(), steps));
+    }
+
+    fn advance(&self, steps: u64) {
+        self.note(Event::Advanced(steps));
+    }
+
+    fn end(&self) {
+        self.note(Event::Ended);
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.is_stopped.load(Ordering::Relaxed)
+    }
+}
+
+/// The result of `work`, done without the interpreter's lock. `bar` has `begin(stage, steps or None)`, `advance(steps)` and `end()`.
+///
+/// # Errors
+/// What a signal handler or the bar raises, `KeyboardInterrupt` at Ctrl-C; the work is stopped and has ended then.
+pub(crate) fn run<T: Send>(
+    py: Python<'_>,
+    bar: Option<&Bound<'_, PyAny>>,
+    work: impl FnOnce(&dyn Progress) -> T + Send,
+) -> PyResult<T> {
+    let is_stopped = AtomicBool::new(false);
+    let noted = Noted {
+        events: Mutex::default(),
+        is_stopped: &is_stopped,
+    };
+    thread::scope(|scope| {
+        let (done, is_done) = channel();
+        // It is used by one thread at a time: by this one, without the lock of the interpreter.
+        let is_done = Mutex::new(is_done);
+        let worker = {
+            let noted = &noted;
+            scope.spawn(move || {
+                // Dropped also where the work panics.
+                let _done: Sender<()> = done;
+                work(noted)
+            })
+        };
+        let mut raised = None;
+        loop {
+            let waited = py.detach(|| {
+                let is_done = is_done.lock().unwrap_or_else(PoisonError::into_inner);
+                is_done.recv_timeout(PERIOD)
+            });
+            let heard = py.check_signals().and_then(|()| show(bar, noted.take()));
+            if let Err(error) = heard {
+                is_stopped.store(true, Ordering::Relaxed);
+                raised.get_or_insert(error);
+            }
+            if waited == Err(RecvTimeoutError::Disconnected) {
+                break;
+            }
+        }
+        let ended = py.detach(|| worker.join());
+        match (raised, ended) {
+            (Some(error), _) => Err(error),
+            (None, Ok(result)) => Ok(result),
+            (None, Err(_)) => Err(value_error("the work panicked: a bug of taceva")),
+        }
+    })
+}
+
+fn show(bar: Option<&Bound<'_, PyAny>>, events: Vec<Event>) -> PyResult<()> {
+    let Some(bar) = bar else { return Ok(()) };
+    for event in events {
+        match event {
+            Event::Begun(stage, steps) => bar.call_method1("begin", (stage, steps))?,
+            Event::Advanced(steps) => bar.call_method1("advance", (steps,))?,
+            Event::Ended => bar.call_method0("end")?,
+        };
+    }
+    Ok(())
+}

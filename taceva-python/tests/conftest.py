@@ -1,0 +1,28 @@
+"""What the tests share: the command within Python, and a recording that it imported."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+RECORDINGS = Path(__file__).resolve().parents[2] / "tests" / "recordings"
+
+
+def taceva(*arguments: str | os.PathLike[str], cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
+    """Run the command as a process of its own; a test that expects a failure looks at the exit code."""
+    words = [sys.executable, "-m", "taceva", *map(os.fspath, arguments)]
+    return subprocess.run(words, cwd=cwd, capture_output=True, text=True, check=False)
+
+
+@pytest.fixture(scope="session")
+def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Pictures and labels of the recording `names`, imported."""
+    out = tmp_path_factory.mktemp("recordings") / "names"
+    source = RECORDINGS / "names"
+    done = taceva("import", source, "--map", source / "map.toml", "--out", out)
+    assert done.returncode == 0, done.stderr
+    return out

@@ -1,0 +1,123 @@
+"""Recordings and models: equal to what the command says of them."""
+
+from __future__ import annotations
+
+import json
+import multiprocessing
+import pickle
+import signal
+import sys
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+import taceva
+from conftest import RECORDINGS
+from conftest import taceva as command
+
+
+def test_labels_frames_and_columns_are_those_of_the_recording(recording: Path) -> None:
+    dataset = taceva.open(recording)
+    expected = json.loads((RECORDINGS / "names" / "expected.json").read_text())
+    assert len(dataset) > 0
+    assert dataset.labels().shape == (len(dataset), len(dataset.channels))
+    frames = dataset.frames()
+    assert frames.shape == (len(dataset), *(dataset.frame_shape or ()))
+    assert not frames.flags.writeable
+    assert np.array_equal(dataset.frame(1), frames[1])
+    assert np.array_equal(np.concatenate(list(dataset.batches(size=3))), frames)
+    assert np.array_equal(dataset.frames([2, 0], jobs=2), frames[[2, 0]])
+    assert dataset.column("sample")
+    assert len(dataset.points()) == len(dataset)
+    assert expected
+
+
+def test_an_array_shares_the_memory_it_was_decoded_into(recording: Path) -> None:
+    inner = taceva.open(recording)._inner.frames([0, 1], 1)
+    assert np.shares_memory(np.asarray(inner), np.asarray(inner))
+
+
+def test_rows_that_are_none_are_refused(recording: Path) -> None:
+    dataset = taceva.open(recording)
+    with pytest.raises(IndexError, match=f"row {len(dataset)} of a recording of {len(dataset)}"):
+        dataset.frames([len(dataset)])
+    with pytest.raises(IndexError, match="row -1"):
+        dataset.frame(-1)
+    with pytest.raises(TypeError, match="float64"):
+        dataset.frames(np.array([0.5]))
+    with pytest.raises(KeyError, match="no column 'colour'"):
+        dataset.column("colour")
+    with pytest.raises(ValueError, match="split"):
+        dataset.split("sideways 80/20")
+
+
+def test_a_folder_that_is_no_recording_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(taceva.DatasetError, match=str(tmp_path)):
+        taceva.open(tmp_path)
+
+
+def test_a_recording_travels_and_refuses_to_arrive_as_another(recording: Path) -> None:
+    dataset = taceva.open(recording)
+    assert pickle.loads(pickle.dumps(dataset)).digest == dataset.digest
+    with pytest.raises(taceva.DatasetError, match="another recording"):
+        taceva._dataset._arrived(str(recording), "sha256:0")
+    with multiprocessing.get_context("fork").Pool(2) as pool:
+        assert pool.map(len, [dataset, dataset]) == [len(dataset)] * 2
+
+
+@pytest.mark.parametrize("model", ["ridge", "smartcore/knn"])
+def test_an_evaluation_equals_the_command_byte_for_byte(recording: Path, tmp_path: Path, model: str) -> None:
+    split = "random 60/0/40"
+    out = tmp_path / "scores.json"
+    done = command("evaluate", recording, "--model", model, "--split", split, "--seed", "3", "--format", "json", "--out", out)
+    assert done.returncode == 0, done.stderr
+    result = taceva.evaluate(recording, model, split=split, seed=3)
+    assert result.text == out.read_text()
+    assert taceva.evaluate(recording, model, split=split, seed=3, jobs=2).text == result.text
+    rows = taceva.open(recording).split(split, 3)
+    assert result.to_dict()["provenance"]["samples"]["test"] == len(rows.test)
+
+
+def test_a_model_that_does_not_exist_is_refused_with_the_nearest(recording: Path) -> None:
+    with pytest.raises(ValueError, match="ridge"):
+        taceva.evaluate(recording, "rigde")
+
+
+def test_a_check_finds_what_the_command_finds(recording: Path) -> None:
+    done = command("check", recording, "--format", "json")
+    assert taceva.open(recording).check() == json.loads(done.stdout)
+
+
+def test_control_c_ends_long_work_at_once(recording: Path) -> None:
+    if threading.current_thread() is not threading.main_thread():
+        pytest.skip("signals reach the main thread alone")
+    interrupt = threading.Timer(0.5, lambda: signal.raise_signal(signal.SIGINT))
+    begun = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        interrupt.start()
+        settings = {"size": "32x24", "epochs": 100_000, "batch": 8}
+        taceva.evaluate(recording, "cnn", split="random 60/0/40", settings=settings)
+    # The bound is wide: what is looked at is that work ends, not how loaded the machine is.
+    assert time.monotonic() - begun < 10
+
+
+def test_the_command_runs_within_python(tmp_path: Path) -> None:
+    done = command("--version")
+    assert (done.returncode, done.stdout) == (0, f"taceva {taceva.__version__}\n")
+    done = command("evaluate", tmp_path, "--model", "ridge")
+    assert done.returncode == 3
+    assert "dataset.toml" in done.stderr
+    assert command("nonsense").returncode == 2
+
+
+def test_a_torch_dataset_gives_frames_and_labels(recording: Path) -> None:
+    torch = pytest.importorskip("torch")
+    dataset = taceva.open(recording)
+    loader = torch.utils.data.DataLoader(dataset.torch(), batch_size=2, num_workers=2)
+    frames, labels = next(iter(loader))
+    height, width, samples = dataset.frame_shape or (0, 0, 0)
+    assert frames.shape == (2, samples, height, width)
+    assert labels.shape == (2, len(dataset.channels))
+    assert sys.modules["torch"]

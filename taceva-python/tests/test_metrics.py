@@ -1,0 +1,212 @@
+"""Scores of arrays: equal to the command's, whatever the form, the order and the division of the arrays."""
+
+from __future__ import annotations
+
+import json
+import pickle
+import random
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import taceva
+from conftest import taceva as command
+
+ROWS = 10_000
+CHANNELS = ["Px", "Py", "Pz", "Fx", "Fy", "Fz"]
+
+
+def arrays() -> tuple[Any, Any, Any]:
+    """Truth, prediction and points, from a fixed seed."""
+    generator = np.random.default_rng(7)
+    truth = generator.normal(size=(ROWS, 6))
+    return truth, truth + 0.1 * generator.normal(size=(ROWS, 6)), generator.integers(0, 50, size=ROWS)
+
+
+def metrics_of(result: taceva.Result) -> dict[str, Any]:
+    return dict(result.to_dict()["metrics"])
+
+
+def write_tables(folder: Path, truth: Any, prediction: Any, points: Any) -> tuple[Path, Path]:
+    """Write the arrays as the tables that `taceva score` reads."""
+    tables = folder / "truth.csv", folder / "prediction.csv"
+    for path, values in zip(tables, (truth, prediction), strict=True):
+        with path.open("w") as file:
+            print("point_id", *CHANNELS, sep=",", file=file)
+            for point, row in zip(points.tolist(), values.tolist(), strict=True):
+                print(point, *map(repr, row), sep=",", file=file)
+    return tables
+
+
+def test_bits_equal_those_of_the_command(tmp_path: Path) -> None:
+    truth, prediction, points = arrays()
+    truth, prediction, points = truth[:500], prediction[:500], points[:500]
+    paths = write_tables(tmp_path, truth, prediction, points)
+    out = tmp_path / "scores.json"
+    done = command("score", "--truth", paths[0], "--pred", paths[1], "--format", "json", "--out", out)
+    assert done.returncode == 0, done.stderr
+    tables = taceva.score_tables(*paths)
+    assert tables.text == out.read_text()
+    saved = tmp_path / "saved.json"
+    tables.save(saved)
+    assert saved.read_bytes() == out.read_bytes()
+    of_arrays = taceva.score(truth, prediction, points=points)
+    of_tables = json.loads(out.read_text())["metrics"]
+    for metric, scores in metrics_of(of_arrays).items():
+        assert scores == of_tables[metric], metric
+
+
+def test_bits_do_not_depend_on_division_order_merging_or_pickles() -> None:
+    truth, prediction, points = arrays()
+    whole = taceva.TactileMetrics()
+    whole.update(truth, prediction, points)
+    order = list(range(0, ROWS, 777))
+    random.Random(3).shuffle(order)
+    parts = [taceva.TactileMetrics() for _ in range(3)]
+    for at, first in enumerate(order):
+        rows = slice(first, first + 777)
+        parts[at % 3].update(truth[rows], prediction[rows], points[rows])
+    merged = pickle.loads(pickle.dumps(parts[0]))
+    merged.merge(parts[1])
+    merged.merge_states(parts[2].states())
+    assert merged.compute().text == whole.compute().text
+    assert whole.compute().text == whole.compute().text
+
+
+def test_values_are_those_of_scikit_learn() -> None:
+    sklearn = pytest.importorskip("sklearn.metrics")
+    truth, prediction, _ = arrays()
+    result = taceva.score(truth, prediction)
+    for at, channel in enumerate(CHANNELS):
+        of = truth[:, at], prediction[:, at]
+        assert result["mae", channel].value == pytest.approx(sklearn.mean_absolute_error(*of), abs=1e-12)
+        assert result["r2", channel].value == pytest.approx(sklearn.r2_score(*of), abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    "form",
+    [
+        lambda array: np.asfortranarray(array),
+        lambda array: array.astype(">f8"),
+        lambda array: np.repeat(array, 2, axis=0)[::2],
+        lambda array: array[::-1][::-1],
+        lambda array: array.tolist(),
+    ],
+    ids=["fortran", "byte order", "stride", "negative stride", "list"],
+)
+def test_an_array_of_another_form_gives_the_same_scores(form: Any) -> None:
+    truth, prediction, points = arrays()
+    expected = taceva.score(truth, prediction, points=points)
+    assert taceva.score(form(truth), form(prediction), points=points).text == expected.text
+
+
+def test_a_read_only_array_is_taken() -> None:
+    truth, prediction, _ = arrays()
+    truth.setflags(write=False)
+    assert taceva.score(truth, prediction)["mae", "Fz"].n == ROWS
+
+
+def test_points_by_number_and_by_text_are_the_same() -> None:
+    truth, prediction, points = arrays()
+    by_text = taceva.score(truth, prediction, points=[str(point) for point in points.tolist()])
+    assert by_text.text == taceva.score(truth, prediction, points=points).text
+    assert by_text["mae", "Fz"].interval is not None
+    assert taceva.score(truth, prediction)["mae", "Fz"].interval is None
+
+
+def test_no_rows_give_undefined_scores_with_a_reason() -> None:
+    score = taceva.score(np.zeros((0, 6)), np.zeros((0, 6)))["mae", "Fz"]
+    assert (score.value, score.n) == (None, 0)
+    assert score.reason
+    with pytest.raises(ValueError, match="undefined"):
+        float(score)
+
+
+@pytest.mark.parametrize(
+    ("truth", "prediction", "error", "message"),
+    [
+        (np.zeros((3, 5)), np.zeros((3, 6)), ValueError, r"truth has the shape \[3, 5\], expected \[rows, 6\]"),
+        (np.zeros((3, 6)), np.zeros((2, 6)), ValueError, "prediction has 2 rows, truth has 3"),
+        (np.zeros((3, 6), complex), np.zeros((3, 6)), TypeError, "complex128"),
+        (np.full((3, 6), None), np.zeros((3, 6)), TypeError, "object"),
+        (np.array([["a"] * 6]), np.zeros((1, 6)), TypeError, "truth: expected numbers"),
+        (np.zeros((3, 6)), np.array([[0.0] * 6, [0.0] * 6, [0.0] * 5 + [np.nan]]), ValueError, r"nan at \[2, 5\]"),
+        (np.zeros((1, 6)), np.array([[np.inf] + [0.0] * 5]), ValueError, r"inf at \[0, 0\]"),
+    ],
+    ids=["shape", "length", "complex", "objects", "texts", "nan", "infinite"],
+)
+def test_what_is_no_array_of_numbers_is_refused_and_nothing_is_taken_in(
+    truth: Any, prediction: Any, error: type[Exception], message: str
+) -> None:
+    metrics = taceva.TactileMetrics()
+    with pytest.raises(error, match=message):
+        metrics.update(truth, prediction)
+    assert metrics.compute()["mae", "Fz"].n == 0
+
+
+def test_invalid_samples_are_counted_where_that_is_allowed() -> None:
+    truth = np.zeros((3, 6))
+    prediction = np.zeros((3, 6))
+    prediction[1, 5] = np.nan
+    score = taceva.score(truth, prediction, allow_invalid=True)["mae", "Fz"]
+    assert (score.n, score.n_invalid) == (2, 1)
+
+
+def test_unknown_names_are_refused_with_the_nearest() -> None:
+    with pytest.raises(ValueError, match="mae"):
+        taceva.TactileMetrics(metrics="maee")
+    with pytest.raises(TypeError, match="list of names"):
+        taceva.TactileMetrics("Fz")
+    with pytest.raises(ValueError, match="Fz is in N, found mm"):
+        taceva.TactileMetrics(["Fz"], units={"Fz": "mm"})
+    with pytest.raises(ValueError, match="Mz, which are no channels"):
+        taceva.TactileMetrics(["Fz"], units={"Mz": "N mm"})
+    with pytest.raises(ValueError, match="no channel"):
+        taceva.TactileMetrics([])
+    result = taceva.score([[0.0]], [[0.0]], channels=["Fz"])
+    with pytest.raises(KeyError, match="known are mae"):
+        result["hausdorff", "Fz"]
+
+
+def test_a_pickle_of_another_version_is_refused() -> None:
+    metrics = taceva.TactileMetrics()
+    state = metrics.__getstate__()
+    state["version"] = 99
+    with pytest.raises(ValueError, match="version 99"):
+        metrics.__setstate__(state)
+
+
+def test_a_result_that_was_changed_is_refused(tmp_path: Path) -> None:
+    result = taceva.score([[0.0], [1.0]], [[0.5], [1.0]], channels=["Fz"])
+    path = tmp_path / "scores.json"
+    result.save(path)
+    assert taceva.load(path) == result
+    with pytest.raises(FileExistsError):
+        result.save(path)
+    path.write_text(path.read_text().replace("0.25", "0.35"))
+    with pytest.raises(ValueError, match="seal|changed|digest"):
+        taceva.load(path)
+
+
+def test_a_result_is_a_frame_a_table_and_a_page(tmp_path: Path) -> None:
+    truth, prediction, points = arrays()
+    result = taceva.score(truth, prediction, points=points)
+    assert "mae" in str(result)
+    assert r"\begin{tabular}" in result.to_latex()
+    assert "<table" in result._repr_html_()
+    pytest.importorskip("pandas")
+    frame = result.to_frame()
+    assert list(frame["value"])[0] == result["mae", "Px"].value
+    assert frame.attrs["source"] == "unknown"
+
+
+def test_a_comparison_says_which_is_better() -> None:
+    truth, prediction, points = arrays()
+    near = taceva.score(truth, truth + 0.1 * (prediction - truth), points=points)
+    far = taceva.score(truth, prediction, points=points)
+    comparison = taceva.compare(near, far)
+    assert comparison.to_dict()["schema"].startswith("taceva.comparison/")
+    assert "better" in str(comparison)
+    with pytest.raises(ValueError, match="at least two"):
+        taceva.compare(near)
