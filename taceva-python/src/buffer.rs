@@ -9,6 +9,8 @@ use pyo3::exceptions::PyBufferError;
 use pyo3::ffi;
 use pyo3::prelude::*;
 
+use crate::errors::value_error;
+
 /// Some numbers of an array in the order of C, copied.
 ///
 /// # Panics
@@ -159,5 +161,66 @@ impl Buffer {
         // SAFETY: as above; the object that the view holds a reference to keeps every pointer of it alive, and never changes.
         unsafe { ptr::write(view, filled) };
         Ok(())
+    }
+}
+
+/// Pixels of Python: uint8 or uint16 in the order of C, `[rows, height, width, samples]` or `[height, width, samples]`.
+pub(crate) enum Pixels {
+    Bytes(PyBuffer<u8>),
+    Words(PyBuffer<u16>),
+}
+
+impl Pixels {
+    /// `array` as pixels of `axes` axes; `name` says in errors which one it is.
+    pub(crate) fn of(array: &Bound<'_, PyAny>, name: &str, axes: usize) -> PyResult<Pixels> {
+        let pixels = match PyBuffer::<u8>::get(array) {
+            Ok(buffer) => Pixels::Bytes(buffer),
+            Err(_) => Pixels::Words(PyBuffer::<u16>::get(array).map_err(|_| {
+                value_error(format_args!("{name}: expected an array of uint8 or uint16"))
+            })?),
+        };
+        let is_contiguous = match &pixels {
+            Pixels::Bytes(buffer) => buffer.is_c_contiguous(),
+            Pixels::Words(buffer) => buffer.is_c_contiguous(),
+        };
+        if !is_contiguous || pixels.shape().len() != axes {
+            return Err(value_error(format_args!(
+                "{name} has the shape {:?}, expected {axes} axes in the order of C, the last of height, width and samples a pixel",
+                pixels.shape()
+            )));
+        }
+        Ok(pixels)
+    }
+
+    fn shape(&self) -> &[usize] {
+        match self {
+            Pixels::Bytes(buffer) => buffer.shape(),
+            Pixels::Words(buffer) => buffer.shape(),
+        }
+    }
+
+    /// Height, width and samples a pixel.
+    pub(crate) fn frame_shape(&self) -> [usize; 3] {
+        let shape = self.shape();
+        let last = shape.len();
+        [shape[last - 3], shape[last - 2], shape[last - 1]]
+    }
+
+    /// Whether samples have 16 bits.
+    pub(crate) fn is_deep(&self) -> bool {
+        matches!(self, Pixels::Words(_))
+    }
+
+    /// The frame at `row`, samples of 16 bits with the low byte first.
+    pub(crate) fn bytes(&self, py: Python<'_>, row: usize) -> Vec<u8> {
+        let length: usize = self.frame_shape().iter().product();
+        let wanted = row * length..(row + 1) * length;
+        match self {
+            Pixels::Bytes(buffer) => values(py, buffer, wanted),
+            Pixels::Words(buffer) => values(py, buffer, wanted)
+                .into_iter()
+                .flat_map(u16::to_le_bytes)
+                .collect(),
+        }
     }
 }

@@ -9,6 +9,7 @@ mod dataset;
 mod errors;
 mod evaluate;
 mod metrics;
+mod record;
 mod results;
 mod watched;
 
@@ -30,6 +31,8 @@ mod _taceva {
     use super::evaluate::{evaluate_named, score_tables};
     #[pymodule_export]
     use super::metrics::{Sums, unit_of};
+    #[pymodule_export]
+    use super::record::{import_recording, record};
     #[pymodule_export]
     use super::results::{check_seal, comparison, score_table};
 

@@ -51,9 +51,7 @@ impl Sums {
         metrics: Vec<String>,
         is_independent: bool,
     ) -> PyResult<Sums> {
-        let channels = channels.iter().map(|(name, unit)| channel(name, unit));
-        let channels =
-            Channels::new(channels.collect::<PyResult<Vec<_>>>()?).map_err(value_error)?;
+        let channels = channels_of(&channels)?;
         let wanted = catalogue::select(metrics.iter().map(String::as_str)).map_err(value_error)?;
         let plan = MetricPlan::new(
             &with_skill(wanted),
@@ -144,6 +142,12 @@ impl Sums {
             crate::results::sealed(&EvaluationReport::of_arrays(evaluation))
         })
     }
+}
+
+/// Channels by name and unit.
+pub(crate) fn channels_of(channels: &[(String, String)]) -> PyResult<Channels> {
+    let channels = channels.iter().map(|(name, unit)| channel(name, unit));
+    Channels::new(channels.collect::<PyResult<Vec<_>>>()?).map_err(value_error)
 }
 
 /// The channel `name` in `unit`, which for the six is theirs.

@@ -121,3 +121,81 @@ def test_a_torch_dataset_gives_frames_and_labels(recording: Path) -> None:
     assert frames.shape == (2, samples, height, width)
     assert labels.shape == (2, len(dataset.channels))
     assert sys.modules["torch"]
+
+
+def drawn(rows: int = 24) -> tuple[np.ndarray, np.ndarray, list[str]]:
+    """Frames whose brightness follows the force, labels and points, from a fixed seed."""
+    generator = np.random.default_rng(5)
+    labels = generator.uniform(size=(rows, 2))
+    pixels = generator.integers(0, 40, size=(rows, 12, 16, 3))
+    frames = (pixels + 200 * labels[:, 1, None, None, None]).astype(np.uint8)
+    return labels, frames, [f"point {row // 4}" for row in range(rows)]
+
+
+@pytest.mark.parametrize("kind", ["rgb8", "gray8", "gray16", "none"])
+def test_arrays_become_a_recording_that_gives_them_back(tmp_path: Path, kind: str) -> None:
+    labels, frames, points = drawn()
+    labels[3, 0] = np.nan
+    forms = {"rgb8": frames, "gray8": frames[..., 0], "gray16": frames[..., 0].astype(">u2") * 256, "none": None}
+    written = forms[kind]
+    path = tmp_path / "recording"
+    dataset = taceva.from_arrays(
+        path,
+        labels,
+        written,
+        sensor="my gel",
+        source="synthetic",
+        channels=["Pz", "Fz"],
+        points=points,
+        times=np.arange(len(labels)) / 30,
+        reference=None if written is None else written[0],
+        footprint_mm=(16.0, 12.0),
+    )
+    assert np.array_equal(dataset.labels(), labels, equal_nan=True)
+    assert dataset.points() == points
+    assert (dataset.sensor, dataset.source, dataset.units) == ("my gel", "synthetic", {"Pz": "mm", "Fz": "N"})
+    assert float(dataset.column("t_s")[30 % len(labels)] or "nan") == pytest.approx((30 % len(labels)) / 30)
+    if written is not None:
+        expected = written if written.ndim == 4 else written[..., None]
+        assert np.array_equal(dataset.frames(), expected)
+        reference = dataset.reference()
+        assert reference is not None and np.array_equal(reference, expected[0])
+    with pytest.raises(taceva.DatasetError):
+        taceva.from_arrays(path, labels, sensor="my gel", source="synthetic", channels=["Pz", "Fz"])
+
+
+def test_arrays_of_other_forms_are_refused_before_anything_is_written(tmp_path: Path) -> None:
+    labels, frames, points = drawn()
+    path = tmp_path / "recording"
+    made = {"sensor": "my gel", "source": "synthetic", "channels": ["Pz", "Fz"]}
+    with pytest.raises(ValueError, match="frames has 3 rows, labels has 24"):
+        taceva.from_arrays(path, labels, frames[:3], **made)
+    with pytest.raises(TypeError, match="float64"):
+        taceva.from_arrays(path, labels, frames / 255, **made)
+    with pytest.raises(ValueError, match="2 samples a pixel"):
+        taceva.from_arrays(path, labels, frames[..., :2], **made)
+    with pytest.raises(ValueError, match="expected recorded, simulated or synthetic"):
+        taceva.from_arrays(path, labels, frames, **{**made, "source": "invented"})
+    with pytest.raises(ValueError, match="infinite"):
+        taceva.from_arrays(path, np.full((24, 2), np.inf), frames, **made)
+    with pytest.raises(ValueError, match="points has 2 rows"):
+        taceva.from_arrays(path, labels, frames, points=points[:2], **made)
+    assert not path.exists()
+
+
+def test_an_imported_folder_is_what_the_command_imports(recording: Path, tmp_path: Path) -> None:
+    source = RECORDINGS / "names"
+    dataset = taceva.import_recording(source, source / "map.toml", tmp_path / "out")
+    assert dataset.digest == taceva.open(recording).digest
+    with pytest.raises(taceva.DatasetError):
+        taceva.import_recording(source, source / "map.toml", tmp_path / "out")
+    again = taceva.import_recording(source, source / "map.toml", tmp_path / "out", replace=True)
+    assert again.digest == dataset.digest
+
+
+def test_a_recording_is_a_frame_of_pandas_with_units(recording: Path) -> None:
+    pytest.importorskip("pandas")
+    dataset = taceva.open(recording)
+    frame = dataset.to_frame()
+    assert len(frame) == len(dataset)
+    assert frame.attrs["units"] == dataset.units

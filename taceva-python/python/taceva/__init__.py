@@ -15,6 +15,7 @@ from taceva._compare import Comparison, compare
 from taceva._dataset import Dataset, Rows, open
 from taceva._evaluate import evaluate
 from taceva._metrics import SIX, TactileMetrics, score, score_tables
+from taceva._record import from_arrays, import_recording
 from taceva._result import Interval, Result, Score, load
 from taceva._taceva import DatasetError, ModelError
 from taceva._taceva import version as _version
@@ -34,6 +35,8 @@ __all__ = [
     "TactileMetrics",
     "compare",
     "evaluate",
+    "from_arrays",
+    "import_recording",
     "load",
     "open",
     "progress",

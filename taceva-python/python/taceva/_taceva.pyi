@@ -10,6 +10,8 @@ __all__ = [
     "command",
     "comparison",
     "evaluate_named",
+    "import_recording",
+    "record",
     "score_table",
     "score_tables",
     "unit_of",
@@ -76,5 +78,26 @@ def evaluate_named(
     jobs: int,
     bar: Any = None,
 ) -> str: ...
+def record(
+    path: str,
+    facts: dict[str, Any],
+    channels: list[tuple[str, str]],
+    labels: Any,
+    points: Any,
+    times: list[float] | None,
+    columns: dict[str, list[str]],
+    frames: Any,
+    reference: Any,
+    bar: Any = None,
+) -> None: ...
+def import_recording(
+    source: str,
+    map: str,
+    out: str,
+    replace: bool,
+    ffmpeg: str | None,
+    jobs: int,
+    bar: Any = None,
+) -> None: ...
 def command(arguments: list[str]) -> int: ...
 def version() -> str: ...

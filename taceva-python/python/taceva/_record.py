@@ -1,0 +1,141 @@
+"""New recordings: of arrays, and of folders as other programs left them."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from taceva import _taceva
+from taceva._arrays import numbers
+from taceva._arrays import points as names_of_points
+from taceva._bar import bar
+from taceva._dataset import Dataset
+from taceva._metrics import SIX
+
+
+def from_arrays(
+    path: str | os.PathLike[str],
+    labels: Any,
+    frames: Any = None,
+    *,
+    sensor: str,
+    source: str,
+    channels: Sequence[str] = SIX,
+    units: Mapping[str, str] | None = None,
+    points: Any = None,
+    times: Any = None,
+    scenes: Sequence[str] | None = None,
+    reference: Any = None,
+    serial: str = "unknown",
+    gel: str = "unknown",
+    opaque: bool | None = None,
+    clock: str = "unknown",
+    footprint_mm: tuple[float, float] | None = None,
+) -> Dataset:
+    """Write arrays as a recording, which every command and function reads, and open it.
+
+    Parameters
+    ----------
+    path
+        The folder, in which nothing was recorded yet. A recording that was interrupted is no recording: remove its folder.
+    labels
+        ``[rows, channels]`` in the units of the channels; NaN where a label is absent.
+    frames
+        ``[rows, height, width]`` (gray) or ``[rows, height, width, 3]`` (red, green, blue), uint8 or uint16, kept without loss; ``None`` for none.
+    sensor
+        The sensor model.
+    source
+        ``recorded`` by a real sensor, ``simulated``, or ``synthetic``: every output says it.
+    points, times, scenes
+        The contact point, the time in seconds and the scene of each row.
+    reference
+        The picture of the untouched gel.
+    footprint_mm
+        Width and height of the surface that senses.
+
+    Raises
+    ------
+    DatasetError
+        If something was recorded at ``path``, or the disk is full.
+    ValueError, TypeError
+        For arrays of unequal lengths or of other forms.
+    """
+    channels = list(channels)
+    units = dict(units or {})
+    with_units = [(name, units.get(name) or _taceva.unit_of(name) or "1") for name in channels]
+    table = numbers(labels, "labels", allow_invalid=True)
+    if np.isinf(table).any():
+        raise ValueError("labels: an infinite number; expected finite ones, and NaN where a label is absent")
+    rows = len(table)
+    pictures = None if frames is None else _pixels(frames, 3)
+    lengths = {
+        "frames": None if pictures is None else len(pictures),
+        "points": None if points is None else len(points),
+        "times": None if times is None else len(times),
+        "scenes": None if scenes is None else len(scenes),
+    }
+    for name, length in lengths.items():
+        if length is not None and length != rows:
+            raise ValueError(f"{name} has {length} rows, labels has {rows}")
+    _taceva.record(
+        os.fspath(path),
+        {
+            "sensor": sensor,
+            "serial": serial,
+            "gel": gel,
+            "opaque": opaque,
+            "source": source,
+            "clock": clock,
+            "footprint_mm": footprint_mm,
+        },
+        with_units,
+        table,
+        None if points is None else names_of_points(points),
+        None if times is None else [float(time) for time in numbers(times, "times").tolist()],
+        {} if scenes is None else {"scene": [str(scene) for scene in scenes]},
+        pictures,
+        None if reference is None else _pixels(reference, 2),
+        bar(),
+    )
+    return Dataset(path)
+
+
+def import_recording(
+    source: str | os.PathLike[str],
+    map: str | os.PathLike[str],
+    out: str | os.PathLike[str],
+    *,
+    replace: bool = False,
+    ffmpeg: str | os.PathLike[str] | None = None,
+    jobs: int = 0,
+) -> Dataset:
+    """Import a folder of another program by a map, as ``taceva import SOURCE --map MAP --out OUT`` does, and open the recording.
+
+    ``taceva import SOURCE --draft`` writes a first map. ``replace`` puts the new recording in the place of the one at ``out`` once it is whole;
+    ``ffmpeg`` is a program that decodes clips which are not decoded here, AV1 among them.
+    """
+    _taceva.import_recording(
+        os.fspath(source),
+        os.fspath(map),
+        os.fspath(out),
+        replace,
+        None if ffmpeg is None else os.fspath(ffmpeg),
+        jobs,
+        bar(),
+    )
+    return Dataset(out)
+
+
+def _pixels(frames: Any, gray_axes: int) -> Any:
+    """Return pictures with an axis of samples, native and in the order of C."""
+    if hasattr(frames, "detach") and hasattr(frames, "cpu"):
+        frames = frames.detach().cpu()
+    found = np.asarray(frames)
+    if found.dtype.kind != "u" or found.dtype.itemsize not in (1, 2):
+        raise TypeError(f"frames: expected uint8 or uint16, found an array of {found.dtype}")
+    if found.ndim == gray_axes:
+        found = found[..., np.newaxis]
+    return np.ascontiguousarray(found, dtype=found.dtype.newbyteorder("="))
