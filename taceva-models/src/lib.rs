@@ -44,7 +44,8 @@ pub use features::{
 };
 pub use file::{FormatError, ModelFileError};
 pub use model::{
-    ChannelCard, FitInput, Form, Model, ModelCard, Provenance, SampleCounts, Source, SplitCard,
+    ChannelCard, FitInput, Form, LabelBounds, Model, ModelCard, Provenance, SampleCounts, Source,
+    SplitCard,
 };
 pub use models::{ChosenModel, Models};
 pub use registry::{ALL, ModelInfo, UnknownModel, find};
@@ -55,4 +56,4 @@ pub use split::{
 };
 pub use training::choice::{ChannelChoice, Choice, ChosenBy};
 pub use training::fit::{Chosen, ModelEstimator, ModelFit, ModelRegressor};
-pub use training::label_scaling::LabelScaling;
+pub use training::label_scaling::{LabelScaling, label_means};

@@ -10,6 +10,7 @@ use taceva_core::{
     TrainingSet,
 };
 
+pub use self::bounds::LabelBounds;
 pub use self::card::{ChannelCard, Form, ModelCard, Provenance, SampleCounts, Source, SplitCard};
 pub use self::input::FitInput;
 pub(crate) use self::of_plugin::plugin_from;
@@ -147,7 +148,7 @@ impl Model {
         }
     }
 
-    /// The prediction for every sample of `features`, within the [bounds](Model::bounds) of its channel.
+    /// The prediction for every sample of `features`, within the [bounds](Model::label_bounds) of its channel.
     ///
     /// # Shapes
     /// `[samples, channels]`.
@@ -157,7 +158,7 @@ impl Model {
     /// [`ModelError`] if the features are of another shape, or a prediction is not finite.
     pub fn predict(&self, features: &Features) -> Result<Vec<f64>, ModelError> {
         let mut predictions = self.predict_unbounded(features)?;
-        self.bound(&mut predictions);
+        self.label_bounds().bound(&mut predictions);
         Ok(predictions)
     }
 

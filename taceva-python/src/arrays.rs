@@ -51,6 +51,17 @@ impl Table {
         }
     }
 
+    /// All numbers, row after row.
+    pub(crate) fn row_by_row(&self, py: Python<'_>) -> Vec<f64> {
+        match self {
+            Table::Single(buffer) => {
+                let numbers = values(py, buffer, 0..buffer.item_count());
+                numbers.into_iter().map(f64::from).collect()
+            }
+            Table::Double(buffer) => values(py, buffer, 0..buffer.item_count()),
+        }
+    }
+
     /// Some rows as a column a channel, behind what `columns` hold.
     pub(crate) fn read(&self, py: Python<'_>, rows: Range<usize>, columns: &mut [Vec<f64>]) {
         let cells = rows.start * columns.len()..rows.end * columns.len();

@@ -96,7 +96,8 @@ pub(crate) fn evaluate_named(
     results::sealed(&evaluated.map_err(|error| study_error(&error))?.report)
 }
 
-fn part_of(name: &str) -> PyResult<DataPart> {
+/// The part of this name.
+pub(crate) fn part_of(name: &str) -> PyResult<DataPart> {
     let all = [
         DataPart::Train,
         DataPart::Validation,

@@ -8,6 +8,7 @@ mod buffer;
 mod dataset;
 mod errors;
 mod evaluate;
+mod given;
 mod metrics;
 mod record;
 mod results;
@@ -29,6 +30,8 @@ mod _taceva {
     use super::errors::{DatasetError, ModelError};
     #[pymodule_export]
     use super::evaluate::{evaluate_named, score_tables};
+    #[pymodule_export]
+    use super::given::{Given, features};
     #[pymodule_export]
     use super::metrics::{Sums, unit_of};
     #[pymodule_export]

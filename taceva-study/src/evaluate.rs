@@ -1,5 +1,6 @@
 //! From a dataset to scores, step by step: divide, fit, predict, score.
 
+mod given;
 mod passes;
 
 use std::collections::BTreeSet;
@@ -27,6 +28,7 @@ use crate::subject::Subject;
 use crate::taken_rows::Taken;
 use crate::work::Work;
 
+pub use given::{GivenModel, GivenRequest, GivenRows};
 use passes::Passes;
 
 /// What to evaluate.
@@ -40,6 +42,24 @@ pub struct EvaluateRequest {
     pub part: Option<DataPart>,
     /// What is known of the sensor beyond the dataset's header.
     pub sensor: Option<SensorFile>,
+}
+
+/// What is asked for beside the model.
+#[derive(Clone, Copy)]
+pub(crate) struct Asked<'a> {
+    metrics: &'a [String],
+    part: Option<DataPart>,
+    sensor: Option<&'a SensorFile>,
+}
+
+impl EvaluateRequest {
+    pub(crate) fn asked(&self) -> Asked<'_> {
+        Asked {
+            metrics: &self.metrics,
+            part: self.part,
+            sensor: self.sensor.as_ref(),
+        }
+    }
 }
 
 /// The model: to be fitted, or finished.
@@ -102,7 +122,7 @@ pub fn evaluate_plan(dataset: &Dataset, request: &EvaluateRequest) -> Result<Pla
         plan.skipped
             .push(Skipped::new("field:frame", SkipReason::NothingReadsIt));
     }
-    let metrics = metrics(dataset, &channels, request)?;
+    let metrics = metrics(dataset, &channels, request.asked())?;
     let ids: Vec<&str> = metrics.kept().iter().map(|metric| metric.id).collect();
     plan.step("predict", format!("{count} samples"));
     plan.step("score", ids.join(", "));
@@ -136,7 +156,13 @@ pub fn evaluate(
                 model.reads_frames(),
             )?;
             let predicted = predict::run(dataset, model, &target, work)?;
-            let mut scored = score(dataset, request, model, (&target, &predicted), work.jobs)?;
+            let mut scored = score(
+                dataset,
+                request.asked(),
+                Behind::of(model)?,
+                (&target, &predicted),
+                work.jobs,
+            )?;
             let report = &mut scored.report;
             report.provenance.frames_decoded += fitted.frames_decoded;
             report
@@ -151,7 +177,13 @@ pub fn evaluate(
         ModelChoice::Fitted(model) => {
             let target = Target::new(dataset, model, request.part)?;
             let predicted = predict::run(dataset, model, &target, work)?;
-            let scored = score(dataset, request, model, (&target, &predicted), work.jobs)?;
+            let scored = score(
+                dataset,
+                request.asked(),
+                Behind::of(model)?,
+                (&target, &predicted),
+                work.jobs,
+            )?;
             let manifest = target
                 .divided
                 .map(|divided| divided.manifest(dataset.table()))
@@ -164,32 +196,52 @@ pub fn evaluate(
 fn metrics(
     dataset: &Dataset,
     channels: &Channels,
-    request: &EvaluateRequest,
+    asked: Asked<'_>,
 ) -> Result<MetricPlan, StudyError> {
-    let wanted = catalogue::select(request.metrics.iter().map(String::as_str))?;
+    let wanted = catalogue::select(asked.metrics.iter().map(String::as_str))?;
     let available: FieldSet = dataset.fields().with(Field::Prediction);
-    let facts = facts::of_dataset(dataset, request.sensor.as_ref())?;
+    let facts = facts::of_dataset(dataset, asked.sensor)?;
     Ok(MetricPlan::new(&with_skill(wanted), channels.clone(), available).with_facts(facts))
 }
 
+/// What a result says of the model, or the models, behind it.
+pub(crate) struct Behind {
+    model: ModelProvenance,
+    /// Files of models without a seal.
+    unsealed: Vec<String>,
+    /// What was chosen where a person left it open.
+    chosen: Vec<String>,
+}
+
+impl Behind {
+    pub(crate) fn of(model: &Model) -> Result<Behind, StudyError> {
+        Ok(Behind {
+            model: ModelProvenance::of(model)?,
+            unsealed: Provenance::unsealed_model(model).into_iter().collect(),
+            chosen: chosen_notes(model).collect(),
+        })
+    }
+}
+
+/// The scores of what was predicted, with where they come from.
 pub(crate) fn score(
     dataset: &Dataset,
-    request: &EvaluateRequest,
-    model: &Model,
+    asked: Asked<'_>,
+    behind: Behind,
     (target, predicted): (&Target, &Predicted),
     jobs: NonZeroUsize,
 ) -> Result<Evaluated, StudyError> {
-    let plan = metrics(dataset, predicted.channels(), request)?
+    let plan = metrics(dataset, predicted.channels(), asked)?
         .with_constants(predicted.constants().clone())?;
     let points: Option<Vec<&str>> = predicted
         .points()
         .map(|points| points.iter().map(String::as_str).collect());
-    let passes = Passes::new(&plan, request.part.is_some());
+    let passes = Passes::new(&plan, asked.part.is_some());
     let mut evaluator = passes.run(dataset, predicted, &target.rows, jobs)?;
     let divided = target.divided.as_ref();
     let note = divided.and_then(|divided| divided.split.note.clone());
-    let provenance = Provenance {
-        model: Some(ModelProvenance::of(model)?),
+    let mut provenance = Provenance {
+        model: Some(behind.model),
         split: divided.map(|divided| divided.spec.to_string()),
         seed: divided.map(|divided| divided.seed),
         part: Some(target.part.name().to_owned()),
@@ -207,12 +259,12 @@ pub(crate) fn score(
                 |_| true,
                 jobs,
             )?)
-            .chain(chosen_notes(model))
+            .chain(behind.chosen)
             .chain(passes.note(dataset))
             .collect(),
         ..Provenance::of(dataset)
-    }
-    .with_model_seal(model);
+    };
+    provenance.unsealed.extend(behind.unsealed);
     let subject = Subject::of(dataset);
     let bounded = predicted.bounded(0..predicted.rows());
     let state = StateFile::of(&mut evaluator, &subject, &provenance, bounded)?.with_taken(vec![

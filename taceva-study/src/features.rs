@@ -1,6 +1,7 @@
 //! Frames or signals of a dataset, turned into features: one decoded frame a worker, only the features stay.
 
 mod sight;
+mod table;
 
 use std::num::NonZeroUsize;
 
@@ -12,6 +13,7 @@ use crate::error::StudyError;
 use crate::work::Work;
 
 pub(crate) use sight::{Sight, kinds};
+pub use table::{FeatureTable, feature_table};
 
 /// The extractor that `spec` asks for on the frames, or the signals, of `dataset`.
 pub(crate) fn extractor(dataset: &Dataset, spec: FeatureSpec) -> Result<Extractor, StudyError> {

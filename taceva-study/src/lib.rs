@@ -49,7 +49,11 @@ pub use capture::{
 pub use check::{CheckReport, CheckRequest, Finding, Severity, check, check_plan};
 pub use effort::Effort;
 pub use error::StudyError;
-pub use evaluate::{EvaluateRequest, Evaluated, ModelChoice, evaluate, evaluate_plan};
+pub use evaluate::{
+    EvaluateRequest, Evaluated, GivenModel, GivenRequest, GivenRows, ModelChoice, evaluate,
+    evaluate_plan,
+};
+pub use features::{FeatureTable, feature_table};
 pub use fit::{FitRequest, Fitted, fit};
 pub use over_seeds::{OverSeeds, SeedScore};
 pub use plan::{Plan, Step};

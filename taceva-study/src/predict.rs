@@ -1,6 +1,7 @@
 //! The stage that predicts.
 
 mod predicted;
+mod predictor;
 mod table;
 mod target;
 mod write;
@@ -15,6 +16,7 @@ use crate::rows::DataPart;
 use crate::work::Work;
 
 pub use predicted::Predicted;
+pub(crate) use predictor::Predictor;
 pub(crate) use table::{table, truth};
 pub(crate) use target::Target;
 
@@ -39,7 +41,7 @@ pub(crate) fn run(
     work: Work<'_>,
 ) -> Result<Predicted, StudyError> {
     let numbers = numbers(dataset, model, target, work)?;
-    table(dataset, model, target, &numbers)
+    table(dataset, Predictor::of(model), target, &numbers)
 }
 
 /// Predictions of `model` for the rows of `target`, not clipped to its bounds, and standard deviations where the model gives them.

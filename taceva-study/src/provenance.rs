@@ -84,13 +84,9 @@ impl Provenance {
         }
     }
 
-    /// The same, knowing whether the file of the model is sealed.
-    pub(crate) fn with_model_seal(mut self, model: &Model) -> Provenance {
-        if !model.is_sealed() {
-            self.unsealed
-                .push(format!("model of format {}", model.card().format));
-        }
-        self
+    /// What says that the file of `model` carries no seal, if it carries none.
+    pub(crate) fn unsealed_model(model: &Model) -> Option<String> {
+        (!model.is_sealed()).then(|| format!("model of format {}", model.card().format))
     }
 
     /// Whether the model was fitted on some of the samples that were scored, so that its skill on others stays unknown.
@@ -171,10 +167,13 @@ pub struct ModelProvenance {
     pub name: String,
     /// Its settings, chosen ones included.
     pub settings: BTreeMap<String, String>,
-    /// The digest of the model file.
+    /// The digest of the model file; `unknown` of a model that a caller holds.
     pub digest: String,
-    /// The digest of the dataset it was fitted on.
+    /// The digest of the dataset it was fitted on; `unknown` of a model that was not fitted here.
     pub fitted_on: String,
+    /// `given`, where a caller holds the model and only its predictions were taken.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub origin: Option<String>,
 }
 
 impl ModelProvenance {
@@ -211,6 +210,7 @@ impl ModelProvenance {
                 .data
                 .clone()
                 .unwrap_or_else(|| "unknown".to_owned()),
+            origin: None,
         })
     }
 }

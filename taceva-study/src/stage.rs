@@ -16,7 +16,7 @@ use crate::calibration::calibration_note;
 use crate::error::StudyError;
 use crate::fit::{FitPlan, FitRequest, Recipe};
 use crate::over_seeds::OverSeeds;
-use crate::predict::{self, Predicted, Target};
+use crate::predict::{self, Predicted, Predictor, Target};
 use crate::provenance::{ModelProvenance, Provenance, chosen_notes};
 use crate::report::EvaluationReport;
 use crate::rows::{DataPart, Divided, Need, usable};
@@ -229,7 +229,7 @@ impl Learnt {
         let numbers = cache.value(&key, || {
             predict::numbers(dataset, &self.model, &target, work)
         })?;
-        let predicted = predict::table(dataset, &self.model, &target, &numbers)?;
+        let predicted = predict::table(dataset, Predictor::of(&self.model), &target, &numbers)?;
         Ok((predicted, target.rows))
     }
 }

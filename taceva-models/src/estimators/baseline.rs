@@ -7,7 +7,7 @@ use crate::registry::ModelInfo;
 use crate::settings::{ModelSettings, SettingError};
 use crate::training::choice::{Choice, rmse};
 use crate::training::fit::estimator;
-use crate::training::label_scaling::means;
+use crate::training::label_scaling::label_means;
 use crate::training::problem::Problem;
 
 /// Predicts the mean of the training part, whatever it sees.
@@ -46,7 +46,7 @@ impl LinearEstimator for Baseline {
         let channels = problem.channels();
         let spans = problem.scaling.span();
         // The constant of the model card, to the last bit: no skill is shown by rounding.
-        let bias = means(training.targets);
+        let bias = label_means(training.targets);
         let error = |channel: usize| {
             let labels = validation.as_ref()?.labels.col_as_slice(channel);
             let squares: f64 = labels.iter().map(|label| label * label).sum();

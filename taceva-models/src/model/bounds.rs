@@ -1,32 +1,79 @@
 //! Clamps predictions to the range of the training labels and a quarter of it on either side.
 
-use super::Model;
+use taceva_core::Targets;
 
-impl Model {
-    /// The least and the greatest prediction of the channel at `position`, in its unit; `None` for a model file written before bounds were stored.
-    ///
-    /// A quarter of the range of the labels of the training part is allowed on either side: for lighting or depths
-    /// outside those of the training part a model may be wrong, but not by many times the range that it was fitted on. A label that never changes is its own bound.
-    pub fn bounds(&self, position: usize) -> Option<[f64; 2]> {
-        let channel = &self.card.channels[position];
-        let margin = self.card.margin?;
-        if channel.constant_label {
-            return Some([channel.minimum; 2]);
+use super::Model;
+use super::card::MARGIN;
+use crate::training::label_scaling::LabelScaling;
+
+/// Where predictions of each channel may lie, by the labels of the training part.
+///
+/// A quarter of the range of the labels is allowed on either side: for lighting or depths outside those of the training part a model may be
+/// wrong, but not by many times the range that it was fitted on. A label that never changes is its own bound.
+///
+/// ```
+/// use taceva_core::{Channel, Channels, Targets};
+/// use taceva_models::LabelBounds;
+/// let channels = Channels::new([Channel::FZ])?;
+/// let bounds = LabelBounds::of_labels(Targets::new(&channels, &[1.0, 2.0, 3.0]));
+/// let mut predictions = [4.0, 2.5];
+/// bounds.bound(&mut predictions);
+/// assert_eq!((predictions, bounds.is_beyond(0, 4.0)), ([3.5, 2.5], Some(true)));
+/// # Ok::<(), taceva_core::ChannelError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct LabelBounds(Vec<Option<ChannelBounds>>);
+
+#[derive(Clone, Copy, Debug)]
+struct ChannelBounds {
+    least: f64,
+    greatest: f64,
+    /// Whether there was more than one label.
+    varies: bool,
+}
+
+impl ChannelBounds {
+    fn new(minimum: f64, span: f64, varies: bool, margin: f64) -> ChannelBounds {
+        let (span, beyond) = match varies {
+            true => (span, margin * span),
+            false => (0.0, 0.0),
+        };
+        ChannelBounds {
+            least: minimum - beyond,
+            greatest: minimum + span + beyond,
+            varies,
         }
-        let beyond = margin * channel.span;
-        Some([
-            channel.minimum - beyond,
-            channel.minimum + channel.span + beyond,
-        ])
+    }
+}
+
+impl LabelBounds {
+    /// The bounds of `channels` of which nothing is known.
+    pub fn unknown(channels: usize) -> LabelBounds {
+        LabelBounds(vec![None; channels])
+    }
+
+    /// The bounds of a model that has learnt `labels`, at least one of each channel.
+    pub fn of_labels(labels: Targets<'_>) -> LabelBounds {
+        let scaling = LabelScaling::of(labels);
+        let ranges = scaling.minimum().iter().zip(scaling.span()).enumerate();
+        let bounds = ranges.map(|(position, (minimum, span))| {
+            let varies = !scaling.is_constant(position);
+            Some(ChannelBounds::new(*minimum, *span, varies, MARGIN))
+        });
+        LabelBounds(bounds.collect())
+    }
+
+    /// The least and the greatest prediction of the channel at `position`, in its unit; `None` where nothing is known.
+    pub fn of(&self, position: usize) -> Option<[f64; 2]> {
+        self.0[position].map(|bounds| [bounds.least, bounds.greatest])
     }
 
     /// Whether `prediction`, as the model gives it, lies beyond the bounds of the channel at `position`; `None` where there are none.
     ///
     /// A label that never changes bounds nothing that was learnt: no prediction of it counts as beyond.
     pub fn is_beyond(&self, position: usize, prediction: f64) -> Option<bool> {
-        let [least, greatest] = self.bounds(position)?;
-        let varies = !self.card.channels[position].constant_label;
-        Some(varies && !(least..=greatest).contains(&prediction))
+        let bounds = self.0[position]?;
+        Some(bounds.varies && !(bounds.least..=bounds.greatest).contains(&prediction))
     }
 
     /// Brings `predictions`, a row a sample, within their bounds.
@@ -34,14 +81,32 @@ impl Model {
     /// # Shapes
     /// `[samples, channels]`.
     pub fn bound(&self, predictions: &mut [f64]) {
-        let channels = self.channels().len();
-        for position in 0..channels {
-            let Some([least, greatest]) = self.bounds(position) else {
-                continue;
-            };
+        let channels = self.0.len();
+        for (position, bounds) in self.0.iter().enumerate() {
+            let Some(bounds) = bounds else { continue };
             for place in predictions.iter_mut().skip(position).step_by(channels) {
-                *place = place.clamp(least, greatest);
+                *place = place.clamp(bounds.least, bounds.greatest);
             }
         }
+    }
+}
+
+impl Model {
+    /// The bounds of its predictions; of a model file written before bounds were stored nothing is known.
+    pub fn label_bounds(&self) -> LabelBounds {
+        let Some(margin) = self.card.margin else {
+            return LabelBounds::unknown(self.card.channels.len());
+        };
+        let channels = self.card.channels.iter();
+        let bounds = channels.map(|channel| {
+            let varies = !channel.constant_label;
+            Some(ChannelBounds::new(
+                channel.minimum,
+                channel.span,
+                varies,
+                margin,
+            ))
+        });
+        LabelBounds(bounds.collect())
     }
 }

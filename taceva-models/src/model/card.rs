@@ -12,10 +12,10 @@ use crate::features::FeatureSpec;
 use crate::features::choice::FeatureChoice;
 use crate::training::choice::Choice;
 use crate::training::fit::{ModelFit, ModelRegressor};
-use crate::training::label_scaling::means;
+use crate::training::label_scaling::label_means;
 
 /// How far beyond the labels of the training part predictions may go, as a share of their range.
-const MARGIN: f64 = 0.25;
+pub(super) const MARGIN: f64 = 0.25;
 
 /// The description kept in a model file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -204,7 +204,7 @@ impl ModelCard {
         (pca_variance, spread): (Option<f64>, Option<Vec<f64>>),
     ) -> ModelCard {
         let channels = input.training.targets.channels.iter().enumerate();
-        let means = means(input.training.targets);
+        let means = label_means(input.training.targets);
         ModelCard {
             format: ModelCard::FORMAT.into(),
             taceva: env!("CARGO_PKG_VERSION").into(),

@@ -66,7 +66,7 @@ impl LabelScaling {
 }
 
 /// The mean label of each channel, in the unit of the channel: the best constant prediction of `targets`, which hold a sample.
-pub(crate) fn means(targets: Targets<'_>) -> Vec<f64> {
+pub fn label_means(targets: Targets<'_>) -> Vec<f64> {
     let channels = targets.channels.len();
     let mean = |channel: usize| {
         let own = || targets.values.iter().skip(channel).step_by(channels.max(1));

@@ -49,7 +49,7 @@ fn predictions_stay_within_the_bounds_outside_the_training_range() {
     model.bound(&mut bounded);
     assert_eq!(bounded, found);
     for (position, count) in counts.into_iter().enumerate() {
-        let [least, greatest] = model.bounds(position).expect("a new model");
+        let [least, greatest] = model.label_bounds().of(position).expect("a new model");
         let card = &model.card().channels[position];
         assert!((least - (card.minimum - 0.25 * card.span)).abs() < 1e-9);
         let own = found.iter().skip(position).step_by(2);

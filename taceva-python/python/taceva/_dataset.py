@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -124,6 +124,21 @@ class Dataset:
         """Return the picture of the untouched gel, if the recording has one."""
         found = self._inner.reference()
         return None if found is None else np.asarray(found)[0]
+
+    def features(
+        self,
+        rows: Sequence[int] | IntArray | None = None,
+        *,
+        settings: Mapping[str, Any] | None = None,
+        jobs: int = 0,
+    ) -> npt.NDArray[np.float32]:
+        """Return ``[rows, values]``: what a model by name sees of frames, or of signals, 32×32 gray where nothing is asked for.
+
+        ``settings`` are those of ``--set``: ``{"size": "16x16", "color": "rgb", "difference": "reference"}``.
+        """
+        words = [f"{name}={value}" for name, value in (settings or {}).items()]
+        found, _, _ = _taceva.features(self._inner, words, self._rows(rows), jobs, bar())
+        return np.asarray(found)
 
     def signals(self, rows: Sequence[int] | IntArray | None = None) -> npt.NDArray[np.float32]:
         """Return ``[rows, values]`` of the signals of some rows, taxel by taxel, read-only."""

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+import numpy as np
+import numpy.typing as npt
+
 from taceva import _taceva
+from taceva._arrays import numbers
 from taceva._bar import bar
 from taceva._dataset import Dataset
 from taceva._result import Result
@@ -14,7 +18,7 @@ from taceva._result import Result
 
 def evaluate(
     dataset: Dataset | str | os.PathLike[str],
-    model: str | os.PathLike[str],
+    model: Any,
     *,
     settings: Mapping[str, Any] | None = None,
     channels: Sequence[str] = (),
@@ -22,50 +26,161 @@ def evaluate(
     seed: int = 0,
     part: str | None = None,
     metrics: str | Sequence[str] = "all",
+    batch: int = 64,
     jobs: int = 0,
 ) -> Result:
-    """Fit a model on the training part of a recording, predict what it has not seen, and score that.
+    """Predict what a model has not seen of a recording, and score that. A model that can learn is fitted on the training part first.
 
     Parameters
     ----------
     model
-        A name, such as ``ridge``, ``cnn`` or ``linfa/elastic-net``, or the file of a fitted model, which brings its own split.
+        One of
+
+        - a name, such as ``"ridge"``, ``"cnn"`` or ``"linfa/elastic-net"``: fitted here;
+        - the file of a model that ``taceva fit`` wrote, which brings its own split;
+        - an object with ``fit(X, y)`` and ``predict(X)``, as scikit-learn's: fitted here on ``X``, float32 ``[rows, features]`` (see
+          `Dataset.features`, 32×32 gray where nothing is asked for), and ``y``, float64 ``[rows, channels]`` in their units; ``fit`` changes it;
+        - a ``torch.nn.Module``: called in ``eval`` mode without gradients, on its own device, with float32 ``[rows, samples, height, width]``
+          from 0 to 1;
+        - any other callable: called with frames ``[rows, height, width, samples]``, uint8 or uint16.
+
+        Modules and callables are taken as they are and return ``[rows, channels]`` in the units of the channels. Name the ``split`` that they
+        have learnt by; without it every sample is scored, and a note says that it is not known what the model has learnt from.
     settings
-        Settings of the model and its features by name: ``{"size": "16x16"}``.
+        By name: of a named model and its features, ``{"size": "16x16"}``; of features alone for an object with ``fit``.
     channels
-        What to predict; all labels of the recording, if empty.
+        What is predicted, in order; all labels of the recording, if empty.
     split, seed
         As of `Dataset.split`.
     part
         ``test`` where nothing is said; ``train``, ``validation`` or ``all`` are no test, and a note says so.
+    batch
+        Frames that a module or a callable gets at once.
 
     Returns
     -------
     Result
-        What ``taceva evaluate DATASET --model NAME --format json`` writes, byte for byte.
+        Of a name or a file: what ``taceva evaluate DATASET --model NAME --format json`` writes, byte for byte.
 
     Raises
     ------
     ModelError
         For a model that does not fit the recording.
     ValueError
-        For a model, a setting or a split that does not exist.
+        For a model, a setting or a split that does not exist, and for predictions of another shape or that are not finite. What a model of
+        yours raises comes out unchanged.
     """
     recording = dataset if isinstance(dataset, Dataset) else Dataset(dataset)
+    wanted = [metrics] if isinstance(metrics, str) else list(metrics)
     words = [f"{name}={_written(value)}" for name, value in (settings or {}).items()]
-    text = _taceva.evaluate_named(
-        recording._inner,
-        os.fspath(model),
-        words,
-        list(channels),
-        split,
-        seed,
-        part,
-        [metrics] if isinstance(metrics, str) else list(metrics),
-        jobs,
-        bar(),
-    )
+    if isinstance(model, str | os.PathLike):
+        text = _taceva.evaluate_named(
+            recording._inner, os.fspath(model), words, list(channels), split, seed, part, wanted, jobs, bar()
+        )
+        return Result(text)
+    if isinstance(model, type):
+        raise TypeError(f"model: the class {_name_of(model)}, expected an object of it")
+    learns = callable(getattr(model, "fit", None)) and callable(getattr(model, "predict", None))
+    if not learns and not callable(model):
+        raise TypeError(
+            f"model: {_name_of(model)} has no fit and predict and cannot be called; "
+            "expected a name, a file, or an object that learns or predicts"
+        )
+    if words and not learns:
+        raise ValueError(f"settings {', '.join(words)}: a model that is taken as it is has none")
+    reads_frames = recording.frame_shape is not None
+    given = _taceva.Given(recording._inner, list(channels), learns, split, seed, part, reads_frames)
+    described = {} if not learns else _settings_of(model)
+    if learns:
+        predictions = _fitted(recording, model, given, words, described, jobs)
+    else:
+        predictions = _called(recording, model, given, batch, jobs)
+    width = len(given.channels())
+    found = _as_rows(predictions, _name_of(model), len(given.target()), width)
+    text = given.score(recording._inner, _name_of(model), described, found, wanted, jobs)
     return Result(text)
+
+
+def _fitted(recording: Dataset, model: Any, given: Any, words: list[str], described: dict[str, str], jobs: int) -> Any:
+    """Return the predictions of a model that learns the training part."""
+    seen, name, _ = _taceva.features(recording._inner, words, given.train(), jobs, bar())
+    labels = np.asarray(given.labels(recording._inner))
+    # Models may write to what they are given.
+    model.fit(np.array(seen), np.array(labels if labels.shape[1] > 1 else labels[:, 0]))
+    described["features"] = name
+    unseen, _, _ = _taceva.features(recording._inner, words, given.target(), jobs, bar())
+    return model.predict(np.array(unseen))
+
+
+def _called(recording: Dataset, model: Any, given: Any, batch: int, jobs: int) -> Any:
+    """Return the predictions of a model that is taken as it is."""
+    rows = given.target()
+    call = _module(model) if _is_module(model) else model
+    shown = bar()
+    if shown is not None:
+        shown.begin("predict", len(rows))
+    predictions = []
+    for first in range(0, len(rows), batch):
+        own = rows[first : first + batch]
+        frames = np.asarray(recording._inner.frames(own, jobs, None))
+        found = _as_rows(call(frames), _name_of(model), len(own), None)
+        predictions.append(found)
+        if shown is not None:
+            shown.advance(len(own))
+    if shown is not None:
+        shown.end()
+    return np.concatenate(predictions)
+
+
+def _is_module(model: Any) -> bool:
+    import sys
+
+    torch = sys.modules.get("torch")
+    return torch is not None and isinstance(model, torch.nn.Module)
+
+
+def _module(model: Any) -> Callable[[npt.NDArray[Any]], Any]:
+    """Return a torch module as a callable of frames."""
+    import torch
+
+    weights = next(iter(model.parameters()), None)
+    device = torch.device("cpu") if weights is None else weights.device
+
+    def call(frames: npt.NDArray[Any]) -> Any:
+        scale = np.float32(np.iinfo(frames.dtype).max)
+        pictures = np.ascontiguousarray(frames.transpose(0, 3, 1, 2), dtype=np.float32) / scale
+        was_training = model.training
+        model.eval()
+        try:
+            with torch.inference_mode():
+                return model(torch.from_numpy(pictures).to(device))
+        finally:
+            model.train(was_training)
+
+    return call
+
+
+def _as_rows(predictions: Any, name: str, rows: int, width: int | None) -> Any:
+    """Return predictions as an array of ``[rows, width]``."""
+    found = numbers(predictions, f"what {name} predicted", allow_invalid=True)
+    if found.ndim == 1 and (width or 1) == 1:
+        found = found[:, np.newaxis]
+    expected = f"[{rows}, {'channels' if width is None else width}]"
+    if found.ndim != 2 or len(found) != rows or (width is not None and found.shape[1] != width):
+        raise ValueError(f"{name} predicted an array of the shape {list(found.shape)}, expected {expected}")
+    return np.ascontiguousarray(found)
+
+
+def _name_of(model: Any) -> str:
+    of = model if isinstance(model, type) or hasattr(model, "__qualname__") else type(model)
+    return f"{getattr(of, '__module__', '?')}.{getattr(of, '__qualname__', '?')}"
+
+
+def _settings_of(model: Any) -> dict[str, str]:
+    """Return what a model of scikit-learn says of its settings."""
+    if not callable(getattr(model, "get_params", None)):
+        return {}
+    return {str(name): repr(value) for name, value in model.get_params(deep=False).items()}
 
 
 def _written(value: Any) -> str:

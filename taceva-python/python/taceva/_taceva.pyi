@@ -3,6 +3,7 @@ from typing import Any, final
 __all__ = [
     "Buffer",
     "DatasetError",
+    "Given",
     "ModelError",
     "Recording",
     "Sums",
@@ -10,6 +11,7 @@ __all__ = [
     "command",
     "comparison",
     "evaluate_named",
+    "features",
     "import_recording",
     "record",
     "score_table",
@@ -53,6 +55,35 @@ class Recording:
     def split(self, split: str | None, seed: int) -> tuple[list[list[int]], str]: ...
     def check(self, jobs: int, bar: Any = None) -> bytes: ...
 
+@final
+class Given:
+    def __new__(
+        cls,
+        recording: Recording,
+        channels: list[str],
+        learns: bool,
+        split: str | None,
+        seed: int,
+        part: str | None,
+        reads_frames: bool,
+    ) -> Given: ...
+    def channels(self) -> list[str]: ...
+    def train(self) -> list[int]: ...
+    def target(self) -> list[int]: ...
+    def labels(self, recording: Recording) -> Any: ...
+    def score(
+        self,
+        recording: Recording,
+        name: str,
+        settings: dict[str, str],
+        predictions: Any,
+        metrics: list[str],
+        jobs: int,
+    ) -> str: ...
+
+def features(
+    recording: Recording, settings: list[str], rows: list[int], jobs: int, bar: Any = None
+) -> tuple[Any, str, list[int]]: ...
 def unit_of(channel: str) -> str | None: ...
 def check_seal(text: str) -> None: ...
 def score_table(texts: list[str], form: str) -> str: ...

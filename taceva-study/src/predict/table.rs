@@ -1,24 +1,21 @@
 //! From the numbers of a model to predictions, with what the table of the dataset holds of the same rows.
 
-use std::collections::BTreeMap;
-
 use taceva_core::{Column, Field};
 use taceva_dataset::Dataset;
-use taceva_models::Model;
 
-use super::{Predicted, Target};
+use super::{Predicted, Predictor, Target};
 use crate::error::StudyError;
 use crate::rows::BESIDE_CHANNELS;
 
-/// The numbers of a model with the labels of the same rows.
+/// The numbers of whatever predicted with the labels of the same rows.
 pub(crate) fn table(
     dataset: &Dataset,
-    model: &Model,
+    predictor: Predictor,
     target: &Target,
     numbers: &Column,
 ) -> Result<Predicted, StudyError> {
     let rows = &target.rows;
-    let channels = model.channels().clone();
+    let channels = predictor.channels;
     let width = channels.len();
     let columns = |numbers: &[f64]| -> Vec<Column> {
         let column = |position: usize| numbers.iter().skip(position).step_by(width).copied();
@@ -27,7 +24,7 @@ pub(crate) fn table(
     };
     let (numbers, deviations) = numbers.values().split_at(rows.len() * width);
     let mut bounded = numbers.to_vec();
-    model.bound(&mut bounded);
+    predictor.bounds.bound(&mut bounded);
     let points: Option<Vec<String>> = rows
         .iter()
         .map(|&row| dataset.table().point_id()[row].clone())
@@ -50,11 +47,12 @@ pub(crate) fn table(
         beyond: (0..width)
             .map(|position| {
                 let own = numbers.iter().skip(position).step_by(width);
-                own.map(|value| model.is_beyond(position, *value)).collect()
+                own.map(|value| predictor.bounds.is_beyond(position, *value))
+                    .collect()
             })
             .collect(),
-        constants: constants(model),
-        frames_decoded: if model.reads_frames() {
+        constants: predictor.constants,
+        frames_decoded: if predictor.reads_frames {
             rows.len() as u64
         } else {
             0
@@ -62,14 +60,6 @@ pub(crate) fn table(
         left_out: target.left_out,
         channels,
     })
-}
-
-/// The best constant answers of `model`, by channel, as far as its card says them.
-fn constants(model: &Model) -> BTreeMap<String, f64> {
-    let channels = model.card().channels.iter();
-    channels
-        .filter_map(|channel| Some((channel.name.clone(), channel.mean?)))
-        .collect()
 }
 
 /// The other columns of the table for `rows` that `score` reads.

@@ -7,6 +7,7 @@ use crate::error::StudyError;
 use crate::rows::{DataPart, Divided, Need, require_samples, usable};
 
 /// The rows that are predicted, and how that was decided.
+#[derive(Debug)]
 pub(crate) struct Target {
     pub(crate) part: DataPart,
     pub(crate) rows: Vec<usize>,
