@@ -3,7 +3,7 @@ with `cargo bench -p taceva-network`.
 
 usage: python3 benches/peers/torch_network.py [SIDE [THREADS [REPEATS]]] [--device DEVICE]
 
-Batch 32, six outputs, mean squared error, SGD with momentum, channels_last, single precision. Printed are images a second of
+Batch 32, six outputs, mean squared error, SGD with momentum, channels_last, single precision. Printed are images per second of
 processor time (of all threads) and of the wall clock, best of REPEATS, and how much memory training takes at most beyond what
 the process has once PyTorch is loaded. On a machine with other work pin both sides to the same
 processors (`taskset -c 0`) and run them in turn.
@@ -52,7 +52,7 @@ def best(repeats, work):
 
 def tell(name, side, seconds, images=BATCH):
     busy, wall = seconds
-    print(f"{name:<36} {side}²  {images / busy:8.1f} images a processor second  {images / wall:8.1f} images/s")
+    print(f"{name:<36} {side}²  {images / busy:8.1f} images per processor second  {images / wall:8.1f} images/s")
 
 
 def resident(key):

@@ -52,7 +52,7 @@ impl Args {
         Args::from_pairs(specs, pairs)
     }
 
-    /// Arguments as keys and texts, from a table of a scene for one.
+    /// Arguments given as pairs of key and text, for example those of a table in a scene.
     ///
     /// # Errors
     /// [`ArgError`], for the first thing that is wrong.
@@ -89,12 +89,12 @@ impl Args {
         Ok(Args { values })
     }
 
-    /// What `key` says, if it was given or has a default.
+    /// The value of `key`, if it was given or has a default.
     pub fn get(&self, key: &str) -> Option<&ArgValue> {
         self.values.get(key)
     }
 
-    /// The whole number that `key` says.
+    /// The value of `key`, a whole number.
     ///
     /// # Panics
     /// If the driver did not declare `key` as a whole number that is required or has a default: a mistake of its code.
@@ -105,7 +105,7 @@ impl Args {
         }
     }
 
-    /// The number that `key` says, in the unit it was declared with.
+    /// The value of `key`, a number in the unit it was declared with.
     ///
     /// # Panics
     /// As [`whole`](Args::whole).
@@ -116,7 +116,7 @@ impl Args {
         }
     }
 
-    /// The text, path or choice that `key` says.
+    /// The value of `key`: a text, a path or a choice.
     ///
     /// # Panics
     /// As [`whole`](Args::whole).
@@ -140,7 +140,7 @@ impl Args {
 }
 
 impl ArgSpec {
-    /// Whether `args` say something else than nothing, or than its default.
+    /// Whether `args` hold a value for this argument other than its default.
     pub fn is_set_by(&self, args: &Args) -> bool {
         match &self.presence {
             Presence::Default(value) => args.get(&self.key) != Some(value),
@@ -149,7 +149,7 @@ impl ArgSpec {
     }
 }
 
-/// That `key` is none of those declared.
+/// The error that `key` is not declared.
 fn unknown(key: &str, specs: &[ArgSpec]) -> ArgError {
     let known: Vec<String> = specs.iter().map(|spec| spec.key.clone()).collect();
     ArgError::Unknown {
@@ -159,7 +159,7 @@ fn unknown(key: &str, specs: &[ArgSpec]) -> ArgError {
     }
 }
 
-/// That an argument which is required is not given.
+/// The error that a required argument is not given.
 fn missing(spec: &ArgSpec) -> ArgError {
     ArgError::Missing {
         key: spec.key.clone(),
@@ -174,7 +174,7 @@ fn undeclared(key: &str, expected: &str, found: Option<&ArgValue>) -> ! {
     )
 }
 
-/// The text between single semicolons, with doubled ones made single; nothing between them is nothing.
+/// The parts of `text` between single semicolons, with `;;` read as one semicolon; blank parts are left out.
 fn parts(text: &str) -> Vec<String> {
     let mut parts = vec![String::new()];
     let mut characters = text.chars().peekable();

@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use crate::channel::Channels;
 use crate::field::Field;
 
-/// Some samples as columns of one length; what no metric asked for is not filled.
+/// Samples as columns of equal length; a field that no metric asked for is left empty.
 ///
 /// ```
 /// use taceva_core::{Batch, Channel, Channels, Column};
@@ -37,7 +37,7 @@ impl Batch {
     /// A batch of ready columns.
     ///
     /// # Shapes
-    /// `truth`, `prediction`: a column a channel, all of one length; `points`: of that length.
+    /// `truth`, `prediction`: one column per channel, all of one length; `points`: of that length.
     /// # Panics
     /// If the shapes differ, which is a mistake of the caller's code, not of its data.
     pub fn from_columns(
@@ -75,7 +75,7 @@ impl Batch {
             channels,
             truth,
             prediction,
-            // A partly named batch has no clusters, as one that a builder filled.
+            // A batch in which some rows have no point has no clusters, as with `BatchBuilder`.
             points: points.filter(Labels::all_named),
             labels: BTreeMap::new(),
             numbers: BTreeMap::new(),
@@ -116,12 +116,12 @@ impl Batch {
         &self.channels
     }
 
-    /// What the reference instruments say, of the channel at `position`.
+    /// The truth of the channel at `position`, as the reference instruments measured it.
     pub fn truth(&self, position: usize) -> &Column {
         &self.truth[position]
     }
 
-    /// What the model says, of the channel at `position`.
+    /// The prediction of the channel at `position`.
     pub fn prediction(&self, position: usize) -> &Column {
         &self.prediction[position]
     }

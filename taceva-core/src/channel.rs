@@ -36,7 +36,7 @@ impl Channel {
     pub const FY: Channel = Channel::fixed("Fy", Unit::Newton);
     /// Normal force, positive in compression.
     pub const FZ: Channel = Channel::fixed("Fz", Unit::Newton);
-    /// The six channels of a contact in their order everywhere.
+    /// The six channels of a contact, in the order that they have everywhere.
     pub const SIX: [Channel; 6] = [
         Channel::PX,
         Channel::PY,
@@ -181,7 +181,7 @@ impl<'a> IntoIterator for &'a Channels {
     }
 }
 
-/// Why a channel or a list of channels cannot be.
+/// Why a channel or a list of channels is refused.
 ///
 /// ```
 /// use taceva_core::{Channel, Channels};

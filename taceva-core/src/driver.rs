@@ -1,4 +1,4 @@
-//! What a device promises, whoever made it and wherever it runs: sensor, robot, force transducer, lighting.
+//! The contract of each kind of device, built in or from a plugin: sensor, robot, force transducer, lighting.
 //!
 //! # The order of calls
 //! 1. A [`Factory`](crate::Factory) opens a device from checked [`Args`](crate::Args); nothing moves and no light changes.
@@ -11,8 +11,8 @@
 //! [`ErrorKind::Timeout`](crate::ErrorKind::Timeout) and leaves the device usable.
 //!
 //! # Threads
-//! One call at a time a device. The exceptions are [`Halt`], [`RobotWatch`], [`EnablingSwitch`] and [`Interrupt`]: they may be called from any
-//! thread beside any other call.
+//! Each device takes one call at a time. The exceptions are [`Halt`], [`RobotWatch`], [`EnablingSwitch`] and [`Interrupt`]: they may be called
+//! from any thread beside any other call.
 //!
 //! # Values
 //! mm, degrees, N and N·mm in the sensor's frame. A value that is not finite is refused on the way in

@@ -22,7 +22,7 @@ pub enum ErrorKind {
     Timeout = 4,
     /// The link is gone.
     Disconnected = 5,
-    /// The thing cannot do this at all.
+    /// It cannot do this at all.
     Unsupported = 6,
     /// The caller asked for something impossible.
     InvalidArgument = 7,
@@ -40,7 +40,7 @@ pub enum ErrorKind {
     EndOfStream = 13,
     /// Foreign code panicked and was contained.
     Panicked = 14,
-    /// A bug of ours.
+    /// A bug in TacEva.
     Internal = 15,
 }
 

@@ -13,7 +13,7 @@ use crate::progress::Progress;
 ///     Saved, SavedRegressor, SilentProgress, Targets, TrainingSet,
 /// };
 ///
-/// /// Fits the force that one step of the first feature is worth.
+/// /// Fits the force per step of the first feature.
 /// struct Proportional {
 ///     key: DriverKey,
 /// }
@@ -109,10 +109,10 @@ pub trait EstimatorFactory: Send + Sync {
         Ok(None)
     }
 
-    /// Whether a model that was fitted by the build `fitted_by` may be loaded by this one, which may say that it is odd.
+    /// Accepts or refuses a model that was fitted by the build `fitted_by`; an implementation may warn that the build differs.
     ///
     /// # Errors
-    /// [`ModelError`] of kind `PermissionDenied` if only the very build may load it.
+    /// [`ModelError`] of kind `PermissionDenied` if only the build that fitted it may load it.
     fn admit(&self, fitted_by: Option<&str>) -> Result<(), ModelError> {
         let _ = fitted_by;
         Ok(())
@@ -139,7 +139,7 @@ pub struct FitRequest<'a> {
     pub training: &'a TrainingSet<'a>,
     /// Samples to choose settings by.
     pub validation: Option<&'a TrainingSet<'a>>,
-    /// Who listens, and may cancel.
+    /// Receives the progress of the fit, and may cancel it.
     pub progress: &'a dyn Progress,
 }
 

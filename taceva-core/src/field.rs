@@ -1,4 +1,4 @@
-//! The parts of a sample, as data: so that what nobody reads is neither decoded nor kept.
+//! The parts of a sample, as data: so that a part that is not read is neither decoded nor kept.
 
 use std::fmt;
 use std::ops::BitOr;
@@ -15,9 +15,9 @@ use std::ops::BitOr;
 pub enum Field {
     /// The picture of the gel.
     Frame,
-    /// What the reference instruments say.
+    /// The readings of the reference instruments.
     Truth,
-    /// What a model says.
+    /// The predictions of a model.
     Prediction,
     /// The contact location: the cluster of every interval.
     Point,
@@ -37,13 +37,13 @@ pub enum Field {
     Kind,
     /// The spacing of that grating.
     Spacing,
-    /// What a model says the spacing is.
+    /// The spacing that a model predicts.
     PredictedSpacing,
     /// The mean brightness of the picture.
     Intensity,
-    /// The digest of the picture's bytes: tells equal pictures without decoding them.
+    /// The digest of the picture's bytes: shows that pictures are equal without decoding them.
     FrameDigest,
-    /// The numbers of taxels, of a sensor that gives such.
+    /// The numbers of the taxels, of a sensor that has them.
     Signals,
 }
 

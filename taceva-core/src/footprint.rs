@@ -1,4 +1,4 @@
-//! Where a sensor senses: declared, never read off the data, so that bins do not move with the samples.
+//! Where a sensor senses: declared, never derived from the samples, so that bins do not move with them.
 
 use std::fmt;
 
@@ -127,7 +127,7 @@ fn length(name: &'static str, millimetres: f64) -> Result<Nanometre, FootprintEr
     length.ok_or(FootprintError { name, millimetres })
 }
 
-/// A length that no sensor has.
+/// A length of a footprint that is not above 0, or beyond 10 m.
 ///
 /// ```
 /// use taceva_core::Footprint;

@@ -25,7 +25,7 @@ impl Frame {
     /// A frame of `bytes`.
     ///
     /// # Shapes
-    /// `bytes`: height × width × samples × bytes a sample.
+    /// `bytes`: height × width × samples × bytes per sample.
     /// # Errors
     /// [`FrameError`] if there are more or fewer bytes.
     pub fn new(info: FrameInfo, bytes: Vec<u8>) -> Result<Frame, FrameError> {
@@ -43,7 +43,7 @@ impl Frame {
         &self.bytes
     }
 
-    /// The pixels, given away.
+    /// The pixels, without a copy.
     pub fn into_bytes(self) -> Vec<u8> {
         self.bytes
     }
@@ -59,13 +59,13 @@ impl Frame {
     }
 }
 
-/// Steps of a 16-bit sample to one of an 8-bit camera.
+/// Steps of a 16-bit sample per step of an 8-bit camera.
 const STEPS_OF_16_BIT: u64 = 256;
 
 impl Frame {
     /// The mean luma, (299 R + 587 G + 114 B) / 1000 of each pixel, in steps of an 8-bit camera; 0 for a frame without pixels.
     ///
-    /// The sum is exact, the quotient is rounded once for every frame that 8-bit cameras take.
+    /// The sum is exact, and the quotient is rounded once, up to 35 thousand million 8-bit or 137 million 16-bit pixels.
     ///
     /// ```
     /// use taceva_core::{Frame, FrameInfo, PixelFormat};
@@ -102,7 +102,7 @@ impl Frame {
         }
         #[expect(
             clippy::cast_precision_loss,
-            reason = "exact up to 2^53, which 35 million 8-bit pixels do not reach"
+            reason = "exact up to 2^53, which 35 thousand million 8-bit pixels do not reach"
         )]
         let mean = sum as f64 / (pixels as u64 * 1000 * steps) as f64;
         mean

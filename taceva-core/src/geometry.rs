@@ -84,7 +84,7 @@ impl Pose {
     }
 }
 
-/// The nearest of the numbers of which there are `per_unit` a unit; one too large to have neighbours so close stays, as does no number.
+/// The multiple of 1 / `per_unit` nearest to `value`. A value so large that 64-bit numbers lie further apart stays, as do NaN and infinity.
 pub(crate) fn nearest(value: f64, per_unit: f64) -> f64 {
     let steps = value * per_unit;
     if steps.abs() < 2_f64.powi(52) {

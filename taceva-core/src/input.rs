@@ -1,4 +1,4 @@
-//! What a model looks at: the picture of a camera, or the numbers of taxels.
+//! The input of a model: the picture of a camera, or the numbers of taxels.
 
 use std::fmt;
 
@@ -6,7 +6,7 @@ use crate::field::Field;
 use crate::frame::{Frame, FrameInfo};
 use crate::signals::{SignalInfo, Signals};
 
-/// What a model looks at of one sample, borrowed.
+/// What a model takes of one sample, borrowed.
 ///
 /// ```
 /// use taceva_core::{Field, Input, SignalInfo, Signals, Unit};
@@ -47,7 +47,7 @@ impl<'a> From<&'a Signals> for Input<'a> {
     }
 }
 
-/// The kind of what a model looks at, and its size.
+/// The kind and size of the input of a model.
 ///
 /// In files it is one key, `frame` or `signals`, with the numbers of that kind.
 ///

@@ -1,4 +1,4 @@
-//! Which instructions loops over many numbers are made with.
+//! The instruction set that loops over many numbers use.
 
 use std::fmt;
 use std::str::FromStr;
@@ -9,7 +9,7 @@ const VARIABLE: &str = "TACEVA_ISA";
 
 /// An instruction set that there are kernels for.
 ///
-/// What depends on the choice, if anything does, is said by those who make the kernels. NEON was written for 64-bit ARM and is
+/// Whether results depend on the choice is documented with the kernels. NEON was written for 64-bit ARM and is
 /// compiled there only.
 ///
 /// ```
@@ -86,9 +86,9 @@ impl Isa {
             .collect()
     }
 
-    /// The one to work with: what `TACEVA_ISA` asks for, or else the fastest that this machine has.
+    /// The instruction set to use: what `TACEVA_ISA` asks for, or else the fastest that this machine has.
     ///
-    /// The variable is read once in the life of a program. One that cannot be met is passed over here; a program that wants to
+    /// The variable is read once in the life of a program. A value that cannot be met is ignored here; a program that wants to
     /// refuse it asks [`requested`](Isa::requested).
     pub fn detect() -> Isa {
         static DETECTED: OnceLock<Isa> = OnceLock::new();
@@ -101,7 +101,7 @@ impl Isa {
     /// What the environment variable `TACEVA_ISA` asks for; `None` if it is not set.
     ///
     /// # Errors
-    /// [`IsaError`] if it names no instruction set, or one that this machine has not.
+    /// [`IsaError`] if it names no instruction set, or one that this machine does not have.
     pub fn requested() -> Result<Option<Isa>, IsaError> {
         let Some(name) = std::env::var_os(VARIABLE) else {
             return Ok(None);

@@ -133,7 +133,7 @@ pub trait Regressor: Send + Sync {
     fn predict(&self, features: &Features, into: &mut [f64]) -> Result<(), ModelError>;
 }
 
-/// A fitted model that can be kept as bytes of its own: that of a plugin.
+/// A fitted model that can be kept as bytes in a format of its own, such as that of a plugin.
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, FeatureShape, Features, Regressor};
@@ -167,14 +167,14 @@ pub trait Regressor: Send + Sync {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait SavedRegressor: Regressor {
-    /// The model as bytes from which its maker loads it again, on every machine.
+    /// The model as bytes from which its estimator loads it again, on every machine.
     ///
     /// # Errors
     /// [`ModelError`] if it cannot be written.
     fn save(&self) -> Result<Vec<u8>, ModelError>;
 }
 
-/// A model as it was kept: its bytes are its maker's, what it takes and gives is ours.
+/// A model as it was kept: bytes in the format of its estimator, and beside them what it takes and predicts.
 ///
 /// ```
 /// use taceva_core::{Channel, Channels, FeatureShape, Saved};

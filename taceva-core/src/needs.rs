@@ -1,4 +1,4 @@
-//! What a consumer requires of a stream before it can say anything.
+//! What a consumer requires of a stream before it can give a value.
 
 use crate::field::FieldSet;
 

@@ -13,11 +13,11 @@ use std::fmt;
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 #[non_exhaustive]
 pub enum Limit {
-    /// How deep it may be pressed.
+    /// The greatest indentation depth.
     Depth,
-    /// How hard it may be pressed.
+    /// The greatest normal force.
     NormalForce,
-    /// How hard it may be dragged.
+    /// The greatest shear force.
     ShearForce,
 }
 

@@ -1,6 +1,6 @@
-//! How long work tells a person where it is, and learns that it should stop.
+//! How a long operation reports its progress, and learns that it should stop.
 
-/// Listens to long work; the work never knows whether a terminal, a log or nobody listens.
+/// Receives the progress of a long operation, which need not know whether it is shown on a terminal, logged or ignored.
 ///
 /// ```
 /// use std::sync::atomic::{AtomicU64, Ordering};
@@ -37,7 +37,7 @@ pub trait Progress: Send + Sync {
     fn end(&self);
     /// Whether the work should stop at the next safe place.
     fn is_cancelled(&self) -> bool;
-    /// Whether somebody wished so twice: what moves is halted where it is, and nothing is brought to a better place.
+    /// Whether the stop was asked for a second time: a moving robot is halted where it is, and is not retracted first.
     fn is_insisted(&self) -> bool {
         false
     }

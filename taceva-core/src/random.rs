@@ -79,7 +79,7 @@ pub const fn unit(bits: u64) -> f64 {
     (bits >> 11) as f64 * UNIT_STEP
 }
 
-/// A number of 0 < u < 1 from 64 random bits: an odd multiple of 2⁻⁵⁴, rounded to even beside 1.
+/// A number of 0 < u ≤ 1 from 64 random bits: an odd multiple of 2⁻⁵⁴, rounded to 53 bits, so that 1 comes with probability 2⁻⁵³.
 ///
 /// ```
 /// use taceva_core::random::open_unit;

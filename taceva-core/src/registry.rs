@@ -26,7 +26,7 @@ use crate::args::nearest;
 use crate::driver::Device;
 use crate::id::DriverKey;
 
-/// The drivers of one kind, by key and always in the order of their keys. A value that is handed down, never a global.
+/// The drivers of one kind, by key and always in the order of their keys. It is a value that callers pass on, never a global one.
 ///
 /// ```
 /// use taceva_core::{Registry, Sensor};

@@ -42,7 +42,7 @@ pub struct Sample {
     pub repeat: Option<u32>,
     /// Load or unload.
     pub phase: Option<Phase>,
-    /// The limit of the gel that kept the tip from where it was sent: labels and picture are of the place that was reached.
+    /// The limit of the gel that kept the tip from its target; labels and picture are then of the place that was reached.
     pub limited_by: Option<Limit>,
     /// When it was taken.
     pub stamp: Option<Stamp>,
@@ -50,23 +50,23 @@ pub struct Sample {
     pub kind: Option<GratingKind>,
     /// The spacing of that grating.
     pub spacing: Option<Nanometre>,
-    /// What a model says the spacing is.
+    /// The spacing that a model predicts.
     pub predicted_spacing: Option<Nanometre>,
     /// The mean luma of the full-size picture, (299 R + 587 G + 114 B) / 1000, in steps of an 8-bit camera: 0 to 255.
     pub intensity: Option<f64>,
-    /// The SHA-256 of the picture's bytes, `sha256:` and hexadecimal: equal pictures are told without decoding them.
+    /// The SHA-256 of the picture's bytes, `sha256:` and 64 hexadecimal digits: shows that pictures are equal without decoding them.
     pub frame_digest: Option<String>,
     /// The picture, decoded.
     pub frame: Option<Frame>,
     /// The numbers of its taxels.
     pub signals: Option<Signals>,
-    /// What the reference instruments say, a value a channel of the stream.
+    /// The readings of the reference instruments, one value per channel of the stream.
     pub truth: Readings,
-    /// What a model says, a value a channel of the stream.
+    /// The predictions of a model, one value per channel of the stream.
     pub prediction: Option<Readings>,
 }
 
-/// A value a channel of the stream, in the order of its [`Channels`]; absent ones are `None`.
+/// One value per channel of the stream, in the order of its [`Channels`]; absent ones are `None`.
 ///
 /// ```
 /// use taceva_core::Readings;
@@ -91,7 +91,7 @@ impl Readings {
         }
     }
 
-    /// The channels of a contact as the robot and the force transducer saw it; other channels are absent.
+    /// The channels of a contact as the robot and the force transducer measured them; other channels are absent.
     ///
     /// ```
     /// use taceva_core::{Channel, Channels, Newton, Readings, Wrench};

@@ -1,9 +1,9 @@
-//! Foreign text where a person reads it: names, ids and paths come from anywhere, and a terminal obeys what they contain.
+//! Text from outside as it is printed for people: names, ids and paths may hold characters that a terminal obeys.
 
 use std::ffi::OsStr;
 use std::fmt;
 
-/// A foreign name as it is printed: on one line, and with nothing in it that a terminal or a reader's eye obeys.
+/// A name from outside as it is printed: on one line, with every character written out that a terminal obeys or that a reader cannot see.
 ///
 /// Every message of every crate writes ids, names of files and models, keys of maps and what else came from outside through this.
 /// Values that programs read (JSON, CSV, journals, headers) keep the text as it is.
@@ -37,7 +37,7 @@ impl fmt::Display for Shown<'_> {
 
 /// Text of several lines as it is printed: lines stay lines, and tabs tabs.
 ///
-/// The last guard before a terminal, for text that was put together elsewhere.
+/// The last check before a terminal, for text that was put together elsewhere.
 pub fn shown_lines(text: &str) -> String {
     let mut written = String::with_capacity(text.len());
     for letter in text.chars() {
@@ -57,8 +57,8 @@ fn push_shown(written: &mut String, letter: char) {
     }
 }
 
-/// Whether a letter is obeyed rather than read: controls of both sets, marks that turn the direction of writing, breaks of lines,
-/// and what has no width and so makes two names look like one.
+/// Whether a character controls the display and is not read: control characters (C0 and C1), marks of the direction of writing, line
+/// separators, and characters without width, with which two different names look the same.
 pub fn is_obeyed(letter: char) -> bool {
     letter.is_control()
         || matches!(letter,

@@ -1,4 +1,4 @@
-//! The way to SI units and back, as poses, wrenches and speeds cross the plugin boundary.
+//! Conversion to SI units and back: poses, wrenches and speeds cross the plugin boundary in them.
 
 use crate::driver::{Speed, SpeedError};
 use crate::geometry::{Point, Pose, Rotation, nearest};
@@ -73,7 +73,7 @@ impl SiPose {
         let (zy, zz) = (2.0 * (y * z + w * x), w * w - x * x - y * y + z * z);
         let angle = |sine: f64, cosine: f64| {
             let angle = sine.atan2(cosine).to_degrees();
-            // A half turn either way is one turn, told apart by nothing but rounding.
+            // Half a turn in either direction is the same rotation; only rounding decides between them.
             let is_half_turn = angle < -180.0 + 1e-10;
             Degree(if is_half_turn { 180.0 } else { angle })
         };

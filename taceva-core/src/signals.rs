@@ -1,4 +1,4 @@
-//! What a sensor without pictures says at one instant: a grid of taxels, or a row of channels.
+//! The reading of a sensor without a camera at one instant: a grid of taxels, or a row of channels.
 
 mod error;
 
@@ -8,7 +8,7 @@ use std::fmt;
 
 use crate::unit::Unit;
 
-/// The places of a tactile sensor that gives numbers, how many numbers each gives, and their unit.
+/// The grid of places (taxels) of a tactile sensor that gives numbers, how many numbers each place gives, and their unit.
 ///
 /// A sensor whose places form no grid has one row of them.
 ///
@@ -26,16 +26,16 @@ use crate::unit::Unit;
 pub struct SignalInfo {
     /// Rows of places.
     pub rows: u32,
-    /// Places a row.
+    /// Places per row.
     pub columns: u32,
-    /// Numbers a place.
+    /// Numbers per place.
     pub channels: u32,
     /// The unit of every number.
     pub unit: Unit,
 }
 
 impl SignalInfo {
-    /// Most numbers a sample.
+    /// Most numbers per sample.
     pub const LEN_MAX: u32 = 16_384;
 
     /// A grid of `rows` × `columns` places, each of `channels` numbers in `unit`.
@@ -60,7 +60,7 @@ impl SignalInfo {
         }
     }
 
-    /// Whether it has a number, and no more than [`LEN_MAX`](SignalInfo::LEN_MAX): not every one that was read from a file does.
+    /// Whether it has at least one number and at most [`LEN_MAX`](SignalInfo::LEN_MAX); one that was read from a file may not.
     pub const fn is_valid(&self) -> bool {
         let (rows, columns) = (self.rows as u64, self.columns as u64);
         // Two 32-bit numbers have a 64-bit product.
@@ -70,7 +70,7 @@ impl SignalInfo {
         }
     }
 
-    /// Numbers a sample; 0 of one that is not [valid](SignalInfo::is_valid).
+    /// Numbers per sample; 0 if this is not [valid](SignalInfo::is_valid).
     pub const fn len(&self) -> usize {
         match self.is_valid() {
             true => self.rows as usize * self.columns as usize * self.channels as usize,
@@ -154,7 +154,7 @@ impl Signals {
         &self.values
     }
 
-    /// The numbers, given away.
+    /// The numbers, without a copy.
     pub fn into_values(self) -> Vec<f32> {
         self.values
     }

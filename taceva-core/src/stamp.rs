@@ -1,4 +1,4 @@
-//! When something was true, and when we heard of it.
+//! When an observation was made, and when it was received.
 
 use std::fmt;
 use std::time::Duration;
@@ -18,7 +18,7 @@ pub enum Clock {
     Unix,
     /// Seconds since an arbitrary start; never jumps.
     Monotonic,
-    /// Nobody wrote it down.
+    /// It is not recorded.
     #[default]
     Unknown,
 }
@@ -44,11 +44,11 @@ impl fmt::Display for Clock {
 pub struct Stamp {
     /// When the observation was true: the middle of the exposure, where that is known.
     pub valid_s: f64,
-    /// When it reached us; the difference is the latency.
+    /// When it was received; the difference is the latency.
     pub received_s: Option<f64>,
 }
 
-/// Nanoseconds a second.
+/// Nanoseconds per second.
 const NANOSECONDS: f64 = 1e9;
 
 impl Stamp {
@@ -68,7 +68,7 @@ impl Stamp {
         }
     }
 
-    /// The stamp of something that was true when it was heard of.
+    /// The stamp of an observation that was received at the moment at which it was made.
     pub fn at(now: Duration) -> Stamp {
         Stamp::new(now, Some(now))
     }
@@ -78,7 +78,7 @@ impl Stamp {
         nanoseconds(self.valid_s)
     }
 
-    /// When it reached us, to the nanosecond.
+    /// When it was received, to the nanosecond.
     pub fn received(&self) -> Option<Duration> {
         self.received_s.map(nanoseconds)
     }

@@ -43,7 +43,7 @@ pub trait SampleSink {
     /// Takes one sample.
     ///
     /// # Errors
-    /// Whatever keeps the sink from taking it; the source stops and hands the error on.
+    /// Whatever keeps the sink from taking it; the source stops and returns the error.
     fn accept(&mut self, sample: &Sample) -> Result<(), SinkError>;
 }
 
@@ -146,7 +146,7 @@ impl<S: SampleSink> SampleSink for Select<S> {
             depth_step: sample.depth_step.filter(|_| kept(Field::DepthStep)),
             repeat: sample.repeat.filter(|_| kept(Field::Repeat)),
             phase: sample.phase.filter(|_| kept(Field::Phase)),
-            // As a name, it is no field that anybody could do without.
+            // Like the id, it is no `Field`, and so is always kept.
             limited_by: sample.limited_by,
             stamp: sample.stamp.filter(|_| kept(Field::Stamp)),
             kind: sample.kind.filter(|_| kept(Field::Kind)),

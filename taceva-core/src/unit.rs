@@ -40,7 +40,7 @@ pub enum Unit {
     /// Pixels of the sensor's own picture.
     #[cfg_attr(feature = "serde", serde(rename = "px"))]
     Pixel,
-    /// mm/N, of compliances: how far the gel yields a newton.
+    /// mm/N, of compliances: how far the gel yields per newton.
     #[cfg_attr(feature = "serde", serde(rename = "mm/N"))]
     MillimetrePerNewton,
     /// mm², of areas.
@@ -55,7 +55,7 @@ pub enum Unit {
     /// µT, of magnetic flux densities.
     #[cfg_attr(feature = "serde", serde(rename = "uT"))]
     Microtesla,
-    /// Steps of a converter.
+    /// Steps of an analogue-to-digital converter.
     #[cfg_attr(feature = "serde", serde(rename = "count"))]
     Count,
     /// V, of voltages.

@@ -1,4 +1,4 @@
-//! What the force transducer says.
+//! Force and torque on the gel.
 
 use crate::geometry::nearest;
 use crate::quantity::{Newton, NewtonMillimetre};

@@ -1,7 +1,7 @@
-//! Images a second of training steps and of predictions on a GPU: ResNet-18, six outputs, squared errors, SGD with momentum.
+//! Images per second of training steps and of predictions on a GPU: ResNet-18, six outputs, squared errors, SGD with momentum.
 //!
-//! `cargo run --release -p taceva-gpu --features cuda --example speed [-- KIND [SIDE [BATCH [STEPS]]]]`; `cuda`, 64, 32 and 50 where
-//! nothing is said. Times are those of the wall clock, pictures come from the memory of the processor as they do in a training.
+//! `cargo run --release -p taceva-gpu --features cuda --example speed [-- KIND [SIDE [BATCH [STEPS]]]]`; `cuda`, 64, 32 and 50 are the
+//! defaults. Times are those of the wall clock, pictures come from the memory of the processor as they do in a training.
 //! `benches/peers/torch_network.py --device cuda` measures PyTorch alike.
 
 #![expect(

@@ -1,4 +1,4 @@
-//! Finding a device, by whatever reaches it.
+//! Finding a device, through each programming interface.
 
 #[cfg(feature = "cuda")]
 pub(crate) mod cuda;

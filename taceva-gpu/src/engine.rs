@@ -25,7 +25,7 @@ struct DeviceEngine<B: Backend> {
     passes: Passes,
     weights: Weights<B>,
     moments: Vec<Tensor<B, 1>>,
-    /// The last step, for whoever finds a weight that is not finite.
+    /// The last step, for the error that names where a weight was found that is not finite.
     last: u64,
     /// Why the device failed in a step, which may be half done: no other is made.
     failed: Option<NetworkError>,

@@ -6,7 +6,7 @@ use crate::GpuKind;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GpuError {
-    /// The program can reach none of that kind.
+    /// The program was built without the feature for that kind.
     #[error(
         "this program was built without the feature `{kind}`: build it with `--features {kind}`, or train with `device=cpu`"
     )]
@@ -14,14 +14,14 @@ pub enum GpuError {
         /// What was asked for; the feature has its name.
         kind: GpuKind,
     },
-    /// None of that kind is at hand.
+    /// No device of that kind was found.
     #[error("no device for `{kind}`: looked for {looked_for}; {found}")]
     NotFound {
         /// What was asked for.
         kind: GpuKind,
         /// What is needed.
         looked_for: &'static str,
-        /// What there was instead.
+        /// What was found instead.
         found: String,
     },
 }

@@ -9,7 +9,7 @@ use crate::GpuError;
 /// How a GPU is reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GpuKind {
-    /// NVIDIA's driver, with kernels that NVRTC compiles as they are met.
+    /// NVIDIA's driver, with kernels that NVRTC compiles when they are first used.
     Cuda,
     /// Vulkan, Metal or DirectX 12, whichever the system has.
     Wgpu,
@@ -27,7 +27,7 @@ impl GpuKind {
         }
     }
 
-    /// Whether this program was built with what reaches it.
+    /// Checks that this program was built with the feature for this kind.
     ///
     /// # Errors
     /// [`GpuError::NotBuilt`], naming the feature.
@@ -82,7 +82,7 @@ impl Gpu {
         self.kind
     }
 
-    /// What its driver calls it.
+    /// Its name, as its driver gives it.
     pub fn name(&self) -> &str {
         &self.name
     }

@@ -1,4 +1,4 @@
-//! The one place where panics of foreign code end: burn and what lies below it have no other way to say that a device failed.
+//! The one place where panics of foreign code are caught: burn and the libraries below it report a failed device in no other way.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};

@@ -1,4 +1,4 @@
-//! Prediction: running moments are worked into the weights, so that nothing but convolutions is left.
+//! Prediction: running moments are folded into the weights, so that only convolutions are left.
 
 use burn_tensor::backend::Backend;
 use burn_tensor::{Tensor, TensorData};

@@ -37,7 +37,7 @@ const RUNS: u32 = 1500;
 fn main() {
     let threads = thread::available_parallelism().map_or(1, |threads| threads.get());
     println!(
-        "Simulated presses, not measurements: the sizes of errors at one location correlate by {CORRELATION}; {RUNS} runs a row."
+        "Simulated presses, not measurements: the sizes of errors at one location correlate by {CORRELATION}; {RUNS} runs per row."
     );
     let expected: Vec<String> = METRICS
         .iter()

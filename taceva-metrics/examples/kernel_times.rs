@@ -3,9 +3,9 @@
 //! usage: kernel_times COLUMNS CHANNELS [REPEATS]
 //!
 //! COLUMNS: little-endian binary64, first the references and then the estimates of each channel in turn, all of one length.
-//! For each way the best and the median of the processor time of the thread, and of the wall clock, in nanoseconds a pair:
-//! `[best, median, best, median]`. Every way is run once a round, so that all see the same machine. The last way has half of
-//! the channels on a second thread: only its wall clock means something.
+//! For each way the best and the median of the processor time of the thread, and of the wall clock, in nanoseconds per pair:
+//! `[best, median, best, median]`. Every way is run once per round, so that all run under the same load. The last way has half of
+//! the channels on a second thread: only its wall clock is meaningful.
 
 #![expect(clippy::print_stdout, reason = "an example's result is what it prints")]
 
@@ -88,7 +88,7 @@ fn main() -> Result<(), Error> {
     Ok(())
 }
 
-/// In nanoseconds a pair, to four places.
+/// In nanoseconds per pair, to four places.
 fn best_and_median(mut seconds: Vec<f64>, pairs: usize) -> [String; 2] {
     seconds.sort_by(f64::total_cmp);
     #[expect(clippy::cast_precision_loss, reason = "a count of rows")]

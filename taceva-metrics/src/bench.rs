@@ -1,8 +1,8 @@
-//! Kernels of summation that the exact one is raced against, and cases on which they differ; behind the feature `bench`.
+//! Kernels of summation that the exact one is compared with in time and accuracy, and cases on which they differ; behind the feature `bench`.
 //!
 //! Every [`Kernel`] forms MAE, R² and sMAPE of two columns under one signature, so that a caller can time it, count how
-//! many [`digits`] it gets right, and see whether the result survives [`shuffled`] rows. Nothing here reads a clock. How fast
-//! any of them could be at best says [`stream_sum`], which reads both columns and does next to nothing with them.
+//! many [`digits`] it gets right, and see whether the result survives [`shuffled`] rows. Nothing here reads a clock. The
+//! least time that any of them could take is that of [`stream_sum`], which reads both columns and hardly computes anything.
 //!
 //! ```
 //! use taceva_metrics::bench::{Kernel, digits, nasty_inputs, shuffled};

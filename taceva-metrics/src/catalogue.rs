@@ -98,7 +98,7 @@ pub fn names() -> impl Iterator<Item = &'static str> {
     ALL.into_iter().map(|metric| metric.id).chain(groups)
 }
 
-/// The known name nearest to `name`, if it takes at most a third of the letters to get there.
+/// The known name nearest to `name`, if at most a third of its letters differ.
 fn nearest(name: &str) -> Option<&'static str> {
     let nearest = names().min_by_key(|known| edit_distance(name, known))?;
     let near = edit_distance(name, nearest) <= (nearest.len() / 3).max(1);

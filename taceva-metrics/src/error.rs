@@ -33,7 +33,7 @@ pub enum MetricError {
         /// Rows that were found.
         found: usize,
     },
-    /// A matrix that has not a column a channel.
+    /// A matrix whose number of columns is not the number of channels.
     Columns {
         /// Which matrix: truth or prediction.
         what: &'static str,
@@ -70,7 +70,7 @@ pub enum MetricError {
         /// Its value there.
         found: String,
     },
-    /// A constant with which no score is meant.
+    /// A setting whose value no definition allows.
     Setting {
         /// Which one.
         name: &'static str,
@@ -113,7 +113,7 @@ impl fmt::Display for MetricError {
                 found,
             } => write!(
                 f,
-                "{found} columns of {what}, expected {expected}, one a channel"
+                "{found} columns of {what}, expected {expected}, one per channel"
             ),
             MetricError::Absent { row } => write!(f, "no value in row {row}, expected a number"),
             MetricError::Channels { expected, found } => {

@@ -11,7 +11,7 @@ use crate::score::better::Better;
 use crate::score::range::Range;
 use crate::score::value::UndefinedReason;
 
-/// A way to say in one number how well predictions meet the truth.
+/// A measure of a sensor or of its predictions: one number per channel or plane, with its definition.
 ///
 /// ```
 /// use taceva_metrics::{Better, catalogue};
@@ -70,7 +70,7 @@ impl Metric {
 pub enum ScoreUnit {
     /// That of the channel.
     OfChannel,
-    /// That of the channel an hour; mm and N only.
+    /// That of the channel per hour; mm and N only.
     PerHour,
     /// Always this one.
     Fixed(Unit),

@@ -19,9 +19,9 @@ pub const EPSILON: f64 = 1e-8;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Paired<T> {
-    /// ŷ: what the model says.
+    /// ŷ: the prediction of the model.
     pub estimate: T,
-    /// y: what the reference instrument says.
+    /// y: the truth, as the reference instrument measured it.
     pub reference: T,
 }
 

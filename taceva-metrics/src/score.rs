@@ -50,7 +50,7 @@ pub struct Score {
     pub n: u64,
     /// Samples left out because a value was no usable number; of two channels the larger number.
     pub n_invalid: u64,
-    /// Where the value would lie with other contact locations, at 95 %.
+    /// Where the value would lie with other clusters (contact locations), at 95 %.
     pub interval: Interval,
     /// Which definition was computed: `mae/1`.
     pub definition: &'static str,
@@ -67,7 +67,7 @@ pub struct Score {
     pub bounded_share: Option<f64>,
     /// The channels it is made of, if it is not one channel's own.
     pub of: Vec<String>,
-    /// What else the metric says there: other readings of its definition, maps and curves.
+    /// Further values of the same metric: other readings of its definition, maps and curves.
     pub variants: Vec<Variant>,
 }
 
@@ -106,7 +106,7 @@ pub struct Variant {
     pub unit: Unit,
     /// Which values it can have.
     pub range: Range,
-    /// Where the value would lie with other contact locations, at 95 %; `None` where the question makes no sense, as for maps.
+    /// Where the value would lie with other clusters (contact locations), at 95 %; `None` where the question makes no sense, as for maps.
     pub interval: Option<Interval>,
 }
 

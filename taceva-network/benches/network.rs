@@ -1,4 +1,4 @@
-//! Images a second of training steps and of predictions: ResNet-18, six outputs, batches of 32 (and single pictures).
+//! Images per second of training steps and of predictions: ResNet-18, six outputs, batches of 32 (and single pictures).
 //!
 //! `cargo bench -p taceva-network [-- SIDE [THREADS [REPEATS]]]`; without arguments 64² and 112² on one and two threads. The best
 //! of REPEATS, by processor time of all threads and by the wall clock; and how much memory training takes at most beyond what the
@@ -107,7 +107,7 @@ fn measure(side: usize, threads: usize, repeats: usize, before: Option<f64>) {
 fn report(what: &str, side: usize, threads: usize, images: usize, (busy, wall): (f64, f64)) {
     let images = images as f64;
     println!(
-        "{what:<12} {side}² {threads} threads {:9.1} images a processor second {:9.1} images/s",
+        "{what:<12} {side}² {threads} threads {:9.1} images per processor second {:9.1} images/s",
         images / busy,
         images / wall
     );

@@ -1,4 +1,4 @@
-//! What a network is made of, said as data.
+//! The layers of a network, as data.
 
 mod pooling;
 mod stage_plan;
@@ -13,7 +13,7 @@ use crate::error::NetworkError;
 use crate::panel::PANEL;
 use crate::picture::Picture;
 
-/// The make of a network.
+/// The layers of a network and the shapes of its input and output.
 ///
 /// ```
 /// use taceva_network::{Architecture, Depth, Picture};
@@ -43,11 +43,11 @@ pub enum Body {
     /// K. He, X. Zhang, S. Ren, J. Sun, "Deep residual learning for image recognition", CVPR 2016; layers and names are those
     /// of torchvision's `resnet`.
     Residual(Depth),
-    /// Convolutions one behind the other, each with batch normalisation and cut at zero.
+    /// Convolutions one after the other, each followed by batch normalisation and ReLU.
     Plain {
         /// The convolutions, the first reads the picture.
         layers: Vec<PlainLayer>,
-        /// What becomes of the last pictures.
+        /// How the last pictures become features.
         pooling: Pooling,
     },
 }
@@ -56,9 +56,9 @@ pub enum Body {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Depth {
-    /// One block a stage.
+    /// One block per stage.
     Ten,
-    /// Two blocks a stage.
+    /// Two blocks per stage.
     Eighteen,
     /// Three, four, six and three blocks.
     ThirtyFour,
@@ -85,7 +85,7 @@ impl Depth {
     }
 }
 
-/// The greatest number of numbers of a picture anywhere in a network: offsets are kept in 32 bits.
+/// The most numbers that a picture anywhere in a network may have: offsets are kept in 32 bits.
 const PICTURE_MAX: usize = 1 << 28;
 
 impl Architecture {
@@ -99,8 +99,8 @@ impl Architecture {
         }
     }
 
-    /// The small network of five convolutions: each halves the picture, and every pixel of the last is a feature, so that
-    /// where something is seen counts.
+    /// The small network of five convolutions: each halves the picture, and every number of every pixel of the last is a feature, so that
+    /// outputs can depend on where in the picture something is.
     pub fn five_layers(input: Picture, outputs: usize) -> Architecture {
         let layer = |channels, kernel| PlainLayer {
             channels,
@@ -218,7 +218,7 @@ impl Architecture {
         }
     }
 
-    /// What the names of the tensors of each part begin with.
+    /// The beginning of the names of the tensors of each part.
     pub fn stage_names(&self) -> Vec<String> {
         match &self.body {
             Body::Plain { layers, .. } => (0..layers.len())

@@ -25,7 +25,7 @@ pub(crate) struct BatchNorm {
     pub(crate) running_variance: Aligned,
 }
 
-/// The moments of one batch, and normalisation by them as one factor and one addend a channel.
+/// The moments of one batch, and normalisation by them as one factor and one addend per channel.
 #[derive(Clone, Debug)]
 pub(crate) struct Moments {
     pub(crate) mean: Aligned,
@@ -62,7 +62,7 @@ impl BatchNorm {
         }
     }
 
-    /// The moments of a batch from the sums of its pictures, `samples` numbers a channel; running moments follow.
+    /// The moments of a batch from the sums of its pictures, `samples` numbers per channel; running moments are updated.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "moments are summed in double precision and used in single"

@@ -12,7 +12,7 @@ pub enum NetworkError {
         /// What cannot.
         reason: String,
     },
-    /// A tensor that the architecture has and that did not come.
+    /// A tensor of the architecture that is missing.
     #[error("no tensor `{name}`, which the architecture has", name = taceva_core::shown(name))]
     MissingTensor {
         /// Its name.
@@ -31,7 +31,7 @@ pub enum NetworkError {
         name: String,
         /// The shape found.
         found: Vec<usize>,
-        /// How many numbers came.
+        /// How many numbers were given.
         values: usize,
         /// The shape of the architecture.
         expected: Vec<usize>,
@@ -47,7 +47,7 @@ pub enum NetworkError {
     /// Pictures that are no whole number of those that the network takes.
     #[error("{values} numbers are no whole number of pictures of {expected}")]
     Pictures {
-        /// How many numbers came.
+        /// How many numbers were given.
         values: usize,
         /// The picture that the network takes.
         expected: Picture,
@@ -67,9 +67,9 @@ pub enum NetworkError {
     Labels {
         /// What the samples are for.
         part: SampleSet,
-        /// How many labels came.
+        /// How many labels were given.
         labels: usize,
-        /// How many pictures came.
+        /// How many pictures were given.
         pictures: usize,
         /// Outputs of the network.
         outputs: usize,
@@ -145,7 +145,7 @@ pub enum NetworkError {
     Device {
         /// Which one.
         device: String,
-        /// What it says.
+        /// What is wrong, as the device reports it.
         problem: String,
     },
     /// Room for results that has another length than there are results.
@@ -161,11 +161,11 @@ pub enum NetworkError {
 /// What samples are for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SampleSet {
-    /// Learnt from.
+    /// For training.
     Training,
-    /// Chosen by.
+    /// For choosing the best epoch.
     Validation,
-    /// Predicted.
+    /// To be predicted.
     Prediction,
 }
 

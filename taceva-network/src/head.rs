@@ -1,4 +1,4 @@
-//! The end of a network: features of the last pictures, and outputs that are linear in them.
+//! The last layer of a network: features of the last pictures, and outputs that are linear in them.
 
 use crate::architecture::Pooling;
 use crate::panel::Aligned;
@@ -36,7 +36,7 @@ impl Head {
         self.bias.len()
     }
 
-    /// Features a sample.
+    /// Features per sample.
     pub(crate) fn features(&self) -> usize {
         self.weights.len() / self.bias.len()
     }

@@ -1,4 +1,4 @@
-//! How far outputs are from labels, and which way is less.
+//! The loss, how far outputs are from labels, and its gradient.
 
 use serde::{Deserialize, Serialize};
 
@@ -18,7 +18,7 @@ pub enum Loss {
         /// Where the square ends, in the unit of the scaled labels.
         delta: f64,
     },
-    /// −ln of the share that the class has in the exponentials of all outputs; the mean over samples.
+    /// −ln of the softmax of the outputs at the class; the mean over samples.
     CrossEntropy,
 }
 

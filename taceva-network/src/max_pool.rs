@@ -1,4 +1,4 @@
-//! The greatest of 3 × 3 pixels, every second pixel, of pictures that are normalised and cut at zero on the way: neither the
+//! Max pooling over 3 × 3 pixels with stride 2, of pictures that are normalised and passed through ReLU on the way: neither the
 //! normalised pictures nor their gradients are ever written.
 
 mod backward;

@@ -1,4 +1,4 @@
-//! A network: its weights, and what it makes of pictures.
+//! A network: its weights, and the outputs that it gives for pictures.
 
 mod gradients;
 mod tensors;
@@ -47,7 +47,7 @@ impl Network {
     pub const NORM_MOMENTUM: f64 = batch_norm::MOMENTUM;
 
     /// A network with random weights, drawn as torchvision draws them: each convolution's from a normal distribution of
-    /// variance 2 / (kernel² · outputs), the last layer's evenly within ±1/√features.
+    /// variance 2 / (kernel² · outputs), the last layer's uniformly within ±1/√features.
     ///
     /// # Errors
     /// [`NetworkError::Architecture`] if the architecture cannot be built.
@@ -126,7 +126,7 @@ impl Network {
         })
     }
 
-    /// The make of it.
+    /// Its architecture.
     pub fn architecture(&self) -> &Architecture {
         &self.architecture
     }

@@ -41,7 +41,7 @@ pub(crate) struct NormedSpace {
     gradient: Layout,
     forward: Forward,
     weight_gradient: WeightGradient,
-    /// None where nobody asks for the gradient of the input.
+    /// `None` where the gradient of the input is not needed.
     input_gradient: Option<InputGradient>,
 }
 

@@ -1,4 +1,4 @@
-//! How weights follow their gradients.
+//! The rules by which a step changes weights.
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -8,13 +8,13 @@ use crate::panel::{Aligned, PANEL};
 use crate::simd::{Job, Vector};
 use crate::update::Update;
 
-/// A rule by which weights follow their gradients; decay acts on every parameter, as PyTorch's does by default.
+/// A rule by which a step changes weights from their gradients; decay acts on every parameter, as PyTorch's does by default.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Optimizer {
     /// v ← momentum · v + g + decay · w, w ← w − rate · v.
     Sgd {
-        /// What is left of the last velocity, 0 to below 1.
+        /// The factor on the last velocity, 0 to below 1.
         momentum: f64,
         /// The decay of weights.
         weight_decay: f64,
@@ -24,7 +24,7 @@ pub enum Optimizer {
     /// # Reference
     /// I. Loshchilov, F. Hutter, "Decoupled weight decay regularization", ICLR 2019.
     AdamW {
-        /// What is left of the means of the gradient and of its square, each 0 to below 1.
+        /// The factors β₁ and β₂ on the last means of the gradient and of its square, each 0 to below 1.
         betas: (f64, f64),
         /// What is added to the root of the mean square.
         epsilon: f64,
@@ -34,7 +34,7 @@ pub enum Optimizer {
 }
 
 impl Optimizer {
-    /// AdamW as PyTorch sets it out of the box.
+    /// AdamW with PyTorch's default settings.
     pub const ADAM_W: Optimizer = Optimizer::AdamW {
         betas: (0.9, 0.999),
         epsilon: 1e-8,
@@ -132,7 +132,7 @@ pub enum Rule {
 /// v ← `momentum` · v + g + `decay` · w, w ← w − `rate` · v.
 #[derive(Clone, Copy, Debug)]
 pub struct Momentum {
-    /// What is left of the last velocity.
+    /// The factor on the last velocity.
     pub momentum: f32,
     /// The decay of weights.
     pub decay: f32,
@@ -143,11 +143,11 @@ pub struct Momentum {
 /// m ← β₁ · m + `news.0` · g, s ← β₂ · s + `news.1` · g², w ← `keep` · w − `step` · m / (√s · `correction` + `epsilon`).
 #[derive(Clone, Copy, Debug)]
 pub struct Adam {
-    /// What is left of weights.
+    /// The factor on the weights.
     pub keep: f32,
-    /// What is left of the means, β₁ and β₂.
+    /// The factors on the last means, β₁ and β₂.
     pub betas: (f32, f32),
-    /// What the means get of the newest.
+    /// The factors on the newest gradient and on its square.
     pub news: (f32, f32),
     /// 1 / √(1 − β₂ⁿ).
     pub correction: f32,

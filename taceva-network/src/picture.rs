@@ -10,12 +10,12 @@ pub struct Picture {
     pub height: usize,
     /// Columns.
     pub width: usize,
-    /// Numbers a pixel.
+    /// Numbers per pixel.
     pub channels: usize,
 }
 
 impl Picture {
-    /// Numbers a picture.
+    /// Numbers per picture.
     pub const fn len(&self) -> usize {
         self.height * self.width * self.channels
     }
@@ -25,7 +25,7 @@ impl Picture {
         self.len() == 0
     }
 
-    /// Pixels a picture.
+    /// Pixels per picture.
     pub(crate) const fn pixels(&self) -> usize {
         self.height * self.width
     }

@@ -5,10 +5,10 @@ use crate::panel::Aligned;
 use crate::picture::Picture;
 
 impl Picture {
-    /// Whether `pictures` are such ones, finite, and `into` has room for `outputs` numbers of each.
+    /// Checks that `pictures` are a whole number of pictures, finite, and that `into` has room for `outputs` numbers of each.
     ///
     /// # Errors
-    /// [`NetworkError`], saying what is not so.
+    /// [`NetworkError`], for the first that is not so.
     pub fn check_prediction(
         self,
         pictures: &[f32],
@@ -61,12 +61,12 @@ impl Layout {
         Layout { border: 0, ..self }
     }
 
-    /// Numbers a row, border included.
+    /// Numbers per row, border included.
     pub(crate) const fn row(&self) -> usize {
         (self.picture.width + 2 * self.border) * self.picture.channels
     }
 
-    /// Numbers a picture, border included.
+    /// Numbers per picture, border included.
     pub(crate) const fn len(&self) -> usize {
         (self.picture.height + 2 * self.border) * self.row()
     }
@@ -137,7 +137,7 @@ impl Planes {
         &self.values[first * self.layout.len()..][..count * self.layout.len()]
     }
 
-    /// The first `count` pictures, borders included; whoever writes leaves the borders zero.
+    /// The first `count` pictures, borders included; a writer leaves the borders zero.
     pub(crate) fn first_mut(&mut self, count: usize) -> &mut [f32] {
         &mut self.values[..count * self.layout.len()]
     }

@@ -1,4 +1,4 @@
-//! A network ready to predict: running moments are worked into the weights, so that nothing but convolutions is left.
+//! A network ready to predict: running moments are folded into the weights, so that only convolutions are left.
 
 mod folded;
 

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// How the rate goes over a training.
+/// How the learning rate changes over a training.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Schedule {
@@ -14,7 +14,7 @@ pub enum Schedule {
     Step {
         /// Steps between two changes.
         every: u64,
-        /// What is left of the rate at each.
+        /// The factor on the rate at each.
         factor: f64,
     },
     /// From a 25th up along half a cosine for the share `rise` of all steps, then down to a 10,000th of where it began.
@@ -28,7 +28,7 @@ pub enum Schedule {
 }
 
 impl Schedule {
-    /// What of the full rate step `step` of `steps` has, counted from 0.
+    /// The factor on the full rate at step `step` of `steps`, counted from 0.
     ///
     /// ```
     /// use taceva_network::Schedule;

@@ -38,7 +38,7 @@ pub(crate) struct Standing {
     /// Zeros around the pictures that it gives.
     pub(crate) border: usize,
     pub(crate) batch: usize,
-    /// Whether nothing stands before it that asks for a gradient.
+    /// Whether no part before it needs a gradient.
     pub(crate) is_first: bool,
 }
 

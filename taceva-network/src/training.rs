@@ -1,4 +1,4 @@
-//! Training: one step at a time, so that whoever trains can look, save or stop between any two.
+//! Training: one step at a time, so that a caller can inspect, save or stop between any two.
 
 mod augmentation;
 mod breakage;
@@ -27,7 +27,7 @@ use crate::error::{NetworkError, SampleSet};
 use crate::network::Network;
 use taceva_core::random::Draws;
 
-/// A training that goes on.
+/// A training in progress.
 ///
 /// Everything drawn is a function of the recipe's seed, the epoch and the sample, so that a training that was interrupted and
 /// resumed ends with the same bits as one that was not, on any number of threads. (On another device than the processor, draws
@@ -52,7 +52,7 @@ const ORDER: u64 = 1;
 const AUGMENTATION: u64 = 2;
 
 impl<'a> Trainer<'a> {
-    /// A training of a network of `architecture` with random weights, which begins.
+    /// A training of a network of `architecture` from random weights.
     ///
     /// # Errors
     /// [`NetworkError`] if the architecture cannot be built, the recipe or the samples cannot be used, or they do not go
@@ -67,7 +67,7 @@ impl<'a> Trainer<'a> {
         Trainer::of(network, recipe, training, validation)
     }
 
-    /// A training that begins with the weights of `network`.
+    /// A training from the weights of `network`.
     ///
     /// # Errors
     /// As [`new`](Trainer::new).
@@ -119,7 +119,7 @@ impl<'a> Trainer<'a> {
         })
     }
 
-    /// The same training on the engine that `begin` makes of how it stands.
+    /// The same training on the engine that `begin` makes from its present state.
     ///
     /// # Errors
     /// Those of `begin`, and of the engine that it leaves.
@@ -131,8 +131,8 @@ impl<'a> Trainer<'a> {
         Ok(self)
     }
 
-    /// How it stands. Of a training that broke, the best network: weights that may not be finite are of no use to anybody, nor is
-    /// what the optimiser remembers of them.
+    /// Its present state. Of a training that met a number that is not finite, the best network: later weights, and what the optimiser
+    /// remembers of them, may not be finite.
     fn snapshot(&self) -> Result<Snapshot, NetworkError> {
         match (&self.best, self.state.broken) {
             (Some(best), Some(_)) => Ok(Snapshot {

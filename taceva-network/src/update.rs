@@ -1,4 +1,4 @@
-//! What becomes of a gradient once it is known.
+//! What is done with a gradient once it is known.
 
 /// Takes the gradient of each parameter as soon as it is known, while it is still in a cache; the parameter's old value is needed
 /// no more.

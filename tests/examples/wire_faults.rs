@@ -1,6 +1,6 @@
-//! Plays every fault of the wire bench so many times: `wire_faults [TIMES] [NAME]`, 100 by default; a name plays the cases that begin so.
+//! Plays every fault of the wire bench TIMES times, 100 by default: `wire_faults [TIMES] [NAME]`; a name plays the cases that begin with it.
 //!
-//! `wire_faults TIMES kill` kills one study so many times in the place of that.
+//! `wire_faults TIMES kill` kills one study that many times instead.
 //!
 //! Ends with 1 if anything came of one that must not. What is printed is of this machine as busy as it is.
 #![expect(clippy::print_stdout, reason = "it is run to be read")]

@@ -12,7 +12,7 @@ type Module = Vec<String>;
 /// The files of one crate, and what each imports of the others; files are named by the path of their module, `stats/holm`, the root `lib`.
 pub type Graph = BTreeMap<String, BTreeSet<String>>;
 
-/// What a file says of others.
+/// The imports of a file, and its other code.
 struct Source {
     /// Names that come from elsewhere, each with its path; whether it is handed on.
     imports: Vec<(String, Vec<String>, bool)>,

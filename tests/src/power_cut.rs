@@ -2,9 +2,9 @@
 //!
 //! A program runs once under `strace`. Its system calls are replayed on a model of the disk that knows what is durable, and at
 //! every moment all states are made that a cut could leave: changes that were not made durable kept, lost, torn or zero, names
-//! of each folder up to any point. Whoever asks puts a state on a real disk, recovers, and says whether a promise is broken.
+//! of each folder up to any point. The caller puts each state on a real disk, recovers it, and reports whether a promise is broken.
 //!
-//! Killing a process cannot find a missing `fsync`: the system keeps what it was given. Only this can.
+//! Killing a process cannot find a missing `fsync`, because the system keeps what was written; this can.
 
 mod follower;
 mod model;

@@ -1,4 +1,4 @@
-//! Small writers, some of them wrong on purpose: whoever hunts for states of a power cut must find these first.
+//! Small writers, some of them wrong on purpose: the search for states of a power cut must find their faults.
 
 use std::fmt;
 

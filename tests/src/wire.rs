@@ -1,4 +1,4 @@
-//! Studies on emulated devices: the program on one side of the sockets, the truth on the other.
+//! Studies on emulated devices: the program on one side of the sockets, a simulated gel whose truth is known on the other.
 
 mod compared;
 pub mod faults;

@@ -1,4 +1,4 @@
-//! The table of ARCHITECTURE.md is the law: who may import whom, and what the light crates depend on.
+//! The table of ARCHITECTURE.md is binding: which crate may import which, and what the light crates depend on.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;

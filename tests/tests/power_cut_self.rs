@@ -1,4 +1,4 @@
-//! The hunt for states of a power cut finds every planted fault and accuses nobody else.
+//! The search for states of a power cut finds every planted fault and reports no other.
 
 use std::process::Command;
 

@@ -1,4 +1,4 @@
-//! What a test skips stands in the list that `.ci/test` prints: none says so in a way that the test runner hides.
+//! What a test skips stands in the list that `.ci/test` prints: no test skips in a way that the test runner hides.
 
 use std::path::{Path, PathBuf};
 

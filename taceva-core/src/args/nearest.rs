@@ -23,7 +23,7 @@ pub(crate) fn nearest<'a>(
         .map(|(_, _, candidate)| candidate)
 }
 
-/// Longer words are no typing mistakes, and the table grows with the square.
+/// Longest word that is compared, in letters: a longer one is no typing mistake, and the time to compare grows with the square.
 const LONGEST: usize = 256;
 
 fn edits(first: &[char], second: &[char]) -> usize {

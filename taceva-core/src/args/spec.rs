@@ -23,13 +23,13 @@ pub struct ArgSpec {
     pub key: String,
     /// What its value is, and within which range.
     pub kind: ArgKind,
-    /// The unit of its number, as a driver's people write it: `ms`, `mm/h`.
+    /// The unit of its number, as it is written behind the number: `ms`, `mm/h`.
     pub unit: Option<String>,
     /// Whether it must be given.
     pub presence: Presence,
     /// What it means, in words that follow a colon.
     pub help: String,
-    /// Whether it can change what is known of the device before it is opened: the size of its frames, for one.
+    /// Whether it can change what is known of the device before it is opened, such as the size of its frames.
     pub changes_facts: bool,
 }
 
@@ -66,7 +66,7 @@ impl ArgSpec {
         ArgSpec::new(key, ArgKind::Number { least, most })
     }
 
-    /// A required word out of some.
+    /// A required argument whose value is one of the words of `of`.
     pub fn choice<'a>(key: &str, of: impl IntoIterator<Item = &'a str>) -> ArgSpec {
         let of = of.into_iter().map(str::to_owned).collect();
         ArgSpec::new(key, ArgKind::Choice { of })
@@ -98,7 +98,7 @@ impl ArgSpec {
         self
     }
 
-    /// The same argument with what it means.
+    /// The same argument with its help text.
     #[must_use]
     pub fn help(mut self, help: &str) -> ArgSpec {
         self.help = help.to_owned();
@@ -190,7 +190,7 @@ impl ArgSpec {
         words
     }
 
-    /// What is wrong with the declaration itself, if anything is.
+    /// What is wrong with the declaration itself, or `None`.
     pub fn fault(&self) -> Option<String> {
         let key_is_plain = self
             .key

@@ -8,7 +8,7 @@ use crate::nanometre::Nanometre;
 use crate::phase::Phase;
 use crate::sample::{Readings, Sample};
 
-/// Collects samples into batches, filling only the fields somebody reads.
+/// Collects samples into batches, in which only the fields that are read are filled.
 ///
 /// ```
 /// use taceva_core::{BatchBuilder, Channel, Channels, FieldSet, Readings, Sample};
@@ -32,7 +32,7 @@ impl BatchBuilder {
         }
     }
 
-    /// Adds one sample. A sample without `point_id` ends the clusters of its batch: a partly named batch has none.
+    /// Adds one sample. If any sample of a batch has no `point_id`, the whole batch has no clusters.
     pub fn push(&mut self, sample: &Sample) {
         let batch = &mut self.batch;
         let nothing = Readings::default();
@@ -116,7 +116,7 @@ fn empty(channels: Channels, fields: FieldSet) -> Batch {
     }
 }
 
-/// What `sample` says in the text field.
+/// The text of `field` in `sample`, if it has one.
 fn text(sample: &Sample, field: Field) -> Option<&str> {
     match field {
         Field::Scene => sample.scene_id.as_deref(),
@@ -128,7 +128,7 @@ fn text(sample: &Sample, field: Field) -> Option<&str> {
     }
 }
 
-/// What `sample` says in the number field.
+/// The number of `field` in `sample`, if it has one.
 fn number(sample: &Sample, field: Field) -> Option<f64> {
     match field {
         Field::DepthStep => sample.depth_step.map(f64::from),

@@ -1,8 +1,8 @@
-//! Numbers, one a row.
+//! Numbers, one per row.
 
 use std::ops::Range;
 
-/// The values of one channel; where a sample has none, a mask says so.
+/// The values of one channel, with a mask of the samples that have none.
 ///
 /// ```
 /// use taceva_core::Column;
@@ -55,7 +55,7 @@ impl Column {
         present.then(|| self.values[row])
     }
 
-    /// All values in one slice; where [`present`](Column::present) says no, the number means nothing.
+    /// All values in one slice; a value whose [`present`](Column::present) is `false` has no meaning.
     pub fn values(&self) -> &[f64] {
         &self.values
     }
@@ -103,7 +103,7 @@ impl From<Vec<f64>> for Column {
     }
 }
 
-/// A row an item; `None` where a sample has no value.
+/// One row per item; `None` where a sample has no value.
 ///
 /// ```
 /// use taceva_core::Column;
@@ -113,7 +113,7 @@ impl From<Vec<f64>> for Column {
 impl FromIterator<Option<f64>> for Column {
     fn from_iter<I: IntoIterator<Item = Option<f64>>>(values: I) -> Column {
         let mut present: Option<Vec<bool>> = None;
-        // Collected and not pushed: a push an item takes three times as long.
+        // Collected and not pushed: one push per item takes three times as long.
         let values = values.into_iter().enumerate().map(|(row, value)| {
             if value.is_none() && present.is_none() {
                 present = Some(vec![true; row]);

@@ -1,8 +1,8 @@
-//! Names, one a row.
+//! Names, one per row.
 
 use std::collections::HashMap;
 
-/// A name a row, each distinct name kept once; a row may have none.
+/// One name per row, each distinct name kept once; a row may have none.
 ///
 /// ```
 /// use taceva_core::Labels;
@@ -77,7 +77,7 @@ impl Labels {
         self.index.push(Labels::ABSENT);
     }
 
-    /// What [`index`](Labels::index) says of a row without a name.
+    /// The entry of [`index`](Labels::index) for a row without a name.
     pub const ABSENT: u32 = u32::MAX;
 
     /// The distinct names, in the order of their first row.

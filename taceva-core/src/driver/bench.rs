@@ -1,11 +1,12 @@
-//! What a simulated bench has beside its devices: a clock that turns as fast as it is worked out, and hands that change specimens.
+//! What a simulated bench has besides its devices: a virtual clock, and the exchange of specimens.
 
 use std::time::Duration;
 
 use super::DriverError;
 use crate::specimen::Specimen;
 
-/// A simulated bench, for whoever conducts a run on it; found in a [`Rig`](crate::Rig) under the name that its devices were opened with.
+/// A simulated bench, as the code that carries out a run uses it; found in a [`Rig`](crate::Rig) under the name that its devices were opened
+/// with.
 ///
 /// ```
 /// use std::sync::{Arc, Mutex};
@@ -61,8 +62,8 @@ pub trait SimulatedBench: Send + Sync {
     /// [`DriverError`] of kind `InvalidArgument` for a specimen that it does not have, or while the tip is in the gel.
     fn mount(&self, specimen: Specimen) -> Result<(), DriverError>;
 
-    /// Calls the press that begins now by `name`: all that is random in it is a function of the name and the place, so that a run which
-    /// was interrupted and resumed meets the errors it would have met anyway.
+    /// Gives the press that begins now the number `name`: every random number in it is a function of this and of the place, so that a run
+    /// that was interrupted and resumed has the same random errors as one without interruption.
     ///
     /// # Errors
     /// As [`rest`](SimulatedBench::rest).

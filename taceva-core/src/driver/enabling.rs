@@ -7,7 +7,7 @@ use super::DriverError;
 /// It is no safety function: what it says passes through an operating system and a program. The switch of the robot's own safety circuit
 /// stays in charge.
 ///
-/// Whoever watches it asks at least as often as he wants to be told, and takes an error for released.
+/// A caller asks at least as often as a release must be noticed, and treats an error as a release.
 ///
 /// ```
 /// use std::sync::atomic::{AtomicBool, Ordering};
@@ -32,10 +32,10 @@ use super::DriverError;
 /// assert!(!may_move(&Button::default()));
 /// ```
 pub trait EnablingSwitch: Send + Sync {
-    /// Whether it is held, and was held ever since it was asked last: a release counts once, however short it was. Never waits; a switch that
-    /// has said nothing yet counts as released.
+    /// Whether it is held now and was held without a break since the last call: a release is reported once, however short it was. Never
+    /// waits; a switch from which nothing was received yet counts as released.
     ///
     /// # Errors
-    /// [`DriverError`] of kind `Disconnected` once it is gone, or of the kind for which nothing of it can be known any more.
+    /// [`DriverError`] of kind `Disconnected` once it is gone, or of the kind that says why its state can no longer be known.
     fn is_held(&self) -> Result<bool, DriverError>;
 }

@@ -1,4 +1,4 @@
-//! Motion that ends by itself where nobody renews it.
+//! Motion that ends by itself unless it is renewed.
 
 use std::time::Duration;
 
@@ -6,16 +6,16 @@ use super::{Deadline, DriverError, Speed};
 use crate::geometry::Pose;
 use crate::stamp::Stamp;
 
-/// The ability of a robot to stand where its host falls silent: what it is told holds for a moment and is told again, many times a second.
+/// The ability of a robot to stop when its host stops sending: a command is valid for a short time, and is repeated many times a second.
 ///
-/// It is for ways that lead towards something. A robot without it goes to the end of the motion that it was given, whoever has died
-/// meanwhile. The drivers of plugins do not have it yet.
+/// It is meant for motions towards a surface. A robot without it completes the motion that it was given, even if the program that gave it
+/// has ended. The drivers of plugins do not have it yet.
 ///
 /// ```
 /// use std::time::Duration;
 /// use taceva_core::{Deadline, DriverError, ExpiringMotion, Pose, Speed, Stamp};
 ///
-/// /// Goes for as long as what it was told holds.
+/// /// Moves for as long as its last command is valid.
 /// struct Arm(Pose);
 ///
 /// impl ExpiringMotion for Arm {
@@ -30,7 +30,7 @@ use crate::stamp::Stamp;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait ExpiringMotion {
-    /// Moves as [`move_to`](super::Robot::move_to) does, and stands within [`EXPIRES`] after it last heard of its host.
+    /// Moves as [`move_to`](super::Robot::move_to) does, and begins to brake at most [`EXPIRES`] after the last message of its host.
     ///
     /// # Errors
     /// As [`move_to`](super::Robot::move_to).
@@ -42,5 +42,5 @@ pub trait ExpiringMotion {
     ) -> Result<Stamp, DriverError>;
 }
 
-/// How long a robot goes on at most that hears nothing more of its host; the way in which it brakes comes to it.
+/// The longest time for which a robot moves on after the last message of its host; the time in which it brakes is added.
 pub const EXPIRES: Duration = Duration::from_millis(200);

@@ -4,7 +4,7 @@ use std::fmt;
 
 /// Why a device stopped by itself, where it says so.
 ///
-/// Whoever conducts a run leaves the tip where it is: it neither draws back nor clears the fault, which is acknowledged at the device.
+/// A run then leaves the tip where it is: it neither retracts it nor clears the fault, which a person acknowledges at the device.
 ///
 /// ```
 /// use taceva_core::Fault;
@@ -18,7 +18,7 @@ pub enum Fault {
     EmergencyStop,
     /// It struck something.
     Collision,
-    /// It came to the border of where it may move.
+    /// It reached the limit of its workspace.
     Boundary,
     /// A servo, a brake or its controller failed.
     Servo,

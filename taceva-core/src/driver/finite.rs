@@ -1,4 +1,4 @@
-//! NaN and infinity stop at the border, whichever way they travel.
+//! Refuses NaN and infinity, in what is sent to a device and in what comes from it.
 
 use std::fmt;
 

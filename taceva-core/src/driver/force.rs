@@ -58,18 +58,18 @@ pub trait ForceTransducer: Send {
         Ok(())
     }
 
-    /// Waits for the next reading: what presses on the gel, and when that was true.
+    /// Waits for the next reading: the wrench on the gel, and when it was measured.
     ///
     /// # Errors
     /// [`DriverError`] of kind
     /// - `Timeout` if no reading came within `deadline`,
-    /// - `OutOfRange` if a component is beyond what the transducer can measure: a clipped force is no force,
+    /// - `OutOfRange` if a component is beyond what the transducer can measure, so that its value would be clipped,
     /// - `DeviceFault` if it reports a fault or a number that is not finite,
     /// - `Disconnected` or `EndOfStream` if nothing will come any more.
     fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError>;
 
-    /// The number that the device itself gave the last reading, where it numbers them: a link or a device that froze repeats it, however
-    /// fresh the stamp. It may begin anew, and means nothing beside that of another reading being the same or not.
+    /// The number that the device itself gave the last reading, where it numbers them: a frozen link or device repeats it, even under a new
+    /// stamp. The numbers may start again; two of them can only be compared for equality.
     fn sequence(&self) -> Option<u64> {
         None
     }
@@ -87,13 +87,13 @@ pub trait ForceTransducer: Send {
         None
     }
 
-    /// Its ability to call the present load zero, where it has one.
+    /// Its ability to take the present load as zero, where it has one.
     fn tare(&mut self) -> Option<&mut dyn Tare> {
         None
     }
 }
 
-/// The ability of a transducer to call the present load zero.
+/// The ability of a transducer to take the present load as zero.
 ///
 /// ```
 /// # use std::time::Duration;
@@ -135,10 +135,10 @@ pub trait ForceTransducer: Send {
 pub trait Tare {
     /// Makes the present load the zero of all later readings, and returns once that holds.
     ///
-    /// Only out of contact: whoever calls it while the gel is pressed shifts every force that follows.
+    /// Only out of contact: a tare while the gel is pressed shifts every later force.
     ///
     /// # Errors
-    /// [`DriverError`] of kind `Timeout`, or `OutOfRange` if the load is too great to be called zero.
+    /// [`DriverError`] of kind `Timeout`, or `OutOfRange` if the load is too great to be taken as zero.
     fn zero(&mut self, deadline: Deadline) -> Result<(), DriverError>;
 }
 

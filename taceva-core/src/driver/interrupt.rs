@@ -14,7 +14,7 @@
 ///
 /// impl Interrupt for Wake {
 ///     fn interrupt(&self) {
-///         // Whoever no longer waits need not be woken.
+///         // Where nothing waits any more there is nothing to wake.
 ///         let _ = self.0.try_send(());
 ///     }
 /// }

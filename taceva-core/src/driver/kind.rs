@@ -19,7 +19,7 @@ pub enum DriverKind {
     Sensor,
     /// Moves the indenter.
     Robot,
-    /// Measures how hard it presses.
+    /// Measures the force on the gel.
     Force,
     /// Sets the light around the sensor.
     Lighting,
@@ -51,7 +51,7 @@ impl fmt::Display for DriverKind {
     }
 }
 
-/// A device trait as a type, `dyn Sensor` for one: what registries and factories are generic over.
+/// A device trait as a type, such as `dyn Sensor`: registries and factories are generic over it.
 ///
 /// ```
 /// use taceva_core::{Device, DriverKind, Robot};

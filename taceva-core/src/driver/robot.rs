@@ -73,7 +73,7 @@ use crate::stamp::Stamp;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Robot: Send {
-    /// Where the tip is, and when that was true.
+    /// The pose of the tip, and when it was there.
     ///
     /// # Errors
     /// [`DriverError`] of kind `Timeout`, `Disconnected`, or `DeviceFault` for a coordinate that is not finite.
@@ -127,7 +127,7 @@ pub trait Robot: Send {
         None
     }
 
-    /// Its ability to stand by itself where its host falls silent, where it has one.
+    /// Its ability to stop by itself when its host stops sending, where it has one.
     fn expiring_motion(&mut self) -> Option<&mut dyn ExpiringMotion> {
         None
     }

@@ -17,7 +17,7 @@ use crate::stamp::Stamp;
 /// }
 /// ```
 pub trait RobotWatch: Send + Sync {
-    /// Where the tip is now, and when that was true; never waits for a motion.
+    /// The present pose of the tip, and when it was there; never waits for a motion.
     ///
     /// # Units
     /// As [`Robot::pose`](super::Robot::pose): mm and degrees in the sensor's frame.

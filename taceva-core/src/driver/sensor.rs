@@ -46,27 +46,26 @@ pub trait Sensor: Send {
         Ok(())
     }
 
-    /// Waits for the next frame, writes it into the caller's buffer and says when it was true.
+    /// Waits for the next frame, writes it into the caller's buffer and returns when it was taken.
     ///
-    /// Frames come in the order of their stamps; one that the caller was too slow for may be missing, none comes twice.
+    /// Frames come in the order of their stamps; one may be missing if the caller was too slow, and none comes twice.
     /// On an error the buffer holds no frame.
     ///
     /// # Errors
     /// [`DriverError`] of kind
-    /// - `InvalidArgument` if `into` is not a [`frame_info`](Sensor::frame_info), or the sensor must be started first,
+    /// - `InvalidArgument` if the size or format of `into` is not [`frame_info`](Sensor::frame_info), or the sensor must be started first,
     /// - `Timeout` if no frame came within `deadline`,
     /// - `Protocol` if what came is no whole frame; the next call may succeed,
     /// - `Disconnected` or `EndOfStream` if none will come any more.
     fn capture(&mut self, into: FrameMut<'_>, deadline: Deadline) -> Result<Stamp, DriverError>;
 
-    /// The number of the last frame, where the device or its link counts them from anywhere: frames whose numbers are missing between two came,
-    /// and nobody took them in time.
+    /// The number of the last frame, where the device or its link counts frames, starting anywhere: a gap between two numbers means frames
+    /// that arrived and were not read in time.
     fn sequence(&self) -> Option<u64> {
         None
     }
 
-    /// The file, PNG or JPEG, that the last frame was sent as and decoded from, where the device sends files: whoever keeps frames may keep it
-    /// as it is.
+    /// The PNG or JPEG file from which the last frame was decoded, where the device sends files; a recording may store it unchanged.
     fn sent(&self) -> Option<&[u8]> {
         None
     }
@@ -84,7 +83,7 @@ pub trait Sensor: Send {
         None
     }
 
-    /// What was set of the camera and read back, by name: `exposure_ms` is `15.7`. What a recording says of its pictures; empty where nothing
+    /// The settings of the camera as read back from it, by name, such as `exposure_ms` with `15.7`; a recording keeps them. Empty where none
     /// is known.
     fn settings(&self) -> BTreeMap<String, String> {
         BTreeMap::new()

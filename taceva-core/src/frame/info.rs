@@ -24,7 +24,7 @@ pub enum PixelFormat {
 }
 
 impl PixelFormat {
-    /// Numbers a pixel: 1 for gray, 3 for RGB.
+    /// Numbers per pixel: 1 for gray, 3 for RGB.
     pub const fn samples(self) -> usize {
         match self {
             PixelFormat::Gray8 | PixelFormat::Gray16 => 1,
@@ -32,7 +32,7 @@ impl PixelFormat {
         }
     }
 
-    /// Bytes a number: 1 or 2.
+    /// Bytes per number: 1 or 2.
     pub const fn bytes_per_sample(self) -> usize {
         match self {
             PixelFormat::Gray8 | PixelFormat::Rgb8 => 1,
@@ -69,7 +69,7 @@ impl PixelFormat {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FrameInfo {
-    /// Pixels a row.
+    /// Pixels per row.
     pub width: u32,
     /// Rows.
     pub height: u32,

@@ -1,4 +1,4 @@
-//! What a model sees of samples.
+//! The features of samples: the numbers that a model takes.
 
 use super::ModelError;
 use crate::error::ErrorKind;
@@ -16,7 +16,7 @@ pub struct FeatureShape {
     pub height: usize,
     /// Columns; the length of a flat list.
     pub width: usize,
-    /// Numbers a place: 1 for gray and for a flat list, 3 for RGB.
+    /// Numbers per place: 1 for gray and for a flat list, 3 for RGB.
     pub depth: usize,
 }
 
@@ -30,7 +30,7 @@ impl FeatureShape {
         }
     }
 
-    /// Numbers a sample.
+    /// Numbers per sample.
     pub const fn len(&self) -> usize {
         self.height * self.width * self.depth
     }

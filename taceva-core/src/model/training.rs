@@ -25,7 +25,7 @@ pub struct Targets<'a> {
 }
 
 impl<'a> Targets<'a> {
-    /// A value of each of `channels`, sample by sample; an estimator refuses `values` of another length than its features have samples.
+    /// A value of each of `channels`, sample by sample; an estimator refuses `values` whose number does not fit the samples of its features.
     pub const fn new(channels: &'a Channels, values: &'a [f64]) -> Targets<'a> {
         Targets { channels, values }
     }
@@ -45,16 +45,16 @@ impl<'a> Targets<'a> {
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct TrainingSet<'a> {
-    /// What is seen.
+    /// The features of each sample.
     pub features: &'a Features,
-    /// What is true.
+    /// What should be predicted for each sample.
     pub targets: Targets<'a>,
-    /// Which samples belong together, a number a sample; for settings chosen by leaving one group out.
+    /// Which samples belong together, one number per sample; for settings chosen by leaving one group out.
     pub groups: Option<&'a [u32]>,
 }
 
 impl<'a> TrainingSet<'a> {
-    /// Samples of which nobody says which belong together.
+    /// Samples without groups.
     pub const fn new(features: &'a Features, targets: Targets<'a>) -> TrainingSet<'a> {
         TrainingSet {
             features,

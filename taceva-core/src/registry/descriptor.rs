@@ -12,7 +12,7 @@ use crate::args::{ArgError, ArgSpec, Args};
 use crate::driver::DriverKind;
 use crate::id::DriverKey;
 
-/// A description to be checked.
+/// The description of a driver before it is checked.
 ///
 /// ```
 /// use taceva_core::{ArgSpec, ArgValue, DescriptorSpec, DriverKey, DriverSource, Facts, SensorFacts};

@@ -4,7 +4,7 @@ use super::{Descriptor, DescriptorError, Found, Rig};
 use crate::args::Args;
 use crate::driver::DriverError;
 
-/// A driver that is not opened yet; `D` is what it opens, `dyn Sensor` for one.
+/// A driver that is not opened yet; `D` is what it opens, such as `dyn Sensor`.
 ///
 /// ```
 /// use taceva_core::{
@@ -12,7 +12,7 @@ use crate::driver::DriverError;
 ///     Registry, Rig,
 /// };
 ///
-/// /// A lamp whose cable nobody has found yet.
+/// /// A lamp that is not connected.
 /// struct Lamp(Descriptor);
 ///
 /// impl Factory<dyn Lighting> for Lamp {
@@ -64,8 +64,8 @@ pub trait Factory<D: ?Sized>: Send + Sync {
         Ok(Vec::new())
     }
 
-    /// The digest of the library that it is in, `sha256:` and 64 hexadecimal digits; `None` where it is linked into the program. What is kept
-    /// of one build is not taken for what another does.
+    /// The digest of the library that it is in, `sha256:` and 64 hexadecimal digits; `None` where it is linked into the program. Results
+    /// that were kept of one build are not used for another.
     ///
     /// # Errors
     /// [`DriverError`] if the library cannot be read.

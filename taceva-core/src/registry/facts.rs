@@ -1,4 +1,4 @@
-//! What is known about a device before anybody connects to it.
+//! What is known about a device before it is connected.
 
 mod force;
 mod lighting;
@@ -14,7 +14,7 @@ pub use robot::RobotFacts;
 pub use sensor::SensorFacts;
 pub use workspace::Workspace;
 
-/// The facts of a device of each kind; an absent one is not known, never assumed.
+/// The facts of a device of each kind. A fact that is `None` is not known, and none is assumed in its place.
 ///
 /// ```
 /// use taceva_core::{DriverKind, Facts, RobotFacts};

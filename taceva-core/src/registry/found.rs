@@ -18,7 +18,7 @@ pub struct Found {
     pub driver: DriverKey,
     /// What it calls itself, with control characters written out.
     pub title: String,
-    /// The arguments that choose it among its like: `serial=D20042`.
+    /// The arguments that choose it among several of its kind: `serial=D20042`.
     pub arguments: String,
     /// Whether it could be opened.
     pub access: Access,

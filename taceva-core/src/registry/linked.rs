@@ -14,7 +14,7 @@ where
 {
     /// The drivers of this kind that are linked in. The list of the program has no order; the registry has.
     ///
-    /// A crate that is named in `Cargo.toml` and nowhere in the code is not linked, and its drivers vanish without a word:
+    /// A crate that is named in `Cargo.toml` and nowhere in the code is not linked, and its drivers are missing without a message:
     /// `use the_crate as _;` keeps them.
     ///
     /// # Errors

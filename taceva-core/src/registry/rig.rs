@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use crate::driver::{DriverError, SimulatedBench};
 
-/// The devices that are opened together: where two of them find the one connection, bus or simulated bench they both need.
+/// The devices that are opened together, and the connection, bus or simulated bench that several of them share.
 ///
 /// ```
 /// use std::sync::{Arc, Mutex};
@@ -32,7 +32,7 @@ impl Rig {
 
     /// The thing called `name`, made by `make` the first time it is asked for.
     ///
-    /// The name carries whatever tells two of a kind apart: `tcp 192.168.1.10:502`.
+    /// The name contains whatever distinguishes two of one kind: `tcp 192.168.1.10:502`.
     ///
     /// # Errors
     /// What `make` returns; nothing is kept then.

@@ -1,4 +1,4 @@
-//! A sample made field by field: whoever makes one need not know of fields that are added later.
+//! A sample made field by field, so that code that makes one still compiles when a field is added.
 
 use super::{Readings, Sample};
 use crate::frame::Frame;
@@ -10,7 +10,7 @@ use crate::signals::Signals;
 use crate::stamp::Stamp;
 
 impl Sample {
-    /// A sample called `id` of which nothing else is known.
+    /// A sample called `id`, all of whose other fields are empty.
     pub fn new(id: impl Into<String>) -> Sample {
         Sample {
             id: id.into(),
@@ -95,7 +95,7 @@ impl Sample {
         self
     }
 
-    /// The same sample with what a model says the spacing is.
+    /// The same sample with the spacing that a model predicts.
     #[must_use]
     pub fn with_predicted_spacing(
         mut self,
@@ -133,14 +133,14 @@ impl Sample {
         self
     }
 
-    /// The same sample with what the reference instruments say.
+    /// The same sample with the readings of the reference instruments.
     #[must_use]
     pub fn with_truth(mut self, truth: Readings) -> Sample {
         self.truth = truth;
         self
     }
 
-    /// The same sample with what a model says.
+    /// The same sample with the predictions of a model.
     #[must_use]
     pub fn with_prediction(mut self, prediction: impl Into<Option<Readings>>) -> Sample {
         self.prediction = prediction.into();

@@ -13,7 +13,7 @@ use super::SignalInfo;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SignalError {
-    /// A grid without a number, or with more than any sensor has.
+    /// A grid without a number, or with more than [`LEN_MAX`](SignalInfo::LEN_MAX).
     Grid {
         /// The grid.
         info: SignalInfo,
@@ -29,7 +29,7 @@ pub enum SignalError {
     NotFinite {
         /// Which one, from 0, place first.
         position: usize,
-        /// As it is written.
+        /// The number as text.
         found: String,
     },
 }

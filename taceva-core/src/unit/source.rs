@@ -1,10 +1,10 @@
-//! A unit that labels may arrive in, and its way to the unit they are kept in.
+//! A unit that labels may arrive in, and its conversion to the unit they are kept in.
 
 use std::fmt;
 
 use super::Unit;
 
-/// A unit that labels may arrive in, with its way to the unit they are kept in.
+/// A unit that labels may arrive in, with its conversion to the unit they are kept in.
 ///
 /// # Units
 /// [`convert`](SourceUnit::convert) rounds once, so `m → mm` multiplies and `um → mm` divides.
@@ -121,7 +121,7 @@ impl SourceUnit {
         self.unit
     }
 
-    /// By how many places the decimal point moves on the way to the unit that values are kept in; `None` where the way is no
+    /// By how many places the decimal point moves in the conversion to the unit that values are kept in; `None` where the factor is no
     /// power of ten. A text whose point was moved before it was read is rounded once, a value that was read and then
     /// converted twice.
     pub fn decimal_shift(&self) -> Option<i32> {
@@ -147,7 +147,7 @@ impl SourceUnit {
     }
 }
 
-/// A unit that nobody declared.
+/// A symbol that is no known unit.
 ///
 /// ```
 /// use taceva_core::SourceUnit;

@@ -12,7 +12,7 @@ use crate::engine::begin;
 use crate::guard::contained;
 use crate::{Gpu, GpuError, GpuKind};
 
-/// The name of the device that burn uses, once it was made ready: that may be done but once in a process.
+/// The name of the device that burn uses, once it was initialised, which may be done only once in a process.
 static READY: Mutex<Option<String>> = Mutex::new(None);
 
 /// The first device.
@@ -52,7 +52,7 @@ const fn looked_for(backend: Backend) -> &'static str {
     }
 }
 
-/// What the adapter that burn would choose is called; or why there is none.
+/// The name of the adapter that burn would choose, or why there is none.
 fn adapter(backend: Backend) -> Result<String, String> {
     let instance = Instance::new(InstanceDescriptor {
         backends: backend.into(),

@@ -23,7 +23,7 @@ pub struct Case {
     pub order: Order,
 }
 
-/// What the values are like; y is drawn first, then ŷ; `noise` is about a standard deviation.
+/// What the values are like; y is drawn first, then ŷ; `noise` is about the standard deviation of ŷ − y, or of ŷ / y.
 ///
 /// ```
 /// use taceva_metrics::bench::{Case, Kind, Order};
@@ -33,24 +33,24 @@ pub struct Case {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Kind {
-    /// y even between two values, ŷ near it: as in a laboratory.
+    /// y uniform between two values, ŷ near it: as in a laboratory.
     Lab {
         /// The least y.
         low: f64,
         /// The greatest y.
         high: f64,
-        /// Of ŷ about y.
+        /// About the standard deviation of ŷ − y.
         noise: f64,
     },
     /// The same far from zero, where the textbook's SST cancels.
     Offset {
-        /// How far.
+        /// How far from zero.
         offset: f64,
         /// The least y before.
         low: f64,
         /// The greatest y before.
         high: f64,
-        /// Of ŷ about y.
+        /// About the standard deviation of ŷ − y.
         noise: f64,
     },
     /// y and ŷ of any exponent between two.
@@ -66,7 +66,7 @@ pub enum Kind {
         low: i32,
         /// The greatest exponent.
         high: i32,
-        /// Of ŷ / y about 1.
+        /// About the standard deviation of ŷ / y.
         noise: f64,
     },
     /// Every second y is the negative of the one before: the sum of y is zero, exactly.
@@ -75,21 +75,21 @@ pub enum Kind {
         low: i32,
         /// The greatest exponent.
         high: i32,
-        /// Of ŷ about y.
+        /// About the standard deviation of ŷ − y.
         noise: f64,
     },
     /// y and ŷ below the least normal number.
     Denormal,
     /// One y, ŷ near it.
     Constant {
-        /// It.
+        /// The value.
         value: f64,
-        /// Of ŷ about it.
+        /// About the standard deviation of ŷ.
         noise: f64,
     },
     /// One y, and ŷ equal to it.
     Met {
-        /// It.
+        /// The value.
         value: f64,
     },
     /// As in a laboratory, rounded to binary32.
@@ -98,7 +98,7 @@ pub enum Kind {
         low: f64,
         /// The greatest y.
         high: f64,
-        /// Of ŷ about y.
+        /// About the standard deviation of ŷ − y.
         noise: f64,
     },
     /// y in whole thousandths.
@@ -107,7 +107,7 @@ pub enum Kind {
         low: i32,
         /// The greatest y in thousandths.
         high: i32,
-        /// Of ŷ about y.
+        /// About the standard deviation of ŷ − y.
         noise: f64,
     },
     /// y even between two values, errors of any exponent between two.

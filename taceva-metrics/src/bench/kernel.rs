@@ -58,7 +58,7 @@ pub struct Scores {
 }
 
 impl Kernel {
-    /// Those that this machine can run, ours last and the widest vectors before the others.
+    /// Those that this machine can run, the exact ones last, of these the widest vectors first.
     pub fn available() -> Vec<Kernel> {
         let rounding = [
             Kernel::Naive,

@@ -2,7 +2,7 @@
 
 use taceva_core::random::SplitMix64;
 
-/// Numbers of one case. Whole ones are remainders, as whoever wrote the golden vectors drew them: some are more likely than others, by less
+/// Numbers of one case. Whole ones are remainders, as in the generator of the golden vectors: some are more likely than others, by less
 /// than 2⁻³².
 #[derive(Debug)]
 pub(super) struct Numbers(SplitMix64);

@@ -3,7 +3,7 @@
 use super::find;
 use crate::score::better::Better;
 
-/// Variants that are read otherwise than their metric.
+/// Variants whose direction is not that of their metric.
 const OF_VARIANTS: [(&str, Better); 8] = [
     ("skill.constant", Better::Described),
     ("sr.of_constant", Better::Described),
@@ -16,7 +16,7 @@ const OF_VARIANTS: [(&str, Better); 8] = [
 ];
 
 impl Better {
-    /// That of the metric or variant called `name`: `mae`, `hysteresis.ratio`; none of names that are not in the catalogue.
+    /// The direction of the metric or variant called `name`: `mae`, `hysteresis.ratio`; `None` for a name that is not in the catalogue.
     ///
     /// ```
     /// use taceva_metrics::Better;

@@ -7,7 +7,7 @@ use taceva_core::shown;
 
 use super::names;
 
-/// A metric or group that nobody defined.
+/// A name that is no metric and no group.
 ///
 /// ```
 /// use taceva_metrics::catalogue;

@@ -34,7 +34,7 @@ pub(crate) struct Accumulator {
 }
 
 impl Accumulator {
-    /// What has seen nothing.
+    /// An accumulator of no sample.
     pub(crate) fn new(family: impl Family, plan: &MetricPlan) -> Accumulator {
         let family: Box<dyn AnyFamily> = Box::new(Erased(family));
         let clustering = Clustering {

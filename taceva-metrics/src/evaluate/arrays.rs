@@ -18,7 +18,7 @@ impl Rows {
     /// # Shapes
     /// `truth`, `prediction`: samples × channels.
     /// # Errors
-    /// [`MetricError::Columns`] if a matrix has not a column a channel.
+    /// [`MetricError::Columns`] if the number of columns of a matrix is not the number of channels.
     ///
     /// ```
     /// use ndarray::array;

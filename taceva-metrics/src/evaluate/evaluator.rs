@@ -43,7 +43,7 @@ pub struct Evaluator {
 }
 
 impl Evaluator {
-    /// An evaluator that has seen nothing.
+    /// An evaluator of `plan`, without samples.
     pub fn new(plan: &MetricPlan) -> Evaluator {
         Evaluator {
             plan: plan.clone(),
@@ -72,8 +72,8 @@ impl Evaluator {
         Ok(Evaluator::new(&plan))
     }
 
-    /// This evaluator with every sample a cluster of its own, as [`MetricPlan::independent_samples`] says; what it has seen is forgotten, so it
-    /// stands before the first update.
+    /// This evaluator with every sample a cluster of its own, as [`MetricPlan::independent_samples`] says; samples taken in before
+    /// are dropped, so call it before the first update.
     ///
     /// ```
     /// use taceva_metrics::{Channel, Evaluator};
@@ -107,7 +107,7 @@ impl Evaluator {
         Ok(())
     }
 
-    /// Takes in `truth` and `prediction` of one channel, a number a sample, in the unit of the channel: slices, vectors, arrays, iterators or
+    /// Takes in `truth` and `prediction` of one channel, one number per sample, in the unit of the channel: slices, vectors, arrays, iterators or
     /// views of `f32` or `f64`. Other channels have no value in these samples. Several channels, and contact locations: [`Rows`].
     ///
     /// # Errors

@@ -2,7 +2,7 @@
 
 use taceva_core::{Footprint, Outline, SkipReason};
 
-/// Facts about a sensor that no sample carries; what nobody has declared is absent.
+/// Facts about a sensor that no sample carries; those that are not declared are absent.
 ///
 /// ```
 /// use taceva_metrics::{Footprint, SensorFacts};

@@ -4,7 +4,7 @@ use taceva_core::{Batch, Column, Labels};
 
 use crate::stats::clusters::{FNV_OFFSET, fnv1a64_from};
 
-/// Names the rows of `batch` by what they say of every channel. Rows that say the same have one name, so that names, and all that is made of
+/// Names the rows of `batch` by their values of every channel. Rows of equal values have one name, so that names, and all that is made of
 /// them, depend on the set of rows alone.
 pub(crate) fn rows_as_clusters(batch: &Batch) -> Labels {
     let channels = 0..batch.channels().len();

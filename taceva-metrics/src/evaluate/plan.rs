@@ -44,7 +44,7 @@ impl MetricPlan {
     /// The same plan with other constants where a definition leaves one open.
     ///
     /// # Errors
-    /// [`MetricError::Setting`] for one with which no score is meant.
+    /// [`MetricError::Setting`] for a value that no definition allows.
     pub fn with_settings(self, settings: Settings) -> Result<MetricPlan, MetricError> {
         settings.check()?;
         Ok(MetricPlan { settings, ..self })
@@ -79,7 +79,7 @@ impl MetricPlan {
     /// planes, linearity, cross-talk, bias by level and tolerance, and each of these intervals says `samples taken as independent`. Metrics that
     /// ask which samples belong together keep their contact locations.
     ///
-    /// Presses at one location are not independent: their intervals would hold the truth too seldom (`docs/coverage.md`). Samples that are equal
+    /// Presses at one location are not independent: such intervals would hold the truth too seldom (`docs/coverage.md`). Samples that are equal
     /// in every channel share a cluster, and more than [`NAMED_CLUSTERS`](crate::NAMED_CLUSTERS) are assigned by hash to
     /// [`HASHED_CLUSTERS`](crate::HASHED_CLUSTERS), so that scores depend on the set of samples alone.
     ///
@@ -103,7 +103,7 @@ impl MetricPlan {
         self.independent
     }
 
-    /// The same plan for a model whose best constant answers are known: by channel the mean of the labels it was fitted on, in the unit of
+    /// The same plan for a model whose best constant predictions are known: by channel the mean of the labels it was fitted on, in the unit of
     /// the channel. Skill is measured by them; of channels that are not named, by the mean of the evaluated truth.
     ///
     /// # Errors
@@ -172,12 +172,12 @@ impl MetricPlan {
         &self.settings
     }
 
-    /// The best constant answers of the model, by channel, as far as they are known.
+    /// The best constant predictions for the model, by channel, as far as they are known.
     pub fn constants(&self) -> &BTreeMap<String, f64> {
         &self.constants
     }
 
-    /// The best constant answer of the model for the channel called `channel`.
+    /// The best constant prediction for the model in the channel called `channel`.
     pub(crate) fn constant(&self, channel: &str) -> Option<f64> {
         self.constants.get(channel).copied()
     }

@@ -42,7 +42,7 @@ impl Rows {
         Rows::default()
     }
 
-    /// These rows with `truth` and `prediction` of `channel`, a number a sample each, in the unit of the channel. Values are copied once.
+    /// These rows with `truth` and `prediction` of `channel`, one number per sample each, in the unit of the channel. Values are copied once.
     ///
     /// ```
     /// use taceva_metrics::{Channel, Rows};

@@ -20,7 +20,7 @@ pub struct Settings {
     pub bins: u32,
     /// Samples that a bin needs to count: 1.
     pub n_min: u64,
-    /// What is taken off the number of bins where their spread is formed: 0, as the bins are the whole, or 1.
+    /// What is subtracted from the number of bins in the divisor of their variance: 0, as the bins are the whole population, or 1.
     pub ddof: u32,
     /// Normal force from which on there is contact: 0.02 N.
     pub gate: Newton,
@@ -89,7 +89,7 @@ impl Settings {
         }
     }
 
-    /// Refuses constants with which no score is meant.
+    /// Refuses values that no definition allows.
     pub(crate) fn check(&self) -> Result<(), MetricError> {
         let refuse = |name, found: String, expected: &str| MetricError::Setting {
             name,

@@ -1,8 +1,8 @@
-//! Whether a score takes part in verdicts: the one rule that every output asks and none repeats.
+//! Whether a score takes part in verdicts: the one rule that every output uses.
 //!
 //! A verdict is a claim: a bold face, a rank, a place on a radar, an answer of a comparison, a choice or an acceptance. A model that
-//! answers the same whatever it sees repeats itself perfectly, follows a line without an error and is moved by no light: its scores
-//! are numbers, and claim nothing.
+//! predicts the same for every input has perfect repeatability, linearity and robustness to light: such scores are numbers, but no
+//! evidence.
 
 use taceva_core::Field;
 
@@ -24,7 +24,7 @@ impl Standing {
         skill_of: impl Fn(&str) -> Standing,
     ) -> Standing {
         if metric.needs.fields.contains(Field::PredictedSpacing) {
-            // Whoever knows the share of the best constant answer says more.
+            // `of_share` decides where the share of the best constant prediction is known.
             return Standing::SkillUnknown;
         }
         if !metric.reads_predictions() {
@@ -55,7 +55,7 @@ fn of_skill_score(skill: &Score) -> Standing {
 /// Where the interval of a score begins.
 fn low_end(score: &Score) -> Option<f64> {
     match score.interval {
-        // A model that errs nowhere leaves nothing that could vary.
+        // At the end of the range in every cluster, as for a model without errors: the value itself is the end.
         Interval::Undefined(UndefinedReason::AtEnd) => score.value.scalar(),
         interval => interval.ends().map(|[low, _]| low),
     }
@@ -100,7 +100,7 @@ fn of_score(
         .max(beside_constant(metric, score))
 }
 
-/// A share within a tolerance claims nothing where the constant of the skill reaches as much; where that is not known, skill alone decides.
+/// A share within a tolerance takes no part where the constant of the skill reaches as much; where that is not known, skill alone decides.
 fn beside_constant(metric: &Metric, score: &Score) -> Standing {
     match (&metric.formula, of_share(score)) {
         (Formula::Tolerance, Standing::NoSkill) => Standing::NotAboveConstant,
@@ -108,7 +108,7 @@ fn beside_constant(metric: &Metric, score: &Score) -> Standing {
     }
 }
 
-/// A share of right answers shows skill where its interval lies above what a constant answer would reach.
+/// A share of right predictions shows skill where its interval lies above what a constant prediction would reach.
 fn of_share(score: &Score) -> Standing {
     let of_constant = score
         .variant(OF_CONSTANT)

@@ -42,7 +42,7 @@ pub(crate) struct Counts {
     pub(crate) gated: u64,
 }
 
-/// One sum a stream, and that of the sMAPE terms of the pairs that reach the gate.
+/// One sum per stream, and that of the sMAPE terms of the pairs that reach the gate.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Sums {
     pub(crate) streams: [ExactSum; Stream::ALL.len()],

@@ -2,7 +2,7 @@
 //!
 //! A large number that is added first decides where the sum rounds: 1.5 × 2ᵏ and small values add up to a multiple of
 //! 2^(k−52), and what each addition cuts off is found exactly by two subtractions. A second such sum takes what the first cut
-//! off. Both stay within one binade, so that their patterns of bits, as integers, tell how many units they hold (after
+//! off. Both stay within one binade, so that their patterns of bits, as integers, give the number of units that they hold (after
 //! Demmel and Nguyen, "Parallel Reproducible Summation", 2015; they round the rest, here there is none).
 
 use super::vector::Vector;
@@ -56,7 +56,7 @@ impl Grid {
     }
 }
 
-/// Two sums a lane; the second takes what the first cuts off.
+/// Two sums per lane; the second takes what the first cuts off.
 #[derive(Clone, Copy)]
 pub(super) struct GridSum<V> {
     start: [V; 2],

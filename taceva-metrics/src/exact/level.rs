@@ -13,9 +13,9 @@ pub(crate) fn from_millionths(millionths: i64) -> f64 {
     Nanometre(millionths).to_millimetres()
 }
 
-/// How fine a unit is looked at, in millionths of it: 0.1 mm and 0.1 N, 1 degree and 1 N mm.
+/// The width of a level of a unit, in millionths of it: 0.1 mm and 0.1 N, 1 degree and 1 N mm.
 ///
-/// Nobody has said so for other units.
+/// It is not defined for other units.
 pub(crate) fn step(unit: Unit) -> Option<i64> {
     match unit {
         Unit::Millimetre | Unit::Newton => Some(100_000),

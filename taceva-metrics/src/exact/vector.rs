@@ -51,12 +51,12 @@ pub(crate) trait Vector: Copy {
     /// The lanes' distances from `start` in units of its last place, summed; all are in one binade.
     fn units_above(self, start: Self) -> i64;
 
-    /// Asks for the memory of `values` ahead of its use, where the machine listens to that.
+    /// Asks for the memory of `values` ahead of its use, where the machine has an instruction for that.
     fn prefetch(values: &[f64]);
     /// The rounded sum of the lanes.
     #[cfg_attr(
         not(feature = "bench"),
-        expect(dead_code, reason = "only kernels that are raced sum their lanes")
+        expect(dead_code, reason = "only the kernels of `bench` sum their lanes")
     )]
     fn sum_of_lanes(self) -> f64;
 

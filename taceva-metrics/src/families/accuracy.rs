@@ -1,4 +1,4 @@
-//! How far predictions are from the truth: one metric a file, formula and description together.
+//! How far predictions are from the truth: one metric per file, formula and description together.
 
 mod bias;
 mod gate;

@@ -45,7 +45,7 @@ impl CellKey {
 
 /// Summaries by cell. Copies share them, so that what is finished from one is finished once.
 ///
-/// Once some row names no location nobody knows which presses belong together: all cells become one, and stay so. Which of the
+/// Once some row names no location it is not known which presses belong together: all cells become one, and stay so. Which of the
 /// two it is depends on the set of rows alone.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Cells<V> {

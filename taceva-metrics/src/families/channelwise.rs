@@ -1,4 +1,4 @@
-//! Families that keep the same of every channel, on its own: what such a family must still say is what it keeps.
+//! Families that keep the same sums of each channel on its own: such a family only has to define what it keeps.
 
 use std::collections::BTreeMap;
 

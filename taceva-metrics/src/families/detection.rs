@@ -17,7 +17,7 @@ use crate::score::value::UndefinedReason;
 
 /// k_α + k_β of Currie for risks of 5 % each: 2 × 1.645.
 pub(crate) const DETECTION_FACTOR: f64 = 3.29;
-/// Samples without contact below which nobody knows the spread.
+/// Samples without contact below which their spread is not estimated.
 const LEAST_SAMPLES: u64 = 10;
 /// The normal force from which on there is contact, in N.
 const GATE_N: f64 = 0.02;

@@ -1,4 +1,4 @@
-//! What a family of metrics says of itself; [`Accumulator`](crate::evaluate::accumulator::Accumulator) does the rest.
+//! What a family of metrics defines; [`Accumulator`](crate::evaluate::accumulator::Accumulator) does the rest.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;

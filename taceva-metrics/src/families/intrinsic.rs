@@ -1,4 +1,4 @@
-//! What a recording says of the sensor itself: how fast it looks, and how far.
+//! What a recording shows of the sensor itself: its frame rate, and the area that it senses.
 
 mod sums;
 mod times;

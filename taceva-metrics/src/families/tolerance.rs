@@ -183,7 +183,7 @@ impl Channelwise for Tolerances {
     }
 
     fn read_record(&self, record: &Record) -> Result<ErrorCounts, String> {
-        // States of before constants were counted have two numbers less.
+        // States that were written before constants were counted have two numbers less.
         let ((n, n_invalid, classes), of_constant) = match record.counts.len() {
             10 => {
                 let (&[n, n_invalid, ref classes @ ..], []) = record.exactly::<10, 0>()?;

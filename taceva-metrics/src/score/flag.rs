@@ -18,7 +18,7 @@ pub enum Flag {
     LowStimulus,
     /// In some scene the error is smaller than in the reference scene, which the score counts like a larger one.
     ImprovedError,
-    /// The truths of some channels move together, so that nobody can tell what leaks from which.
+    /// The truths of some channels move together, so that their effects on a prediction cannot be separated.
     CollinearTruths,
     /// The labels that the model was fitted on are not known: skill is measured by the mean of the evaluated truth.
     MeanOfTruth,

@@ -1,4 +1,4 @@
-//! How sure a score is: both ends of its interval, and how they were found.
+//! How certain a score is: both ends of its interval, and how they were found.
 
 use crate::score::bootstrap_ends::BootstrapEnds;
 use crate::score::scale::Scale;
@@ -49,7 +49,7 @@ impl ClusteredBy {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Interval {
-    /// By leaving out one contact location after the other.
+    /// By leaving out one cluster after the other.
     Jackknife {
         /// Lower end.
         low: f64,
@@ -66,7 +66,7 @@ pub enum Interval {
         /// What varies from cluster to cluster.
         by: ClusteredBy,
     },
-    /// By counting each contact location a random number of times.
+    /// By counting each cluster a random number of times.
     Bootstrap {
         /// Lower end.
         low: f64,
@@ -153,8 +153,8 @@ impl Interval {
         }
     }
 
-    /// Degrees of freedom of Student's t that it was made with, on the scale of its ends: by how many normal numbers its standard error is
-    /// as well known. None where samples are taken as independent.
+    /// Degrees of freedom of Student's t that it was made with, on the scale of its ends: the number of independent
+    /// normal values that would give as certain a standard error. None where samples are taken as independent.
     pub fn freedom(&self) -> Option<f64> {
         match *self {
             Interval::Jackknife { freedom, .. }

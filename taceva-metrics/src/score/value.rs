@@ -92,7 +92,7 @@ pub enum UndefinedReason {
         /// What it needs.
         least: u64,
     },
-    /// No bin or cell has two samples, so that nobody knows what is chance.
+    /// No bin or cell has two samples, so that it is not known what is chance.
     NoRepeats,
     /// No press was made twice.
     NoRepeatedPress,
@@ -113,7 +113,7 @@ pub enum UndefinedReason {
     NoForce,
     /// No sample is without contact.
     NoIdleSamples,
-    /// No sample is in contact and says where.
+    /// No sample is in contact and has a place.
     NoContact,
     /// One channel, where two or more are compared.
     OneChannel,
@@ -129,7 +129,7 @@ pub enum UndefinedReason {
     NoDigests,
     /// Single pictures, taken more than a second apart, have no rate.
     NoStream,
-    /// Nobody has declared a fact about the sensor.
+    /// A fact about the sensor is not declared.
     NotDeclared(&'static str),
     /// No interval is defined for this score.
     NoInterval,
@@ -151,7 +151,7 @@ pub enum UndefinedReason {
     NoChange,
     /// The value is beyond the range of a binary64.
     Overflow,
-    /// Too few contact locations for an interval.
+    /// Too few clusters for an interval.
     TooFewClusters {
         /// How many there are.
         have: usize,
@@ -163,7 +163,7 @@ pub enum UndefinedReason {
         /// How many there are.
         drawn: usize,
     },
-    /// Some sample names no contact location, so that nobody knows which belong together.
+    /// Some sample names no contact location, so that it is not known which belong together.
     NoClusters,
 }
 
@@ -239,9 +239,9 @@ impl fmt::Display for UndefinedReason {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum InapplicableReason {
-    /// Nobody has said from which magnitude on values of this unit count as contact.
+    /// No magnitude is defined from which on values of this unit count as contact.
     NoGate(Unit),
-    /// Nobody has said how fine this unit is looked at.
+    /// No width of levels is defined for this unit.
     NoStep(Unit),
     /// The samples carry no such channel.
     ChannelAbsent(&'static str),

@@ -76,7 +76,7 @@ impl PoissonBootstrap {
     /// The interval of an estimate, which is the score of all clusters.
     ///
     /// `clusters` are the keys of those that have samples; `resampled` is the score if each counts as often as the weight at
-    /// its place says.
+    /// its place.
     pub(crate) fn interval(
         &self,
         estimated: &Estimated,

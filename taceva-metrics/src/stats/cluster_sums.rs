@@ -1,4 +1,4 @@
-//! What two models are compared by on the same samples: one exact sum a cluster.
+//! What two models are compared by on the same samples: one exact sum per cluster.
 
 use std::collections::BTreeMap;
 
@@ -25,7 +25,7 @@ pub struct ClusterSum {
     pub sum: ExactSum,
 }
 
-/// One exact sum a cluster, however many clusters there are.
+/// One exact sum per cluster, however many clusters there are.
 ///
 /// A cluster is what may be exchanged as a whole: a contact location, or a board of a grating test. Like every state it
 /// depends on the set of samples alone, and merges.

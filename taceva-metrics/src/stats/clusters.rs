@@ -12,9 +12,9 @@ pub const NAMED_CLUSTERS: usize = 64;
 /// Number of clusters to which more locations than that are assigned by hash.
 pub const HASHED_CLUSTERS: usize = 32;
 
-/// One summary a cluster of samples.
+/// One summary per cluster of samples.
 ///
-/// The kinds are stages that are only ever climbed, and which one is reached depends on the set of samples alone: locations
+/// The kinds are stages that follow one another and never go back, and which one is reached depends on the set of samples alone: locations
 /// are kept by name until there are more than [`NAMED_CLUSTERS`], then by a hash of the name, and once a sample names no
 /// location there are no clusters at all. It gets no further variant in a compatible version: states hold it, and another stage would be
 /// another state.
@@ -31,7 +31,7 @@ pub const HASHED_CLUSTERS: usize = 32;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Clusters<T> {
-    /// A summary a location, by its name.
+    /// One summary per location, by its name.
     Named(BTreeMap<String, T>),
     /// [`HASHED_CLUSTERS`] summaries; a location's is `mix(seed ^ fnv1a64(name)) mod 32` with [`taceva_core::random::mix`].
     Hashed(Vec<T>),
@@ -209,7 +209,7 @@ impl<T: Merge + Clone> Clustering<T> {
     }
 }
 
-/// The rows of a batch, those of one cluster side by side: a cluster's sums are then visited once a batch.
+/// The rows of a batch, those of one cluster side by side: a cluster's sums are then visited once per batch.
 struct Groups {
     rows: Vec<u32>,
     ends: Vec<usize>,

@@ -1,4 +1,4 @@
-//! How far two scores are apart, and how sure that is.
+//! How far two scores are apart, and how certain that is.
 
 use std::fmt;
 
@@ -80,8 +80,8 @@ impl Flips {
     }
 }
 
-/// Decides about a family of differences, so that in at most one family in twenty any is shown that is none, and gives each the interval of its
-/// own step.
+/// Decides about a family of differences, and gives each the interval of its own step: where none of the scores differ, a difference is
+/// shown in at most one family in twenty.
 ///
 /// By Holm's procedure the i-th smallest of m p values is decided at 0.05 / (m − i + 1), and all from the first that is kept at the level of that one.
 ///

@@ -9,7 +9,7 @@ use super::student::quantile;
 use crate::score::value::{InapplicableReason, UndefinedReason, Value};
 use crate::score::{COVERAGE, Interval, Scale, Score};
 
-/// A score, how far it would move with other clusters, and how many there were to tell.
+/// A score, how far it would move with other clusters, and from how many clusters this is known.
 ///
 /// ```
 /// use taceva_metrics::Estimate;

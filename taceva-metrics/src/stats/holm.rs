@@ -2,11 +2,11 @@
 
 use super::error::ComparisonError;
 
-/// How seldom chance may look like an answer.
+/// The level of every test: how often chance alone may show a difference.
 pub(super) const LEVEL: f64 = 0.05;
 
-/// The p values of a family of tests, adjusted so that all of them together err as rarely as one alone would: in the order
-/// given.
+/// The p values of a family of tests, adjusted so that the chance of any false rejection among all of them is that of a single test; in the
+/// order given.
 ///
 /// With p₍₁₎ ≤ … ≤ p₍ₘ₎ the adjusted values are max over i ≤ j of min(1, (m − i + 1) p₍ᵢ₎): they rise with p, and equal p
 /// values stay equal.

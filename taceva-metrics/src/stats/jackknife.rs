@@ -6,8 +6,8 @@ use crate::score::range::Range;
 use crate::score::value::UndefinedReason;
 use crate::score::{ClusteredBy, Interval};
 
-/// Degrees of freedom below which the variance of a few clusters is not said to be known: with fewer the interval is several times as wide
-/// where one cluster makes all of the variance, and holds the truth no more often.
+/// The fewest degrees of freedom that the variance of a few clusters is given: with fewer the interval would be several times as wide
+/// where one cluster makes all of the variance, and would hold the truth no more often.
 const LEAST_FREEDOM: f64 = 3.0;
 
 /// The score with one cluster left out.

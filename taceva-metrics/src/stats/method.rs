@@ -2,7 +2,7 @@
 
 use super::bootstrap::PoissonBootstrap;
 
-/// How the interval of a score is found. Either way the contact location is what varies, never the sample.
+/// How the interval of a score is found. Either way clusters vary: contact locations, or samples where the caller takes them as independent.
 ///
 /// ```
 /// use taceva_metrics::{IntervalMethod, PoissonBootstrap};
@@ -12,9 +12,9 @@ use super::bootstrap::PoissonBootstrap;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum IntervalMethod {
-    /// Leaving out one cluster after the other: one more finish a cluster.
+    /// Leaving out one cluster after the other: the score is finished once more per cluster.
     #[default]
     Jackknife,
-    /// Weighting clusters at random: as many finishes as there are replicates, for scores whose distribution is skewed.
+    /// Weighting clusters at random, for scores whose distribution is skewed: the score is finished once per replicate.
     PoissonBootstrap(PoissonBootstrap),
 }

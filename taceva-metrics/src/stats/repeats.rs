@@ -17,7 +17,7 @@ pub struct Repeats {
     pub mean: f64,
     /// Their standard deviation, with one degree of freedom less than there are values.
     pub standard_deviation: f64,
-    /// Where the mean of ever more repeats lies, at 95 %: Student's interval, which takes values for normal.
+    /// Where the mean of infinitely many repeats lies, at 95 %: Student's interval, which takes the values to be normally distributed.
     pub interval: [f64; 2],
 }
 

@@ -1,4 +1,4 @@
-//! What a comparison says.
+//! The answer of a comparison.
 
 mod words;
 
@@ -47,7 +47,7 @@ impl Question {
     }
 }
 
-/// What a comparison says, at a level of 5 %, of a difference that [`decide`](crate::decide) decided about among those of its family.
+/// The answer of a comparison, at a level of 5 %, about a difference that [`decide`](crate::decide) decided among those of its family.
 ///
 /// ```
 /// use taceva_core::Unit;
@@ -81,7 +81,7 @@ pub enum Verdict {
         /// The unit of the scores.
         unit: Unit,
     },
-    /// They are so near to each other that it makes no difference, even where a difference can be shown.
+    /// They are closer to each other than the margin, even where a difference can be shown.
     Equivalent {
         /// By how much they differ here.
         difference: Difference,

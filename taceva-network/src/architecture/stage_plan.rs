@@ -6,17 +6,17 @@ use crate::max_pool;
 use crate::picture::Picture;
 use crate::planes::Layout;
 
-/// A part of a network that is passed as a whole.
+/// A part of a network that is computed as a whole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StagePlan {
-    /// A convolution of 7 × 7 with stride 2, then the greatest of 3 × 3 with stride 2.
+    /// A convolution of 7 × 7 with stride 2, then max pooling over 3 × 3 with stride 2.
     Stem {
         /// Channels it gives.
         channels: usize,
     },
     /// A convolution.
     Plain(PlainLayer),
-    /// Two convolutions of 3 × 3 and what leads past them: a convolution of 1 × 1 where pictures change their shape.
+    /// Two convolutions of 3 × 3 and the shortcut past them: the input itself, or a convolution of 1 × 1 where pictures change their shape.
     Block {
         /// Channels it gives.
         channels: usize,

@@ -1,4 +1,4 @@
-//! Normalised pictures, with what is added to them, cut at zero.
+//! Normalised pictures, a shortcut added to them, then ReLU.
 
 use rayon::prelude::*;
 

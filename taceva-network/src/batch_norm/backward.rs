@@ -1,4 +1,4 @@
-//! The gradients of batch normalisation and of what cuts at zero behind it.
+//! The gradients of batch normalisation and of the ReLU behind it.
 
 use rayon::prelude::*;
 
@@ -20,7 +20,7 @@ pub(crate) enum Gate<'a> {
     Output(&'a Planes),
 }
 
-/// Sums over a batch that the gradients are made of, a number a channel.
+/// Sums over a batch that the gradients are made of, one number per channel.
 #[derive(Clone, Debug)]
 pub(crate) struct GradientSums {
     /// Σ g, the gradient of the bias.
@@ -69,7 +69,7 @@ pub(crate) fn gradient_sums(
 }
 
 impl GradientSums {
-    /// The sums over a batch of `samples` numbers a channel, from those of its pictures: Σ g and Σ g · (x − mean).
+    /// The sums over a batch of `samples` numbers per channel, from those of its pictures: Σ g and Σ g · (x − mean).
     #[expect(
         clippy::cast_possible_truncation,
         reason = "summed in double precision and used in single"

@@ -23,7 +23,7 @@ pub(crate) enum Start<'a> {
     Zero,
     /// What the output holds.
     Output,
-    /// A number a channel.
+    /// One number per channel.
     Bias(&'a [f32]),
 }
 

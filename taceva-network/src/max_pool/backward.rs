@@ -54,7 +54,7 @@ pub(crate) fn gradient_sums(
     GradientSums::over(&sums[..count], moments, count * from.picture.pixels())
 }
 
-/// Turns what was normalised into its gradient, in place: these are the largest pictures of a network, and nobody reads them any
+/// Turns what was normalised into its gradient, in place: these are the largest pictures of a network, and they are not read any
 /// more. `gradient` is that of the output, cut.
 pub(crate) fn input_gradient(
     machine: Machine,

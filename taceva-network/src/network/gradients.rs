@@ -27,7 +27,7 @@ impl Update for Keep {
 }
 
 impl Network {
-    /// The loss of `samples` as one batch, normalised by its own moments, and its gradients. Running moments follow.
+    /// The loss of `samples` as one batch, normalised by its own moments, and its gradients. Running moments are updated.
     ///
     /// # Errors
     /// [`NetworkError`] if the samples do not go with the network or the loss.

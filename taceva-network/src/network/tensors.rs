@@ -70,7 +70,7 @@ impl Network {
         tensors
     }
 
-    /// The network of `architecture` with these tensors. PyTorch's counters of batches are passed over.
+    /// The network of `architecture` with these tensors. PyTorch's counters of batches are ignored.
     ///
     /// # Errors
     /// [`NetworkError`] if a tensor is missing, unexpected, of another shape, or not finite.

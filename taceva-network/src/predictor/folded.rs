@@ -1,4 +1,4 @@
-//! The stages of a predictor: convolutions with a bias, into which the running moments are worked.
+//! The stages of a predictor: convolutions with a bias, into which the running moments are folded.
 
 use crate::convolution::{ConvolutionWeights, Epilogue, Forward, Source};
 use crate::machine::Machine;
@@ -152,7 +152,7 @@ impl Layer {
             Ending::Relu => Epilogue::BiasRelu(&self.bias),
             Ending::AddThenRelu(other) => Epilogue::BiasAddRelu(&self.bias, other),
         };
-        // Nobody looks at the outputs on the way.
+        // The outputs on the way are not needed.
         let each = (&mut vec![(); pass.count][..], |(): &mut (), _: &[f32]| {});
         self.forward
             .run(pass.machine, source, &mut output, epilogue, each);

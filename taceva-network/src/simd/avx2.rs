@@ -1,4 +1,4 @@
-//! AVX2 with fused multiplication: Eight numbers a vector.
+//! AVX2 with fused multiplication: eight numbers per vector.
 
 #![expect(unsafe_code, reason = "vector instructions, loads and stores")]
 
@@ -30,7 +30,7 @@ impl Avx2 {
     }
 }
 
-/// Eight numbers a vector; made from a proof or from others of its kind.
+/// Eight numbers per vector; made from a proof or from others of its kind.
 #[derive(Clone, Copy)]
 struct Eight(__m256);
 
@@ -61,13 +61,13 @@ impl Vector for Eight {
 
     #[inline(always)]
     unsafe fn load(_proof: Avx2, place: *const f32) -> Eight {
-        // SAFETY: the machine has the instruction, and the caller promises a number a lane at `place`.
+        // SAFETY: the machine has the instruction, and the caller promises one number per lane at `place`.
         Eight(unsafe { _mm256_loadu_ps(place) })
     }
 
     #[inline(always)]
     unsafe fn store(self, place: *mut f32) {
-        // SAFETY: the machine has the instruction, and the caller promises room for a number a lane at `place`.
+        // SAFETY: the machine has the instruction, and the caller promises room for one number per lane at `place`.
         unsafe { _mm256_storeu_ps(place, self.0) }
     }
 

@@ -1,4 +1,4 @@
-//! AVX-512: Sixteen numbers a vector.
+//! AVX-512: sixteen numbers per vector.
 
 #![expect(unsafe_code, reason = "vector instructions, loads and stores")]
 
@@ -31,7 +31,7 @@ impl Avx512 {
     }
 }
 
-/// Sixteen numbers a vector; made from a proof or from others of its kind.
+/// Sixteen numbers per vector; made from a proof or from others of its kind.
 #[derive(Clone, Copy)]
 struct Sixteen(__m512);
 
@@ -62,13 +62,13 @@ impl Vector for Sixteen {
 
     #[inline(always)]
     unsafe fn load(_proof: Avx512, place: *const f32) -> Sixteen {
-        // SAFETY: the machine has the instruction, and the caller promises a number a lane at `place`.
+        // SAFETY: the machine has the instruction, and the caller promises one number per lane at `place`.
         Sixteen(unsafe { _mm512_loadu_ps(place) })
     }
 
     #[inline(always)]
     unsafe fn store(self, place: *mut f32) {
-        // SAFETY: the machine has the instruction, and the caller promises room for a number a lane at `place`.
+        // SAFETY: the machine has the instruction, and the caller promises room for one number per lane at `place`.
         unsafe { _mm512_storeu_ps(place, self.0) }
     }
 

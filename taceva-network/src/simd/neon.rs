@@ -1,4 +1,4 @@
-//! NEON: Four numbers a vector.
+//! NEON: four numbers per vector.
 
 #![expect(unsafe_code, reason = "vector instructions, loads and stores")]
 
@@ -29,7 +29,7 @@ impl Neon {
     }
 }
 
-/// Four numbers a vector; made from a proof or from others of its kind.
+/// Four numbers per vector; made from a proof or from others of its kind.
 #[derive(Clone, Copy)]
 struct Four(float32x4_t);
 
@@ -60,13 +60,13 @@ impl Vector for Four {
 
     #[inline(always)]
     unsafe fn load(_proof: Neon, place: *const f32) -> Four {
-        // SAFETY: the machine has the instruction, and the caller promises a number a lane at `place`.
+        // SAFETY: the machine has the instruction, and the caller promises one number per lane at `place`.
         Four(unsafe { vld1q_f32(place) })
     }
 
     #[inline(always)]
     unsafe fn store(self, place: *mut f32) {
-        // SAFETY: the machine has the instruction, and the caller promises room for a number a lane at `place`.
+        // SAFETY: the machine has the instruction, and the caller promises room for one number per lane at `place`.
         unsafe { vst1q_f32(place, self.0) }
     }
 

@@ -1,10 +1,10 @@
-//! Four numbers a vector in plain Rust, for machines that nothing is known of.
+//! Four numbers per vector in plain Rust, for machines without an instruction set of ours.
 
 #![expect(unsafe_code, reason = "loads and stores without bounds checks")]
 
 use super::vector::{Job, Vector};
 
-/// Evidence that the machine is one.
+/// Stands where other instruction sets need evidence: every machine can run this.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Portable;
 

@@ -1,4 +1,4 @@
-//! The two loops that nearly all time is spent in: a tile of sums that stays in registers.
+//! The two loops that take nearly all of the time: a tile of sums that stays in registers.
 
 #![expect(unsafe_code, reason = "loads and stores without bounds checks")]
 

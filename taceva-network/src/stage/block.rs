@@ -1,4 +1,4 @@
-//! A residual block: two convolutions, and what leads past them.
+//! A residual block: two convolutions, and the shortcut past them.
 
 use super::Standing;
 use crate::batch_norm::{Gate, Shortcut, apply};
@@ -13,7 +13,7 @@ use crate::scratch::Scratch;
 pub(crate) struct Block {
     pub(crate) first: Normed,
     pub(crate) second: Normed,
-    /// What leads past the two; nothing where pictures keep their shape.
+    /// The convolution of the shortcut; none where pictures keep their shape.
     pub(crate) shortcut: Option<Normed>,
 }
 
@@ -140,7 +140,7 @@ impl BlockSpace {
         apply(machine, (&second.raw, count), &second.moments, past, output);
     }
 
-    /// The gradient of the output becomes, in place, that of the sum, and then, where nothing leads past but the input itself,
+    /// The gradient of the output becomes, in place, that of the sum, and then, where the shortcut is the input itself,
     /// that of the input.
     pub(super) fn backward(
         &mut self,

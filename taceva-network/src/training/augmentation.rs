@@ -1,4 +1,4 @@
-//! Pictures changed in ways that their labels survive, or follow.
+//! Pictures changed at random in ways that keep their labels, or change them by a known amount.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,7 +10,7 @@ use taceva_core::random::Draws;
 /// How pictures are changed before each step; the default changes nothing.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Augmentation {
-    /// Pictures are multiplied by 1 ± this, drawn evenly: light that varies.
+    /// Pictures are multiplied by a factor drawn uniformly from 1 ± this: light that varies.
     pub brightness: f64,
     /// The standard deviation of what is added to each number, in the unit of the pictures.
     pub noise: f64,

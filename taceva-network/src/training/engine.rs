@@ -1,4 +1,4 @@
-//! What carries a network through its training.
+//! What computes the steps of a training.
 
 use std::fmt;
 
@@ -10,8 +10,8 @@ use crate::network::{NamedTensor, Network};
 ///
 /// A [`Trainer`](super::Trainer) draws samples, composes batches, evaluates and stops; an engine computes. A recipe means the same on each.
 pub trait Engine: fmt::Debug + Send {
-    /// Makes a step: passes a batch, normalised by its own moments, and lets weights and running moments follow. Gives the loss
-    /// before they did.
+    /// Makes a step: passes a batch, normalised by its own moments, and updates weights and running moments. Gives the loss
+    /// before the update.
     ///
     /// # Errors
     /// [`NetworkError::LossNotFinite`] before any weight changed; [`NetworkError::WeightNotFinite`], which an engine may also see
@@ -29,7 +29,7 @@ pub trait Engine: fmt::Debug + Send {
     /// The network as it stands.
     ///
     /// # Errors
-    /// [`NetworkError::WeightNotFinite`] where an engine looks at its weights no earlier; [`NetworkError::Device`].
+    /// [`NetworkError::WeightNotFinite`] where an engine checks its weights no earlier; [`NetworkError::Device`].
     fn network(&self) -> Result<Network, NetworkError>;
 
     /// What the optimiser remembers of each parameter.

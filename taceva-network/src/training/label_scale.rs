@@ -1,4 +1,4 @@
-//! Labels of one size, whatever their unit.
+//! Labels scaled to one range, whatever their unit.
 
 use serde::{Deserialize, Serialize};
 

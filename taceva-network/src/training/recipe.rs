@@ -1,4 +1,4 @@
-//! How a network is trained, said as data.
+//! How a network is trained, as data.
 
 use serde::{Deserialize, Serialize};
 
@@ -15,13 +15,13 @@ pub struct Recipe {
     pub epochs: u64,
     /// Samples of a step.
     pub batch: usize,
-    /// How weights follow their gradients.
+    /// The rule by which a step changes weights.
     pub optimizer: Optimizer,
-    /// The full rate.
+    /// The full learning rate.
     pub rate: f64,
-    /// What of the rate each step has.
+    /// The share of the full rate at each step.
     pub schedule: Schedule,
-    /// What is made small.
+    /// The loss that is minimised.
     pub loss: Loss,
     /// How labels are scaled; classes are not.
     pub scaling: LabelScaling,
@@ -29,7 +29,7 @@ pub struct Recipe {
     pub augmentation: Augmentation,
     /// Epochs without a better one on the validation part after which training stops.
     pub patience: Option<u64>,
-    /// What everything drawn depends on.
+    /// The seed of everything that is drawn at random.
     pub seed: u64,
 }
 

@@ -1,19 +1,19 @@
-//! Pictures and what is true of them.
+//! Pictures and their labels.
 
 use crate::architecture::Architecture;
 use crate::error::{NetworkError, SampleSet};
 use crate::loss::Loss;
 
-/// Pictures and what is true of them.
+/// Pictures and their labels.
 #[derive(Clone, Copy, Debug)]
 pub struct Samples<'a> {
     /// `[samples, height, width, channels]`.
     pub pictures: &'a [f32],
-    /// What is true of each.
+    /// The labels of each picture.
     pub labels: Labels<'a>,
 }
 
-/// What is true of pictures.
+/// The labels of pictures.
 #[derive(Clone, Copy, Debug)]
 pub enum Labels<'a> {
     /// `[samples, outputs]`, in any unit.

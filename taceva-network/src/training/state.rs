@@ -1,4 +1,4 @@
-//! How far a training has come, and what it gave.
+//! How far a training has come, and its results.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,17 +12,17 @@ pub struct TrainingState {
     pub step: u64,
     /// The sum of the losses of the current epoch's steps.
     pub loss_sum: f64,
-    /// What each whole epoch came to.
+    /// The losses of each whole epoch.
     pub epochs: Vec<Epoch>,
     /// The epoch that did best on the validation part, counted from 0.
     pub best: Option<u64>,
-    /// Whether the recipe's patience came to an end.
+    /// Whether it was stopped early, by the recipe's patience.
     pub is_stopped: bool,
     /// Where a number was not finite.
     pub broken: Option<Breakage>,
 }
 
-/// What an epoch came to, in the unit of the scaled labels.
+/// The losses of an epoch, of the scaled labels.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Epoch {
     /// The mean loss of its steps.
@@ -31,21 +31,21 @@ pub struct Epoch {
     pub validation_loss: Option<f64>,
 }
 
-/// What a step came to.
+/// The result of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step {
     /// Which step, counted from 0.
     pub step: u64,
-    /// The loss of its batch, before weights followed it.
+    /// The loss of its batch, before the weights were changed.
     pub loss: f64,
-    /// What its epoch came to, where it was the last.
+    /// The losses of its epoch, where it was the last step of one.
     pub epoch: Option<Epoch>,
 }
 
-/// What a training gave.
+/// The result of a training.
 #[derive(Clone, Debug)]
 pub struct Trained {
-    /// The network after the best epoch; after the last one where nothing was there to choose by.
+    /// The network after the best epoch; after the last one where there is no validation part to choose by.
     pub network: Network,
     /// How labels were scaled: predictions are to be scaled back by it.
     pub scale: LabelScale,

@@ -1,4 +1,4 @@
-//! The networks once more in double precision, as plainly as can be: channels before rows, one loop a dimension.
+//! The networks once more in double precision, as plainly as can be: channels before rows, one loop per dimension.
 
 use std::collections::BTreeMap;
 

@@ -144,7 +144,7 @@ impl Browser {
         serde_json::from_slice(&bytes).expect("JSON")
     }
 
-    /// Fails if anything was said on the console, asked of an address that is not `is_own`, or shown as a dialog.
+    /// Fails if anything was written to the console, requested from an address that is not `is_own`, or shown as a dialog.
     ///
     /// # Panics
     /// If so.
@@ -178,10 +178,10 @@ impl Drop for Browser {
     }
 }
 
-/// The bytes that base64 stands for, as the browser writes files.
+/// The bytes of a text in base64, in which the browser sends files.
 ///
 /// # Panics
-/// If it is none.
+/// If the text is not base64.
 pub fn from_base64(text: &str) -> Vec<u8> {
     let value = |letter: u8| match letter {
         b'A'..=b'Z' => letter - b'A',

@@ -10,7 +10,7 @@ use std::fmt;
 pub enum Need {
     /// Chromium on the path, which pages are opened in.
     Browser,
-    /// axe-core, found by node or named by `TACEVA_AXE`, which looks for what keeps people out of a page.
+    /// axe-core, found by node or named by `TACEVA_AXE`, which checks the accessibility of a page.
     Axe,
     /// `pdflatex`, which sets tables for papers.
     Latex,
@@ -44,7 +44,7 @@ pub enum Need {
     VirtualPrinter,
     /// The right to make device files, which stand for cameras and scales that are not there.
     DeviceFiles,
-    /// A machine that does nothing else: what bounds of milliseconds hold on. Nobody can see that; who has one names it in `TACEVA_REQUIRE`.
+    /// A machine without other load, on which bounds of milliseconds hold. No test can find that out: it is named in `TACEVA_REQUIRE`.
     QuietMachine,
     /// An example that is built where a whole package is tested, and not by a single test of it.
     Example,
@@ -53,7 +53,7 @@ pub enum Need {
 /// `TACEVA_REQUIRE` names something that no test needs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownNeed(
-    /// The word that stands there.
+    /// The word that was found.
     pub String,
 );
 
@@ -131,7 +131,7 @@ impl std::error::Error for UnknownNeed {}
 /// The needs that the value of `TACEVA_REQUIRE` names: words with commas between them, none where it is not set.
 ///
 /// # Errors
-/// [`UnknownNeed`] for a word that stands for none: a need with a slip in its name would be required by nobody.
+/// [`UnknownNeed`] for a word that stands for none: a misspelt need would not be required at all.
 pub fn required(value: Option<&OsStr>) -> Result<BTreeSet<Need>, UnknownNeed> {
     let value = value.unwrap_or_default().to_string_lossy();
     let words = value.split(',').map(str::trim);

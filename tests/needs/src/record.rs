@@ -1,4 +1,4 @@
-//! The list of what was skipped: a line a skip, in a file of the target folder, so that what a test runner hides is seen.
+//! The list of what was skipped: one line per skip, in a file of the target folder, so that what a test runner hides is seen.
 
 use std::fs::OpenOptions;
 use std::io::Write;
@@ -12,7 +12,7 @@ pub const LIST: &str = "skipped-tests.tsv";
 /// Adds a line to the list: need, reason, test program and test, with tabs between them.
 ///
 /// # Panics
-/// If it cannot be written: a skip that nobody sees is none.
+/// If it cannot be written: no skip may stay unseen.
 pub(crate) fn record(need: Need, reason: &str) {
     let program = std::env::current_exe().expect("a test knows where it is");
     let thread = std::thread::current();

@@ -1,4 +1,4 @@
-//! Renews every number of the documents, or says which are no longer true.
+//! Renews every passage of the documents that a command wrote, or prints which are no longer true.
 //!
 //! ```text
 //! cargo run --release -p taceva-tests --bin renew -- [--check] [--quick] [--no-times] [FILE …]

@@ -1,4 +1,4 @@
-//! From system calls to operations: a kernel's book of descriptors, offsets and names, kept by reading along.
+//! From system calls to operations: the descriptors, offsets and names that the kernel holds, followed call by call.
 
 use std::collections::HashMap;
 use std::path::{Component, Path};

@@ -1,4 +1,4 @@
-//! What a program does that a disk remembers, or that somebody relies on.
+//! Operations of a program that change a disk, or that its user relies on.
 
 /// The number of a file or a folder, which it keeps whatever it is called; the watched folder is 0.
 pub type ObjectId = usize;
@@ -6,7 +6,7 @@ pub type ObjectId = usize;
 /// The watched folder itself.
 pub const ROOT: ObjectId = 0;
 
-/// What a program did to the watched folder, or told whoever started it.
+/// What a program did to the watched folder, or printed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Operation {
     /// A new file or folder; its number is the next free one.
@@ -71,7 +71,7 @@ pub enum Operation {
         /// Operations that had been applied when the call began: only these are covered.
         covers: usize,
     },
-    /// A line on standard output: what whoever reads it relies on from now on.
+    /// A line on standard output, on which its reader relies from now on.
     Print(String),
 }
 

@@ -22,7 +22,7 @@ pub struct Compared {
     pub scores: usize,
     /// Of the errors `mae` and `smape`, as a part of them.
     pub error_part: f64,
-    /// Of `r2` and `skill`, as a part of what they leave unexplained, 1 − the score: a ratio that says nothing where few labels hardly spread.
+    /// Of `r2` and `skill`, as a part of what they leave unexplained, 1 − the score: a ratio without meaning where few labels hardly spread.
     pub share_part: f64,
 }
 

@@ -1,6 +1,6 @@
 //! A camera of any rate, for measuring what a capture keeps up with: `cargo run -p taceva-wire --example camera -- 60 640 480`.
 //!
-//! Prints the address of its stream, and serves it until its standard input ends. Its pictures are drawn before: noise over a slow light and a
+//! Prints the address of its stream, and serves it until its standard input ends. Its pictures are drawn beforehand: noise over a slow light and a
 //! dark disc that wanders, as a gel that is touched shows it, as JPEG of quality 90.
 
 use std::error::Error;
@@ -28,7 +28,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let bytes: usize = pictures.iter().map(Vec::len).sum();
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?;
     println!(
-        "camera/mjpeg:url=http://{}/ {width} x {height} at {rate_hz} Hz, {} kB a picture",
+        "camera/mjpeg:url=http://{}/ {width} x {height} at {rate_hz} Hz, {} kB per picture",
         listener.local_addr()?,
         bytes / pictures.len() / 1000
     );

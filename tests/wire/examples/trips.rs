@@ -1,7 +1,7 @@
 //! How long it takes from a force above its limit until the arm stands, over sockets: `trips [TIMES] [SPEED]`, 20 at 5 mm/s by default.
 //!
-//! One uninterrupted motion into the gel; a thread reads the transducer 200 times a second and halts the arm at 0.5 N. What is printed is of
-//! this machine as busy as it is, and of an arm that has no braking way: the tip may go on by no more than its speed makes of the time that
+//! One uninterrupted motion into the gel; a thread reads the transducer 200 times a second and halts the arm at 0.5 N. The times are those of
+//! this machine under its present load, and of an arm without a braking distance: the tip may go on by no more than its speed makes of the time that
 //! 999 trips of 1,000 need. `chrt -f 10 target/debug/examples/trips 1000` asks for the priority that docs/rig.md names.
 //!
 //! Ends with 1 if a trip ended otherwise than by a halt, if more than 1 trip of 1,000 takes longer than 50 ms, or goes further than that.

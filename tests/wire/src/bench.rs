@@ -1,4 +1,4 @@
-//! The gel, at the time of the wall.
+//! The simulated gel in real time.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::{Duration, Instant};

@@ -1,4 +1,4 @@
-//! The port by which whoever tests mounts specimens, sets the light, puts faults on links and asks for the truth: a JSON value a line.
+//! The port through which a test mounts specimens, sets the light, puts faults on links and asks for the truth: one JSON value per line.
 //!
 //! ```text
 //! {"mount": {"ball_mm": 4}}
@@ -71,7 +71,7 @@ pub struct Control {
 
 /// A longer request is none.
 const LINE_MAX: u64 = 4096;
-/// How long a fault lasts if nothing is said.
+/// How long a fault lasts if no duration is given.
 const USUAL_SECONDS: f64 = 1.0;
 /// No fault lasts longer.
 const SECONDS_MAX: f64 = 3600.0;

@@ -25,9 +25,9 @@ pub enum FaultKind {
     Late,
     /// The link is open, and nothing comes.
     Silent,
-    /// The same numbers come again and again, under new ones of the messages.
+    /// The same readings are repeated, under new numbers of the messages.
     Frozen,
-    /// A number is none.
+    /// A reading is NaN.
     NotANumber,
     /// Messages come in pieces.
     Split,
@@ -35,7 +35,7 @@ pub enum FaultKind {
     Merged,
     /// Bytes of another protocol stand before each message.
     Foreign,
-    /// Before each message stands the beginning of one that nobody could hold.
+    /// Before each message stands the beginning of one whose length is absurd.
     Hostile,
     /// Numbers of messages are left out, though no message is.
     Gap,
@@ -48,11 +48,11 @@ pub enum FaultKind {
 pub enum ArmFault {
     /// Somebody presses the emergency stop: the motors are off.
     EmergencyStop,
-    /// It feels that it touches something.
+    /// It detects a collision.
     Collision,
 }
 
-/// An emulated arm, for whoever does things to it.
+/// An emulated arm, as its surroundings act on it.
 pub trait Arm: Send + Sync {
     /// Does to the arm what its surroundings can.
     fn suffer(&self, fault: ArmFault);

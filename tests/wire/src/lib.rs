@@ -1,11 +1,11 @@
-//! A bench on the wire: the simulated gel of `taceva-sim` at the time of the wall, behind the sockets of devices that exist.
+//! A bench on the wire: the simulated gel of `taceva-sim` in real time, behind the sockets of devices that exist.
 //!
 //! A client sees a robot that moves, a transducer that streams and a camera that sends pictures, each in the protocol of a real one; what
 //! it presses is one simulated gel, whose truth is known. Faults can be put on each link while it runs. Everything listens on loopback alone,
 //! or is a pseudo-terminal.
 //!
 //! It is **not** a test of the devices: protocols here and drivers elsewhere share one reading of the documents. The clients of vendors and
-//! of others, which tests start where they are installed, are what proves frames.
+//! of others, which tests start where they are installed, check the protocols independently.
 //!
 //! ```
 //! use std::net::TcpStream;

@@ -10,13 +10,13 @@ use crate::fault::{Device, FaultKind};
 #[derive(Debug)]
 pub(crate) struct Link {
     device: Device,
-    /// How a message of this protocol begins that never ends, or that nobody can hold.
+    /// The beginning of a message of this protocol that never ends, or whose length is absurd.
     hostile: &'static [u8],
     held: Vec<u8>,
     held_count: usize,
 }
 
-/// What somebody says who speaks another protocol.
+/// A message of another protocol.
 const FOREIGN: &[u8] = b"HTTP/1.1 400 Bad Request\r\nContent-Length: 0\r\n\r\n";
 /// So many messages come at once where they are merged.
 const MERGED: usize = 4;
@@ -76,7 +76,7 @@ impl Link {
         Ok(())
     }
 
-    /// Forgets what was held: nobody wants it any more.
+    /// Drops what was held, which is no longer wanted.
     pub(crate) fn forget(&mut self) {
         self.held.clear();
         self.held_count = 0;

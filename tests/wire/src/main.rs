@@ -23,7 +23,7 @@ struct Arguments {
     /// The gel: vitactip, magictac, gelsight or gelsight-wm.
     #[arg(long, default_value = "gelsight", value_parser = model)]
     model: Model,
-    /// What every error is drawn from.
+    /// The seed of every random error.
     #[arg(long, default_value_t = 0)]
     seed: u64,
     /// Pixels of the camera, along x and along y, that make one of a frame.
@@ -33,7 +33,7 @@ struct Arguments {
     /// simulated in the program.
     #[arg(long)]
     quiet: bool,
-    /// Stream PNG, which loses nothing.
+    /// Stream PNG, which is lossless.
     #[arg(long)]
     png: bool,
     /// The address of loopback to listen on.
@@ -42,7 +42,7 @@ struct Arguments {
     /// Listen on the ports that public clients expect (502, 30001 to 30003, 4008), and not on any free ones.
     #[arg(long)]
     usual_ports: bool,
-    /// What the controller calls its firmware.
+    /// The version of its firmware that the controller reports.
     #[arg(long, default_value = "2.7.0", value_parser = firmware)]
     firmware: Firmware,
     /// Where to write the rig file.

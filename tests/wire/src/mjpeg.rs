@@ -1,4 +1,4 @@
-//! An emulated camera that streams over HTTP: `multipart/x-mixed-replace` with a JPEG or, for comparisons, a PNG a part.
+//! An emulated camera that streams over HTTP: `multipart/x-mixed-replace` with a JPEG or, for comparisons, a PNG in each part.
 //!
 //! A path that ends in `.png` streams PNG, every other one JPEG. A connection is one stream; another request on it is not answered.
 
@@ -36,7 +36,7 @@ pub enum Style {
 
 /// What stands between two parts.
 const BOUNDARY: &str = "taceva-frame";
-/// A part that is longer than any memory.
+/// The head of a part whose stated length is beyond any memory.
 const HOSTILE: &[u8] =
     b"--taceva-frame\r\nContent-type: image/jpeg\r\nContent-length: 18446744073709551615\r\n\r\n";
 /// What the JPEG loses: little.

@@ -1,4 +1,4 @@
-//! An emulated Net F/T box of ATI: records over UDP, and the page that says what a count is worth.
+//! An emulated Net F/T box of ATI: records over UDP, and the page that states the unit of a count.
 //!
 //! What it does: start, stop, bias, one client at a time (the last one that asked). What it does not: counted and buffered transfers, other
 //! pages, the port of commands over TCP.
@@ -26,7 +26,7 @@ pub struct Emulator {
 pub const USUAL_PORT: u16 = 49_152;
 /// Readings a second.
 const RATE_HZ: u32 = 500;
-/// Counts a N, and a N·m.
+/// Counts per N, and per N·m.
 const COUNTS: f64 = 10_000_000.0;
 
 impl Emulator {

@@ -7,7 +7,7 @@ use taceva_sim::{Model, ParameterError, Parameters};
 pub struct BenchOptions {
     /// The sensor.
     pub model: Model,
-    /// What every error is drawn from.
+    /// The seed of every random error.
     pub seed: u64,
     /// Whether nothing errs, drifts or relaxes, as with the argument `quiet` of the simulated sensors: a study over sockets can then be
     /// compared with one that is simulated in the program.

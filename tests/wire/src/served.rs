@@ -51,7 +51,7 @@ pub struct ServeOptions {
     pub host: Ipv4Addr,
     /// Whether ports are those that public clients expect, and not any free ones.
     pub uses_usual_ports: bool,
-    /// What the controller of an xArm calls its firmware.
+    /// The version of its firmware that the controller of an xArm reports.
     pub firmware: [u32; 3],
     /// Whether the rig file names the stream that loses nothing.
     pub is_lossless: bool,
@@ -159,7 +159,7 @@ impl Served {
         &self.bench
     }
 
-    /// The robot, for whoever does things to it.
+    /// The robot, as its surroundings act on it.
     pub fn arm(&self) -> &dyn Arm {
         &*self.arm
     }

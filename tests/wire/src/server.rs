@@ -1,4 +1,4 @@
-//! Listening: a thread a port, a thread a client, and an end to both.
+//! Listening: one thread per port, one per client, and the end of both.
 
 use std::io;
 use std::net::{Ipv4Addr, SocketAddr, SocketAddrV4, TcpListener, TcpStream};
@@ -51,7 +51,7 @@ impl Server {
         };
         if !host.is_loopback() {
             return Err(refused(io::Error::other(
-                "expected an address of loopback, 127.0.0.1 for one",
+                "expected an address of loopback, such as 127.0.0.1",
             )));
         }
         let listener = TcpListener::bind(wanted).map_err(refused)?;

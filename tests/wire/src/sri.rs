@@ -1,7 +1,7 @@
 //! An emulated interface box of SRI: commands and a stream of frames on one port.
 //!
 //! What it does: rate, checks by sum and CRC32, engineering units, start, stop, zero (which it does not answer while it streams, as public drivers
-//! report). What it does not: counts, several readings a frame, settings that last.
+//! report). What it does not: counts, several readings per frame, settings that last.
 
 mod session;
 

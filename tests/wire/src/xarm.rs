@@ -56,7 +56,7 @@ pub struct Ports {
     pub status: Option<u16>,
     /// Of everything.
     pub rich: u16,
-    /// What it calls its firmware: major, minor, revision.
+    /// The version of its firmware that it reports: major, minor, revision.
     pub firmware: [u32; 3],
 }
 

@@ -44,7 +44,7 @@ impl Candle {
         let variables = VarMap::new();
         let place = VarBuilder::from_varmap(&variables, DType::F32, &device);
         let network = ResNet::new(&place)?;
-        // All but running moments, which follow no gradient.
+        // All but running moments, which have no gradient.
         let named = variables.data().lock().expect("one thread").clone();
         let learnt = named
             .into_iter()
@@ -122,7 +122,7 @@ impl ResNet<Normed> {
         })
     }
 
-    /// The same with running moments worked into the convolutions.
+    /// The same with running moments folded into the convolutions.
     fn folded(&self) -> Result<ResNet<Conv2d>> {
         let blocks = self.blocks.iter().map(|block| {
             Ok(Block {

@@ -1,4 +1,4 @@
-//! Images a second of training steps and of predictions in other frameworks of Rust: ResNet-18, six outputs, batches of 32 (and
+//! Images per second of training steps and of predictions in other frameworks of Rust: ResNet-18, six outputs, batches of 32 (and
 //! single pictures), single precision, SGD with momentum on squared errors, as `cargo bench -p taceva-network` measures it.
 //!
 //! usage: cargo run --release [-- SIDE [THREADS [REPEATS]]]; without arguments 64, one thread, 5 repeats. On a machine with other
@@ -18,7 +18,7 @@ const RATE: f64 = 1e-3;
 const MOMENTUM: f64 = 0.9;
 const DECAY: f64 = 1e-4;
 
-/// What both frameworks ask how many threads there are to be.
+/// The environment variable from which both frameworks read the number of threads.
 const THREADS: &str = "RAYON_NUM_THREADS";
 
 /// ResNet-18 in a framework.
@@ -26,11 +26,11 @@ trait Framework {
     /// Makes a step with a whole batch and gives its loss.
     fn step(&mut self) -> f32;
 
-    /// What predicts the first so many pictures of the batch, by running moments: `[count, OUTPUTS]`.
+    /// A function that predicts the first `count` pictures of the batch, by running moments: `[count, OUTPUTS]`.
     fn predictor(&self) -> impl Fn(usize) -> Vec<f32>;
 }
 
-/// What the networks see and are to say.
+/// The pictures and their labels.
 struct Samples {
     side: usize,
     /// `[BATCH, 3, side, side]`.
@@ -76,7 +76,7 @@ fn measure(name: &str, mut framework: impl Framework, side: usize, repeats: usiz
     let tell = |what: &str, images: usize, (busy, wall): (f64, f64)| {
         let (busy, wall) = (images as f64 / busy, images as f64 / wall);
         println!(
-            "{name:<16} {what:<12} {side}² {busy:8.2} images a processor second {wall:8.2} images/s"
+            "{name:<16} {what:<12} {side}² {busy:8.2} images per processor second {wall:8.2} images/s"
         );
     };
     let first = framework.step();

@@ -17,7 +17,7 @@ pub enum DriverSource {
     Real,
     /// A model of a device.
     Simulated,
-    /// A device, at another time.
+    /// A recording of a device.
     Recorded,
 }
 

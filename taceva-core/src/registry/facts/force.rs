@@ -19,15 +19,15 @@ pub struct ForceFacts {
     pub rate: Option<Hertz>,
     /// The greatest magnitude of each force it can measure.
     pub force_max: Option<Newton>,
-    /// How far readings of a load that rests scatter: one standard deviation a component.
+    /// How far readings of a load that rests scatter: one standard deviation per component.
     pub noise: Option<Newton>,
-    /// The step between two neighbouring readings of a force. Equal readings betray a signal that froze only where it is below the noise.
+    /// The step between two neighbouring readings of a force. Equal readings show a frozen signal only where it is below the noise.
     pub resolution: Option<Newton>,
-    /// How long after it was true a reading is stamped, in ms; whoever conducts a run takes it off the stamps. 0 where stamps are true.
+    /// How long after its measurement a reading is stamped, in ms; a run subtracts it from the stamps. 0 where stamps need no correction.
     pub latency_ms: Option<f64>,
     /// Whether it numbers its readings, see [`ForceTransducer::sequence`](crate::ForceTransducer::sequence).
     pub numbered: bool,
-    /// Whether it can call the present load zero.
+    /// Whether it can take the present load as zero.
     pub tare: bool,
 }
 
@@ -88,7 +88,7 @@ impl ForceFacts {
         self
     }
 
-    /// Whether two readings of a live transducer are hardly ever equal to the last bit: its step, if one is stated, is below its noise.
+    /// Whether two readings of a working transducer are hardly ever equal to the last bit: its step, if one is stated, is below its noise.
     ///
     /// ```
     /// use taceva_core::{ForceFacts, Newton};

@@ -19,20 +19,20 @@ pub struct RobotFacts {
     pub workspace: Option<Workspace>,
     /// How fast it may move.
     pub speed_max: Option<Speed>,
-    /// How well it comes back to a pose: one standard deviation an axis.
+    /// How well it comes back to a pose: one standard deviation per axis.
     pub repeatability: Option<Millimetre>,
-    /// How far a pose that it reports scatters about where it was sent: one standard deviation an axis. Where it is not known, a real robot
+    /// How far a pose that it reports scatters about where it was sent: one standard deviation per axis. Where it is not known, a real robot
     /// is taken to report as well as it comes back, and a simulated one to report where it was sent.
     pub pose_noise: Option<Millimetre>,
     /// How fast it slows down when it is halted, in mm/s².
     pub deceleration_mm_s2: Option<f64>,
     /// How long it moves on after a halt has reached it, in ms.
     pub stop_ms: Option<f64>,
-    /// How long after it was true a pose is stamped, in ms; whoever conducts a run takes it off the stamps. 0 where stamps are true.
+    /// How long after its measurement a pose is stamped, in ms; a run subtracts it from the stamps. 0 where stamps need no correction.
     pub latency_ms: Option<f64>,
     /// Whether it can stop by itself at a force.
     pub guarded_motion: bool,
-    /// Whether its poses are in a base frame of its own, which somebody must map to that of the sensor before it is moved over a gel.
+    /// Whether its poses are in a base frame of its own, which must be mapped to that of the sensor before it is moved over a gel.
     pub base_frame: bool,
 }
 

@@ -37,7 +37,7 @@ pub struct SensorFacts {
     pub gel_thickness: Option<Millimetre>,
     /// The area that the camera sees, in mm².
     pub field_of_view_mm2: Option<f64>,
-    /// How long after it was true a frame is stamped, in ms; whoever conducts a run takes it off the stamps. 0 where stamps are true.
+    /// How long after it was taken a frame is stamped, in ms; a run subtracts it from the stamps. 0 where stamps need no correction.
     pub latency_ms: Option<f64>,
 }
 
@@ -132,7 +132,7 @@ impl SensorFacts {
         self
     }
 
-    /// How deep it may be pressed, by the limit or, without one, by the footprint.
+    /// How deep it may be pressed: `depth_max`, or without it the depth of the footprint.
     pub fn depth_limit(&self) -> Option<Millimetre> {
         let footprint = self.footprint.and_then(|footprint| footprint.depth_max());
         self.depth_max

@@ -11,7 +11,7 @@ use crate::families::family::{Details, Family, Intervals, Numbers, Output};
 use crate::metric::Metric;
 use crate::score::value::{InapplicableReason, UndefinedReason};
 
-/// A [`Family`] whose sums are [`ErasedSums`]: what each method says stands there.
+/// A [`Family`] whose sums are [`ErasedSums`]; its methods are documented there.
 pub(super) trait AnyFamily: Send {
     fn schema(&self) -> &'static str;
     fn parameters(&self) -> BTreeMap<String, String>;
@@ -20,7 +20,7 @@ pub(super) trait AnyFamily: Send {
     fn clusters<'a>(&self, batch: &'a Batch) -> Option<Cow<'a, Labels>>;
     fn unclustered(&self) -> UndefinedReason;
     fn to_records(&self, parts: &ErasedSums) -> Vec<Record>;
-    /// Back from a state, which must have a record a part.
+    /// Back from a state, which must have one record per part.
     fn read_records(&self, records: &[Record]) -> Result<ErasedSums, String>;
     fn outputs(&self, metric: &Metric) -> Vec<Output>;
     fn count(&self, metric: &Metric, parts: &ErasedSums, part: usize) -> u64;

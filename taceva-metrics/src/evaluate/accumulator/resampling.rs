@@ -1,4 +1,4 @@
-//! The same score of other clusters: what intervals are made of.
+//! A score computed again for other choices of clusters, from which its interval is formed.
 
 use std::borrow::Cow;
 

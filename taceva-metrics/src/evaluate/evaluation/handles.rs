@@ -7,7 +7,7 @@ use taceva_core::Channel;
 use super::Evaluation;
 use crate::score::Score;
 
-/// A method a metric: its name, and what it says.
+/// One method per metric: its name, and its meaning.
 macro_rules! handles {
     ($($metric:ident: $says:literal),+ $(,)?) => {
         /// Scores of one channel. `None` if the plan left the metric out ([`skipped`](Evaluation::skipped) says why) or has no such channel; a
@@ -37,9 +37,9 @@ handles! {
     mae: "the mean absolute error, in the unit of the channel",
     rmse: "the root mean square error, in the unit of the channel",
     bias: "the mean of truth − prediction, in the unit of the channel",
-    r2: "which share of the spread of the truth is explained, without unit",
-    skill: "which share of the squared error of the best constant answer is taken away, without unit",
+    r2: "the coefficient of determination, the share of the variance of the truth that is explained, without unit",
+    skill: "the share by which the squared error is less than that of the best constant prediction, without unit",
     smape: "the symmetric relative error as a fraction, without unit",
     smape_gated: "the symmetric relative error of samples in contact, without unit",
-    tolerance: "which share of predictions is within 0.05 mm or 0.05 N",
+    tolerance: "the share of predictions within 0.05 mm or 0.05 N of the truth",
 }

@@ -1,4 +1,4 @@
-//! Scores as a table that a person likes to read.
+//! Scores as a table for people.
 
 use std::fmt;
 

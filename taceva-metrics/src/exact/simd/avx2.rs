@@ -1,4 +1,4 @@
-//! Four numbers a vector: AVX2 with fused multiplication.
+//! Four numbers per vector: AVX2 with fused multiplication.
 
 #![expect(unsafe_code, reason = "vector instructions and loads")]
 
@@ -14,7 +14,7 @@ use std::arch::x86_64::{
 
 use crate::exact::vector::{Job, Vector};
 
-/// Evidence that the machine has AVX2 and FMA and counts bits.
+/// Evidence that the machine has AVX2, FMA and POPCNT.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Avx2(());
 
@@ -51,7 +51,7 @@ macro_rules! with_avx2 {
 }
 
 impl Four {
-    /// Which lanes are at least `bound`, a bit a lane.
+    /// Which lanes are at least `bound`, one bit per lane.
     #[inline(always)]
     fn lanes_at_least(self, bound: Four) -> i32 {
         with_avx2!(_mm256_movemask_pd(_mm256_cmp_pd::<_CMP_GE_OQ>(
@@ -71,7 +71,7 @@ impl Vector for Four {
 
     #[inline(always)]
     fn load(_proof: Avx2, values: &[f64]) -> Four {
-        assert_eq!(values.len(), Self::LANES, "a number a lane");
+        assert_eq!(values.len(), Self::LANES, "one number per lane");
         // SAFETY: the machine has AVX2, and four numbers lie where the slice begins.
         Four(unsafe { _mm256_loadu_pd(values.as_ptr()) })
     }
@@ -83,7 +83,7 @@ impl Vector for Four {
 
     #[inline(always)]
     fn plus_aside(self, other: Four, _one: Four) -> Four {
-        // Of sixteen registers none is left for ones, and to load them each time takes longer than is won.
+        // None of the sixteen registers is left for the ones, and loading them each time costs more than it saves.
         self.plus(other)
     }
 

@@ -1,4 +1,4 @@
-//! Eight numbers a vector: AVX-512.
+//! Eight numbers per vector: AVX-512.
 
 #![expect(unsafe_code, reason = "vector instructions and loads")]
 
@@ -12,7 +12,7 @@ use std::arch::x86_64::{
 
 use crate::exact::vector::{Job, Vector};
 
-/// Evidence that the machine has AVX-512F and counts bits.
+/// Evidence that the machine has AVX-512F and POPCNT.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Avx512(());
 
@@ -57,7 +57,7 @@ impl Vector for Eight {
 
     #[inline(always)]
     fn load(_proof: Avx512, values: &[f64]) -> Eight {
-        assert_eq!(values.len(), Self::LANES, "a number a lane");
+        assert_eq!(values.len(), Self::LANES, "one number per lane");
         // SAFETY: the machine has AVX-512F, and eight numbers lie where the slice begins.
         Eight(unsafe { _mm512_loadu_pd(values.as_ptr()) })
     }

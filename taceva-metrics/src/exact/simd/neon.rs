@@ -1,4 +1,4 @@
-//! Two numbers a vector: NEON, which every 64-bit ARM has, fused multiplication included.
+//! Two numbers per vector: NEON, which every 64-bit ARM has, fused multiplication included.
 
 #![expect(unsafe_code, reason = "vector instructions and loads")]
 
@@ -55,7 +55,7 @@ impl Vector for Two {
 
     #[inline(always)]
     fn load(_proof: Neon, values: &[f64]) -> Two {
-        assert_eq!(values.len(), Self::LANES, "a number a lane");
+        assert_eq!(values.len(), Self::LANES, "one number per lane");
         // SAFETY: the machine has NEON, and two numbers lie where the slice begins.
         Two(unsafe { vld1q_f64(values.as_ptr()) })
     }

@@ -1,8 +1,8 @@
-//! Two numbers a vector in plain Rust, for machines that nothing is known of.
+//! Two numbers per vector in plain Rust, for machines without an instruction set of ours.
 
 use crate::exact::vector::{Job, Vector};
 
-/// Evidence that the machine is one.
+/// Stands where other instruction sets need evidence: every machine can run this.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Portable;
 
@@ -46,7 +46,7 @@ impl Vector for Pair {
 
     #[inline(always)]
     fn load(_proof: Portable, values: &[f64]) -> Pair {
-        Pair(values.try_into().expect("a number a lane"))
+        Pair(values.try_into().expect("one number per lane"))
     }
 
     #[inline(always)]

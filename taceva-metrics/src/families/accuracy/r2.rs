@@ -18,7 +18,7 @@ pub(crate) static R2: Metric = Metric {
     definition: "r2/1",
     reference: "TacEva, equation (2)",
     documentation: "Which share of the truth's spread the predictions explain: 1 is perfect, 0 is no better than always \
-                    saying the mean of the evaluated truth, and below 0 is worse. Never clipped; undefined where the truth \
+                    predicting the mean of the evaluated truth, and below 0 is worse. Never clipped; undefined where the truth \
                     does not vary.",
     needs: needs(2, &[]),
     facts: &[],

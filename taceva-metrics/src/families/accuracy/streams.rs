@@ -90,7 +90,7 @@ impl Streams {
         self.bits & other.bits != 0
     }
 
-    /// A bit a stream, in the order of [`Stream::ALL`].
+    /// One bit per stream, in the order of [`Stream::ALL`].
     pub(crate) const fn bits(self) -> u8 {
         self.bits
     }

@@ -35,7 +35,7 @@ impl JointSums {
         }
     }
 
-    /// Adds a sample, a pair a channel; if a value is no usable number, the sample is counted and left out.
+    /// Adds a sample, one pair per channel; if a value is no usable number, the sample is counted and left out.
     pub(super) fn add(&mut self, pairs: &[Paired<f64>]) {
         if !pairs.iter().all(|pair| pair.is_valid()) {
             self.n_invalid += 1;

@@ -13,7 +13,7 @@ use crate::exact::{Dyadic, ExactSum};
 use crate::paired::is_valid;
 use crate::score::value::UndefinedReason;
 
-/// Forces by depth on both branches, where the point lies, and the comparison once somebody asked for it.
+/// Forces by depth on both branches, where the point lies, and the comparison, which is computed when it is first needed.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Branches {
     load: Branch,

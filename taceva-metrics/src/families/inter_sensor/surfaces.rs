@@ -31,7 +31,7 @@ struct Places {
 pub(super) struct Cloud {
     /// The points.
     pub(super) points: Vec<Point>,
-    /// Which location each point is of; equal numbers in two clouds are one location. Empty where nobody says.
+    /// Which location each point is of; equal numbers in two clouds are one location. Empty where samples name none.
     pub(super) locations: Vec<usize>,
 }
 

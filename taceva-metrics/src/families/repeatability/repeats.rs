@@ -117,7 +117,7 @@ impl Channelwise for Repeats {
     }
 
     fn read_record(&self, record: &Record) -> Result<RepeatSums, String> {
-        // States of before labels were looked at have counts alone.
+        // States that were written before labels were kept have counts alone.
         let ((n, n_invalid, named), truth) = match record.counts.len() {
             3 => {
                 let (&[n, n_invalid, named], []) = record.with_cells()?;

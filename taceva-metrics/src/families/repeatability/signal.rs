@@ -19,10 +19,10 @@ pub(crate) static SIGNAL_TO_REPEATABILITY: Metric = Metric {
     definition: "signal_to_repeatability/1",
     reference: "standard deviation of the cells' means over the pooled repeatability standard deviation s_r of ISO 5725",
     documentation: "How many times larger the differences between presses are than those between repeats of one press. A \
-                    sensor that always says the same repeats perfectly and has no signal: its value is 0. Undefined where \
+                    sensor whose predictions never change repeats perfectly and has no signal: its value is 0. Undefined where \
                     repeats do not differ at all although presses do. Where labels differ less from press to press than predictions of one press \
                     do, the score is flagged `low stimulus` and takes part in no verdict: what predictions differ by is no signal.",
-    // Without labels nobody can say whether there was a signal.
+    // Without labels it is not known whether there was a signal.
     needs: Needs::new(NEEDS.fields.with(Field::Truth)).with_least_samples(2),
     facts: &[],
     constants: no_constants,

@@ -9,7 +9,7 @@ use crate::families::cells::Cells;
 use crate::families::family::Finished;
 use crate::score::value::UndefinedReason;
 
-/// The repeats of one cell, and their spread once somebody asked for it.
+/// The repeats of one cell, and their spread, which is computed when it is first needed.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Cell {
     moments: Moments,
@@ -117,7 +117,7 @@ impl SpreadSums {
         self.spreads.iter().fold(0, |count, _| count + 1)
     }
 
-    /// RN of the mean of one number a cell.
+    /// RN of the mean of one number per cell.
     pub(crate) fn mean(&self, number: fn(&Spread) -> f64) -> Finished {
         self.defined()?;
         let sum: ExactSum = self.spreads.iter().map(number).collect();

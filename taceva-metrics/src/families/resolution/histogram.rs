@@ -13,7 +13,7 @@ pub(crate) struct Histogram {
     pub(super) n_invalid: u64,
     /// Samples by difference; only differences that came.
     counts: BTreeMap<u64, u64>,
-    /// Samples by their true spacing; not of states of before skill.
+    /// Samples by their true spacing; empty in states that were written before it was kept.
     truths: BTreeMap<u64, u64>,
 }
 
@@ -32,8 +32,8 @@ impl Histogram {
         }
     }
 
-    /// RN(most / n), most the samples within `tolerance_nm` of the one spacing that suits the most of them: what the best constant answer
-    /// reaches. `None` for no sample, or if the spacing of some is not known.
+    /// RN(most / n), most the samples within `tolerance_nm` of the one spacing that suits the most of them: what the best constant
+    /// prediction reaches. `None` for no sample, or if the spacing of some is not known.
     pub(super) fn of_constant(&self, tolerance_nm: u64) -> Option<f64> {
         let known = self
             .truths

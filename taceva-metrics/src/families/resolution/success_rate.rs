@@ -24,7 +24,7 @@ pub(crate) static SR: Metric = Metric {
                     are compared in whole nanometres, because 0.40 − 0.35 ≤ 0.05 is false in binary64. exact is the share \
                     without any error, curve the share for every tolerance up to 1 mm; wilson says how narrow an interval of \
                     independent samples would be, which presses of one board are not. Where samples name no point_id, kind and spacing of their board \
-                    stand for it. of_constant is what the best constant answer would reach: a classifier whose interval does \
+                    stand for it. of_constant is what the best constant prediction would reach: a classifier whose interval does \
                     not lie above it takes part in no verdict.",
     needs: Needs::new(
         FieldSet::EMPTY
@@ -38,7 +38,7 @@ pub(crate) static SR: Metric = Metric {
     formula: Formula::Resolution,
 };
 
-/// The variant that says what the best constant answer would reach.
+/// The variant that is what the best constant prediction would reach.
 pub(crate) const OF_CONSTANT: &str = "of_constant";
 
 /// Step of the tolerances of the curve.

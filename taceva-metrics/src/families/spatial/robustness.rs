@@ -34,7 +34,7 @@ pub(crate) static R_SPATIAL: Metric = Metric {
     formula: Formula::Spatial,
 };
 
-/// Samples a bin from which on its mean is worth printing beside the paper's one.
+/// Samples per bin from which on a bin counts for the variant `n_min_5`, beside the paper's least of one.
 const WELL_SAMPLED: u64 = 5;
 
 /// R = RN((σ_distance + σ_depth) / 2), σ the population STD of the bin means; the variants are means of both axes likewise.

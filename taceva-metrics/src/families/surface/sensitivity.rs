@@ -1,4 +1,4 @@
-//! How far the gel yields a newton.
+//! How far the gel yields per newton.
 
 use taceva_core::{Field, FieldSet, Needs, Unit};
 
@@ -18,7 +18,7 @@ pub(crate) static SENSITIVITY: Metric = Metric {
     range: Range::Any,
     definition: "sensitivity/1",
     reference: "TacEva, equation (5)",
-    documentation: "How far the gel yields a newton of normal force: the mean of indentation over force of all samples in \
+    documentation: "How far the gel yields per newton of normal force: the mean of indentation over force of all samples in \
                     contact, those with shear too. slope is the line through the origin, which does not explode as the force \
                     nears the gate; normal_only leaves out what has shear; map is the mean in each cell of the footprint.",
     needs: Needs::new(FieldSet::EMPTY.with(Field::Truth))

@@ -13,7 +13,7 @@ use crate::score::value::UndefinedReason;
 /// The variant that leaves out what has shear.
 pub(super) const NORMAL_ONLY: &str = "normal_only";
 
-/// A press as the reference instruments saw it: how deep, and how hard.
+/// The depth and the normal force of a press, as the reference instruments measured them.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Press {
     pub(super) depth_mm: f64,
@@ -61,7 +61,7 @@ impl Total {
 /// Where a press lies.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Place {
-    /// Nobody says, or nobody asks.
+    /// Not known, or not needed.
     Unknown,
     /// Outside the footprint.
     Outside,

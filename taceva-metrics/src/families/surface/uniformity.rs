@@ -22,7 +22,7 @@ pub(crate) static UNIFORMITY: Metric = Metric {
     definition: "uniformity/1",
     reference: "TacEva, equation (6)",
     documentation: "How alike the gel yields everywhere: 1 / (1 + σ/|μ|) of the mean sensitivities of the cells of the \
-                    footprint; 1 is the same everywhere. Few samples a cell look like a surface that is not uniform: debiased \
+                    footprint; 1 is the same everywhere. Few samples per cell look like a surface that is not uniform: debiased \
                     takes that part away, n_min_5 leaves out cells with fewer than five samples. normal_only leaves out what \
                     has shear; mean and deviation are μ and σ.",
     needs: Needs::new(FieldSet::EMPTY.with(Field::Truth))
@@ -33,7 +33,7 @@ pub(crate) static UNIFORMITY: Metric = Metric {
     formula: Formula::Uniformity,
 };
 
-/// Samples a cell from which on its mean is worth printing beside the paper's one.
+/// Samples per cell from which on a cell counts for the variant `n_min_5`, beside the paper's least of one.
 const WELL_SAMPLED: u64 = 5;
 
 /// U = RN(1 / (1 + σ/|μ|)) over the cells with at least `n_min` samples.

@@ -1,4 +1,4 @@
-//! What a comparison says, in words, with as many digits as its interval is wide.
+//! The answer of a comparison in words, with as many digits as the width of its interval supports.
 
 use std::fmt;
 
@@ -8,7 +8,7 @@ use super::Verdict;
 use crate::stats::sides::{Side, Sides};
 
 impl Verdict {
-    /// What it says of two that have names: `GelSight better by 0.012 N (95 % 0.004…0.020, p = 0.003)`.
+    /// The answer in words, with the names of both sides: `GelSight better by 0.012 N (95 % 0.004…0.020, p = 0.003)`.
     ///
     /// The p value is the adjusted one, and the interval that of the same decision.
     pub fn words(&self, names: Sides<&str>) -> String {

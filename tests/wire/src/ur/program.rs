@@ -1,4 +1,4 @@
-//! The little of the vendor's script that is understood.
+//! The part of the vendor's script language that is understood.
 
 /// A program.
 #[derive(Clone, Copy, Debug, PartialEq)]

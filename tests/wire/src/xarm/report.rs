@@ -1,4 +1,4 @@
-//! What the control box says without being asked.
+//! Reports that the control box sends without a request.
 
 use std::io::Write;
 use std::net::TcpStream;
@@ -34,7 +34,7 @@ impl ReportPort {
     }
 }
 
-/// The length of a report that nobody can hold.
+/// The head of a report whose length is absurd.
 const HOSTILE: &[u8] = &[0xff, 0xff, 0xff, 0xff, 0x00];
 
 /// Reports until the client goes.

@@ -1,4 +1,4 @@
-//! Programs of others on the other end of our sockets: they prove that both our ends are not wrong in the same way.
+//! Programs of others on the other end of our sockets: they show that our two ends are not wrong in the same way.
 
 mod ffmpeg;
 mod netft;
