@@ -79,7 +79,7 @@ pub const fn unit(bits: u64) -> f64 {
     (bits >> 11) as f64 * UNIT_STEP
 }
 
-/// A number of 0 < u ≤ 1 from 64 random bits: an odd multiple of 2⁻⁵⁴, rounded to 53 bits, so that 1 comes with probability 2⁻⁵³.
+/// A number of 0 < u < 1 from 64 random bits: an odd multiple of 2⁻⁵⁴, rounded to 53 bits; the one that would round to 1 is the largest below it.
 ///
 /// ```
 /// use taceva_core::random::open_unit;
@@ -93,7 +93,8 @@ pub const fn unit(bits: u64) -> f64 {
     reason = "a whole number below 2^53 is exact"
 )]
 pub const fn open_unit(bits: u64) -> f64 {
-    ((bits >> 11) as f64 + 0.5) * UNIT_STEP
+    let number = ((bits >> 11) as f64 + 0.5) * UNIT_STEP;
+    if number < 1.0 { number } else { 1.0 - UNIT_STEP }
 }
 
 /// A whole number below `bound` from 64 random bits, by one multiplication; 0 if there is none.
@@ -146,7 +147,7 @@ mod tests {
         let variance = units.iter().map(|u| (u - mean).powi(2)).sum::<f64>() / f64::from(n);
         assert!((mean - 0.5).abs() < 0.004, "{mean}");
         assert!((variance - 1.0 / 12.0).abs() < 0.001, "{variance}");
-        assert!(unit(u64::MAX) < 1.0 && open_unit(0) > 0.0);
+        assert!(unit(u64::MAX) < 1.0 && open_unit(u64::MAX) < 1.0 && open_unit(0) > 0.0);
     }
 
     #[test]
