@@ -12,7 +12,7 @@ use super::front;
 use super::paired::absolute_errors;
 use super::stopwatch::process_time;
 use crate::error::StudyError;
-use crate::evaluate::{EvaluateRequest, ModelChoice, score};
+use crate::evaluate::{Behind, EvaluateRequest, ModelChoice, score};
 use crate::fit::{FitRequest, fit};
 use crate::predict::{self, Predicted, Target, extractor};
 use crate::rows::{DataPart, Divided};
@@ -117,7 +117,7 @@ pub fn models(
         // Asked before the work: an unknown setting must not cost the fits before it.
         request.check()?;
     }
-    let divided = Divided::new(dataset.table(), first.split.as_deref(), first.seed)?;
+    let divided = Divided::new(dataset, first.split.as_deref(), first.seed)?;
     // What is kept would count for the models that come second.
     let work = Work {
         cache: None,
@@ -251,7 +251,8 @@ impl Raced {
             part: None,
             sensor: None,
         };
-        let scored = score(dataset, &asked, &model, (&target, &predicted), work.jobs)?;
+        let behind = Behind::of(&model)?;
+        let scored = score(dataset, &asked, behind, (&target, &predicted), work.jobs)?;
         let evaluation = &scored.report.evaluation;
         let errors = model.channels().iter().filter_map(|channel| {
             let score = evaluation.score(METRIC, channel.name())?;
