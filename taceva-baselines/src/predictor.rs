@@ -15,7 +15,7 @@ pub(crate) use self::support::{Machine, Support};
 pub(crate) use self::trees::{Node, Tree, Trees};
 use taceva_core::{ErrorKind, ModelError};
 
-/// That tensors hold what no fit gives.
+/// The error of tensors that no fit gives.
 pub(crate) fn damaged(why: &str) -> ModelError {
     ModelError::new(ErrorKind::Protocol, why)
 }

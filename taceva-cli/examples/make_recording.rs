@@ -5,6 +5,9 @@
 //! cargo run --release -- evaluate demo --model ridge
 //! ```
 //!
+//! Behind the folder, other numbers of contact points and another seed: `make_recording -- demo 5000` draws 20,000 pictures, `make_recording --
+//! tuesday 40 2` others than `make_recording -- monday 40 1`.
+//!
 //! Nothing here was measured. The labels follow closed forms (below), the pictures are drawn from the labels, and the dataset says
 //! `source = "synthetic"`, which every report repeats.
 
@@ -17,12 +20,40 @@ use taceva_core::{
 use taceva_dataset::{Footprint, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
 
 const SIZE: u32 = 96;
-const POINTS: u32 = 200;
 const DEPTHS: u32 = 4;
 /// Of the gel that is pressed, mm; the picture shows a little more.
 const RADIUS_MM: f64 = 5.0;
 const PIXELS_A_MM: f64 = 6.4;
-const SEED: u64 = 20_260_101;
+
+/// How much is drawn, and from which random numbers.
+#[derive(Clone, Copy)]
+struct Drawing {
+    points: u32,
+    seed: u64,
+}
+
+impl Default for Drawing {
+    fn default() -> Drawing {
+        Drawing {
+            points: 200,
+            seed: 20_260_101,
+        }
+    }
+}
+
+impl Drawing {
+    /// Points and seed as `words` say, as far as they do; `None` for what is no number, or no point.
+    fn of(mut words: impl Iterator<Item = String>) -> Option<Drawing> {
+        let mut drawing = Drawing::default();
+        if let Some(points) = words.next() {
+            drawing.points = points.parse().ok().filter(|points| *points > 0)?;
+        }
+        if let Some(seed) = words.next() {
+            drawing.seed = seed.parse().ok()?;
+        }
+        words.next().is_none().then_some(drawing)
+    }
+}
 
 /// One press in closed form.
 struct Press {
@@ -35,11 +66,11 @@ struct Press {
 
 impl Press {
     /// Points lie on a sunflower spiral; depth and shear are drawn by their place in the protocol, so any press can be made alone.
-    fn planned(point: u32, step: u32) -> Press {
+    fn planned(drawing: Drawing, point: u32, step: u32) -> Press {
         let golden_angle = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
-        let radius = RADIUS_MM * (f64::from(point) + 0.5).sqrt() / f64::from(POINTS).sqrt();
+        let radius = RADIUS_MM * (f64::from(point) + 0.5).sqrt() / f64::from(drawing.points).sqrt();
         let angle = golden_angle * f64::from(point);
-        let draw = |purpose| unit_draw(SEED, point, step, purpose);
+        let draw = |purpose| unit_draw(drawing.seed, point, step, purpose);
         let (shear, direction) = (0.5 * draw(1).sqrt(), std::f64::consts::TAU * draw(2));
         Press {
             x_mm: radius * angle.cos(),
@@ -77,7 +108,7 @@ impl Press {
         28.0 * self.depth_mm * (-(from_x * from_x + from_y * from_y) / (2.0 * 1.1 * 1.1)).exp()
     }
 
-    fn draw(&self, point: u32, step: u32) -> Frame {
+    fn draw(&self, drawing: Drawing, point: u32, step: u32) -> Frame {
         let side = SIZE as usize;
         let place = |pixel: usize| (to_f64(pixel) - to_f64(side - 1) / 2.0) / PIXELS_A_MM;
         let mut light: Vec<f64> = (0..side * side)
@@ -93,7 +124,7 @@ impl Press {
             }
         }
         let noise = |pixel: usize| {
-            2.0 * (unit_draw(SEED ^ 1, point * DEPTHS + step, to_u32(pixel), 3) - 0.5)
+            2.0 * (unit_draw(drawing.seed ^ 1, point * DEPTHS + step, to_u32(pixel), 3) - 0.5)
         };
         let bytes = light
             .iter()
@@ -132,7 +163,7 @@ fn unit_draw(seed: u64, point: u32, step: u32, purpose: u32) -> f64 {
     f64::from(u32::try_from(place >> 32).unwrap_or_default()) / 4_294_967_296.0
 }
 
-fn record(path: &Path) -> Result<(), Box<dyn std::error::Error>> {
+fn record(path: &Path, drawing: Drawing) -> Result<(), Box<dyn std::error::Error>> {
     let sensor = SensorFacts::new("drawn marker gel")
         .with_serial("none")
         .with_gel("none")
@@ -148,10 +179,10 @@ fn record(path: &Path) -> Result<(), Box<dyn std::error::Error>> {
         shear_x_mm: 0.0,
         shear_y_mm: 0.0,
     };
-    recorder.append_reference(&untouched.draw(POINTS, 0))?;
-    for point in 0..POINTS {
+    recorder.append_reference(&untouched.draw(drawing, drawing.points, 0))?;
+    for point in 0..drawing.points {
         for step in 0..DEPTHS {
-            let press = Press::planned(point, step);
+            let press = Press::planned(drawing, point, step);
             let [fx, fy, fz] = press.forces_newton();
             recorder.append(
                 &Sample::new(format!("{point:03}-{step}"))
@@ -161,7 +192,7 @@ fn record(path: &Path) -> Result<(), Box<dyn std::error::Error>> {
                         valid_s: 2.5 * f64::from(point * DEPTHS + step),
                         received_s: None,
                     })
-                    .with_frame(press.draw(point, step))
+                    .with_frame(press.draw(drawing, point, step))
                     .with_truth(Readings::from_values([
                         press.x_mm,
                         press.y_mm,
@@ -183,14 +214,17 @@ fn record(path: &Path) -> Result<(), Box<dyn std::error::Error>> {
     reason = "a program of its own"
 )]
 fn main() -> std::process::ExitCode {
-    let Some(path) = std::env::args_os().nth(1) else {
-        eprintln!("usage: make_recording FOLDER");
+    let mut words = std::env::args_os().skip(1);
+    let path = words.next();
+    let words = words.map(|word| word.to_string_lossy().into_owned());
+    let (Some(path), Some(drawing)) = (path, Drawing::of(words)) else {
+        eprintln!("usage: make_recording FOLDER [POINTS [SEED]]");
         return std::process::ExitCode::from(2);
     };
     let path = Path::new(&path);
-    match record(path) {
+    match record(path, drawing) {
         Ok(()) => {
-            let (shown, samples) = (path.display(), POINTS * DEPTHS);
+            let (shown, samples) = (path.display(), drawing.points * DEPTHS);
             println!("{shown}: {samples} drawn pictures with closed-form labels (synthetic)");
             println!("next: cargo run --release -- evaluate {shown} --model ridge");
             std::process::ExitCode::SUCCESS

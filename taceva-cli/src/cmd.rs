@@ -34,7 +34,7 @@ pub(crate) mod run;
 mod scene;
 pub(crate) mod score;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use taceva_dataset::Dataset;
 use taceva_models::{ModelSettings, Models};
@@ -78,6 +78,13 @@ pub(crate) fn check_isa() -> anyhow::Result<()> {
 
 pub(crate) fn open(path: &Path) -> anyhow::Result<Dataset> {
     Ok(Dataset::open(path)?)
+}
+
+/// The recordings at `paths` as one; a single one as it is.
+pub(crate) fn open_all(paths: &[PathBuf]) -> anyhow::Result<Dataset> {
+    let recordings = paths.iter().map(|path| open(path));
+    let recordings = recordings.collect::<anyhow::Result<Vec<_>>>()?;
+    Ok(Dataset::joined(recordings)?)
 }
 
 /// Refuses to write over the files that `scoring` and `output` name, before any work is done for them.

@@ -12,6 +12,7 @@ pub(crate) mod plan;
 pub(crate) mod plugin;
 pub(crate) mod plugin_check;
 mod profile;
+mod recordings;
 pub(crate) mod rig;
 mod scores;
 mod text;
@@ -78,12 +79,30 @@ struct Profiles<'a> {
     studies: &'a [EvaluationReport],
 }
 
-/// Writes findings in the form asked for.
+/// Writes what was found in each recording, in the form asked for: one after the other, and as JSON a list where they are several.
 pub(crate) fn findings(
-    report: &CheckReport,
+    reports: &[(String, CheckReport)],
     format: Format,
     out: &mut dyn Write,
 ) -> io::Result<()> {
+    let [(_, only)] = reports else {
+        if format == Format::Json {
+            let reports: Vec<&CheckReport> = reports.iter().map(|(_, report)| report).collect();
+            return json::write(&reports, out);
+        }
+        for (number, (name, report)) in reports.iter().enumerate() {
+            if number > 0 {
+                writeln!(out)?;
+            }
+            writeln!(out, "{name}")?;
+            findings_of(report, format, out)?;
+        }
+        return Ok(());
+    };
+    findings_of(only, format, out)
+}
+
+fn findings_of(report: &CheckReport, format: Format, out: &mut dyn Write) -> io::Result<()> {
     match format {
         Format::Text => check::text(report, out),
         Format::Json => json::write(report, out),

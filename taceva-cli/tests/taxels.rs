@@ -97,3 +97,29 @@ fn taxels_are_imported_checked_fitted_and_evaluated() {
         "the dataset has no signals, the model needs them",
     );
 }
+
+#[path = "../examples/draw_taxels.rs"]
+mod draw_taxels;
+
+/// The examples of sensors of taxels, as their README says.
+#[test]
+fn the_drawn_examples_are_what_their_program_draws_and_are_evaluated() {
+    let examples = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/taxels");
+    for (name, drawn, least) in [
+        ("magnetic", draw_taxels::magnetic(), 0.9),
+        ("capacitive", draw_taxels::capacitive(), 0.9),
+    ] {
+        let table = fs::read_to_string(format!("{examples}/{name}/presses.csv")).expect("there");
+        assert_eq!(table, drawn, "{name}: draw it anew");
+        let bench = Bench::new();
+        bench.ok(&format!(
+            "import {examples}/{name} --map {examples}/{name}/map.toml --out {name} -q"
+        ));
+        let report = bench.json(&format!("evaluate {name} --model ridge --metrics accuracy"));
+        assert_eq!(report["subject"]["source"], "synthetic");
+        let r2 = report["metrics"]["r2"]["Fz"]["value"].as_f64().expect("R²");
+        assert!(r2 > least, "{name}: {r2}");
+        let check = bench.run(&format!("check {name} -q"));
+        assert_eq!(check.code, 0, "{name}: {}", check.out);
+    }
+}

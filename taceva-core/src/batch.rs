@@ -29,6 +29,7 @@ pub struct Batch {
     truth: Vec<Column>,
     prediction: Vec<Column>,
     points: Option<Labels>,
+    recordings: Option<Labels>,
     labels: BTreeMap<Field, Labels>,
     numbers: BTreeMap<Field, Column>,
 }
@@ -77,6 +78,7 @@ impl Batch {
             prediction,
             // A batch in which some rows have no point has no clusters, as with `BatchBuilder`.
             points: points.filter(Labels::all_named),
+            recordings: None,
             labels: BTreeMap::new(),
             numbers: BTreeMap::new(),
         }
@@ -92,6 +94,32 @@ impl Batch {
         assert!(LABELS.contains(&field), "`{field}` holds no text");
         self.labels.insert(field, labels);
         self
+    }
+
+    /// The same batch with the recording of each sample, of samples of several recordings.
+    ///
+    /// # Panics
+    /// If there is not one for each row.
+    ///
+    /// ```
+    /// use taceva_core::{Batch, Channel, Channels, Column, Labels};
+    /// let column = || vec![Column::full(vec![0.5])];
+    /// let mut recordings = Labels::default();
+    /// recordings.push("monday");
+    /// let batch = Batch::from_columns(Channels::new([Channel::FZ])?, column(), column(), None).with_recordings(recordings);
+    /// assert_eq!(batch.recordings().and_then(|recordings| recordings.get(0)), Some("monday"));
+    /// # Ok::<(), taceva_core::ChannelError>(())
+    /// ```
+    #[must_use]
+    pub fn with_recordings(self, recordings: Labels) -> Batch {
+        assert!(
+            recordings.index().len() == self.rows && recordings.all_named(),
+            "a recording for each row"
+        );
+        Batch {
+            recordings: Some(recordings),
+            ..self
+        }
     }
 
     /// The same batch with the numbers of `field`: depth step, repeat, time in s, spacings in whole nm, intensity.
@@ -129,6 +157,11 @@ impl Batch {
     /// The contact location of each sample, if samples name one.
     pub fn points(&self) -> Option<&Labels> {
         self.points.as_ref()
+    }
+
+    /// The recording of each sample, where samples of several recordings were put together.
+    pub fn recordings(&self) -> Option<&Labels> {
+        self.recordings.as_ref()
     }
 
     /// The texts of `field`, if the batch carries them: scene, unit, phase, kind of grating or digest of the frame.

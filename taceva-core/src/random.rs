@@ -94,7 +94,11 @@ pub const fn unit(bits: u64) -> f64 {
 )]
 pub const fn open_unit(bits: u64) -> f64 {
     let number = ((bits >> 11) as f64 + 0.5) * UNIT_STEP;
-    if number < 1.0 { number } else { 1.0 - UNIT_STEP }
+    if number < 1.0 {
+        number
+    } else {
+        1.0 - UNIT_STEP
+    }
 }
 
 /// A whole number below `bound` from 64 random bits, by one multiplication; 0 if there is none.

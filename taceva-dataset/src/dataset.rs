@@ -1,6 +1,7 @@
 //! A recording on disk, opened for reading.
 
 mod frames;
+mod joined;
 mod pass;
 mod signals;
 mod verify;
@@ -22,6 +23,8 @@ use crate::signals::SignalsReader;
 use crate::table::Table;
 use verify::read_table;
 
+pub use joined::JoinedRecording;
+pub(crate) use joined::{Difference, differences_of_added};
 pub use pass::{Pass, StreamReport};
 
 /// A recording: its header, its labels in memory, and its frames on disk, decoded when asked for.
@@ -57,6 +60,8 @@ pub struct Dataset {
     firsts: Mutex<BTreeMap<String, Arc<Frame>>>,
     /// The file of signals, once a row of it was asked for.
     signals: Mutex<Option<Arc<SignalsReader>>>,
+    /// The recordings that were joined, in the order of their rows; none where this is one recording.
+    joined: Vec<JoinedRecording>,
 }
 
 impl Dataset {
@@ -87,6 +92,7 @@ impl Dataset {
             scale: DecodeScale::Full,
             firsts: Mutex::default(),
             signals: Mutex::default(),
+            joined: Vec::new(),
         };
         dataset.check_consistency()?;
         Ok(dataset)
@@ -120,7 +126,7 @@ impl Dataset {
         Ok(dataset)
     }
 
-    /// The folder.
+    /// The folder; of joined recordings that of the first.
     pub fn path(&self) -> &Path {
         self.folder.path()
     }

@@ -159,6 +159,20 @@ pub enum DatasetError {
         /// What was asked for and what there is.
         problem: String,
     },
+    /// Two recordings that cannot be taken as one.
+    #[error(
+        "{} and {} cannot be taken as one recording: {problem}",
+        shown_path(one),
+        shown_path(other)
+    )]
+    Unlike {
+        /// The first.
+        one: PathBuf,
+        /// The other.
+        other: PathBuf,
+        /// The key in which they differ, with the value of each, or that they are the same.
+        problem: String,
+    },
     /// The work was stopped on request; nothing half-written is left.
     #[error("stopped on request")]
     Cancelled,
@@ -198,6 +212,7 @@ impl DatasetError {
             DatasetError::TargetExists { .. }
             | DatasetError::Path { .. }
             | DatasetError::Sample { .. }
+            | DatasetError::Unlike { .. }
             | DatasetError::Request { .. } => ErrorKind::InvalidArgument,
             DatasetError::Toml { .. }
             | DatasetError::Table { .. }

@@ -1,5 +1,6 @@
 //! `dataset.toml`: what is known about a recording as a whole.
 
+mod extended;
 mod facts;
 mod footprint;
 mod stream;
@@ -21,8 +22,9 @@ use crate::signals::{SignalsInfo, WrittenSignals};
 use crate::store::{dataset_digest, digest_with_signals};
 use crate::toml_file::{parse_toml, toml_error, utf8};
 use crate::version::Version;
-use taceva_seal::{Opened, SealError};
+use taceva_seal::{Edit, Opened, SealError};
 
+pub use extended::Extension;
 pub use facts::{FrameCodec, FramesInfo, Known, ReferenceInfo, SensorFacts, Source, TableInfo};
 pub use footprint::{Footprint, Shape};
 pub use stream::StreamFacts;
@@ -81,6 +83,9 @@ pub struct Header {
     pub stream: Option<StreamFacts>,
     /// What the numbers of taxels share, and what their file must be; `None` where there are none, and before format 1.7.
     pub signals: Option<SignalsInfo>,
+    /// What the recording was before each time that rows were added to it, the first first; empty of one that is as it was imported or
+    /// recorded, and before format 1.8.
+    pub extended: Vec<Extension>,
     /// What the table must be.
     pub table: TableInfo,
     /// The digest of the dataset: of its table, its frames and its signals.
@@ -113,7 +118,12 @@ struct Written {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     signals: Option<WrittenSignals>,
     table: TableInfo,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    extended: Vec<Extension>,
     channels: Vec<ChannelInfo>,
+    /// Edits that were accepted before rows were added; read by whoever reads the seal.
+    #[serde(default, skip_deserializing, skip_serializing_if = "Vec::is_empty")]
+    history: Vec<Edit>,
 }
 
 impl Header {
@@ -173,6 +183,7 @@ impl Header {
             presses: written.presses,
             stream: written.stream,
             table: written.table,
+            extended: written.extended,
             digest: digest_with_signals(written.digest, signals.as_ref()),
             signals,
             seal,
@@ -205,6 +216,7 @@ impl Header {
             stream: self.stream,
             signals: self.signals.as_ref().map(WrittenSignals::from),
             table: self.table,
+            extended: self.extended.clone(),
             channels: self
                 .channels
                 .iter()
@@ -213,6 +225,7 @@ impl Header {
                     unit: channel.unit(),
                 })
                 .collect(),
+            history: self.seal.history.clone(),
         };
         toml::to_string(&written).expect("text, numbers and tables of them can be written as TOML")
     }

@@ -65,6 +65,14 @@ impl HeldFolder {
         unreachable!("the last attempt returns")
     }
 
+    /// The same path, through which no file is read: of recordings that hold their files themselves.
+    pub(crate) fn without_files(&self) -> HeldFolder {
+        HeldFolder {
+            path: self.path.clone(),
+            handle: None,
+        }
+    }
+
     /// The path that it was opened by.
     pub(crate) fn path(&self) -> &Path {
         &self.path

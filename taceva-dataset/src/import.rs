@@ -3,6 +3,7 @@
 mod advice;
 mod copy;
 mod explain;
+mod extend;
 mod frame_cells;
 mod map;
 mod plan;
@@ -16,6 +17,7 @@ mod suspicion;
 
 pub(crate) use advice::advice;
 pub use copy::ImportReport;
+pub use extend::Addition;
 pub(crate) use map::converter;
 pub use map::{
     ArrayFrames, ArrayLayout, ColumnMap, DropRules, FrameMap, FrameNames, IdMap, ImportMap,

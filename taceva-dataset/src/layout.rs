@@ -1,5 +1,7 @@
 //! The names on disk.
 
+use std::ops::Range;
+
 pub(crate) const HEADER: &str = "dataset.toml";
 pub(crate) const SAMPLES: &str = "samples.parquet";
 pub(crate) const SIGNALS: &str = "signals.parquet";
@@ -46,9 +48,17 @@ pub(crate) fn reference_path_anew(before: usize, extension: &str) -> String {
     }
 }
 
-/// The folders that `count` frames lie in, relative to the dataset.
-pub(crate) fn frame_folders(count: usize) -> impl Iterator<Item = String> {
-    (0..count).step_by(FRAMES_A_FOLDER).map(frame_folder)
+/// The folders that the frames with these numbers lie in, relative to the dataset.
+pub(crate) fn frame_folders(numbers: Range<usize>) -> impl Iterator<Item = String> {
+    let end = match numbers.is_empty() {
+        true => numbers.start,
+        false => numbers.end,
+    };
+    let start = numbers.start - numbers.start % FRAMES_A_FOLDER;
+    let starts = (start..end).step_by(FRAMES_A_FOLDER);
+    starts
+        .filter(move |_| !numbers.is_empty())
+        .map(frame_folder)
 }
 
 #[cfg(test)]
@@ -59,9 +69,14 @@ mod tests {
     fn a_thousand_frames_share_a_folder() {
         assert_eq!(frame_path(999, "png"), "frames/0000/000999.png");
         assert_eq!(frame_path(1_000, "jpg"), "frames/0001/001000.jpg");
-        let folders: Vec<String> = frame_folders(1_001).collect();
+        let folders: Vec<String> = frame_folders(0..1_001).collect();
         assert_eq!(folders, ["frames/0000", "frames/0001"]);
-        assert_eq!(frame_folders(0).count(), 0);
+        assert_eq!(frame_folders(0..0).count(), 0);
+        assert_eq!(frame_folders(1_500..1_500).count(), 0);
+        let later: Vec<String> = frame_folders(999..1_001).collect();
+        assert_eq!(later, folders);
+        let later: Vec<String> = frame_folders(1_200..1_300).collect();
+        assert_eq!(later, ["frames/0001"]);
     }
 
     #[test]

@@ -41,7 +41,7 @@ mod version;
 #[cfg(feature = "ndarray")]
 pub use arrays::{FrameArray, FrameArrays};
 pub use csv_table::CsvTable;
-pub use dataset::{Dataset, Pass, StreamReport};
+pub use dataset::{Dataset, JoinedRecording, Pass, StreamReport};
 pub use decode::ChannelOrder;
 pub use digest::{Digest, DigestError};
 pub use draft::MapDraft;
@@ -49,13 +49,13 @@ pub use error::{DatasetError, Place};
 pub use export::{export_csv, export_hugging_face};
 pub use header::reseal_header;
 pub use header::{
-    Footprint, FrameCodec, FramesInfo, Header, Known, ReferenceInfo, SensorFacts, Shape, Source,
-    StreamFacts, TableInfo,
+    Extension, Footprint, FrameCodec, FramesInfo, Header, Known, ReferenceInfo, SensorFacts, Shape,
+    Source, StreamFacts, TableInfo,
 };
 pub use import::{
-    ArrayFrames, ArrayLayout, ColumnMap, Conversion, DropRules, FrameMap, FrameNames, IdMap,
-    ImportMap, ImportPlan, ImportReport, ImportSummary, JoinSummary, PixelRange, Placeholder,
-    Preset, Suspicion, TimeMap, VideoFrames, magnitude_suspicion,
+    Addition, ArrayFrames, ArrayLayout, ColumnMap, Conversion, DropRules, FrameMap, FrameNames,
+    IdMap, ImportMap, ImportPlan, ImportReport, ImportSummary, JoinSummary, PixelRange,
+    Placeholder, Preset, Suspicion, TimeMap, VideoFrames, magnitude_suspicion,
 };
 pub use pack::Span;
 pub use quality::names_quality;

@@ -90,6 +90,18 @@ impl StagedFolder {
         fs::create_dir(&path).map_err(DatasetError::io("create", &path))
     }
 
+    /// Creates a folder inside, unless it is there already.
+    pub(crate) fn ensure_folder(&self, relative: &str) -> Result<(), DatasetError> {
+        match self.create_folder(relative) {
+            Err(DatasetError::Io { source, .. })
+                if source.kind() == io::ErrorKind::AlreadyExists =>
+            {
+                Ok(())
+            }
+            created => created,
+        }
+    }
+
     /// Makes the names in this folder and in the given ones durable, then gives it the name of its target: in one step, whether
     /// something stood there or not, where the file system can exchange names.
     pub(crate) fn put_in_place(self, folders: &[String]) -> Result<(), DatasetError> {

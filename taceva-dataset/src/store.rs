@@ -8,12 +8,14 @@ use taceva_core::{Clock, PressOutcome};
 use crate::digest::{Digest, PartsDigest};
 use crate::error::DatasetError;
 use crate::file::write_durable;
-use crate::header::{Footprint, FramesInfo, Header, SensorFacts, Source, StreamFacts, TableInfo};
+use crate::header::{
+    Extension, Footprint, FramesInfo, Header, SensorFacts, Source, StreamFacts, TableInfo,
+};
 use crate::samples::to_parquet;
 use crate::signals::SignalsInfo;
 use crate::table::Table;
 use crate::version::Version;
-use taceva_seal::Opened;
+use taceva_seal::{Edit, Opened};
 
 /// What is known about a recording before its first sample.
 ///
@@ -79,6 +81,10 @@ pub(crate) struct Beside {
     pub(crate) stream: Option<StreamFacts>,
     /// The file of signals, which is written already.
     pub(crate) signals: Option<SignalsInfo>,
+    /// What the recording was before rows were added to it.
+    pub(crate) extended: Vec<Extension>,
+    /// Edits of its header that were accepted before that.
+    pub(crate) history: Vec<Edit>,
 }
 
 /// Writes the table and the header to the given files, durable but for their names.
@@ -97,7 +103,8 @@ pub(crate) fn write_table_and_header(
     let table_digest = table.digest();
     let mut written = Header {
         format: match table.source_row().iter().any(Option::is_some) {
-            _ if beside.signals.is_some() => Version::CURRENT,
+            _ if !beside.extended.is_empty() => Version::CURRENT,
+            _ if beside.signals.is_some() => Version::NEVER_EXTENDED,
             true => Version::WITHOUT_SIGNALS,
             false if facts.settings.is_empty() && beside.stream.is_none() => {
                 Version::WITHOUT_SETTINGS
@@ -120,12 +127,16 @@ pub(crate) fn write_table_and_header(
         presses: beside.presses,
         stream: beside.stream,
         signals: beside.signals,
+        extended: beside.extended,
         table: TableInfo {
             rows: table.rows() as u64,
             digest: table_digest,
             sha256: Digest::of(&bytes),
         },
-        seal: Opened::default(),
+        seal: Opened {
+            history: beside.history,
+            ..Opened::default()
+        },
     };
     let text = written.to_toml();
     written.seal =

@@ -32,7 +32,7 @@ pub fn write_as_jpeg(
     let staged = StagedFolder::create(path, Place::Free)?;
     let rows = dataset.table().rows();
     let mut folders = vec![layout::FRAMES.to_owned()];
-    folders.extend(layout::frame_folders(rows));
+    folders.extend(layout::frame_folders(0..rows));
     for folder in &folders {
         staged.create_folder(folder)?;
     }
@@ -104,6 +104,8 @@ pub fn write_as_jpeg(
         &facts,
         (&table, frames),
         Beside {
+            extended: header.extended.clone(),
+            history: Vec::new(),
             presses: header.presses.clone(),
             unmentioned_columns: header.unmentioned_columns.clone(),
             stream: header.stream,

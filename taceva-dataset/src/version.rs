@@ -27,7 +27,10 @@ pub struct Version {
 
 impl Version {
     /// The newest that this crate writes.
-    pub const CURRENT: Version = Version { major: 1, minor: 7 };
+    pub const CURRENT: Version = Version { major: 1, minor: 8 };
+
+    /// The version of a header of a recording to which no rows were added, so that it is what it was before 1.8.
+    pub(crate) const NEVER_EXTENDED: Version = Version { major: 1, minor: 7 };
 
     /// The version of a header of a recording without signals, so that it is what it was before 1.7.
     pub(crate) const WITHOUT_SIGNALS: Version = Version { major: 1, minor: 6 };

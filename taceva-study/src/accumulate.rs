@@ -4,10 +4,11 @@ use std::num::NonZeroUsize;
 use std::ops::Range;
 
 use taceva_core::{Batch, Column, Field};
-use taceva_dataset::Table;
-use taceva_metrics::{Evaluator, MetricPlan};
+use taceva_dataset::Dataset;
+use taceva_metrics::{ClusteredBy, Evaluator, MetricPlan};
 
 use crate::error::StudyError;
+use crate::recordings;
 
 /// Rows a batch: large enough that merging is rare, small enough that a batch stays in the cache.
 const BATCH_ROWS: usize = 1 << 12;
@@ -79,7 +80,7 @@ fn accumulate_block(
 pub(crate) struct Columns<'a> {
     pub(crate) truth: &'a [Column],
     pub(crate) prediction: &'a [Column],
-    pub(crate) table: &'a Table,
+    pub(crate) dataset: &'a Dataset,
     pub(crate) rows: &'a [usize],
 }
 
@@ -93,19 +94,23 @@ impl Rows for Columns<'_> {
             let slices = columns.iter().map(|column| column.slice(rows.clone()));
             slices.collect()
         };
+        let table = self.dataset.table();
         let of_table = || self.rows[rows.clone()].iter().copied();
         let wanted = plan.fields();
         let points = wanted
             .contains(Field::Point)
-            .then(|| self.table.labels(Field::Point, of_table()))
+            .then(|| table.labels(Field::Point, of_table()))
             .flatten();
         let channels = plan.channels().clone();
         let mut batch =
             Batch::from_columns(channels, slice(self.truth), slice(self.prediction), points);
+        if plan.clustered_by() == ClusteredBy::Recording {
+            batch = batch.with_recordings(recordings::labels(self.dataset, of_table()));
+        }
         for field in wanted.iter().filter(|field| *field != Field::Point) {
-            if let Some(labels) = self.table.labels(field, of_table()) {
+            if let Some(labels) = table.labels(field, of_table()) {
                 batch = batch.with_labels(field, labels);
-            } else if let Some(numbers) = self.table.numbers(field, of_table()) {
+            } else if let Some(numbers) = table.numbers(field, of_table()) {
                 batch = batch.with_numbers(field, numbers);
             }
         }

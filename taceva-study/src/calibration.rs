@@ -52,7 +52,7 @@ pub(crate) fn calibration_note(
     let columns = Columns {
         truth: &zeros,
         prediction: &hits,
-        table: dataset.table(),
+        dataset,
         rows,
     };
     let evaluation = accumulate(&columns, &plan, jobs)?.finish()?;

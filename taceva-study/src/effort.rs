@@ -5,9 +5,10 @@ use taceva_models::FeatureSpec;
 
 use crate::cache::ONE_MAX;
 use crate::error::StudyError;
-use crate::evaluate::{EvaluateRequest, ModelChoice};
+use crate::evaluate::{EvaluateRequest, ModelChoice, folds};
 use crate::fit::{FitPlan, FitRequest};
 use crate::predict::Target;
+use crate::rows::DataPart;
 
 /// Bytes of a feature that is kept.
 const FEATURE_BYTES: u64 = 4;
@@ -40,11 +41,15 @@ impl Effort {
     ) -> Result<Effort, StudyError> {
         match &request.model {
             ModelChoice::Fit(fit) => {
-                let plan = FitPlan::new(dataset, fit)?;
-                let (reads, spec) = (plan.reads_frames(), plan.features());
-                let learning = Effort::of_plan(&plan);
-                let target = Target::of(dataset, Some(plan.divided), request.part, reads)?;
-                Ok(learning.and(Effort::of_rows(target.rows, spec, reads)))
+                if let Some(folds) = folds::of(dataset, fit)? {
+                    folds.refuse_part(request)?;
+                    let mut all = Effort::default();
+                    for plan in folds.plans(fit) {
+                        all = all.and(Effort::of_fold(dataset, plan?, None)?);
+                    }
+                    return Ok(all);
+                }
+                Effort::of_fold(dataset, FitPlan::new(dataset, fit)?, request.part)
             }
             ModelChoice::Fitted(model) => {
                 let target = Target::new(dataset, model, request.part)?;
@@ -52,6 +57,18 @@ impl Effort {
                 Ok(Effort::of_rows(target.rows, *spec, model.reads_frames()))
             }
         }
+    }
+
+    /// Of one fit, and of the predictions of a part with what it gives.
+    fn of_fold(
+        dataset: &Dataset,
+        plan: FitPlan<'_>,
+        part: Option<DataPart>,
+    ) -> Result<Effort, StudyError> {
+        let (reads, spec) = (plan.reads_frames(), plan.features());
+        let learning = Effort::of_plan(&plan);
+        let target = Target::of(dataset, Some(plan.divided), part, reads)?;
+        Ok(learning.and(Effort::of_rows(target.rows, spec, reads)))
     }
 
     fn of_plan(plan: &FitPlan<'_>) -> Effort {

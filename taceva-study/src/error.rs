@@ -206,6 +206,7 @@ impl StudyError {
                     SplitError::Kind { .. }
                         | SplitError::Assignment { .. }
                         | SplitError::Twice { .. }
+                        | SplitError::ManyFolds
                 )
         )
     }

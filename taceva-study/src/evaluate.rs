@@ -1,5 +1,6 @@
 //! From a dataset to scores, step by step: divide, fit, predict, score.
 
+pub(crate) mod folds;
 mod given;
 mod passes;
 
@@ -19,13 +20,13 @@ use crate::fit::{FitPlan, FitRequest};
 use crate::plan::Plan;
 use crate::predict::{self, Predicted, Target};
 use crate::provenance::{ModelProvenance, Provenance, chosen_notes};
-use crate::report::EvaluationReport;
+use crate::recordings::{self, Clusters};
+use crate::report::{EvaluationReport, RecordingScores};
 use crate::rows::{DataPart, Divided};
 use crate::samples::Samples;
 use crate::skill::with_skill;
 use crate::state_file::StateFile;
 use crate::subject::Subject;
-use crate::taken_rows::Taken;
 use crate::work::Work;
 
 pub use given::{GivenModel, GivenRequest, GivenRows};
@@ -92,7 +93,14 @@ pub fn evaluate_plan(dataset: &Dataset, request: &EvaluateRequest) -> Result<Pla
     plan.step("read", format!("{rows} rows of {}", shown(&dataset.path())));
     let (target, channels, reads_frames) = match &request.model {
         ModelChoice::Fit(fit) => {
-            let fit = FitPlan::new(dataset, fit)?;
+            let fit = match folds::of(dataset, fit)? {
+                Some(folds) => {
+                    folds.refuse_part(request)?;
+                    folds.explain(&mut plan);
+                    folds.first(fit)?
+                }
+                None => FitPlan::new(dataset, fit)?,
+            };
             plan.step("divide", divided_as(&fit.divided));
             fit.explain(&mut plan);
             let (channels, reads_frames) = (fit.channels.clone(), fit.reads_frames());
@@ -143,6 +151,9 @@ pub fn evaluate(
         ModelChoice::Fit(fit) => {
             // Asked before the work: an unknown metric must not cost a fit.
             catalogue::select(request.metrics.iter().map(String::as_str))?;
+            if let Some(folds) = folds::of(dataset, fit)? {
+                return folds.evaluate((request, fit), work);
+            }
             let plan = FitPlan::new(dataset, fit)?;
             if request.part.is_none() {
                 plan.divided.require_test()?;
@@ -156,10 +167,11 @@ pub fn evaluate(
                 model.reads_frames(),
             )?;
             let predicted = predict::run(dataset, model, &target, work)?;
+            let behind = Behind::of(model)?;
             let mut scored = score(
                 dataset,
                 request.asked(),
-                Behind::of(model)?,
+                behind,
                 (&target, &predicted),
                 work.jobs,
             )?;
@@ -177,10 +189,11 @@ pub fn evaluate(
         ModelChoice::Fitted(model) => {
             let target = Target::new(dataset, model, request.part)?;
             let predicted = predict::run(dataset, model, &target, work)?;
+            let behind = Behind::of(model)?;
             let scored = score(
                 dataset,
                 request.asked(),
-                Behind::of(model)?,
+                behind,
                 (&target, &predicted),
                 work.jobs,
             )?;
@@ -233,6 +246,12 @@ pub(crate) fn score(
 ) -> Result<Evaluated, StudyError> {
     let plan = metrics(dataset, predicted.channels(), asked)?
         .with_constants(predicted.constants().clone())?;
+    let clusters = Clusters::of(dataset, &target.rows);
+    let by_recording = by_recording(dataset, (&plan, asked), (target, predicted), jobs)?;
+    let plan = match clusters.is_some_and(Clusters::are_recordings) {
+        true => plan.by_recording(),
+        false => plan,
+    };
     let points: Option<Vec<&str>> = predicted
         .points()
         .map(|points| points.iter().map(String::as_str).collect());
@@ -240,6 +259,10 @@ pub(crate) fn score(
     let mut evaluator = passes.run(dataset, predicted, &target.rows, jobs)?;
     let divided = target.divided.as_ref();
     let note = divided.and_then(|divided| divided.split.note.clone());
+    let few_points = match clusters.is_some_and(Clusters::are_recordings) {
+        true => None,
+        false => few_points_note(points.as_deref()),
+    };
     let mut provenance = Provenance {
         model: Some(behind.model),
         split: divided.map(|divided| divided.spec.to_string()),
@@ -249,7 +272,9 @@ pub(crate) fn score(
         frames_decoded: predicted.frames_decoded,
         notes: note
             .into_iter()
-            .chain(few_points_note(points.as_deref()))
+            .chain(clusters.map(Clusters::note))
+            .chain(few_points)
+            .chain(recordings::extended_notes(dataset))
             .chain(seen_note(target))
             .chain(left_out_note(target.part.name(), predicted.left_out))
             .chain(predicted.bounded_note())
@@ -267,17 +292,45 @@ pub(crate) fn score(
     provenance.unsealed.extend(behind.unsealed);
     let subject = Subject::of(dataset);
     let bounded = predicted.bounded(0..predicted.rows());
-    let state = StateFile::of(&mut evaluator, &subject, &provenance, bounded)?.with_taken(vec![
-        Taken::rows_of(dataset.digest().to_string(), &target.rows),
-    ]);
+    let state = StateFile::of(&mut evaluator, &subject, &provenance, bounded)?
+        .with_taken(recordings::taken(dataset, &target.rows));
     let evaluation = state.finish(evaluator)?;
     let samples = Samples::of(dataset, &target.rows)?
         .with_predictions(&target.rows, (predicted, &target.rows));
     Ok(Evaluated {
-        report: EvaluationReport::new(subject, evaluation, provenance).with_samples(samples),
+        report: EvaluationReport::new(subject, evaluation, provenance)
+            .with_samples(samples)
+            .with_recordings(by_recording),
         state,
         manifest: None,
     })
+}
+
+/// The scores of each recording alone, where several were joined.
+fn by_recording(
+    dataset: &Dataset,
+    (plan, asked): (&MetricPlan, Asked<'_>),
+    (target, predicted): (&Target, &Predicted),
+    jobs: NonZeroUsize,
+) -> Result<Vec<RecordingScores>, StudyError> {
+    let passes = Passes::new(plan, asked.part.is_some());
+    let rows = &target.rows;
+    let mut scores = Vec::new();
+    for recording in dataset.recordings() {
+        let bound = |row: usize| rows.partition_point(|own| *own < row);
+        let own = bound(recording.rows().start)..bound(recording.rows().end);
+        let evaluation = passes.of_recording(dataset, predicted, (rows, own.clone()), jobs)?;
+        scores.push(RecordingScores {
+            recording: recording.name().to_owned(),
+            digest: recording.dataset().digest().to_string(),
+            samples: own.len(),
+            evaluation: match seen_note(target) {
+                Some(_) => evaluation.of_seen_samples(),
+                None => evaluation,
+            },
+        });
+    }
+    Ok(scores)
 }
 
 fn divided_as(divided: &Divided) -> String {

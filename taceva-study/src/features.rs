@@ -10,6 +10,7 @@ use taceva_dataset::{Dataset, DatasetError, Pass};
 use taceva_models::{Extractor, FeatureSpec};
 
 use crate::error::StudyError;
+use crate::recordings;
 use crate::work::Work;
 
 pub(crate) use sight::{Sight, kinds};
@@ -24,19 +25,46 @@ pub(crate) fn extractor(dataset: &Dataset, spec: FeatureSpec) -> Result<Extracto
     Ok(Extractor::new(spec, sight.info(), sight.reference())?)
 }
 
-/// The features of `rows`, in that order: those that were kept of them, or made now.
+/// The features of `rows`, in that order: those that were kept of them, or made now. `extractor` gives the one of a recording, because each has
+/// frames, or signals, without contact of its own.
 ///
 /// # Shapes
-/// `[rows, height, width, depth]`; memory is that of the features and a few frames a worker.
+/// `[rows, height, width, depth]`; memory is that of the features and a few frames a worker, and of joined recordings once more that of the
+/// longest run of rows of one.
 pub(crate) fn extract(
     dataset: &Dataset,
+    extractor: impl Fn(&Dataset) -> Result<Extractor, StudyError>,
+    rows: &[usize],
+    work: Work<'_>,
+) -> Result<Features, StudyError> {
+    let mut runs = recordings::runs(dataset, rows);
+    if runs.len() < 2 {
+        let (recording, rows) = runs.pop().unwrap_or((dataset, Vec::new()));
+        return of_recording(recording, &extractor(recording)?, &rows, work);
+    }
+    let mut shape = None;
+    let mut values = Vec::new();
+    for (recording, own) in runs {
+        let part = of_recording(recording, &extractor(recording)?, &own, work)?;
+        if shape.replace(part.shape()).is_none() {
+            values.reserve_exact(rows.len() * part.shape().len());
+        }
+        values.extend_from_slice(part.values());
+    }
+    let shape = shape.expect("at least two runs");
+    Ok(Features::new(shape, values)?)
+}
+
+/// The features of `rows` of one recording.
+fn of_recording(
+    recording: &Dataset,
     extractor: &Extractor,
     rows: &[usize],
     work: Work<'_>,
 ) -> Result<Features, StudyError> {
-    let make = || make(dataset, extractor, rows, work);
+    let make = || make(recording, extractor, rows, work);
     match work.cache {
-        Some(cache) => cache.features((dataset, extractor, rows), make),
+        Some(cache) => cache.features((recording, extractor, rows), make),
         None => make(),
     }
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde::Deserialize;
 use taceva_core::shown;
-use taceva_dataset::Dataset;
+use taceva_dataset::{Dataset, JoinedRecording};
 
 use crate::error::StudyError;
 use crate::run::{PLANS, RECORDINGS};
@@ -47,6 +47,35 @@ impl PlannedRows {
     /// # Errors
     /// [`StudyError::RunFolder`] if the plan beside it cannot be read.
     pub(crate) fn of(dataset: &Dataset) -> Result<Option<PlannedRows>, StudyError> {
+        match dataset.recordings() {
+            [] => PlannedRows::of_recording(dataset),
+            joined => PlannedRows::of_joined(joined),
+        }
+    }
+
+    /// The same of joined recordings: of those without a plan every row is divided.
+    fn of_joined(joined: &[JoinedRecording]) -> Result<Option<PlannedRows>, StudyError> {
+        let mut all = PlannedRows {
+            rows: Vec::new(),
+            seed: 0,
+        };
+        let mut is_planned = false;
+        for own in joined {
+            let first = own.rows().start;
+            let Some(planned) = PlannedRows::of_recording(own.dataset())? else {
+                all.rows.extend(own.rows());
+                continue;
+            };
+            if !is_planned {
+                all.seed = planned.seed;
+            }
+            is_planned = true;
+            all.rows.extend(planned.rows.iter().map(|row| first + row));
+        }
+        Ok(is_planned.then_some(all))
+    }
+
+    fn of_recording(dataset: &Dataset) -> Result<Option<PlannedRows>, StudyError> {
         let Ok(path) = dataset.path().canonicalize() else {
             return Ok(None);
         };

@@ -56,7 +56,7 @@ pub(crate) fn numbers(
 ) -> Result<Column, StudyError> {
     let rows = &target.rows;
     let features = if model.reads_features() {
-        extract(dataset, &extractor(dataset, model)?, rows, work)?
+        extract(dataset, |recording| extractor(recording, model), rows, work)?
     } else {
         blank(model.card().features.shape(), rows.len())?
     };

@@ -8,6 +8,7 @@ use taceva_dataset::Dataset;
 use taceva_models::{ChosenBy, Model};
 
 use crate::error::StudyError;
+use crate::recordings::{self, RecordingProvenance};
 use crate::rows::DataPart;
 
 /// From what, and how, a result was made.
@@ -21,6 +22,9 @@ pub struct Provenance {
     /// The digest of the dataset.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dataset: Option<String>,
+    /// The recordings that were taken as one, in the order in which they were named; none where there is one.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub recordings: Vec<RecordingProvenance>,
     /// The digests of the tables, where there is no dataset.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub tables: BTreeMap<String, String>,
@@ -63,24 +67,35 @@ pub struct Provenance {
 impl Provenance {
     /// The provenance of `dataset` itself.
     pub(crate) fn of(dataset: &Dataset) -> Provenance {
-        let digest = dataset.digest().to_string();
-        let presses = &dataset.header().presses;
-        let counted = (!presses.is_empty()).then(|| (digest.clone(), presses.clone()));
-        let seal = &dataset.header().seal;
-        let edits = seal.history.iter();
-        Provenance {
+        let mut provenance = Provenance {
             taceva: env!("CARGO_PKG_VERSION").to_owned(),
-            dataset: Some(digest),
-            presses: counted.into_iter().collect(),
-            edits: edits.map(|edit| format!("dataset.toml, {edit}")).collect(),
-            unsealed: match seal.is_sealed {
-                true => Vec::new(),
-                false => vec![format!(
-                    "dataset.toml of format {}",
-                    dataset.header().format
-                )],
-            },
+            dataset: Some(dataset.digest().to_string()),
+            recordings: recordings::provenance(dataset),
             ..Provenance::default()
+        };
+        match dataset.recordings() {
+            [] => provenance.add_recording(dataset, ""),
+            joined => joined.iter().for_each(|own| {
+                provenance.add_recording(own.dataset(), &format!("{}/", own.name()));
+            }),
+        }
+        provenance
+    }
+
+    /// Adds what the header of a recording says of how it came to be; its file is called by `folder` first.
+    fn add_recording(&mut self, dataset: &Dataset, folder: &str) {
+        let header = dataset.header();
+        if !header.presses.is_empty() {
+            let digest = dataset.digest().to_string();
+            self.presses.insert(digest, header.presses.clone());
+        }
+        let edits = header.seal.history.iter();
+        self.edits
+            .extend(edits.map(|edit| format!("{folder}dataset.toml, {edit}")));
+        if !header.seal.is_sealed {
+            let format = header.format;
+            self.unsealed
+                .push(format!("{folder}dataset.toml of format {format}"));
         }
     }
 
@@ -116,6 +131,11 @@ impl Provenance {
         self.model = self
             .model
             .filter(|model| other.model.as_ref() == Some(model));
+        for recording in &other.recordings {
+            if !self.recordings.contains(recording) {
+                self.recordings.push(recording.clone());
+            }
+        }
         for (role, digest) in &other.tables {
             let mut name = role.clone();
             let mut number = 2;

@@ -14,10 +14,13 @@ use crate::subject::Subject;
 /// The schema of [`EvaluationReport`] as JSON.
 pub const EVALUATION_SCHEMA: &str = "taceva.evaluation/1.3";
 
+/// The same of several recordings, with the scores of each.
+const SCHEMA_OF_SEVERAL: &str = "taceva.evaluation/1.4";
+
 /// A finished evaluation. Its JSON follows [`EVALUATION_SCHEMA`].
 #[derive(Clone, Debug, Serialize)]
 pub struct EvaluationReport {
-    /// [`EVALUATION_SCHEMA`].
+    /// [`EVALUATION_SCHEMA`]; of several recordings `taceva.evaluation/1.4`.
     pub schema: &'static str,
     /// What was evaluated.
     pub subject: Subject,
@@ -26,12 +29,29 @@ pub struct EvaluationReport {
     pub evaluation: Evaluation,
     /// From what, and how.
     pub provenance: Provenance,
+    /// The scores of each recording alone, where several were taken as one.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub by_recording: Vec<RecordingScores>,
     /// The same scores with other seeds of the training, where that was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub over_seeds: Option<OverSeeds>,
     /// The samples it was made of, where one call has them all; no part of the JSON.
     #[serde(skip)]
     pub samples: Option<Samples>,
+}
+
+/// The scores of the samples of one of several recordings.
+#[derive(Clone, Debug, Serialize)]
+pub struct RecordingScores {
+    /// Its name, as provenance has it.
+    pub recording: String,
+    /// Its digest.
+    pub digest: String,
+    /// Samples of it that are scored.
+    pub samples: usize,
+    /// The scores of predictions, with intervals by its contact points.
+    #[serde(flatten)]
+    pub evaluation: Evaluation,
 }
 
 impl EvaluationReport {
@@ -45,6 +65,7 @@ impl EvaluationReport {
             subject,
             evaluation,
             provenance,
+            by_recording: Vec::new(),
             over_seeds: None,
             samples: None,
         }
@@ -61,6 +82,18 @@ impl EvaluationReport {
             evaluation,
             provenance,
         )
+    }
+
+    /// The same with the scores of each recording, where several were taken as one: of these a reader of before 1.4 knows nothing.
+    pub(crate) fn with_recordings(self, by_recording: Vec<RecordingScores>) -> EvaluationReport {
+        EvaluationReport {
+            schema: match by_recording.is_empty() {
+                true => self.schema,
+                false => SCHEMA_OF_SEVERAL,
+            },
+            by_recording,
+            ..self
+        }
     }
 
     /// The same with the samples it was made of.

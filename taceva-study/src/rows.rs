@@ -5,11 +5,12 @@ use std::collections::BTreeMap;
 use taceva_core::{Channel, Channels, Field, shown};
 use taceva_dataset::{Dataset, Table};
 use taceva_models::{
-    Model, Part as SplitPart, Split, SplitInput, SplitKind, SplitManifest, SplitSpec,
+    Fractions, Model, Part as SplitPart, Split, SplitInput, SplitKind, SplitManifest, SplitSpec,
 };
 
 use crate::error::StudyError;
 use crate::planned_rows::{self, PlannedRows};
+use crate::recordings::{self, is_fitted_on};
 
 /// What a table of samples says beside channels, in its order.
 pub(crate) const BESIDE_CHANNELS: [Field; 10] = [
@@ -62,16 +63,18 @@ pub struct Divided {
 }
 
 impl Divided {
-    /// How `dataset` was divided when `model` was fitted on it; `None` if it was fitted on another.
+    /// How `dataset` is divided for `model`, which was fitted on it, or on what it was before rows were added; `None` if it was fitted on another.
+    /// Whatever `model` has seen is in the training and validation parts.
     ///
     /// # Errors
-    /// [`StudyError::Split`] as of [`Divided::new`]; [`StudyError::Request`] if a plan divided it that is not beside it.
+    /// [`StudyError::Split`] as of [`Divided::new`]; [`StudyError::Request`] if a plan divided it that is not beside it, or if some of the
+    /// recordings are among those that `model` was fitted on and others are not.
     pub(crate) fn by_model(
         dataset: &Dataset,
         model: &Model,
     ) -> Result<Option<Divided>, StudyError> {
         let provenance = &model.card().provenance;
-        let is_own = provenance.data.as_deref() == Some(dataset.digest().to_string().as_str());
+        let is_own = is_fitted_on(model, dataset)?;
         let Some(card) = provenance.split.as_ref().filter(|_| is_own) else {
             return Ok(None);
         };
@@ -84,18 +87,18 @@ impl Divided {
                 )));
             }
             (true, Some(_)) => Divided::of(dataset, Some(&card.split), card.seed),
-            (false, _) => Divided::new(dataset.table(), Some(&card.split), card.seed),
+            (false, _) => Divided::new(dataset, Some(&card.split), card.seed),
         };
         divided.map(Some)
     }
 
-    /// Divides `table` as `text` says, or by point where points have repeats, else at random.
+    /// Divides `dataset` as `text` says, or by point where points have repeats, else at random. Of joined recordings each is divided as it would
+    /// be alone, and rows that were added later change the part of none before.
     ///
     /// # Errors
     /// [`StudyError::Split`] if the text means no split, or the table lacks what it needs.
-    pub fn new(table: &Table, text: Option<&str>, seed: u64) -> Result<Divided, StudyError> {
-        let rows: Vec<usize> = (0..table.rows()).collect();
-        Divided::within(table, &rows, text, seed)
+    pub fn new(dataset: &Dataset, text: Option<&str>, seed: u64) -> Result<Divided, StudyError> {
+        Divided::within(dataset, &dataset.all_rows(), text, seed)
     }
 
     /// Divides `dataset` as `text` says; a recording of a run as its plan does, which divides the presses that teach a model, by the seed of
@@ -105,10 +108,10 @@ impl Divided {
     /// As [`new`](Divided::new), and [`StudyError::RunFolder`] if the plan of the run cannot be read.
     pub fn of(dataset: &Dataset, text: Option<&str>, seed: u64) -> Result<Divided, StudyError> {
         let Some(planned) = PlannedRows::of(dataset)? else {
-            return Divided::new(dataset.table(), text, seed);
+            return Divided::new(dataset, text, seed);
         };
         let seed = if text.is_none() { planned.seed } else { seed };
-        let mut divided = Divided::within(dataset.table(), &planned.rows, text, seed)?;
+        let mut divided = Divided::within(dataset, &planned.rows, text, seed)?;
         let note = &mut divided.split.note;
         *note = Some(match note.take() {
             Some(before) => format!("{}; {before}", planned_rows::NOTE),
@@ -117,21 +120,50 @@ impl Divided {
         Ok(divided)
     }
 
-    /// Divides `rows` of `table`, which ascend; all others are in no part.
+    /// Divides `rows` of `dataset`, which ascend; all others are in no part.
     ///
     /// # Errors
     /// As [`new`](Divided::new).
     pub(crate) fn within(
-        table: &Table,
+        dataset: &Dataset,
         rows: &[usize],
         text: Option<&str>,
         seed: u64,
     ) -> Result<Divided, StudyError> {
-        let points = all_texts(table.point_id(), rows);
+        let points = all_texts(dataset.table().point_id(), rows);
         let spec = match text {
             Some(text) => text.parse::<SplitSpec>()?,
             None => default_spec(points.as_deref()),
         };
+        Divided::by_spec(dataset, rows, spec, seed)
+    }
+
+    /// Divides `rows` of `dataset` by point where points have repeats, else at random, into parts of these sizes.
+    ///
+    /// # Errors
+    /// As [`new`](Divided::new).
+    pub(crate) fn within_default(
+        dataset: &Dataset,
+        rows: &[usize],
+        fractions: Fractions,
+        seed: u64,
+    ) -> Result<Divided, StudyError> {
+        let points = all_texts(dataset.table().point_id(), rows);
+        let spec = SplitSpec {
+            fractions,
+            ..default_spec(points.as_deref())
+        };
+        Divided::by_spec(dataset, rows, spec, seed)
+    }
+
+    fn by_spec(
+        dataset: &Dataset,
+        rows: &[usize],
+        spec: SplitSpec,
+        seed: u64,
+    ) -> Result<Divided, StudyError> {
+        let table = dataset.table();
+        let points = all_texts(table.point_id(), rows);
         let times: Option<Vec<f64>> = rows.iter().map(|&row| table.t_s()[row]).collect();
         let parts = all_texts(table.part(), rows);
         let column = match &spec.kind {
@@ -153,12 +185,16 @@ impl Divided {
             .iter()
             .map(|(name, cells)| (*name, cells.as_slice()))
             .collect();
+        let recordings = recordings::names(dataset, rows);
+        let sections = recordings::sections(dataset, rows);
         let input = SplitInput {
             rows: rows.len(),
             points: points.as_deref(),
             times_s: times.as_deref(),
             parts: parts.as_deref(),
             columns,
+            recordings: recordings.as_deref(),
+            sections: &sections,
         };
         let mut split = spec.assign(&input, seed)?;
         if rows.len() < table.rows() {

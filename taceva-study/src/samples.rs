@@ -2,13 +2,14 @@
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use taceva_core::{Channel, Column, Field};
 use taceva_dataset::Dataset;
 
 use crate::error::StudyError;
 use crate::predict::{Predicted, truth};
+use crate::recordings;
 use crate::rows::BESIDE_CHANNELS;
 
 /// The samples of a recording, column by column.
@@ -19,7 +20,7 @@ use crate::rows::BESIDE_CHANNELS;
 pub struct Samples {
     rows: usize,
     columns: Vec<(String, SampleColumn)>,
-    recording: Option<PathBuf>,
+    recordings: Vec<PathBuf>,
 }
 
 #[derive(Clone, Debug)]
@@ -40,8 +41,12 @@ impl Samples {
         let mut samples = Samples {
             rows: rows.len(),
             columns: vec![("id".to_owned(), SampleColumn::Words(ids))],
-            recording: Some(dataset.path().to_owned()),
+            recordings: recordings::paths(dataset),
         };
+        if let Some(names) = recordings::names(dataset, rows) {
+            let names = names.into_iter().map(Some);
+            samples.push("recording", SampleColumn::Words(names.collect()));
+        }
         for field in BESIDE_CHANNELS {
             if let Some(texts) = table.as_text(field.name()) {
                 samples.push(field.name(), SampleColumn::Words(words(&texts)));
@@ -99,7 +104,7 @@ impl Samples {
         let mut samples = Samples {
             rows: ids.len(),
             columns: vec![("id".to_owned(), SampleColumn::Words(ids))],
-            recording: None,
+            recordings: Vec::new(),
         };
         if let Some(points) = points {
             samples.push(Field::Point.name(), SampleColumn::Words(points));
@@ -120,9 +125,9 @@ impl Samples {
         self.columns.push((name, SampleColumn::Numbers(column)));
     }
 
-    /// The recording that they are of; none of two tables.
-    pub fn recording(&self) -> Option<&Path> {
-        self.recording.as_deref()
+    /// The recordings that they are of, in the order in which they were joined; none of two tables.
+    pub fn recordings(&self) -> &[PathBuf] {
+        &self.recordings
     }
 
     /// How many there are.

@@ -6,13 +6,14 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use taceva_tests::recorded::{Recorded, open_whole};
-use taceva_tests::{Form, Lab, Random, scratch, taceva};
+use taceva_tests::{Form, Lab, Random, picture, scratch, taceva};
 
 const SEED: u64 = 20_261_121;
 const KILLS_OF_RECORDINGS: usize = 100;
 const KILLS_OF_CLOSING: usize = 40;
 const KILLS_OF_IMPORTS: usize = 60;
 const KILLS_OF_REPLACEMENTS: usize = 200;
+const KILLS_OF_ADDITIONS: usize = 40;
 const REPLACEMENTS: usize = 40;
 const PICTURES: u32 = 60;
 
@@ -216,6 +217,83 @@ fn an_import_that_replaces_a_dataset_can_be_killed_at_any_moment_and_loses_none(
         "replacements killed: {before} before the first file, {amid} amid, {after} after the exchange"
     );
     assert!(amid >= KILLS_OF_REPLACEMENTS / 8 && after >= KILLS_OF_REPLACEMENTS / 8);
+}
+
+#[test]
+#[expect(clippy::print_stderr, reason = "the counts are the result")]
+fn rows_that_are_added_can_be_killed_at_any_moment_and_nothing_is_lost_or_doubled() {
+    let first = Lab::drawn(Form::Png, 4);
+    let pictures: Vec<Vec<u8>> = (500..500 + PICTURES)
+        .map(|number| picture(Form::Png, number))
+        .collect();
+    let second = Lab::new(Form::Png, "gray", &pictures);
+    let folder = scratch();
+    let target = folder.path().join("set");
+    let extend = || {
+        let mut command = Command::new(taceva());
+        command
+            .args(["import", "--quiet"])
+            .arg(second.path())
+            .arg("--map")
+            .arg(second.map())
+            .arg("--extend")
+            .arg(&target)
+            .stdout(Stdio::null())
+            .stderr(Stdio::null());
+        command
+    };
+    let mut random = Random::new(SEED);
+    let (mut before, mut amid, mut after) = (0, 0, 0);
+    let (mut old, mut new) = (None, None);
+    for number in 0..KILLS_OF_ADDITIONS {
+        assert!(
+            import(&first, &target)
+                .arg("--force")
+                .status()
+                .expect("built")
+                .success()
+        );
+        let old = *old.get_or_insert(open_whole(&target).expect("imported").digest());
+        let whole = entries_below(&target);
+        let mut child = extend().spawn().expect("built");
+        let awaited = whole + random.below(PICTURES as usize + whole + 4);
+        while entries_below(folder.path()) < awaited && is_running(&mut child) {}
+        spin(micros(&mut random, 4_000));
+        kill(&mut child);
+        let is_clean = entries_below(folder.path()) == 1 + entries_below(&target);
+        let context = format!("seed {SEED}, kill {number}");
+        let dataset = open_whole(&target).expect(&context);
+        match (dataset.digest() == old, dataset.table().rows()) {
+            (true, 4) if is_clean => before += 1,
+            (true, 4) => amid += 1,
+            (false, 64) => {
+                assert_eq!(
+                    *new.get_or_insert(dataset.digest()),
+                    dataset.digest(),
+                    "{context}"
+                );
+                after += 1;
+            }
+            (_, rows) => panic!("{context}: {rows} rows"),
+        }
+        // Once more: what was not added is added now, and what was added is refused.
+        let was_added = dataset.digest() != old;
+        drop(dataset);
+        assert_eq!(
+            extend().status().expect("built").success(),
+            !was_added,
+            "{context}"
+        );
+        let rows = open_whole(&target).expect(&context).table().rows();
+        assert_eq!(rows, 64, "{context}");
+    }
+    eprintln!(
+        "additions killed: {before} before the first file, {amid} amid, {after} after the exchange"
+    );
+    assert!(
+        amid >= KILLS_OF_ADDITIONS / 8,
+        "the moments were chosen badly"
+    );
 }
 
 #[test]

@@ -8,7 +8,7 @@ use taceva_dataset::{Digest, Recorder};
 use taceva_needs::{Need, skip};
 use taceva_tests::power_cut::{Counted, Disk, State, Trace, TraceError, write_tree};
 use taceva_tests::recorded::{Recorded, open_whole, reference};
-use taceva_tests::{Form, Lab, example, scratch, taceva};
+use taceva_tests::{Form, Lab, example, picture, scratch, taceva};
 
 /// States of a first cut from which a second recorder is traced; each takes a tenth of a second.
 const MOST_RESUMED: usize = 80;
@@ -126,6 +126,58 @@ fn an_import_that_replaces_a_dataset_leaves_the_old_one_or_the_new_one_in_place(
         }
     });
     assert_kept("import --force", &counted, 100);
+}
+
+/// Adds the pictures of `lab` to the dataset at `target`.
+fn extend(lab: &Lab, target: &Path) -> Command {
+    let mut command = Command::new(taceva());
+    command
+        .args(["import", "--quiet", "--jobs", "2"])
+        .arg(lab.path())
+        .arg("--map")
+        .arg(lab.map())
+        .arg("--extend")
+        .arg(target);
+    command
+}
+
+#[test]
+fn rows_that_are_added_are_all_there_or_none_is_and_no_row_of_before_is_lost() {
+    let first = Lab::drawn(Form::Png, 2);
+    let pictures: Vec<Vec<u8>> = (50..53).map(|number| picture(Form::Png, number)).collect();
+    let second = Lab::new(Form::Png, "gray", &pictures);
+    let folder = scratch();
+    let watched = folder.path();
+    let target = watched.join("set");
+    assert_eq!(run(&mut import(&first, &target)), Ok(()));
+    let before = open_whole(&target).expect("imported").digest();
+    let initial = Disk::load(watched).expect("one dataset");
+    let Some(trace) = traced(&extend(&second, &target), watched, initial) else {
+        return;
+    };
+    assert!(trace.status.success(), "{}", trace.complaint);
+    let expected = open_whole(&target).expect("extended");
+    assert_eq!(expected.table().rows(), 5);
+    let expected = expected.digest();
+    let counted = trace.each_state(0..trace.operations.len() + 1, |state| {
+        let restarted = scratch();
+        let target = restarted.path().join("set");
+        state
+            .write_to(restarted.path())
+            .expect("room for a small folder");
+        let was_reported = state.printed.iter().any(|line| line.starts_with("digest"));
+        let found = open_whole(&target)?.digest();
+        if found != expected && (was_reported || found != before) {
+            return Err(format!("in place {found}, reported: {was_reported}"));
+        }
+        let left = restarted.path().read_dir().expect("there").flatten();
+        let left: Vec<_> = left.map(|entry| entry.file_name()).collect();
+        match left.as_slice() {
+            [only] if only == "set" => Ok(()),
+            _ => Err(format!("left after it was opened: {left:?}")),
+        }
+    });
+    assert_kept("import --extend", &counted, 100);
 }
 
 /// A recording, traced, and the operation after which the last sample was acknowledged.

@@ -29,7 +29,7 @@ const COST: Number = Number {
     is_whole: false,
     unset: Unset::ChosenAmong(&COSTS),
 };
-/// From the dearest to the cheapest: of equals the last is the plainest.
+/// From the largest penalty of errors to the least: of equals the last is the plainest.
 const COSTS: [f64; 4] = [100.0, 10.0, 1.0, 0.1];
 
 /// Below this the library counts a coefficient as 0.

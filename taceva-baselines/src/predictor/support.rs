@@ -6,7 +6,7 @@ use taceva_models::{LibraryPredictor, LibrarySizes, LibraryTensor, LibraryTensor
 use super::damaged;
 use crate::guard::finite;
 
-/// Σ coefficient · exp(−rate ‖x − v‖²) + bias for each target, over the training samples that any target leans on.
+/// Σ coefficient · exp(−rate ‖x − v‖²) + bias for each target, over the training samples that have a coefficient in any target.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Support {
     rate: f64,
@@ -20,7 +20,7 @@ pub(crate) struct Support {
 
 /// What a library found for one target.
 pub(crate) struct Machine {
-    /// A coefficient a training sample; 0 for one that the target does not lean on.
+    /// A coefficient a training sample; 0 for one that is no support vector of the target.
     pub(crate) coefficients: Vec<f64>,
     pub(crate) bias: f64,
 }

@@ -21,7 +21,7 @@ pub(crate) struct Trees {
 /// The nodes of a tree; the first is its root.
 pub(crate) type Tree = Vec<Node>;
 
-/// A question, or a leaf where `low` is 0.
+/// A comparison, or a leaf where `low` is 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Node {
     pub(crate) feature: u32,
@@ -109,7 +109,7 @@ impl Trees {
     }
 }
 
-/// Refuses a tree that asks for a feature which is not there, or that has no way to a leaf.
+/// Refuses a tree that compares a feature which is not there, or that has no way to a leaf.
 fn checked(tree: Tree, features: usize) -> Result<Tree, ModelError> {
     let leads_on = |(place, node): (usize, &Node)| {
         let behind = |child: u32| (place + 1..tree.len()).contains(&(child as usize));

@@ -23,8 +23,11 @@ pub(crate) struct Import {
     #[arg(long, conflicts_with = "explain")]
     pub(crate) draft: bool,
     /// The dataset to write: a new folder
-    #[arg(long, value_name = "DATASET", required_unless_present_any = ["explain", "to", "draft"])]
+    #[arg(long, value_name = "DATASET", required_unless_present_any = ["explain", "to", "draft", "extend"])]
     pub(crate) out: Option<PathBuf>,
+    /// Add the rows to this dataset, imported before by a map of the same sensor; each row before keeps its part of every split
+    #[arg(long, value_name = "DATASET", conflicts_with_all = ["out", "to", "draft", "force"])]
+    pub(crate) extend: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) former: FormerTo,
     #[command(flatten)]
@@ -72,8 +75,9 @@ pub(crate) struct Reseal {
 /// Every finding has a stable code and a hint. The exit code is 1 if one of them is an error.
 #[derive(Debug, Args)]
 pub(crate) struct Check {
-    /// The dataset to check
-    pub(crate) dataset: PathBuf,
+    /// The dataset to check; of several recordings each is checked, and then whether they can be taken as one
+    #[arg(required = true, value_name = "DATASET")]
+    pub(crate) datasets: Vec<PathBuf>,
     /// Make only the checks with these codes, separated by commas
     #[arg(long, value_name = "CODES", value_delimiter = ',')]
     pub(crate) only: Vec<String>,

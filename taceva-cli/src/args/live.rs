@@ -14,8 +14,8 @@ pub(crate) struct LiveArgs {
     /// The force transducer under the sensor or in the indenter: sri/m8128:host=192.168.0.108
     #[arg(long, value_name = "DRIVER")]
     pub(crate) force: Option<String>,
-    /// A rig file with a sensor and perhaps a transducer, instead of the two options; it also says which axis presses into the gel and how late
-    /// devices stamp, see docs/capture.md. Its robot is left alone
+    /// A rig file with a sensor and perhaps a transducer, instead of the two options; it also says which axis presses into the gel and the
+    /// latency of devices, see docs/capture.md. Its robot is left alone
     #[arg(long, value_name = "FILE")]
     pub(crate) rig: Option<PathBuf>,
 }

@@ -13,8 +13,9 @@ use super::{
 /// the same command goes on from it, writes the same bytes as an uninterrupted one, and removes it.
 #[derive(Debug, Args)]
 pub(crate) struct Fit {
-    /// The dataset to train on
-    pub(crate) dataset: PathBuf,
+    /// The dataset to train on; several recordings of one kind of sensor are taken as one
+    #[arg(required = true, value_name = "DATASET")]
+    pub(crate) datasets: Vec<PathBuf>,
     #[command(flatten)]
     pub(crate) model: ModelArgs,
     #[command(flatten)]
@@ -39,8 +40,9 @@ pub(crate) struct Fit {
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("which").required(true).args(["with", "name"]))]
 pub(crate) struct Evaluate {
-    /// The dataset to evaluate
-    pub(crate) dataset: PathBuf,
+    /// The dataset to evaluate; several recordings of one kind of sensor are taken as one
+    #[arg(required = true, value_name = "DATASET")]
+    pub(crate) datasets: Vec<PathBuf>,
     /// A fitted model file
     #[arg(long, value_name = "MODEL")]
     pub(crate) with: Option<PathBuf>,
@@ -62,8 +64,9 @@ pub(crate) struct Evaluate {
 
 #[derive(Debug, Args)]
 pub(crate) struct Predict {
-    /// The dataset to predict
-    pub(crate) dataset: PathBuf,
+    /// The dataset to predict; several recordings of one kind of sensor are taken as one
+    #[arg(required = true, value_name = "DATASET")]
+    pub(crate) datasets: Vec<PathBuf>,
     /// A fitted model file
     #[arg(long, value_name = "MODEL")]
     pub(crate) with: PathBuf,

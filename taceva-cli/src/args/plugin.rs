@@ -107,8 +107,8 @@ pub(crate) struct PluginHeaders {
 }
 
 /// Each check runs in a sandboxed process that reaches what `taceva plugin allow` lets the plugin reach; with `--trust ID`, in one that
-/// nothing is kept from. A real device is opened at most three times a check, and what needs one that is not there is skipped. A cause for
-/// which several checks fail is told once. The exit code is 1 if a check fails.
+/// is not confined. A real device is opened at most three times a check, and what needs one that is not there is skipped. A cause for
+/// which several checks fail is reported once. The exit code is 1 if a check fails.
 #[derive(Debug, Args)]
 pub(crate) struct PluginCheck {
     /// The id of the plugin

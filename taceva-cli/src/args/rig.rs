@@ -15,15 +15,15 @@ pub(crate) struct RigCommand {
 /// What to do with a rig.
 #[derive(Debug, Subcommand)]
 pub(crate) enum RigSubject {
-    /// Listen to its devices, and halt its robot once on its way up: rates, gaps, noise, and how soon it stands
+    /// Listen to its devices, and halt its robot once on its way up: rates, gaps, noise, and how soon it stops
     Check(RigCheckArgs),
     /// Learn where its robot stands: you jog it to three places, and `origin_mm` and `axes` are written into the rig file
     Teach(RigTeachArgs),
 }
 
-/// Every device is listened to for 2 seconds while nothing moves: how often it speaks, its longest pause, how old what it says is, and how far
+/// Every device is listened to for 2 seconds while nothing moves: how often it sends, its longest pause, how old its values are, and how far
 /// that scatters. Then, if you let it by typing its name, the robot goes 5 mm straight up, away from the gel, and is halted on the way. Put the
-/// tip at least a centimetre above the gel before. What a run would stumble over is said with what helps; the exit code is 1 then.
+/// tip at least a centimetre above the gel before. Whatever would stop a run is reported with its remedy; the exit code is 1 then.
 ///
 /// Do this once before the first run on a rig, and again whenever its network, its machine or a device has changed.
 #[derive(Debug, Args)]
@@ -41,7 +41,7 @@ pub(crate) struct RigCheckArgs {
 /// 2. a little up and 5 to 10 mm along x of the sensor,
 /// 3. from the middle 5 to 10 mm along y of the sensor, so that z points into the gel.
 ///
-/// A way that ends more than half a millimetre beside an axis of the robot's base is refused, and so is a turned tool. The file needs both keys
+/// A way that ends more than 0.5 mm off an axis of the robot's base is refused, and so is a turned tool. The file needs both keys
 /// before, with any values: origin_mm = [0.0, 0.0, 0.0] and axes = ["x", "y", "z"]. Everything else in it stays as it is.
 #[derive(Debug, Args)]
 pub(crate) struct RigTeachArgs {

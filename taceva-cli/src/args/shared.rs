@@ -45,7 +45,8 @@ pub(crate) struct SettingArgs {
 #[derive(Debug, Args)]
 pub(crate) struct SplitArgs {
     /// How samples are divided: random, chronological, by-point, declared, by-column:NAME[=train:1,2;val:3;test:4], or all: every sample is
-    /// trained on, for a final model [default: by-point where points have repeats, else random]
+    /// trained on, for a final model; of several recordings also by-recording[=train:A,B;test:C] and leave-one-recording-out, which fits a model
+    /// for each [default: by-point where points have repeats, else random]
     #[arg(long, value_name = "SPLIT")]
     pub(crate) split: Option<String>,
     #[command(flatten)]

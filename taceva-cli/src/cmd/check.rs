@@ -1,32 +1,52 @@
 //! `taceva check`.
 
+use taceva_core::shown;
+use taceva_dataset::Dataset;
 use taceva_study::{CheckRequest, Severity, check, check_plan};
 
-use super::{Context, open};
-use crate::args::Check;
+use super::{Context, Usage, open};
+use crate::args::{Check, Format};
 use crate::{exit, output, report};
 
 pub(crate) fn run(args: &Check, context: &Context) -> anyhow::Result<u8> {
     if let Some(path) = args.output.path.as_deref() {
         output::check_free(path, args.output.force)?;
     }
-    let dataset = open(&args.dataset)?;
+    let is_table = matches!(args.output.format, Format::Csv | Format::Tex);
+    if is_table && args.datasets.len() > 1 {
+        return Err(Usage::error(
+            "--format csv and --format tex are of one recording: name one dataset, or take text, md or json",
+        ));
+    }
     let request = CheckRequest {
         only: args.only.clone(),
         split: args.split.split.clone(),
         seed: args.split.seed.value,
         jobs: context.jobs,
     };
+    let mut recordings = Vec::new();
+    for path in &args.datasets {
+        recordings.push(open(path)?);
+    }
     if args.explain.is_wanted {
-        let plan = check_plan(&dataset, &request)?;
-        output::write(None, |out| write!(out, "{plan}"))?;
+        for dataset in &recordings {
+            let plan = check_plan(dataset, &request)?;
+            output::write(None, |out| write!(out, "{plan}"))?;
+        }
         return Ok(exit::DONE);
     }
-    let findings = check(&dataset, &request, &context.progress)?;
+    let mut found = Vec::new();
+    for dataset in &recordings {
+        let name = shown(dataset.path()).to_string();
+        found.push((name, check(dataset, &request, &context.progress)?));
+    }
     output::write_as(args.output.format, args.output.path.as_deref(), |out| {
-        report::findings(&findings, args.output.format, out)
+        report::findings(&found, args.output.format, out)
     })?;
-    Ok(match findings.worst() {
+    // What cannot be taken as one is refused after each was looked at.
+    Dataset::joined(recordings)?;
+    let worst = found.iter().filter_map(|(_, report)| report.worst()).max();
+    Ok(match worst {
         Some(Severity::Error) => exit::CHECK_FAILED,
         _ => exit::DONE,
     })

@@ -3,7 +3,7 @@
 use taceva_dataset::SensorFile;
 use taceva_study::{DataPart, Effort, EvaluateRequest, ModelChoice, evaluate, evaluate_plan};
 
-use super::{Context, Usage, cache, effort, fit_request, open};
+use super::{Context, Usage, cache, effort, fit_request, open_all};
 use crate::args::Evaluate;
 use crate::{exit, output, report};
 
@@ -38,7 +38,7 @@ pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
             "--split cannot be used with --with: a fitted model knows its own split",
         ));
     }
-    let dataset = open(&args.dataset)?;
+    let dataset = open_all(&args.datasets)?;
     let request = EvaluateRequest {
         model,
         metrics: scoring.metrics.clone(),

@@ -8,7 +8,7 @@ use anyhow::Context as _;
 use taceva_models::{Checkpoints, Foreign};
 use taceva_study::{Effort, Fitted, fit};
 
-use super::{Context, cache, effort, fit_request, open};
+use super::{Context, cache, effort, fit_request, open_all};
 use crate::args::Fit;
 use crate::{exit, output};
 
@@ -17,7 +17,7 @@ pub(crate) fn run(args: &Fit, context: &Context) -> anyhow::Result<u8> {
     if let Some(path) = &args.split_out.path {
         output::check_free(path, args.force)?;
     }
-    let dataset = open(&args.dataset)?;
+    let dataset = open_all(&args.datasets)?;
     let models = context.models()?;
     let request = fit_request(&args.model.name, &args.model.settings, &args.split, &models)?;
     let checkpoints = checkpoints(args);

@@ -3,10 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use taceva_core::shown;
-use taceva_dataset::{Decoders, ImportMap, ImportPlan, MapDraft, Preset, settle};
+use taceva_dataset::{Addition, Decoders, ImportMap, ImportPlan, MapDraft, Preset, settle};
 
 use super::{Context, Usage};
 use crate::args::Import;
+use crate::date::today;
 use crate::disk_space::{self, Need};
 use crate::{av1_child, exit, output};
 
@@ -15,13 +16,17 @@ pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
         context.note_former_name("--to", "--out");
     }
     let target = args.out.as_deref().or(args.former.to.as_deref());
+    let target = target.or(args.extend.as_deref());
     if args.draft {
         return draft(args, target, context);
     }
     if let Some(target) = target {
         // What a kill left of an earlier one first: a dataset that was set aside stands in its place again.
         settle(target)?;
-        output::check_free(target, args.force)?;
+        match args.extend.is_some() {
+            true => drop(super::open(target)?),
+            false => output::check_free(target, args.force)?,
+        }
     }
     let plan = ImportPlan::with_decoders(&args.source, &map(args)?, &decoders(args)?)?;
     let Some(target) = target.filter(|_| !args.explain.is_wanted) else {
@@ -36,13 +41,22 @@ pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
     if let Some(room) = need.hold_against(disk_space::free(target), target)? {
         context.say(format_args!("disk: {room}"));
     }
-    let report = match args.force {
-        true => plan.replace(target, context.jobs, &context.progress),
-        false => plan.run(target, context.jobs, &context.progress),
+    let (jobs, progress) = (context.jobs, &context.progress);
+    let report = match (args.extend.is_some(), args.force) {
+        (true, _) => {
+            let added = Addition::new(today(), args.source.to_string_lossy());
+            plan.extend(target, &added, jobs, progress)
+        }
+        (false, true) => plan.replace(target, jobs, progress),
+        (false, false) => plan.run(target, jobs, progress),
     }?;
+    let done = match args.extend.is_some() {
+        true => "extended",
+        false => "wrote   ",
+    };
     output::write(None, |out| {
         write!(out, "{}", report.summary)?;
-        writeln!(out, "wrote    {}", shown(&report.path))?;
+        writeln!(out, "{done} {}", shown(&report.path))?;
         writeln!(out, "digest   {}", report.digest)
     })?;
     Ok(exit::DONE)

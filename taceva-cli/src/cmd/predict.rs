@@ -5,7 +5,7 @@ use taceva_core::shown;
 
 use taceva_study::{DataPart, predict};
 
-use super::{Context, Usage, cache, open};
+use super::{Context, Usage, cache, open_all};
 use crate::args::Predict;
 use crate::{exit, output};
 
@@ -26,7 +26,7 @@ pub(crate) fn run(args: &Predict, context: &Context) -> anyhow::Result<u8> {
     for path in args.truth_out.iter().chain(&args.deviations_out) {
         output::check_free(path, args.force)?;
     }
-    let dataset = open(&args.dataset)?;
+    let dataset = open_all(&args.datasets)?;
     let model = context.models()?.open(&args.with)?;
     if args.deviations_out.is_some() && !model.regressor().knows_deviations() {
         return Err(Usage::error(format!(

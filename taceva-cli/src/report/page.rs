@@ -7,13 +7,12 @@ use std::path::Path;
 use taceva_core::shown;
 
 use anyhow::Context as _;
-use taceva_dataset::Dataset;
 use taceva_report::{
     Layout, Picture, Report, Samples, ScoreTable, Study, Triple, escape_csv, figures, picks,
 };
 use taceva_study::EvaluationReport;
 
-use crate::cmd::Context;
+use crate::cmd::{Context, open_all};
 use crate::output;
 
 use super::thumbnail::{MEDIA_TYPE, thumbnail};
@@ -45,10 +44,13 @@ impl Page {
 
     fn take_pictures(&mut self, at: usize, report: &EvaluationReport) -> anyhow::Result<()> {
         let samples = report.samples.as_ref();
-        let Some(path) = samples.and_then(taceva_study::Samples::recording) else {
+        let Some(paths) = samples
+            .map(taceva_study::Samples::recordings)
+            .filter(|paths| !paths.is_empty())
+        else {
             return Ok(());
         };
-        let dataset = Dataset::open(path)?;
+        let dataset = open_all(paths)?;
         self.triples.extend(triple(&dataset, at)?);
         let ids = dataset.table().samples();
         for pick in picks(&self.studies[at]) {

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use taceva_metrics::Interval;
 use taceva_report::{
     Align, Cell, Column, Estimate, FormattedValue, Table, Words, escape_markdown, latex_symbol,
+    short_digests,
 };
 use taceva_study::EvaluationReport;
 
@@ -30,9 +31,24 @@ pub(super) fn every_number(report: &EvaluationReport) -> Table {
         "source",
     ];
     let columns = [Column::of_metrics()].into_iter();
-    let mut table = Table::new("Scores", columns.chain(names.map(Column::new)));
-    for line in lines(&report.evaluation) {
-        table.push(numbers(&line, &report.subject.source));
+    let columns = columns.chain(names.map(Column::new));
+    // Of several recordings the rows of each follow those of all.
+    let is_several = !report.by_recording.is_empty();
+    let more = ["recording", "recording_digest"];
+    let more = more.into_iter().filter(|_| is_several).map(Column::new);
+    let mut table = Table::new("Scores", columns.chain(more));
+    let all = [(&report.evaluation, ["all", ""])].into_iter();
+    let each = report.by_recording.iter();
+    let each = each.map(|own| {
+        let named = [own.recording.as_str(), own.digest.as_str()];
+        (&own.evaluation, named)
+    });
+    for (evaluation, named) in all.chain(each) {
+        for line in lines(evaluation) {
+            let named = named.into_iter().filter(|_| is_several).map(Cell::text);
+            let numbers = numbers(&line, &report.subject.source).into_iter();
+            table.push(numbers.chain(named));
+        }
     }
     table
 }
@@ -161,6 +177,14 @@ fn caption_with(report: &EvaluationReport, foreign: impl Fn(&str) -> String) -> 
     let model = model.map_or_else(String::new, |model| format!(" Model: {}.", model.name));
     let split = provenance.split.as_ref();
     let split = split.map_or_else(String::new, |split| format!(" Split: {split}."));
+    let recordings = provenance.recordings.iter();
+    let recordings: Vec<String> = recordings
+        .map(|own| format!("{} ({})", foreign(&own.name), short_digests(&own.digest)))
+        .collect();
+    let recordings = match recordings.is_empty() {
+        true => String::new(),
+        false => format!(" Recordings: {}.", recordings.join(", ")),
+    };
     let subject = match subject.source.as_str() {
         "unknown" => "Scores of two tables".to_owned(),
         source => format!("{} ({source} samples)", foreign(&subject.sensor)),
@@ -170,7 +194,7 @@ fn caption_with(report: &EvaluationReport, foreign: impl Fn(&str) -> String) -> 
         .map(|standing| format!(" No full part in verdicts: {standing}."))
         .collect();
     format!(
-        "{subject}, n = {n}.{model}{split} {intervals}.{standings} TacEva {}.",
+        "{subject}, n = {n}.{recordings}{model}{split} {intervals}.{standings} TacEva {}.",
         provenance.taceva
     )
 }

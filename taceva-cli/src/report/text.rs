@@ -9,6 +9,7 @@ use taceva_study::EvaluationReport;
 
 use super::line::{Line, flags, pictures, read_lines, standings};
 use super::number::formatted;
+use super::recordings;
 
 pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     heading(report, out)?;
@@ -25,6 +26,7 @@ pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Resul
     }
     out.write_all(table.text().as_bytes())?;
     over_seeds(report, out)?;
+    recordings::write(report, out)?;
     footer(report, out)
 }
 

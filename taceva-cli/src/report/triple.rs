@@ -19,7 +19,8 @@ pub(crate) fn triple(dataset: &Dataset, study: usize) -> anyhow::Result<Option<T
         return Ok(None);
     };
     let pressed = Small::of(&frame);
-    let untouched = dataset.reference()?.map(|frame| Small::of(&frame));
+    let recording = dataset.recording_of(row).map_or(dataset, |(own, _)| own);
+    let untouched = recording.reference()?.map(|frame| Small::of(&frame));
     let untouched = untouched.filter(|untouched| untouched.is_like(&pressed));
     let all = untouched.iter().chain([&pressed]);
     let ends = all.flat_map(|small| &small.means);

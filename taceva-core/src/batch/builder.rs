@@ -110,6 +110,7 @@ fn empty(channels: Channels, fields: FieldSet) -> Batch {
         truth: columns.clone(),
         prediction: columns,
         points: None,
+        recordings: None,
         labels: labels.map(|field| (field, Labels::default())).collect(),
         numbers: numbers.map(|field| (field, Column::default())).collect(),
         channels,

@@ -24,6 +24,9 @@ impl Dataset {
     /// [`DatasetError::Request`] if there is no such row; [`DatasetError::Io`].
     pub fn frame(&self, row: usize) -> Result<Option<Frame>, DatasetError> {
         self.check_row(row)?;
+        if let Some((recording, row)) = self.recording_of(row) {
+            return recording.frame(row);
+        }
         match (&self.table.frames()[row], &self.header.frames) {
             (Some(entry), Some(info)) => self.read_frame(entry, info).map(Some),
             _ => Ok(None),
@@ -39,6 +42,9 @@ impl Dataset {
     /// [`DatasetError::Io`].
     pub fn damage_inside(&self, row: usize) -> Result<Option<String>, DatasetError> {
         self.check_row(row)?;
+        if let Some((recording, row)) = self.recording_of(row) {
+            return recording.damage_inside(row);
+        }
         let Some(entry) = &self.table.frames()[row] else {
             return Ok(None);
         };
@@ -47,7 +53,7 @@ impl Dataset {
         Ok(whole.err())
     }
 
-    /// The frame without contact, if the lab knew one.
+    /// The frame without contact, if the lab knew one; of joined recordings none, because each has its own.
     ///
     /// # Errors
     /// As [`frame`](Dataset::frame).
@@ -95,6 +101,9 @@ impl Dataset {
     /// # Errors
     /// [`DatasetError::Digest`] if they are not those recorded; [`DatasetError::Io`].
     pub fn frame_bytes(&self, entry: &FrameEntry) -> Result<Vec<u8>, DatasetError> {
+        if let Some((recording, entry)) = self.entry_of(entry) {
+            return recording.frame_bytes(&entry);
+        }
         let path = self.path().join(&entry.path);
         let bytes = match entry.span {
             Some(span) => {
@@ -137,6 +146,9 @@ impl Dataset {
     }
 
     pub(super) fn reference_entry(&self) -> Option<FrameEntry> {
+        if !self.joined.is_empty() {
+            return None;
+        }
         let reference = self.header.frames.as_ref()?.reference.as_ref()?;
         Some(FrameEntry {
             path: reference.path.clone(),

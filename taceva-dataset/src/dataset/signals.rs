@@ -26,13 +26,17 @@ impl Dataset {
     /// [`DatasetError::Request`] if there is no such row; [`DatasetError::Io`].
     pub fn signals(&self, row: usize) -> Result<Option<Signals>, DatasetError> {
         self.check_row(row)?;
+        if let Some((recording, row)) = self.recording_of(row) {
+            return recording.signals(row);
+        }
         match self.signals_reader()? {
             Some(reader) => reader.row(row).map(Some),
             None => Ok(None),
         }
     }
 
-    /// What the taxels say without contact: the mean over the rows that are known to be without; `None` if none is known.
+    /// What the taxels say without contact: the mean over the rows that are known to be without; `None` if none is known, and of joined
+    /// recordings, because each has its own.
     ///
     /// # Errors
     /// As [`signals`](Dataset::signals).
@@ -41,6 +45,9 @@ impl Dataset {
         reason = "means are formed in double precision and kept in single, as signals are"
     )]
     pub fn rest(&self) -> Result<Option<Signals>, DatasetError> {
+        if !self.joined.is_empty() {
+            return Ok(None);
+        }
         let (Some(info), Some(reader)) = (&self.header.signals, self.signals_reader()?) else {
             return Ok(None);
         };

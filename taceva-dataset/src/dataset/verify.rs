@@ -21,6 +21,10 @@ impl Dataset {
     /// # Errors
     /// As [`frame_bytes`](Dataset::frame_bytes), for the first that is not.
     pub fn verify_frames(&self) -> Result<(), DatasetError> {
+        if !self.joined.is_empty() {
+            let mut joined = self.joined.iter();
+            return joined.try_for_each(|joined| joined.dataset().verify_frames());
+        }
         let reference = self.reference_entry();
         let frames = self.table.frames().iter().flatten().chain(&reference);
         for entry in frames {

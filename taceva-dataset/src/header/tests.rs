@@ -38,6 +38,7 @@ fn header() -> Header {
         }),
         stream: None,
         signals: None,
+        extended: Vec::new(),
         presses: BTreeMap::from([
             (PressOutcome::Complete, 2),
             (PressOutcome::Limited(Limit::NormalForce), 1),

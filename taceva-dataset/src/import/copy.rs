@@ -15,7 +15,7 @@ use crate::error::DatasetError;
 use crate::layout;
 use crate::staged::{Place, StagedFolder};
 use crate::store::{Beside, write_table_and_header};
-use frames::copy_frames;
+pub(super) use frames::copy_frames;
 
 /// What an import did.
 ///
@@ -92,7 +92,7 @@ impl ImportPlan {
         let staged = StagedFolder::create(target, place)?;
         let mut table = self.table;
         let (frames, folders) = match &self.frames {
-            Some(frames) => copy_frames(&staged, frames, &mut table, jobs, progress)?,
+            Some(frames) => copy_frames(&staged, (frames, 0), &mut table, jobs, progress)?,
             None => (None, Vec::new()),
         };
         let signals = self.signals.as_ref().map(|signals| {

@@ -48,6 +48,8 @@ pub struct ImportPlan {
     pub(super) table: Table,
     pub(super) frames: Option<PlannedFrames>,
     pub(super) signals: Option<PlannedSignals>,
+    /// Whether samples are called by the number of their row, because the map names no column for it.
+    pub(super) is_numbered: bool,
 }
 
 /// Where the frames come from.
@@ -357,6 +359,7 @@ impl<'a> Reading<'a> {
             signals: signals.transpose()?,
             summary: self.summary,
             facts: self.map.facts.clone(),
+            is_numbered: self.map.ids.sample.is_none(),
             table: self.table,
             frames,
         })

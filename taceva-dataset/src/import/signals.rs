@@ -134,13 +134,28 @@ impl<'a> FoundSignals<'a> {
 }
 
 impl PlannedSignals {
-    /// Writes them to `path`; of an array no more than some rows are in memory.
+    /// The taxels, with the runs of rows without contact.
+    pub(super) fn spec(&self) -> &SignalsSpec {
+        &self.spec
+    }
+
+    /// Writes them to `path`.
     pub(super) fn write(
         &self,
         path: &Path,
         progress: &dyn Progress,
     ) -> Result<SignalsInfo, DatasetError> {
         let mut writer = SignalsWriter::create(path, &self.spec)?;
+        self.write_to(&mut writer, progress)?;
+        writer.finish()
+    }
+
+    /// Adds them to what `writer` holds; of an array no more than some rows are in memory.
+    pub(super) fn write_to(
+        &self,
+        writer: &mut SignalsWriter,
+        progress: &dyn Progress,
+    ) -> Result<(), DatasetError> {
         match &self.from {
             Found::Numbers(numbers) => {
                 for row in numbers.chunks_exact(self.spec.info.len()) {
@@ -150,8 +165,8 @@ impl PlannedSignals {
                     writer.push(row)?;
                 }
             }
-            Found::Array(array, rows) => array.write(&self.map, rows, (&mut writer, progress))?,
+            Found::Array(array, rows) => array.write(&self.map, rows, (writer, progress))?,
         }
-        writer.finish()
+        Ok(())
     }
 }

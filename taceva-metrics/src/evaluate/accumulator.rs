@@ -16,6 +16,7 @@ use crate::evaluate::independent::rows_as_clusters;
 use crate::evaluate::plan::MetricPlan;
 use crate::evaluate::state::{Shape, State, describe, written};
 use crate::families::family::Family;
+use crate::score::ClusteredBy;
 use crate::stats::IntervalMethod;
 use crate::stats::clusters::{Clustering, Clusters};
 
@@ -30,7 +31,7 @@ pub(crate) struct Accumulator {
     clustering: Clustering<ErasedSums>,
     clusters: Clusters<ErasedSums>,
     interval_method: IntervalMethod,
-    rows_as_clusters: bool,
+    clustered_by: ClusteredBy,
 }
 
 impl Accumulator {
@@ -47,14 +48,14 @@ impl Accumulator {
             clustering,
             clusters: Clusters::default(),
             interval_method: plan.interval_method(),
-            rows_as_clusters: false,
+            clustered_by: ClusteredBy::Point,
         }
     }
 
-    /// The same accumulator; where `rows_as_clusters`, each row is a cluster of its own.
-    pub(crate) fn with_rows_as_clusters(self, rows_as_clusters: bool) -> Accumulator {
+    /// The same accumulator with clusters of this kind.
+    pub(crate) fn clustered_by(self, clustered_by: ClusteredBy) -> Accumulator {
         Accumulator {
-            rows_as_clusters,
+            clustered_by,
             ..self
         }
     }
@@ -68,9 +69,10 @@ impl Accumulator {
             });
         }
         let family = &mut self.family;
-        let labels = match self.rows_as_clusters {
-            true => Some(Cow::Owned(rows_as_clusters(batch))),
-            false => family.clusters(batch),
+        let labels = match self.clustered_by {
+            ClusteredBy::Sample => Some(Cow::Owned(rows_as_clusters(batch))),
+            ClusteredBy::Recording => batch.recordings().map(Cow::Borrowed),
+            ClusteredBy::Point => family.clusters(batch),
         };
         self.clustering.deposit(
             &mut self.clusters,
@@ -124,8 +126,13 @@ impl Accumulator {
     fn shape(&self) -> Shape {
         let mut parameters = self.family.parameters();
         parameters.insert("seed".to_owned(), self.clustering.seed.to_string());
-        if self.rows_as_clusters {
-            parameters.insert("clusters".to_owned(), "samples".to_owned());
+        let clusters = match self.clustered_by {
+            ClusteredBy::Point => None,
+            ClusteredBy::Sample => Some("samples"),
+            ClusteredBy::Recording => Some("recordings"),
+        };
+        if let Some(clusters) = clusters {
+            parameters.insert("clusters".to_owned(), clusters.to_owned());
         }
         Shape {
             schema: self.family.schema(),

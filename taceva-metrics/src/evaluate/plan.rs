@@ -12,6 +12,7 @@ use crate::evaluate::facts::SensorFacts;
 use crate::evaluate::settings::Settings;
 use crate::metric::Metric;
 use crate::paired::is_valid;
+use crate::score::ClusteredBy;
 use crate::stats::IntervalMethod;
 
 /// What an evaluation of given channels and fields will compute.
@@ -37,7 +38,7 @@ pub struct MetricPlan {
     seed: u64,
     interval_method: IntervalMethod,
     constants: BTreeMap<String, f64>,
-    independent: bool,
+    clustered_by: ClusteredBy,
 }
 
 impl MetricPlan {
@@ -93,14 +94,47 @@ impl MetricPlan {
     #[must_use]
     pub fn independent_samples(self) -> MetricPlan {
         MetricPlan {
-            independent: true,
+            clustered_by: ClusteredBy::Sample,
             ..self
         }
     }
 
     /// Whether every sample is a cluster of its own.
     pub fn takes_samples_as_independent(&self) -> bool {
-        self.independent
+        self.clustered_by == ClusteredBy::Sample
+    }
+
+    /// The same plan for samples of several recordings, each of which is a cluster: intervals of errors, R², skill, planes, linearity, cross-talk,
+    /// bias by level and tolerance say how these vary from recording to recording, and name the method `by recording`. Batches say which
+    /// recording each sample is of ([`Batch::with_recordings`](taceva_core::Batch::with_recordings)); without it there are no such intervals.
+    /// Metrics that ask which samples belong together keep their contact locations.
+    ///
+    /// ```
+    /// use taceva_metrics::{Batch, Channel, Channels, Column, Evaluator, FieldSet, Labels, MetricPlan, catalogue};
+    /// let channels = Channels::new([Channel::FZ])?;
+    /// let plan = MetricPlan::new(&catalogue::ALL, channels.clone(), FieldSet::PAIRS).by_recording();
+    /// let mut recordings = Labels::default();
+    /// ["a", "b", "c", "d", "e"].iter().for_each(|name| recordings.push(name));
+    /// let truth = vec![Column::full(vec![0.1, 0.2, 0.3, 0.4, 0.5])];
+    /// let prediction = vec![Column::full(vec![0.2, 0.2, 0.2, 0.5, 0.7])];
+    /// let mut evaluator = Evaluator::new(&plan);
+    /// evaluator.update(&Batch::from_columns(channels, truth, prediction, None).with_recordings(recordings))?;
+    /// let scores = evaluator.finish()?;
+    /// let method = scores.mae(Channel::FZ).and_then(|score| score.interval.method()).ok_or("an interval")?;
+    /// assert_eq!(method, "jackknife by recording, G=5, logarithmic");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn by_recording(self) -> MetricPlan {
+        MetricPlan {
+            clustered_by: ClusteredBy::Recording,
+            ..self
+        }
+    }
+
+    /// What the clusters of intervals are, of metrics that do not ask which samples belong together.
+    pub fn clustered_by(&self) -> ClusteredBy {
+        self.clustered_by
     }
 
     /// The same plan for a model whose best constant predictions are known: by channel the mean of the labels it was fitted on, in the unit of

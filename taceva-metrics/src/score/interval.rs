@@ -23,6 +23,8 @@ pub enum ClusteredBy {
     Point,
     /// Single samples, taken as independent because the caller said that they are.
     Sample,
+    /// Whole recordings, of samples of several.
+    Recording,
 }
 
 impl ClusteredBy {
@@ -31,6 +33,7 @@ impl ClusteredBy {
         match self {
             ClusteredBy::Point => " by point_id",
             ClusteredBy::Sample => ", samples taken as independent",
+            ClusteredBy::Recording => " by recording",
         }
     }
 }
@@ -120,13 +123,13 @@ pub enum Interval {
 }
 
 impl Interval {
-    /// The same interval, whose clusters were single samples.
-    pub(crate) fn of_independent_samples(mut self) -> Interval {
+    /// The same interval, whose clusters were of this kind.
+    pub(crate) fn clustered_by(mut self, clusters: ClusteredBy) -> Interval {
         if let Interval::Jackknife { by, .. }
         | Interval::Bootstrap { by, .. }
         | Interval::Delta { by, .. } = &mut self
         {
-            *by = ClusteredBy::Sample;
+            *by = clusters;
         }
         self
     }

@@ -22,7 +22,7 @@ use crate::training::problem::{Problem, invalid};
 use crate::training::progress::{ReportedStage, interrupted};
 
 /// Linear discriminants: a channel is predicted as one of the values that it takes in the training part, that whose mean picture is
-/// nearest once the scatter within values is made round ([`Discriminant`]).
+/// nearest once features are whitened by the scatter within values ([`Discriminant`]).
 ///
 /// For boards, kinds and levels; what varies freely is refused, having too many values. Nothing is chosen by error, so the validation
 /// part is only scored.

@@ -1,4 +1,4 @@
-//! Models that ask one pixel after the other: trees grown on histograms, many at once or one after the other.
+//! Decision trees, each node of which compares one feature with a threshold: grown on histograms, many at once or one after the other.
 
 mod bins;
 mod boosting;

@@ -31,13 +31,13 @@ pub enum FeatureError {
     },
     /// Slopes are asked for and there is no colour to distinguish lamps by.
     #[error(
-        "frames of {info} have no colour, by which `features=gradients` tells three lamps apart"
+        "frames of {info} have no colour, by which `features=gradients` distinguishes three lamps"
     )]
     Lampless {
         /// The frame.
         info: FrameInfo,
     },
-    /// A comparison with a frame that nobody gave.
+    /// A comparison with a reference frame that the recording does not name.
     #[error("`{asked}` needs a no-contact reference frame, and the recording names none")]
     NoReference {
         /// The setting that asks for it.

@@ -1,4 +1,4 @@
-//! Features of gratings: how strong each fineness is in a picture, whatever the direction.
+//! Features of gratings: the power of a picture at each spatial frequency, whatever the direction.
 
 mod fourier;
 mod radial;

@@ -10,7 +10,7 @@ use super::spec::Color;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum FeatureKind {
-    /// How bright it is: the area average of its pixels. Blind to nothing, and to touch no more than to light.
+    /// How bright it is: the area average of its pixels. Every change enters, of light as much as of touch.
     Pixels,
     /// How far the markers around it have moved since nobody touched the gel, and how many of them are not seen.
     /// Blind to everything between markers, and to light.

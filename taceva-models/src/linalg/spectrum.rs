@@ -86,7 +86,7 @@ impl<'d, 'a> Spectrum<'d, 'a> {
         self.eigenvalues.iter().sum::<f64>() / self.eigenvalues.len() as f64
     }
 
-    /// What rounding makes of an eigenvalue 0: below it, nothing is known.
+    /// What rounding makes of an eigenvalue of 0: smaller eigenvalues are noise.
     pub(crate) fn noise(&self) -> f64 {
         let largest = self.eigenvalues.last().copied().unwrap_or(0.0);
         largest * self.eigenvalues.len() as f64 * f64::EPSILON

@@ -66,7 +66,7 @@ pub struct ModelCard {
     /// The library that fitted it and is needed to read it, where the model is of one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub library: Option<LibraryCard>,
-    /// The plugin that fitted it and is needed to ask it, where the model is of one.
+    /// The plugin that fitted it and is needed to predict with it, where the model is of one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plugin: Option<PluginCard>,
 }
@@ -81,7 +81,7 @@ pub enum Form {
         landmarks: usize,
         /// How far the kernel reaches, in typical distances of a sample from the mean.
         length: f64,
-        /// Whether it knows how sure it is.
+        /// Whether it estimates the standard deviation of its predictions.
         deviations: bool,
     },
     /// Training samples that are looked up.
@@ -140,7 +140,7 @@ pub struct ChannelCard {
     pub minimum: f64,
     /// Greatest minus least label of the training part; 1 where that is 0.
     pub span: f64,
-    /// The mean label of the training part, the best constant answer, by which skill is measured; absent in files of before skill.
+    /// The mean label of the training part, the best constant answer, by which skill is measured; absent in files from before skill was measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mean: Option<f64>,
     /// Whether every label of the training part is the same: the channel is predicted as that.
@@ -159,8 +159,11 @@ pub struct SampleCounts {
 /// Where samples come from.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Provenance {
-    /// The digest of the recording, `sha256:…`.
+    /// The digest of the recording, `sha256:…`; of several that of all of them in their order.
     pub data: Option<String>,
+    /// The digest of each recording, in their order, where there were several.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub recordings: Vec<String>,
     /// What made the recording.
     pub source: Source,
     /// How it was split.

@@ -1,6 +1,7 @@
 //! The part of every sample.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 
 use super::error::SplitError;
 use super::fractions::Fractions;
@@ -12,7 +13,7 @@ use taceva_core::random::SplitMix64;
 /// What a split may look at.
 ///
 /// # Shapes
-/// Every list has a value a row.
+/// Every list but `sections` has a value a row.
 #[derive(Clone, Debug, Default)]
 pub struct SplitInput<'a> {
     /// Number of samples.
@@ -25,6 +26,11 @@ pub struct SplitInput<'a> {
     pub parts: Option<&'a [String]>,
     /// Columns by name.
     pub columns: BTreeMap<&'a str, &'a [String]>,
+    /// The recording of each sample, where several are divided.
+    pub recordings: Option<&'a [String]>,
+    /// The first row of each section but the first, ascending: samples that were recorded, or added, later. Chance and time divide section by
+    /// section, so that samples which come later change the part of none that was there; empty: all samples are one section.
+    pub sections: &'a [usize],
 }
 
 /// The rows of each part, ascending.
@@ -107,12 +113,12 @@ impl SplitSpec {
         let split = match &self.kind {
             SplitKind::Random => {
                 let names: Vec<usize> = (0..input.rows).collect();
-                by_cluster(&names, self.fractions, seed, "samples")
+                by_cluster(&names, input, self.fractions, (seed, "samples"))
             }
             SplitKind::Chronological => chronological(input, self.fractions),
             SplitKind::ByPoint => {
                 let points = input.points.ok_or(SplitError::NoPoints)?;
-                by_cluster(points, self.fractions, seed, "points").map(|mut split| {
+                by_cluster(points, input, self.fractions, (seed, "points")).map(|mut split| {
                     if points.iter().collect::<BTreeSet<_>>().len() == input.rows {
                         split.note =
                             Some("every sample is a point of its own: by-point is random".into());
@@ -121,6 +127,8 @@ impl SplitSpec {
                 })
             }
             SplitKind::ByColumn(column) => by_column(input, column, self.fractions, seed),
+            SplitKind::ByRecording(parts) => by_recording(input, parts, self.fractions, seed),
+            SplitKind::LeaveOneRecordingOut => Err(SplitError::ManyFolds),
             SplitKind::Declared => declared(input),
             SplitKind::All => Ok(Split {
                 train: (0..input.rows).collect(),
@@ -146,6 +154,7 @@ impl SplitSpec {
         let named = match &self.kind {
             SplitKind::Declared => true,
             SplitKind::ByColumn(column) => !column.parts.is_empty(),
+            SplitKind::ByRecording(parts) => !parts.is_empty(),
             _ => false,
         };
         if named {
@@ -162,6 +171,7 @@ impl SplitInput<'_> {
             ("points", self.points.map(<[_]>::len)),
             ("times", self.times_s.map(<[_]>::len)),
             ("parts", self.parts.map(<[_]>::len)),
+            ("recordings", self.recordings.map(<[_]>::len)),
         ];
         let columns = self
             .columns
@@ -182,32 +192,99 @@ impl SplitInput<'_> {
     }
 }
 
+/// The sections of the rows, in order; whether a recording begins with each.
+fn sections<'a>(input: &'a SplitInput<'a>) -> impl Iterator<Item = (Range<usize>, bool)> + 'a {
+    let starts = std::iter::once(0).chain(input.sections.iter().copied());
+    let ends = input.sections.iter().copied().chain([input.rows]);
+    starts.zip(ends).map(|(start, end)| {
+        let begins = |names: &[String]| start == 0 || names[start] != names[start - 1];
+        (start..end, input.recordings.map_or(start == 0, begins))
+    })
+}
+
 /// Whole clusters, by chance. Clusters count alike, however many rows they have; where each row is one, this is the
 /// random split. Clusters are numbered by their first row, so a seed gives rows, not names, their part.
+///
+/// A cluster has the part of its first section. Chance begins anew with each recording, which is divided as it would be alone.
 fn by_cluster<N: Ord>(
     names: &[N],
+    input: &SplitInput<'_>,
     fractions: Fractions,
-    seed: u64,
-    what: &'static str,
+    (seed, what): (u64, &'static str),
 ) -> Result<Split, SplitError> {
-    let mut numbers = BTreeMap::new();
-    let clusters: Vec<usize> = names
-        .iter()
-        .map(|name| {
-            let next = numbers.len();
-            *numbers.entry(name).or_insert(next)
-        })
-        .collect();
-    let mut order: Vec<usize> = (0..numbers.len()).collect();
-    SplitMix64::new(seed).shuffle(&mut order);
-    let ranked = parts_in_order(order.len(), fractions, what)?;
-    let mut parts = vec![Part::Train; order.len()];
-    for (cluster, part) in order.into_iter().zip(ranked) {
-        parts[cluster] = part;
+    let mut part_of: BTreeMap<&N, Part> = BTreeMap::new();
+    let mut chance = SplitMix64::new(seed);
+    for (rows, is_new_recording) in sections(input) {
+        if is_new_recording {
+            chance = SplitMix64::new(seed);
+        }
+        let mut seen = BTreeSet::new();
+        let own = names[rows].iter();
+        let new: Vec<&N> = own
+            .filter(|name| !part_of.contains_key(name) && seen.insert(*name))
+            .collect();
+        let mut order: Vec<usize> = (0..new.len()).collect();
+        chance.shuffle(&mut order);
+        let ranked = parts_of_section(order.len(), input, fractions, what)?;
+        for (cluster, part) in order.into_iter().zip(ranked) {
+            part_of.insert(new[cluster], part);
+        }
     }
     Ok(Split::of(
-        clusters.into_iter().map(|cluster| Some(parts[cluster])),
+        names.iter().map(|name| part_of.get(name).copied()),
     ))
+}
+
+/// The parts of `total` clusters of a section: of one of several a part may stay empty.
+fn parts_of_section(
+    total: usize,
+    input: &SplitInput<'_>,
+    fractions: Fractions,
+    what: &'static str,
+) -> Result<Vec<Part>, SplitError> {
+    match parts_in_order(total, fractions, what) {
+        Err(SplitError::Few { .. }) if !input.sections.is_empty() => {
+            Ok(in_order(fractions.counts(total)))
+        }
+        parts => parts,
+    }
+}
+
+fn by_recording(
+    input: &SplitInput<'_>,
+    parts: &BTreeMap<String, Part>,
+    fractions: Fractions,
+    seed: u64,
+) -> Result<Split, SplitError> {
+    let recordings = input.recordings.ok_or(SplitError::NoRecordings {
+        split: "by-recording",
+    })?;
+    if parts.is_empty() {
+        // A recording is a cluster, whenever its samples were added.
+        let together = SplitInput {
+            sections: &[],
+            ..input.clone()
+        };
+        return by_cluster(recordings, &together, fractions, (seed, "recordings"));
+    }
+    if let Some(name) = parts.keys().find(|name| !recordings.contains(name)) {
+        let known = recordings
+            .iter()
+            .map(String::as_str)
+            .collect::<BTreeSet<_>>();
+        return Err(SplitError::NoRecording {
+            name: name.clone(),
+            suggestion: Suggestion::of(name, known),
+        });
+    }
+    let mut assigned = Split::of(recordings.iter().map(|name| parts.get(name).copied()));
+    if !assigned.left_out.is_empty() {
+        assigned.note = Some(format!(
+            "{} samples are left out: nobody assigned their recording",
+            assigned.left_out.len()
+        ));
+    }
+    Ok(assigned)
 }
 
 /// `total` parts: training first, then validation, then test; each with a share gets at least one.
@@ -228,11 +305,15 @@ fn parts_in_order(
             counts[part] += 1;
         }
     }
-    Ok(Part::ALL
-        .into_iter()
-        .zip(counts)
+    Ok(in_order(counts))
+}
+
+/// So many of each part, training first.
+fn in_order(counts: [usize; 3]) -> Vec<Part> {
+    let counted = Part::ALL.into_iter().zip(counts);
+    counted
         .flat_map(|(part, count)| std::iter::repeat_n(part, count))
-        .collect())
+        .collect()
 }
 
 fn chronological(input: &SplitInput<'_>, fractions: Fractions) -> Result<Split, SplitError> {
@@ -240,15 +321,15 @@ fn chronological(input: &SplitInput<'_>, fractions: Fractions) -> Result<Split, 
     if let Some(row) = times.iter().position(|time| !time.is_finite()) {
         return Err(SplitError::Time { row });
     }
-    let mut order: Vec<usize> = (0..input.rows).collect();
-    // Stable, so ties keep the order of rows; -0 and 0 are one time.
-    order.sort_by(|&a, &b| (times[a] + 0.0).total_cmp(&(times[b] + 0.0)));
     let mut parts = vec![None; input.rows];
-    for (row, part) in order
-        .into_iter()
-        .zip(parts_in_order(input.rows, fractions, "samples")?)
-    {
-        parts[row] = Some(part);
+    for (rows, _) in sections(input) {
+        let mut order: Vec<usize> = rows.collect();
+        // Stable, so ties keep the order of rows; -0 and 0 are one time.
+        order.sort_by(|&a, &b| (times[a] + 0.0).total_cmp(&(times[b] + 0.0)));
+        let ranked = parts_of_section(order.len(), input, fractions, "samples")?;
+        for (row, part) in order.into_iter().zip(ranked) {
+            parts[row] = Some(part);
+        }
     }
     Ok(Split::of(parts))
 }
@@ -268,7 +349,7 @@ fn by_column(
             suggestion: Suggestion::of(name, input.columns.keys().copied()),
         })?;
     if split.parts.is_empty() {
-        return by_cluster(values, fractions, seed, "values");
+        return by_cluster(values, input, fractions, (seed, "values"));
     }
     if let Some(value) = split.parts.keys().find(|value| !values.contains(value)) {
         return Err(SplitError::NoValue {

@@ -17,7 +17,7 @@ pub enum SplitError {
     },
     /// Values of a column that are not assigned as they should be.
     #[error(
-        "`{found}`: expected by-column:NAME or by-column:NAME=train:1,2;val:3;test:4, with train and test", found = taceva_core::shown(found)
+        "`{found}`: expected by-column:NAME, by-column:NAME=train:1,2;val:3;test:4 or by-recording=train:a,b;test:c, with train and test", found = taceva_core::shown(found)
     )]
     Assignment {
         /// What was found instead.
@@ -59,7 +59,7 @@ pub enum SplitError {
         /// The part.
         part: Part,
     },
-    /// Nobody named contact locations.
+    /// The recording names no contact points.
     #[error("split by-point: the recording names no `point_id`")]
     NoPoints,
     /// Nobody wrote down times.
@@ -89,6 +89,25 @@ pub enum SplitError {
         /// What it may have been meant to be.
         suggestion: Suggestion,
     },
+    /// A split of several recordings, and there is one.
+    #[error("split {split}: there is one recording; name two or more")]
+    NoRecordings {
+        /// The split.
+        split: &'static str,
+    },
+    /// A recording that is not among those that are divided.
+    #[error("split by-recording: no recording is called `{name}`, {suggestion}", name = taceva_core::shown(name))]
+    NoRecording {
+        /// The name as given.
+        name: String,
+        /// What it may have been meant to be.
+        suggestion: Suggestion,
+    },
+    /// A split that divides once for each recording, where one division is asked for.
+    #[error(
+        "split leave-one-recording-out fits a model for each recording: `evaluate` does, and one model is fitted with by-recording=train:a,b;test:c"
+    )]
+    ManyFolds,
     /// The recording declares no parts.
     #[error("split declared: the recording declares no parts")]
     NoParts,

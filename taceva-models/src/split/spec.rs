@@ -30,6 +30,10 @@ pub enum SplitKind {
     ByPoint,
     /// A column of the recording.
     ByColumn(ColumnSplit),
+    /// Of several recordings: chance, recording by recording, or the part that a person names for each; empty: chance.
+    ByRecording(BTreeMap<String, Part>),
+    /// Of several recordings: each is tested on by a model that was fitted on all others.
+    LeaveOneRecordingOut,
     /// The recording itself.
     Declared,
     /// Nothing: every sample is learnt from, for a final model that other recordings judge.
@@ -45,11 +49,13 @@ pub struct ColumnSplit {
     pub parts: BTreeMap<String, Part>,
 }
 
-const KINDS: [&str; 6] = [
+const KINDS: [&str; 8] = [
     "random",
     "chronological",
     "by-point",
     "by-column:NAME",
+    "by-recording",
+    "leave-one-recording-out",
     "declared",
     "all",
 ];
@@ -57,8 +63,8 @@ const KINDS: [&str; 6] = [
 impl FromStr for SplitSpec {
     type Err = SplitError;
 
-    /// Reads `random`, `chronological`, `by-point`, `by-column:NAME`, `by-column:NAME=train:1,2;val:3;test:4`, `declared` or `all`, and
-    /// after a blank the shares: `random 70/20/10`. What a split is displayed as reads back as the same split.
+    /// Reads `random`, `chronological`, `by-point`, `by-column:NAME`, `by-column:NAME=train:1,2;val:3;test:4`, `by-recording`,
+    /// `by-recording=train:a,b;test:c`, `leave-one-recording-out`, `declared` or `all`, and after a blank the shares: `random 70/20/10`. What a split is displayed as reads back as the same split.
     fn from_str(text: &str) -> Result<SplitSpec, SplitError> {
         let shares = text
             .rsplit_once(' ')
@@ -75,9 +81,15 @@ impl FromStr for SplitSpec {
             "by-point" => SplitKind::ByPoint,
             "declared" => SplitKind::Declared,
             "all" => SplitKind::All,
-            _ => match text.strip_prefix("by-column:") {
-                Some(rest) => SplitKind::ByColumn(column_split(rest)?),
-                None => {
+            "by-recording" => SplitKind::ByRecording(BTreeMap::new()),
+            "leave-one-recording-out" => SplitKind::LeaveOneRecordingOut,
+            _ => match (
+                text.strip_prefix("by-column:"),
+                text.strip_prefix("by-recording="),
+            ) {
+                (Some(rest), _) => SplitKind::ByColumn(column_split(rest)?),
+                (None, Some(rest)) => SplitKind::ByRecording(named_parts(text, rest)?),
+                (None, None) => {
                     return Err(SplitError::Kind {
                         given: text.to_owned(),
                         suggestion: Suggestion::of(text, KINDS),
@@ -106,8 +118,22 @@ fn column_split(text: &str) -> Result<ColumnSplit, SplitError> {
     if column.is_empty() {
         return Err(malformed(text));
     }
+    Ok(ColumnSplit {
+        column: column.to_owned(),
+        parts: match assignment {
+            Some(assignment) => named_parts(text, assignment)?,
+            None => BTreeMap::new(),
+        },
+    })
+}
+
+/// `train:1,2;val:3;test:4`, which is the end of `text`.
+fn named_parts(text: &str, assignment: &str) -> Result<BTreeMap<String, Part>, SplitError> {
+    let malformed = |found: &str| SplitError::Assignment {
+        found: found.to_owned(),
+    };
     let mut parts = BTreeMap::new();
-    for section in assignment.into_iter().flat_map(|all| all.split(';')) {
+    for section in assignment.split(';') {
         let (name, values) = section.split_once(':').ok_or_else(|| malformed(section))?;
         let part = Part::from_name(name).ok_or_else(|| malformed(section))?;
         for value in values.split(',') {
@@ -122,13 +148,10 @@ fn column_split(text: &str) -> Result<ColumnSplit, SplitError> {
         }
     }
     let named = |wanted: Part| parts.values().any(|&part| part == wanted);
-    if assignment.is_some() && !(named(Part::Train) && named(Part::Test)) {
-        return Err(malformed(text));
+    match named(Part::Train) && named(Part::Test) {
+        true => Ok(parts),
+        false => Err(malformed(text)),
     }
-    Ok(ColumnSplit {
-        column: column.to_owned(),
-        parts,
-    })
 }
 
 impl fmt::Display for SplitSpec {
@@ -139,6 +162,13 @@ impl fmt::Display for SplitSpec {
             SplitKind::ByPoint => f.write_str("by-point")?,
             SplitKind::Declared => return f.write_str("declared"),
             SplitKind::All => return f.write_str("all"),
+            SplitKind::LeaveOneRecordingOut => f.write_str("leave-one-recording-out")?,
+            SplitKind::ByRecording(parts) => {
+                f.write_str("by-recording")?;
+                if !parts.is_empty() {
+                    return write_parts(parts, f);
+                }
+            }
             SplitKind::ByColumn(split) => {
                 write!(f, "by-column:{}", split.column)?;
                 if !split.parts.is_empty() {
@@ -184,6 +214,15 @@ mod tests {
             (
                 "by-column:repeat=test:2;train:1",
                 "by-column:repeat=train:1;test:2",
+            ),
+            ("by-recording", "by-recording 70/20/10"),
+            (
+                "by-recording=test:c;train:a,b",
+                "by-recording=train:a,b;test:c",
+            ),
+            (
+                "leave-one-recording-out",
+                "leave-one-recording-out 70/20/10",
             ),
             ("declared", "declared"),
             ("all", "all"),

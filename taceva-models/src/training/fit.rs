@@ -21,10 +21,10 @@ use crate::training::choice::Choice;
 use crate::training::label_scaling::LabelScaling;
 use crate::training::problem::invalid;
 
-/// What a network says to features that are a list.
+/// The error of a network on features that are a list.
 pub(crate) const NO_PICTURE: &str = "a network reads pictures, and principal components are none";
 
-/// What the model of a plugin says to principal components.
+/// The error of the model of a plugin on principal components.
 const OPAQUE: &str = "the model of a plugin reads pixels; it cannot be joined with principal components, and may find its own";
 
 /// Implements [`Estimator`] for a [`ModelEstimator`]: its name, and the regressor that it fits.
@@ -158,7 +158,7 @@ impl ModelRegressor {
     /// The regressor of pixels that equals `self` on the components of `pca`.
     ///
     /// # Errors
-    /// [`ModelError`] for a network, which reads pictures, and for a plugin's, which nobody can look into.
+    /// [`ModelError`] for a network, which reads pictures, and for a plugin's, whose weights are not accessible.
     pub(crate) fn through(self, pca: Pca) -> Result<ModelRegressor, ModelError> {
         match self {
             ModelRegressor::Linear(linear) => linear.through(&pca).map(ModelRegressor::Linear),

@@ -1,4 +1,4 @@
-//! Reporting to whoever listens, and stopping when asked.
+//! Reporting progress, and stopping when asked.
 
 use taceva_core::{ErrorKind, ModelError, Progress};
 

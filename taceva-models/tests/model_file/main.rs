@@ -79,6 +79,7 @@ pub(crate) fn fit(name: &str, words: &[&str], spec: FeatureSpec) -> (Model, Feat
         validation: Some(set(&validation, &labels[80..])),
         provenance: Provenance {
             data: Some("sha256:00".into()),
+            recordings: Vec::new(),
             source: Source::Synthetic,
             split: Some(SplitCard {
                 split: "random 70/20/10".into(),

@@ -21,6 +21,7 @@ pub(super) const FILES: &[(&str, &str)] = &[
     ),
     ("digit.toml", include_str!("../../catalogue/digit.toml")),
     ("dtact.toml", include_str!("../../catalogue/dtact.toml")),
+    ("eflesh.toml", include_str!("../../catalogue/eflesh.toml")),
     ("eval.toml", include_str!("../../catalogue/eval.toml")),
     ("f-touch.toml", include_str!("../../catalogue/f-touch.toml")),
     (
@@ -46,6 +47,10 @@ pub(super) const FILES: &[(&str, &str)] = &[
     ("gelslim.toml", include_str!("../../catalogue/gelslim.toml")),
     ("geltip.toml", include_str!("../../catalogue/geltip.toml")),
     ("hivtac.toml", include_str!("../../catalogue/hivtac.toml")),
+    (
+        "icub-fingertip.toml",
+        include_str!("../../catalogue/icub-fingertip.toml"),
+    ),
     ("insight.toml", include_str!("../../catalogue/insight.toml")),
     (
         "magictac.toml",

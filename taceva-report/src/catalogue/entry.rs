@@ -17,7 +17,7 @@ pub struct Sensor {
     pub name: String,
     /// `sensor`, or `study` of an evaluation of others.
     pub kind: Kind,
-    /// IMM (intensity mapping), MDM (marker displacement), MFM (modality fusion).
+    /// IMM (intensity mapping), MDM (marker displacement), MFM (modality fusion) of a sensor with a camera; `magnetic` or `capacitive` of taxels.
     pub mechanism: Vec<String>,
     /// Its form.
     pub shape: Option<String>,

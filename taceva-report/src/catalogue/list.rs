@@ -23,10 +23,7 @@ pub fn list(sensors: &[Sensor]) -> Table {
         Column::new("rate").unit("Hz"),
         Column::new("numbers"),
     ];
-    let mut table = Table::new(
-        "Catalogue of vision-based tactile sensors, as published",
-        columns,
-    );
+    let mut table = Table::new("Catalogue of tactile sensors, as published", columns);
     let is_sensor = |entry: &&Sensor| entry.kind == Kind::Sensor;
     for sensor in sensors.iter().filter(is_sensor) {
         let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), numeral);

@@ -32,6 +32,9 @@ pub enum CatalogueError {
     },
 }
 
+/// How a sensor senses: by a camera, whose words are those of the TacEva study, or by taxels.
+const MECHANISMS: [&str; 5] = ["IMM", "MDM", "MFM", "magnetic", "capacitive"];
+
 impl Sensor {
     /// The sensor described by `text`, the content of `file`.
     ///
@@ -55,9 +58,13 @@ impl Sensor {
         if let Some(word) = sensor
             .mechanism
             .iter()
-            .find(|word| !["IMM", "MDM", "MFM"].contains(&word.as_str()))
+            .find(|word| !MECHANISMS.contains(&word.as_str()))
         {
-            return Err(refuse("mechanism", word, "IMM, MDM or MFM"));
+            return Err(refuse(
+                "mechanism",
+                word,
+                "IMM, MDM, MFM, magnetic or capacitive",
+            ));
         }
         for result in &sensor.results {
             let expected = definition::of(&result.metric, &result.channel);

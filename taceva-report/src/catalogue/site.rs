@@ -40,13 +40,14 @@ fn index(sensors: &[Sensor], ours: &[Study]) -> String {
     let list = format!(
         "<fieldset><legend>Show</legend><label>containing <input type=\"search\" data-filter=\"text\"></label>\
          <label>mechanism <select data-filter=\"tag\"><option value=\"\">any</option><option value=\"imm\">IMM: intensity</option>\
-         <option value=\"mdm\">MDM: markers</option><option value=\"mfm\">MFM: fusion</option></select></label>\
+         <option value=\"mdm\">MDM: markers</option><option value=\"mfm\">MFM: fusion</option>\
+         <option value=\"magnetic\">magnetic taxels</option><option value=\"capacitive\">capacitive taxels</option></select></label>\
          <label>light <select data-filter=\"tag\"><option value=\"\">any</option><option value=\"opaque\">kept out</option></select></label>\
          <label>numbers <select data-filter=\"tag\"><option value=\"\">any</option><option value=\"numbers\">published here</option></select></label></fieldset>\n\
          <div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"Sensors\"><table class=\"sorts\"><thead><tr><th scope=\"col\">sensor</th><th scope=\"col\">mechanism</th>\
          <th scope=\"col\" class=\"r\">MAE Pxy (mm) ↓</th><th scope=\"col\" class=\"r\">MAE Pz (mm) ↓</th><th scope=\"col\" class=\"r\">MAE Fxy (N) ↓</th>\
          <th scope=\"col\" class=\"r\">MAE Fz (N) ↓</th><th scope=\"col\" class=\"r\">rate (Hz)</th><th scope=\"col\" class=\"r\">reported</th></tr></thead><tbody>\n{rows}</tbody></table></div>\n\
-         <p class=\"note\">A dash: no number of that metric and unit is known here. The page of a sensor has every number that is. IMM maps intensity, MDM displacements of markers, MFM fuses modalities. The last column counts which of ten properties the work itself reports.</p>"
+         <p class=\"note\">A dash: no number of that metric and unit is known here. The page of a sensor has every number that is. IMM maps intensity, MDM displacements of markers, MFM fuses modalities; magnetic and capacitive sensors have taxels and no camera. The last column counts which of ten properties the work itself reports.</p>"
     );
     document.section("sensors", "Sensors", &list);
     let studies: String = of_kind(Kind::Study).map(study).collect();

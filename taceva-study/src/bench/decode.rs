@@ -75,7 +75,7 @@ pub fn decode(
     };
     // Before the work: whether frames are JPEG.
     let smallest = Dataset::open_scaled(path, DecodeScale::Eighth)?;
-    let divided = Divided::new(smallest.table(), request.split.as_deref(), request.seed)?;
+    let divided = Divided::new(&smallest, request.split.as_deref(), request.seed)?;
     let mut rows = Vec::new();
     let mut full: Option<Full> = None;
     work.progress

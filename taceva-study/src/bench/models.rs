@@ -117,7 +117,7 @@ pub fn models(
         // Asked before the work: an unknown setting must not cost the fits before it.
         request.check()?;
     }
-    let divided = Divided::new(dataset.table(), first.split.as_deref(), first.seed)?;
+    let divided = Divided::new(dataset, first.split.as_deref(), first.seed)?;
     // What is kept would count for the models that come second.
     let work = Work {
         cache: None,

@@ -1,10 +1,11 @@
 //! Which metrics read which rows: scores of predictions belong to what the model has not seen, the truth alone to everything.
 
 use std::num::NonZeroUsize;
+use std::ops::Range;
 
 use taceva_core::{Column, Field};
 use taceva_dataset::Dataset;
-use taceva_metrics::{Evaluator, Metric, MetricPlan};
+use taceva_metrics::{ClusteredBy, Evaluation, Evaluator, Metric, MetricPlan};
 
 use crate::accumulate::{Columns, accumulate};
 use crate::error::StudyError;
@@ -55,7 +56,7 @@ impl<'a> Passes<'a> {
             let columns = Columns {
                 truth: predicted.truth(),
                 prediction,
-                table: dataset.table(),
+                dataset,
                 rows,
             };
             let plan = self.restricted(metrics)?;
@@ -72,13 +73,45 @@ impl<'a> Passes<'a> {
             let columns = Columns {
                 prediction: &vec![nothing; truth.len()],
                 truth: &truth,
-                table: dataset.table(),
+                dataset,
                 rows: &rows,
             };
             let plan = self.restricted(&self.of_truth)?;
             total.merge(accumulate(&columns, &plan, jobs)?)?;
         }
         Ok(total)
+    }
+
+    /// The scores of predictions of one recording alone: of those of `rows` at the positions `own`. Intervals are by its contact points.
+    pub(super) fn of_recording(
+        &self,
+        dataset: &Dataset,
+        predicted: &Predicted,
+        (rows, own): (&[usize], Range<usize>),
+        jobs: NonZeroUsize,
+    ) -> Result<Evaluation, StudyError> {
+        let slice = |columns: &[Column]| -> Vec<Column> {
+            let own = || own.clone();
+            columns.iter().map(|column| column.slice(own())).collect()
+        };
+        let truth = slice(predicted.truth());
+        let metrics = [&self.of_predictions[..], &self.of_unbounded].concat();
+        let mut total = Evaluator::new(&self.restricted(&metrics)?);
+        for (metrics, prediction) in [
+            (&self.of_predictions, predicted.prediction()),
+            (&self.of_unbounded, predicted.unbounded()),
+        ] {
+            let columns = Columns {
+                truth: &truth,
+                prediction: &slice(prediction),
+                dataset,
+                rows: &rows[own.clone()],
+            };
+            let plan = self.restricted(metrics)?;
+            total.merge(accumulate(&columns, &plan, jobs)?)?;
+        }
+        let evaluation = total.finish()?;
+        Ok(evaluation.with_bounded_shares(&predicted.bounded(own).shares()))
     }
 
     /// A note where two sets of rows were read.
@@ -101,7 +134,10 @@ impl<'a> Passes<'a> {
             .with_interval_method(plan.interval_method())
             .with_constants(plan.constants().clone())?
             .with_settings(*plan.settings())?;
-        Ok(restricted)
+        Ok(match plan.clustered_by() {
+            ClusteredBy::Recording => restricted.by_recording(),
+            _ => restricted,
+        })
     }
 }
 

@@ -33,7 +33,6 @@ pub fn feature_table(
         (None, Some(info)) => asked.of_signals(info),
         _ => asked,
     };
-    let extractor = extractor(dataset, spec)?;
-    let features = extract(dataset, &extractor, rows, work)?;
+    let features = extract(dataset, |recording| extractor(recording, spec), rows, work)?;
     Ok(FeatureTable { features, spec })
 }

@@ -9,6 +9,7 @@ use taceva_models::{FeatureSpec, FitInput, Model, ModelEstimator, Provenance, Sp
 use super::{FitPlan, Fitted};
 use crate::error::StudyError;
 use crate::features::{blank, extract, extractor, kinds};
+use crate::recordings;
 use crate::work::Work;
 
 /// Features of the training part and then of the validation part, what they are, and what they are of.
@@ -53,11 +54,16 @@ impl FitPlan<'_> {
                 input: self.any_input(spec),
             });
         }
-        let extractor = extractor(self.dataset, spec)?;
+        let (frame, signals) = kinds(self.dataset);
+        let input = match spec.channels {
+            None => frame.map(InputInfo::from),
+            Some(_) => signals.map(InputInfo::from),
+        };
+        let of = |recording: &Dataset| extractor(recording, spec);
         Ok(Seen {
             spec,
-            features: extract(self.dataset, &extractor, &rows, work)?,
-            input: extractor.input(),
+            features: extract(self.dataset, of, &rows, work)?,
+            input: input.unwrap_or_else(|| self.any_input(spec)),
         })
     }
 
@@ -137,6 +143,10 @@ impl FitPlan<'_> {
         };
         Provenance {
             data: Some(self.dataset.digest().to_string()),
+            recordings: recordings::provenance(self.dataset)
+                .into_iter()
+                .map(|own| own.digest)
+                .collect(),
             source,
             split: Some(SplitCard {
                 split: self.divided.spec.to_string(),

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use taceva_core::{Channels, Column};
 
 use crate::bounded::Bounded;
+use crate::error::StudyError;
 use crate::rows::DataPart;
 
 /// Predictions of some rows of a dataset, with their truth.
@@ -32,6 +33,54 @@ pub struct Predicted {
 }
 
 impl Predicted {
+    /// The predictions of both, those of `other` behind, which another model made; of these no constant is known.
+    ///
+    /// # Errors
+    /// [`StudyError::Unsuited`] if they are not of the same channels.
+    pub(crate) fn followed_by(mut self, other: Predicted) -> Result<Predicted, StudyError> {
+        if self.channels != other.channels {
+            return Err(StudyError::Unsuited(
+                "the models of two folds predict different channels: name them with --channels"
+                    .to_owned(),
+            ));
+        }
+        fn join(own: &mut [Column], other: &[Column]) {
+            for (own, other) in own.iter_mut().zip(other) {
+                (0..other.len()).for_each(|row| own.push(other.get(row)));
+            }
+        }
+        self.ids.extend(other.ids);
+        self.points = self.points.zip(other.points).map(|(mut own, other)| {
+            own.extend(other);
+            own
+        });
+        for (name, texts) in other.beside {
+            if let Some((_, own)) = self.beside.iter_mut().find(|(known, _)| *known == name) {
+                own.extend(texts);
+            }
+        }
+        join(&mut self.truth, &other.truth);
+        join(&mut self.prediction, &other.prediction);
+        join(&mut self.unbounded, &other.unbounded);
+        self.deviation = self.deviation.zip(other.deviation).map(|(mut own, other)| {
+            join(&mut own, &other);
+            own
+        });
+        let beyond = self.beyond.into_iter().zip(other.beyond);
+        let both = beyond.map(|pair| match pair {
+            (Some(mut own), Some(other)) => {
+                own.extend(other);
+                Some(own)
+            }
+            _ => None,
+        });
+        self.beyond = both.collect();
+        self.constants.clear();
+        self.frames_decoded += other.frames_decoded;
+        self.left_out += other.left_out;
+        Ok(self)
+    }
+
     /// The part of the dataset.
     pub fn part(&self) -> &'static str {
         self.part.name()

@@ -104,12 +104,12 @@ impl<'a> PhaseRows<'a> {
 
     /// The presses that a model is fitted on, divided with contact points kept whole; all others are in no part.
     pub(super) fn divided(&self, request: &FitRequest) -> Result<Divided, StudyError> {
-        let table = self.dataset.table();
+        let dataset = self.dataset;
         if self.rows.is_none() {
-            return Divided::new(table, request.split.as_deref(), request.seed);
+            return Divided::new(dataset, request.split.as_deref(), request.seed);
         }
         let rows = self.rows(PhaseKind::Calibration);
-        Divided::within(table, &rows, Some("by-point"), request.seed)
+        Divided::within(dataset, &rows, Some("by-point"), request.seed)
     }
 
     /// A note if presses ended early.

@@ -126,7 +126,7 @@ impl Scores<'_> {
         let columns = Columns {
             truth: &truth,
             prediction: &prediction,
-            table,
+            dataset: self.dataset,
             rows: &rows,
         };
         let predicted_spacings = self

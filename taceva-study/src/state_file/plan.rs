@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use taceva_core::{
     Channel, Channels, Field, FieldSet, Footprint, Nanometre, Newton, Outline, Unit,
 };
-use taceva_metrics::{MetricPlan, SensorFacts, Settings, catalogue};
+use taceva_metrics::{ClusteredBy, MetricPlan, SensorFacts, Settings, catalogue};
 
 use crate::error::StudyError;
 
@@ -32,6 +32,9 @@ pub(super) struct WrittenPlan {
     /// The constants that skill is measured by, by channel, where they are known and the same in all states.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub(super) constants: BTreeMap<String, f64>,
+    /// Whether recordings are the clusters of intervals, and not contact points.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    by_recording: bool,
 }
 
 /// A footprint in whole nanometres: a radius, or half a width and half a height.
@@ -74,6 +77,7 @@ impl WrittenPlan {
             smoothing_window: settings.smoothing_window,
             resolution_tolerance_nm: settings.resolution_tolerance.0,
             constants: plan.constants().clone(),
+            by_recording: plan.clustered_by() == ClusteredBy::Recording,
         }
     }
 
@@ -124,7 +128,10 @@ impl WrittenPlan {
                     .with_smoothing_window(self.smoothing_window)
                     .with_resolution_tolerance(Nanometre(self.resolution_tolerance_nm)),
             );
-        Ok(plan?)
+        Ok(match self.by_recording {
+            true => plan?.by_recording(),
+            false => plan?,
+        })
     }
 }
 

@@ -19,7 +19,7 @@ pub(super) fn run(args: &RigCheckArgs, context: &Context) -> anyhow::Result<u8> 
     let mut terminal = operator::terminal(None);
     if terminal.is_none() && !rig.simulated && rig.robot.is_some() {
         context.say(format_args!(
-            "nobody is at a terminal to let the robot move: it is not halted on its way"
+            "there is no terminal at which somebody could let the robot move: its halt is not timed"
         ));
     }
     let asked = terminal

@@ -23,19 +23,20 @@ const COPIES_A_JOB: NonZeroUsize = NonZeroUsize::new(4).expect("four");
 /// Pictures of other files that are held in memory while they are written, bytes.
 const HELD_BYTES: usize = 16 << 20;
 
-/// Copies all frames; returns what they share and the folders they lie in.
-pub(super) fn copy_frames(
+/// Copies all frames, that of the first row as frame number `first`; returns what they share and the folders they lie in, which are made where
+/// they are not there.
+pub(in crate::import) fn copy_frames(
     staged: &StagedFolder,
-    frames: &PlannedFrames,
+    (frames, first): (&PlannedFrames, usize),
     table: &mut Table,
     jobs: NonZeroUsize,
     progress: &dyn Progress,
 ) -> Result<(Option<FramesInfo>, Vec<String>), DatasetError> {
     let count = frames.of_rows.len();
     let mut folders = vec![layout::FRAMES.to_owned()];
-    folders.extend(layout::frame_folders(count));
+    folders.extend(layout::frame_folders(first..first + count));
     for folder in &folders {
-        staged.create_folder(folder)?;
+        staged.ensure_folder(folder)?;
     }
     progress.begin("verify and copy frames", Some(count as u64));
     let mut copying = Copying {
@@ -44,13 +45,14 @@ pub(super) fn copy_frames(
         table,
         jobs: jobs.saturating_mul(COPIES_A_JOB),
         progress,
-        first: None,
+        number: first,
+        alike: None,
     };
     let outcome = copying.all();
-    let first = copying.first;
+    let alike = copying.alike;
     progress.end();
     outcome?;
-    let Some((_, info)) = first else {
+    let Some((_, info)) = alike else {
         return Ok((None, folders));
     };
     let reference = frames
@@ -80,8 +82,10 @@ struct Copying<'a> {
     table: &'a mut Table,
     jobs: NonZeroUsize,
     progress: &'a dyn Progress,
+    /// The number of the frame of the first row.
+    number: usize,
     /// What every frame is like.
-    first: Option<(ImageKind, FrameInfo)>,
+    alike: Option<(ImageKind, FrameInfo)>,
 }
 
 impl Copying<'_> {
@@ -93,14 +97,14 @@ impl Copying<'_> {
                 FrameSource::Within(..) => None,
             })
             .collect();
-        let (staged, order) = (self.staged, self.frames.order);
+        let (staged, order, number) = (self.staged, self.frames.order, self.number);
         ordered_map(
             files.len(),
             self.jobs,
             |at| {
                 let (row, path) = files[at];
                 Copied::of_file(staged, path, order, |extension| {
-                    layout::frame_path(row, extension)
+                    layout::frame_path(number + row, extension)
                 })
             },
             |at, copied| self.take(files[at].0, copied),
@@ -145,13 +149,13 @@ impl Copying<'_> {
     }
 
     fn write(&mut self, path: &Path, held: Vec<(usize, Arc<Picture>)>) -> Result<(), DatasetError> {
-        let (staged, order) = (self.staged, self.frames.order);
+        let (staged, order, number) = (self.staged, self.frames.order, self.number);
         ordered_map(
             held.len(),
             self.jobs,
             |at| {
                 let (row, picture) = &held[at];
-                Copied::of_picture(staged, path, picture, (order, *row))
+                Copied::of_picture(staged, path, picture, (order, number + *row))
             },
             |at, copied| self.take(held[at].0, copied),
         )
@@ -168,7 +172,7 @@ impl Copying<'_> {
         let named_at = || self.frames.of_rows[row].named_at.clone();
         let copied = copied.map_err(|error| error.named_at(named_at()))?;
         let found = (copied.kind, copied.info);
-        let expected = *self.first.get_or_insert(found);
+        let expected = *self.alike.get_or_insert(found);
         check_alike(self.frames, row, expected, found)?;
         self.table.set_frame(row, copied.entry, copied.intensity);
         self.progress.advance(1);

@@ -61,17 +61,17 @@ impl Copied {
         Copied::write(staged, place(extension), &bytes, (kind, &frame))
     }
 
-    /// Writes a picture found in the file at `path` as the frame of `row`: its bytes where it was encoded, else as PNG.
+    /// Writes a picture found in the file at `path` as frame `number`: its bytes where it was encoded, else as PNG.
     pub(super) fn of_picture(
         staged: &StagedFolder,
         path: &Path,
         picture: &Picture,
-        (order, row): (ChannelOrder, usize),
+        (order, number): (ChannelOrder, usize),
     ) -> Result<Copied, DatasetError> {
         match picture {
             Picture::Encoded(bytes) => {
                 let (kind, frame) = whole(bytes, order).map_err(|problem| wrong(path, problem))?;
-                let relative = layout::frame_path(row, kind.extension());
+                let relative = layout::frame_path(number, kind.extension());
                 Copied::write(staged, relative, bytes, (kind, &frame))
             }
             Picture::Pixels(frame) => {
@@ -85,7 +85,7 @@ impl Copied {
                     return Err(wrong(path, problem));
                 }
                 let bytes = encode_png(frame).map_err(|problem| wrong(path, problem))?;
-                let relative = layout::frame_path(row, ImageKind::Png.extension());
+                let relative = layout::frame_path(number, ImageKind::Png.extension());
                 Copied::write(staged, relative, &bytes, (ImageKind::Png, frame))
             }
         }

@@ -142,9 +142,8 @@ impl Accumulator {
             }
             _ => Interval::Undefined(UndefinedReason::Empty),
         };
-        let interval = |value: &Value, name: Option<&str>| match self.rows_as_clusters {
-            true => of_value(value, name).of_independent_samples(),
-            false => of_value(value, name),
+        let interval = |value: &Value, name: Option<&str>| {
+            of_value(value, name).clustered_by(self.clustered_by)
         };
         let parts = output.parts.iter();
         let n = parts

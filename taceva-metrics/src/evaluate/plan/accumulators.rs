@@ -24,8 +24,8 @@ impl MetricPlan {
     /// One accumulator for all metrics that share what is kept.
     pub(crate) fn accumulators(&self) -> Vec<Accumulator> {
         let families = [
-            Pairs::for_plan(self).map(|family| self.by_row(family)),
-            Plane::for_metrics(&self.kept, &self.channels).map(|family| self.by_row(family)),
+            Pairs::for_plan(self).map(|family| self.as_asked(family)),
+            Plane::for_metrics(&self.kept, &self.channels).map(|family| self.as_asked(family)),
             Resolution::for_plan(self).map(|family| self.clustered(family)),
             Surface::for_plan(self).map(|family| self.clustered(family)),
             Spatial::for_plan(self).map(|family| self.clustered(family)),
@@ -35,10 +35,10 @@ impl MetricPlan {
             InterSensor::for_plan(self).map(|family| self.clustered(family)),
             Intrinsic::for_plan(self).map(|family| self.clustered(family)),
             Idle::for_plan(self).and_then(|kind| self.by_channel(kind, MetricPlan::clustered)),
-            self.by_channel(Lines, MetricPlan::by_row),
-            Crosstalk::for_plan(self).map(|family| self.by_row(family)),
-            self.by_channel(Levels, MetricPlan::by_row),
-            self.by_channel(Tolerances::for_plan(self), MetricPlan::by_row),
+            self.by_channel(Lines, MetricPlan::as_asked),
+            Crosstalk::for_plan(self).map(|family| self.as_asked(family)),
+            self.by_channel(Levels, MetricPlan::as_asked),
+            self.by_channel(Tolerances::for_plan(self), MetricPlan::as_asked),
             self.by_channel(Drifts, MetricPlan::clustered),
         ];
         families.into_iter().flatten().collect()
@@ -55,12 +55,12 @@ impl MetricPlan {
         ByChannel::for_plan(kind, self).map(|family| clustered(self, family))
     }
 
-    /// An accumulator whose clusters are rows where samples are taken as independent.
-    fn by_row<F>(&self, family: F) -> Accumulator
+    /// An accumulator whose clusters are those that the plan asks for: rows where samples are taken as independent, recordings, or contact points.
+    fn as_asked<F>(&self, family: F) -> Accumulator
     where
         F: Family,
     {
-        Accumulator::new(family, self).with_rows_as_clusters(self.independent)
+        Accumulator::new(family, self).clustered_by(self.clustered_by)
     }
 
     fn clustered<F>(&self, family: F) -> Accumulator

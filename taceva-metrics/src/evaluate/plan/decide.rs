@@ -11,6 +11,7 @@ use crate::evaluate::settings::Settings;
 use crate::families::accuracy::Plane;
 use crate::families::intrinsic::{self, Intrinsic};
 use crate::metric::{Formula, Metric};
+use crate::score::ClusteredBy;
 use crate::stats::IntervalMethod;
 
 impl MetricPlan {
@@ -30,7 +31,7 @@ impl MetricPlan {
             seed: 0,
             interval_method: IntervalMethod::default(),
             constants: BTreeMap::new(),
-            independent: false,
+            clustered_by: ClusteredBy::Point,
         };
         plan.decided()
     }

@@ -7,20 +7,20 @@ use taceva_core::{ErrorKind, ModelError, Progress, SilentProgress};
 
 use super::scatter::{Blocks, Scatter, means, whitening};
 
-/// Predicts the class of features: that whose mean is nearest once the scatter within classes is made round.
+/// Predicts the class of features: that whose mean is nearest once features are whitened by the scatter within classes.
 ///
 /// With S the covariance within classes, x is of the class c with the least (x − μ_c)ᵀ S*⁻¹ (x − μ_c), all classes taken as equally
 /// frequent; S* = ρ m I + (1 − ρ) S with m = tr S / p, and ρ the share that minimises the expected squared error of S*, so that few samples
-/// of many features give no wild answers.
+/// of many features still give a covariance that can be inverted.
 ///
 /// # Reference
 /// Fisher (1936) for the discriminant; Ledoit and Wolf (2004), A well-conditioned estimator for large-dimensional covariance matrices,
 /// equations 9 to 14, for ρ.
 #[derive(Clone, Debug)]
 pub struct Discriminant {
-    /// Turns features into round ones: `[features, features]`.
+    /// Whitens features: `[features, features]`.
     whitening: Mat<f64>,
-    /// Means of classes in round features; absent for classes without a sample.
+    /// Means of classes in whitened features; absent for classes without a sample.
     centres: Vec<Option<Vec<f64>>>,
 }
 

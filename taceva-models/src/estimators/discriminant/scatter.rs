@@ -1,4 +1,4 @@
-//! How samples scatter about the means of their classes, shrunk so that few samples give no wild answers.
+//! How samples scatter about the means of their classes, shrunk so that it can be inverted where samples are few.
 
 use std::ops::Range;
 
@@ -92,7 +92,7 @@ impl Scatter {
         })
     }
 
-    /// S*: the covariance, drawn towards a round one.
+    /// S*: the covariance, shrunk towards a multiple of the identity.
     pub(super) fn shrunk(self) -> Mat<f64> {
         let mut covariance = self.covariance;
         let length = covariance.nrows();

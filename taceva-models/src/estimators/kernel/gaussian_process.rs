@@ -1,4 +1,4 @@
-//! A Gaussian process on landmarks, its settings those under which the labels are likeliest.
+//! A Gaussian process on landmarks, with the settings of greatest likelihood.
 
 use std::borrow::Cow;
 

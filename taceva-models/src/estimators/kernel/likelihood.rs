@@ -1,4 +1,4 @@
-//! The ratio of noise to signal under which labels are likeliest.
+//! The ratio of noise to signal of greatest likelihood.
 
 use faer::Mat;
 
@@ -11,7 +11,7 @@ pub(super) fn ratios() -> Vec<f64> {
         .collect()
 }
 
-/// What one channel is likeliest to be.
+/// The settings of greatest likelihood of one channel.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Likeliest {
     /// −2 log of the likelihood, up to what no setting changes.

@@ -50,7 +50,7 @@ impl KernelRidge {
     }
 }
 
-/// The length of `kernel` at which ridge regression errs least, and its fit there.
+/// The length of `kernel` at which ridge regression has least error, and its fit there.
 pub(super) fn fit_best(
     kernel: &Kernel,
     refit: bool,

@@ -26,7 +26,7 @@ pub struct LibraryTask<'a> {
     pub labels: &'a [f64],
     /// `[targets]`: the value of the setting that is chosen, for each target; empty where there is none.
     pub values: &'a [f64],
-    /// Who listens, and may cancel between calls of the library.
+    /// Receives progress, and may cancel between calls of the library.
     pub progress: &'a dyn Progress,
 }
 

@@ -98,7 +98,7 @@ impl Checkpoints {
         }
     }
 
-    /// Puts `trainer`, whose training is `identity`, aside.
+    /// Writes the checkpoint of `trainer`, whose training is `identity`.
     fn put(&self, identity: &Identity, trainer: &Trainer<'_>) -> Result<(), CheckpointError> {
         let checkpoint = trainer.checkpoint().map_err(CheckpointError::Unread)?;
         taceva_durable::replace(&self.path, &self.beside(), |beside| {
@@ -142,7 +142,7 @@ impl<'a> Shelf<'a> {
         Ok(())
     }
 
-    /// Puts the training aside if that was not done for long enough.
+    /// Writes a checkpoint if the last one is old enough.
     pub(super) fn put_if_due(&mut self, trainer: &Trainer<'_>) -> Result<(), CheckpointError> {
         if self.last.elapsed() >= self.checkpoints.every {
             self.put(trainer)?;

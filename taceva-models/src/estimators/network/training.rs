@@ -22,7 +22,7 @@ pub(super) struct Training<'a> {
 }
 
 impl<'a> Training<'a> {
-    /// Makes all steps that are left, with a word to whoever listens after each.
+    /// Makes all remaining steps, and reports progress after each.
     pub(super) fn run(&self, progress: &dyn Progress) -> Result<Trained, ModelError> {
         let mut shelf = self.shelf();
         let (name, mut trainer) = self.begin(shelf.as_ref())?;
@@ -82,7 +82,7 @@ impl<'a> Training<'a> {
     }
 }
 
-/// What is said of a training that cannot go on, whose best epoch is kept where there is a place for it.
+/// The error of a training that cannot go on; its best epoch is kept where checkpoints are.
 fn broken(error: NetworkError, trainer: &Trainer<'_>, shelf: Option<Shelf<'_>>) -> ModelError {
     let refusal = refused(error);
     let Some((best, mut shelf)) = trainer.state().best.zip(shelf) else {

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use taceva_core::{EstimatorFactory, ModelError};
 
-/// What a card says of the plugin that fitted a model and is needed to ask it.
+/// What a card says of the plugin that fitted a model and is needed to predict with it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PluginCard {
     /// The plugin.

@@ -10,7 +10,7 @@ use taceva_core::random::SplitMix64;
 /// How far a tree grows.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Growth {
-    /// Questions on the way to a leaf at most.
+    /// The greatest depth: nodes from the root to a leaf.
     pub(super) depth: usize,
     /// Samples of a leaf at least.
     pub(super) leaf: usize,
@@ -21,7 +21,7 @@ pub(super) struct Growth {
 /// A tree: node 0 is the root, and the children of a node lie side by side behind it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Tree {
-    /// The feature that a node asks for.
+    /// The feature that a node compares.
     pub(super) feature: Vec<u32>,
     /// At most this: to the left.
     pub(super) threshold: Vec<f32>,
@@ -43,7 +43,7 @@ impl Tree {
     }
 }
 
-/// A question, and how much it explains.
+/// A split, and how much variance it explains.
 #[derive(Clone, Copy, Debug)]
 struct Question {
     gain: f64,

@@ -60,7 +60,7 @@ impl TreeRegressor {
         self.trees.len()
     }
 
-    /// Whether any tree asks for anything.
+    /// Whether any tree has a split.
     pub(crate) fn reads_features(&self) -> bool {
         self.trees.iter().any(|member| member.tree.left[0] > 0)
     }
@@ -112,7 +112,7 @@ impl TreeRegressor {
         ]
     }
 
-    /// The model that a file holds: every tree ends in leaves, and asks for features that there are.
+    /// The model that a file holds: every tree ends in leaves, and compares features that there are.
     pub(crate) fn from_tensors(
         tensors: &Tensors<'_>,
         channels: Channels,

@@ -1,4 +1,4 @@
-//! How strong each fineness is in a picture, whatever its direction.
+//! The power of a picture at each spatial frequency, whatever the direction.
 
 use taceva_core::{Frame, FrameInfo};
 

@@ -14,7 +14,7 @@ use crate::features::spec::FeatureSpec;
 const SPEAKERS: usize = 12;
 /// Markers near a cell whose absence counts.
 const NEAREST: usize = 4;
-/// How far from every marker a cell may be and still be spoken for, in spacings.
+/// How far from the nearest marker a cell may be to be interpolated, in spacings.
 const REACH: f64 = 1.5;
 
 /// Three numbers a cell: how far the gel has moved to the right and down in the middle of the cell, in typical distances of a marker from the
@@ -28,7 +28,7 @@ pub(crate) struct MarkerField {
     cells: Vec<Cell>,
 }
 
-/// Where the middle of a cell is, and who speaks for it; nobody where no marker is near.
+/// The middle of a cell, and the markers that it is interpolated from; none where no marker is near.
 #[derive(Debug)]
 struct Cell {
     middle_px: [f64; 2],

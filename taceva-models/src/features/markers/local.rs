@@ -1,4 +1,4 @@
-//! What a point does whose neighbours are known to move: locally, a gel is stretched, turned and sheared.
+//! The displacement of a point from those of its neighbours: locally, a gel is stretched, turned and sheared.
 
 use super::spots::distance;
 

@@ -17,8 +17,8 @@ pub(super) fn classify(
     predicted: &mut SpacingOfRow,
 ) -> Result<(), StudyError> {
     let rows: Vec<usize> = presses.iter().map(|(row, _)| *row).collect();
-    let extractor = extractor(dataset, classifier.features)?;
-    let pictures = extract(dataset, &extractor, &rows, work)?;
+    let extractor = |recording: &Dataset| extractor(recording, classifier.features);
+    let pictures = extract(dataset, extractor, &rows, work)?;
     let folds = folds(presses);
     for fold in 0..FOLDS {
         let places = 0..presses.len();

@@ -22,7 +22,7 @@ pub enum CheckpointError {
         source: io::Error,
     },
     /// The device that trains does not give its weights.
-    #[error("cannot put the training aside: {0}")]
+    #[error("cannot take the weights of the training for a checkpoint: {0}")]
     Unread(NetworkError),
     /// The file cannot be read.
     #[error("cannot read checkpoint {}: {source}", taceva_core::shown(path))]

@@ -46,7 +46,7 @@ impl Identity {
         }
     }
 
-    /// What a checkpoint has otherwise; `None` if it is one of this training.
+    /// In what a checkpoint differs; `None` if it is one of this training.
     pub(super) fn differs_from(&self, of: &Origin, summary: &Summary) -> Option<&'static str> {
         if self.architecture != summary.architecture {
             Some("layers, channels or sizes of pictures")

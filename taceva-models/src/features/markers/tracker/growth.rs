@@ -112,7 +112,7 @@ impl<'a> Growth<'a> {
         (0..self.spot_of.len()).map(of).collect()
     }
 
-    /// What the neighbours of a marker say, or everybody where no neighbour is seen; 0 where nobody is.
+    /// The displacement by the neighbours of a marker, or by all markers where no neighbour is seen; 0 where none is.
     fn displacement(&self, own: usize, all: &[Moved]) -> [f64; 2] {
         let place = self.tracker.places[own];
         let spacing_px = self.tracker.lattice.spacings_px[own];

@@ -1,0 +1,198 @@
+//! Rows are added to a dataset that was imported: what stays, what is refused, and what a model fitted before is scored on.
+
+mod support;
+
+use std::fs;
+
+use serde_json::Value;
+use support::{Bench, SAMPLES};
+
+const IMPORT: &str = "import lab --map map.toml";
+
+/// The folder `lab` in two: `first` with the first seven points, `second` with the last three, and a dataset `data` of the first.
+fn halves() -> Bench {
+    let bench = Bench::new();
+    bench.lab();
+    let labels = fs::read_to_string(bench.path("lab/labels.csv")).expect("drawn");
+    let (head, rows) = labels.split_once('\n').expect("a header");
+    let rows: Vec<&str> = rows.lines().collect();
+    assert_eq!(rows.len(), SAMPLES as usize);
+    for (name, own) in [("first", &rows[..42]), ("second", &rows[42..])] {
+        bench.write(
+            &format!("{name}/labels.csv"),
+            &format!("{head}\n{}\n", own.join("\n")),
+        );
+        fs::create_dir_all(bench.path(&format!("{name}/pictures"))).expect("created");
+        for row in own {
+            let file = row.split(',').next().expect("a file");
+            fs::copy(bench.path("lab").join(file), bench.path(name).join(file)).expect("copied");
+        }
+    }
+    bench.ok("import first --map map.toml --out data -q");
+    bench
+}
+
+fn json(bench: &Bench, name: &str) -> Value {
+    let text = fs::read_to_string(bench.path(name)).expect("written");
+    serde_json::from_str(&text).expect("JSON")
+}
+
+#[test]
+fn rows_join_a_dataset_whose_table_is_then_that_of_one_import() {
+    let bench = halves();
+    bench.ok("import second --map map.toml --extend data -q");
+    bench.ok(&format!("{IMPORT} --out whole -q"));
+    let read = |name: &str| taceva_dataset::Dataset::open(&bench.path(name)).expect("a dataset");
+    let (extended, whole) = (read("data"), read("whole"));
+    assert_eq!(extended.digest(), whole.digest());
+    extended.verify_frames().expect("whole");
+    for row in [0, 41, 42, 59] {
+        assert_eq!(
+            extended.frame(row).expect("a frame"),
+            whole.frame(row).expect("a frame")
+        );
+    }
+    let [addition] = &extended.header().extended[..] else {
+        panic!("{:?}", extended.header().extended);
+    };
+    assert_eq!((addition.rows, addition.from.as_str()), (42, "second"));
+    assert!(extended.header().seal.is_sealed);
+    assert!(
+        support::leftovers(
+            &bench.path("data"),
+            &["dataset.toml", "samples.parquet", "frames"]
+        )
+        .is_empty()
+    );
+    let report = bench.json("evaluate data --model baseline --metrics mae");
+    let notes = report["provenance"]["notes"].to_string();
+    assert!(
+        notes.contains("18 samples were added to 42 on 20"),
+        "{notes}"
+    );
+    assert!(notes.contains("from second"), "{notes}");
+}
+
+#[test]
+fn no_row_changes_its_part_and_a_model_of_before_is_scored_on_what_it_has_not_seen() {
+    let bench = halves();
+    let fit = "fit data --model ridge --set size=8 -q";
+    for split in ["by-point", "random"] {
+        let name = format!("{split}-before");
+        bench.ok(&format!(
+            "{fit} --split {split} --split-out {name}.json --out {name}.model"
+        ));
+    }
+    bench.ok("import second --map map.toml --extend data -q");
+    for split in ["by-point", "random"] {
+        let (was, is) = (format!("{split}-before"), format!("{split}-after"));
+        bench.ok(&format!(
+            "{fit} --split {split} --split-out {is}.json --out {is}.model"
+        ));
+        let (before, after) = (
+            json(&bench, &format!("{was}.json")),
+            json(&bench, &format!("{is}.json")),
+        );
+        let mut added = 0;
+        for part in ["train", "validation", "test"] {
+            let ids = |file: &Value| -> Vec<String> {
+                let ids = file[part].as_array().expect("ids").iter();
+                ids.map(|id| id.as_str().expect("an id").to_owned())
+                    .collect()
+            };
+            let (before, after) = (ids(&before), ids(&after));
+            assert!(before.iter().all(|id| after.contains(id)), "{split} {part}");
+            added += after.len() - before.len();
+        }
+        assert_eq!(added, 18);
+        // The model of before is scored on the test part of now: it holds nothing that was learnt from.
+        let scored = bench.json(&format!("evaluate data --with {was}.model --metrics mae"));
+        assert_eq!(scored["provenance"]["part"], "test");
+        let n = after["test"].as_array().expect("ids").len();
+        assert_eq!(scored["metrics"]["mae"]["Fz"]["n"], n, "{split}");
+    }
+}
+
+#[test]
+fn states_of_before_and_after_share_rows_and_are_not_joined() {
+    let bench = halves();
+    bench.ok("fit data --model ridge --set size=8 --out m.model -q");
+    bench.ok("evaluate data --with m.model --state-out before.state -q");
+    bench.ok("import second --map map.toml --extend data -q");
+    bench.ok("evaluate data --with m.model --state-out after.state -q");
+    bench.refused("merge before.state after.state", 3, "were taken already");
+}
+
+#[test]
+fn the_same_rows_and_rows_of_something_else_are_refused_and_change_nothing() {
+    let bench = halves();
+    let before = fs::read(bench.path("data/dataset.toml")).expect("a header");
+    bench.refused(
+        "import first --map map.toml --extend data",
+        3,
+        "sample `s00`, new row 0, is row 0 of the dataset already",
+    );
+    // The same pictures and labels under other names.
+    let labels = fs::read_to_string(bench.path("first/labels.csv")).expect("drawn");
+    bench.write("first/labels.csv", &labels.replace(",s", ",again"));
+    bench.refused(
+        "import first --map map.toml --extend data",
+        3,
+        "42 of 42 rows are in it already",
+    );
+    let map = fs::read_to_string(bench.path("map.toml")).expect("a map");
+    for (key, from, to) in [
+        ("sensor.model", "model = \"drawn\"", "model = \"other\""),
+        ("sensor.serial", "serial = \"unknown\"", "serial = \"7\""),
+        ("sensor.opaque", "opaque = true", "opaque = false"),
+        (
+            "channels",
+            "unit = \"mm\" }",
+            "unit = \"mm\" }\nFx = { from = \"place_mm\", unit = \"N\" }",
+        ),
+        ("clock", "clock = \"unknown\"", "clock = \"unix\""),
+    ] {
+        bench.write("other.toml", &map.replacen(from, to, 1));
+        let refused = bench.run("import second --map other.toml --extend data -q");
+        assert_eq!(refused.code, 3, "{key}: {}", refused.err);
+        assert!(
+            refused.err.contains(&format!("`{key}` is ")),
+            "{key}: {}",
+            refused.err
+        );
+    }
+    bench.refused(
+        "import second --map map.toml --extend nothing",
+        3,
+        "nothing",
+    );
+    bench.refused(
+        "import second --map map.toml --extend data --out new",
+        2,
+        "cannot be used with",
+    );
+    bench.record("recorded", 32);
+    assert_eq!(
+        fs::read(bench.path("data/dataset.toml")).expect("a header"),
+        before
+    );
+    assert_eq!(
+        support::leftovers(
+            &bench.path("."),
+            &[
+                "lab",
+                "first",
+                "second",
+                "drawn",
+                "data",
+                "map.toml",
+                "other.toml",
+                "recorded"
+            ]
+        )
+        .into_iter()
+        .filter(|name| name.starts_with('.'))
+        .collect::<Vec<_>>(),
+        Vec::<String>::new()
+    );
+}

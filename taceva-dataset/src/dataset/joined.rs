@@ -1,0 +1,298 @@
+//! Several recordings of one kind of sensor, read as one: their labels stand in one table, their frames and signals where they are.
+
+use std::collections::BTreeSet;
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Mutex;
+
+use taceva_core::{Channels, Clock};
+
+use super::Dataset;
+use crate::digest::PartsDigest;
+use crate::error::DatasetError;
+use crate::header::Header;
+use crate::scaled::DecodeScale;
+use crate::table::{FrameEntry, RowNames, Table};
+
+mod alike;
+
+pub(crate) use alike::{Difference, differences, differences_of_added};
+
+/// Between the name of a recording and what a sample, a contact point or a frame is called in it; no name of a recording holds it.
+const SEPARATOR: char = '/';
+
+/// One of the recordings that [`Dataset::joined`] read as one.
+///
+/// ```
+/// # use taceva_core::{Channel, Channels, Clock, Readings, Sample};
+/// # use taceva_dataset::{Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
+/// # let folder = tempfile::tempdir()?;
+/// # let record = |name: &str, force: f64| -> Result<std::path::PathBuf, Box<dyn std::error::Error>> {
+/// #     let path = folder.path().join(name);
+/// #     let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, SensorFacts::new("my gel"));
+/// #     let mut recorder = Recorder::create(&path, &RecordingSpec::new(facts, Channels::new([Channel::FZ])?))?;
+/// #     recorder.append(&Sample::new("1").with_truth(Readings::from_values([force])))?;
+/// #     recorder.close()?;
+/// #     Ok(path)
+/// # };
+/// use taceva_dataset::Dataset;
+///
+/// let (monday, tuesday) = (record("monday", 0.5)?, record("tuesday", 0.75)?);
+/// let both = Dataset::joined(vec![Dataset::open(&monday)?, Dataset::open(&tuesday)?])?;
+/// let second = &both.recordings()[1];
+/// assert_eq!((second.name(), second.rows()), ("tuesday", 1..2));
+/// assert_eq!(both.table().samples(), ["monday/1", "tuesday/1"]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct JoinedRecording {
+    name: String,
+    rows: Range<usize>,
+    dataset: Box<Dataset>,
+}
+
+impl JoinedRecording {
+    /// The name of its folder; of several with one name the second is `NAME#2`.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Its rows in the joined table, from 0.
+    pub fn rows(&self) -> Range<usize> {
+        self.rows.clone()
+    }
+
+    /// The recording itself, whose rows begin at 0.
+    pub fn dataset(&self) -> &Dataset {
+        &self.dataset
+    }
+}
+
+impl Dataset {
+    /// `recordings` as one, in their order; a single one is returned as it is.
+    ///
+    /// Samples and contact points carry the name of their recording in front (`monday/p3`), so that those of different recordings never merge.
+    /// Frames and signals are read from where they are; nothing is copied but labels. The digest is a function of the digests in their order.
+    /// Gel, serial number, camera settings, attributes, pictures without contact and clocks may differ from recording to recording.
+    ///
+    /// # Errors
+    /// [`DatasetError::Unlike`] naming two recordings that hold the same samples, or differ in source, sensor model, opacity, footprint,
+    /// channels, their units, or the kind and size of frames or signals; [`DatasetError::Request`] for no recording.
+    pub fn joined(recordings: Vec<Dataset>) -> Result<Dataset, DatasetError> {
+        let mut recordings = recordings;
+        if recordings.len() < 2 {
+            return recordings.pop().ok_or_else(|| DatasetError::Request {
+                path: Path::new(".").to_owned(),
+                problem: "no recording to join, expected at least one".to_owned(),
+            });
+        }
+        check_distinct(&recordings)?;
+        for other in &recordings[1..] {
+            check_alike(&recordings[0], other)?;
+        }
+        let names = names(recordings.iter().map(Dataset::path));
+        let table = joined_table(&recordings, &names);
+        let header = joined_header(&recordings, &table);
+        let folder = recordings[0].folder.without_files();
+        let mut start = 0;
+        let joined = names.into_iter().zip(recordings).map(|(name, dataset)| {
+            let rows = start..start + dataset.table.rows();
+            start = rows.end;
+            JoinedRecording {
+                name,
+                rows,
+                dataset: Box::new(dataset),
+            }
+        });
+        Ok(Dataset {
+            joined: joined.collect(),
+            folder,
+            header,
+            table,
+            scale: DecodeScale::Full,
+            firsts: Mutex::default(),
+            signals: Mutex::default(),
+        })
+    }
+
+    /// The recordings that were joined, in the order of their rows; none where this is one recording.
+    pub fn recordings(&self) -> &[JoinedRecording] {
+        &self.joined
+    }
+
+    /// The recording that holds `row`, and which of its rows that is; `None` where this is one recording.
+    pub fn recording_of(&self, row: usize) -> Option<(&Dataset, usize)> {
+        let at = self.joined.partition_point(|own| own.rows.end <= row);
+        let own = self.joined.get(at)?;
+        Some((&own.dataset, row - own.rows.start))
+    }
+
+    /// The recording that the frame at `entry` is of, and what that calls it.
+    pub(super) fn entry_of(&self, entry: &FrameEntry) -> Option<(&Dataset, FrameEntry)> {
+        let (name, path) = entry.path.split_once(SEPARATOR)?;
+        let own = self.joined.iter().find(|own| own.name == name)?;
+        let entry = FrameEntry {
+            path: path.to_owned(),
+            ..entry.clone()
+        };
+        Some((&own.dataset, entry))
+    }
+}
+
+/// Refuses a recording that comes twice: by its path, by its content, or as a part of one that was extended since.
+fn check_distinct(recordings: &[Dataset]) -> Result<(), DatasetError> {
+    let place = |dataset: &Dataset| dataset.path().canonicalize().ok();
+    for (at, other) in recordings.iter().enumerate() {
+        for one in &recordings[..at] {
+            let is_same_place = place(one).is_some() && place(one) == place(other);
+            let shared = one.header.stages().find(|stage| {
+                let mut theirs = other.header.stages();
+                theirs.any(|other| other == *stage)
+            });
+            let problem = match shared {
+                _ if is_same_place => "they are the same folder".to_owned(),
+                Some((digest, rows)) => format!("they hold the same {rows} samples ({digest})"),
+                None => continue,
+            };
+            return Err(unlike(one, other, format!("{problem}; name it once")));
+        }
+    }
+    Ok(())
+}
+
+fn check_alike(one: &Dataset, other: &Dataset) -> Result<(), DatasetError> {
+    match differences(&one.header, &other.header).next() {
+        None => Ok(()),
+        Some(Difference {
+            key,
+            own,
+            other: found,
+        }) => Err(unlike(
+            one,
+            other,
+            format!("`{key}` is {own} in the first and {found} in the second; evaluate them apart"),
+        )),
+    }
+}
+
+fn unlike(one: &Dataset, other: &Dataset, problem: String) -> DatasetError {
+    DatasetError::Unlike {
+        one: one.path().to_owned(),
+        other: other.path().to_owned(),
+        problem,
+    }
+}
+
+/// The names of the folders at `paths`, made distinct by a number.
+fn names<'a>(paths: impl Iterator<Item = &'a Path>) -> Vec<String> {
+    let mut taken: Vec<String> = Vec::new();
+    for path in paths {
+        let whole = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+        let own = whole.file_name().unwrap_or(whole.as_os_str());
+        let own = own.to_string_lossy().replace(SEPARATOR, "_");
+        let numbered = (2..).map(|number| format!("{own}#{number}"));
+        let free = std::iter::once(own.clone()).chain(numbered);
+        let mut free = free.filter(|name| !taken.contains(name));
+        taken.push(free.next().expect("numbers do not end"));
+    }
+    taken
+}
+
+/// The labels of all, each sample, contact point and frame called by its recording first.
+fn joined_table(recordings: &[Dataset], names: &[String]) -> Table {
+    let attributes = recordings
+        .iter()
+        .flat_map(|one| one.table.attribute_names());
+    let mut seen = BTreeSet::new();
+    let attributes = attributes
+        .filter(|name| seen.insert(name.as_str()))
+        .cloned();
+    let channels: &Channels = recordings[0].table.channels();
+    let mut table = Table::new(channels.clone(), attributes.collect());
+    for (name, recording) in names.iter().zip(recordings) {
+        let own = &recording.table;
+        let called = |text: &str| format!("{name}{SEPARATOR}{text}");
+        for row in 0..own.rows() {
+            let frame = own.frames()[row].as_ref();
+            let names = RowNames {
+                sample: called(&own.samples()[row]),
+                point_id: own.point_id()[row].as_deref().map(called),
+                frame: frame.map(|entry| FrameEntry {
+                    path: called(&entry.path),
+                    ..entry.clone()
+                }),
+            };
+            table.push_of(own, row, names);
+        }
+    }
+    table
+}
+
+/// What is known of all of them; of what differs, what says least.
+fn joined_header(recordings: &[Dataset], table: &Table) -> Header {
+    let mut digest = PartsDigest::default();
+    digest.part(b"taceva.dataset/1 of several recordings");
+    let mut header = recordings[0].header.clone();
+    for other in recordings {
+        digest.fixed(other.header.digest.as_bytes());
+    }
+    for (position, other) in recordings.iter().enumerate().skip(1) {
+        let other = &other.header;
+        header.format = header.format.max(other.format);
+        if header.clock != other.clock {
+            header.clock = Clock::Unknown;
+        }
+        for (own, theirs) in [
+            (&mut header.sensor.serial, &other.sensor.serial),
+            (&mut header.sensor.gel, &other.sensor.gel),
+        ] {
+            if own != theirs {
+                *own = "several".to_owned();
+            }
+        }
+        header
+            .settings
+            .retain(|name, value| other.settings.get(name) == Some(value));
+        for (outcome, count) in &other.presses {
+            *header.presses.entry(*outcome).or_default() += count;
+        }
+        if let (Some(own), Some(theirs)) = (&mut header.frames, &other.frames) {
+            own.count += theirs.count;
+            if theirs.reference.is_none() {
+                own.reference = None;
+            }
+        }
+        if let (Some(own), Some(theirs)) = (&mut header.signals, &other.signals) {
+            let before: usize = recordings[..position]
+                .iter()
+                .map(|one| one.table.rows())
+                .sum();
+            let runs = theirs.spec.rest.iter();
+            own.spec
+                .rest
+                .extend(runs.map(|run| run.map(|row| row + before as u64)));
+        }
+    }
+    header.attributes = table.attribute_names().to_vec();
+    header.unmentioned_columns.clear();
+    header.stream = None;
+    header.extended.clear();
+    header.digest = digest.finish();
+    header.table.rows = table.rows() as u64;
+    header.table.digest = header.digest;
+    header.table.sha256 = header.digest;
+    header
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn folders_of_one_name_are_numbered_and_no_name_holds_the_separator() {
+        let paths = ["a/press", "b/press", "press#2", "c/press"].map(Path::new);
+        let found = names(paths.into_iter());
+        assert_eq!(found, ["press", "press#2", "press#2#2", "press#3"]);
+        assert!(found.iter().all(|name| !name.contains(SEPARATOR)));
+    }
+}

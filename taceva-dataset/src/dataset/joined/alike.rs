@@ -1,0 +1,98 @@
+//! In what two recordings differ that must be the same before their samples are taken together.
+
+use crate::header::{Footprint, Header};
+
+/// A key of a header that differs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Difference {
+    /// As `dataset.toml` has it.
+    pub(crate) key: &'static str,
+    /// What the first says.
+    pub(crate) own: String,
+    /// What the other says.
+    pub(crate) other: String,
+}
+
+/// What differs between two recordings whose samples cannot be taken together for it, in the order of a header.
+pub(crate) fn differences(one: &Header, other: &Header) -> impl Iterator<Item = Difference> {
+    let facts = facts(one).into_iter().zip(facts(other));
+    facts
+        .filter(|((_, own), (_, other))| own != other)
+        .map(|((key, own), (_, other))| Difference { key, own, other })
+}
+
+/// What differs beside that between a recording and rows that are to be added to it: they are of one unit of the sensor, on one clock, with the
+/// same text columns.
+pub(crate) fn differences_of_added(
+    one: &Header,
+    added: &Header,
+) -> impl Iterator<Item = Difference> {
+    let more = more(one).into_iter().zip(more(added));
+    let more = more.filter(|((_, own), (_, other))| own != other);
+    let more = more.map(|((key, own), (_, other))| Difference { key, own, other });
+    differences(one, added).chain(more)
+}
+
+fn more(header: &Header) -> [(&'static str, String); 5] {
+    let mut attributes = header.attributes.clone();
+    attributes.sort();
+    let order = header
+        .frames
+        .as_ref()
+        .map(|frames| frames.channel_order.name());
+    [
+        ("sensor.serial", format!("`{}`", header.sensor.serial)),
+        ("sensor.gel", format!("`{}`", header.sensor.gel)),
+        ("clock", format!("{:?}", header.clock).to_lowercase()),
+        ("attributes", format!("[{}]", attributes.join(", "))),
+        ("frames.channel_order", order.unwrap_or("absent").to_owned()),
+    ]
+}
+
+/// What must be the same, in words.
+fn facts(header: &Header) -> [(&'static str, String); 7] {
+    let absent = || "absent".to_owned();
+    let mut channels: Vec<String> = header
+        .channels
+        .iter()
+        .map(|channel| format!("{channel} [{}]", channel.unit()))
+        .collect();
+    channels.sort();
+    let frames = header.frames.as_ref();
+    let signals = header.signals.as_ref();
+    let opaque = header.sensor.opaque.known();
+    [
+        ("source", format!("{:?}", header.source).to_lowercase()),
+        ("sensor.model", format!("`{}`", header.sensor.model)),
+        (
+            "sensor.opaque",
+            opaque.map_or_else(|| "unknown".to_owned(), |opaque| opaque.to_string()),
+        ),
+        ("footprint", header.footprint.map_or_else(absent, footprint)),
+        ("channels", channels.join(", ")),
+        (
+            "frames",
+            frames.map_or_else(absent, |frames| frames.info.to_string()),
+        ),
+        (
+            "signals",
+            signals.map_or_else(absent, |signals| {
+                let spec = &signals.spec;
+                format!("{} ({})", spec.info, spec.channels.join(", "))
+            }),
+        ),
+    ]
+}
+
+fn footprint(footprint: Footprint) -> String {
+    let sides = [
+        ("radius", footprint.radius_mm),
+        ("half_x", footprint.half_x_mm),
+        ("half_y", footprint.half_y_mm),
+        ("depth_max", footprint.depth_max_mm),
+    ];
+    let sides = sides
+        .into_iter()
+        .filter_map(|(name, length)| Some(format!("{name} {} mm", length?)));
+    sides.collect::<Vec<_>>().join(", ")
+}

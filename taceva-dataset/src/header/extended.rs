@@ -1,0 +1,36 @@
+//! That rows were added to a recording after it was imported.
+
+use serde::{Deserialize, Serialize};
+
+use super::Header;
+use crate::digest::Digest;
+
+/// What a recording was before rows were added to it, and where they came from.
+///
+/// ```
+/// let text = "rows = 120\ndigest = \"sha256:e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855\"\ndate = \"2026-11-23\"\nfrom = \"tuesday\"\n";
+/// let extension: taceva_dataset::Extension = toml::from_str(text)?;
+/// assert_eq!((extension.rows, extension.from.as_str()), (120, "tuesday"));
+/// # Ok::<(), toml::de::Error>(())
+/// ```
+#[non_exhaustive]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Extension {
+    /// Samples before: those that were added begin at this row, counted from 0.
+    pub rows: u64,
+    /// The digest of the dataset before.
+    pub digest: Digest,
+    /// The day on which they were added, in UTC: `2026-11-23`.
+    pub date: String,
+    /// The folder that they were imported from, as it was named.
+    pub from: String,
+}
+
+impl Header {
+    /// Every digest that the recording had, with its samples then: those of before each extension, and the present one last.
+    pub fn stages(&self) -> impl Iterator<Item = (Digest, u64)> + '_ {
+        let before = self.extended.iter();
+        let before = before.map(|extension| (extension.digest, extension.rows));
+        before.chain([(self.digest, self.table.rows)])
+    }
+}

@@ -1,0 +1,312 @@
+//! Adding rows to a dataset that was imported: a successor is written beside it, which shares its files, and takes its place at once.
+
+mod twice;
+
+use std::collections::BTreeSet;
+use std::fs::{self, File};
+use std::num::NonZeroUsize;
+use std::path::Path;
+
+use taceva_core::Progress;
+
+use super::copy::{ImportReport, copy_frames};
+use super::plan::{ImportPlan, PlannedFrames};
+use super::signals::PlannedSignals;
+use crate::dataset::{Dataset, Difference, differences_of_added};
+use crate::digest::Digest;
+use crate::error::DatasetError;
+use crate::file::read_capped;
+use crate::header::{Extension, FramesInfo, Header};
+use crate::layout;
+use crate::limits;
+use crate::signals::{SignalsInfo, SignalsWriter};
+use crate::staged::{Place, StagedFolder};
+use crate::store::{Beside, RecordingFacts, write_table_and_header};
+use crate::table::{RowNames, Table};
+use twice::refuse_twice;
+
+/// When rows are added, and from where, as the header of the dataset will say it.
+///
+/// ```
+/// let added = taceva_dataset::Addition::new("2026-11-23", "lab/tuesday");
+/// assert_eq!(added.from, "lab/tuesday");
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Addition {
+    /// The day, in UTC: `2026-11-23`.
+    pub date: String,
+    /// The folder, as it was named.
+    pub from: String,
+}
+
+impl Addition {
+    /// Rows that are added on `date` from the folder called `from`.
+    pub fn new(date: impl Into<String>, from: impl Into<String>) -> Addition {
+        Addition {
+            date: date.into(),
+            from: from.into(),
+        }
+    }
+}
+
+impl ImportPlan {
+    /// Adds the rows to the dataset at `target`, behind those that are there. Whoever reads it sees it as it was until all of it is durable, and
+    /// keeps what it has opened; frames that are there are shared, not copied. The header says how many rows there were before, their digest, and
+    /// what `added` says.
+    ///
+    /// Rows that the map calls by no column are numbered on. Splits keep the part of every row that was there.
+    ///
+    /// # Errors
+    /// [`DatasetError::Request`] naming the key if the map differs from the dataset in what it is of, the row if one is in the dataset already,
+    /// or if `target` is no imported dataset; [`DatasetError::NoDataset`]; else as [`run`](ImportPlan::run). After any of them `target` is what
+    /// it was.
+    ///
+    /// ```
+    /// # use taceva_core::{Channel, Channels, Clock, SilentProgress, SourceUnit};
+    /// # use taceva_dataset::{Addition, ColumnMap, Dataset, ImportMap, ImportPlan, RecordingFacts, SensorFacts, Source};
+    /// # let folder = tempfile::tempdir()?;
+    /// # let facts = RecordingFacts::new(Source::Recorded, Clock::Unknown, SensorFacts::new("my gel"));
+    /// # let mut map = ImportMap::new("labels.csv", facts);
+    /// # map.channels = Channels::new([Channel::FZ])?;
+    /// # map.columns = vec![ColumnMap::new("force", SourceUnit::parse("mN")?)];
+    /// # let (target, jobs) = (folder.path().join("dataset"), std::num::NonZeroUsize::MIN);
+    /// std::fs::write(folder.path().join("labels.csv"), "force\n1500\n2000\n")?;
+    /// let before = ImportPlan::new(folder.path(), &map)?.run(&target, jobs, &SilentProgress)?;
+    /// std::fs::write(folder.path().join("labels.csv"), "force\n2500\n")?;
+    /// let plan = ImportPlan::new(folder.path(), &map)?;
+    /// plan.extend(&target, &Addition::new("2026-11-23", "tuesday"), jobs, &SilentProgress)?;
+    ///
+    /// let dataset = Dataset::open(&target)?;
+    /// assert_eq!(dataset.table().samples(), ["0", "1", "2"]);
+    /// assert_eq!(dataset.header().extended[0].digest, before.digest);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn extend(
+        mut self,
+        target: &Path,
+        added: &Addition,
+        jobs: NonZeroUsize,
+        progress: &dyn Progress,
+    ) -> Result<ImportReport, DatasetError> {
+        // First, so that nobody else replaces meanwhile what is read here.
+        let staged = StagedFolder::create(target, Place::OfDataset)?;
+        let before = Dataset::open(target)?;
+        self.check_alike(&before, None)?;
+        let mut folders = share_files(&before, &staged)?;
+        let first = before.table().rows();
+        let (frames, new_folders) = match &mut self.frames {
+            Some(frames) => {
+                check_reference(&before, frames)?;
+                copy_frames(&staged, (frames, first), &mut self.table, jobs, progress)?
+            }
+            None => (None, Vec::new()),
+        };
+        folders.extend(new_folders);
+        self.check_alike(&before, frames.as_ref())?;
+        let table = self.joined_table(&before);
+        let signals = self.signals.as_ref();
+        let signals = signals.map(|new| write_signals(&before, new, &staged, progress));
+        let signals = signals.transpose()?;
+        refuse_twice(&before, &table, signals.as_ref(), staged.path())?;
+        let header = write_header(&staged, &before, (&table, frames, signals), &self, added)?;
+        // Nobody reads the predecessor on our behalf any more: it is removed with its names, and not set aside.
+        drop(before);
+        staged.put_in_place(&folders.into_iter().collect::<Vec<_>>())?;
+        Ok(ImportReport {
+            summary: self.summary,
+            frames: header.frames.as_ref().map(|frames| frames.info),
+            digest: header.digest,
+            path: target.to_owned(),
+        })
+    }
+
+    /// Refuses rows of something else than `before` is of; `frames` are those of the rows, where they are known.
+    fn check_alike(
+        &self,
+        before: &Dataset,
+        frames: Option<&FramesInfo>,
+    ) -> Result<(), DatasetError> {
+        let header = before.header();
+        let refused = |problem: String| DatasetError::Request {
+            path: before.path().to_owned(),
+            problem,
+        };
+        if !header.presses.is_empty() || header.stream.is_some() {
+            return Err(refused(
+                "recorded by a run or a capture, which alone add to it; import these rows as a dataset of their own, and name both where they are evaluated"
+                    .to_owned(),
+            ));
+        }
+        let mut planned: Header = header.clone();
+        planned.source = self.facts.source;
+        planned.clock = self.facts.clock;
+        planned.sensor = self.facts.sensor.clone();
+        planned.footprint = self.facts.footprint;
+        planned.channels = self.table.channels().clone();
+        planned.attributes = self.table.attribute_names().to_vec();
+        match (&mut planned.frames, &self.frames) {
+            (Some(own), Some(plan)) => {
+                own.channel_order = plan.order;
+                own.info = frames.map_or(own.info, |frames| frames.info);
+            }
+            (None, Some(_)) => return Err(refused(differs("frames", "absent", "there"))),
+            (own, None) => *own = None,
+        }
+        match (&mut planned.signals, &self.signals) {
+            (Some(own), Some(plan)) => own.spec = plan.spec().clone(),
+            (None, Some(_)) => return Err(refused(differs("signals", "absent", "there"))),
+            (own, None) => *own = None,
+        }
+        match differences_of_added(header, &planned).next() {
+            None => Ok(()),
+            Some(Difference { key, own, other }) => Err(refused(differs(key, &own, &other))),
+        }
+    }
+
+    /// The rows of `before` and behind them the new ones.
+    fn joined_table(&self, before: &Dataset) -> Table {
+        let mut table = before.table().clone();
+        let names = before.table().samples().iter();
+        let numbers = names.filter_map(|name| name.parse::<u64>().ok());
+        let next = numbers.max().map_or(0, |last| last + 1);
+        let new = &self.table;
+        for row in 0..new.rows() {
+            let sample = match self.is_numbered {
+                true => (next + row as u64).to_string(),
+                false => new.samples()[row].clone(),
+            };
+            let names = RowNames {
+                sample,
+                point_id: new.point_id()[row].clone(),
+                frame: new.frames()[row].clone(),
+            };
+            table.push_of(new, row, names);
+        }
+        table
+    }
+}
+
+fn differs(key: &str, own: &str, other: &str) -> String {
+    format!(
+        "`{key}` is {own} in the dataset and {other} in the map; rows are added to what they are of, others are a dataset of their own"
+    )
+}
+
+/// Gives the frames of `before` a second name in the staged folder, where they then lie as they did; returns the folders that they lie in.
+fn share_files(before: &Dataset, staged: &StagedFolder) -> Result<BTreeSet<String>, DatasetError> {
+    let frames = before.table().frames().iter().flatten();
+    let mut files: BTreeSet<&str> = frames.map(|entry| entry.path.as_str()).collect();
+    let reference = before.header().frames.as_ref();
+    files.extend(reference.and_then(|frames| Some(frames.reference.as_ref()?.path.as_str())));
+    let mut folders = BTreeSet::new();
+    for relative in files {
+        for (at, _) in relative.match_indices('/') {
+            if folders.insert(relative[..at].to_owned()) {
+                staged.ensure_folder(&relative[..at])?;
+            }
+        }
+        let (from, to) = (before.path().join(relative), staged.path().join(relative));
+        if fs::hard_link(&from, &to).is_err() {
+            // Where a file has one name only.
+            fs::copy(&from, &to).map_err(DatasetError::io("copy", &from))?;
+            let copied = File::open(&to).and_then(|file| file.sync_all());
+            copied.map_err(DatasetError::io("write", &to))?;
+        }
+    }
+    Ok(folders)
+}
+
+/// Takes the picture without contact out of `frames`, which must be the one that the dataset has.
+fn check_reference(before: &Dataset, frames: &mut PlannedFrames) -> Result<(), DatasetError> {
+    let known = before.header().frames.as_ref();
+    let known = known.and_then(|frames| Some(frames.reference.as_ref()?.sha256));
+    let new = frames.reference.take();
+    let new = new.map(|path| read_capped(&path, limits::IMAGE_BYTES));
+    let new = new.transpose()?.map(|bytes| Digest::of(&bytes));
+    if known == new {
+        return Ok(());
+    }
+    let word =
+        |digest: Option<Digest>| digest.map_or("unknown".to_owned(), |digest| digest.to_string());
+    Err(DatasetError::Request {
+        path: before.path().to_owned(),
+        problem: differs("frames.reference", &word(known), &word(new)),
+    })
+}
+
+/// The signals of all rows, those of `before` first.
+fn write_signals(
+    before: &Dataset,
+    new: &PlannedSignals,
+    staged: &StagedFolder,
+    progress: &dyn Progress,
+) -> Result<SignalsInfo, DatasetError> {
+    let rows = before.table().rows();
+    let own = before.header().signals.iter();
+    let own = own.flat_map(|signals| signals.spec.rest.iter().copied());
+    let added = new.spec().rest.iter();
+    let added = added.map(|run| run.map(|row| row + rows as u64));
+    let spec = new.spec().clone().with_rest(own.chain(added));
+    let mut writer = SignalsWriter::create(&staged.path().join(layout::SIGNALS), &spec)?;
+    for row in 0..rows {
+        if progress.is_cancelled() {
+            return Err(DatasetError::Cancelled);
+        }
+        let signals = before.signals(row)?;
+        let signals = signals.ok_or_else(|| DatasetError::Damaged {
+            path: before.path().join(layout::SIGNALS),
+            problem: format!("no signals of row {row}"),
+        })?;
+        writer.push(signals.values())?;
+    }
+    new.write_to(&mut writer, progress)?;
+    writer.finish()
+}
+
+fn write_header(
+    staged: &StagedFolder,
+    before: &Dataset,
+    (table, frames, signals): (&Table, Option<FramesInfo>, Option<SignalsInfo>),
+    plan: &ImportPlan,
+    added: &Addition,
+) -> Result<Header, DatasetError> {
+    let header = before.header();
+    let all = header.frames.clone().map(|own| FramesInfo {
+        count: own.count + frames.map_or(0, |new| new.count),
+        ..own
+    });
+    let mut unmentioned = header.unmentioned_columns.clone();
+    for column in plan.summary.columns_left_behind() {
+        if !unmentioned.contains(&column) {
+            unmentioned.push(column);
+        }
+    }
+    let mut extended = header.extended.clone();
+    extended.push(Extension {
+        rows: header.table.rows,
+        digest: header.digest,
+        date: added.date.clone(),
+        from: added.from.clone(),
+    });
+    let facts = RecordingFacts {
+        source: header.source,
+        clock: header.clock,
+        sensor: header.sensor.clone(),
+        footprint: header.footprint,
+        settings: header.settings.clone(),
+    };
+    write_table_and_header(
+        &staged.path().join(layout::SAMPLES),
+        &staged.path().join(layout::HEADER),
+        &facts,
+        (table, all),
+        Beside {
+            unmentioned_columns: unmentioned,
+            signals,
+            extended,
+            history: header.seal.history.clone(),
+            ..Beside::default()
+        },
+    )
+}

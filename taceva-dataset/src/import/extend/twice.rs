@@ -1,0 +1,96 @@
+//! Rows that are in the dataset already.
+
+use std::collections::{BTreeMap, HashMap};
+use std::fs::File;
+use std::path::Path;
+
+use crate::dataset::Dataset;
+use crate::digest::{Digest, PartsDigest};
+use crate::error::DatasetError;
+use crate::layout;
+use crate::signals::{SignalsInfo, SignalsReader};
+use crate::table::Table;
+use crate::text::shown;
+
+/// Refuses rows of `table` behind those of `before` that are among these: by the name of the sample, or because labels, time, frame and signals
+/// are the same.
+///
+/// Of rows without a frame, signals and a time all must be there to be refused: single ones may well have the same labels.
+pub(super) fn refuse_twice(
+    before: &Dataset,
+    table: &Table,
+    signals: Option<&SignalsInfo>,
+    folder: &Path,
+) -> Result<(), DatasetError> {
+    let refused = |problem: String| DatasetError::Request {
+        path: before.path().to_owned(),
+        problem,
+    };
+    let old = before.table().rows();
+    let known = table.samples()[..old].iter().enumerate();
+    let known: HashMap<&str, usize> = known.map(|(row, name)| (name.as_str(), row)).collect();
+    for (row, name) in table.samples().iter().enumerate().skip(old) {
+        if let Some(own) = known.get(name.as_str()) {
+            return Err(refused(format!(
+                "sample `{}`, {}, is row {own} of the dataset already; the same rows are not added twice",
+                shown(name),
+                origin(table, row, old)
+            )));
+        }
+    }
+    let reader = signals.map(|info| open(folder, info, table.rows()));
+    let reader = reader.transpose()?;
+    let labels = table.row_digests();
+    let content = |row: usize| -> Result<Digest, DatasetError> {
+        let mut digest = PartsDigest::default();
+        digest.fixed(labels[row].as_bytes());
+        if let Some(reader) = &reader {
+            for value in reader.row(row)?.values() {
+                digest.fixed(&value.to_le_bytes());
+            }
+        }
+        Ok(digest.finish())
+    };
+    let mut own = BTreeMap::new();
+    for row in 0..old {
+        own.entry(content(row)?).or_insert(row);
+    }
+    let mut twice: Vec<(usize, usize)> = Vec::new();
+    for row in old..table.rows() {
+        if let Some(before) = own.get(&content(row)?) {
+            twice.push((row, *before));
+        }
+    }
+    let is_sure = |(row, _): &(usize, usize)| {
+        reader.is_some() || table.frames()[*row].is_some() || table.t_s()[*row].is_some()
+    };
+    let is_all = twice.len() == table.rows() - old;
+    let first = match is_all {
+        true => twice.first(),
+        false => twice.iter().find(|pair| is_sure(pair)),
+    };
+    match first {
+        None => Ok(()),
+        Some((row, before)) => Err(refused(format!(
+            "{} says what row {before} of the dataset says, sample `{}`; {} of {} rows are in it already, and the same rows are not added twice",
+            origin(table, *row, old),
+            shown(&table.samples()[*before]),
+            twice.len(),
+            table.rows() - old
+        ))),
+    }
+}
+
+/// Where a new row comes from, as far as its table says.
+fn origin(table: &Table, row: usize, old: usize) -> String {
+    match (&table.source_table()[row], table.source_row()[row]) {
+        (Some(source), Some(number)) => format!("row {number} of {}", shown(source)),
+        _ => format!("new row {}", row - old),
+    }
+}
+
+fn open(folder: &Path, info: &SignalsInfo, rows: usize) -> Result<SignalsReader, DatasetError> {
+    let path = folder.join(layout::SIGNALS);
+    let file = File::open(&path).map_err(DatasetError::io("open", &path))?;
+    SignalsReader::open(&path, file, (info, rows as u64))
+}
