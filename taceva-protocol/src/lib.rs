@@ -22,7 +22,8 @@ pub use plan::{
 };
 pub use press::{Motion, Press, Waypoint};
 pub use rig_file::{
-    Carried, Jogged, Registration, RigFile, RigForce, RigOperator, RigRobot, RigSensor, SignedAxes,
+    Carried, Jogged, Registration, RigChangers, RigFile, RigForce, RigOperator, RigRobot, RigSensor,
+    SignedAxes,
     Taught, TeachError,
 };
 pub use run::{

@@ -3,6 +3,7 @@
 //! A check runs beside the plugin, in the child, and calls the functions of its tables as a host would, and as no host should. Whatever it
 //! does to its process, the others go on. A plugin that its user trusts is checked as it runs: in a process that nothing is kept from.
 
+mod changer;
 mod driver;
 mod estimator;
 mod force;
@@ -74,6 +75,7 @@ pub fn checks() -> impl Iterator<Item = &'static Check> {
         robot::CHECKS,
         force::CHECKS,
         lighting::CHECKS,
+        changer::CHECKS,
         estimator::CHECKS,
     ]
     .into_iter()
@@ -334,9 +336,9 @@ mod tests {
     use std::collections::BTreeSet;
 
     #[test]
-    fn there_are_at_least_44_checks_and_no_two_of_one_name() {
+    fn there_are_at_least_48_checks_and_no_two_of_one_name() {
         let names: BTreeSet<&str> = checks().map(|check| check.name).collect();
         assert_eq!(names.len(), checks().count());
-        assert!(names.len() >= 44, "{}", names.len());
+        assert!(names.len() >= 48, "{}", names.len());
     }
 }

@@ -9,7 +9,7 @@ use crate::stamp::Stamp;
 /// The ability of a robot to stand where its host falls silent: what it is told holds for a moment and is told again, many times a second.
 ///
 /// It is for ways that lead towards something. A robot without it goes to the end of the motion that it was given, whoever has died
-/// meanwhile. The drivers of plugins do not have it yet.
+/// meanwhile.
 ///
 /// ```
 /// use std::time::Duration;

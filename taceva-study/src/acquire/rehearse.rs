@@ -38,7 +38,7 @@ pub fn rehearse_scene(scene: &PlannedScene, workshop: Workshop<'_>) -> Result<us
             if !unit_is_there(study, rig, unit, by_hand)? {
                 continue;
             }
-            let mut open = OpenRig::open(study, rig, unit, workshop)?;
+            let mut open = OpenRig::open(study, rig, unit, (workshop, &cancel))?;
             let spec = RunSpec {
                 plan: &study.plan,
                 unit,
