@@ -3,9 +3,9 @@
 
 #![cfg(target_os = "linux")]
 
-mod support;
 #[path = "support/emulated.rs"]
 mod emulated;
+mod support;
 
 use std::collections::BTreeSet;
 use std::io::{BufRead, BufReader, Write};
@@ -80,7 +80,9 @@ fn serve(
         let Ok(line) = line else {
             return;
         };
-        let place = line.strip_prefix("turn ").expect("the only thing it is told");
+        let place = line
+            .strip_prefix("turn ")
+            .expect("the only thing it is told");
         let place: usize = place.parse().expect("a number");
         let before = stands_above(bench);
         thread::sleep(Duration::from_millis(150));
@@ -115,7 +117,9 @@ fn mount(bench: &WallBench, place: usize) {
         2 => taceva_sim::Mounted::board(GratingKind::Line, mm(1.0)),
         _ => taceva_sim::Mounted::board(GratingKind::Line, mm(1.5)),
     };
-    bench.mount(mounted.expect("it has it")).expect("it is away from the gel");
+    bench
+        .mount(mounted.expect("it has it"))
+        .expect("it is away from the gel");
 }
 
 /// A few presses of a ball, and one of each of two boards.
@@ -142,7 +146,9 @@ fn run(bench: &Bench) -> Ran {
             true => " --resume",
             false => "",
         };
-        let once = bench.run(&format!("run scene.toml --rig lab.toml --out r {FOLDER}{resume}"));
+        let once = bench.run(&format!(
+            "run scene.toml --rig lab.toml --out r {FOLDER}{resume}"
+        ));
         let is_late = once.err.contains("ms old") || once.err.contains("halted");
         ran = Some(once);
         if !is_late {
@@ -159,11 +165,16 @@ fn a_carousel_changes_what_an_emulated_bench_presses_with_and_its_failures_lose_
     assert_eq!(bench.run("plugin manifest carousel").code, 0);
     let emulated = Emulated::new();
     let carousel = Carousel::over(&emulated.bench);
-    let selector = format!("{ID}/carousel:host=localhost;port={};holds={HOLDS}", carousel.port);
+    let selector = format!(
+        "{ID}/carousel:host=localhost;port={};holds={HOLDS}",
+        carousel.port
+    );
 
     // Refused, allowed, checked.
     let check = |bench: &Bench| {
-        let mut command = bench.command(&format!("plugin check {ID} {FOLDER} --only driver/opens,changer/ --move --with"));
+        let mut command = bench.command(&format!(
+            "plugin check {ID} {FOLDER} --only driver/opens,changer/ --move --with"
+        ));
         let output = command.arg(&selector).output().expect("the program starts");
         let said = String::from_utf8_lossy(&output.stdout).into_owned();
         (output.status.code(), said)
@@ -178,16 +189,27 @@ fn a_carousel_changes_what_an_emulated_bench_presses_with_and_its_failures_lose_
 
     bench.write("scene.toml", SCENE);
     let rig = emulated.rig_with_robot();
-    bench.write("lab.toml", &format!("{rig}\n[changers]\nspecimen = \"{selector}\"\npatience_s = 2.0\n"));
+    bench.write(
+        "lab.toml",
+        &format!("{rig}\n[changers]\nspecimen = \"{selector}\"\npatience_s = 2.0\n"),
+    );
     let plan = bench.run(&format!("plan scene.toml --rig lab.toml {FOLDER}"));
     assert_eq!(plan.code, 0, "{}{}", plan.out, plan.err);
-    assert!(plan.err.contains("3 specimens are changed by `org.example.carousel/carousel"), "{}", plan.err);
+    assert!(
+        plan.err
+            .contains("3 specimens are changed by `org.example.carousel/carousel"),
+        "{}",
+        plan.err
+    );
     assert!(!plan.err.contains("changed by hand"), "{}", plan.err);
 
     // Nobody is there. Each failure ends the run before the board is pressed; every press before it is kept.
     for (mood, said) in [
         (Mood::Stuck, "the motor is hot"),
-        (Mood::BringsAnother, "it says that `sphere of radius 2 mm` is in place, expected `line grating of 1 mm`"),
+        (
+            Mood::BringsAnother,
+            "it says that `sphere of radius 2 mm` is in place, expected `line grating of 1 mm`",
+        ),
         (Mood::Silent, "it has not arrived"),
         (Mood::Gone, "it closed the connection"),
     ] {

@@ -20,7 +20,7 @@ use crate::text::{TakeText, Text};
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct ChangerCalls {
-    /// What every device has.
+    /// The calls that every device has; the table begins with them.
     pub device: DeviceCalls,
     /// `[owner & open]` Brings what is called `name` into place; `take` is handed the name of what is there, once nothing moves.
     pub bring: Option<

@@ -25,8 +25,8 @@ pub use force::{ForceCalls, Wrench};
 pub use host::{Host, Level};
 pub use lighting::LightingCalls;
 pub use plugin::{
-    ABI_MAJOR, ABI_MINOR, CHANGER_FACTORY, ENTRY_SYMBOL, ESTIMATOR_FACTORY, FORCE_FACTORY, LIGHTING_FACTORY, MAGIC,
-    Plugin, ROBOT_FACTORY, SENSOR_FACTORY,
+    ABI_MAJOR, ABI_MINOR, CHANGER_FACTORY, ENTRY_SYMBOL, ESTIMATOR_FACTORY, FORCE_FACTORY,
+    LIGHTING_FACTORY, MAGIC, Plugin, ROBOT_FACTORY, SENSOR_FACTORY,
 };
 pub use robot::{Motion, Pose, RobotCalls};
 pub use sensor::{FRAME_DROPPED, Frame, PixelFormat, SensorCalls};

@@ -59,7 +59,7 @@ pub const ESTIMATOR_FACTORY: &str = "taceva.estimator/1";
 pub struct Plugin {
     /// [`MAGIC`].
     pub magic: u32,
-    /// Of this struct.
+    /// The size of this struct, in bytes.
     pub size: u32,
     /// [`ABI_MAJOR`].
     pub abi_major: u32,

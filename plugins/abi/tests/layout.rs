@@ -13,15 +13,16 @@ use std::process::Command;
 use taceva_needs::{Need, skip};
 
 use taceva_abi::ext::{
-    BENCH, BenchCalls, EXPIRING_MOTION, ExpiringMotionCalls, GUARDED_MOTION, GuardedMotionCalls, GuardedStop, NUMBERED, NumberedCalls,
-    SENSOR_LIGHTING, SensorLightingCalls, Specimen, TARE, TareCalls,
+    BENCH, BenchCalls, EXPIRING_MOTION, ExpiringMotionCalls, GUARDED_MOTION, GuardedMotionCalls,
+    GuardedStop, NUMBERED, NumberedCalls, SENSOR_LIGHTING, SensorLightingCalls, Specimen, TARE,
+    TareCalls,
 };
 use taceva_abi::{
-    ABI_MAJOR, ABI_MINOR, Arg, Args, CHANGER_FACTORY, ChangerCalls, Device, DeviceCalls, ENTRY_SYMBOL, ESTIMATOR_FACTORY, Error,
-    EstimatorFactory, FORCE_FACTORY, FRAME_DROPPED, Factory, FaultNumber, ForceCalls, Frame, Host,
-    LIGHTING_FACTORY, Level, LightingCalls, MAGIC, MESSAGE_SIZE, Motion, PixelFormat, Plugin, Pose,
-    ROBOT_FACTORY, Regressor, RegressorCalls, RobotCalls, SENSOR_FACTORY, SensorCalls, Stamp,
-    Status, Text, TrainingSet, Wrench,
+    ABI_MAJOR, ABI_MINOR, Arg, Args, CHANGER_FACTORY, ChangerCalls, Device, DeviceCalls,
+    ENTRY_SYMBOL, ESTIMATOR_FACTORY, Error, EstimatorFactory, FORCE_FACTORY, FRAME_DROPPED,
+    Factory, FaultNumber, ForceCalls, Frame, Host, LIGHTING_FACTORY, Level, LightingCalls, MAGIC,
+    MESSAGE_SIZE, Motion, PixelFormat, Plugin, Pose, ROBOT_FACTORY, Regressor, RegressorCalls,
+    RobotCalls, SENSOR_FACTORY, SensorCalls, Stamp, Status, Text, TrainingSet, Wrench,
 };
 
 /// An expression of C, and the number that Rust says it is.

@@ -85,13 +85,13 @@ pub fn checks() -> impl Iterator<Item = &'static Check> {
 /// How a plugin is checked.
 #[derive(Clone, Debug)]
 pub struct CheckRequest {
-    /// What everything is drawn from.
+    /// The seed of everything that is drawn at random.
     pub seed: u64,
     /// The checks whose names begin with one of these; all, where there is none.
     pub only: Vec<String>,
-    /// What drivers are opened with, by key; those that are not named by what they declare.
+    /// The arguments of drivers by their keys; a driver that is not named is opened with its defaults.
     pub arguments: BTreeMap<DriverKey, String>,
-    /// Whether robots that are no simulations may be moved.
+    /// Whether robots and changers that are not simulated may be moved.
     pub moves: bool,
     /// How long one check may take.
     pub limit: Duration,
@@ -140,7 +140,7 @@ pub struct CheckResult {
 }
 
 impl PluginHost {
-    /// Makes the checks of `request` on `plugin`, and tells of each once it is made.
+    /// Makes the checks of `request` on `plugin`, and calls `tell` with the result of each.
     ///
     /// # Errors
     /// [`DriverError`] if its library cannot even be read.

@@ -9,8 +9,8 @@ use taceva_core::{
 
 use crate::call::{ArgList, Failure};
 use crate::device::{
-    PluginBench, PluginChanger, PluginDevice, PluginForce, PluginLighting, PluginRobot, PluginSensor, RigHandle,
-    open,
+    PluginBench, PluginChanger, PluginDevice, PluginForce, PluginLighting, PluginRobot,
+    PluginSensor, RigHandle, open,
 };
 use crate::estimator;
 use crate::library::{Library, Place};

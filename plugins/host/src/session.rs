@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use crate::offer::Offer;
 use taceva_core::{
-    Args, Changer, Descriptor, DriverError, DriverKey, ForceTransducer, Found, Lighting, ModelError, Robot,
-    Sensor, SimulatedBench,
+    Args, Changer, Descriptor, DriverError, DriverKey, ForceTransducer, Found, Lighting,
+    ModelError, Robot, Sensor, SimulatedBench,
 };
 pub use taceva_core::{FitRequest, Saved, SavedRegressor};
 

@@ -1,4 +1,4 @@
-//! What a plugin is made of.
+//! The drivers and estimators that a plugin provides.
 
 use taceva_core::{
     Builtin, Changer, DescriptorError, Factory, ForceTransducer, Lighting, Robot, Sensor,

@@ -7,11 +7,12 @@ use std::ffi::c_void;
 use std::ptr::null;
 
 use taceva_abi::{
-    CHANGER_FACTORY, ESTIMATOR_FACTORY, Error, FORCE_FACTORY, Factory, Host, LIGHTING_FACTORY, ROBOT_FACTORY,
-    SENSOR_FACTORY, Status, Text,
+    CHANGER_FACTORY, ESTIMATOR_FACTORY, Error, FORCE_FACTORY, Factory, Host, LIGHTING_FACTORY,
+    ROBOT_FACTORY, SENSOR_FACTORY, Status, Text,
 };
 use taceva_core::{
-    Changer, DescriptorError, ErrorKind, Factory as CoreFactory, ForceTransducer, Lighting, Robot, Sensor,
+    Changer, DescriptorError, ErrorKind, Factory as CoreFactory, ForceTransducer, Lighting, Robot,
+    Sensor,
 };
 
 use crate::calls::Kind;

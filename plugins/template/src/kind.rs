@@ -1,4 +1,4 @@
-//! What a plugin can be begun as.
+//! The kinds of plugin that a new project can begin as.
 
 use std::fmt;
 

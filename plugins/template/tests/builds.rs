@@ -8,8 +8,8 @@ use std::process::Command;
 use std::sync::Arc;
 
 use taceva_core::{
-    Changer, Channel, Channels, Device, DriverKey, Factory, FeatureShape, Features, ForceTransducer,
-    Lighting, Robot, Sensor, SilentProgress, Targets, TrainingSet,
+    Changer, Channel, Channels, Device, DriverKey, Factory, FeatureShape, Features,
+    ForceTransducer, Lighting, Robot, Sensor, SilentProgress, Targets, TrainingSet,
 };
 use taceva_drivers::conformance::{self, Report, Trial};
 use taceva_host::{FitRequest, PluginConfig, PluginDriver, PluginHost, Plugins, Saved, SearchPath};

@@ -186,7 +186,9 @@ fn holds_fault(holds: &[String]) -> Option<String> {
     holds
         .iter()
         .find(|name| name.is_empty() || !seen.insert(*name))
-        .map(|name| format!("what it holds has the name {name:?}, which is empty or stands there twice"))
+        .map(|name| {
+            format!("what it holds has the name {name:?}, which is empty or stands there twice")
+        })
 }
 
 fn positive(named: &[(&str, Option<f64>)]) -> Option<String> {

@@ -141,7 +141,11 @@ impl PlannedStudy {
         let [_, changes] = Changes::of(&self.plan, false, &self.held(drivers));
         let counted = [
             (changes.specimens.len(), "specimens", &rig.changers.specimen),
-            (changes.units.len(), "units of the sensor", &rig.changers.unit),
+            (
+                changes.units.len(),
+                "units of the sensor",
+                &rig.changers.unit,
+            ),
         ];
         let changed = counted.into_iter().filter(|(count, ..)| *count > 0);
         let changed = changed.filter_map(|(count, what, changer)| {

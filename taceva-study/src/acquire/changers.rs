@@ -4,9 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
-use taceva_core::{
-    Changer, Deadline, DriverError, DriverKey, ErrorKind, Progress, Rig, Specimen,
-};
+use taceva_core::{Changer, Deadline, DriverError, DriverKey, ErrorKind, Progress, Rig, Specimen};
 use taceva_drivers::{Drivers, OpenError};
 use taceva_protocol::{Cancel, RigFile, Setting, SpecimenChanger};
 

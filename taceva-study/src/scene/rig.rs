@@ -227,9 +227,8 @@ pub(crate) fn check_changers(rig: &RigFile, drivers: &Drivers) -> Result<(), Sce
             continue;
         };
         let refused = |(at, problem)| rig.error(at, problem);
-        let contradiction = |problem: String| {
-            refused((changer.at(), SceneProblem::Contradiction(problem)))
-        };
+        let contradiction =
+            |problem: String| refused((changer.at(), SceneProblem::Contradiction(problem)));
         let holds = spec.held_by(drivers, Some(changer)).map_err(refused)?;
         if holds.is_none_or(|holds| holds.is_empty()) {
             return Err(contradiction(format!(

@@ -11,7 +11,7 @@ use taceva_study::StudyError;
 
 use crate::devices::CAROUSEL;
 use crate::record_on;
-use crate::session::{UPRIGHT, rig_file};
+use crate::session::{UPRIGHT, rig_file, scene};
 use crate::world::{Misfortune, World};
 
 /// Two units, of which the surface is felt at two places each, with a tip so slow in contact that a busy machine is in time.
@@ -117,7 +117,9 @@ fn rig(folder: &Path, changers: &str) -> PathBuf {
 
 /// Changers that hold everything.
 fn both() -> String {
-    format!("specimen = \"wall/carousel:holds={BALL}\"\nunit = \"wall/revolver:holds=a+b\"\npatience_s = 0.5")
+    format!(
+        "specimen = \"wall/carousel:holds={BALL}\"\nunit = \"wall/revolver:holds=a+b\"\npatience_s = 0.5"
+    )
 }
 
 #[test]
@@ -134,12 +136,16 @@ fn changers_bring_units_and_specimens_while_the_robot_stands_halted_and_nobody_i
     assert_eq!(names, ["a", BALL, "b", BALL]);
     for (_, height_mm, was_halted, stood) in &changes {
         // The clearance of the scene is 0.3 mm.
-        assert!(*height_mm <= -0.3 + 1e-9 && *was_halted && *stood, "{changes:?}");
+        assert!(
+            *height_mm <= -0.3 + 1e-9 && *was_halted && *stood,
+            "{changes:?}"
+        );
     }
 }
 
 #[test]
-fn a_changer_that_fails_ends_an_unattended_run_with_everything_recorded_and_the_next_call_goes_on() {
+fn a_changer_that_fails_ends_an_unattended_run_with_everything_recorded_and_the_next_call_goes_on()
+{
     for (misfortune, said) in [
         (Misfortune::Fails, "it is stuck"),
         (Misfortune::Hangs, "turn"),
@@ -150,9 +156,12 @@ fn a_changer_that_fails_ends_an_unattended_run_with_everything_recorded_and_the_
         ),
     ] {
         let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));
-        let rig = rig(folder.path(), &format!("specimen = \"wall/carousel:holds={BALL}\"\npatience_s = 0.5"));
+        let rig = rig(
+            folder.path(),
+            &format!("specimen = \"wall/carousel:holds={BALL}\"\npatience_s = 0.5"),
+        );
         let run = folder.path().join("run");
-        let scene = SCENE.replace("units = [\"a\", \"b\"]", "units = [\"a\"]");
+        let scene = scene();
         world.state().changer = misfortune;
         let begun = Instant::now();
         let stopped = record_on(&world, &run, &SilentProgress, (&scene, Some(&rig), None));
@@ -160,7 +169,10 @@ fn a_changer_that_fails_ends_an_unattended_run_with_everything_recorded_and_the_
             panic!("{misfortune:?}: {stopped:?}");
         };
         assert!(matches!(source.cause, StopCause::Device(_)), "{source}");
-        assert!(source.to_string().contains(said), "{misfortune:?}: {source}");
+        assert!(
+            source.to_string().contains(said),
+            "{misfortune:?}: {source}"
+        );
         assert_eq!(source.left, Left::Clear);
         assert!(begun.elapsed() < Duration::from_secs(20));
         let now_s = MonotonicClock.now_s();
@@ -170,7 +182,7 @@ fn a_changer_that_fails_ends_an_unattended_run_with_everything_recorded_and_the_
         state.changer = Misfortune::None;
         drop(state);
         let whole = record_on(&world, &run, &SilentProgress, (&scene, Some(&rig), None));
-        assert_eq!(whole.expect("it goes on").table().samples().len(), 2);
+        assert_eq!(whole.expect("it goes on").table().samples().len(), 6);
     }
 }
 
@@ -192,7 +204,12 @@ fn where_somebody_is_there_the_change_is_asked_for_instead_with_what_the_changer
     let run = folder.path().join("run");
     world.state().changer = Misfortune::Fails;
     let person = Mutex::new(Person(world.clone(), Vec::new()));
-    let whole = record_on(&world, &run, &SilentProgress, (SCENE, Some(&rig), Some(&person)));
+    let whole = record_on(
+        &world,
+        &run,
+        &SilentProgress,
+        (SCENE, Some(&rig), Some(&person)),
+    );
     assert_eq!(whole.expect("by hand").table().samples().len(), 4);
     let asked = &person.lock().expect("whole").1;
     let [Question::Instead { of_changer, why }] = &asked[..] else {
@@ -205,11 +222,15 @@ fn where_somebody_is_there_the_change_is_asked_for_instead_with_what_the_changer
 #[test]
 fn what_a_changer_does_not_hold_needs_somebody_and_is_named_before_anything_is_opened() {
     let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));
-    let rig = rig(folder.path(), "specimen = \"wall/carousel:holds=sphere of radius 1 mm\"\nunit = \"wall/revolver:holds=a\"");
+    let rig = rig(
+        folder.path(),
+        "specimen = \"wall/carousel:holds=sphere of radius 1 mm\"\nunit = \"wall/revolver:holds=a\"",
+    );
     let run = folder.path().join("run");
     let refused = record_on(&world, &run, &SilentProgress, (SCENE, Some(&rig), None));
     let text = refused.expect_err("nobody is there").to_string();
-    let needed = "2 specimens are changed by hand, which the changer does not hold: sphere of radius 2 mm";
+    let needed =
+        "2 specimens are changed by hand, which the changer does not hold: sphere of radius 2 mm";
     assert!(text.contains(needed), "{text}");
     let needed = "1 units of the sensor are changed by hand, which the changer does not hold: b";
     assert!(text.contains(needed), "{text}");
@@ -221,10 +242,13 @@ fn a_changer_that_is_none_or_holds_nothing_is_refused_with_its_line() {
     let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));
     let run = folder.path().join("run");
     for (changers, said) in [
-        ("specimen = \"wall/carousl:holds=a\"", "line 16: `wall/carousl`"),
-        ("unit = \"wall/revolver:holds=\"", "line 16:"),
-        ("units = \"wall/revolver:holds=a\"", "line 16:"),
-        ("patience_s = 0.0", "line 16: `patience_s`"),
+        (
+            "specimen = \"wall/carousl:holds=a\"",
+            "line 14: `wall/carousl`",
+        ),
+        ("unit = \"wall/revolver:holds=\"", "line 14:"),
+        ("units = \"wall/revolver:holds=a\"", "line 14:"),
+        ("patience_s = 0.0", "line 14: `patience_s`"),
     ] {
         let rig = rig(folder.path(), changers);
         let refused = record_on(&world, &run, &SilentProgress, (SCENE, Some(&rig), None));
@@ -249,16 +273,27 @@ impl Progress for StopsMeanwhile {
 #[test]
 fn a_wish_to_stop_reaches_a_changer_that_moves() {
     let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));
-    let changers = format!("specimen = \"wall/carousel:holds={BALL}\"\nunit = \"wall/revolver:holds=a+b\"\npatience_s = 600.0");
+    let changers = format!(
+        "specimen = \"wall/carousel:holds={BALL}\"\nunit = \"wall/revolver:holds=a+b\"\npatience_s = 600.0"
+    );
     let rig = rig(folder.path(), &changers);
     let run = folder.path().join("run");
     world.state().changer = Misfortune::Hangs;
     let begun = Instant::now();
-    let stopped = record_on(&world, &run, &StopsMeanwhile(begun), (SCENE, Some(&rig), None));
+    let stopped = record_on(
+        &world,
+        &run,
+        &StopsMeanwhile(begun),
+        (SCENE, Some(&rig), None),
+    );
     let Err(StudyError::Acquisition { source, .. }) = stopped else {
         panic!("{stopped:?}");
     };
     assert!(matches!(source.cause, StopCause::Cancelled), "{source}");
-    assert!(begun.elapsed() < Duration::from_secs(5), "{:?}", begun.elapsed());
+    assert!(
+        begun.elapsed() < Duration::from_secs(5),
+        "{:?}",
+        begun.elapsed()
+    );
     assert_eq!(world.state().changes.len(), 1);
 }

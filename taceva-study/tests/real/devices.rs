@@ -4,10 +4,11 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use taceva_core::{
-    ArgSpec, Args, Axes, Changer, ChangerFacts, Deadline, Descriptor, DescriptorError, DescriptorSpec, DriverError, DriverKey,
-    DriverSource, EnablingSwitch, ErrorKind, Factory, Facts, Fault, Footprint, ForceFacts,
-    ForceTransducer, FrameInfo, FrameMut, Halt, Hertz, Millimetre, Newton, PixelFormat, Pose,
-    Registry, Rig, Robot, RobotFacts, RobotWatch, Sensor, SensorFacts, Speed, Stamp, Wrench,
+    ArgSpec, Args, Axes, Changer, ChangerFacts, Deadline, Descriptor, DescriptorError,
+    DescriptorSpec, DriverError, DriverKey, DriverSource, EnablingSwitch, ErrorKind, Factory,
+    Facts, Fault, Footprint, ForceFacts, ForceTransducer, FrameInfo, FrameMut, Halt, Hertz,
+    Millimetre, Newton, PixelFormat, Pose, Registry, Rig, Robot, RobotFacts, RobotWatch, Sensor,
+    SensorFacts, Speed, Stamp, Wrench,
 };
 use taceva_drivers::{Drivers, MonotonicClock, OpenError, Switches};
 

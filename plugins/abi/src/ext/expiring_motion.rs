@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::robot::Motion;
 use crate::status::Status;
 
-/// The id of the extension.
+/// The id by which a host asks for this ability.
 pub const EXPIRING_MOTION: &str = "taceva.robot.expiring-motion/1";
 
 /// `taceva_expiring_motion_calls`, since minor 2.
@@ -22,9 +22,9 @@ pub const EXPIRING_MOTION: &str = "taceva.robot.expiring-motion/1";
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct ExpiringMotionCalls {
-    /// Of this struct.
+    /// The size of this struct, in bytes.
     pub size: u32,
-    /// 0.
+    /// Reserved, 0.
     pub reserved: u32,
     /// `[owner & open]` Moves; without its process the robot stands 200 ms later at most, and the way in which it brakes.
     pub move_expiring: Option<

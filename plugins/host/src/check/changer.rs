@@ -11,7 +11,9 @@ use std::time::Duration;
 use taceva_abi as abi;
 use taceva_core::{Changer, Deadline, DriverError, DriverKind, ErrorKind};
 
-use super::subject::{AT_ONCE, Draw, Ending, PATIENT, SOON, Subject, ensure, expect_failure, timed};
+use super::subject::{
+    AT_ONCE, Draw, Ending, PATIENT, SOON, Subject, ensure, expect_failure, timed,
+};
 use super::{Check, Of};
 use crate::call::{Taken, take, timeout};
 use crate::session::Session;
@@ -141,7 +143,11 @@ fn interrupt(subject: &Subject) -> Result<(), Ending> {
         .join()
         .map_err(|_| Ending::Broken("the check panicked".to_owned()))?;
     if answer.is_err() {
-        expect_failure("a change that was interrupted", answer, &[ErrorKind::Interrupted])?;
+        expect_failure(
+            "a change that was interrupted",
+            answer,
+            &[ErrorKind::Interrupted],
+        )?;
         let late = ended.saturating_duration_since(at);
         ensure(late < AT_ONCE, || {
             format!("it took {late:?}, expected at most {AT_ONCE:?}")
@@ -157,7 +163,11 @@ fn nobody_takes(subject: &Subject) -> Result<(), Ending> {
     let (changer, holds) = holding(subject)?;
     drop(changer);
     let changer: Bare = subject.open()?;
-    let answer = bare_bring(&changer, abi::Text::from(&holds[0]), (timeout(PATIENT), false));
+    let answer = bare_bring(
+        &changer,
+        abi::Text::from(&holds[0]),
+        (timeout(PATIENT), false),
+    );
     let kinds = [ErrorKind::InvalidArgument];
     expect_failure("nobody who takes the name", answer, &kinds)
 }

@@ -5,9 +5,9 @@ use std::os::fd::{AsFd, BorrowedFd};
 use std::sync::Arc;
 
 use taceva_core::{
-    ArgSpec, ArgValue, Args, Changer, Channels, Descriptor, DriverError, DriverKey, ErrorKind, FeatureShape,
-    ForceTransducer, Found, Lighting, ModelError, Progress, Robot, Sensor, SilentProgress,
-    SimulatedBench,
+    ArgSpec, ArgValue, Args, Changer, Channels, Descriptor, DriverError, DriverKey, ErrorKind,
+    FeatureShape, ForceTransducer, Found, Lighting, ModelError, Progress, Robot, Sensor,
+    SilentProgress, SimulatedBench,
 };
 
 use super::array;

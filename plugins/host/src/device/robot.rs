@@ -10,12 +10,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use taceva_abi as abi;
-use taceva_abi::ext::{
-    EXPIRING_MOTION, ExpiringMotionCalls, GUARDED_MOTION, GuardedMotionCalls,
-};
+use taceva_abi::ext::{EXPIRING_MOTION, ExpiringMotionCalls, GUARDED_MOTION, GuardedMotionCalls};
 use taceva_core::{
-    Deadline, DriverError, DriverKey, DriverKind, ErrorKind, ExpiringMotion, Facts, Guard, GuardedMotion,
-    GuardedStop, Halt, Pose, Robot, RobotFacts, SiPose, Speed, Stamp, check_pose,
+    Deadline, DriverError, DriverKey, DriverKind, ErrorKind, ExpiringMotion, Facts, Guard,
+    GuardedMotion, GuardedStop, Halt, Pose, Robot, RobotFacts, SiPose, Speed, Stamp, check_pose,
 };
 
 use super::handle::{Handle, Opened, Owned, PluginDevice};

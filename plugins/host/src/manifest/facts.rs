@@ -1,8 +1,8 @@
 //! What a `[[provides]]` table says of a device, as facts of its kind.
 
 use taceva_core::{
-    Axes, Axis, ChangerFacts, Facts, Footprint, ForceFacts, FrameInfo, Hertz, LightingFacts, Millimetre, Newton,
-    Point, RobotFacts, SensorFacts, Speed, Workspace,
+    Axes, Axis, ChangerFacts, Facts, Footprint, ForceFacts, FrameInfo, Hertz, LightingFacts,
+    Millimetre, Newton, Point, RobotFacts, SensorFacts, Speed, Workspace,
 };
 use toml::Spanned;
 

@@ -109,7 +109,9 @@ fn goes_on_without_its_plugin(is_expiring: bool) -> Option<Duration> {
     let speed = Speed::try_new(5.0).expect("above 0");
     let mover = thread::spawn(move || match is_expiring {
         true => {
-            let expiring = robot.expiring_motion().expect("it derives from `can_expire`");
+            let expiring = robot
+                .expiring_motion()
+                .expect("it derives from `can_expire`");
             expiring.move_expiring(target, speed, PATIENCE)
         }
         false => robot.move_to(target, speed, PATIENCE),
@@ -124,7 +126,10 @@ fn goes_on_without_its_plugin(is_expiring: bool) -> Option<Duration> {
     let process = rustix::process::Pid::from_raw(process).expect("a process");
     rustix::process::kill_process(process, rustix::process::Signal::KILL).expect("killed");
     let killed = Instant::now();
-    mover.join().expect("whole").expect_err("its process is gone");
+    mover
+        .join()
+        .expect("whole")
+        .expect_err("its process is gone");
     thread::sleep(Duration::from_millis(700));
     let moved = controller.told().moved.expect("it moved");
     Some(moved.saturating_duration_since(killed))

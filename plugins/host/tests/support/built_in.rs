@@ -3,8 +3,8 @@
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use taceva_core::{
-    Args, Changer, Descriptor, Device, DriverError, DriverKey, ErrorKind, Factory, ForceTransducer, Found,
-    Lighting, ModelError, Registry, RegistryError, Rig, Robot, Sensor, SimulatedBench,
+    Args, Changer, Descriptor, Device, DriverError, DriverKey, ErrorKind, Factory, ForceTransducer,
+    Found, Lighting, ModelError, Registry, RegistryError, Rig, Robot, Sensor, SimulatedBench,
 };
 use taceva_host::{FitRequest, Offer, Saved, SavedRegressor, Session};
 

@@ -246,7 +246,10 @@ unsafe extern "C" fn move_expiring(
         };
         let (target, speed) = opened.asked(target)?;
         let robot = opened.robot.expiring_motion().ok_or_else(|| {
-            Failure::new(ErrorKind::Unsupported, "the motions of the robot do not expire")
+            Failure::new(
+                ErrorKind::Unsupported,
+                "the motions of the robot do not expire",
+            )
         })?;
         let arrived = robot.move_expiring(target, speed, deadline(timeout_ns))?;
         *stamp = convert::stamp(&arrived)?;

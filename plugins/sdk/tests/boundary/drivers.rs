@@ -9,9 +9,9 @@ mod robot;
 mod sensor;
 
 use taceva_core::{
-    ArgSpec, ArgValue, Changer, Descriptor, DescriptorError, DescriptorSpec, DriverError, DriverKey,
-    DriverSource, ErrorKind, Facts, ForceTransducer, FrameInfo, Lighting, PixelFormat, Robot,
-    Sensor,
+    ArgSpec, ArgValue, Changer, Descriptor, DescriptorError, DescriptorSpec, DriverError,
+    DriverKey, DriverSource, ErrorKind, Facts, ForceTransducer, FrameInfo, Lighting, PixelFormat,
+    Robot, Sensor,
 };
 use taceva_plugin::{EstimatorFactory, export_plugin};
 

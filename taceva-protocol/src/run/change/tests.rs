@@ -142,7 +142,10 @@ fn the_robot_stands_halted_above_the_gel_for_as_long_as_the_changer_moves() {
 fn a_changer_that_fails_ends_the_run_with_the_tip_halted_above_the_gel_where_nobody_is() {
     let left = needed(true, true, None);
     let error = left.skipped.expect_err("it is stuck");
-    assert!(error.press.is_some() && error.to_string().contains("stuck"), "{error}");
+    assert!(
+        error.press.is_some() && error.to_string().contains("stuck"),
+        "{error}"
+    );
     assert_eq!(error.left, Left::Clear);
     let state = left.rig.state();
     assert!(state.halted && state.height_mm == -2.0 && !left.is_mounted);
@@ -166,12 +169,18 @@ fn a_changer_that_fails_is_out_of_use_and_somebody_mounts_by_hand() {
 fn what_the_changer_does_not_hold_is_mounted_by_hand_or_ends_the_run() {
     let left = needed(false, false, Some(Answer::Done));
     assert!(!left.skipped.expect("by hand") && left.is_mounted);
-    assert!(matches!(left.asked[0], Question::Mount(_)), "{:?}", left.asked);
+    assert!(
+        matches!(left.asked[0], Question::Mount(_)),
+        "{:?}",
+        left.asked
+    );
     assert!(left.carousel.seen.is_empty());
     let left = needed(false, false, None);
     let error = left.skipped.expect_err("nobody is there");
     assert!(
-        error.to_string().contains("which the changer does not hold"),
+        error
+            .to_string()
+            .contains("which the changer does not hold"),
         "{error}"
     );
     assert!(left.rig.motions().is_empty() && left.carousel.seen.is_empty());

@@ -4,8 +4,8 @@ use std::os::fd::OwnedFd;
 use std::sync::Arc;
 
 use taceva_core::{
-    Deadline, DriverError, DriverKind, ExpiringMotion, Guard, GuardedMotion, GuardedStop, Halt, Pose,
-    Robot, Speed, Stamp,
+    Deadline, DriverError, DriverKind, ExpiringMotion, Guard, GuardedMotion, GuardedStop, Halt,
+    Pose, Robot, Speed, Stamp,
 };
 
 use super::{Kind, Server, answered, answered_if_able, unsupported};

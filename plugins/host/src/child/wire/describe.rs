@@ -1,8 +1,8 @@
 //! What is known about a driver before it is opened, as it crosses: checked again where it arrives.
 
 use taceva_core::{
-    ArgKind, ArgSpec, ChangerFacts, Descriptor, DescriptorSpec, DriverKey, DriverSource, Facts, Footprint,
-    ForceFacts, LightingFacts, Outline, Presence, RobotFacts, SensorFacts, Workspace,
+    ArgKind, ArgSpec, ChangerFacts, Descriptor, DescriptorSpec, DriverKey, DriverSource, Facts,
+    Footprint, ForceFacts, LightingFacts, Outline, Presence, RobotFacts, SensorFacts, Workspace,
 };
 
 use super::value::listed;

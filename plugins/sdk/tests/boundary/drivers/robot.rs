@@ -5,8 +5,8 @@ use std::time::Duration;
 
 use taceva_core::{
     Args, Deadline, Degree, Descriptor, DescriptorError, DriverError, ErrorKind, ExpiringMotion,
-    Factory, Facts, Guard, GuardedMotion, GuardedStop, Halt, Millimetre, Newton, Point, Pose, Rig, Robot,
-    RobotFacts, Speed, Stamp, Workspace,
+    Factory, Facts, Guard, GuardedMotion, GuardedStop, Halt, Millimetre, Newton, Point, Pose, Rig,
+    Robot, RobotFacts, Speed, Stamp, Workspace,
 };
 use taceva_plugin::HaltLatch;
 

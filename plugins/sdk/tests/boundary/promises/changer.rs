@@ -31,7 +31,10 @@ fn bring(changer: &Open, name: &str, timeout_ns: u64) -> (Ended, Vec<String>) {
 #[test]
 fn the_name_of_what_is_in_place_crosses_and_a_failure_hands_over_none() {
     let well = Open::new(CHANGER_FACTORY, "well");
-    assert_eq!(bring(&well, "b", SECOND), ((Status::OK, String::new()), vec!["b".to_owned()]));
+    assert_eq!(
+        bring(&well, "b", SECOND),
+        ((Status::OK, String::new()), vec!["b".to_owned()])
+    );
     let ((status, _), names) = bring(&well, "c", SECOND);
     assert_eq!((status, names.len()), (Status::INVALID_ARGUMENT, 0));
     let other = Open::new(CHANGER_FACTORY, "nan");
@@ -63,7 +66,10 @@ fn nobody_who_takes_the_name_is_refused_before_anything_moves() {
             )
         }
     });
-    assert_eq!((status, said.as_str()), (Status::INVALID_ARGUMENT, "`take` is NULL"));
+    assert_eq!(
+        (status, said.as_str()),
+        (Status::INVALID_ARGUMENT, "`take` is NULL")
+    );
 }
 
 #[test]

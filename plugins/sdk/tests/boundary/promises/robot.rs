@@ -159,17 +159,30 @@ fn a_halt_from_another_thread_stops_a_motion_and_latches() {
 #[test]
 fn an_expiring_motion_keeps_to_what_the_robot_says_of_itself_and_is_absent_where_it_has_none() {
     let none = Open::new(ROBOT_FACTORY, "nan");
-    assert!(none.extension::<ExpiringMotionCalls>(EXPIRING_MOTION).is_none());
+    assert!(
+        none.extension::<ExpiringMotionCalls>(EXPIRING_MOTION)
+            .is_none()
+    );
     let robot = Open::new(ROBOT_FACTORY, "well");
     let calls = robot.extension::<ExpiringMotionCalls>(EXPIRING_MOTION);
     let go = calls.expect("it has it").move_expiring.expect("a function");
     let mut stamp = Stamp::default();
     // Half a metre is its workspace.
-    for (z, expected) in [(0.01, Status::OK), (0.6, Status::OUT_OF_RANGE), (f64::NAN, Status::INVALID_ARGUMENT)] {
+    for (z, expected) in [
+        (0.01, Status::OK),
+        (0.6, Status::OUT_OF_RANGE),
+        (f64::NAN, Status::INVALID_ARGUMENT),
+    ] {
         let asked = motion(z);
         // SAFETY: both places live for the call.
         let (status, _) = ended(|error| unsafe {
-            go(robot.handle(), &raw const asked, &raw mut stamp, SECOND, error)
+            go(
+                robot.handle(),
+                &raw const asked,
+                &raw mut stamp,
+                SECOND,
+                error,
+            )
         });
         assert_eq!(status, expected, "{z}");
     }
