@@ -197,7 +197,6 @@ pub(super) fn unit_is_there(
 ) -> Result<bool, StudyError> {
     let plan = &study.plan;
     let drivers = workshop.drivers;
-    let file = study.rig().filter(|_| !rig.is_simulated(drivers));
     let has_changer = is_held(study.held(drivers).units.as_ref(), &unit.to_owned());
     if !has_changer && (plan.units.len() < 2 || rig.is_simulated(drivers)) {
         return Ok(true);
@@ -213,7 +212,7 @@ pub(super) fn unit_is_there(
     let raised = open.raise(plan, (cancel, workshop, *is_enabled));
     drop(open);
     *is_enabled |= raised.map_err(|source| stopped(plan, source))?;
-    let brought = file.and_then(|file| {
+    let brought = study.rig().and_then(|file| {
         let aids = (drivers, workshop.progress, cancel);
         bring_unit((rig, file), unit, aids)
     });

@@ -15,12 +15,12 @@ use crate::cpp::{built, children};
 const SLACK: Duration = Duration::from_millis(60);
 const LOOKING: Duration = Duration::from_millis(2);
 
-/// The controller of an arm along one axis: it is told a speed, which holds for 200 ms, or a place.
+/// The controller of an arm along one axis: it takes a speed, which holds for 200 ms, or a place.
 #[derive(Clone, Default)]
-struct Controller(Arc<Mutex<Told>>);
+struct Controller(Arc<Mutex<State>>);
 
 #[derive(Default)]
-struct Told {
+struct State {
     process: Option<i32>,
     until: Option<Instant>,
     moved: Option<Instant>,
@@ -39,7 +39,7 @@ impl Controller {
         port
     }
 
-    fn told(&self) -> MutexGuard<'_, Told> {
+    fn state(&self) -> MutexGuard<'_, State> {
         self.0.lock().expect("whole")
     }
 
@@ -52,23 +52,23 @@ impl Controller {
             match lines.read_line(&mut line) {
                 Ok(0) => thread::sleep(LOOKING),
                 Ok(_) => {
-                    self.told().obey(line.trim_end());
+                    self.state().obey(line.trim_end());
                     line.clear();
                 }
                 Err(error) if error.kind() == IoErrorKind::WouldBlock => {}
                 // Killed with something unread.
                 Err(_) => thread::sleep(LOOKING),
             }
-            let mut told = self.told();
+            let mut state = self.state();
             let now = Instant::now();
-            if told.until.is_some_and(|until| now < until) {
-                told.moved = Some(now);
+            if state.until.is_some_and(|until| now < until) {
+                state.moved = Some(now);
             }
         }
     }
 }
 
-impl Told {
+impl State {
     fn obey(&mut self, line: &str) {
         let words: Vec<&str> = line.split(' ').collect();
         let number = |word: &str| word.parse::<f64>().expect("a number");
@@ -117,12 +117,12 @@ fn goes_on_without_its_plugin(is_expiring: bool) -> Option<Duration> {
         false => robot.move_to(target, speed, PATIENCE),
     });
     let patience = Instant::now() + Duration::from_secs(20);
-    while controller.told().moved.is_none() {
+    while controller.state().moved.is_none() {
         assert!(Instant::now() < patience, "it never moved");
         thread::sleep(LOOKING);
     }
     thread::sleep(Duration::from_millis(300));
-    let process = controller.told().process.expect("it said so");
+    let process = controller.state().process.expect("it said so");
     let process = rustix::process::Pid::from_raw(process).expect("a process");
     rustix::process::kill_process(process, rustix::process::Signal::KILL).expect("killed");
     let killed = Instant::now();
@@ -131,7 +131,7 @@ fn goes_on_without_its_plugin(is_expiring: bool) -> Option<Duration> {
         .expect("whole")
         .expect_err("its process is gone");
     thread::sleep(Duration::from_millis(700));
-    let moved = controller.told().moved.expect("it moved");
+    let moved = controller.state().moved.expect("it moved");
     Some(moved.saturating_duration_since(killed))
 }
 
