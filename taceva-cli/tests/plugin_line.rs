@@ -92,6 +92,22 @@ fn the_example_is_allowed_checked_and_planned_with_and_says_what_is_wrong_with_i
         assert!(failed.out.contains(words), "{words}: {}", failed.out);
     }
 
+    // A device that falls silent is a reading that did not come in time, and no process that has to be ended.
+    let port = device(|number| {
+        if number > 3 {
+            thread::sleep(Duration::from_secs(600));
+        }
+        resting(number)
+    });
+    bench.ok(&format!(
+        "plugin allow org.example.line-transducer tcp:localhost:{port} {folder}"
+    ));
+    let silent = bench.run(&format!(
+        "plugin check org.example.line-transducer {folder} --with {KEY}:host=localhost;port={port} --only force/reads"
+    ));
+    assert_eq!(silent.code, 1, "{}", silent.out);
+    assert!(silent.out.contains("no reading came in time"), "{}", silent.out);
+
     // The plan opens nothing, and says what would be refused.
     let rig = format!(
         r#"rig_version = 1

@@ -1,4 +1,4 @@
-//! The contract of each kind of device, built in or from a plugin: sensor, robot, force transducer, lighting.
+//! The contract of each kind of device, built in or from a plugin: sensor, robot, force transducer, lighting, changer.
 //!
 //! # The order of calls
 //! 1. A [`Factory`](crate::Factory) opens a device from checked [`Args`](crate::Args); nothing moves and no light changes.
@@ -20,6 +20,7 @@
 //! ([`DeviceFault`](crate::ErrorKind::DeviceFault)): [`check_pose`] and [`check_wrench`] do both.
 
 mod bench;
+mod changer;
 mod deadline;
 mod enabling;
 mod error;
@@ -38,6 +39,7 @@ mod sensor;
 mod speed;
 
 pub use bench::SimulatedBench;
+pub use changer::Changer;
 pub use deadline::Deadline;
 pub use enabling::EnablingSwitch;
 pub use error::DriverError;

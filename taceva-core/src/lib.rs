@@ -39,10 +39,10 @@ pub use args::{ArgError, ArgKind, ArgSpec, ArgValue, Args, Presence};
 pub use batch::{Batch, BatchBuilder, Column, Labels};
 pub use channel::{Channel, ChannelError, Channels};
 pub use driver::{
-    Axes, Axis, Deadline, Device, DriverError, DriverKind, EXPIRES, EnablingSwitch, ExpiringMotion,
-    Fault, ForceTransducer, Guard, GuardedMotion, GuardedStop, Halt, Interrupt, Lighting,
-    NotFinite, Robot, RobotWatch, Sensor, SimulatedBench, Speed, SpeedError, Tare, check_pose,
-    check_wrench,
+    Axes, Axis, Changer, Deadline, Device, DriverError, DriverKind, EXPIRES, EnablingSwitch,
+    ExpiringMotion, Fault, ForceTransducer, Guard, GuardedMotion, GuardedStop, Halt, Interrupt,
+    Lighting, NotFinite, Robot, RobotWatch, Sensor, SimulatedBench, Speed, SpeedError, Tare,
+    check_pose, check_wrench,
 };
 pub use error::ErrorKind;
 pub use estimator_factory::{EstimatorFactory, FitRequest};
@@ -66,9 +66,9 @@ pub use phase::Phase;
 pub use progress::{Progress, SilentProgress};
 pub use quantity::{Degree, Hertz, Lux, Millimetre, Newton, NewtonMillimetre};
 pub use registry::{
-    Access, Builtin, Descriptor, DescriptorError, DescriptorSpec, DriverSource, Factory, Facts,
-    ForceFacts, Found, LightingFacts, Registry, RegistryError, Rig, RobotFacts, SensorFacts,
-    Workspace,
+    Access, Builtin, ChangerFacts, Descriptor, DescriptorError, DescriptorSpec, DriverSource,
+    Factory, Facts, ForceFacts, Found, LightingFacts, Registry, RegistryError, Rig, RobotFacts,
+    SensorFacts, Workspace,
 };
 pub use sample::{Readings, Sample};
 pub use shown::{Shown, is_obeyed, shown, shown_lines};

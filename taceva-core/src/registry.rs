@@ -14,7 +14,9 @@ pub use builtin::Builtin;
 pub use descriptor::{Descriptor, DescriptorError, DescriptorSpec, DriverSource};
 pub use error::RegistryError;
 pub use factory::Factory;
-pub use facts::{Facts, ForceFacts, LightingFacts, RobotFacts, SensorFacts, Workspace};
+pub use facts::{
+    ChangerFacts, Facts, ForceFacts, LightingFacts, RobotFacts, SensorFacts, Workspace,
+};
 pub use found::{Access, Found};
 pub use rig::Rig;
 

@@ -5,7 +5,7 @@ use std::fmt;
 use crate::grating::GratingKind;
 use crate::nanometre::Nanometre;
 
-/// What the robot carries. It gets no further variant in a compatible version: what touches the gel decides every label and the identity of a
+/// What the robot carries. What it displays is the name by which a [`Changer`](crate::Changer) holds it, and stays as it is. It gets no further variant in a compatible version: what touches the gel decides every label and the identity of a
 /// press, so every reader must say what it makes of each.
 ///
 /// ```

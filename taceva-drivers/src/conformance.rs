@@ -1,11 +1,11 @@
 //! The contract of every driver, as checks: run a factory through them and read the [`Report`].
 //!
 //! The suites check the contract of [`Sensor`](taceva_core::Sensor), [`Robot`](taceva_core::Robot),
-//! [`ForceTransducer`](taceva_core::ForceTransducer) and [`Lighting`](taceva_core::Lighting): that the descriptor states the
+//! [`ForceTransducer`](taceva_core::ForceTransducer), [`Lighting`](taceva_core::Lighting) and [`Changer`](taceva_core::Changer): that the descriptor states the
 //! truth, deadlines are kept, a halt from another thread stops and latches, numbers that are not finite are refused, and calls
 //! out of order are answered with a typed error. Each check opens the device anew.
 //!
-//! **A robot moves**: by [`Trial::travel`] away from the gel and back. Nothing else moves, and no check presses the gel.
+//! **A robot moves**: by [`Trial::travel`] away from the gel and back. **A changer moves**: it brings what it holds. Nothing else moves, and no check presses the gel.
 //!
 //! ```
 //! use taceva_drivers::{ReplayFactory, conformance::{self, Trial}};
@@ -21,12 +21,14 @@
 //! ```
 
 mod bench;
+mod changer;
 mod force;
 mod lighting;
 mod report;
 mod robot;
 mod sensor;
 
+pub use changer::changer;
 pub use force::force;
 pub use lighting::lighting;
 pub use report::{Check, Outcome, Report};

@@ -11,7 +11,7 @@ use crate::drivers::Drivers;
 /// The drivers of a program, the devices they see, and what kept one of them from looking.
 #[derive(Debug)]
 pub struct Devices {
-    /// Every driver: sensors, robots, force transducers, lightings; by key within a kind.
+    /// Every driver: sensors, robots, force transducers, lightings, changers; by key within a kind.
     pub drivers: Vec<ListedDriver>,
     /// Every device that is present, in the order of the drivers.
     pub found: Vec<ListedDevice>,
@@ -30,6 +30,7 @@ pub fn devices(drivers: &Drivers) -> Devices {
     devices.visit(&drivers.robots);
     devices.visit(&drivers.forces);
     devices.visit(&drivers.lightings);
+    devices.visit(&drivers.changers);
     devices
 }
 
@@ -105,6 +106,9 @@ pub struct ListedDriver {
     /// The scenes of the light that it can set.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub scenes: Vec<String>,
+    /// The names of what a changer holds.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub holds: Vec<String>,
     /// The arguments that it accepts.
     pub arguments: Vec<ListedArgument>,
 }
@@ -142,6 +146,7 @@ impl ListedDriver {
             axes: None,
             speed_max_mm_s: None,
             scenes: Vec::new(),
+            holds: Vec::new(),
             arguments: descriptor
                 .arguments()
                 .iter()
@@ -167,6 +172,7 @@ impl ListedDriver {
                 listed.force_max_n = facts.force_max.map(|force| force.0);
             }
             Facts::Lighting(facts) => listed.scenes.clone_from(&facts.scenes),
+            Facts::Changer(facts) => listed.holds.clone_from(&facts.holds),
             // A kind of a later version is listed by its name, title and arguments.
             _ => {}
         }

@@ -1,6 +1,8 @@
 //! The drivers of a program, and opening one of them.
 
-use taceva_core::{Device, ForceTransducer, Lighting, Registry, RegistryError, Rig, Robot, Sensor};
+use taceva_core::{
+    Changer, Device, ForceTransducer, Lighting, Registry, RegistryError, Rig, Robot, Sensor,
+};
 
 use crate::open_error::OpenError;
 use crate::selector::Selector;
@@ -17,6 +19,8 @@ pub struct Drivers {
     pub forces: Registry<dyn ForceTransducer>,
     /// Lightings.
     pub lightings: Registry<dyn Lighting>,
+    /// Changers.
+    pub changers: Registry<dyn Changer>,
     /// Enabling switches.
     pub switches: Switches,
 }
@@ -35,6 +39,7 @@ impl Drivers {
             robots: Registry::builtin()?,
             forces: Registry::builtin()?,
             lightings: Registry::builtin()?,
+            changers: Registry::builtin()?,
             switches: Switches::builtin(),
         })
     }
@@ -59,6 +64,9 @@ impl Drivers {
         }
         for driver in host.drivers() {
             self.lightings.add(driver)?;
+        }
+        for driver in host.drivers() {
+            self.changers.add(driver)?;
         }
         Ok(self)
     }

@@ -12,6 +12,7 @@ const SIDE_MM: f64 = 24.0;
 pub(crate) fn of(question: &Question) -> Option<String> {
     match question {
         Question::Mount(specimen) => drawn(specimen),
+        Question::Instead { of_changer, .. } => of(of_changer),
         _ => None,
     }
 }
@@ -124,6 +125,13 @@ mod tests {
             assert_eq!(drawing.matches(mark).count(), count, "{drawing}");
             assert!(drawing.contains("1.5 mm apart"), "{drawing}");
         }
+        let instead = Question::Instead {
+            of_changer: Box::new(Question::Mount(Specimen::Sphere {
+                radius: Nanometre(4_000_000),
+            })),
+            why: "stuck".to_owned(),
+        };
+        assert!(of(&instead).is_some_and(|svg| svg.contains("4 mm")));
         assert_eq!(of(&Question::Unit("b".to_owned())), None);
     }
 }

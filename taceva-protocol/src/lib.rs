@@ -22,8 +22,8 @@ pub use plan::{
 };
 pub use press::{Motion, Press, Waypoint};
 pub use rig_file::{
-    Carried, Jogged, Registration, RigFile, RigForce, RigOperator, RigRobot, RigSensor, SignedAxes,
-    Taught, TeachError,
+    Carried, Jogged, Registration, RigChangers, RigFile, RigForce, RigOperator, RigRobot,
+    RigSensor, SignedAxes, Taught, TeachError,
 };
 pub use run::{
     Answer, Cancel, ChangedTouch, Controls, Devices, Enabling, Event, Left, Mode, MotionStage,

@@ -1,14 +1,18 @@
 //! A rig file: which drivers reach the devices of a rig, how these stand to one another, and what they may not pass.
 
 mod axes;
+mod changers;
 mod registration;
 mod teach;
 
 pub use axes::SignedAxes;
+pub use changers::RigChangers;
 pub use registration::Registration;
 pub use teach::{Jogged, Taught, TeachError};
 
 use serde::Deserialize;
+
+use changers::WrittenChangers;
 
 use crate::content_id::ContentId;
 use crate::scene::{LimitSpec, SceneError, SceneProblem, Setting, Text};
@@ -50,6 +54,8 @@ pub struct RigFile {
     pub sensor: Option<RigSensor>,
     /// Who holds what while the robot moves.
     pub operator: Option<RigOperator>,
+    /// What changes things there instead of hands.
+    pub changers: RigChangers,
     /// Limits of the rig, which only tighten those of its devices.
     pub limits: LimitSpec,
     pub(crate) text: Text,
@@ -121,6 +127,8 @@ struct WrittenRig {
     sensor: Option<WrittenSensor>,
     operator: Option<WrittenOperator>,
     #[serde(default)]
+    changers: WrittenChangers,
+    #[serde(default)]
     limits: LimitSpec,
 }
 
@@ -171,6 +179,7 @@ impl RigFile {
             .operator
             .map(|operator| check.operator(operator))
             .transpose()?;
+        let changers = written.changers.check(&text)?;
         check.limits(&written.limits)?;
         let robot = written.robot.map(|robot| check.robot(robot)).transpose()?;
         let force = written.force.map(|force| check.force(force)).transpose()?;
@@ -187,6 +196,7 @@ impl RigFile {
             force,
             sensor,
             operator,
+            changers,
             limits: written.limits,
             text,
         })

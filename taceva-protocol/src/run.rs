@@ -11,6 +11,7 @@ mod begin;
 mod bounds;
 mod by_hand;
 mod camera;
+mod change;
 mod devices;
 mod error;
 mod event;

@@ -115,6 +115,9 @@ impl Scene {
             study.sensor.driver = Some(sensor.driver.clone());
             study.robot = rig.robot.as_ref().map(|robot| device(&robot.driver));
             study.force = rig.force.as_ref().map(|force| device(&force.driver));
+            if let (Some(light), Some(lighting)) = (&rig.changers.light, &mut study.lighting) {
+                lighting.driver = Some(light.clone());
+            }
             study.rig = Some(Arc::clone(rig));
         }
         Ok(())
@@ -146,10 +149,11 @@ impl Scene {
                     DriverKind::Sensor => "driver of a sensor",
                     DriverKind::Robot => "driver of a robot",
                     DriverKind::Force => "driver of a force transducer",
+                    DriverKind::Changer => "driver of a changer",
                     _ => "driver of lighting",
                 };
                 let text = match kind {
-                    DriverKind::Lighting => &self.text,
+                    DriverKind::Lighting if !study.is_lit_by_rig() => &self.text,
                     _ => study.device_text(self),
                 };
                 return Err(text.unknown_name(selector.at(), what, key, of_kind));

@@ -1,6 +1,7 @@
 //! From a plan to a recording: every press that is not in it yet, unit after unit, each durable before the next begins.
 
 mod by_hand;
+mod changers;
 mod devices;
 mod guardian;
 mod held;
@@ -81,7 +82,7 @@ pub(crate) fn acquire(
                 .count();
             continue;
         }
-        let mut open = OpenRig::open(study, rig, unit, workshop)?;
+        let mut open = OpenRig::open(study, rig, unit, (workshop, cancel))?;
         let log = match &mut log {
             Some(log) => log,
             None => {

@@ -14,7 +14,7 @@ use crate::predict::Predicted;
 /// What part of `predicted`, the rows `rows` of `dataset`, lies within 1.96 of its own standard deviations of the truth, channel by channel
 /// with an interval by contact point; `None` of a model that does not know how sure it is.
 ///
-/// Of the rows those count that are pressed as what was learnt from: nobody promises anything of another light.
+/// Only rows pressed in the same light as the training data count: a model states nothing about others.
 pub(crate) fn calibration_note(
     dataset: &Dataset,
     (predicted, rows): (&Predicted, &[usize]),

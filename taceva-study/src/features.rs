@@ -115,7 +115,7 @@ fn make(
     Ok(Features::new(shape, values)?)
 }
 
-/// Features of no information, for models that look at none: nothing is read for them.
+/// Features that are all 0, for models that use none: no frame is read for them.
 pub(crate) fn blank(shape: FeatureShape, rows: usize) -> Result<Features, StudyError> {
     Ok(Features::new(shape, vec![0.0; rows * shape.len()])?)
 }

@@ -6,7 +6,7 @@ use taceva_metrics::{Evaluation, Repeats};
 
 /// The scores of one model fitted with several seeds, on the same presses, divided alike.
 ///
-/// Apart from intervals by contact point, which say how far a score would move with other presses and the same training.
+/// This is another spread than that of intervals by contact point, which say how far a score would move with other presses and the same training.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct OverSeeds {
     /// The seeds, in order; the scores of the report are those of the first.
@@ -32,7 +32,7 @@ pub struct SeedScore {
     pub mean: f64,
     /// Their standard deviation.
     pub standard_deviation: f64,
-    /// Where the mean over ever more seeds lies, at 95 %.
+    /// The 95 % interval of the mean over all seeds.
     pub interval: [f64; 2],
 }
 

@@ -51,7 +51,7 @@ impl DataPart {
     }
 }
 
-/// A dataset divided, with the record of it.
+/// A dataset divided into parts, and how it was divided.
 #[derive(Clone, Debug)]
 pub struct Divided {
     /// How.

@@ -95,7 +95,7 @@ impl Samples {
         self
     }
 
-    /// Of two columns a channel: truth and prediction of samples called `ids`.
+    /// Samples called `ids` from two columns a channel, truth and prediction.
     pub(crate) fn of_pairs(
         ids: Vec<Option<String>>,
         points: Option<Vec<Option<String>>>,

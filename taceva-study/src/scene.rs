@@ -108,6 +108,9 @@ impl PlannedScene {
             instead.exchange_model(&study.name, &mut study.model)?;
         }
         rig::check_drivers(&scene, drivers)?;
+        if let Some(rig) = &rig {
+            rig::check_changers(rig, drivers)?;
+        }
         let mut sources = Vec::new();
         for study in &scene.studies {
             sources.push(Source::of(study, &scene, &text, drivers)?);

@@ -4,8 +4,8 @@ use taceva_core::{Frame, Pose, Wrench};
 use taceva_dataset::StreamFacts;
 use taceva_protocol::{ContentId, Event, Plan};
 
-/// Somebody who looks on while devices work, such as a page. Every call comes from the thread that works: each returns at once and waits for
-/// nobody.
+/// Somebody who looks on while devices work, such as a page. Every call comes from the thread that conducts the run, so an implementation must
+/// return at once and never wait.
 pub trait Viewer: Send + Sync {
     /// Presses of `unit` begin, but for those that are recorded already.
     fn begins(&self, plan: &Plan, unit: &str, is_recorded: &dyn Fn(ContentId) -> bool);

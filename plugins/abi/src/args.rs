@@ -24,7 +24,7 @@ pub struct Arg {
     pub number: f64,
     /// [`Arg::TEXT`], [`Arg::WHOLE`], [`Arg::NUMBER`] or [`Arg::FLAG`].
     pub kind: u32,
-    /// 0.
+    /// Reserved, 0.
     pub reserved: u32,
 }
 
@@ -52,8 +52,8 @@ impl Arg {
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Args {
-    /// The first; may be NULL only where `count` is 0.
+    /// The first argument; may be NULL only where `count` is 0.
     pub items: *const Arg,
-    /// How many.
+    /// How many arguments there are.
     pub count: usize,
 }

@@ -20,9 +20,9 @@ use crate::text::{TakeText, Text};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(C)]
 pub struct Stamp {
-    /// When it was true, ns.
+    /// When the observation was true, in ns of the clock of the device.
     pub valid_ns: u64,
-    /// When it was received, ns; 0: not known.
+    /// When the host's side received it, in ns; 0 where that is not known.
     pub received_ns: u64,
 }
 
@@ -53,9 +53,9 @@ pub struct Rig {
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct DeviceCalls {
-    /// Of the whole table of the kind.
+    /// The size of the whole table of the kind, in bytes.
     pub size: u32,
-    /// 0.
+    /// Reserved, 0.
     pub reserved: u32,
     /// `[owner & open]` Stops the device and frees it; the last call.
     pub close: Option<unsafe extern "C" fn(handle: *mut c_void)>,
@@ -77,7 +77,7 @@ pub struct DeviceCalls {
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Device {
-    /// The plugin's.
+    /// The plugin's own handle of the device, handed back with every call.
     pub handle: *mut c_void,
     /// The table of its kind; lives as long as the library.
     pub calls: *const DeviceCalls,
@@ -95,12 +95,11 @@ pub struct Device {
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Factory {
-    /// Of this struct.
+    /// The size of this struct, in bytes.
     pub size: u32,
-    /// How many.
+    /// How many drivers of this kind the plugin has.
     pub drivers: u32,
-    /// `[any]` Writes the `[[provides]]` table of the manifest as it holds for the arguments, NULL for whatever they are; no device is
-    /// touched.
+    /// `[any]` Writes the `[[provides]]` table of the manifest as it holds for the arguments; NULL stands for any arguments. No device is touched.
     pub describe:
         Option<unsafe extern "C" fn(u32, *const Args, TakeText, *mut c_void, *mut Error) -> Status>,
     /// `[any]` Names each device that is present by the arguments that choose it.

@@ -23,7 +23,7 @@ pub const MESSAGE_SIZE: usize = 504;
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Error {
-    /// In: of this struct.
+    /// In: the size of this struct, in bytes.
     pub size: u32,
     /// Out: the device's own number, 0 for none.
     pub vendor_code: i32,
@@ -47,7 +47,7 @@ pub struct Error {
 pub struct FaultNumber(pub u32);
 
 impl FaultNumber {
-    /// It did not.
+    /// The device did not stop by itself.
     pub const NONE: FaultNumber = FaultNumber(0);
     /// Somebody pressed an emergency stop, or a guard opened.
     pub const EMERGENCY_STOP: FaultNumber = FaultNumber(0xfa17_0001);

@@ -32,7 +32,7 @@ use crate::text::{TakeText, Text};
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct TrainingSet {
-    /// Of this struct.
+    /// The size of this struct, in bytes.
     pub size: u32,
     /// Columns of the targets.
     pub channels: u32,
@@ -42,15 +42,15 @@ pub struct TrainingSet {
     pub height: u32,
     /// Columns; the length of a flat list.
     pub width: u32,
-    /// Numbers a place.
+    /// Numbers at each place.
     pub depth: u32,
-    /// 0.
+    /// Reserved, 0.
     pub reserved: u32,
     /// `[samples, height, width, depth]`
     pub features: *const f32,
     /// `[samples, channels]`
     pub targets: *const f64,
-    /// `[samples]`: which belong together; NULL: unknown.
+    /// `[samples]`: the contact point of each; NULL where that is not known.
     pub groups: *const u32,
     /// `[channels]`
     pub channel_names: *const Text,
@@ -82,9 +82,9 @@ pub type Progress = Option<unsafe extern "C" fn(context: *mut c_void, done: f64)
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct RegressorCalls {
-    /// Of this struct.
+    /// The size of this struct, in bytes.
     pub size: u32,
-    /// 0.
+    /// Reserved, 0.
     pub reserved: u32,
     /// `[owner & open]`
     pub close: Option<unsafe extern "C" fn(*mut c_void)>,
@@ -118,7 +118,7 @@ pub struct RegressorCalls {
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Regressor {
-    /// The plugin's.
+    /// The plugin's own handle of the model, handed back with every call.
     pub handle: *mut c_void,
     /// Lives as long as the library.
     pub calls: *const RegressorCalls,
@@ -136,9 +136,9 @@ pub struct Regressor {
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct EstimatorFactory {
-    /// Of this struct.
+    /// The size of this struct, in bytes.
     pub size: u32,
-    /// How many.
+    /// How many estimators the plugin has.
     pub estimators: u32,
     /// `[any]` Writes the `[[provides]]` table of the manifest.
     pub describe: Option<unsafe extern "C" fn(u32, TakeText, *mut c_void, *mut Error) -> Status>,

@@ -18,9 +18,9 @@ use crate::status::Status;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
 pub struct Wrench {
-    /// N.
+    /// The force along x, y and z, in N.
     pub force_n: [f64; 3],
-    /// N m.
+    /// The torque about x, y and z, in N m.
     pub torque_nm: [f64; 3],
 }
 
@@ -37,7 +37,7 @@ pub struct Wrench {
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct ForceCalls {
-    /// What every device has.
+    /// The calls that every device has; the table begins with them.
     pub device: DeviceCalls,
     /// `[owner & open]` Idempotent.
     pub start: Option<unsafe extern "C" fn(*mut c_void, timeout_ns: u64, *mut Error) -> Status>,

@@ -27,7 +27,7 @@ use crate::text::Text;
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Host {
-    /// Of this struct.
+    /// The size of this struct, in bytes.
     pub size: u32,
     /// The minor version that the host knows.
     pub abi_minor: u32,
@@ -35,7 +35,7 @@ pub struct Host {
     pub context: *mut c_void,
     /// `[any]` Takes a line of the log.
     pub log: Option<unsafe extern "C" fn(*mut c_void, level: i32, target: Text, message: Text)>,
-    /// `[any]` CLOCK_MONOTONIC.
+    /// `[any]` The time of `CLOCK_MONOTONIC`, in ns.
     pub now_ns: Option<unsafe extern "C" fn(*mut c_void) -> u64>,
 }
 

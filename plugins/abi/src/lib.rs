@@ -2,6 +2,7 @@
 #![no_std]
 
 mod args;
+mod changer;
 mod device;
 mod error;
 mod estimator;
@@ -16,6 +17,7 @@ mod status;
 mod text;
 
 pub use args::{Arg, Args};
+pub use changer::ChangerCalls;
 pub use device::{Device, DeviceCalls, Factory, Rig, Stamp};
 pub use error::{Error, FaultNumber, MESSAGE_SIZE};
 pub use estimator::{EstimatorFactory, Progress, Regressor, RegressorCalls, TrainingSet};
@@ -23,8 +25,8 @@ pub use force::{ForceCalls, Wrench};
 pub use host::{Host, Level};
 pub use lighting::LightingCalls;
 pub use plugin::{
-    ABI_MAJOR, ABI_MINOR, ENTRY_SYMBOL, ESTIMATOR_FACTORY, FORCE_FACTORY, LIGHTING_FACTORY, MAGIC,
-    Plugin, ROBOT_FACTORY, SENSOR_FACTORY,
+    ABI_MAJOR, ABI_MINOR, CHANGER_FACTORY, ENTRY_SYMBOL, ESTIMATOR_FACTORY, FORCE_FACTORY,
+    LIGHTING_FACTORY, MAGIC, Plugin, ROBOT_FACTORY, SENSOR_FACTORY,
 };
 pub use robot::{Motion, Pose, RobotCalls};
 pub use sensor::{FRAME_DROPPED, Frame, PixelFormat, SensorCalls};

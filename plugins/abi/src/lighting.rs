@@ -20,7 +20,7 @@ use crate::text::Text;
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct LightingCalls {
-    /// What every device has.
+    /// The calls that every device has; the table begins with them.
     pub device: DeviceCalls,
     /// `[owner & open]` Returns once the scene holds.
     pub set: Option<

@@ -13,7 +13,7 @@ pub const MAGIC: u32 = 0x3145_4154;
 /// Equal on both sides, or the library is refused.
 pub const ABI_MAJOR: u32 = 1;
 /// May differ either way.
-pub const ABI_MINOR: u32 = 1;
+pub const ABI_MINOR: u32 = 2;
 /// The name of the one exported symbol.
 pub const ENTRY_SYMBOL: &CStr = c"taceva_plugin_v1";
 
@@ -25,6 +25,8 @@ pub const ROBOT_FACTORY: &str = "taceva.robot/1";
 pub const FORCE_FACTORY: &str = "taceva.force/1";
 /// The id of the [`Factory`](crate::Factory) of lightings.
 pub const LIGHTING_FACTORY: &str = "taceva.lighting/1";
+/// The id of the [`Factory`](crate::Factory) of changers, since minor 2.
+pub const CHANGER_FACTORY: &str = "taceva.changer/1";
 /// The id of the [`EstimatorFactory`](crate::EstimatorFactory).
 pub const ESTIMATOR_FACTORY: &str = "taceva.estimator/1";
 
@@ -57,7 +59,7 @@ pub const ESTIMATOR_FACTORY: &str = "taceva.estimator/1";
 pub struct Plugin {
     /// [`MAGIC`].
     pub magic: u32,
-    /// Of this struct.
+    /// The size of this struct, in bytes.
     pub size: u32,
     /// [`ABI_MAJOR`].
     pub abi_major: u32,

@@ -24,7 +24,7 @@ pub struct Pose {
     pub y: f64,
     /// m, into the gel.
     pub z: f64,
-    /// The real part.
+    /// The real part of the unit quaternion.
     pub qw: f64,
     /// About x.
     pub qx: f64,
@@ -47,13 +47,13 @@ pub struct Pose {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct Motion {
-    /// Of this struct.
+    /// The size of this struct, in bytes.
     pub size: u32,
-    /// 0.
+    /// Reserved, 0.
     pub reserved: u32,
-    /// Where to.
+    /// The pose to move to.
     pub target: Pose,
-    /// Along the path of the tip.
+    /// The speed of the tip along its path, in m/s.
     pub speed_m_per_s: f64,
 }
 
@@ -70,7 +70,7 @@ pub struct Motion {
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct RobotCalls {
-    /// What every device has.
+    /// The calls that every device has; the table begins with them.
     pub device: DeviceCalls,
     /// `[owner & open]`
     pub pose: Option<
@@ -86,7 +86,7 @@ pub struct RobotCalls {
     pub move_to: Option<
         unsafe extern "C" fn(*mut c_void, *const Motion, token: *mut u64, *mut Error) -> Status,
     >,
-    /// `[owner & open]` Until the tip rests at the target.
+    /// `[owner & open]` Waits until the tip rests at the target of the motion that `move_to` accepted.
     pub wait: Option<
         unsafe extern "C" fn(
             *mut c_void,
@@ -96,7 +96,7 @@ pub struct RobotCalls {
             *mut Error,
         ) -> Status,
     >,
-    /// `[any & open]` At rest within 50 ms; idempotent.
+    /// `[any & open]` Stops the tip, which rests within 50 ms, and latches; idempotent.
     pub halt: Option<unsafe extern "C" fn(*mut c_void, *mut Error) -> Status>,
     /// `[owner & open]`
     pub clear_halt:

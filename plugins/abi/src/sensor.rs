@@ -25,7 +25,7 @@ impl PixelFormat {
     pub const GRAY16: PixelFormat = PixelFormat(2);
     /// Three bytes a pixel.
     pub const RGB8: PixelFormat = PixelFormat(3);
-    /// Three numbers of two bytes, little-endian.
+    /// Three numbers a pixel, of two bytes each, little-endian.
     pub const RGB16: PixelFormat = PixelFormat(4);
 }
 
@@ -60,17 +60,17 @@ pub const FRAME_DROPPED: u32 = 1;
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Frame {
-    /// Of this struct.
+    /// The size of this struct, in bytes.
     pub size: u32,
     /// How one pixel is stored.
     pub format: PixelFormat,
     /// Pixels a row.
     pub width: u32,
-    /// Rows.
+    /// Rows of pixels.
     pub height: u32,
     /// [`FRAME_DROPPED`].
     pub flags: u32,
-    /// 0.
+    /// Reserved, 0.
     pub reserved: u32,
     /// The device's count of frames; a gap is a loss.
     pub sequence: u64,
@@ -82,11 +82,11 @@ pub struct Frame {
     pub buffer_length: u64,
     /// Out: the pixels, in `buffer` or lent.
     pub data: *const u8,
-    /// Out: how many bytes.
+    /// Out: the length of `data`, in bytes.
     pub length: u64,
     /// Out: `[any]` gives lent memory back and sets itself to NULL.
     pub release: Option<unsafe extern "C" fn(frame: *mut Frame)>,
-    /// The lender's.
+    /// For the plugin's own use while the frame is lent.
     pub private_data: *mut c_void,
 }
 
@@ -103,11 +103,11 @@ pub struct Frame {
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct SensorCalls {
-    /// What every device has.
+    /// The calls that every device has; the table begins with them.
     pub device: DeviceCalls,
-    /// Frames that may be out at once; 0: it never lends.
+    /// How many frames may be lent at once; 0 of a sensor that never lends.
     pub max_lent: u32,
-    /// 0.
+    /// Reserved, 0.
     pub reserved: u32,
     /// `[owner & open]` Idempotent.
     pub start: Option<unsafe extern "C" fn(*mut c_void, timeout_ns: u64, *mut Error) -> Status>,

@@ -23,7 +23,7 @@ use core::str::Utf8Error;
 pub struct Text {
     /// The first byte; may be NULL only where `length` is 0.
     pub data: *const c_char,
-    /// In bytes.
+    /// The length of the text, in bytes.
     pub length: usize,
 }
 

@@ -13,15 +13,16 @@ use std::process::Command;
 use taceva_needs::{Need, skip};
 
 use taceva_abi::ext::{
-    BENCH, BenchCalls, GUARDED_MOTION, GuardedMotionCalls, GuardedStop, NUMBERED, NumberedCalls,
-    SENSOR_LIGHTING, SensorLightingCalls, Specimen, TARE, TareCalls,
+    BENCH, BenchCalls, EXPIRING_MOTION, ExpiringMotionCalls, GUARDED_MOTION, GuardedMotionCalls,
+    GuardedStop, NUMBERED, NumberedCalls, SENSOR_LIGHTING, SensorLightingCalls, Specimen, TARE,
+    TareCalls,
 };
 use taceva_abi::{
-    ABI_MAJOR, ABI_MINOR, Arg, Args, Device, DeviceCalls, ENTRY_SYMBOL, ESTIMATOR_FACTORY, Error,
-    EstimatorFactory, FORCE_FACTORY, FRAME_DROPPED, Factory, FaultNumber, ForceCalls, Frame, Host,
-    LIGHTING_FACTORY, Level, LightingCalls, MAGIC, MESSAGE_SIZE, Motion, PixelFormat, Plugin, Pose,
-    ROBOT_FACTORY, Regressor, RegressorCalls, RobotCalls, SENSOR_FACTORY, SensorCalls, Stamp,
-    Status, Text, TrainingSet, Wrench,
+    ABI_MAJOR, ABI_MINOR, Arg, Args, CHANGER_FACTORY, ChangerCalls, Device, DeviceCalls,
+    ENTRY_SYMBOL, ESTIMATOR_FACTORY, Error, EstimatorFactory, FORCE_FACTORY, FRAME_DROPPED,
+    Factory, FaultNumber, ForceCalls, Frame, Host, LIGHTING_FACTORY, Level, LightingCalls, MAGIC,
+    MESSAGE_SIZE, Motion, PixelFormat, Plugin, Pose, ROBOT_FACTORY, Regressor, RegressorCalls,
+    RobotCalls, SENSOR_FACTORY, SensorCalls, Stamp, Status, Text, TrainingSet, Wrench,
 };
 
 /// An expression of C, and the number that Rust says it is.
@@ -75,6 +76,7 @@ fn sizes_and_offsets() -> Vec<Line> {
         taceva_wrench = Wrench { force_n, torque_nm }
         taceva_force_calls = ForceCalls { device, start, read, stop }
         taceva_lighting_calls = LightingCalls { device, set }
+        taceva_changer_calls = ChangerCalls { device, bring }
         taceva_training_set = TrainingSet {
             size, channels, samples, height, width, depth, reserved, features, targets, groups, channel_names,
         }
@@ -85,6 +87,7 @@ fn sizes_and_offsets() -> Vec<Line> {
         taceva_numbered_calls = NumberedCalls { size, reserved, sequence }
         taceva_guarded_stop = GuardedStop { size, is_guarded, pose, stamp }
         taceva_guarded_motion_calls = GuardedMotionCalls { size, reserved, move_guarded }
+        taceva_expiring_motion_calls = ExpiringMotionCalls { size, reserved, move_expiring }
         taceva_sensor_lighting_calls = SensorLightingCalls { size, reserved, set }
         taceva_specimen = Specimen { size, kind, size_nm }
         taceva_bench_calls = BenchCalls { size, reserved, now_ns, rest, mount, name_press, schedule, provenance }
@@ -166,10 +169,12 @@ fn texts() -> Vec<(&'static str, &'static str)> {
         ("TACEVA_ROBOT_FACTORY", ROBOT_FACTORY),
         ("TACEVA_FORCE_FACTORY", FORCE_FACTORY),
         ("TACEVA_LIGHTING_FACTORY", LIGHTING_FACTORY),
+        ("TACEVA_CHANGER_FACTORY", CHANGER_FACTORY),
         ("TACEVA_ESTIMATOR_FACTORY", ESTIMATOR_FACTORY),
         ("TACEVA_TARE", TARE),
         ("TACEVA_NUMBERED", NUMBERED),
         ("TACEVA_GUARDED_MOTION", GUARDED_MOTION),
+        ("TACEVA_EXPIRING_MOTION", EXPIRING_MOTION),
         ("TACEVA_SENSOR_LIGHTING", SENSOR_LIGHTING),
         ("TACEVA_BENCH", BENCH),
     ]

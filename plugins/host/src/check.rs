@@ -3,6 +3,7 @@
 //! A check runs beside the plugin, in the child, and calls the functions of its tables as a host would, and as no host should. Whatever it
 //! does to its process, the others go on. A plugin that its user trusts is checked as it runs: in a process that nothing is kept from.
 
+mod changer;
 mod driver;
 mod estimator;
 mod force;
@@ -74,6 +75,7 @@ pub fn checks() -> impl Iterator<Item = &'static Check> {
         robot::CHECKS,
         force::CHECKS,
         lighting::CHECKS,
+        changer::CHECKS,
         estimator::CHECKS,
     ]
     .into_iter()
@@ -83,13 +85,13 @@ pub fn checks() -> impl Iterator<Item = &'static Check> {
 /// How a plugin is checked.
 #[derive(Clone, Debug)]
 pub struct CheckRequest {
-    /// What everything is drawn from.
+    /// The seed of everything that is drawn at random.
     pub seed: u64,
     /// The checks whose names begin with one of these; all, where there is none.
     pub only: Vec<String>,
-    /// What drivers are opened with, by key; those that are not named by what they declare.
+    /// The arguments of drivers by their keys; a driver that is not named is opened with its defaults.
     pub arguments: BTreeMap<DriverKey, String>,
-    /// Whether robots that are no simulations may be moved.
+    /// Whether robots and changers that are not simulated may be moved.
     pub moves: bool,
     /// How long one check may take.
     pub limit: Duration,
@@ -138,7 +140,7 @@ pub struct CheckResult {
 }
 
 impl PluginHost {
-    /// Makes the checks of `request` on `plugin`, and tells of each once it is made.
+    /// Makes the checks of `request` on `plugin`, and calls `tell` with the result of each.
     ///
     /// # Errors
     /// [`DriverError`] if its library cannot even be read.
@@ -334,9 +336,9 @@ mod tests {
     use std::collections::BTreeSet;
 
     #[test]
-    fn there_are_at_least_44_checks_and_no_two_of_one_name() {
+    fn there_are_at_least_48_checks_and_no_two_of_one_name() {
         let names: BTreeSet<&str> = checks().map(|check| check.name).collect();
         assert_eq!(names.len(), checks().count());
-        assert!(names.len() >= 44, "{}", names.len());
+        assert!(names.len() >= 48, "{}", names.len());
     }
 }

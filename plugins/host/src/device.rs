@@ -1,6 +1,7 @@
 //! Devices of a library that runs in this process, as the device traits of core.
 
 mod bench;
+mod changer;
 mod force;
 mod handle;
 mod lighting;
@@ -9,6 +10,7 @@ mod robot;
 mod sensor;
 
 pub(crate) use self::bench::PluginBench;
+pub(crate) use self::changer::PluginChanger;
 pub(crate) use self::force::PluginForce;
 pub(crate) use self::handle::{Opened, Owned, PluginDevice, open};
 pub(crate) use self::lighting::PluginLighting;

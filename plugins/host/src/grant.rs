@@ -34,7 +34,7 @@ impl Grant {
 
 /// What a plugin declares, and its user does not allow.
 ///
-/// It is shown as what a person types to allow it.
+/// It is displayed as the command by which a person allows it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Withheld {
     plugin: String,

@@ -3,14 +3,14 @@
 use std::sync::Arc;
 
 use taceva_core::{
-    Args, Descriptor, DriverError, DriverKey, ErrorKind, ForceTransducer, Found, Lighting,
+    Args, Changer, Descriptor, DriverError, DriverKey, ErrorKind, ForceTransducer, Found, Lighting,
     ModelError, Robot, Sensor, SimulatedBench,
 };
 
 use crate::call::{ArgList, Failure};
 use crate::device::{
-    PluginBench, PluginDevice, PluginForce, PluginLighting, PluginRobot, PluginSensor, RigHandle,
-    open,
+    PluginBench, PluginChanger, PluginDevice, PluginForce, PluginLighting, PluginRobot,
+    PluginSensor, RigHandle, open,
 };
 use crate::estimator;
 use crate::library::{Library, Place};
@@ -133,6 +133,10 @@ impl Session for InProcess {
 
     fn lighting(&self, driver: &DriverKey, args: &Args) -> Result<Box<dyn Lighting>, DriverError> {
         Ok(Box::new(self.open_device::<PluginLighting>(driver, args)?))
+    }
+
+    fn changer(&self, driver: &DriverKey, args: &Args) -> Result<Box<dyn Changer>, DriverError> {
+        Ok(Box::new(self.open_device::<PluginChanger>(driver, args)?))
     }
 
     fn bench(&self, name: &str) -> Option<Arc<dyn SimulatedBench>> {

@@ -1,4 +1,4 @@
-//! What plugins log, on its way to whoever listens: never more than people read.
+//! What plugins log, on its way to whoever listens: 100 lines at once, and 20 a second after that.
 
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use crate::offer::Offer;
 use taceva_core::{
-    Args, Descriptor, DriverError, DriverKey, ForceTransducer, Found, Lighting, ModelError, Robot,
-    Sensor, SimulatedBench,
+    Args, Changer, Descriptor, DriverError, DriverKey, ForceTransducer, Found, Lighting,
+    ModelError, Robot, Sensor, SimulatedBench,
 };
 pub use taceva_core::{FitRequest, Saved, SavedRegressor};
 
@@ -58,6 +58,12 @@ pub trait Session: Send + Sync {
     /// # Errors
     /// As [`Factory::open`](taceva_core::Factory::open).
     fn lighting(&self, driver: &DriverKey, args: &Args) -> Result<Box<dyn Lighting>, DriverError>;
+
+    /// Opens a changer.
+    ///
+    /// # Errors
+    /// As [`Factory::open`](taceva_core::Factory::open).
+    fn changer(&self, driver: &DriverKey, args: &Args) -> Result<Box<dyn Changer>, DriverError>;
 
     /// The simulated bench that devices were opened in with `rig=name`, where the plugin is one.
     fn bench(&self, name: &str) -> Option<Arc<dyn SimulatedBench>>;

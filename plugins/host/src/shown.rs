@@ -1,4 +1,4 @@
-//! Foreign text in messages: by the rule of [`taceva_core::shown`], and nothing runs on for ever.
+//! Foreign text in messages: escaped as [`taceva_core::shown`] does, and cut to a greatest length.
 
 const CHARACTERS_MAX: usize = 200;
 

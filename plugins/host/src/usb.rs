@@ -1,4 +1,4 @@
-//! Devices on USB that a manifest names, seen without opening any and without running code of a plugin.
+//! Devices on USB that a manifest names, found without opening any and without running code of a plugin.
 
 use nusb::{DeviceInfo, MaybeFuture as _};
 

@@ -2,6 +2,7 @@
 
 #![expect(unsafe_code, reason = "functions that a host calls")]
 
+mod changer;
 mod force;
 mod lighting;
 mod robot;

@@ -1,6 +1,8 @@
-//! What a plugin is made of.
+//! The drivers and estimators that a plugin provides.
 
-use taceva_core::{Builtin, DescriptorError, Factory, ForceTransducer, Lighting, Robot, Sensor};
+use taceva_core::{
+    Builtin, Changer, DescriptorError, Factory, ForceTransducer, Lighting, Robot, Sensor,
+};
 
 use crate::estimator::EstimatorFactory;
 
@@ -34,6 +36,8 @@ pub enum Driver {
     Force(Builtin<dyn ForceTransducer>),
     /// A lighting.
     Lighting(Builtin<dyn Lighting>),
+    /// A changer.
+    Changer(Builtin<dyn Changer>),
     /// An estimator.
     Estimator(MakeEstimator),
 }
@@ -131,6 +135,13 @@ impl Provide for dyn Lighting {
     type Make = MakeFactory<dyn Lighting>;
     fn provide(make: Self::Make) -> Driver {
         Driver::Lighting(Builtin::new(make))
+    }
+}
+
+impl Provide for dyn Changer {
+    type Make = MakeFactory<dyn Changer>;
+    fn provide(make: Self::Make) -> Driver {
+        Driver::Changer(Builtin::new(make))
     }
 }
 

@@ -7,11 +7,12 @@ use std::ffi::c_void;
 use std::ptr::null;
 
 use taceva_abi::{
-    ESTIMATOR_FACTORY, Error, FORCE_FACTORY, Factory, Host, LIGHTING_FACTORY, ROBOT_FACTORY,
-    SENSOR_FACTORY, Status, Text,
+    CHANGER_FACTORY, ESTIMATOR_FACTORY, Error, FORCE_FACTORY, Factory, Host, LIGHTING_FACTORY,
+    ROBOT_FACTORY, SENSOR_FACTORY, Status, Text,
 };
 use taceva_core::{
-    DescriptorError, ErrorKind, Factory as CoreFactory, ForceTransducer, Lighting, Robot, Sensor,
+    Changer, DescriptorError, ErrorKind, Factory as CoreFactory, ForceTransducer, Lighting, Robot,
+    Sensor,
 };
 
 use crate::calls::Kind;
@@ -40,13 +41,14 @@ pub(crate) unsafe extern "C" fn init<E: Export>(host: *const Host, error: *mut E
 
 fn load(drivers: Vec<Driver>) -> Result<Loaded, DescriptorError> {
     let (mut sensors, mut robots, mut forces) = (Vec::new(), Vec::new(), Vec::new());
-    let (mut lightings, mut estimators) = (Vec::new(), Vec::new());
+    let (mut lightings, mut changers, mut estimators) = (Vec::new(), Vec::new(), Vec::new());
     for driver in drivers {
         match driver {
             Driver::Sensor(driver) => sensors.push(driver.factory()?),
             Driver::Robot(driver) => robots.push(driver.factory()?),
             Driver::Force(driver) => forces.push(driver.factory()?),
             Driver::Lighting(driver) => lightings.push(driver.factory()?),
+            Driver::Changer(driver) => changers.push(driver.factory()?),
             Driver::Estimator(make) => estimators.push(make()),
         }
     }
@@ -55,6 +57,7 @@ fn load(drivers: Vec<Driver>) -> Result<Loaded, DescriptorError> {
     prefixes.extend(robots.iter().map(|driver| prefix(&**driver)));
     prefixes.extend(forces.iter().map(|driver| prefix(&**driver)));
     prefixes.extend(lightings.iter().map(|driver| prefix(&**driver)));
+    prefixes.extend(changers.iter().map(|driver| prefix(&**driver)));
     Ok(Loaded {
         prefixes,
         tables: Tables {
@@ -62,12 +65,14 @@ fn load(drivers: Vec<Driver>) -> Result<Loaded, DescriptorError> {
             robot: table::<dyn Robot>(robots.len()),
             force: table::<dyn ForceTransducer>(forces.len()),
             lighting: table::<dyn Lighting>(lightings.len()),
+            changer: table::<dyn Changer>(changers.len()),
             estimator: count(estimators.len()).map(estimator::table),
         },
         sensors,
         robots,
         forces,
         lightings,
+        changers,
         estimators,
     })
 }
@@ -112,6 +117,7 @@ fn find(id: &str) -> *const c_void {
         ROBOT_FACTORY => address(&tables.robot),
         FORCE_FACTORY => address(&tables.force),
         LIGHTING_FACTORY => address(&tables.lighting),
+        CHANGER_FACTORY => address(&tables.changer),
         ESTIMATOR_FACTORY => address(&tables.estimator),
         _ => null(),
     }

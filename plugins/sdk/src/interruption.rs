@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use taceva_core::{DriverError, Halt, Interrupt};
 
-/// Ends the pending call of a device: what a sensor or a force transducer gives as its `interrupt_handle`.
+/// Ends the pending call of a device: what a sensor, a force transducer or a changer gives as its `interrupt_handle`.
 ///
 /// ```
 /// use std::{sync::Arc, thread, time::Duration};

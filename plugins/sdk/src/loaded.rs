@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
 use taceva_abi::{EstimatorFactory, Factory};
-use taceva_core::{Factory as CoreFactory, ForceTransducer, Lighting, Robot, Sensor};
+use taceva_core::{Changer, Factory as CoreFactory, ForceTransducer, Lighting, Robot, Sensor};
 
 use crate::failure::Failure;
 
@@ -17,6 +17,7 @@ pub(crate) struct Loaded {
     pub(crate) robots: Drivers<dyn Robot>,
     pub(crate) forces: Drivers<dyn ForceTransducer>,
     pub(crate) lightings: Drivers<dyn Lighting>,
+    pub(crate) changers: Drivers<dyn Changer>,
     pub(crate) estimators: Vec<Box<dyn crate::EstimatorFactory>>,
     /// What the keys of the drivers have before their last `/`.
     pub(crate) prefixes: BTreeSet<String>,
@@ -29,6 +30,7 @@ pub(crate) struct Tables {
     pub(crate) robot: Option<Factory>,
     pub(crate) force: Option<Factory>,
     pub(crate) lighting: Option<Factory>,
+    pub(crate) changer: Option<Factory>,
     pub(crate) estimator: Option<EstimatorFactory>,
 }
 

@@ -5,7 +5,7 @@ use taceva_abi::{ABI_MAJOR, ABI_MINOR, MAGIC, Plugin, Text};
 use crate::export::Export;
 use crate::{entry, rig};
 
-/// What a library exports for `E`; [`Export`] shows it.
+/// The table that a library exports for `E`; the example of [`Export`] uses it.
 pub const fn plugin<E: Export>() -> Plugin {
     #[expect(clippy::cast_possible_truncation, reason = "a hundred bytes")]
     let size = size_of::<Plugin>() as u32;

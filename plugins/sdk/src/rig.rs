@@ -1,4 +1,4 @@
-//! What the devices of a rig share, and the simulated bench that one may be.
+//! What the devices of a rig share, and the simulated bench, if the plugin is one.
 
 #![expect(unsafe_code, reason = "functions that a host calls")]
 

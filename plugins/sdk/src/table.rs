@@ -39,6 +39,8 @@ pub fn provides_table(descriptor: &Descriptor) -> String {
         Facts::Robot(facts) => table.robot(facts),
         Facts::Force(facts) => table.force(facts),
         Facts::Lighting(facts) => table.scenes(&facts.scenes),
+        Facts::Changer(facts) if facts.holds.is_empty() => {}
+        Facts::Changer(facts) => table.texts("holds", facts.holds.iter().map(String::as_str)),
         // Of a kind that is newer than this writer only the name is written, which the host refuses.
         _ => {}
     }

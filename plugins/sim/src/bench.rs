@@ -1,4 +1,4 @@
-//! The bench: a unit of a sensor in a rig, pressed as often as one likes.
+//! The bench: one unit of a sensor in a rig, which can be pressed any number of times.
 
 mod error;
 mod press;
@@ -65,7 +65,7 @@ impl Bench {
         &self.parameters
     }
 
-    /// The specimen.
+    /// The unit of the sensor.
     pub fn unit(&self) -> &Unit {
         &self.unit
     }

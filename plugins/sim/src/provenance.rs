@@ -12,7 +12,7 @@ pub const MODEL_VERSION: u32 = 2;
 pub struct Provenance {
     /// The sensor that was simulated.
     pub sensor: String,
-    /// The specimen of it.
+    /// The number of its unit.
     pub unit: u32,
     /// The seed of the run.
     pub seed: u64,

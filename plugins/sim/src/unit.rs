@@ -1,4 +1,4 @@
-//! One specimen of a sensor: how it differs from its siblings, and from place to place.
+//! One unit of a sensor: how it differs from other units, and from place to place.
 //!
 //! A unit is a function of the sensor's name and its number, not of the run's seed: it is the same gel in every run. Unit 0 has the
 //! nominal modulus and sag.
@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 use crate::parameters::{Body, Parameters, Surface};
 use crate::random::{Purpose, Random, Stream};
 
-/// One specimen of a sensor.
+/// One unit of a sensor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unit {
     number: u32,
@@ -47,7 +47,7 @@ const EDGE_BEGINS: f64 = 0.75;
 const EDGE_MARGIN_MM: f64 = 1.5;
 
 impl Unit {
-    /// The specimen `number` of a sensor.
+    /// The unit `number` of a sensor.
     pub fn new(parameters: &Parameters, number: u32) -> Unit {
         let name = name_hash(&parameters.name);
         let random = Random::new(u64::from(number));
@@ -98,7 +98,7 @@ impl Unit {
         relief.gap_mm * relief.gap.at(place_mm) + blisters - sag
     }
 
-    /// What [`height_mm`](Unit::height_mm) exceeds nowhere.
+    /// An upper bound of [`height_mm`](Unit::height_mm) over the whole surface.
     pub fn height_max_mm(&self) -> f64 {
         let Some(relief) = &self.relief else {
             return ROUNDING_MM;

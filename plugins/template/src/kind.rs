@@ -1,4 +1,4 @@
-//! What a plugin can be begun as.
+//! The kinds of plugin that a new project can begin as.
 
 use std::fmt;
 
@@ -13,6 +13,8 @@ pub enum Kind {
     Force,
     /// Sets the light around the sensor.
     Lighting,
+    /// Brings specimens or units into place.
+    Changer,
     /// Learns to read the pictures.
     Estimator,
 }
@@ -36,11 +38,12 @@ macro_rules! files {
 
 impl Kind {
     /// Every kind.
-    pub const ALL: [Kind; 5] = [
+    pub const ALL: [Kind; 6] = [
         Kind::Sensor,
         Kind::Robot,
         Kind::Force,
         Kind::Lighting,
+        Kind::Changer,
         Kind::Estimator,
     ];
 
@@ -51,6 +54,7 @@ impl Kind {
             Kind::Robot => "robot",
             Kind::Force => "force",
             Kind::Lighting => "lighting",
+            Kind::Changer => "changer",
             Kind::Estimator => "estimator",
         }
     }
@@ -69,6 +73,7 @@ impl Kind {
             Kind::Robot => files!("robot"),
             Kind::Force => files!("force"),
             Kind::Lighting => files!("lighting"),
+            Kind::Changer => files!("changer"),
             Kind::Estimator => files!("estimator"),
         }
     }

@@ -8,8 +8,8 @@ use std::process::Command;
 use std::sync::Arc;
 
 use taceva_core::{
-    Channel, Channels, Device, DriverKey, Factory, FeatureShape, Features, ForceTransducer,
-    Lighting, Robot, Sensor, SilentProgress, Targets, TrainingSet,
+    Changer, Channel, Channels, Device, DriverKey, Factory, FeatureShape, Features,
+    ForceTransducer, Lighting, Robot, Sensor, SilentProgress, Targets, TrainingSet,
 };
 use taceva_drivers::conformance::{self, Report, Trial};
 use taceva_host::{FitRequest, PluginConfig, PluginDriver, PluginHost, Plugins, Saved, SearchPath};
@@ -106,6 +106,7 @@ fn a_new_project_of_every_kind_builds_offline_without_a_warning_and_keeps_its_co
             Kind::Robot => keeps::<dyn Robot>(&host, conformance::robot),
             Kind::Force => keeps::<dyn ForceTransducer>(&host, conformance::force),
             Kind::Lighting => keeps::<dyn Lighting>(&host, conformance::lighting),
+            Kind::Changer => keeps::<dyn Changer>(&host, conformance::changer),
             Kind::Estimator => learns(&host),
         }
     }

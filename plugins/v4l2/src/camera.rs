@@ -11,7 +11,7 @@ use crate::kernel::{self, Capability, Format, FormatName, Rate, Size};
 use crate::picture::{Coding, FourCc, GivenFormat, PictureFormat};
 use crate::stream::Stream;
 
-/// A camera that is open, and gives no pictures yet.
+/// A camera that is open and does not stream yet.
 #[derive(Debug)]
 pub struct Camera {
     file: OwnedFd,
@@ -75,7 +75,7 @@ impl Camera {
         &self.bus
     }
 
-    /// Makes it give pictures of that size and kind.
+    /// Sets the size and the pixel format of the pictures.
     ///
     /// # Errors
     /// [`V4l2Error::Format`], which says what it offers, where it would give others; [`V4l2Error::Busy`] where another program has it.
@@ -107,7 +107,7 @@ impl Camera {
         })
     }
 
-    /// Makes it give so many frames a second, if it can be told.
+    /// Sets the frame rate, in Hz, of a camera whose rate can be set.
     ///
     /// # Errors
     /// [`V4l2Error::Rate`] where it gives others: by more than a hundredth.
@@ -138,7 +138,7 @@ impl Camera {
         })
     }
 
-    /// Begins to give pictures. A camera that does not is given up; it can be opened anew.
+    /// Begins to stream. A camera that does not is closed, and can be opened again.
     ///
     /// # Errors
     /// [`V4l2Error::Busy`] where another program has it, [`V4l2Error::Gone`] where it was unplugged.

@@ -65,7 +65,7 @@ pub struct Control {
     pub least: i32,
     /// The greatest value.
     pub greatest: i32,
-    /// The value that it has from the maker.
+    /// The default value.
     pub usual: i32,
     /// Whether another control has taken it over, so that setting it has no effect now.
     pub is_inactive: bool,

@@ -73,7 +73,7 @@ pub struct GivenFormat {
     pub picture: PictureFormat,
     /// Bytes from one row to the next; 0 where pictures are compressed.
     pub stride: u32,
-    /// Bytes of a picture, at most those where it is compressed.
+    /// The size of a picture, in bytes; the greatest size where pictures are compressed.
     pub bytes: u32,
     /// How colours are made of it.
     pub coding: Coding,

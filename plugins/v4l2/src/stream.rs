@@ -10,7 +10,7 @@ use crate::error::V4l2Error;
 use crate::kernel::{self, Buffer, Request};
 use crate::mapped::Mapped;
 
-/// A camera that gives pictures, until it is stopped or dropped.
+/// A camera that streams, until it is stopped or dropped.
 #[derive(Debug)]
 pub struct Stream {
     camera: Camera,
@@ -94,7 +94,7 @@ impl Stream {
         }))
     }
 
-    /// Ends it, and gives the camera back.
+    /// Stops the stream, and gives the camera back.
     pub fn stop(mut self) -> Camera {
         self.end();
         self.camera
@@ -141,7 +141,7 @@ impl Filled<'_> {
         }
     }
 
-    /// Counts up by one a picture that the camera took, so that what is missing between two was missed.
+    /// The camera's number of the picture, one higher for each that it took: a gap between two is what was missed.
     pub fn number(&self) -> u32 {
         self.taken.number
     }
@@ -151,7 +151,7 @@ impl Filled<'_> {
         self.taken.flags & kernel::DAMAGED != 0
     }
 
-    /// When the kernel says that it was taken, on the clock that never jumps; `None` where it is stamped by another.
+    /// When the picture was taken, by the kernel's stamp on the monotonic clock; `None` where the driver stamps by another clock.
     pub fn taken_at(&self) -> Option<Duration> {
         if self.taken.flags & kernel::CLOCKS != kernel::MONOTONIC {
             return None;

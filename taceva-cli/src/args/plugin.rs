@@ -20,7 +20,7 @@ pub(crate) struct PluginArgs {
     pub(crate) trusted: Vec<PluginId>,
 }
 
-/// Plugins add sensors, robots, force transducers, lightings and estimators in any language.
+/// Plugins add sensors, robots, force transducers, lightings, changers and estimators in any language.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Plugin {
     /// List the plugins that are found, and how each would be isolated; none of their code runs
@@ -82,6 +82,7 @@ pub(crate) enum NewKind {
     Robot,
     Force,
     Lighting,
+    Changer,
     Estimator,
 }
 
@@ -92,6 +93,7 @@ impl From<NewKind> for Kind {
             NewKind::Robot => Kind::Robot,
             NewKind::Force => Kind::Force,
             NewKind::Lighting => Kind::Lighting,
+            NewKind::Changer => Kind::Changer,
             NewKind::Estimator => Kind::Estimator,
         }
     }
@@ -121,7 +123,7 @@ pub(crate) struct PluginCheck {
     /// The arguments of a driver, as DRIVER:KEY=VALUE;KEY=VALUE; may be repeated
     #[arg(long = "with", value_name = "DRIVER:ARGUMENTS")]
     pub(crate) arguments: Vec<String>,
-    /// Allow moving real robots: by up to 1 mm away from the gel, and back
+    /// Allow moving real robots, by up to 1 mm away from the gel and back, and real changers, to each thing that they hold
     #[arg(long = "move")]
     pub(crate) moves: bool,
     /// The time limit of each check, in seconds

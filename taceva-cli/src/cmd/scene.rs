@@ -83,7 +83,8 @@ pub(super) fn print_rigs(planned: &PlannedScene, drivers: &Drivers, context: &Co
             study.plan.contact.speed_mm_s.value,
             limits.overshoot.healthy_mm,
         ));
-        for change in study.by_hand(drivers) {
+        let by_changer = study.by_changer(drivers);
+        for change in by_changer.into_iter().chain(study.by_hand(drivers)) {
             context.say(format_args!("rig: {change}"));
         }
         context.say(format_args!(

@@ -129,6 +129,7 @@ fn facts(driver: &ListedDriver) -> Vec<String> {
         value.map(|value| format!("{name}{value} {unit}"))
     };
     let scenes = (!driver.scenes.is_empty()).then(|| format!("light {}", driver.scenes.join(" ")));
+    let holds = (!driver.holds.is_empty()).then(|| format!("holds {}", driver.holds.join(", ")));
     [
         driver.frame.clone(),
         number(driver.rate_hz, "", "Hz"),
@@ -139,6 +140,7 @@ fn facts(driver: &ListedDriver) -> Vec<String> {
         driver.axes.clone(),
         number(driver.speed_max_mm_s, "up to ", "mm/s"),
         scenes,
+        holds,
     ]
     .into_iter()
     .flatten()

@@ -9,7 +9,7 @@ use crate::stamp::Stamp;
 /// The ability of a robot to stop when its host stops sending: a command is valid for a short time, and is repeated many times a second.
 ///
 /// It is meant for motions towards a surface. A robot without it completes the motion that it was given, even if the program that gave it
-/// has ended. The drivers of plugins do not have it yet.
+/// has ended.
 ///
 /// ```
 /// use std::time::Duration;

@@ -1,14 +1,14 @@
-//! The four kinds of device.
+//! The kinds of device.
 
 use std::fmt;
 
-use super::{ForceTransducer, Lighting, Robot, Sensor};
+use super::{Changer, ForceTransducer, Lighting, Robot, Sensor};
 
 /// The kind of a device.
 ///
 /// ```
 /// use taceva_core::DriverKind;
-/// assert_eq!(DriverKind::ALL.map(DriverKind::name), ["sensor", "robot", "force", "lighting"]);
+/// assert_eq!(DriverKind::ALL.map(DriverKind::name), ["sensor", "robot", "force", "lighting", "changer"]);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -23,15 +23,18 @@ pub enum DriverKind {
     Force,
     /// Sets the light around the sensor.
     Lighting,
+    /// Brings specimens or units of a sensor into place.
+    Changer,
 }
 
 impl DriverKind {
     /// Every kind.
-    pub const ALL: [DriverKind; 4] = [
+    pub const ALL: [DriverKind; 5] = [
         DriverKind::Sensor,
         DriverKind::Robot,
         DriverKind::Force,
         DriverKind::Lighting,
+        DriverKind::Changer,
     ];
 
     /// How the kind is written in manifests and scenes.
@@ -41,6 +44,7 @@ impl DriverKind {
             DriverKind::Robot => "robot",
             DriverKind::Force => "force",
             DriverKind::Lighting => "lighting",
+            DriverKind::Changer => "changer",
         }
     }
 }
@@ -76,4 +80,8 @@ impl Device for dyn ForceTransducer {
 
 impl Device for dyn Lighting {
     const KIND: DriverKind = DriverKind::Lighting;
+}
+
+impl Device for dyn Changer {
+    const KIND: DriverKind = DriverKind::Changer;
 }

@@ -7,7 +7,7 @@ pub use source::DriverSource;
 use std::collections::BTreeSet;
 use std::fmt;
 
-use super::facts::{Facts, ForceFacts, RobotFacts, SensorFacts};
+use super::facts::{ChangerFacts, Facts, ForceFacts, RobotFacts, SensorFacts};
 use crate::args::{ArgError, ArgSpec, Args};
 use crate::driver::DriverKind;
 use crate::id::DriverKey;
@@ -75,6 +75,7 @@ impl DescriptorSpec {
                 Some("a lighting without scenes".to_owned())
             }
             Facts::Lighting(facts) => scenes_fault(&facts.scenes),
+            Facts::Changer(facts) => holds_fault(&facts.holds),
         });
         match fault {
             Some(problem) => Err(DescriptorError {
@@ -180,6 +181,16 @@ fn scenes_fault(scenes: &[String]) -> Option<String> {
         .map(|scene| format!("the scene {scene:?} is empty or named twice"))
 }
 
+fn holds_fault(holds: &[String]) -> Option<String> {
+    let mut seen = BTreeSet::new();
+    holds
+        .iter()
+        .find(|name| name.is_empty() || !seen.insert(*name))
+        .map(|name| {
+            format!("what it holds has the name {name:?}, which is empty or stands there twice")
+        })
+}
+
 fn positive(named: &[(&str, Option<f64>)]) -> Option<String> {
     named.iter().find_map(|&(name, value)| {
         value
@@ -257,6 +268,14 @@ impl Descriptor {
     pub fn force(&self) -> Option<&ForceFacts> {
         match self.facts() {
             Facts::Force(facts) => Some(facts),
+            _ => None,
+        }
+    }
+
+    /// The facts of a changer, if it is one.
+    pub fn changer(&self) -> Option<&ChangerFacts> {
+        match self.facts() {
+            Facts::Changer(facts) => Some(facts),
             _ => None,
         }
     }

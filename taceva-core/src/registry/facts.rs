@@ -1,5 +1,6 @@
 //! What is known about a device before it is connected.
 
+mod changer;
 mod force;
 mod lighting;
 mod robot;
@@ -8,6 +9,7 @@ mod workspace;
 
 use crate::driver::DriverKind;
 
+pub use changer::ChangerFacts;
 pub use force::ForceFacts;
 pub use lighting::LightingFacts;
 pub use robot::RobotFacts;
@@ -31,6 +33,8 @@ pub enum Facts {
     Force(ForceFacts),
     /// Of a lighting.
     Lighting(LightingFacts),
+    /// Of a changer.
+    Changer(ChangerFacts),
 }
 
 impl Facts {
@@ -41,6 +45,7 @@ impl Facts {
             Facts::Robot(_) => DriverKind::Robot,
             Facts::Force(_) => DriverKind::Force,
             Facts::Lighting(_) => DriverKind::Lighting,
+            Facts::Changer(_) => DriverKind::Changer,
         }
     }
 }

@@ -1,12 +1,13 @@
 //! The list of the drivers that are linked into the program.
 
 use super::{Builtin, Registry, RegistryError};
-use crate::driver::{Device, ForceTransducer, Lighting, Robot, Sensor};
+use crate::driver::{Changer, Device, ForceTransducer, Lighting, Robot, Sensor};
 
 inventory::collect!(Builtin<dyn Sensor>);
 inventory::collect!(Builtin<dyn Robot>);
 inventory::collect!(Builtin<dyn ForceTransducer>);
 inventory::collect!(Builtin<dyn Lighting>);
+inventory::collect!(Builtin<dyn Changer>);
 
 impl<D: Device + ?Sized + 'static> Registry<D>
 where

@@ -74,6 +74,7 @@ fn a_device_of_each_kind_without_a_flaw_passes_every_check() {
         conformance::force(&ToyFactory::force(Flaw::Nothing), &Trial::default()),
         conformance::robot(&ToyFactory::robot(Flaw::Nothing), &Trial::default()),
         conformance::lighting(&ToyFactory::lighting(Flaw::Nothing), &Trial::default()),
+        conformance::changer(&ToyFactory::changer(Flaw::Nothing), &Trial::default()),
     ];
     for report in reports {
         let all = report
@@ -218,6 +219,22 @@ fn each_check_of_a_lighting_can_fail() {
         &[
             (Flaw::HidesLight, "has the scenes it declares"),
             (Flaw::TakesAnyScene, "sets each of its scenes, and no other"),
+            (Flaw::IsSlow, "answers a deadline that has passed at once"),
+        ],
+    );
+}
+
+#[test]
+fn each_check_of_a_changer_can_fail() {
+    each_flaw_fails_its_check(
+        |flaw| conformance::changer(&ToyFactory::changer(flaw), &Trial::default()),
+        &[
+            (Flaw::HidesLight, "holds what it declares"),
+            (
+                Flaw::BringsAnother,
+                "brings each thing that it holds, and says so",
+            ),
+            (Flaw::TakesAnyScene, "refuses what it does not hold"),
             (Flaw::IsSlow, "answers a deadline that has passed at once"),
         ],
     );

@@ -5,11 +5,11 @@ use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
 use std::time::Duration;
 
 use taceva_core::{
-    Args, Axes, Deadline, Descriptor, DescriptorSpec, Device, DriverError, DriverKey, DriverSource,
-    ErrorKind, Factory, Facts, ForceFacts, ForceTransducer, FrameInfo, FrameMut, Guard,
-    GuardedMotion, GuardedStop, Halt, Hertz, Lighting, LightingFacts, Millimetre, Newton,
-    PixelFormat, Point, Pose, Rig, Robot, RobotFacts, Sensor, SensorFacts, Speed, Stamp, Tare,
-    Workspace, Wrench, check_pose,
+    Args, Axes, Changer, ChangerFacts, Deadline, Descriptor, DescriptorSpec, Device, DriverError,
+    DriverKey, DriverSource, ErrorKind, Factory, Facts, ForceFacts, ForceTransducer, FrameInfo,
+    FrameMut, Guard, GuardedMotion, GuardedStop, Halt, Hertz, Lighting, LightingFacts, Millimetre,
+    Newton, PixelFormat, Point, Pose, Rig, Robot, RobotFacts, Sensor, SensorFacts, Speed, Stamp,
+    Tare, Workspace, Wrench, check_pose,
 };
 
 pub(crate) const KEY: DriverKey = DriverKey::fixed("test/toy");
@@ -29,6 +29,7 @@ pub(crate) enum Flaw {
     HidesLight,
     DeclaresNoLight,
     TakesAnyScene,
+    BringsAnother,
     OtherAxes,
     Overflows,
     FillsUnmeasured,
@@ -107,6 +108,12 @@ impl ToyFactory {
         let facts = LightingFacts::default().with_scenes(scenes());
         ToyFactory::new(Facts::Lighting(facts), flaw)
     }
+
+    /// It holds what the lighting calls scenes.
+    pub(crate) fn changer(flaw: Flaw) -> ToyFactory {
+        let facts = ChangerFacts::default().with_holds(scenes());
+        ToyFactory::new(Facts::Changer(facts), flaw)
+    }
 }
 
 pub(crate) const FULL_SCALE: Newton = Newton(10.0);
@@ -166,7 +173,13 @@ macro_rules! opens {
     )*};
 }
 
-opens!(dyn Sensor, dyn ForceTransducer, dyn Robot, dyn Lighting);
+opens!(
+    dyn Sensor,
+    dyn ForceTransducer,
+    dyn Robot,
+    dyn Lighting,
+    dyn Changer
+);
 
 impl Toy {
     fn stamp(&mut self) -> Stamp {
@@ -229,6 +242,19 @@ impl Lighting for Toy {
             return Err(error(ErrorKind::InvalidArgument, "set the light"));
         }
         Ok(())
+    }
+}
+
+impl Changer for Toy {
+    fn holds(&self) -> &[String] {
+        Lighting::scenes(self)
+    }
+    fn bring(&mut self, name: &str, deadline: Deadline) -> Result<String, DriverError> {
+        Lighting::set(self, name, deadline)?;
+        match self.flaw {
+            Flaw::BringsAnother => Ok(self.scenes[0].clone()),
+            _ => Ok(name.to_owned()),
+        }
     }
 }
 

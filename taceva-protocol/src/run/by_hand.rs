@@ -10,14 +10,23 @@ use super::tip::Step;
 use crate::plan::PlannedPress;
 
 impl Run<'_> {
-    /// Mounts the specimen and sets the light of a press that hands must change; whether somebody skipped one of them.
+    /// Mounts the specimen and sets the light of a press that a changer or hands must change; whether somebody skipped one of them.
     pub(super) fn is_skipped(&mut self, planned: &PlannedPress) -> Result<bool, RunError> {
         let failed = |run: &mut Self, cause| run.abandoned(Some(planned.id), cause);
+        let unchanged = self.change(planned)?;
         for question in self.needed_by_hand(planned) {
             if self.skipped.contains(&question) {
                 return Ok(true);
             }
-            match self.ask(&question) {
+            let (asked, question) = match (&unchanged, question) {
+                (Some(why), mount @ Question::Mount(_)) => {
+                    let of_changer = Box::new(mount.clone());
+                    let why = why.clone();
+                    (Question::Instead { of_changer, why }, mount)
+                }
+                (_, question) => (question.clone(), question),
+            };
+            match self.ask(&asked) {
                 Ok(Answer::Done) => self.done_by_hand(&question),
                 Ok(Answer::Skip) => {
                     self.skipped.push(question);
@@ -42,7 +51,7 @@ impl Run<'_> {
         if self.operator.is_none() {
             return needed;
         }
-        if self.specimens.is_none() && self.mounted != Some(press.specimen) {
+        if !self.is_held_by_changer(press.specimen) && self.mounted != Some(press.specimen) {
             needed.push(Question::Mount(press.specimen));
         }
         if let Some(light) = &press.light
@@ -56,14 +65,7 @@ impl Run<'_> {
 
     fn done_by_hand(&mut self, question: &Question) {
         match question {
-            Question::Mount(specimen) => {
-                self.mounted = Some(*specimen);
-                // Another specimen is another load on the transducer.
-                self.tip.is_zero_known = false;
-                // And it may be longer.
-                self.tip.surface_mm = None;
-                (self.events)(&Event::Mounted(*specimen));
-            }
+            Question::Mount(specimen) => self.has_mounted(*specimen),
             Question::Light(light) => {
                 self.lit = Some(light.clone());
                 (self.events)(&Event::Lit(light.clone()));
@@ -77,11 +79,7 @@ impl Run<'_> {
         if self.operator.is_none() {
             return Ok(Answer::Stop);
         }
-        if !self.tip.is_high() {
-            self.wait_until_held()?;
-            self.tip.retreat()?;
-        }
-        self.tip.hold()?;
+        self.stand_out_of_the_way()?;
         let Some(operator) = &mut self.operator else {
             return Ok(Answer::Stop);
         };

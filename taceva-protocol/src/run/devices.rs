@@ -1,5 +1,7 @@
 //! The devices of a run, borrowed.
 
+use std::time::Duration;
+
 use taceva_core::{Deadline, DriverError, ForceTransducer, Lighting, Robot, Sensor, Specimen};
 
 /// What a run works with; it starts and stops them, and owns none.
@@ -23,4 +25,14 @@ pub trait SpecimenChanger {
     /// # Errors
     /// [`DriverError`] if it is not there or was not mounted in time.
     fn mount(&mut self, specimen: Specimen, deadline: Deadline) -> Result<(), DriverError>;
+
+    /// Whether it has `specimen`; what it has not is mounted by hand.
+    fn holds(&self, _specimen: Specimen) -> bool {
+        true
+    }
+
+    /// How long it may move to mount one: the robot is halted meanwhile. `None` of one in which nothing moves, such as a simulated bench.
+    fn patience(&self) -> Option<Duration> {
+        None
+    }
 }

@@ -32,6 +32,13 @@ pub enum Question {
     Acknowledge(Fault),
     /// Jog the tip to this place with the robot's own tool.
     Jog(Spot),
+    /// Do this by hand, because the changer that does it failed.
+    Instead {
+        /// What is to be done: [`Mount`](Question::Mount) or [`Unit`](Question::Unit).
+        of_changer: Box<Question>,
+        /// Why it failed.
+        why: String,
+    },
     /// Go on although the gel is not touched as in an earlier session of this recording.
     Resume(ChangedTouch),
 }
@@ -93,6 +100,11 @@ impl fmt::Display for Question {
                 100.0 * force_part
             ),
             Question::Mount(specimen) => write!(f, "mount the {specimen}, turned straight"),
+            Question::Instead { of_changer, why } => write!(
+                f,
+                "the changer failed: {}; see that nothing of it moves any more and that it is out of the way, then by hand: {of_changer}",
+                taceva_core::shown(why)
+            ),
             Question::Unit(unit) => write!(f, "put unit {} in place", taceva_core::shown(unit)),
             Question::Light(light) => write!(f, "set the light `{}`", taceva_core::shown(light)),
             Question::Acknowledge(fault) => write!(
@@ -118,6 +130,13 @@ mod tests {
         for (question, word) in [
             (Question::Mount(board), "0.5 mm"),
             (Question::Unit("b".to_owned()), "unit b"),
+            (
+                Question::Instead {
+                    of_changer: Box::new(Question::Mount(board)),
+                    why: "it is stuck".to_owned(),
+                },
+                "it is stuck; see that nothing of it moves any more and that it is out of the way, then by hand: mount the dot",
+            ),
             (Question::Light("S1".to_owned()), "`S1`"),
             (Question::Acknowledge(Fault::Collision), "collision"),
             (

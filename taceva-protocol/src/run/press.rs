@@ -49,15 +49,16 @@ impl Run<'_> {
         let press = &planned.press;
         if self.mounted != Some(press.specimen) {
             match &mut self.specimens {
-                Some(changer) => {
+                // One that moves was asked before the press, while the robot was halted.
+                Some(changer) if changer.patience().is_none() => {
                     changer.mount(press.specimen, DEADLINE)?;
                     (self.events)(&Event::Mounted(press.specimen));
                 }
-                None if self.mounted.is_some() => {
+                _ if self.mounted.is_some() => {
                     let needed = format!("somebody who mounts a {}", press.specimen);
                     return Err(StopCause::Missing(needed));
                 }
-                None => {}
+                _ => {}
             }
             self.mounted = Some(press.specimen);
         }

@@ -41,8 +41,15 @@ impl Study {
         }
     }
 
-    /// The drivers it names.
+    /// Whether the rig file names the lighting.
+    pub(crate) fn is_lit_by_rig(&self) -> bool {
+        let rig = self.rig.as_ref();
+        rig.is_some_and(|rig| rig.changers.light.is_some())
+    }
+
+    /// The drivers it names, with the changers of its rig file.
     pub fn drivers(&self) -> impl Iterator<Item = (DriverKind, &Setting<String>)> {
+        let changers = self.rig.as_ref().map(|rig| &rig.changers);
         [
             (DriverKind::Sensor, self.sensor.driver.as_ref()),
             (
@@ -58,6 +65,14 @@ impl Study {
                 self.lighting
                     .as_ref()
                     .and_then(|lighting| lighting.driver.as_ref()),
+            ),
+            (
+                DriverKind::Changer,
+                changers.and_then(|changers| changers.specimen.as_ref()),
+            ),
+            (
+                DriverKind::Changer,
+                changers.and_then(|changers| changers.unit.as_ref()),
             ),
         ]
         .into_iter()

@@ -15,6 +15,7 @@ use taceva_protocol::{
     run_session,
 };
 
+use super::changers::{OfSpecimens, OpenChanger};
 use super::guardian::Guarded;
 use super::opened::Opened;
 use super::registered::{Registered, Turned};
@@ -57,7 +58,7 @@ impl OpenRig {
         study: &PlannedStudy,
         rig: &RigSpec,
         unit: &str,
-        workshop: Workshop<'_>,
+        (workshop, cancel): (Workshop<'_>, &Cancel),
     ) -> Result<OpenRig, StudyError> {
         let failed = |source: OpenError| StudyError::Open {
             study: study.plan.name.clone(),
@@ -68,6 +69,7 @@ impl OpenRig {
             robots,
             forces,
             lightings,
+            changers: _,
             switches: _,
         } = workshop.drivers;
         let rig_file = study.study.rig.as_deref();
@@ -93,11 +95,19 @@ impl OpenRig {
         };
         let selector = &robot.selector;
         let is_real = robot.descriptor.source() == DriverSource::Real;
-        let surroundings = match is_real {
+        let mut surroundings = match is_real {
             true => Surroundings::real(),
             false => (workshop.surroundings)(selector, &mut shared)
                 .ok_or_else(|| failed(OpenError::Device(without_clock(selector))))?,
         };
+        if let Some(rig_file) = rig_file.filter(|_| rig.changes) {
+            let specimen = rig_file.changers.specimen.as_ref();
+            let opened = OpenChanger::open((rig, rig_file), specimen, workshop.drivers);
+            if let Some(changer) = opened.map_err(failed)? {
+                let cancel = cancel.clone();
+                surroundings.specimens = Some(Box::new(OfSpecimens { changer, cancel }));
+            }
+        }
         let sensor_latency = rig_file.and_then(|rig| rig.sensor.as_ref()?.latency_ms);
         let force_latency = rig_file.and_then(|rig| rig.force.as_ref()?.latency_ms);
         let sensor = sensor.map(|sensor| match &surroundings.bench {

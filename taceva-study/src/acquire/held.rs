@@ -38,7 +38,9 @@ impl PlannedScene {
             let selectors = [&spec.sensor, &spec.robot, &spec.force];
             let operator = rig.operator.as_ref();
             let switch = operator.map(|operator| &operator.enable);
-            for device in selectors.into_iter().flatten().chain(switch) {
+            let changers = [&rig.changers.specimen, &rig.changers.unit, &spec.lighting];
+            let devices_of = selectors.into_iter().chain(changers).flatten();
+            for device in devices_of.chain(switch) {
                 devices.insert(device.value.clone(), rig.name().to_owned());
             }
         }

@@ -9,14 +9,14 @@ use taceva_core::{
     Stamp, Tare, Wrench,
 };
 
-/// A device that stamps what was true so long before.
+/// A device whose stamps are later, by a known time, than the moment at which the observation was true.
 pub(crate) struct Late<D: ?Sized> {
     latency_s: f64,
     device: Box<D>,
 }
 
 impl<D: ?Sized> Late<D> {
-    /// `device`, of which it is known that it stamps so many ms too late.
+    /// `device`, whose stamps are `latency_ms` too late.
     pub(super) fn new(device: Box<D>, latency_ms: f64) -> Late<D> {
         let latency_s = latency_ms * 1e-3;
         Late { latency_s, device }

@@ -32,7 +32,7 @@ pub(crate) struct FileOpener<'a> {
 }
 
 impl<'a> FileOpener<'a> {
-    /// Those of `rig`.
+    /// An opener of the devices that `rig` names.
     pub(crate) fn new(rig: &'a RigFile, drivers: &'a Drivers) -> FileOpener<'a> {
         let folder = Path::new(rig.name()).parent().unwrap_or(Path::new(""));
         let spec = RigSpec::of_file(rig, folder);

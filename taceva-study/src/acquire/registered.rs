@@ -9,14 +9,15 @@ use taceva_core::{
 use taceva_core::{Degree, Newton, NewtonMillimetre, Rotation};
 use taceva_protocol::{Registration, RigRobot, SignedAxes};
 
-/// A robot that is told and says poses in the sensor's frame, over one that knows its base frame alone.
+/// A robot that takes and reports poses in the sensor's frame, over a driver that works in the robot's base frame.
 pub(super) struct Registered {
     registration: Registration,
     robot: Box<dyn Robot>,
 }
 
 impl Registered {
-    /// `robot` as `registered` says that it stands. Where that does not say how the tool is turned, it is asked now, within `deadline`.
+    /// `robot`, standing as `registered` says. Where that does not say how the tool is turned, the robot is asked for its pose now, within
+    /// `deadline`.
     ///
     /// # Errors
     /// [`DriverError`] if it says no pose.
@@ -149,7 +150,7 @@ pub(crate) struct Turned {
 }
 
 impl Turned {
-    /// `force`, whose axes lie so.
+    /// `force` with its readings turned: `axes` says which of its axes each axis of the sensor is.
     pub(crate) fn new(force: Box<dyn ForceTransducer>, axes: SignedAxes) -> Turned {
         Turned { axes, force }
     }

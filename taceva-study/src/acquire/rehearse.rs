@@ -9,7 +9,7 @@ use super::workshop::Workshop;
 use crate::error::StudyError;
 use crate::scene::{PlannedScene, StudySource};
 
-/// How far above the height of travel: an origin that is wrong by less harms nobody.
+/// How far above the height of travel a rehearsal moves, in mm: an error of the origin below this does not touch the gel.
 pub const AIR_MM: f64 = 10.0;
 
 /// Visits every place of `scene` [`AIR_MM`] above the height of travel; how many there were.
@@ -38,7 +38,7 @@ pub fn rehearse_scene(scene: &PlannedScene, workshop: Workshop<'_>) -> Result<us
             if !unit_is_there(study, rig, unit, by_hand)? {
                 continue;
             }
-            let mut open = OpenRig::open(study, rig, unit, workshop)?;
+            let mut open = OpenRig::open(study, rig, unit, (workshop, &cancel))?;
             let spec = RunSpec {
                 plan: &study.plan,
                 unit,

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use taceva_protocol::Plan;
 
-/// Equal slots, long enough for the longest press of a plan.
+/// Equal slots of time, each long enough for the longest press of a plan.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Schedule {
     slot: Duration,

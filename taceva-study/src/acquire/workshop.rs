@@ -21,7 +21,7 @@ pub struct Surroundings {
     pub upcoming: Option<Box<dyn FnMut(Upcoming)>>,
     /// What the recording calls the gel.
     pub gel: Option<String>,
-    /// The simulated bench that it is, where it is one: a sensor of another has frames by its clock all the same.
+    /// The simulated bench, where the rig is one. A sensor that belongs to another bench is stamped by the clock of this one.
     pub bench: Option<Arc<dyn SimulatedBench>>,
     /// Whether its gel is new in every process, and remembers within one what was done to it.
     ///
@@ -31,7 +31,7 @@ pub struct Surroundings {
 }
 
 impl Surroundings {
-    /// Those of a real rig: the time of the machine, in which nothing can be turned, and a gel that nobody can renew.
+    /// Those of a real rig: the monotonic clock of the machine, which cannot be set, and a gel that keeps what was done to it.
     pub fn real() -> Surroundings {
         Surroundings {
             clock: Box::new(MachineTime),
@@ -62,8 +62,8 @@ impl Timekeeper for MachineTime {
 pub struct Upcoming {
     /// Its name.
     pub press: ContentId,
-    /// When it begins by the clock of the rig, on a schedule that leaves every press ample time: a rig whose time can be
-    /// turned gives the same times to a press whether the run was interrupted or not.
+    /// When it begins by the clock of the rig, on a schedule that leaves every press ample time: a rig whose clock can be set then gives a press
+    /// the same times whether the run was interrupted or not.
     pub begins: Duration,
 }
 

@@ -1,7 +1,7 @@
 //! The Pareto front of models: processor time of the fit against error.
 //!
-//! A model is beaten on a channel by one that takes less time and than which it is not shown to be nearer: paired by contact point, the 95 %
-//! interval of the difference of the two mean absolute errors is not below 0. So a model that takes longer has to show what it is for.
+//! A model is beaten on a channel by one that takes less time, unless it is shown to be more accurate than that one: paired by contact point, the
+//! 95 % interval of the difference of the two mean absolute errors lies below 0. So a model that takes longer has to show what it is for.
 
 use taceva_metrics::ClusterSums;
 

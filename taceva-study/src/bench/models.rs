@@ -57,8 +57,8 @@ pub struct TrialError {
     pub ci95: Option<[f64; 2]>,
     /// Samples it is made of.
     pub n: u64,
-    /// The models of the race that take less processor time to fit and than which this one is not shown to be nearer: the 95 % interval of
-    /// the difference of errors, paired by contact point, is not below 0. None: on the Pareto front.
+    /// The models of the race that take less processor time to fit and are not shown to be less accurate than this one: the 95 % interval of the
+    /// difference of errors, paired by contact point, does not lie below 0. Empty: the model is on the Pareto front.
     pub beaten_by: Vec<String>,
 }
 

@@ -1,4 +1,4 @@
-//! Features of frames and signals that are kept for the next model, the oldest of them dropped where they come to too much.
+//! Features of frames and signals that are kept for the next model; beyond a total size the oldest are removed.
 
 use std::fs::{self, File};
 use std::io;

@@ -119,7 +119,7 @@ impl KeyBuilder {
         self
     }
 
-    /// A part by the form in which it is debugged, which names every field: one that is added later enters the key by itself.
+    /// A part in its `Debug` form, which names every field, so that a field added later becomes part of the key without further code.
     pub(crate) fn whole(self, name: &str, part: &impl Debug) -> KeyBuilder {
         self.part(name, &format!("{part:?}"))
     }

@@ -1,4 +1,4 @@
-//! Recordings that runs hold: the cache notes where, and keeps no copy.
+//! Recordings in the folders of runs: the cache notes where each is and keeps no copy.
 //!
 //! A note lists the folders that hold one recording, the last one first, each behind the digest of its header: a folder of that name may
 //! hold another recording by now. Another run links the files of the first that is still what was

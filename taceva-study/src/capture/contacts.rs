@@ -32,7 +32,8 @@ impl Contacts {
         self.count
     }
 
-    /// The name of what a frame shows under `normal_n`; where no force is known, it goes on as before.
+    /// The name of the contact, or the rest between two, that a frame with the normal force `normal_n` belongs to; where no force is known, that of
+    /// the frame before.
     pub(super) fn name(&mut self, normal_n: Option<f64>) -> String {
         match normal_n {
             Some(normal_n) if !self.is_touched && normal_n > BEGINS_N => {

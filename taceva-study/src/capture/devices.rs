@@ -25,7 +25,7 @@ use crate::scene::read_rig_file;
 /// How long a sensor may take to start and to give its first frame.
 const FIRST: Duration = Duration::from_secs(5);
 
-/// What is to be looked at; nothing is open yet.
+/// The devices of a capture or a preview, checked but not open.
 #[derive(Clone, Debug)]
 pub struct LiveSpec {
     sensor: Named,

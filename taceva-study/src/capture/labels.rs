@@ -1,4 +1,4 @@
-//! Frames and what the transducer said at their time, as samples.
+//! Frames, each with the wrench at its time, as samples.
 
 use std::collections::VecDeque;
 

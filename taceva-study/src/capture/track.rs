@@ -1,4 +1,4 @@
-//! What a transducer said lately, and what it would have said at the time of a frame.
+//! The latest readings of a transducer, and the wrench interpolated from them at the time of a frame.
 
 use std::collections::VecDeque;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -41,7 +41,7 @@ impl Track {
         }
     }
 
-    /// Takes a reading that was true at `at_s`; one that is no later than the last is none.
+    /// Takes a reading that was true at `at_s`, in s; one that is no later than the last is ignored.
     pub(super) fn push(&self, at_s: f64, wrench: Wrench) {
         let mut readings = self.readings();
         if readings.back().is_some_and(|(last_s, _)| *last_s >= at_s) {

@@ -22,7 +22,7 @@ const MEAN_OVER: Duration = Duration::from_millis(250);
 /// From one failure at once to the next call.
 const REST: Duration = Duration::from_millis(5);
 
-/// A transducer, and what is called zero on this side.
+/// A transducer, and the wrench that the host subtracts as its zero.
 pub(super) struct Transducer {
     pub(super) device: Box<dyn ForceTransducer>,
     pub(super) driver: DriverKey,

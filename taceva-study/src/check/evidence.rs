@@ -1,4 +1,4 @@
-//! What checks look at: the table, the header, the split, and a few numbers of every frame.
+//! What checks examine: the table, the header, the split, and a few numbers of every frame.
 
 use taceva_core::{Frame, PixelFormat};
 use taceva_dataset::{Header, Table};

@@ -1,4 +1,4 @@
-//! What a recording has for a model to look at.
+//! The input of a model in a recording: its frames or its signals.
 
 use taceva_core::{Field, Frame, FrameInfo, Input, InputInfo, SignalInfo, Signals};
 use taceva_dataset::{Dataset, DatasetError};
@@ -13,7 +13,7 @@ pub(crate) enum Sight {
 }
 
 impl Sight {
-    /// What `dataset` has of what `spec` is of, or the name of what it lacks.
+    /// The frames or the signals of `dataset` that `spec` asks for, or the name of what the dataset lacks.
     ///
     /// # Errors
     /// Those of reading what it is without contact.

@@ -1,4 +1,4 @@
-//! `rig check`: how the devices of a rig speak, how their signals scatter, and how soon the robot stands.
+//! `rig check`: the rate, gaps and noise of each device of a rig, and how soon its robot stands after a halt.
 
 use std::fmt;
 use std::time::Duration;
@@ -44,7 +44,7 @@ pub struct RigCheck {
     pub sensor: Option<Stream>,
     /// The robot, halted on its way; absent where nobody let it move.
     pub halt: Option<HaltTrip>,
-    /// What a run will stumble over.
+    /// What a run would refuse or be stopped by.
     pub problems: Vec<RigProblem>,
 }
 

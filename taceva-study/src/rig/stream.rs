@@ -1,4 +1,4 @@
-//! How regularly a device speaks, and how far what it says scatters while nothing changes.
+//! The rate and the gaps of a device's readings, and their noise at rest.
 
 /// What a device said while it was listened to.
 ///
@@ -7,21 +7,21 @@
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Stream {
-    /// How often it said something.
+    /// How many readings came.
     pub count: usize,
-    /// Per second; 0 of fewer than two.
+    /// Readings a second; 0 of fewer than two.
     pub rate_hz: f64,
-    /// The longest time from one to the next, by their stamps.
+    /// The longest time from one reading to the next by their stamps, in ms.
     pub gap_ms: f64,
-    /// How old the oldest was when it came, by its stamp.
+    /// The greatest age of a reading when it came, by its stamp, in ms.
     pub late_ms: f64,
-    /// The greatest standard deviation of a component; `None` where nothing is said of numbers.
+    /// The greatest standard deviation of a component, in the unit of the reading; `None` of a device that gives no numbers.
     pub noise: Option<f64>,
-    /// How many it numbered and did not deliver; `None` where it numbers nothing.
+    /// How many readings are missing by their numbers; `None` of a device that does not number them.
     pub lost: Option<u64>,
 }
 
-/// Listens to one device.
+/// Gathers the times and the numbers of one device's readings.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Listener {
     valid_s: Vec<f64>,

@@ -97,7 +97,7 @@ impl RunFolder {
         self.path.join(FIGURES)
     }
 
-    /// Where it is written which stages were found rather than carried out.
+    /// The file that lists the stages, and which of them were found in the cache.
     pub fn stages(&self) -> PathBuf {
         self.path.join(STAGES)
     }

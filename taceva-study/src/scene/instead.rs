@@ -1,4 +1,4 @@
-//! What may be said of a scene otherwise than it is written, without editing it.
+//! Values that stand in the place of those that a scene writes, so that it need not be edited.
 
 use std::path::PathBuf;
 
@@ -16,7 +16,7 @@ pub struct Instead {
     pub rig: Option<PathBuf>,
     /// The model of every study, without the settings that the scene has for another.
     pub model: Option<String>,
-    /// ModelSettings of the model, as `key=value`, beside those that stay.
+    /// Settings of the model, as `key=value`; those of the scene that are not named stay.
     pub set: Vec<String>,
     /// The seeds that models are fitted with: presses, division and what is scored stay as they are.
     pub seeds: Vec<u64>,

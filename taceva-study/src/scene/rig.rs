@@ -19,6 +19,8 @@ pub(crate) struct RigSpec {
     pub(crate) robot: Option<Setting<String>>,
     pub(crate) force: Option<Setting<String>>,
     pub(crate) lighting: Option<Setting<String>>,
+    /// Whether what changes things is opened with them.
+    pub(crate) changes: bool,
     seed: u64,
     /// What paths in the scene are relative to.
     folder: PathBuf,
@@ -30,6 +32,7 @@ impl RigSpec {
         RigSpec {
             sensor: None,
             lighting: None,
+            changes: false,
             ..self.clone()
         }
     }
@@ -44,6 +47,7 @@ impl RigSpec {
             robot: driver(&study.robot),
             force: driver(&study.force),
             lighting: lighting.and_then(|lighting| lighting.driver.clone()),
+            changes: true,
             seed,
             folder: folder.to_owned(),
         }
@@ -59,6 +63,7 @@ impl RigSpec {
             robot: robot.map(|robot| robot.driver.clone()),
             force: force.map(|force| force.driver.clone()),
             lighting: None,
+            changes: false,
             seed: 0,
             folder: folder.to_owned(),
         }
@@ -135,6 +140,16 @@ impl RigSpec {
         located.collect::<Vec<_>>().join(";")
     }
 
+    /// The names of what the changer `device` holds; `None` without one.
+    pub(crate) fn held_by(
+        &self,
+        drivers: &Drivers,
+        device: Option<&Setting<String>>,
+    ) -> Result<Option<Vec<String>>, Refused> {
+        let described = self.describe(&drivers.changers, device, "1")?;
+        Ok(described.and_then(|described| Some(described.changer()?.holds.clone())))
+    }
+
     fn describe<D: Device + ?Sized>(
         &self,
         registry: &Registry<D>,
@@ -169,6 +184,7 @@ pub(crate) fn check_drivers(scene: &Scene, drivers: &Drivers) -> Result<(), Scen
         .chain(keys(&drivers.robots))
         .chain(keys(&drivers.forces))
         .chain(keys(&drivers.lightings))
+        .chain(keys(&drivers.changers))
         .collect();
     scene.check_drivers(&known)
 }
@@ -189,19 +205,53 @@ pub(crate) fn check_switch(rig: &RigFile, drivers: &Drivers) -> Result<(), Scene
         let problem = format!("`enable`: {error}");
         refused((enable.at(), SceneProblem::Contradiction(problem)))
     })?;
+    if is_simulated_here(rig, drivers) {
+        let problem = "`enable`: the robot is simulated in the program, and nobody can hold a switch in its time: take [operator] out";
+        let problem = SceneProblem::Contradiction(problem.to_owned());
+        return Err(refused((enable.at(), problem)));
+    }
+    Ok(())
+}
+
+/// Refuses a changer of `rig` that names no changer, one that holds nothing and one beside a robot that is simulated in the program, whose bench
+/// changes everything itself, with the line of the rig file; nothing is opened.
+pub(crate) fn check_changers(rig: &RigFile, drivers: &Drivers) -> Result<(), SceneError> {
+    let folder = Path::new(rig.name()).parent().unwrap_or(Path::new(""));
+    let spec = RigSpec::of_file(rig, folder);
+    let changers = [
+        ("specimen", &rig.changers.specimen),
+        ("unit", &rig.changers.unit),
+    ];
+    for (key, changer) in changers {
+        let Some(changer) = changer else {
+            continue;
+        };
+        let refused = |(at, problem)| rig.error(at, problem);
+        let contradiction =
+            |problem: String| refused((changer.at(), SceneProblem::Contradiction(problem)));
+        let holds = spec.held_by(drivers, Some(changer)).map_err(refused)?;
+        if holds.is_none_or(|holds| holds.is_empty()) {
+            return Err(contradiction(format!(
+                "`{key}`: with these arguments `{}` holds nothing",
+                taceva_core::shown(&changer.value)
+            )));
+        }
+        if is_simulated_here(rig, drivers) {
+            return Err(contradiction(format!(
+                "`{key}`: the robot is simulated in the program, whose bench changes everything by itself: take `{key}` out"
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// Whether the robot of `rig` is simulated in the program.
+fn is_simulated_here(rig: &RigFile, drivers: &Drivers) -> bool {
     let robot = rig.robot.as_ref().map(|robot| &robot.driver.value);
     let robot: Option<Selector> = robot.and_then(|robot| robot.parse().ok());
     let factory = robot.and_then(|robot| drivers.robots.get(robot.driver()).ok());
-    match factory.map(|factory| factory.descriptor().source()) {
-        Some(DriverSource::Simulated) => {
-            let problem = "`enable`: the robot is simulated in the program, and nobody can hold a switch in its time: take [operator] out";
-            Err(refused((
-                enable.at(),
-                SceneProblem::Contradiction(problem.to_owned()),
-            )))
-        }
-        _ => Ok(()),
-    }
+    let source = factory.map(|factory| factory.descriptor().source());
+    source == Some(DriverSource::Simulated)
 }
 
 /// The enabling switch of `rig`, open.

@@ -7,7 +7,7 @@ use taceva_models::Models;
 use crate::cache::StudyCache;
 use crate::work::Work;
 
-/// How the stages of a study are carried out, where their results are found and kept, and the models there are.
+/// What the stages of a study are carried out with: threads and progress, the cache, and the known models.
 #[derive(Clone, Copy)]
 pub(crate) struct RunContext<'a> {
     pub(crate) work: Work<'a>,

@@ -4,18 +4,22 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use taceva_core::{
-    ArgSpec, Args, Axes, Deadline, Descriptor, DescriptorSpec, DriverError, DriverKey,
-    DriverSource, EnablingSwitch, ErrorKind, Factory, Facts, Fault, Footprint, ForceFacts,
-    ForceTransducer, FrameInfo, FrameMut, Halt, Hertz, Millimetre, Newton, PixelFormat, Pose,
-    Registry, Rig, Robot, RobotFacts, RobotWatch, Sensor, SensorFacts, Speed, Stamp, Wrench,
+    ArgSpec, Args, Axes, Changer, ChangerFacts, Deadline, Descriptor, DescriptorError,
+    DescriptorSpec, DriverError, DriverKey, DriverSource, EnablingSwitch, ErrorKind, Factory,
+    Facts, Fault, Footprint, ForceFacts, ForceTransducer, FrameInfo, FrameMut, Halt, Hertz,
+    Millimetre, Newton, PixelFormat, Pose, Registry, Rig, Robot, RobotFacts, RobotWatch, Sensor,
+    SensorFacts, Speed, Stamp, Wrench,
 };
 use taceva_drivers::{Drivers, MonotonicClock, OpenError, Switches};
 
+use crate::changer::Carousel;
 use crate::world::{World, pose};
 
 const ROBOT: DriverKey = DriverKey::fixed("wall/robot");
 const FORCE: DriverKey = DriverKey::fixed("wall/force");
 const SWITCH: DriverKey = DriverKey::fixed("wall/pedal");
+pub(crate) const CAROUSEL: DriverKey = DriverKey::fixed("wall/carousel");
+const REVOLVER: DriverKey = DriverKey::fixed("wall/revolver");
 const SENSOR: DriverKey = DriverKey::fixed("wall/gel");
 /// From one reading to the next.
 const READING_S: f64 = 0.005;
@@ -40,6 +44,7 @@ pub(crate) fn drivers(world: &World) -> Drivers {
         robots: Registry::empty(),
         forces: Registry::empty(),
         lightings: Registry::empty(),
+        changers: Registry::empty(),
         switches: Switches::default(),
     };
     let gel = OnWall::new(SENSOR, Facts::Sensor(Box::new(sensor)), world);
@@ -48,6 +53,14 @@ pub(crate) fn drivers(world: &World) -> Drivers {
     drivers.robots.add(Box::new(arm)).expect("one");
     let transducer = OnWall::new(FORCE, Facts::Force(force), world);
     drivers.forces.add(Box::new(transducer)).expect("one");
+    for key in [CAROUSEL, REVOLVER] {
+        let holds = ArgSpec::text("holds").changes_facts();
+        let facts = Facts::Changer(ChangerFacts::default());
+        let mut changer = OnWall::new(key, facts, world);
+        let spec = changer.descriptor.to_spec().arguments([holds]);
+        changer.descriptor = spec.check().expect("no contradiction");
+        drivers.changers.add(Box::new(changer)).expect("one");
+    }
     let held = world.clone();
     drivers.switches.add(SWITCH, Vec::new(), move |_| {
         match held.state().is_unplugged {
@@ -109,6 +122,27 @@ macro_rules! opens {
             }
         }
     };
+}
+
+impl Factory<dyn Changer> for OnWall {
+    fn descriptor(&self) -> &Descriptor {
+        &self.descriptor
+    }
+
+    fn describe(&self, args: &Args) -> Result<Descriptor, DescriptorError> {
+        let mut spec = self.descriptor.to_spec();
+        spec.facts = Facts::Changer(ChangerFacts::default().with_holds(held(args)));
+        spec.check()
+    }
+
+    fn open(&self, args: &Args, _: &mut Rig) -> Result<Box<dyn Changer>, DriverError> {
+        Ok(Box::new(Carousel::new(self.world.clone(), held(args))))
+    }
+}
+
+/// The names in an argument, with `+` between them.
+fn held(args: &Args) -> Vec<String> {
+    args.text("holds").split('+').map(str::to_owned).collect()
 }
 
 opens!(dyn Robot, Arm);

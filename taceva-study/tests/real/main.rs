@@ -1,5 +1,6 @@
 //! Studies on devices that work in the time of the machine.
 
+mod changer;
 mod devices;
 mod guard;
 mod operator;

@@ -40,6 +40,20 @@ pub(crate) struct State {
     /// Whether the enabling switch is there and held.
     pub(crate) is_held: bool,
     pub(crate) is_unplugged: bool,
+    /// What goes wrong with a changer, and of every change what was asked for, the height of the tip, whether it was halted, and whether it
+    /// stood meanwhile.
+    pub(crate) changer: Misfortune,
+    pub(crate) changes: Vec<(String, f64, bool, bool)>,
+}
+
+/// What goes wrong with a changer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Misfortune {
+    None,
+    Fails,
+    Hangs,
+    Vanishes,
+    BringsAnother,
 }
 
 impl World {
@@ -61,6 +75,8 @@ impl World {
             told: false,
             is_held: true,
             is_unplugged: false,
+            changer: Misfortune::None,
+            changes: Vec::new(),
         })))
     }
 

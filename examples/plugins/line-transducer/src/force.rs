@@ -145,6 +145,8 @@ impl ForceTransducer for Transducer {
     fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError> {
         let failed = |kind| DriverError::new(kind, &KEY, "read the force");
         let call = self.interruption.call();
+        // A deadline is a length of time, which does not run down by itself.
+        let until = taceva_plugin::now() + deadline.remaining();
         loop {
             {
                 let newest = self.newest.lock().unwrap_or_else(PoisonError::into_inner);
@@ -157,10 +159,11 @@ impl ForceTransducer for Transducer {
                     return Err(failed(*kind).because(why.clone()));
                 }
             }
-            if deadline.remaining().is_zero() {
+            let left = until.saturating_sub(taceva_plugin::now());
+            if left.is_zero() {
                 return Err(failed(ErrorKind::Timeout).because("no reading came in time"));
             }
-            call.rest(LOOKING.min(deadline.remaining()))
+            call.rest(LOOKING.min(left))
                 .map_err(|interrupted| failed(ErrorKind::Interrupted).because(interrupted))?;
         }
     }

@@ -1,6 +1,7 @@
 /* What every device in C++17 shares: exceptions end a call with a status and a message, and another thread can end a wait. What crosses stays C.
  *
- * Derive from `taceva::sensor` (sensor.hpp), `taceva::force` (force.hpp), `taceva::robot` (robot.hpp) or `taceva::lighting` (lighting.hpp), say in
+ * Derive from `taceva::sensor` (sensor.hpp), `taceva::force` (force.hpp), `taceva::robot` (robot.hpp), `taceva::lighting` (lighting.hpp) or
+ * `taceva::changer` (changer.hpp), say in
  * `static constexpr const char *table` what stands below [[provides]] of plugin.toml, open the device in a constructor from
  * `const taceva::arguments &`, close it in the destructor, and export all classes with TACEVA_DEVICES. */
 #ifndef TACEVA_DEVICE_HPP

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "device.hpp"
+#include "ext/expiring_motion.h"
 #include "robot.h"
 
 namespace taceva {
@@ -31,6 +32,12 @@ class robot : public device {
   bool is_accepted_ = false;
 };
 
+/* An ability that a robot derives from beside `robot`: its controller drops what it was told after 200 ms, unless it is told again. */
+struct can_expire {
+  virtual ~can_expire() = default;
+  virtual void move_expiring(const taceva_motion &to, taceva_stamp &stamp, deadline until) = 0; /* as `move`, renewed until the tip rests */
+};
+
 template <> struct [[gnu::visibility("hidden")]] kind_of<robot> {
   static constexpr std::string_view id = TACEVA_ROBOT_FACTORY;
   static void unless_halted(const robot &it) { if (it.is_halted_) throw failure(TACEVA_INTERRUPTED, "it is halted"); }
@@ -41,16 +48,20 @@ template <> struct [[gnu::visibility("hidden")]] kind_of<robot> {
       device_calls::begun<robot>(handle).pose(*into, *stamp, device_calls::after(timeout_ns));
     });
   }
+  static void admit(robot &it, const taceva_motion *motion) { /* what may be begun now */
+    device_calls::expect(motion && motion->size >= sizeof *motion, "a motion of another size");
+    const taceva_pose &to = motion->target;
+    const double turn = to.qw * to.qw + to.qx * to.qx + to.qy * to.qy + to.qz * to.qz;
+    device_calls::expect(std::isfinite(to.x + to.y + to.z) && std::fabs(turn - 1) < 1e-6, "a target that is none");
+    device_calls::expect(std::isfinite(motion->speed_m_per_s) && motion->speed_m_per_s > 0, "a speed that is none");
+    unless_halted(it);
+    it.check(*motion);
+  }
   static taceva_status move_to(void *handle, const taceva_motion *motion, uint64_t *token, taceva_error *error) noexcept {
     return device_calls::guarded(error, [&] {
       robot &it = device_calls::begun<robot>(handle);
-      device_calls::expect(motion && token && motion->size >= sizeof *motion, "a motion of another size");
-      const taceva_pose &to = motion->target;
-      const double turn = to.qw * to.qw + to.qx * to.qx + to.qy * to.qy + to.qz * to.qz;
-      device_calls::expect(std::isfinite(to.x + to.y + to.z) && std::fabs(turn - 1) < 1e-6, "a target that is none");
-      device_calls::expect(std::isfinite(motion->speed_m_per_s) && motion->speed_m_per_s > 0, "a speed that is none");
-      unless_halted(it);
-      it.check(*motion);
+      device_calls::expect(token, "no place for the token");
+      admit(it, motion);
       it.accepted_ = *motion, it.is_accepted_ = true;
       *token = ++it.token_;
     });
@@ -81,8 +92,22 @@ template <> struct [[gnu::visibility("hidden")]] kind_of<robot> {
       it.is_halted_ = false;
     });
   }
+  static can_expire *expiring(void *handle) { return dynamic_cast<can_expire *>(static_cast<device *>(handle)); }
+  static taceva_status move_expiring(void *handle, const taceva_motion *motion, taceva_stamp *stamp, uint64_t timeout_ns, taceva_error *error) noexcept {
+    return device_calls::guarded(error, [&] {
+      robot &it = device_calls::begun<robot>(handle);
+      device_calls::expect(stamp, "no place for the stamp");
+      admit(it, motion);
+      *stamp = {};
+      expiring(handle)->move_expiring(*motion, *stamp, device_calls::after(timeout_ns));
+    });
+  }
+  static constexpr taceva_expiring_motion_calls expiring_calls = {sizeof(taceva_expiring_motion_calls), 0, move_expiring};
+  static const void *extension(void *handle, taceva_text name) noexcept {
+    return std::string_view(name.data, name.length) == TACEVA_EXPIRING_MOTION && expiring(handle) ? &expiring_calls : nullptr;
+  }
   static constexpr taceva_robot_calls calls = {
-      {sizeof(taceva_robot_calls), 0, device_calls::close, device_calls::interrupt, nullptr}, pose, move_to, wait, halt, clear_halt};
+      {sizeof(taceva_robot_calls), 0, device_calls::close, device_calls::interrupt, extension}, pose, move_to, wait, halt, clear_halt};
 };
 }  // namespace taceva
 

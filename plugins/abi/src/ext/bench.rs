@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::status::Status;
 use crate::text::{TakeText, Text};
 
-/// The id of the extension.
+/// The id by which a host asks for this ability.
 pub const BENCH: &str = "taceva.rig.bench/draft-1";
 
 /// `taceva_specimen`: what a robot carries.
@@ -22,11 +22,11 @@ pub const BENCH: &str = "taceva.rig.bench/draft-1";
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(C)]
 pub struct Specimen {
-    /// Of this struct.
+    /// The size of this struct, in bytes.
     pub size: u32,
     /// [`Specimen::SPHERE`], [`Specimen::LINE`] or [`Specimen::DOT`].
     pub kind: u32,
-    /// The radius of a sphere, the spacing of a grating.
+    /// The radius of a sphere or the spacing of a grating, in nm.
     pub size_nm: i64,
 }
 
@@ -60,16 +60,16 @@ impl Specimen {
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct BenchCalls {
-    /// Of this struct.
+    /// The size of this struct, in bytes.
     pub size: u32,
-    /// 0.
+    /// Reserved, 0.
     pub reserved: u32,
-    /// `[any]` The time of the bench's clock.
+    /// `[any]` The time of the bench's clock, in ns.
     pub now_ns: Option<unsafe extern "C" fn(*mut Rig, bench: Text) -> u64>,
-    /// `[any]` Lets time pass.
+    /// `[any]` Advances the bench's clock, by so many ns.
     pub rest:
         Option<unsafe extern "C" fn(*mut Rig, bench: Text, rest_ns: u64, *mut Error) -> Status>,
-    /// `[any]` In the air only.
+    /// `[any]` Mounts a specimen; refused while the tip touches the gel.
     pub mount:
         Option<unsafe extern "C" fn(*mut Rig, bench: Text, *const Specimen, *mut Error) -> Status>,
     /// `[any]` What is random in the next press is a function of the name.

@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::robot::{Motion, Pose};
 use crate::status::Status;
 
-/// The id of the extension.
+/// The id by which a host asks for this ability.
 pub const GUARDED_MOTION: &str = "taceva.robot.guarded-motion/1";
 
 /// `taceva_guarded_stop`: how a guarded motion ended.
@@ -24,13 +24,13 @@ pub const GUARDED_MOTION: &str = "taceva.robot.guarded-motion/1";
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct GuardedStop {
-    /// Of this struct.
+    /// The size of this struct, in bytes.
     pub size: u32,
     /// 0: it arrived; 1: it stopped at the guard.
     pub is_guarded: u32,
-    /// Where it rests.
+    /// Where the tip rests.
     pub pose: Pose,
-    /// Since when.
+    /// Since when it rests there.
     pub stamp: Stamp,
 }
 
@@ -46,9 +46,9 @@ pub struct GuardedStop {
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct GuardedMotionCalls {
-    /// Of this struct.
+    /// The size of this struct, in bytes.
     pub size: u32,
-    /// 0.
+    /// Reserved, 0.
     pub reserved: u32,
     /// `[owner & open]` Moves, and ends where the magnitude of the force reaches the guard.
     pub move_guarded: Option<

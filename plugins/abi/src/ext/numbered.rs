@@ -5,7 +5,7 @@ use core::ffi::c_void;
 use crate::error::Error;
 use crate::status::Status;
 
-/// The id of the extension.
+/// The id by which a host asks for this ability.
 pub const NUMBERED: &str = "taceva.force.numbered/1";
 
 /// `taceva_numbered_calls`.
@@ -20,9 +20,9 @@ pub const NUMBERED: &str = "taceva.force.numbered/1";
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct NumberedCalls {
-    /// Of this struct.
+    /// The size of this struct, in bytes.
     pub size: u32,
-    /// 0.
+    /// Reserved, 0.
     pub reserved: u32,
     /// `[owner & open]` The number that the device itself gave the last reading; `NOT_FOUND` before the first.
     pub sequence: Option<unsafe extern "C" fn(*mut c_void, *mut u64, *mut Error) -> Status>,

@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::status::Status;
 use crate::text::Text;
 
-/// The id of the extension.
+/// The id by which a host asks for this ability.
 pub const SENSOR_LIGHTING: &str = "taceva.sensor.lighting/1";
 
 /// `taceva_sensor_lighting_calls`.
@@ -21,9 +21,9 @@ pub const SENSOR_LIGHTING: &str = "taceva.sensor.lighting/1";
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct SensorLightingCalls {
-    /// Of this struct.
+    /// The size of this struct, in bytes.
     pub size: u32,
-    /// 0.
+    /// Reserved, 0.
     pub reserved: u32,
     /// `[owner & open]` A scene of the manifest; returns once it holds.
     pub set: Option<

@@ -5,7 +5,7 @@ use core::ffi::c_void;
 use crate::error::Error;
 use crate::status::Status;
 
-/// The id of the extension.
+/// The id by which a host asks for this ability.
 pub const TARE: &str = "taceva.force.tare/1";
 
 /// `taceva_tare_calls`.
@@ -20,9 +20,9 @@ pub const TARE: &str = "taceva.force.tare/1";
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct TareCalls {
-    /// Of this struct.
+    /// The size of this struct, in bytes.
     pub size: u32,
-    /// 0.
+    /// Reserved, 0.
     pub reserved: u32,
     /// `[owner & started]` Returns once it holds.
     pub zero: Option<unsafe extern "C" fn(*mut c_void, timeout_ns: u64, *mut Error) -> Status>,

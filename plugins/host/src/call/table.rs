@@ -38,10 +38,12 @@ tables! {
     abi::RobotCalls => "taceva_robot_calls",
     abi::ForceCalls => "taceva_force_calls",
     abi::LightingCalls => "taceva_lighting_calls",
+    abi::ChangerCalls => "taceva_changer_calls",
     abi::RegressorCalls => "taceva_regressor_calls",
     abi::ext::TareCalls => "taceva_tare_calls",
     abi::ext::NumberedCalls => "taceva_numbered_calls",
     abi::ext::GuardedMotionCalls => "taceva_guarded_motion_calls",
+    abi::ext::ExpiringMotionCalls => "taceva_expiring_motion_calls",
     abi::ext::SensorLightingCalls => "taceva_sensor_lighting_calls",
     abi::ext::BenchCalls => "taceva_bench_calls",
 }

@@ -49,6 +49,7 @@ enum Device {
     Robot(Opened<abi::RobotCalls>),
     Force(Opened<abi::ForceCalls>),
     Lighting(Opened<abi::LightingCalls>),
+    Changer(Opened<abi::ChangerCalls>),
 }
 
 impl Device {
@@ -58,6 +59,7 @@ impl Device {
             Device::Robot(opened) => &opened.handle,
             Device::Force(opened) => &opened.handle,
             Device::Lighting(opened) => &opened.handle,
+            Device::Changer(opened) => &opened.handle,
         }
     }
 }
@@ -68,6 +70,7 @@ fn opened(subject: &Subject) -> Result<Device, Ending> {
         DriverKind::Robot => Ok(Device::Robot(subject.open()?)),
         DriverKind::Force => Ok(Device::Force(subject.open()?)),
         DriverKind::Lighting => Ok(Device::Lighting(subject.open()?)),
+        DriverKind::Changer => Ok(Device::Changer(subject.open()?)),
         kind => Err(Ending::Skipped(format!(
             "devices of the kind {kind} are not known here"
         ))),

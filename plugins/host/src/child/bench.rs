@@ -1,4 +1,4 @@
-//! A simulated bench on both sides of the socket.
+//! A simulated bench of a plugin, as the host and the child each hold it.
 
 mod proxy;
 mod serve;

@@ -3,6 +3,7 @@
 //! An operation is a row of [`Call`], a method of the proxy and an arm of the server; what it answers is a [`Reply`],
 //! which is turned into an [`Answer`], recognised and checked in one place.
 
+mod changer;
 mod force;
 mod lighting;
 mod robot;
@@ -17,7 +18,7 @@ use super::link::Link;
 use super::reply::Reply;
 use super::wire::{Answer, Call, Failure, OpenedDevice};
 
-/// A kind of device: `dyn Sensor`, `dyn Robot`, `dyn ForceTransducer` or `dyn Lighting`.
+/// A kind of device: `dyn Sensor`, `dyn Robot`, `dyn ForceTransducer`, `dyn Lighting` or `dyn Changer`.
 pub(super) trait Kind: 'static {
     /// Its name.
     const KIND: DriverKind;

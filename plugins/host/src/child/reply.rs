@@ -24,6 +24,9 @@ pub(super) struct Reading {
     pub(super) sequence: Option<u64>,
 }
 
+/// The name of what a changer has in place.
+pub(super) struct InPlace(pub(super) String);
+
 /// A row for each type: the value by its parts, the answer that carries them, and their check.
 macro_rules! replies {
     ($($type:ty: $value:pat_param = $parts:expr => $answer:ident { $($part:ident),* }, $check:expr;)*) => {$(
@@ -53,6 +56,7 @@ replies! {
     Stamp: stamp = stamp => Stamped { stamp }, is_time;
     (Pose, Stamp): (pose, stamp) = (pose, stamp) => At { pose, stamp }, is_pose;
     Reading: Reading { wrench, stamp, sequence } = Reading { wrench, stamp, sequence } => Load { wrench, stamp, sequence }, is_load;
+    InPlace: InPlace(name) = InPlace(name) => InPlace { name }, is_name;
     GuardedStop: stop = stop => Stopped { stop }, is_stop;
 }
 
@@ -72,6 +76,13 @@ fn is_pose((pose, stamp): &(Pose, Stamp)) -> Result<(), String> {
 fn is_load(reading: &Reading) -> Result<(), String> {
     check_wrench(&reading.wrench).map_err(|error| error.to_string())?;
     is_time(&reading.stamp)
+}
+
+fn is_name(InPlace(name): &InPlace) -> Result<(), String> {
+    match name.is_empty() {
+        true => Err("no name of what is in place".to_owned()),
+        false => Ok(()),
+    }
 }
 
 fn is_stop(stop: &GuardedStop) -> Result<(), String> {

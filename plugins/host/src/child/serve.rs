@@ -100,6 +100,7 @@ fn open(
         DriverKind::Robot => opening.serve(|| session.robot(driver, args)),
         DriverKind::Force => opening.serve(|| session.force(driver, args)),
         DriverKind::Lighting => opening.serve(|| session.lighting(driver, args)),
+        DriverKind::Changer => opening.serve(|| session.changer(driver, args)),
         _ => {
             let why = format!("devices of the kind {kind} are not known here");
             Err(Failure::new(

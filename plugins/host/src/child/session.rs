@@ -5,9 +5,9 @@ use std::os::fd::{AsFd, BorrowedFd};
 use std::sync::Arc;
 
 use taceva_core::{
-    ArgSpec, ArgValue, Args, Channels, Descriptor, DriverError, DriverKey, ErrorKind, FeatureShape,
-    ForceTransducer, Found, Lighting, ModelError, Progress, Robot, Sensor, SilentProgress,
-    SimulatedBench,
+    ArgSpec, ArgValue, Args, Changer, Channels, Descriptor, DriverError, DriverKey, ErrorKind,
+    FeatureShape, ForceTransducer, Found, Lighting, ModelError, Progress, Robot, Sensor,
+    SilentProgress, SimulatedBench,
 };
 
 use super::array;
@@ -164,6 +164,10 @@ impl Session for ChildSession {
     }
 
     fn lighting(&self, driver: &DriverKey, args: &Args) -> Result<Box<dyn Lighting>, DriverError> {
+        self.open(driver, args)
+    }
+
+    fn changer(&self, driver: &DriverKey, args: &Args) -> Result<Box<dyn Changer>, DriverError> {
         self.open(driver, args)
     }
 

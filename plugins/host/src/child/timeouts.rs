@@ -7,17 +7,17 @@ use std::time::Duration;
 /// A call that has a deadline is waited for until the deadline and [`grace`](Patience::grace) have passed on the clock of the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Patience {
-    /// For it to confine itself and load its plugin.
+    /// Until the child has confined itself and loaded its plugin.
     pub start: Duration,
-    /// For a device to open, and for whatever has no deadline.
+    /// Until a device is open, and for every call without a deadline.
     pub open: Duration,
-    /// For a device to close: nothing of value is lost with one that does not.
+    /// Until a device is closed; a child that takes longer is ended.
     pub close: Duration,
-    /// Beyond the deadline of a call: simulated devices count that on a clock of their own.
+    /// Beyond the deadline of a call, since simulated devices count the deadline on a clock of their own.
     pub grace: Duration,
-    /// For a halt, and for a call to end after an interrupt.
+    /// Until a halt is acknowledged, and until a call has ended after an interrupt.
     pub urgent: Duration,
-    /// For it to end after it was asked to.
+    /// Until the child has ended after it was asked to.
     pub end: Duration,
 }
 

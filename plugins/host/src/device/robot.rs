@@ -10,10 +10,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use taceva_abi as abi;
-use taceva_abi::ext::{GUARDED_MOTION, GuardedMotionCalls};
+use taceva_abi::ext::{EXPIRING_MOTION, ExpiringMotionCalls, GUARDED_MOTION, GuardedMotionCalls};
 use taceva_core::{
-    Deadline, DriverError, DriverKey, DriverKind, ErrorKind, Facts, Guard, GuardedMotion,
-    GuardedStop, Halt, Pose, Robot, RobotFacts, SiPose, Speed, Stamp, check_pose,
+    Deadline, DriverError, DriverKey, DriverKind, ErrorKind, ExpiringMotion, Facts, Guard,
+    GuardedMotion, GuardedStop, Halt, Pose, Robot, RobotFacts, SiPose, Speed, Stamp, check_pose,
 };
 
 use super::handle::{Handle, Opened, Owned, PluginDevice};
@@ -26,6 +26,7 @@ pub(crate) struct PluginRobot {
     functions: Functions,
     halt: Arc<Halter>,
     guarded: Option<GuardedAbility>,
+    expiring: Option<ExpiringAbility>,
 }
 
 struct Functions {
@@ -94,11 +95,20 @@ impl PluginDevice for PluginRobot {
         } else {
             None
         };
+        let expiring = handle.extension::<ExpiringMotionCalls>(EXPIRING_MOTION, OPENING)?;
+        let expiring = match expiring {
+            None => None,
+            Some(table) => Some(ExpiringAbility {
+                halt: Arc::clone(&halt),
+                move_expiring: handle.needs(table.move_expiring, "move_expiring")?,
+            }),
+        };
         Ok(PluginRobot {
             handle,
             functions,
             halt,
             guarded,
+            expiring,
         })
     }
 }
@@ -152,6 +162,11 @@ impl Robot for PluginRobot {
     fn guarded_motion(&mut self) -> Option<&mut dyn GuardedMotion> {
         let guarded = self.guarded.as_mut()?;
         Some(guarded)
+    }
+
+    fn expiring_motion(&mut self) -> Option<&mut dyn ExpiringMotion> {
+        let expiring = self.expiring.as_mut()?;
+        Some(expiring)
     }
 }
 
@@ -298,5 +313,35 @@ impl GuardedMotion for GuardedAbility {
                 Err(Failure::new(ErrorKind::Abi, why).of(handle.driver(), DOING))
             }
         }
+    }
+}
+
+struct ExpiringAbility {
+    halt: Arc<Halter>,
+    move_expiring: unsafe extern "C" fn(
+        *mut c_void,
+        *const abi::Motion,
+        *mut abi::Stamp,
+        u64,
+        *mut abi::Error,
+    ) -> abi::Status,
+}
+
+impl ExpiringMotion for ExpiringAbility {
+    fn move_expiring(
+        &mut self,
+        target: Pose,
+        speed: Speed,
+        deadline: Deadline,
+    ) -> Result<Stamp, DriverError> {
+        let motion = self.halt.motion(target, speed)?;
+        let mut when = abi::Stamp::default();
+        self.halt.handle.call(MOVING, |raw, error| {
+            let (motion, when) = (&raw const motion, &raw mut when);
+            // SAFETY: [owner & open] by `&mut self`, which is borrowed from the robot, with a motion, a place for the stamp and an error
+            // that outlive the call.
+            unsafe { (self.move_expiring)(raw, motion, when, timeout(deadline), error) }
+        })?;
+        Ok(stamp(when))
     }
 }

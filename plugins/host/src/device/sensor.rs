@@ -43,7 +43,7 @@ pub struct LentFrame<'a> {
     pub info: FrameInfo,
     /// The pixels, row by row from the top, without padding.
     pub bytes: &'a [u8],
-    /// When it was true.
+    /// When the frame was exposed, and received.
     pub stamp: Stamp,
     /// The device's count of frames; a gap is a loss.
     pub sequence: u64,

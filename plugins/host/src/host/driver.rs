@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use taceva_core::{
-    ArgValue, Args, Descriptor, DescriptorError, DriverError, DriverKey, ErrorKind, Factory,
-    ForceTransducer, Found, Lighting, Rig, Robot, Sensor,
+    ArgValue, Args, Changer, Descriptor, DescriptorError, DriverError, DriverKey, ErrorKind,
+    Factory, ForceTransducer, Found, Lighting, Rig, Robot, Sensor,
 };
 
 use super::PluginHost;
@@ -173,4 +173,5 @@ factories! {
     dyn Robot => robot,
     dyn ForceTransducer => force,
     dyn Lighting => lighting,
+    dyn Changer => changer,
 }

@@ -1,4 +1,4 @@
-//! Looking for devices: each plugin is asked in one child of its own, which has little time.
+//! Looking for devices: each plugin is asked in a child of its own, which is ended after 10 s.
 
 use std::sync::Arc;
 use std::time::Duration;

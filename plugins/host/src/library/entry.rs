@@ -102,11 +102,12 @@ impl Entry {
     }
 }
 
-const FACTORIES: [(DriverKind, &str); 4] = [
+const FACTORIES: [(DriverKind, &str); 5] = [
     (DriverKind::Sensor, abi::SENSOR_FACTORY),
     (DriverKind::Robot, abi::ROBOT_FACTORY),
     (DriverKind::Force, abi::FORCE_FACTORY),
     (DriverKind::Lighting, abi::LIGHTING_FACTORY),
+    (DriverKind::Changer, abi::CHANGER_FACTORY),
 ];
 
 /// No factory has more drivers.

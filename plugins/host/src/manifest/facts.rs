@@ -1,8 +1,8 @@
 //! What a `[[provides]]` table says of a device, as facts of its kind.
 
 use taceva_core::{
-    Axes, Axis, Facts, Footprint, ForceFacts, FrameInfo, Hertz, LightingFacts, Millimetre, Newton,
-    Point, RobotFacts, SensorFacts, Speed, Workspace,
+    Axes, Axis, ChangerFacts, Facts, Footprint, ForceFacts, FrameInfo, Hertz, LightingFacts,
+    Millimetre, Newton, Point, RobotFacts, SensorFacts, Speed, Workspace,
 };
 use toml::Spanned;
 
@@ -19,6 +19,9 @@ impl WrittenProvides {
             Kind::Force => Ok(Facts::Force(self.force()?)),
             Kind::Lighting => Ok(Facts::Lighting(
                 LightingFacts::default().with_scenes(value(&self.scenes).unwrap_or_default()),
+            )),
+            Kind::Changer => Ok(Facts::Changer(
+                ChangerFacts::default().with_holds(value(&self.holds).unwrap_or_default()),
             )),
             Kind::Estimator => {
                 let problem = "an estimator is no device";

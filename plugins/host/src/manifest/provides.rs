@@ -89,11 +89,11 @@ impl WrittenProvides {
 
     /// The first key that says nothing of a device of this kind.
     fn stranger(&self) -> Option<(&'static str, Range<usize>)> {
-        use Kind::{Force, Lighting, Robot, Sensor};
+        use Kind::{Changer, Force, Lighting, Robot, Sensor};
         fn span<T>(key: &Option<Spanned<T>>) -> Option<Range<usize>> {
             key.as_ref().map(Spanned::span)
         }
-        let devices: &[Kind] = &[Sensor, Robot, Force, Lighting];
+        let devices: &[Kind] = &[Sensor, Robot, Force, Lighting, Changer];
         let limits = self.limits.as_ref();
         let limit = |of: fn(&WrittenLimits) -> Option<f64>| {
             limits
@@ -101,7 +101,7 @@ impl WrittenProvides {
                 .map(Spanned::span)
         };
         type Key<'a> = (&'static str, Option<Range<usize>>, &'a [Kind]);
-        let table: [Key<'_>; 23] = [
+        let table: [Key<'_>; 24] = [
             ("source", span(&self.source), devices),
             ("frame", span(&self.frame), &[Sensor]),
             ("rate_hz", span(&self.rate_hz), &[Sensor, Force]),
@@ -114,6 +114,7 @@ impl WrittenProvides {
             ),
             ("footprint", span(&self.footprint), &[Sensor]),
             ("scenes", span(&self.scenes), &[Sensor, Lighting]),
+            ("holds", span(&self.holds), &[Changer]),
             ("workspace", span(&self.workspace), &[Robot]),
             ("repeatability_mm", span(&self.repeatability_mm), &[Robot]),
             ("pose_noise_mm", span(&self.pose_noise_mm), &[Robot]),

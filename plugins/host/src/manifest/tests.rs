@@ -90,6 +90,13 @@ source = "real"
 scenes = ["dark", "room"]
 
 [[provides]]
+kind = "changer"
+key = "carousel"
+title = "carousel"
+source = "real"
+holds = ["sphere of radius 4 mm", "line grating of 1.5 mm"]
+
+[[provides]]
 kind = "estimator"
 key = "nearest"
 title = "nearest neighbour"
@@ -115,9 +122,11 @@ fn every_fact_of_every_kind_has_a_key() {
     let manifest = Manifest::parse(&whole()).expect("good");
     let kinds: Vec<DriverKind> = manifest.drivers().map(Descriptor::kind).collect();
     assert_eq!(kinds, DriverKind::ALL);
-    let [sensor, robot, force, _] = manifest.drivers().collect::<Vec<_>>()[..] else {
-        panic!("four drivers");
+    let [sensor, robot, force, _, changer] = manifest.drivers().collect::<Vec<_>>()[..] else {
+        panic!("five drivers");
     };
+    let held = &changer.changer().expect("a changer").holds;
+    assert_eq!(held[1], "line grating of 1.5 mm");
     let facts = sensor.sensor().expect("a sensor");
     assert_eq!(facts.frame.expect("frames").to_string(), "4×3 gray8");
     assert_eq!((facts.opaque, facts.markers), (Some(false), Some(true)));

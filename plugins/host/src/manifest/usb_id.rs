@@ -6,8 +6,8 @@ use serde::Deserialize;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct UsbId {
-    /// Who makes it.
+    /// The number of its vendor, of 16 bits.
     pub vendor: u16,
-    /// What it is.
+    /// The number of the product, of 16 bits.
     pub product: u16,
 }

@@ -23,6 +23,7 @@ pub(super) struct WrittenProvides {
     pub(super) footprint: Option<Spanned<WrittenFootprint>>,
     pub(super) limits: Option<Spanned<WrittenLimits>>,
     pub(super) scenes: Option<Spanned<Vec<String>>>,
+    pub(super) holds: Option<Spanned<Vec<String>>>,
     pub(super) workspace: Option<Spanned<WrittenWorkspace>>,
     pub(super) repeatability_mm: Option<Spanned<f64>>,
     pub(super) pose_noise_mm: Option<Spanned<f64>>,
@@ -50,6 +51,7 @@ pub(super) enum Kind {
     Robot,
     Force,
     Lighting,
+    Changer,
     Estimator,
 }
 
@@ -60,6 +62,7 @@ impl Kind {
             Kind::Robot => DriverKind::Robot.name(),
             Kind::Force => DriverKind::Force.name(),
             Kind::Lighting => DriverKind::Lighting.name(),
+            Kind::Changer => DriverKind::Changer.name(),
             Kind::Estimator => "estimator",
         }
     }

@@ -18,7 +18,7 @@ pub struct Rejection {
     pub path: PathBuf,
     /// Who named the folder.
     pub place: Place,
-    /// Why.
+    /// Why it is not used.
     pub reason: Reason,
 }
 

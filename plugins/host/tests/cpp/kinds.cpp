@@ -1,4 +1,5 @@
-// One simulated device of each kind, by the helpers for C++: a sensor, a transducer, a robot and a lighting in one plugin.
+// One simulated device of each kind, by the helpers for C++: a sensor, a transducer, a robot, a lighting and a changer in one plugin.
+#include <taceva/changer.hpp>
 #include <taceva/force.hpp>
 #include <taceva/lighting.hpp>
 #include <taceva/robot.hpp>
@@ -52,7 +53,7 @@ class wrist : public taceva::force, public taceva::can_tare, public taceva::can_
 };
 
 // Behind 12 mm along x stands a wall, which it strikes.
-class arm : public taceva::robot {
+class arm : public taceva::robot, public taceva::can_expire {
  public:
   static constexpr const char *table =
       "kind = \"robot\"\nkey = \"arm\"\ntitle = \"arm\"\nsource = \"simulated\"\nguarded_motion = false\n"
@@ -81,6 +82,9 @@ class arm : public taceva::robot {
     stamp.valid_ns = now_ns();
   }
 
+  /* Simulated: what would be told again ten times a second is told once. */
+  void move_expiring(const taceva_motion &to, taceva_stamp &stamp, taceva::deadline until) override { move(to, stamp, until); }
+
  private:
   static uint64_t now_ns() { return static_cast<uint64_t>(clock_type::now().time_since_epoch() / 1ns); }
   taceva_pose at_ = {};
@@ -95,10 +99,27 @@ class lamp : public taceva::lighting {
   }
 };
 
+class carousel : public taceva::changer {
+ public:
+  static constexpr const char *table =
+      "kind = \"changer\"\nkey = \"carousel\"\ntitle = \"carousel\"\nsource = \"simulated\"\nholds = [\"sphere of radius 4 mm\", \"line grating of 1.5 mm\"]\n";
+  explicit carousel(const taceva::arguments &) {}
+  std::string bring(std::string_view name, taceva::deadline until) override {
+    const size_t place = name == "sphere of radius 4 mm" ? 0 : name == "line grating of 1.5 mm" ? 1 : 2;
+    if (place == 2) throw taceva::failure(TACEVA_INVALID_ARGUMENT, "expected a name that it holds");
+    if (place != at_) rest_until(clock_type::now() + 100ms, until);
+    at_ = place;
+    return std::string(name);
+  }
+
+ private:
+  size_t at_ = 0;
+};
+
+template <class Kind> static const void *of(std::string_view id) { return taceva::device_calls::of_kind<Kind, eye, wrist, arm, lamp, carousel>(id); }
 static const void *factory(taceva_text name) {
   const std::string_view id(name.data, name.length);
-  for (const void *found : {taceva::device_calls::of_kind<taceva::sensor, eye, wrist, arm, lamp>(id), taceva::device_calls::of_kind<taceva::force, eye, wrist, arm, lamp>(id),
-                            taceva::device_calls::of_kind<taceva::robot, eye, wrist, arm, lamp>(id), taceva::device_calls::of_kind<taceva::lighting, eye, wrist, arm, lamp>(id)})
+  for (const void *found : {of<taceva::sensor>(id), of<taceva::force>(id), of<taceva::robot>(id), of<taceva::lighting>(id), of<taceva::changer>(id)})
     if (found) return found;
   return nullptr;
 }

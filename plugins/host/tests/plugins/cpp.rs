@@ -13,8 +13,8 @@ use taceva_host::{
 use taceva_needs::{Need, skip};
 use tempfile::TempDir;
 
-/// The plugin in a folder, with the manifest that its library gives; `None` where there is no compiler of C++.
-fn built() -> Option<TempDir> {
+/// The plugin of `tests/cpp/NAME.cpp` in a folder, with the manifest that its library gives; `None` where there is no compiler of C++.
+pub(crate) fn built(name: &str) -> Option<TempDir> {
     let folder = tempfile::tempdir().expect("a folder");
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     let compiler = std::env::var("CXX").unwrap_or_else(|_| "c++".to_owned());
@@ -29,9 +29,9 @@ fn built() -> Option<TempDir> {
         ])
         .args(["-shared", "-fPIC", "-fvisibility=hidden", "-pthread", "-I"])
         .arg(here.join("../abi/include"))
-        .arg(here.join("tests/cpp/kinds.cpp"))
+        .arg(here.join(format!("tests/cpp/{name}.cpp")))
         .arg("-o")
-        .arg(folder.path().join("libkinds.so"))
+        .arg(folder.path().join(format!("lib{name}.so")))
         .output();
     match built {
         Ok(done) => assert!(
@@ -45,7 +45,7 @@ fn built() -> Option<TempDir> {
         }
     }
     let library = LibraryFile {
-        path: "libkinds.so".to_owned(),
+        path: format!("lib{name}.so"),
         sha256: None,
     };
     let image = Image::read(folder.path(), &library).expect("a library");
@@ -57,7 +57,7 @@ fn built() -> Option<TempDir> {
     Some(folder)
 }
 
-fn children() -> Children {
+pub(crate) fn children() -> Children {
     Children {
         program: Some(PathBuf::from(env!("CARGO_BIN_EXE_taceva-host-child"))),
         quarantine: None,
@@ -73,12 +73,12 @@ fn host(folder: &TempDir) -> Arc<PluginHost> {
 
 #[test]
 fn a_device_of_each_kind_in_cpp_keeps_every_promise() {
-    let Some(folder) = built() else {
+    let Some(folder) = built("kinds") else {
         return;
     };
     let host = host(&folder);
     let plugin = host.plugins().get("org.example.kinds").expect("found");
-    assert_eq!(plugin.manifest.drivers().count(), 4);
+    assert_eq!(plugin.manifest.drivers().count(), 5);
     let (mut made, mut failed) = (0, Vec::new());
     host.check(plugin, &CheckRequest::default(), &mut |result| {
         made += 1;
@@ -98,7 +98,7 @@ fn a_device_of_each_kind_in_cpp_keeps_every_promise() {
 #[test]
 fn what_a_robot_in_cpp_throws_as_a_fault_is_one() {
     const SECOND: Deadline = Deadline::after(std::time::Duration::from_secs(1));
-    let Some(folder) = built() else {
+    let Some(folder) = built("kinds") else {
         return;
     };
     let arm = host(&folder).drivers::<dyn Robot>().swap_remove(0);

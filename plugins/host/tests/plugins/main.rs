@@ -8,6 +8,8 @@ mod children;
 mod cpp;
 mod devices;
 mod estimator;
+#[cfg(target_os = "linux")]
+mod expiring;
 mod fixture;
 #[cfg(target_os = "linux")]
 mod reach;

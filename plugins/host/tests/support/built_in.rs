@@ -3,8 +3,8 @@
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use taceva_core::{
-    Args, Descriptor, Device, DriverError, DriverKey, ErrorKind, Factory, ForceTransducer, Found,
-    Lighting, ModelError, Registry, RegistryError, Rig, Robot, Sensor, SimulatedBench,
+    Args, Changer, Descriptor, Device, DriverError, DriverKey, ErrorKind, Factory, ForceTransducer,
+    Found, Lighting, ModelError, Registry, RegistryError, Rig, Robot, Sensor, SimulatedBench,
 };
 use taceva_host::{FitRequest, Offer, Saved, SavedRegressor, Session};
 
@@ -14,6 +14,7 @@ pub(crate) struct BuiltIn {
     pub(crate) robots: Registry<dyn Robot>,
     pub(crate) force_transducers: Registry<dyn ForceTransducer>,
     pub(crate) lightings: Registry<dyn Lighting>,
+    pub(crate) changers: Registry<dyn Changer>,
     /// Its estimators.
     pub(crate) fit: fn(&DriverKey, &FitRequest<'_>) -> Made,
     /// Its models.
@@ -29,6 +30,7 @@ impl BuiltIn {
             robots: Registry::builtin()?,
             force_transducers: Registry::builtin()?,
             lightings: Registry::builtin()?,
+            changers: Registry::builtin()?,
             fit: |_, _| nothing(),
             load: |_, _| nothing(),
             rig: Mutex::new(Rig::new()),
@@ -88,6 +90,10 @@ impl Session for BuiltIn {
 
     fn lighting(&self, driver: &DriverKey, args: &Args) -> Result<Box<dyn Lighting>, DriverError> {
         find(&self.lightings, driver)?.open(args, &mut self.rig())
+    }
+
+    fn changer(&self, driver: &DriverKey, args: &Args) -> Result<Box<dyn Changer>, DriverError> {
+        find(&self.changers, driver)?.open(args, &mut self.rig())
     }
 
     fn bench(&self, name: &str) -> Option<Arc<dyn SimulatedBench>> {

@@ -4,7 +4,10 @@
 
 use std::ffi::c_void;
 
-use taceva_abi::ext::{GUARDED_MOTION, GuardedMotionCalls, GuardedStop as AbiGuardedStop};
+use taceva_abi::ext::{
+    EXPIRING_MOTION, ExpiringMotionCalls, GUARDED_MOTION, GuardedMotionCalls,
+    GuardedStop as AbiGuardedStop,
+};
 use taceva_abi::{Error, Motion, Pose as AbiPose, RobotCalls, Stamp, Status, Text};
 use taceva_core::{
     ErrorKind, Facts, Guard, GuardedStop, Newton, Point, Pose, Robot, RobotFacts, Speed,
@@ -82,10 +85,23 @@ static GUARDED: GuardedMotionCalls = GuardedMotionCalls {
     move_guarded: Some(move_guarded),
 };
 
+static EXPIRING: ExpiringMotionCalls = ExpiringMotionCalls {
+    #[expect(clippy::cast_possible_truncation, reason = "sixteen bytes")]
+    size: size_of::<ExpiringMotionCalls>() as u32,
+    reserved: 0,
+    move_expiring: Some(move_expiring),
+};
+
 unsafe extern "C" fn extension(handle: *mut c_void, id: Text) -> *const c_void {
     let has = |opened: &mut Opened| opened.robot.guarded_motion().is_some();
     // SAFETY: the host lends the text for the call.
-    unsafe { extended(handle, id, (GUARDED_MOTION, &GUARDED), has) }
+    let guarded = unsafe { extended(handle, id, (GUARDED_MOTION, &GUARDED), has) };
+    if !guarded.is_null() {
+        return guarded;
+    }
+    let expires = |opened: &mut Opened| opened.robot.expiring_motion().is_some();
+    // SAFETY: as above.
+    unsafe { extended(handle, id, (EXPIRING_MOTION, &EXPIRING), expires) }
 }
 
 unsafe extern "C" fn pose(
@@ -207,6 +223,36 @@ unsafe extern "C" fn move_guarded(
             };
         stop.is_guarded = is_guarded;
         (stop.pose, stop.stamp) = (convert::pose(&pose)?, convert::stamp(&at)?);
+        Ok(())
+    };
+    // SAFETY: the host's own promise for `error`.
+    unsafe { call(handle, error, work) }
+}
+
+unsafe extern "C" fn move_expiring(
+    handle: *mut c_void,
+    target: *const Motion,
+    stamp: *mut Stamp,
+    timeout_ns: u64,
+    error: *mut Error,
+) -> Status {
+    let work = |opened: &mut Opened| {
+        // SAFETY: the host lends the motion for the call, and the place is its own.
+        let (target, stamp) = unsafe {
+            (
+                memory::sized("motion", target)?,
+                memory::place("stamp", stamp)?,
+            )
+        };
+        let (target, speed) = opened.asked(target)?;
+        let robot = opened.robot.expiring_motion().ok_or_else(|| {
+            Failure::new(
+                ErrorKind::Unsupported,
+                "the motions of the robot do not expire",
+            )
+        })?;
+        let arrived = robot.move_expiring(target, speed, deadline(timeout_ns))?;
+        *stamp = convert::stamp(&arrived)?;
         Ok(())
     };
     // SAFETY: the host's own promise for `error`.

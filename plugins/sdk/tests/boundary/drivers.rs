@@ -1,6 +1,7 @@
 //! Drivers that do what their arguments ask for, good and bad.
 
 mod bench;
+mod changer;
 mod estimator;
 mod force;
 mod lighting;
@@ -8,12 +9,13 @@ mod robot;
 mod sensor;
 
 use taceva_core::{
-    ArgSpec, ArgValue, Descriptor, DescriptorError, DescriptorSpec, DriverError, DriverKey,
-    DriverSource, ErrorKind, Facts, ForceTransducer, FrameInfo, Lighting, PixelFormat, Robot,
-    Sensor,
+    ArgSpec, ArgValue, Changer, Descriptor, DescriptorError, DescriptorSpec, DriverError,
+    DriverKey, DriverSource, ErrorKind, Facts, ForceTransducer, FrameInfo, Lighting, PixelFormat,
+    Robot, Sensor,
 };
 use taceva_plugin::{EstimatorFactory, export_plugin};
 
+use self::changer::ChangerMaker;
 use self::estimator::MeanMaker;
 use self::force::ForceMaker;
 use self::lighting::LightingMaker;
@@ -35,6 +37,7 @@ export_plugin! {
         dyn ForceTransducer => || Ok(Box::new(ForceMaker::new()?)),
         dyn Lighting => || Ok(Box::new(LightingMaker::new()?)),
         dyn Lighting => || Ok(Box::new(LightingMaker::on_a_port()?)),
+        dyn Changer => || Ok(Box::new(ChangerMaker::new()?)),
         dyn EstimatorFactory => || Box::new(MeanMaker::new()),
     ],
 }

@@ -1,6 +1,7 @@
 //! What a driver promises, through the tables.
 
 mod bench;
+mod changer;
 mod force;
 mod library;
 mod robot;

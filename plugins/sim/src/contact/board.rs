@@ -1,4 +1,4 @@
-//! A flat board on a gel, as stiff as its outline makes it; what its relief does is a matter of pictures.
+//! A flat board on a gel: its force follows from its outline alone, its relief is seen only in pictures.
 
 use std::f64::consts::{PI, TAU};
 

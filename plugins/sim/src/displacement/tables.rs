@@ -47,7 +47,7 @@ impl Tables {
         }
     }
 
-    /// How far below the surface they tell of.
+    /// The depth below the surface that the tables are for, in mm.
     pub fn depth_mm(&self) -> f64 {
         self.depth_mm
     }

@@ -1,4 +1,4 @@
-//! Places and visits, as far as random numbers go.
+//! Places and visits, as the random numbers of the bench name them.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! What goes on in a simulated rig: a tip that moves, a gel that remembers, a clock that both turn.
+//! The state of a simulated rig: a tip that moves, a gel with a memory, and a clock that both advance.
 
 mod course;
 mod travel;

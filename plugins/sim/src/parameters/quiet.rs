@@ -1,4 +1,4 @@
-//! A bench that errs nowhere, so that two ways of pressing one gel can be compared.
+//! A bench without random errors, so that two ways of pressing one gel can be compared.
 
 use super::{ParameterError, Parameters};
 

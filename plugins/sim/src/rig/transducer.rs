@@ -1,4 +1,4 @@
-//! A force transducer that drifts, mixes its components and hisses.
+//! A force transducer with drift, cross-talk and noise.
 
 use crate::parameters::Transducer;
 use crate::random::{Purpose, Random, Stream};

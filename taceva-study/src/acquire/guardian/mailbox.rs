@@ -54,7 +54,7 @@ enum Task {
 /// A task, and where its outcome goes.
 type Request = (Task, Sender<Result<(), DriverError>>);
 
-/// The transducer as a run sees it.
+/// The transducer as a run sees it: `read` gives the newest reading of the thread that owns it.
 pub(super) struct Mailbox {
     slot: Arc<Slot>,
     requests: Sender<Request>,

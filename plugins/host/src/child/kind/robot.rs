@@ -4,8 +4,8 @@ use std::os::fd::OwnedFd;
 use std::sync::Arc;
 
 use taceva_core::{
-    Deadline, DriverError, DriverKind, Guard, GuardedMotion, GuardedStop, Halt, Pose, Robot, Speed,
-    Stamp,
+    Deadline, DriverError, DriverKind, ExpiringMotion, Guard, GuardedMotion, GuardedStop, Halt,
+    Pose, Robot, Speed, Stamp,
 };
 
 use super::{Kind, Server, answered, answered_if_able, unsupported};
@@ -17,6 +17,7 @@ const MOVE: &str = "move";
 struct RobotProxy {
     link: Link,
     guarded: bool,
+    expires: bool,
 }
 
 impl Kind for dyn Robot {
@@ -28,7 +29,11 @@ impl Kind for dyn Robot {
 
     fn proxy(link: Link, opened: OpenedDevice) -> Result<Box<dyn Robot>, DriverError> {
         match opened {
-            OpenedDevice::Robot { guarded } => Ok(Box::new(RobotProxy { link, guarded })),
+            OpenedDevice::Robot { guarded, expires } => Ok(Box::new(RobotProxy {
+                link,
+                guarded,
+                expires,
+            })),
             _ => Err(link.broke("it opened no robot")),
         }
     }
@@ -38,6 +43,7 @@ impl Server for Box<dyn Robot> {
     fn opened(&mut self) -> OpenedDevice {
         OpenedDevice::Robot {
             guarded: self.guarded_motion().is_some(),
+            expires: self.expiring_motion().is_some(),
         }
     }
 
@@ -63,6 +69,14 @@ impl Server for Box<dyn Robot> {
                 answered_if_able(
                     motion.map(|motion| motion.move_guarded(target, speed, guard, deadline)),
                 )
+            }
+            Call::MoveExpiring {
+                target,
+                speed,
+                deadline,
+            } => {
+                let motion = self.expiring_motion();
+                answered_if_able(motion.map(|motion| motion.move_expiring(target, speed, deadline)))
             }
             Call::ClearHalt { deadline } => answered(self.clear_halt(deadline)),
             _ => Err(unsupported()),
@@ -101,6 +115,27 @@ impl Robot for RobotProxy {
 
     fn guarded_motion(&mut self) -> Option<&mut dyn GuardedMotion> {
         if self.guarded { Some(self) } else { None }
+    }
+
+    fn expiring_motion(&mut self) -> Option<&mut dyn ExpiringMotion> {
+        if self.expires { Some(self) } else { None }
+    }
+}
+
+/// The child renews the motion, which ends with it.
+impl ExpiringMotion for RobotProxy {
+    fn move_expiring(
+        &mut self,
+        target: Pose,
+        speed: Speed,
+        deadline: Deadline,
+    ) -> Result<Stamp, DriverError> {
+        let call = Call::MoveExpiring {
+            target,
+            speed,
+            deadline,
+        };
+        self.link.ask(&call, MOVE, deadline)
     }
 }
 

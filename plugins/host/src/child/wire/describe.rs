@@ -1,8 +1,8 @@
 //! What is known about a driver before it is opened, as it crosses: checked again where it arrives.
 
 use taceva_core::{
-    ArgKind, ArgSpec, Descriptor, DescriptorSpec, DriverKey, DriverSource, Facts, Footprint,
-    ForceFacts, LightingFacts, Outline, Presence, RobotFacts, SensorFacts, Workspace,
+    ArgKind, ArgSpec, ChangerFacts, Descriptor, DescriptorSpec, DriverKey, DriverSource, Facts,
+    Footprint, ForceFacts, LightingFacts, Outline, Presence, RobotFacts, SensorFacts, Workspace,
 };
 
 use super::value::listed;
@@ -58,6 +58,7 @@ growing!(ForceFacts {
     tare
 });
 growing!(LightingFacts { scenes });
+growing!(ChangerFacts { holds });
 growing!(SensorFacts {
     frame,
     rate,
@@ -152,6 +153,7 @@ impl Wire for Facts {
             Facts::Robot(facts) => facts.write(into),
             Facts::Force(facts) => facts.write(into),
             Facts::Lighting(facts) => facts.write(into),
+            Facts::Changer(facts) => facts.write(into),
             // Facts of a kind that is not known here have a kind that no reader takes.
             _ => {}
         }
@@ -164,6 +166,7 @@ impl Wire for Facts {
             DriverKind::Robot => Facts::Robot(Wire::read(from)?),
             DriverKind::Force => Facts::Force(Wire::read(from)?),
             DriverKind::Lighting => Facts::Lighting(Wire::read(from)?),
+            DriverKind::Changer => Facts::Changer(Wire::read(from)?),
             _ => return Err(from.malformed("facts")),
         })
     }
@@ -273,6 +276,7 @@ mod tests {
         assert_eq!(declared::<RobotFacts>(), RobotFacts::FIELDS);
         assert_eq!(declared::<ForceFacts>(), ForceFacts::FIELDS);
         assert_eq!(declared::<LightingFacts>(), LightingFacts::FIELDS);
+        assert_eq!(declared::<ChangerFacts>(), ChangerFacts::FIELDS);
     }
 
     fn survive<D: Device + ?Sized + 'static>(registry: &Registry<D>) {

@@ -9,9 +9,10 @@ messages! {
     #[derive(Clone, Debug, PartialEq)]
     enum OpenedDevice: "an open device" {
         0 => Sensor { frame: FrameInfo, interrupts: bool, scenes: Option<Vec<String>> },
-        1 => Robot { guarded: bool },
+        1 => Robot { guarded: bool, expires: bool },
         2 => Force { axes: Axes, interrupts: bool, tare: bool },
         3 => Lighting { scenes: Vec<String> },
+        4 => Changer { holds: Vec<String>, interrupts: bool },
     }
 
     /// A call to one device.
@@ -32,6 +33,8 @@ messages! {
         10 => Zero { deadline: Deadline },
         /// Stops the device and gives back what it holds.
         11 => Close {},
+        12 => Bring { name: String, deadline: Deadline },
+        13 => MoveExpiring { target: Pose, speed: Speed, deadline: Deadline },
     }
 
     /// The answer to a [`Call`].
@@ -43,6 +46,7 @@ messages! {
         3 => Load { wrench: Wrench, stamp: Stamp, sequence: Option<u64> },
         4 => Stopped { stop: GuardedStop },
         5 => Failed { failure: Failure },
+        6 => InPlace { name: String },
     }
 
     /// What goes round the queue of a device's calls.

@@ -4,9 +4,9 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use taceva_core::{
-    Args, Deadline, Degree, Descriptor, DescriptorError, DriverError, ErrorKind, Factory, Facts,
-    Guard, GuardedMotion, GuardedStop, Halt, Millimetre, Newton, Point, Pose, Rig, Robot,
-    RobotFacts, Speed, Stamp, Workspace,
+    Args, Deadline, Degree, Descriptor, DescriptorError, DriverError, ErrorKind, ExpiringMotion,
+    Factory, Facts, Guard, GuardedMotion, GuardedStop, Halt, Millimetre, Newton, Point, Pose, Rig,
+    Robot, RobotFacts, Speed, Stamp, Workspace,
 };
 use taceva_plugin::HaltLatch;
 
@@ -97,6 +97,16 @@ impl Robot for Arm {
     }
     fn guarded_motion(&mut self) -> Option<&mut dyn GuardedMotion> {
         Some(self)
+    }
+    fn expiring_motion(&mut self) -> Option<&mut dyn ExpiringMotion> {
+        (self.way == "well").then_some(self as &mut dyn ExpiringMotion)
+    }
+}
+
+impl ExpiringMotion for Arm {
+    fn move_expiring(&mut self, target: Pose, _: Speed, _: Deadline) -> Result<Stamp, DriverError> {
+        self.stands = target;
+        Ok(Stamp::at(Duration::from_secs(4)))
     }
 }
 

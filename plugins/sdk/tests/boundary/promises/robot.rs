@@ -6,7 +6,9 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use taceva_core::{Degree, Millimetre, SiPose};
-use taceva_plugin::abi::ext::{GUARDED_MOTION, GuardedMotionCalls, GuardedStop};
+use taceva_plugin::abi::ext::{
+    EXPIRING_MOTION, ExpiringMotionCalls, GUARDED_MOTION, GuardedMotionCalls, GuardedStop,
+};
 use taceva_plugin::abi::{Motion, Pose, ROBOT_FACTORY, RobotCalls, Stamp, Status};
 
 use super::{AT_ONCE, SECOND};
@@ -152,4 +154,37 @@ fn a_halt_from_another_thread_stops_a_motion_and_latches() {
     });
     assert_eq!(answer.0, Status::OK);
     assert_eq!(go(1_000_000), Status::TIMEOUT);
+}
+
+#[test]
+fn an_expiring_motion_keeps_to_what_the_robot_says_of_itself_and_is_absent_where_it_has_none() {
+    let none = Open::new(ROBOT_FACTORY, "nan");
+    assert!(
+        none.extension::<ExpiringMotionCalls>(EXPIRING_MOTION)
+            .is_none()
+    );
+    let robot = Open::new(ROBOT_FACTORY, "well");
+    let calls = robot.extension::<ExpiringMotionCalls>(EXPIRING_MOTION);
+    let go = calls.expect("it has it").move_expiring.expect("a function");
+    let mut stamp = Stamp::default();
+    // Half a metre is its workspace.
+    for (z, expected) in [
+        (0.01, Status::OK),
+        (0.6, Status::OUT_OF_RANGE),
+        (f64::NAN, Status::INVALID_ARGUMENT),
+    ] {
+        let asked = motion(z);
+        // SAFETY: both places live for the call.
+        let (status, _) = ended(|error| unsafe {
+            go(
+                robot.handle(),
+                &raw const asked,
+                &raw mut stamp,
+                SECOND,
+                error,
+            )
+        });
+        assert_eq!(status, expected, "{z}");
+    }
+    assert_eq!(stamp.valid_ns, 4_000_000_000);
 }

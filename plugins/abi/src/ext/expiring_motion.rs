@@ -1,0 +1,39 @@
+//! A robot that stands by itself where nobody renews its motion.
+
+use core::ffi::c_void;
+
+use crate::device::Stamp;
+use crate::error::Error;
+use crate::robot::Motion;
+use crate::status::Status;
+
+/// The id by which a host asks for this ability.
+pub const EXPIRING_MOTION: &str = "taceva.robot.expiring-motion/1";
+
+/// `taceva_expiring_motion_calls`, since minor 2.
+///
+/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+///
+/// ```
+/// use taceva_abi::ext::ExpiringMotionCalls;
+/// let calls = ExpiringMotionCalls { size: size_of::<ExpiringMotionCalls>() as u32, reserved: 0, move_expiring: None };
+/// assert!(calls.move_expiring.is_none(), "a host refuses a device that names this ability and lacks its function");
+/// ```
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct ExpiringMotionCalls {
+    /// The size of this struct, in bytes.
+    pub size: u32,
+    /// Reserved, 0.
+    pub reserved: u32,
+    /// `[owner & open]` Moves; without its process the robot stands 200 ms later at most, and the way in which it brakes.
+    pub move_expiring: Option<
+        unsafe extern "C" fn(
+            *mut c_void,
+            *const Motion,
+            *mut Stamp,
+            timeout_ns: u64,
+            *mut Error,
+        ) -> Status,
+    >,
+}

@@ -1,0 +1,64 @@
+//! The call on a changer.
+
+#![expect(unsafe_code, reason = "functions that a host calls")]
+
+use std::ffi::c_void;
+use std::ptr::null;
+
+use taceva_abi::{ChangerCalls, Error, Status, TakeText, Text};
+use taceva_core::{Changer, Facts};
+
+use super::{Kind, call, device_calls};
+use crate::convert::deadline;
+use crate::failure::Failure;
+use crate::loaded::{Drivers, Loaded};
+use crate::memory;
+use crate::open::Handle;
+
+type Opened = Box<dyn Changer>;
+
+impl Kind for dyn Changer {
+    type Opened = Opened;
+    type Calls = ChangerCalls;
+    const CALLS: &'static ChangerCalls = &CALLS;
+
+    fn drivers(loaded: &Loaded) -> &Drivers<dyn Changer> {
+        &loaded.changers
+    }
+
+    fn handle(changer: Box<dyn Changer>, _: &Facts) -> Handle<Opened> {
+        let interrupt = changer.interrupt_handle();
+        Handle::new(changer).interrupted_by(interrupt)
+    }
+}
+
+static CALLS: ChangerCalls = ChangerCalls {
+    device: device_calls::<ChangerCalls, Opened>(extension),
+    bring: Some(bring),
+};
+
+unsafe extern "C" fn extension(_: *mut c_void, _: Text) -> *const c_void {
+    null()
+}
+
+unsafe extern "C" fn bring(
+    handle: *mut c_void,
+    name: Text,
+    timeout_ns: u64,
+    take: TakeText,
+    context: *mut c_void,
+    error: *mut Error,
+) -> Status {
+    let work = |changer: &mut Opened| {
+        // SAFETY: the host lends the text for the call.
+        let name = unsafe { memory::text("name", name) }?;
+        if take.is_none() {
+            return Err(Failure::argument("`take` is NULL"));
+        }
+        let there = changer.bring(name, deadline(timeout_ns))?;
+        // SAFETY: the host's function and what it is called with.
+        unsafe { memory::hand(take, context, &there) }
+    };
+    // SAFETY: the host's own promise for `error`.
+    unsafe { call(handle, error, work) }
+}

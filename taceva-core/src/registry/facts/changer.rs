@@ -1,0 +1,24 @@
+//! What is known about a changer before it is opened.
+
+/// What is known about a changer.
+///
+/// ```
+/// use taceva_core::ChangerFacts;
+/// let facts = ChangerFacts::default().with_holds(vec!["sphere of radius 4 mm".to_owned()]);
+/// assert_eq!(facts.holds[0], "sphere of radius 4 mm");
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct ChangerFacts {
+    /// The names of what it holds; none where its arguments say what it holds.
+    pub holds: Vec<String>,
+}
+
+impl ChangerFacts {
+    /// The same facts with another [`holds`](ChangerFacts::holds).
+    #[must_use]
+    pub fn with_holds(mut self, holds: Vec<String>) -> ChangerFacts {
+        self.holds = holds;
+        self
+    }
+}
