@@ -26,7 +26,7 @@ pub(crate) use self::plugin::{
 pub(crate) use self::results::{
     Accept, CatalogueArgs, CatalogueShow, CatalogueSite, CatalogueSubject, Choose, Compare,
 };
-pub(crate) use self::rig::{RigCheckArgs, RigCommand, RigSubject, RigTeachArgs};
+pub(crate) use self::rig::{RigCheckArgs, RigCommand, RigSubject, RigTapArgs, RigTeachArgs};
 pub(crate) use self::shared::{
     CacheArgs, ExplainArgs, Format, ListFormat, ModelArgs, OptionalModelArgs, Output, PageArgs,
     PartArg, PartArgs, ScoringArgs, SeedArgs, SettingArgs, SplitArgs, SplitOutArgs,

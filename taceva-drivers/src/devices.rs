@@ -118,7 +118,7 @@ pub struct ListedDriver {
 pub struct ListedArgument {
     /// Its key.
     pub key: String,
-    /// What it takes, in words.
+    /// The values that it takes, in words.
     pub takes: String,
     /// Whether it must be given.
     pub required: bool,

@@ -3,6 +3,8 @@
 
 #[cfg(feature = "tcp")]
 mod connect;
+#[cfg(any(feature = "ur", feature = "xarm"))]
+pub(crate) mod course;
 #[cfg(feature = "tcp")]
 mod error;
 pub(crate) mod mailbox;

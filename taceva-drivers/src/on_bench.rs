@@ -10,8 +10,8 @@ use taceva_core::{
 
 /// A sensor whose frames are stamped by the clock of a simulated bench that it is no part of.
 ///
-/// As much time as passes between two frames on the clock of the sensor passes between them on the bench, or more where the bench was busy with
-/// others meanwhile: a rate means on both what it says. What the sensor sees, the bench does not know: nothing of it depends on the presses, unless the sensor is truly pressed.
+/// Between two frames as much time passes on the bench as on the sensor's own clock, or more where the bench was busy with other devices meanwhile.
+/// The bench does not know what the sensor sees: nothing in its frames depends on the presses, unless the sensor is truly pressed.
 pub struct OnBench {
     sensor: Box<dyn Sensor>,
     bench: Arc<dyn SimulatedBench>,

@@ -1,4 +1,4 @@
-//! Whose time a device that is no device runs in.
+//! The clock of a device that stands for a real one: a replay, or a wrapper that fails on purpose.
 
 use std::time::Duration;
 

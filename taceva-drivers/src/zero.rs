@@ -1,4 +1,4 @@
-//! What a load was called zero, and what is beyond a transducer's range: for transducers whose zero is taken off on this side.
+//! The zero and the range of a transducer whose zero this program takes off its readings.
 
 use std::time::Duration;
 

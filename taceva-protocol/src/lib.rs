@@ -22,14 +22,15 @@ pub use plan::{
 };
 pub use press::{Motion, Press, Waypoint};
 pub use rig_file::{
-    Carried, Jogged, Registration, RigChangers, RigFile, RigForce, RigOperator, RigRobot,
-    RigSensor, SignedAxes, Taught, TeachError,
+    Carried, Jogged, Registration, RigChangers, RigFile, RigForce, RigLatencies, RigOperator,
+    RigRobot, RigSensor, SignedAxes, Taught, TeachError,
 };
 pub use run::{
-    Answer, Cancel, ChangedTouch, Controls, Devices, Enabling, Event, Left, Mode, MotionStage,
-    Observation, Operator, PressLog, PressRecord, Question, ReferenceTouch, RunError, RunReport,
-    RunSpec, SessionRecord, SessionSpec, SharedSupervisor, SpecimenChanger, Spot, StopCause,
-    Supervisor, Timekeeper, TouchFault, Trip, raise, run, run_guarded, run_session, wrench_between,
+    Answer, Cancel, ChangedTouch, Controls, Devices, Enabling, Event, Latency, Left, Mode,
+    MotionStage, Observation, Operator, PressLog, PressRecord, Question, ReferenceTouch, RunError,
+    RunReport, RunSpec, SessionRecord, SessionSpec, SharedSupervisor, SpecimenChanger, Spot,
+    StopCause, Supervisor, TapError, TapHeard, TapListener, Tapped, Timekeeper, TouchFault, Trip,
+    raise, run, run_guarded, run_session, tap, wrench_between,
 };
 pub use scene::{
     BuiltinScene, Calibration, Contact, DeviceSpec, FootprintSpec, GREATEST_SCENE,

@@ -47,7 +47,7 @@ pub struct Plan {
     pub presses: Vec<PlannedPress>,
     /// The models that are fitted.
     pub fits: Vec<Fit>,
-    /// What is read of samples.
+    /// The fields of samples that something reads.
     pub fields: FieldSet,
     /// The channels of the truth.
     pub channels: Vec<String>,
@@ -61,7 +61,7 @@ pub struct Plan {
     pub limits: Option<RigLimits>,
     /// How contact is searched for and held.
     pub contact: Contact,
-    /// Where the sensor senses.
+    /// The outline of the surface that senses.
     pub footprint: Option<Footprint>,
     /// Whether ambient light cannot reach the camera, if it is known.
     pub opaque: Option<bool>,

@@ -2,11 +2,13 @@
 
 mod axes;
 mod changers;
+mod latency;
 mod registration;
 mod teach;
 
 pub use axes::SignedAxes;
 pub use changers::RigChangers;
+pub use latency::RigLatencies;
 pub use registration::Registration;
 pub use teach::{Jogged, Taught, TeachError};
 
@@ -52,7 +54,7 @@ pub struct RigFile {
     pub force: Option<RigForce>,
     /// The sensor.
     pub sensor: Option<RigSensor>,
-    /// Who holds what while the robot moves.
+    /// The enabling switch and whoever holds it, where the rig has one.
     pub operator: Option<RigOperator>,
     /// What changes things there instead of hands.
     pub changers: RigChangers,
@@ -75,6 +77,8 @@ pub struct RigRobot {
     /// How its tool is turned in the base frame when the tip counts as not turned: about x, y and z, in degrees. Where it is not written, as
     /// it stands when it is opened.
     pub turned_deg: Option<[f64; 3]>,
+    /// How long after it was true a pose is stamped, in ms; what its driver states where it is not written.
+    pub latency_ms: Option<Setting<f64>>,
 }
 
 /// What a robot moves.
@@ -95,7 +99,7 @@ pub struct RigForce {
     /// Which of its axes each axis of the sensor is: Fz above 0 presses into the gel.
     pub axes: Setting<SignedAxes>,
     /// How long after it was true a reading is stamped, in ms; what its driver states where it is not written.
-    pub latency_ms: Option<f64>,
+    pub latency_ms: Option<Setting<f64>>,
 }
 
 /// A sensor of a rig.
@@ -104,7 +108,7 @@ pub struct RigSensor {
     /// The selector of its driver.
     pub driver: Setting<String>,
     /// How long after it was true a frame is stamped, in ms; what its driver states where it is not written.
-    pub latency_ms: Option<f64>,
+    pub latency_ms: Option<Setting<f64>>,
 }
 
 /// The person at a rig, and what that person holds.
@@ -140,6 +144,7 @@ struct WrittenRobot {
     origin_mm: Setting<[f64; 3]>,
     axes: Setting<[String; 3]>,
     turned_deg: Option<Setting<[f64; 3]>>,
+    latency_ms: Option<Setting<f64>>,
 }
 
 #[derive(Deserialize)]
@@ -207,7 +212,7 @@ impl RigFile {
         self.text.source_name()
     }
 
-    /// The name of what it says: another text is another rig.
+    /// The digest of its text: a file with another text counts as another rig.
     pub fn digest(&self) -> ContentId {
         ContentId::of_text(self.text.whole())
     }
@@ -283,6 +288,7 @@ impl Check<'_> {
             origin_mm,
             axes,
             turned_deg,
+            latency_ms,
         } = robot;
         self.within("origin_mm", "mm", (&origin_mm, GREATEST_PLACE_MM))?;
         if let Some(turned) = &turned_deg {
@@ -294,6 +300,7 @@ impl Check<'_> {
             origin_mm,
             axes: self.axes(axes)?,
             turned_deg: turned_deg.map(|turned| turned.value),
+            latency_ms: self.latency(latency_ms)?,
         })
     }
 
@@ -330,16 +337,16 @@ impl Check<'_> {
         }
     }
 
-    fn latency(&self, latency: Option<Setting<f64>>) -> Result<Option<f64>, SceneError> {
-        let Some(latency) = latency else {
+    fn latency(&self, latency: Option<Setting<f64>>) -> Result<Option<Setting<f64>>, SceneError> {
+        let Some(written) = latency else {
             return Ok(None);
         };
-        let found = latency.value;
+        let found = written.value;
         if (0.0..=GREATEST_LATENCY_MS).contains(&found) {
-            return Ok(Some(found));
+            return Ok(latency);
         }
         self.refuse(
-            latency.at(),
+            written.at(),
             format!("`latency_ms` is {found}, expected 0 to {GREATEST_LATENCY_MS} ms"),
         )
     }

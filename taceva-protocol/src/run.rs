@@ -32,6 +32,7 @@ mod search;
 mod session;
 mod stride;
 mod supervisor;
+mod tap;
 #[cfg(test)]
 mod tests;
 mod time;
@@ -49,6 +50,7 @@ pub use log::{PressLog, PressRecord};
 pub use operator::{Answer, ChangedTouch, Operator, Question, Spot};
 pub use raise::raise;
 pub use supervisor::{Enabling, MotionStage, Observation, SharedSupervisor, Supervisor};
+pub use tap::{Latency, TapError, TapHeard, TapListener, Tapped, tap};
 pub use time::{Cancel, Timekeeper};
 pub use touched::{ReferenceTouch, SessionRecord, SessionSpec, TouchFault};
 pub use trip::Trip;
@@ -58,7 +60,7 @@ use taceva_core::Millimetre;
 use crate::plan::Plan;
 use session::Run;
 
-/// What is run.
+/// Which plan is run, on which unit, and whether for real.
 #[derive(Clone, Copy, Debug)]
 pub struct RunSpec<'a> {
     /// The plan.
@@ -93,7 +95,7 @@ pub struct Controls<'a> {
     pub operator: Option<&'a mut dyn Operator>,
 }
 
-/// What a run did.
+/// What a run did, in counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RunReport {
     /// Presses of this unit that were finished before.
@@ -124,7 +126,7 @@ pub fn run<'a>(
     log: &mut dyn PressLog,
     controls: Controls<'a>,
 ) -> Result<RunReport, RunError> {
-    run_under(spec, devices, log, (controls, None, None))
+    run_under(spec, devices, log, (controls, None, None), None)
 }
 
 /// The same under a guard: `supervisor` is shown every reading of force by whoever reads them in a thread of its own, and poses under way by
@@ -138,7 +140,28 @@ pub fn run_guarded<'a>(
     log: &mut dyn PressLog,
     (controls, supervisor): (Controls<'a>, SharedSupervisor),
 ) -> Result<RunReport, RunError> {
-    run_under(spec, devices, log, (controls, Some(supervisor), None))
+    run_under(spec, devices, log, (controls, Some(supervisor), None), None)
+}
+
+/// The same on a rig with an enabling switch, whose state `supervisor` is shown too, and for which is waited for `patience_s`.
+///
+/// # Errors
+/// As [`run`].
+#[cfg(feature = "simulation")]
+pub(crate) fn run_with_switch<'a>(
+    spec: &RunSpec<'a>,
+    devices: Devices<'a>,
+    log: &mut dyn PressLog,
+    (controls, supervisor, patience_s): (Controls<'a>, SharedSupervisor, f64),
+) -> Result<RunReport, RunError> {
+    let guard = Some(supervisor);
+    run_under(
+        spec,
+        devices,
+        log,
+        (controls, guard, None),
+        Some(patience_s),
+    )
 }
 
 /// The same on the rig of a rig file, as a session: before the first press somebody enables the robot, the tip passes through the air and
@@ -154,7 +177,7 @@ pub fn run_session<'a>(
     (controls, supervisor, session): (Controls<'a>, SharedSupervisor, SessionSpec<'a>),
 ) -> Result<RunReport, RunError> {
     let guard = Some(supervisor);
-    run_under(spec, devices, log, (controls, guard, Some(session)))
+    run_under(spec, devices, log, (controls, guard, Some(session)), None)
 }
 
 fn run_under<'a>(
@@ -166,6 +189,7 @@ fn run_under<'a>(
         Option<SharedSupervisor>,
         Option<SessionSpec<'a>>,
     ),
+    patience_s: Option<f64>,
 ) -> Result<RunReport, RunError> {
     let stopped = |cause| RunError {
         press: None,
@@ -173,6 +197,9 @@ fn run_under<'a>(
         left: Left::Clear,
     };
     let mut run = Run::new(spec, devices, (controls, session), guard).map_err(stopped)?;
+    if let Some(patience_s) = patience_s {
+        run.patience_s = patience_s;
+    }
     let done = run.all(spec, log);
     let stopping = run.stop();
     match done {

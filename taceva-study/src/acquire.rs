@@ -16,6 +16,7 @@ pub(crate) mod retried;
 mod schedule;
 mod seen;
 pub(crate) mod sessions;
+mod tap;
 mod workshop;
 
 use std::path::Path;
@@ -30,6 +31,7 @@ use taceva_protocol::{Cancel, Event, Mode, Plan, PressLog, RunSpec, StopCause};
 use crate::error::StudyError;
 use crate::scene::{PlannedStudy, RigSpec};
 use by_hand::{acquisition, presses_skipped, stopped, unit_is_there};
+pub(crate) use devices::written_latencies_ms;
 use devices::{OpenRig, Sitting};
 pub use held::HeldRigs;
 pub(crate) use key::key;
@@ -41,6 +43,7 @@ pub use rehearse::{AIR_MM, rehearse_scene};
 use schedule::Schedule;
 pub use sessions::RecordedSessions;
 use sessions::Sessions;
+pub(crate) use tap::tap_study;
 pub use workshop::{Surroundings, SurroundingsOf, Upcoming, Workshop};
 
 /// The recording of `study` at `path`, whole: begun, continued or found there. Presses that are finished advance the progress.

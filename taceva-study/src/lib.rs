@@ -62,7 +62,10 @@ pub use predict::{Predicted, predict};
 pub use provenance::{ModelProvenance, Provenance};
 pub use recordings::RecordingProvenance;
 pub use report::{EVALUATION_SCHEMA, EvaluationReport, RecordingScores};
-pub use rig::{HaltTrip, RigCheck, RigProblem, Stream, check_rig, read_rig, teach_rig};
+pub use rig::{
+    HaltTrip, RigCheck, RigProblem, RigTap, Stream, SwitchCheck, check_rig, read_rig, tap_rig,
+    teach_rig,
+};
 pub use rows::{DataPart, Divided};
 pub use run::{Existing, RunFolder, run_scene};
 pub use samples::Samples;

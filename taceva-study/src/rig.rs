@@ -2,6 +2,8 @@
 
 mod check;
 mod stream;
+mod switch;
+mod tap;
 mod teach;
 
 use std::path::Path;
@@ -11,6 +13,8 @@ use taceva_protocol::RigFile;
 use crate::error::StudyError;
 pub use check::{HaltTrip, RigCheck, RigProblem, check_rig};
 pub use stream::Stream;
+pub use switch::SwitchCheck;
+pub use tap::{RigTap, tap_rig};
 pub use teach::teach_rig;
 
 /// The rig file at `path`.

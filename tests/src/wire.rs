@@ -67,6 +67,16 @@ impl OnTheWire {
         command
     }
 
+    /// Taps on the emulated devices, of which the rig file is told.
+    pub fn taps(&self) -> Command {
+        let mut command = Command::new(taceva());
+        command
+            .current_dir(self.folder())
+            .args(["rig", "tap", RIG])
+            .stdin(Stdio::null());
+        command
+    }
+
     /// The same study on the bench that is simulated in the program, in the folder `simulated`.
     pub fn simulated(&self) -> Command {
         self.command("simulated")

@@ -1,7 +1,16 @@
 //! `taceva rig`.
 
 mod check;
+mod tap;
 mod teach;
+
+use std::ffi::OsString;
+use std::fs;
+use std::io;
+use std::path::Path;
+
+use anyhow::Context as _;
+use taceva_core::shown;
 
 use super::Context;
 use crate::args::{RigCommand, RigSubject};
@@ -9,6 +18,19 @@ use crate::args::{RigCommand, RigSubject};
 pub(crate) fn run(args: &RigCommand, context: &Context) -> anyhow::Result<u8> {
     match &args.subject {
         RigSubject::Check(args) => check::run(args, context),
+        RigSubject::Tap(args) => tap::run(args, context),
         RigSubject::Teach(args) => teach::run(args, context),
     }
+}
+
+/// Puts `text` in the place of the rig file at `path`, whole or not at all.
+fn write_anew(path: &Path, text: &str) -> anyhow::Result<()> {
+    let mut name = OsString::from(".");
+    name.push(path.file_name().unwrap_or_default());
+    name.push(".partial");
+    let beside = path.with_file_name(name);
+    let written = taceva_durable::replace(path, &beside, |beside| -> io::Result<()> {
+        fs::write(beside, text)
+    });
+    written.with_context(|| shown(path).to_string())
 }

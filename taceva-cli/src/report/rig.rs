@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use serde::Serialize;
-use taceva_study::{RigCheck, Stream};
+use taceva_study::{RigCheck, RigTap, Stream};
 
 use crate::args::ListFormat;
 
@@ -13,6 +13,50 @@ struct WrittenCheck<'a> {
     schema: &'static str,
     #[serde(flatten)]
     check: &'a RigCheck,
+}
+
+/// Schema `taceva.rig-tap/1`.
+#[derive(Serialize)]
+struct WrittenTap<'a> {
+    schema: &'static str,
+    #[serde(flatten)]
+    tap: &'a RigTap,
+}
+
+pub(crate) fn tap(tap: &RigTap, format: ListFormat, out: &mut dyn Write) -> io::Result<()> {
+    let RigTap {
+        taps,
+        before_ms,
+        force,
+        sensor,
+        latencies,
+        ..
+    } = tap;
+    if let ListFormat::Json = format {
+        let schema = "taceva.rig-tap/1";
+        serde_json::to_writer_pretty(&mut *out, &WrittenTap { schema, tap })?;
+        return writeln!(out);
+    }
+    writeln!(out, "{taps} taps; by the stamps as they are corrected now:")?;
+    for (device, latency) in [("force", force), ("sensor", sensor)] {
+        writeln!(
+            out,
+            "{device:<7} {:+.1} ms after the robot, to ± {:.1} ms; a single tap to ± {:.1} ms",
+            latency.after_robot_ms, latency.error_ms, latency.spread_ms
+        )?;
+    }
+    let now_ms = [
+        ("robot", latencies.robot_ms.unwrap_or(before_ms[0])),
+        ("force", latencies.force_ms),
+        ("sensor", latencies.sensor_ms),
+    ];
+    for ((device, now_ms), before_ms) in now_ms.into_iter().zip(before_ms) {
+        writeln!(
+            out,
+            "[{device}] latency_ms = {now_ms:.1} (before {before_ms:.1})"
+        )?;
+    }
+    Ok(())
 }
 
 pub(crate) fn check(check: &RigCheck, format: ListFormat, out: &mut dyn Write) -> io::Result<()> {
@@ -37,6 +81,14 @@ fn text(check: &RigCheck, out: &mut dyn Write) -> io::Result<()> {
             Some(stream) => listed(device, stream, unit, out)?,
             None => writeln!(out, "{device:<7} is not in the rig file")?,
         }
+    }
+    if let Some(switch) = &check.switch {
+        let share = 100.0 * f64::from(switch.held) / f64::from(switch.looks.max(1));
+        writeln!(
+            out,
+            "switch  held in {} of {} looks ({share:.0} %), pressed or let go {} times, answers within {:.3} ms",
+            switch.held, switch.looks, switch.changes, switch.longest_ms
+        )?;
     }
     match &check.halt {
         Some(halt) => writeln!(

@@ -1,4 +1,4 @@
-//! What the protocol of a force transducer does not tell of its range and its signal.
+//! Arguments for the range and the signal of a force transducer, which its protocol does not state.
 
 use taceva_core::{ArgSpec, Args, ForceFacts, Newton};
 

@@ -1,4 +1,4 @@
-//! How fast a robot may move, and what its protocol does not tell of how it stops and comes back.
+//! Arguments for how fast a robot may move, how it stops and how well it repeats, which its protocol does not state.
 
 use taceva_core::{ArgSpec, ArgValue, Args, Millimetre, RobotFacts, Speed, SpeedError};
 
@@ -58,7 +58,7 @@ pub(crate) fn facts_of_robot(args: &Args) -> RobotFacts {
 }
 
 const SPEED_MAX: &str = "speed_max_mm_s";
-/// No tip is moved faster: what people beside it are taken to bear of an arm at reduced speed.
+/// The greatest speed that a robot may be asked for, in mm/s: that of industrial arms at reduced speed beside people.
 const SPEED_LIMIT_MM_S: f64 = 250.0;
 const DECELERATION: &str = "deceleration_mm_s2";
 const STOP: &str = "stop_ms";

@@ -7,7 +7,7 @@ use serde::Serialize;
 pub struct Finding {
     /// A name that stays the same from version to version.
     pub code: &'static str,
-    /// How it is.
+    /// Whether it can be used.
     pub state: State,
     /// What it is about: `/dev/video0`.
     pub subject: String,
@@ -18,7 +18,7 @@ pub struct Finding {
     pub remedy: Option<String>,
 }
 
-/// How a thing is.
+/// Whether a thing is there and can be used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum State {

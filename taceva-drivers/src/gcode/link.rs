@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use taceva_core::{DriverError, DriverKey, ErrorKind};
 use thiserror::Error;
 
-use super::port::open_line;
+use super::port::{open_line, release_line};
 use crate::link::mailbox::Ending;
 use crate::link::{Mailbox, monotonic};
 
@@ -227,6 +227,8 @@ impl<S> Drop for SerialLink<S> {
         if let Some(reader) = self.reader.take() {
             let _ = reader.join();
         }
+        // Whoever can still stop the machine has the line too, and does not keep it from others.
+        release_line(&self.writer.file());
     }
 }
 

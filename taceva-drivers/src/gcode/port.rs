@@ -3,7 +3,8 @@
 use std::fs::File;
 use std::io;
 
-use rustix::fs::{Mode, OFlags, fcntl_setfl, open};
+use rustix::fs::{FlockOperation, Mode, OFlags, fcntl_setfl, flock, open};
+use rustix::io::Errno;
 use rustix::termios::{
     ControlModes, OptionalActions, QueueSelector, SpecialCodeIndex, ioctl_tiocexcl, isatty,
     tcflush, tcgetattr, tcsetattr,
@@ -43,11 +44,12 @@ impl PortError {
     }
 }
 
-/// Opens the line at `path` with eight bits, no parity and no flow control; nobody but root can open it after that.
+/// Opens the line at `path` with eight bits, no parity and no flow control, and locks it: nobody but root can open it after that, and no program that
+/// asks for the lock, as this one does, has it meanwhile.
 ///
 /// A read of it returns after at most a tenth of a second, with nothing if nothing came.
 pub(super) fn open_line(path: &str, baud: u32) -> Result<File, PortError> {
-    let refused = |source: rustix::io::Errno| PortError::Open {
+    let refused = |source: Errno| PortError::Open {
         path: path.to_owned(),
         source: source.into(),
     };
@@ -59,6 +61,14 @@ pub(super) fn open_line(path: &str, baud: u32) -> Result<File, PortError> {
             path: path.to_owned(),
         });
     }
+    flock(&line, FlockOperation::NonBlockingLockExclusive).map_err(|source| PortError::Open {
+        path: path.to_owned(),
+        // That it would have to wait is how the system says it.
+        source: match source {
+            Errno::WOULDBLOCK => Errno::BUSY.into(),
+            other => other.into(),
+        },
+    })?;
     ioctl_tiocexcl(&line).map_err(refused)?;
     fcntl_setfl(&line, OFlags::empty()).map_err(refused)?;
     let unset = |source: io::Error| PortError::Speed {
@@ -78,4 +88,30 @@ pub(super) fn open_line(path: &str, baud: u32) -> Result<File, PortError> {
     tcsetattr(&line, OptionalActions::Now, &settings).map_err(|source| unset(source.into()))?;
     tcflush(&line, QueueSelector::IOFlush).map_err(refused)?;
     Ok(File::from(line))
+}
+
+/// Lets others have the line, however many here still have it open.
+pub(super) fn release_line(line: &File) {
+    // A line that is gone is nobody's.
+    let _ = flock(line, FlockOperation::Unlock);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_permission_another_program_and_no_such_line_are_told_apart() {
+        let kind = |source: io::ErrorKind| {
+            let path = "/dev/ttyUSB0".to_owned();
+            let source = source.into();
+            PortError::Open { path, source }.kind()
+        };
+        assert_eq!(
+            kind(io::ErrorKind::PermissionDenied),
+            ErrorKind::PermissionDenied
+        );
+        assert_eq!(kind(io::ErrorKind::ResourceBusy), ErrorKind::Busy);
+        assert_eq!(kind(io::ErrorKind::NotFound), ErrorKind::NotFound);
+    }
 }

@@ -1,6 +1,7 @@
 //! `ur/rtde`: arms of Universal Robots, seen by their real-time data exchange and moved by lines of script.
 
 mod arm;
+mod expiring;
 mod factory;
 mod message;
 mod motion;

@@ -9,9 +9,9 @@ use crate::phase::PhaseKind;
 /// Something that a plan does not do, and why.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlanSkip {
-    /// What.
+    /// What is left out.
     pub subject: Subject,
-    /// Why.
+    /// Why it is left out.
     pub reason: PlanReason,
 }
 

@@ -4,7 +4,7 @@ use taceva_core::{Degree, Millimetre, Point, Pose, Rotation};
 
 use super::{Carried, RigRobot, SignedAxes};
 
-/// How the base frame of a robot lies to the sensor's.
+/// How the base frame of a robot is placed and turned relative to that of the sensor.
 ///
 /// With A the turn from base to sensor that `axes` say, o the `origin_mm`, and Q the turn of the tool since it stood as registered:
 ///

@@ -36,7 +36,7 @@ pub struct Jogged {
     pub along_y: Pose,
 }
 
-/// What three places say.
+/// The frame that follows from three places.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Taught {
     /// `origin_mm` of the rig file.
@@ -47,7 +47,7 @@ pub struct Taught {
     pub residual_mm: f64,
 }
 
-/// Why three places say nothing.
+/// Why no frame follows from three places.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum TeachError {
     /// A way that is too short.
@@ -88,7 +88,7 @@ pub enum TeachError {
 }
 
 impl Jogged {
-    /// The origin and the axes of a robot that carries this.
+    /// The origin and the axes that the rig file must have for a robot that moves `carries`.
     ///
     /// # Errors
     /// [`TeachError`] where the places are no turn by right angles, within half a millimetre.

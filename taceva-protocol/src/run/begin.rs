@@ -1,7 +1,7 @@
 //! The beginning of a session on the rig of a rig file: somebody enables the robot, the tip passes through the air and touches gently, and
 //! what is felt and seen is held against what the rig file and earlier sessions say. Only then is anything pressed.
 
-mod picture;
+pub(super) mod picture;
 mod signs;
 mod touch;
 

@@ -14,7 +14,7 @@ use crate::scene::SceneError;
 pub struct RunError {
     /// The press that was not finished, if one had begun; it will be made again from its start.
     pub press: Option<ContentId>,
-    /// Why.
+    /// Why it stopped.
     pub cause: StopCause,
     /// Where the tip was left.
     pub left: Left,
@@ -24,7 +24,7 @@ pub struct RunError {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum StopCause {
-    /// Somebody wished it.
+    /// Somebody asked the run to stop.
     #[error("stopped on request")]
     Cancelled,
     /// Presses were left out because somebody skipped what they need; every other one is made.
@@ -58,7 +58,7 @@ pub enum StopCause {
         /// The target, in mm.
         place: String,
     },
-    /// The rig file says what the rig contradicts.
+    /// What the rig file says does not hold on the rig.
     #[error("{0}")]
     Rig(Box<SceneError>),
     /// The machine looks on so late that a limit would be passed too far.
@@ -75,7 +75,7 @@ pub enum StopCause {
         /// The speed in contact at which it would be allowed, in mm/s.
         speed_mm_s: f64,
     },
-    /// A gentle touch that the rig answered otherwise than a gel does.
+    /// In the gentle touch before the first press, force or picture did not behave as those of a gel.
     #[error("{0}")]
     Touch(TouchFault),
     /// Nobody held the enabling switch for as long as the rig file waits.

@@ -24,7 +24,7 @@ pub enum Event {
     Skipped(ContentId),
     /// A press begins.
     Approaching {
-        /// Which.
+        /// The press.
         press: ContentId,
         /// Its number among the presses of this unit, from 1.
         number: usize,
@@ -49,14 +49,14 @@ pub enum Event {
     Unheld,
     /// A press was broken off because signals were silent or the enabling switch was released, and is made again from its start.
     Redone {
-        /// Which.
+        /// The press.
         press: ContentId,
         /// How many times it was broken off.
         times: u32,
     },
     /// A press is finished and durable.
     Finished {
-        /// Which.
+        /// The press.
         press: ContentId,
         /// How it ended.
         outcome: PressOutcome,

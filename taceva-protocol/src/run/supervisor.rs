@@ -1,4 +1,5 @@
-//! Watches every reading and knows one word: halt. It moves nothing, decides nothing else, and can be fed from a thread of its own.
+//! Checks every reading of force and every pose, and halts the robot where one breaks a limit or cannot be trusted. It moves nothing, decides
+//! nothing else, and may be shown readings by several threads.
 //!
 //! It is no safety function: the emergency stop, the collision sensitivity of the robot and the guards are the site's duty.
 

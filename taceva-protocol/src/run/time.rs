@@ -1,4 +1,4 @@
-//! Time and the wish to stop: both are handed in, neither is looked up.
+//! The clock of a run and the request to stop it: the caller gives both, and nothing here reads a clock of its own.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};

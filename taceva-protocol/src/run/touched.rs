@@ -1,4 +1,4 @@
-//! What a session on the rig of a rig file begins with: what it is told, what it touches, and what a touch may show to be wrong.
+//! What a session on the rig of a rig file begins with: what it must know, what it touches, and what a touch may show to be wrong.
 
 use std::fmt;
 
@@ -7,7 +7,7 @@ use taceva_core::{Specimen, Wrench};
 use super::operator::ChangedTouch;
 use crate::rig_file::RigFile;
 
-/// What a session is told.
+/// What a session must know before it begins.
 #[derive(Clone, Debug)]
 pub struct SessionSpec<'a> {
     /// The rig.
@@ -23,7 +23,7 @@ pub struct SessionSpec<'a> {
 pub struct ReferenceTouch {
     /// The unit of the sensor.
     pub unit: String,
-    /// What touched.
+    /// What touched the gel.
     pub specimen: Specimen,
     /// Where the gel begins in the sensor's frame, in mm, positive into the gel.
     pub height_mm: f64,

@@ -4,7 +4,7 @@ use std::fmt;
 
 use taceva_core::Limit;
 
-/// What was wrong.
+/// Why the supervisor halted the robot.
 ///
 /// # Units
 /// mm, N, N/s and s.

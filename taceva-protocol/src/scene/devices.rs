@@ -40,7 +40,7 @@ pub struct SensorSpec {
     pub opaque: Option<Setting<bool>>,
     /// Whether the gel carries markers.
     pub markers: Option<Setting<bool>>,
-    /// Where it senses.
+    /// The outline of the surface that senses, seen from above.
     pub footprint: Option<Setting<FootprintSpec>>,
 }
 

@@ -76,7 +76,7 @@ pub enum SceneProblem {
     /// A name that is given twice.
     #[error("`{name}` is the name of two {what}", name = taceva_core::shown(name))]
     Twice {
-        /// What bears it.
+        /// What kind of thing has the name, such as a unit.
         what: &'static str,
         /// The name.
         name: String,

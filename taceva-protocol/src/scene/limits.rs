@@ -1,10 +1,10 @@
-//! RigLimits of a scene: they may only tighten what a device allows.
+//! Limits of a scene: they may only tighten what a device allows.
 
 use serde::Deserialize;
 
 use super::setting::Setting;
 
-/// RigLimits as written; an absent one leaves that of the device.
+/// Limits as written; one that is absent leaves that of the device.
 ///
 /// # Units
 /// mm, N and mm/s; `Pz` is the indentation depth, `Fz` the normal force, `Fxy` the magnitude of the shear.

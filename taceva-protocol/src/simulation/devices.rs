@@ -86,6 +86,7 @@ impl Robot for SimulatedRobot {
             self.0.is_moving(true);
             let moved = self.0.glide_under_guard(to, speed_mm_s);
             self.0.is_moving(false);
+            self.0.world().oracle.is_held();
             moved?;
             world = self.0.world();
         } else {
@@ -130,9 +131,13 @@ impl Shared {
     /// Moves the tip while threads look on, which may halt it wherever it is.
     fn glide_under_guard(&self, to: [f64; 3], speed_mm_s: f64) -> Result<(), DriverError> {
         // One that is stuck says after the time of its motion that it arrived.
-        let until_s = self.world().arrival_s(to, speed_mm_s);
+        let (began_s, until_s) = {
+            let world = self.world();
+            (world.now_s, world.arrival_s(to, speed_mm_s))
+        };
         loop {
             let mut world = self.world();
+            world.is_let_move(began_s);
             let next_s = world.guard.as_ref().map_or(until_s, Guard::next_s);
             let at_s = next_s.clamp(world.now_s, until_s.max(world.now_s));
             let is_end = at_s >= until_s - INSTANT_S;

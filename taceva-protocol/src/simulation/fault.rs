@@ -33,11 +33,15 @@ pub enum FaultKind {
     EmergencyStop,
     /// The robot's reports stay away from the thread that looks at it; it is still asked and answers.
     NoReports,
+    /// Nobody holds the enabling switch, for a moment or for longer than is waited for.
+    Released,
+    /// The enabling switch cannot be read, until somebody plugs it in again.
+    Unplugged,
 }
 
 impl FaultKind {
     /// Every kind.
-    pub const ALL: [FaultKind; 13] = [
+    pub const ALL: [FaultKind; 15] = [
         FaultKind::Silence,
         FaultKind::Freeze,
         FaultKind::NotANumber,
@@ -51,6 +55,8 @@ impl FaultKind {
         FaultKind::Cancel,
         FaultKind::EmergencyStop,
         FaultKind::NoReports,
+        FaultKind::Released,
+        FaultKind::Unplugged,
     ];
     /// How many of them every scenario draws from; those after them come beside.
     const DRAWN: i64 = 11;
@@ -71,6 +77,8 @@ impl FaultKind {
             FaultKind::Cancel => "cancel",
             FaultKind::EmergencyStop => "emergency stop",
             FaultKind::NoReports => "no reports",
+            FaultKind::Released => "released",
+            FaultKind::Unplugged => "unplugged",
         }
     }
 }
@@ -115,6 +123,8 @@ struct Fault {
 const STOP: u64 = 90;
 /// What missing reports are drawn under.
 const NO_REPORTS: u64 = 91;
+/// What becomes of the enabling switch is drawn under.
+const SWITCH: u64 = 92;
 
 /// The faults of a scenario.
 #[derive(Clone, Debug)]
@@ -124,7 +134,8 @@ pub(super) struct Faults {
 }
 
 impl Faults {
-    /// Up to four faults within the first `span_s`, one seed in eight without; and in one of eight an emergency stop besides.
+    /// Up to four faults within the first `span_s`, one seed in eight without. Besides, in one of eight an emergency stop, in one of four no
+    /// reports, in every other one an enabling switch that is let go, and in one of four one that is unplugged.
     pub(super) fn draw(draws: Draws, span_s: f64) -> Faults {
         let whole = |least, greatest, place| draws.between(least, greatest, place);
         let count = if whole(0, 7, [0, 0]) == 0 {
@@ -164,9 +175,26 @@ impl Faults {
             }
         });
         Faults {
-            faults: faults.chain(stop).chain(unreported).collect(),
+            faults: faults
+                .chain(stop)
+                .chain(unreported)
+                .chain(of_switch(draws, span_s))
+                .collect(),
             struck: FaultCounts::default(),
         }
+    }
+
+    /// Since when the enabling switch has not been held at `now_s`, and why; `None` while somebody holds it.
+    pub(super) fn unheld(&self, now_s: f64) -> Option<(FaultKind, f64)> {
+        let kinds = [FaultKind::Unplugged, FaultKind::Released];
+        let of_kind = |kind| {
+            let is_on = move |fault: &&Fault| {
+                fault.kind == kind && (fault.from_s..fault.until_s).contains(&now_s)
+            };
+            let first = self.faults.iter().filter(is_on).map(|fault| fault.from_s);
+            first.reduce(f64::min).map(|from_s| (kind, from_s))
+        };
+        kinds.into_iter().find_map(of_kind)
     }
 
     /// No fault.
@@ -244,6 +272,28 @@ impl Faults {
     pub(super) fn struck(&self) -> FaultCounts {
         self.struck
     }
+}
+
+/// What becomes of the enabling switch: let go for ten milliseconds to forty seconds, as likely short as long, or unplugged.
+fn of_switch(draws: Draws, span_s: f64) -> impl Iterator<Item = Fault> {
+    let releases = match draws.between(0, 1, [SWITCH, 0]) {
+        0 => 0,
+        _ => draws.between(1, 6, [SWITCH, 1]).unsigned_abs(),
+    };
+    let is_unplugged = draws.between(0, 3, [SWITCH, 2]) == 0;
+    let one = move |kind, place: u64, shortest_s: f64, times: f64| {
+        let from_s = fraction(draws, [SWITCH, place]) * span_s;
+        let lasts_s = shortest_s * times.powf(fraction(draws, [SWITCH, place + 1]));
+        Fault {
+            kind,
+            from_s,
+            until_s: from_s + lasts_s,
+        }
+    };
+    let released =
+        (0..releases).map(move |number| one(FaultKind::Released, 10 + 2 * number, 0.01, 4_000.0));
+    let unplugged = is_unplugged.then(|| one(FaultKind::Unplugged, 4, 0.5, 40.0));
+    released.chain(unplugged)
 }
 
 /// A number from 0 to 1, 1 excluded.

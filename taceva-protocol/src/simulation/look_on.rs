@@ -100,6 +100,7 @@ impl Shared {
         let now_s = world.now_s;
         let is_wish = world.faults.strike_once(FaultKind::Cancel, now_s);
         let is_stopped = world.is_stopped();
+        let enabling = world.feel(now_s);
         let reports = !is_stopped && !world.faults.strike(FaultKind::NoReports, now_s);
         let reported = reports.then(|| at(&mut world, now_s));
         let Some(guard) = &mut world.guard else {
@@ -118,6 +119,7 @@ impl Shared {
         if is_wish {
             held.halt();
         }
+        held.enabling(enabling);
         if is_stopped {
             held.fail(Fault::EmergencyStop);
         }

@@ -32,7 +32,7 @@ pub enum Violation {
         /// What had happened.
         hazard: &'static str,
     },
-    /// After an emergency stop was reported the robot was asked for this.
+    /// After an emergency stop was reported, or while nobody held the enabling switch, the robot was asked for this.
     Defied(&'static str),
     /// A press that was acknowledged is gone.
     Lost(String),
@@ -65,7 +65,7 @@ impl fmt::Display for Violation {
                 write!(f, "no halt within {:.1} ms of {hazard}", after_s * 1e3)
             }
             Violation::Defied(asked) => {
-                write!(f, "asked for {asked} after an emergency stop")
+                write!(f, "asked for {asked}, which nobody may")
             }
             Violation::Lost(what) => write!(f, "acknowledged and lost: {what}"),
             Violation::Doubled(what) => write!(f, "recorded twice: {what}"),
@@ -109,6 +109,9 @@ impl Checks {
 pub(super) const SILENCE: &str = "a silent transducer";
 /// The hazard of a gel that is pressed too hard.
 pub(super) const TOO_HARD: &str = "a force beyond the limit";
+
+/// The hazard of a robot that moves while nobody holds the enabling switch.
+pub(super) const UNHELD: &str = "an enabling switch that nobody holds";
 
 /// What the oracle knows of the rig: its limits and the overshoot that is stated for them.
 #[derive(Clone, Copy, Debug)]
@@ -228,6 +231,11 @@ impl Oracle {
     /// From `since_s` on, which may lie ahead, the robot must be halted.
     pub(super) fn hazard(&mut self, hazard: &'static str, since_s: f64) {
         self.hazard.get_or_insert((hazard, since_s));
+    }
+
+    /// Somebody holds the enabling switch, or the robot does not move.
+    pub(super) fn is_held(&mut self) {
+        self.hazard.take_if(|(hazard, _)| *hazard == UNHELD);
     }
 
     /// The limit of force was passed while the transducer showed an old force.

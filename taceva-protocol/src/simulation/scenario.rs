@@ -20,8 +20,8 @@ use super::world::Sabotage;
 use crate::draw::Draws;
 use crate::plan::{MetricNeeds, Plan, plan_study};
 use crate::run::{
-    Cancel, Controls, Devices, Event, Left, Mode, RunError, RunSpec, SharedSupervisor, Supervisor,
-    run, run_guarded,
+    Cancel, Controls, Devices, Enabling, Event, Left, Mode, RunError, RunSpec, SharedSupervisor,
+    StopCause, Supervisor, Trip, run, run_with_switch,
 };
 use crate::scene::{Scene, SceneError};
 use crate::source::{RigInfo, SourceInfo};
@@ -47,6 +47,8 @@ pub struct SimulationReport {
 const MOST_PROCESSES: u32 = 40;
 /// Between two processes a person looks at the rig, in s.
 const REPAIR_S: f64 = 3.0;
+/// How long a run waits for somebody to hold the enabling switch, in s.
+const PATIENCE_S: f64 = 20.0;
 
 /// Plays `seed` to its end.
 ///
@@ -188,10 +190,22 @@ fn process(
 ) -> Ended {
     let cancel = Cancel::new();
     shared.world().cancel = cancel.clone();
+    if is_guarded(seed) && shared.world().is_unplugged() {
+        // A program that does not find the switch opens nothing else.
+        return Ended::Stopped(Box::new(RunError {
+            press: None,
+            cause: StopCause::Tripped(Trip::SwitchLost),
+            left: Left::Untouched,
+        }));
+    }
     let mut robot = SimulatedRobot(shared.clone());
     let limits = plan.limits.clone().filter(|_| is_guarded(seed));
     let guard =
         limits.map(|limits| SharedSupervisor::new(Supervisor::new(limits, robot.halt_handle())));
+    if let Some(guard) = &guard {
+        // Until somebody has looked.
+        guard.lock().enabling(Enabling::Released);
+    }
     let looking = guard.clone();
     let looking = looking.map(|guard| {
         let threads = (Draws::new(seed, "threads"), seed % 8 == 7);
@@ -222,7 +236,7 @@ fn process(
             operator: None,
         };
         match guard {
-            Some(guard) => run_guarded(&spec, devices, &mut log, (controls, guard)),
+            Some(guard) => run_with_switch(&spec, devices, &mut log, (controls, guard, PATIENCE_S)),
             None => run(&spec, devices, &mut log, controls),
         }
     }));

@@ -90,10 +90,8 @@ fn a_rig_file_says_which_drivers_and_how_they_stand() {
     let robot = rig.robot.as_ref().expect("a robot");
     assert_eq!(robot.driver.value, "lab/arm:host=10.0.0.2");
     assert_eq!((robot.carries, robot.turned_deg), (Carried::Indenter, None));
-    assert_eq!(
-        rig.force.as_ref().and_then(|force| force.latency_ms),
-        Some(4.0)
-    );
+    let latency_ms = rig.force.as_ref().and_then(|force| force.latency_ms);
+    assert_eq!(latency_ms.map(|latency| latency.value), Some(4.0));
     assert_eq!(planned_on(SCENE, RIG), Ok(()));
     let scene = put_on(SCENE, RIG);
     let drivers: Vec<&str> = scene

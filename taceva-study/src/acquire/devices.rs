@@ -29,18 +29,18 @@ pub(super) const FIRST_POSE: Duration = Duration::from_secs(2);
 
 /// Devices that are open.
 pub(super) struct OpenRig {
-    sensor: Option<Box<dyn Sensor>>,
-    robot: Box<dyn Robot>,
-    force: Box<dyn ForceTransducer>,
+    pub(super) sensor: Option<Box<dyn Sensor>>,
+    pub(super) robot: Box<dyn Robot>,
+    pub(super) force: Box<dyn ForceTransducer>,
     lighting: Option<Box<dyn Lighting>>,
     pub(super) surroundings: Surroundings,
-    force_driver: DriverKey,
+    pub(super) force_driver: DriverKey,
     /// Whether its time passes by itself: then threads look on while it moves.
     is_real: bool,
     /// The rig file that says how a real rig stands: then a session begins by trying that.
-    rig_file: Option<Arc<RigFile>>,
+    pub(super) rig_file: Option<Arc<RigFile>>,
     /// What somebody holds while the robot moves.
-    switch: Option<Arc<dyn EnablingSwitch>>,
+    pub(super) switch: Option<Arc<dyn EnablingSwitch>>,
 }
 
 /// What a session of a real rig goes on from.
@@ -108,8 +108,8 @@ impl OpenRig {
                 surroundings.specimens = Some(Box::new(OfSpecimens { changer, cancel }));
             }
         }
-        let sensor_latency = rig_file.and_then(|rig| rig.sensor.as_ref()?.latency_ms);
-        let force_latency = rig_file.and_then(|rig| rig.force.as_ref()?.latency_ms);
+        let [robot_latency, force_latency, sensor_latency] =
+            rig_file.map_or([None; 3], written_latencies_ms);
         let sensor = sensor.map(|sensor| match &surroundings.bench {
             Some(bench) if sensor.selector.bench() != selector.bench() => {
                 Box::new(OnBench::new(sensor.device, Arc::clone(bench)))
@@ -124,7 +124,7 @@ impl OpenRig {
             (sensor, _) => sensor,
         };
         let force_driver = force.descriptor.key().clone();
-        let mut robot = robot.timely(|facts| facts.robot()?.latency_ms);
+        let mut robot = robot.timely(|facts| robot_latency.or(facts.robot()?.latency_ms));
         if let Some(registered) = rig_file.and_then(|rig| rig.robot.as_ref()) {
             let deadline = Deadline::after(FIRST_POSE);
             let mapped = Registered::new(robot, registered, deadline);
@@ -284,8 +284,18 @@ impl OpenRig {
     }
 }
 
+/// The latencies that a rig file says, of robot, transducer and sensor, in ms.
+pub(crate) fn written_latencies_ms(rig: &RigFile) -> [Option<f64>; 3] {
+    let written = [
+        rig.robot.as_ref().and_then(|robot| robot.latency_ms),
+        rig.force.as_ref().and_then(|force| force.latency_ms),
+        rig.sensor.as_ref().and_then(|sensor| sensor.latency_ms),
+    ];
+    written.map(|latency| latency.map(|latency| latency.value))
+}
+
 /// The name by which somebody must enable the robot of `rig`; `None` of one that is emulated, or was enabled before.
-fn to_be_enabled(rig: &RigFile, is_enabled: bool) -> Option<&str> {
+pub(super) fn to_be_enabled(rig: &RigFile, is_enabled: bool) -> Option<&str> {
     let robot = rig.robot.as_ref();
     let named = robot.filter(|_| !rig.simulated && !is_enabled);
     named.map(|robot| key_of(&robot.driver.value))

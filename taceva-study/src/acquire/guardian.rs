@@ -80,7 +80,7 @@ impl Guarded<'_> {
         std::thread::scope(|scope| {
             scope.spawn(|| reader.serve(force, &supervisor, viewer));
             scope.spawn(|| watcher.look_on(&is_over));
-            let _over = Over(&is_over);
+            let _over = Over::new(&is_over);
             // Dropped here, so that the reader ends even if the conduct panics.
             let mut mailbox = mailbox;
             conduct(robot, &mut mailbox, supervisor.clone())
@@ -89,7 +89,13 @@ impl Guarded<'_> {
 }
 
 /// Tells a thread that it is over, however that comes.
-struct Over<'a>(&'a AtomicBool);
+pub(super) struct Over<'a>(&'a AtomicBool);
+
+impl<'a> Over<'a> {
+    pub(super) fn new(is_over: &'a AtomicBool) -> Over<'a> {
+        Over(is_over)
+    }
+}
 
 impl Drop for Over<'_> {
     fn drop(&mut self) {

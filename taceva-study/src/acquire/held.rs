@@ -58,6 +58,7 @@ impl HeldRigs {
             rig.sensor.as_ref().map(|sensor| &sensor.driver),
             rig.robot.as_ref().map(|robot| &robot.driver),
             rig.force.as_ref().map(|force| &force.driver),
+            rig.operator.as_ref().map(|operator| &operator.enable),
         ];
         let devices = drivers.into_iter().flatten();
         let devices = devices.map(|driver| (driver.value.clone(), rig.name().to_owned()));

@@ -8,7 +8,7 @@ use taceva_core::{
 use taceva_drivers::{Drivers, OpenError};
 use taceva_protocol::{RigFile, SceneProblem, Setting};
 
-use super::devices::{FIRST_POSE, Opener};
+use super::devices::{FIRST_POSE, Opener, written_latencies_ms};
 use super::opened::Opened;
 use super::registered::{Registered, Turned};
 use crate::error::StudyError;
@@ -44,12 +44,11 @@ impl<'a> FileOpener<'a> {
     /// # Errors
     /// [`StudyError::Scene`] for a driver or an argument that is none, [`StudyError::Open`] if a device does not open.
     pub(crate) fn all(&self) -> Result<FileDevices, StudyError> {
-        let sensor = self.rig.sensor.as_ref();
-        let latency_ms = sensor.and_then(|sensor| sensor.latency_ms);
+        let [_, force_latency, sensor_latency] = written_latencies_ms(self.rig);
         let sensor = self.open(&self.drivers.sensors, self.spec.sensor.as_ref())?;
         let sensor = sensor.map(|sensor| {
             let descriptor = sensor.descriptor.clone();
-            let of_facts = |facts: &Descriptor| latency_ms.or(facts.sensor()?.latency_ms);
+            let of_facts = |facts: &Descriptor| sensor_latency.or(facts.sensor()?.latency_ms);
             (sensor.timely(of_facts), descriptor)
         });
         let robot = match (self.base_robot()?, &self.rig.robot) {
@@ -63,11 +62,10 @@ impl<'a> FileOpener<'a> {
             _ => None,
         };
         let mounted = self.rig.force.as_ref();
-        let latency_ms = mounted.and_then(|force| force.latency_ms);
         let force = self.open(&self.drivers.forces, self.spec.force.as_ref())?;
         let force = force.zip(mounted).map(|(force, mounted)| {
             let descriptor = force.descriptor.clone();
-            let of_facts = |facts: &Descriptor| latency_ms.or(facts.force()?.latency_ms);
+            let of_facts = |facts: &Descriptor| force_latency.or(facts.force()?.latency_ms);
             let turned = Turned::new(force.timely(of_facts), mounted.axes.value);
             let turned: Box<dyn ForceTransducer> = Box::new(turned);
             (turned, descriptor)
@@ -84,10 +82,12 @@ impl<'a> FileOpener<'a> {
     /// # Errors
     /// As [`all`](FileOpener::all).
     pub(crate) fn base_robot(&self) -> Result<Option<Described<dyn Robot>>, StudyError> {
+        let [latency_ms, ..] = written_latencies_ms(self.rig);
         let robot = self.open(&self.drivers.robots, self.spec.robot.as_ref())?;
         Ok(robot.map(|robot| {
             let descriptor = robot.descriptor.clone();
-            (robot.timely(|facts| facts.robot()?.latency_ms), descriptor)
+            let of_facts = |facts: &Descriptor| latency_ms.or(facts.robot()?.latency_ms);
+            (robot.timely(of_facts), descriptor)
         }))
     }
 

@@ -11,7 +11,7 @@ use taceva_core::{
     FrameInfo, FrameMut, Rig, Sensor, SensorFacts, Wrench,
 };
 use taceva_drivers::{Drivers, OpenError, Selector};
-use taceva_protocol::{RigFile, SignedAxes};
+use taceva_protocol::{RigFile, Setting, SignedAxes};
 
 use super::camera::{Camera, ROOM};
 use super::device_error;
@@ -57,9 +57,9 @@ impl LiveSpec {
     ) -> Result<LiveSpec, StudyError> {
         let rig = rig.map(read_rig_file).transpose()?;
         let rig: Option<&RigFile> = rig.as_ref();
-        let of_rig = |driver: &str, latency_ms: Option<f64>| Wanted {
+        let of_rig = |driver: &str, latency_ms: Option<Setting<f64>>| Wanted {
             text: driver.to_owned(),
-            latency_ms,
+            latency_ms: latency_ms.map(|latency| latency.value),
             by: rig.map_or_else(String::new, |rig| rig.name().to_owned()),
         };
         let typed = |option: &str, text: &str| Wanted {

@@ -4,14 +4,17 @@ use std::fmt;
 use std::time::Duration;
 
 use taceva_core::{
-    Deadline, DriverError, ErrorKind, ForceTransducer, FrameMut, Pose, Robot, Sensor, Speed,
+    Deadline, DriverError, EnablingSwitch, ErrorKind, ForceTransducer, FrameMut, Pose, Robot,
+    Sensor, Speed,
 };
 use taceva_drivers::{Drivers, MonotonicClock};
 use taceva_protocol::{Answer, Cancel, Operator, Question, RigFile};
 
 use super::stream::{Listener, Stream};
+use super::switch::{SwitchCheck, look_at};
 use crate::acquire::{FileDevices, FileOpener};
 use crate::error::StudyError;
+use crate::scene::open_switch;
 
 /// How long each device is listened to.
 const LISTENED: Duration = Duration::from_secs(2);
@@ -22,6 +25,11 @@ const LOOK: Duration = Duration::from_millis(10);
 /// The way on which the robot is halted: straight up, away from the gel, in mm, and how fast, in mm/s.
 const WAY_MM: f64 = 5.0;
 const WAY_MM_S: f64 = 5.0;
+/// The enabling switch is looked at until it was held for so long, or nobody has held it for so long, in s.
+const HELD: Duration = Duration::from_secs(1);
+const HOLD_PATIENCE_S: f64 = 10.0;
+/// From one look at it to the next while the robot moves.
+const FEEL: Duration = Duration::from_millis(5);
 /// Into it, the halt comes so late.
 const INTO: Duration = Duration::from_millis(300);
 /// From a halt to a robot that stands, in ms: as the plan demands of a robot that states it.
@@ -42,6 +50,8 @@ pub struct RigCheck {
     pub robot: Option<Stream>,
     /// The frames of the sensor.
     pub sensor: Option<Stream>,
+    /// The enabling switch, where the rig file names one.
+    pub switch: Option<SwitchCheck>,
     /// The robot, halted on its way; absent where nobody let it move.
     pub halt: Option<HaltTrip>,
     /// What a run would refuse or be stopped by.
@@ -92,6 +102,8 @@ pub enum RigProblem {
     },
     /// A robot that did not stop.
     NotHalted,
+    /// An enabling switch that nobody was seen to hold, though somebody was asked to.
+    Unheld,
 }
 
 impl fmt::Display for RigProblem {
@@ -117,6 +129,9 @@ impl fmt::Display for RigProblem {
                 f,
                 "the robot stood {ended_ms:.0} ms after a halt, expected at most {HALT_MS} ms: lower `speed_mm_s` in contact, or shorten its braking at the controller"
             ),
+            RigProblem::Unheld => f.write_str(
+                "the enabling switch was never seen held: hold it while the check asks for that, and see `byte` and `mask` of `enable` if it was; nothing moves without it",
+            ),
             RigProblem::NotHalted => f.write_str(
                 "the robot did not stop at a halt: do not run it; see the driver and the controller",
             ),
@@ -131,8 +146,10 @@ impl fmt::Display for RigProblem {
 pub fn check_rig(
     rig: &RigFile,
     drivers: &Drivers,
-    operator: Option<&mut dyn Operator>,
+    mut operator: Option<&mut dyn Operator>,
 ) -> Result<RigCheck, StudyError> {
+    // First: without it nothing is opened that could move.
+    let switch = open_switch(rig, drivers)?;
     let FileDevices {
         robot,
         force,
@@ -142,6 +159,7 @@ pub fn check_rig(
         force: None,
         robot: None,
         sensor: None,
+        switch: None,
         halt: None,
         problems: Vec::new(),
     };
@@ -165,6 +183,9 @@ pub fn check_rig(
         check.note("sensor", &heard, None);
         check.sensor = Some(heard);
     }
+    if let Some(switch) = &switch {
+        check.feel(&**switch, &mut operator)?;
+    }
     if let Some((mut robot, descriptor)) = robot {
         let heard = listen_to_robot(&mut *robot)?;
         let facts = descriptor.robot();
@@ -173,7 +194,7 @@ pub fn check_rig(
         check.robot = Some(heard);
         let name = descriptor.key().to_string();
         if rig.simulated || operator.is_some_and(|operator| is_let_move(operator, name)) {
-            check.halt_on_its_way(&mut *robot)?;
+            check.halt_on_its_way(&mut *robot, switch.as_deref())?;
         }
     }
     Ok(check)
@@ -199,7 +220,37 @@ impl RigCheck {
         }
     }
 
-    fn halt_on_its_way(&mut self, robot: &mut dyn Robot) -> Result<(), StudyError> {
+    /// Looks at the enabling switch, which somebody who is there is asked to hold.
+    fn feel(
+        &mut self,
+        switch: &dyn EnablingSwitch,
+        operator: &mut Option<&mut dyn Operator>,
+    ) -> Result<(), StudyError> {
+        let patience = match operator {
+            Some(operator) => {
+                operator.call_to_hold(HOLD_PATIENCE_S);
+                Duration::from_secs_f64(HOLD_PATIENCE_S)
+            }
+            None => LISTENED,
+        };
+        let found = look_at(switch, HELD, patience)?;
+        if found.held == 0 && operator.is_some() {
+            self.problems.push(RigProblem::Unheld);
+        }
+        self.switch = Some(found);
+        Ok(())
+    }
+
+    /// Nothing moves while somebody lets the enabling switch go, where there is one.
+    fn halt_on_its_way(
+        &mut self,
+        robot: &mut dyn Robot,
+        switch: Option<&dyn EnablingSwitch>,
+    ) -> Result<(), StudyError> {
+        let is_let_go = || switch.is_some_and(|switch| !switch.is_held().unwrap_or(false));
+        if is_let_go() {
+            return Ok(());
+        }
         robot.clear_halt(DEADLINE)?;
         let (from, _) = robot.pose(DEADLINE)?;
         let mut up = from;
@@ -208,7 +259,10 @@ impl RigCheck {
         let halt = robot.halt_handle();
         let (moved, halted) = std::thread::scope(|scope| {
             let halting = scope.spawn(move || {
-                std::thread::sleep(INTO);
+                let into_s = MonotonicClock.now_s() + INTO.as_secs_f64();
+                while MonotonicClock.now_s() < into_s && !is_let_go() {
+                    std::thread::sleep(FEEL);
+                }
                 let sent_s = MonotonicClock.now_s();
                 let done = halt.halt();
                 (sent_s, MonotonicClock.now_s(), done)

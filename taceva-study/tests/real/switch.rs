@@ -7,9 +7,10 @@ use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 use taceva_core::{Progress, SilentProgress};
 use taceva_dataset::Dataset;
 use taceva_drivers::MonotonicClock;
-use taceva_protocol::{Left, RunError, StopCause, Trip};
-use taceva_study::StudyError;
+use taceva_protocol::{Answer, Cancel, Left, Operator, Question, RunError, StopCause, Trip};
+use taceva_study::{RigCheck, RigProblem, StudyError, check_rig, read_rig};
 
+use crate::devices::drivers;
 use crate::record_on;
 use crate::session::{Person, UPRIGHT, rig_file, scene};
 use crate::world::World;
@@ -192,4 +193,41 @@ fn an_enable_that_is_no_switch_or_does_not_open_is_refused_with_its_line_before_
         let state = world.state();
         assert_eq!((state.readings, state.motions), (0, 0));
     }
+}
+
+/// Lets the robot move.
+struct LetsMove;
+
+impl Operator for LetsMove {
+    fn ask(&mut self, _: &Question, _: &Cancel) -> Answer {
+        Answer::Done
+    }
+}
+
+/// What `rig check` finds with the switch held or not, with somebody there.
+fn checked(world: &World, is_held: bool) -> RigCheck {
+    let folder = tempfile::tempdir().expect("a folder");
+    let rig = read_rig(&rig_with(folder.path(), "wall/pedal")).expect("a rig");
+    world.state().is_held = is_held;
+    check_rig(&rig, &drivers(world), Some(&mut LetsMove)).expect("devices that answer")
+}
+
+#[test]
+fn a_check_of_the_rig_looks_at_the_switch_and_moves_the_robot_only_while_it_is_held() {
+    let world = World::new();
+    let found = checked(&world, true);
+    let switch = found.switch.expect("it is in the file");
+    assert_eq!((switch.looks, switch.changes), (switch.held, 0));
+    assert!(switch.looks > 3 && switch.longest_ms < 1e3, "{switch:?}");
+    assert!(found.halt.is_some() && world.state().motions == 1);
+    let world = World::new();
+    let found = checked(&world, false);
+    let switch = found.switch.expect("it is in the file");
+    assert_eq!(switch.held, 0, "{switch:?}");
+    assert!(found.halt.is_none() && world.state().motions == 0);
+    assert!(
+        found.problems.contains(&RigProblem::Unheld),
+        "{:?}",
+        found.problems
+    );
 }

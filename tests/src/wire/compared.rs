@@ -22,7 +22,8 @@ pub struct Compared {
     pub scores: usize,
     /// Of the errors `mae` and `smape`, as a part of them.
     pub error_part: f64,
-    /// Of `r2` and `skill`, as a part of what they leave unexplained, 1 − the score: a ratio without meaning where few labels hardly spread.
+    /// Of the errors that `r2` and `skill` stand for, √(1 − score), as a part of them. What is left unexplained, 1 − the score, is a ratio of squares:
+    /// it changes by twice the part by which an error does, and says nothing where few labels hardly spread.
     pub share_part: f64,
 }
 
@@ -100,8 +101,11 @@ impl Compared {
         for (name, score) in one {
             let other = other[name];
             let is_share = name.starts_with("r2") || name.starts_with("skill");
-            let whole = if is_share { 1.0 - score } else { *score };
-            let part = (score - other).abs() / whole.abs();
+            let [error, other] = [*score, other].map(|score| match is_share {
+                true => (1.0 - score).sqrt(),
+                false => score,
+            });
+            let part = (error - other).abs() / error.abs();
             let most = match is_share {
                 true => &mut self.share_part,
                 false => &mut self.error_part,

@@ -155,6 +155,12 @@ impl WallBench {
         self.inner.options.model.parameters().transducer.range_n
     }
 
+    /// How deep, in mm, and how hard, in N, the gel may be pressed.
+    pub(crate) fn limits(&self) -> [f64; 2] {
+        let probing = self.inner.options.model.parameters().probing;
+        [probing.depth_max_mm, probing.force_max_n]
+    }
+
     /// The size and the format of the camera's frames.
     pub fn frame_info(&self) -> FrameInfo {
         self.camera().frame_info()
@@ -194,6 +200,16 @@ impl WallBench {
     /// Puts a fault on a link.
     pub fn inject(&self, fault: Fault) {
         self.inner.faults.put(fault);
+    }
+
+    /// Lets every message that `device` streams from now on arrive so much later than it was sent, and none out of turn: a latency that is
+    /// known. The link of an ATI box and those of machines of G-code have none.
+    pub fn set_lag(&self, device: Device, lag: Duration) {
+        self.inner.faults.set_lag(device, lag);
+    }
+
+    pub(crate) fn lag(&self, device: Device) -> Duration {
+        self.inner.faults.lag(device)
     }
 
     pub(crate) fn is_faulty(&self, device: Device, kind: FaultKind) -> bool {

@@ -6,6 +6,7 @@
 //! {"light": "S1"}
 //! {"inject": {"device": "force", "fault": "silent", "seconds": 0.5}}
 //! {"inject": {"fault": "emergency-stop"}}
+//! {"lag": {"device": "camera", "ms": 40}}
 //! {"watch": {"Fz_N": 0.8}}
 //! "truth"
 //! ```
@@ -35,6 +36,7 @@ enum Request {
     Mount(Specimen),
     Light(String),
     Inject(Injection),
+    Lag(Lag),
     Watch(Limit),
     Truth,
 }
@@ -56,6 +58,14 @@ struct Injection {
     seconds: Option<f64>,
 }
 
+/// Everything that the device streams is under way for so long.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+struct Lag {
+    device: String,
+    ms: f64,
+}
+
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 struct Limit {
@@ -73,6 +83,8 @@ pub struct Control {
 const LINE_MAX: u64 = 4096;
 /// How long a fault lasts if no duration is given.
 const USUAL_SECONDS: f64 = 1.0;
+/// Nothing is under way for longer.
+const LAG_MAX_MS: f64 = 1e3;
 /// No fault lasts longer.
 const SECONDS_MAX: f64 = 3600.0;
 
@@ -156,6 +168,13 @@ fn answer(line: &[u8], bench: &WallBench, arm: Option<&dyn Arm>) -> Result<Value
             bench.light(light);
         }
         Request::Inject(injection) => inject(&injection, bench, arm)?,
+        Request::Lag(Lag { device, ms }) => {
+            let device = named_device(&device)?;
+            if !(0.0..=LAG_MAX_MS).contains(&ms) {
+                return Err(refused(format!("{ms} ms: expected 0 to {LAG_MAX_MS}")));
+            }
+            bench.set_lag(device, Duration::from_secs_f64(ms / 1e3));
+        }
         Request::Watch(Limit { fz_n }) => bench.watch(fz_n),
         Request::Truth => {
             let truth = bench.truth();
@@ -222,12 +241,7 @@ fn inject(
         arm.suffer(fault);
         return Ok(());
     }
-    let name = injection.device.as_deref().unwrap_or_default();
-    let device = Device::ALL.into_iter().find(|device| device.name() == name);
-    let device = device.ok_or_else(|| {
-        let known = Device::ALL.map(Device::name).join("`, `");
-        refused(format!("device {name:?}: expected one of `{known}`"))
-    })?;
+    let device = named_device(injection.device.as_deref().unwrap_or_default())?;
     let kind = FaultKind::ALL
         .into_iter()
         .find(|kind| kind.name() == injection.fault)
@@ -250,6 +264,14 @@ fn inject(
     Ok(())
 }
 
+fn named_device(name: &str) -> Result<Device, WireError> {
+    let device = Device::ALL.into_iter().find(|device| device.name() == name);
+    device.ok_or_else(|| {
+        let known = Device::ALL.map(Device::name).join("`, `");
+        WireError::Request(format!("device {name:?}: expected one of `{known}`"))
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -264,6 +286,7 @@ mod tests {
             r#"{"mount": {"grating": "line", "spacing_mm": 1.5}}"#,
             r#"{"light": "S1"}"#,
             r#"{"inject": {"device": "force", "fault": "silent", "seconds": 0.5}}"#,
+            r#"{"lag": {"device": "camera", "ms": 40}}"#,
             r#"{"watch": {"Fz_N": 0.8}}"#,
         ] {
             ask(line).unwrap_or_else(|error| panic!("{line}: {error}"));
@@ -290,6 +313,8 @@ mod tests {
                 r#"{"inject": {"device": "force", "fault": "drop", "seconds": -1}}"#,
                 "0 to 3600",
             ),
+            (r#"{"lag": {"device": "gel", "ms": 4}}"#, "`robot`, `force`"),
+            (r#"{"lag": {"device": "force", "ms": -4}}"#, "0 to 1000"),
             (r#"{"tare": {}}"#, "unknown variant"),
         ] {
             let error = ask(line).expect_err(line).to_string();

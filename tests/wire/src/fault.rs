@@ -137,12 +137,28 @@ impl fmt::Display for FaultKind {
 pub(crate) struct Faults {
     /// Until when.
     on: Mutex<BTreeMap<(Device, FaultKind), Instant>>,
+    /// How long everything that a device streams is under way.
+    lags: Mutex<BTreeMap<Device, Duration>>,
 }
 
 impl Faults {
     pub(crate) fn put(&self, fault: Fault) {
         let until = Instant::now() + fault.lasts;
         self.on().insert((fault.device, fault.kind), until);
+    }
+
+    /// Lets everything that `device` streams be under way for so long.
+    pub(crate) fn set_lag(&self, device: Device, lag: Duration) {
+        self.lags().insert(device, lag);
+    }
+
+    /// How long what `device` streams is under way.
+    pub(crate) fn lag(&self, device: Device) -> Duration {
+        self.lags().get(&device).copied().unwrap_or_default()
+    }
+
+    fn lags(&self) -> MutexGuard<'_, BTreeMap<Device, Duration>> {
+        self.lags.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Whether such a fault is on.

@@ -1,5 +1,6 @@
 //! The sending end of a stream of messages, where faults of the link act.
 
+use std::collections::VecDeque;
 use std::io;
 use std::time::Duration;
 
@@ -14,6 +15,8 @@ pub(crate) struct Link {
     hostile: &'static [u8],
     held: Vec<u8>,
     held_count: usize,
+    /// What is under way, and when it arrives.
+    under_way: VecDeque<(Duration, Vec<u8>)>,
 }
 
 /// A message of another protocol.
@@ -32,6 +35,7 @@ impl Link {
             hostile,
             held: Vec::new(),
             held_count: 0,
+            under_way: VecDeque::new(),
         }
     }
 
@@ -66,6 +70,11 @@ impl Link {
         }
         let bytes = std::mem::take(&mut self.held);
         self.held_count = 0;
+        let lag = bench.lag(self.device);
+        if !lag.is_zero() || !self.under_way.is_empty() {
+            self.under_way.push_back((bench.now() + lag, bytes));
+            return self.deliver(bench.now(), write);
+        }
         if !is_split {
             return write(&bytes);
         }
@@ -76,8 +85,44 @@ impl Link {
         Ok(())
     }
 
+    /// Waits until `until`, and lets arrive what is under way.
+    ///
+    /// # Errors
+    /// That of `write`.
+    pub(crate) fn rest_until(
+        &mut self,
+        bench: &WallBench,
+        until: Duration,
+        mut write: impl FnMut(&[u8]) -> io::Result<()>,
+    ) -> io::Result<()> {
+        loop {
+            let now = bench.now();
+            self.deliver(now, &mut write)?;
+            if now >= until {
+                return Ok(());
+            }
+            let next = self.under_way.front().map_or(until, |(due, _)| *due);
+            std::thread::sleep(next.min(until).saturating_sub(now));
+        }
+    }
+
+    fn deliver(
+        &mut self,
+        now: Duration,
+        mut write: impl FnMut(&[u8]) -> io::Result<()>,
+    ) -> io::Result<()> {
+        while let Some((due, _)) = self.under_way.front()
+            && *due <= now
+            && let Some((_, bytes)) = self.under_way.pop_front()
+        {
+            write(&bytes)?;
+        }
+        Ok(())
+    }
+
     /// Drops what was held, which is no longer wanted.
     pub(crate) fn forget(&mut self) {
+        self.under_way.clear();
         self.held.clear();
         self.held_count = 0;
     }
@@ -134,6 +179,35 @@ mod tests {
                 let (found, message) = write.split_at(before.len());
                 assert_eq!((found, message), (before, &[number; 10][..]), "{kind}");
             }
+        }
+    }
+
+    #[test]
+    fn what_lags_arrives_whole_in_its_turn_and_by_so_much_later() {
+        let bench = WallBench::start(&BenchOptions::quiet(1)).expect("a bench");
+        let lag = Duration::from_millis(30);
+        bench.set_lag(Device::Force, lag);
+        let mut link = Link::new(Device::Force, b"");
+        let mut sent = Vec::new();
+        let mut arrived: Vec<(Duration, Vec<u8>)> = Vec::new();
+        for number in 0..12_u8 {
+            let mut write = |bytes: &[u8]| {
+                arrived.push((bench.now(), bytes.to_vec()));
+                Ok(())
+            };
+            if number < 6 {
+                sent.push(bench.now());
+                link.send(&bench, &[number], &mut write).expect("sent");
+            }
+            let until = bench.now() + Duration::from_millis(10);
+            link.rest_until(&bench, until, &mut write).expect("waited");
+        }
+        assert_eq!(arrived.len(), 6);
+        for (number, ((at, bytes), sent)) in (0..6).zip(arrived.iter().zip(&sent)) {
+            assert_eq!(bytes, &[number]);
+            // A busy machine is later, and nothing is earlier.
+            let late = *at - *sent;
+            assert!((lag..lag * 3).contains(&late), "{late:?}");
         }
     }
 

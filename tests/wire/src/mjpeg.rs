@@ -101,7 +101,8 @@ fn serve(mut stream: TcpStream, bench: &WallBench, style: Style, end: &End) -> i
     while !end.has_come() {
         let now = bench.now();
         if due > now {
-            std::thread::sleep((due - now).min(Duration::from_millis(50)));
+            let until = due.min(now + Duration::from_millis(50));
+            link.rest_until(bench, until, |bytes| stream.write_all(bytes))?;
             continue;
         }
         // A camera that could not be served in time leaves frames out.

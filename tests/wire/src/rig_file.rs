@@ -40,7 +40,13 @@ impl RigFile<'_> {
         ];
         let force = [driver(&self.force), format!("axes = {axes}"), latency()];
         let sensor = [driver(&self.sensor), latency()];
-        let limits = ["speed_max_mm_s = 20.0".to_owned()];
+        let [depth_max_mm, force_max_n] = self.bench.limits();
+        // What a camera does not know of the gel in front of it.
+        let limits = [
+            "speed_max_mm_s = 20.0".to_owned(),
+            format!("Pz_max_mm = {depth_max_mm:?}"),
+            format!("Fz_max_N = {force_max_n:?}"),
+        ];
         for (name, lines) in [
             ("robot", &robot[..]),
             ("force", &force),
@@ -81,5 +87,6 @@ mod tests {
         assert!(driver("sensor").ends_with("/\"x\""));
         assert_eq!(table["robot"]["axes"][1].as_str(), Some("-y"));
         assert_eq!(table["robot"]["origin_mm"][2].as_float(), Some(251.3));
+        assert_eq!(table["limits"]["Pz_max_mm"].as_float(), Some(1.0));
     }
 }

@@ -1,6 +1,7 @@
 //! An emulated controller of Universal Robots: the real-time data exchange (port 30004) and script (port 30002).
 //!
-//! What it does: any outputs by name (zeros for those that it does not know the meaning of), `movel` to a pose, `stopl`, a stop of its safety.
+//! What it does: any outputs by name (zeros for those that it does not know the meaning of), `movel` to a pose, `speedl` for a time (without turning), `stopl`, a stop
+//! of its safety.
 //! What it does not: inputs, other script, acceleration, joints.
 
 mod exchange;
@@ -9,7 +10,7 @@ mod program;
 use std::net::{Ipv4Addr, SocketAddr};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use taceva_core::Speed;
+use taceva_core::{Pose, Speed};
 
 use self::program::Program;
 use crate::base::Base;
@@ -69,6 +70,24 @@ impl Controller {
         self.inside().fault
     }
 
+    /// Goes on at a velocity until it expires: as far as that takes it.
+    fn cruise(&self, velocity_m_s: [f64; 3], lasts_s: f64) {
+        let speed_mm_s = velocity_m_s.map(|side| side * 1e3);
+        let [x, y, z] = speed_mm_s;
+        let Ok(speed) = Speed::try_new(x.hypot(y).hypot(z)) else {
+            return;
+        };
+        let here = self.bench.pose();
+        let at = here.position;
+        let base_mm = Base::to_base([at.x.0, at.y.0, at.z.0]);
+        let there_mm = [0, 1, 2].map(|axis| base_mm[axis] + speed_mm_s[axis] * lasts_s);
+        let target = Pose {
+            rotation: here.rotation,
+            ..Base::pose(there_mm, 0.0)
+        };
+        self.bench.set_out(target, speed);
+    }
+
     /// Runs a program in the place of the one that runs.
     fn run(&self, program: &Program) {
         let mut inside = self.inside();
@@ -76,6 +95,13 @@ impl Controller {
             return;
         }
         self.bench.stand();
+        if let Program::Cruise {
+            velocity_m_s,
+            lasts_s,
+        } = *program
+        {
+            self.cruise(velocity_m_s, lasts_s);
+        }
         if let Program::MoveLine {
             pose: [x, y, z, rx, ry, rz],
             speed_m_s,

@@ -1,10 +1,5 @@
 //! `taceva rig teach`.
 
-use std::ffi::OsString;
-use std::fs;
-use std::io;
-
-use anyhow::Context as _;
 use taceva_core::shown;
 use taceva_drivers::Drivers;
 use taceva_study::{HeldRigs, read_rig, teach_rig};
@@ -24,14 +19,7 @@ pub(super) fn run(args: &RigTeachArgs, context: &Context) -> anyhow::Result<u8> 
     };
     let _held = HeldRigs::of_file(&rig)?;
     let (taught, text) = teach_rig(&rig, &drivers, &mut terminal)?;
-    let mut name = OsString::from(".");
-    name.push(args.rig.file_name().unwrap_or_default());
-    name.push(".partial");
-    let beside = args.rig.with_file_name(name);
-    let written = taceva_durable::replace(&args.rig, &beside, |beside| -> io::Result<()> {
-        fs::write(beside, &text)
-    });
-    written.with_context(|| shown(&args.rig).to_string())?;
+    super::write_anew(&args.rig, &text)?;
     let [x, y, z] = taught.origin_mm;
     context.say(format_args!(
         "{}: origin_mm = [{x:?}, {y:?}, {z:?}], axes = {}; both ways ended within {:.2} mm of an axis",

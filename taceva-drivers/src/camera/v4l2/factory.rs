@@ -37,8 +37,9 @@ submit_builtin!(dyn Sensor, || Ok(Box::new(V4l2Factory::new()?)));
 ///
 /// # What confirmed it
 /// The kernel's emulated camera `vivid` in a virtual machine (`taceva-wire`, test `kernel`): pixels of YUYV against its colour bars, the suite, gain,
-/// a second program, unplugging. **Not verified without the device**: JPEG pictures through this interface (their decoder is that of `camera/mjpeg`),
-/// exposure, white balance and focus, which `vivid` does not have, the presets, and any latency.
+/// a second program, unplugging. `vivid` gives uncompressed pixels alone, and of the controls that this driver fixes it has gain and its automatic:
+/// the test sees it refuse `pixels=mjpeg`, `exposure_ms`, `white_balance_k` and `focus`. **Not verified without the device**: JPEG pictures through
+/// this interface (their decoder is that of `camera/mjpeg`), exposure, white balance and focus, the presets, and any latency.
 ///
 /// ```
 /// use taceva_core::Factory;

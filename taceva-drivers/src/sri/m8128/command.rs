@@ -7,7 +7,7 @@ use super::frame::Check;
 pub(super) enum Command {
     /// To send so many readings a second.
     Rate(u16),
-    /// The same for boxes of before.
+    /// The same for older boxes.
     OldRate(u16),
     /// How frames are checked.
     Check(Check),

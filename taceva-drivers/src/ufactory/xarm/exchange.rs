@@ -209,7 +209,7 @@ impl Drop for Exchange {
     }
 }
 
-/// Hands over every answer that comes, then why none comes any more.
+/// Hands over every answer that comes; at the end of the connection, why no more will come.
 fn read(
     mut stream: TcpStream,
     address: SocketAddr,

@@ -5,7 +5,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use taceva_core::{
-    Deadline, DriverError, ErrorKind, Halt, Pose, Robot, RobotWatch, Speed, Stamp, check_pose,
+    Deadline, DriverError, ErrorKind, ExpiringMotion, Halt, Pose, Robot, RobotWatch, Speed, Stamp,
+    check_pose,
 };
 
 use super::KEY;
@@ -134,6 +135,18 @@ impl Arm {
         })
     }
 
+    /// Lets a motion to `target` through that may be made.
+    pub(super) fn admit(&self, target: &Pose, speed: Speed) -> Result<(), DriverError> {
+        let doing = "move the arm";
+        check_pose(target).map_err(|error| failed(ErrorKind::InvalidArgument, doing, error))?;
+        let most = self.options.speed_max;
+        if speed > most {
+            let why = format!("{speed}, expected at most {most}");
+            return Err(failed(ErrorKind::OutOfRange, doing, why));
+        }
+        Ok(())
+    }
+
     /// The newest state behind the one numbered `after`; a fresh one that is there, if that is not said.
     pub(super) fn look(
         &self,
@@ -157,7 +170,7 @@ impl Arm {
 }
 
 /// The pose of a state, if its numbers are one.
-fn numbered_pose(state: &ArmState, doing: &'static str) -> Result<Pose, DriverError> {
+pub(super) fn numbered_pose(state: &ArmState, doing: &'static str) -> Result<Pose, DriverError> {
     pose_of(state.pose).ok_or_else(|| {
         let why = format!("{:?} is no pose, expected numbers", state.pose);
         failed(ErrorKind::DeviceFault, doing, why)
@@ -185,13 +198,7 @@ impl Robot for Arm {
         speed: Speed,
         deadline: Deadline,
     ) -> Result<Stamp, DriverError> {
-        let doing = "move the arm";
-        check_pose(&target).map_err(|error| failed(ErrorKind::InvalidArgument, doing, error))?;
-        let most = self.options.speed_max;
-        if speed > most {
-            let why = format!("{speed}, expected at most {most}");
-            return Err(failed(ErrorKind::OutOfRange, doing, why));
-        }
+        self.admit(&target, speed)?;
         self.go(target, speed, deadline)
     }
 
@@ -205,6 +212,10 @@ impl Robot for Arm {
             reports: Arc::clone(self.states.mailbox()),
             pose: watched_pose,
         }))
+    }
+
+    fn expiring_motion(&mut self) -> Option<&mut dyn ExpiringMotion> {
+        Some(self)
     }
 
     fn clear_halt(&mut self, deadline: Deadline) -> Result<(), DriverError> {

@@ -19,14 +19,17 @@ submit_builtin!(dyn Robot, || Ok(Box::new(UrFactory::new()?)));
 /// - Opening connects, and changes nothing. The arm must be switched on, its brakes open, in remote control and without a stop of its safety: a
 ///   person does that at the teach pendant. This driver never does.
 /// - A move is a program of one `movel`. It ends once no program runs and the reported pose is within 0.05 mm of the target.
+/// - An expiring move is a program of one `speedl` that holds for 0.2 s and brakes then, sent anew every 50 ms until a tenth of a second of the way
+///   is left, which is a `movel`. A short one, or one on which the tool turns, is a `movel` alone.
 /// - A halt sends a program of one `stopl` over a connection of its own, which takes the place of the one that runs; the controller confirms
 ///   none. Without that connection no move begins.
 /// - Emergency, protective and safeguard stops end a move with `DeviceFault`.
 /// - It is watched while it moves by the states that it sends, which name these stops too.
 ///
 /// # What confirmed it
-/// An emulated controller on which the driver passes its suite; the public client `ur-rtde` 1.6.5 reads its poses too. **Not verified without
-/// the device**: how soon a program begins and `stopl` ends one, and bits of the safety status, which are from the documents.
+/// An emulated controller on which the driver passes its suite; the public client `ur-rtde` 1.6.5 reads its poses too, and nothing but this driver
+/// has sent it script. **Not verified without the device**: how soon a program begins and `stopl` ends one, whether an arm keeps its speed where a
+/// program that moves it (`speedl`, for 0.2 s) takes the place of another every 50 ms, and bits of the safety status, which are from the documents.
 ///
 /// ```
 /// use taceva_core::Factory;

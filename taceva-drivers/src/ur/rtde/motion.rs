@@ -11,7 +11,7 @@ use super::safety::ArmFault;
 use super::script::move_line;
 use crate::link::{Seen, monotonic};
 
-const DOING: &str = "move the arm";
+pub(super) const DOING: &str = "move the arm";
 /// How near the target a motion ends.
 const NEAR_MM: f64 = 0.05;
 /// An arm of which nothing is heard for so long is stopped.
@@ -24,7 +24,7 @@ const NEVER_BEGUN: Duration = Duration::from_millis(1_000);
 const SETTLED: Duration = Duration::from_millis(200);
 /// How long an arm that was told to stop is looked at until it stands.
 const STOPPING: Duration = Duration::from_millis(400);
-const M_A_MM: f64 = 1e-3;
+pub(super) const M_A_MM: f64 = 1e-3;
 /// The state of a controller that runs no program.
 const STOPPED: u32 = 1;
 
@@ -36,6 +36,14 @@ impl Arm {
         speed: Speed,
         deadline: Deadline,
     ) -> Result<Stamp, DriverError> {
+        let until = monotonic().saturating_add(deadline.remaining());
+        let first = self.ready(deadline)?;
+        let ended = self.follow(target, speed, until, first);
+        self.end(ended)
+    }
+
+    /// The state of an arm that may be moved.
+    pub(super) fn ready(&self, deadline: Deadline) -> Result<Seen<ArmState>, DriverError> {
         let until = monotonic().saturating_add(deadline.remaining());
         if self.stop.is_halted() {
             return Err(halted());
@@ -57,7 +65,11 @@ impl Arm {
             let why = "the controller runs another program, expected none";
             return Err(failed(ErrorKind::DeviceFault, DOING, why));
         }
-        let ended = self.follow(target, speed, until, first);
+        Ok(first)
+    }
+
+    /// Ends a motion: an arm whose motion was broken off is stopped.
+    pub(super) fn end(&self, ended: Result<Stamp, DriverError>) -> Result<Stamp, DriverError> {
         if ended.is_err() {
             // Behind the motion on its own way, which a stop on the other may have overtaken; one that could not be sent says so by a link
             // that is gone.
@@ -68,7 +80,8 @@ impl Arm {
         ended
     }
 
-    fn follow(
+    /// Sends the arm along a line, in the place of what it does, and returns once it rests at its end.
+    pub(super) fn follow(
         &mut self,
         target: Pose,
         speed: Speed,
@@ -133,7 +146,7 @@ impl Arm {
     }
 }
 
-fn halted() -> DriverError {
+pub(super) fn halted() -> DriverError {
     failed(ErrorKind::Interrupted, DOING, "it was halted")
 }
 

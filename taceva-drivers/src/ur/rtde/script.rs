@@ -18,6 +18,17 @@ pub(super) fn move_line(pose: [f64; 6], speed_m_s: f64, acceleration_m_s2: f64) 
     )
 }
 
+/// The program that moves at a velocity in m/s for so long, and then brakes; accelerations in m/s².
+pub(super) fn cruise(
+    [x, y, z]: [f64; 3],
+    lasts_s: f64,
+    [acceleration_m_s2, deceleration_m_s2]: [f64; 2],
+) -> String {
+    format!(
+        "def taceva_cruise():\n  speedl([{x:.9}, {y:.9}, {z:.9}, 0, 0, 0], a={acceleration_m_s2:.6}, t={lasts_s:.3})\n  stopl({deceleration_m_s2:.6})\nend\n"
+    )
+}
+
 /// The program that takes the place of the one that runs, and brakes.
 pub(super) fn stop(deceleration_m_s2: f64) -> String {
     format!("def taceva_stop():\n  stopl({deceleration_m_s2:.6})\nend\n")
@@ -102,6 +113,10 @@ mod tests {
         assert_eq!(
             program,
             "def taceva_move():\n  movel(p[0.300000000, -0.000000001, 0.250000000, 3.125000000, 0.000000000, 0.000000000], a=0.500000, v=0.005000000)\nend\n"
+        );
+        assert_eq!(
+            cruise([0.0, 0.000_000_001, -0.005], 0.2, [0.5, 2.0]),
+            "def taceva_cruise():\n  speedl([0.000000000, 0.000000001, -0.005000000, 0, 0, 0], a=0.500000, t=0.200)\n  stopl(2.000000)\nend\n"
         );
         assert_eq!(stop(2.0), "def taceva_stop():\n  stopl(2.000000)\nend\n");
     }

@@ -41,8 +41,8 @@ pub(super) fn shows(in_contact: f64, in_air: f64) -> bool {
     in_contact > (CHANGES * in_air).max(LEAST)
 }
 
-/// The mean of every part, row by row.
-fn means(frame: &Frame) -> Vec<f64> {
+/// The mean brightness of every part of `frame`, row by row, in steps of a pixel of 8 bits.
+pub(in crate::run) fn means(frame: &Frame) -> Vec<f64> {
     let info = frame.info();
     let (width, height) = (info.width as usize, info.height as usize);
     let samples = info.format.samples();

@@ -6,18 +6,19 @@ use taceva_core::{Pose, Stamp, Wrench};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Observation {
-    /// The force transducer said this.
+    /// A reading of the force transducer.
     Force(Wrench, Stamp),
-    /// The force transducer said this, and gave the reading this number.
+    /// A reading of the force transducer, with the number that it gave it.
     Numbered(Wrench, Stamp, u64),
-    /// The robot said this under way from and to where [`Supervisor::sent`](super::Supervisor::sent) was told; seen by a thread of its own.
+    /// The pose that the robot reported during the motion announced by [`Supervisor::sent`](super::Supervisor::sent), as a thread that watches it
+    /// saw it.
     UnderWay {
         /// Where it is.
         pose: Pose,
         /// When that was true.
         stamp: Stamp,
     },
-    /// The robot said this, after it was sent to `target` and came to rest.
+    /// The pose that the robot reported at rest, after it was sent to `target`.
     Pose {
         /// Where it is.
         pose: Pose,

@@ -106,3 +106,14 @@ fn the_judge_finds_frames_of_another_time() {
         "{found:?}"
     );
 }
+
+#[test]
+fn the_judge_finds_a_guard_that_does_not_heed_the_enabling_switch() {
+    let found = found_with(Sabotage::UnheededSwitch);
+    for wanted in [
+        |found: &Violation| matches!(found, Violation::LateHalt { .. }),
+        |found: &Violation| matches!(found, Violation::Defied(_)),
+    ] {
+        assert!(found.iter().any(wanted), "{found:?}");
+    }
+}

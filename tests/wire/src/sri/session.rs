@@ -147,7 +147,12 @@ fn stream_readings(session: &Session, bench: &WallBench, over: &End) {
             continue;
         }
         if due > now {
-            std::thread::sleep(due - now);
+            if link
+                .rest_until(bench, due, |bytes| session.send(bytes))
+                .is_err()
+            {
+                return;
+            }
             continue;
         }
         due += Duration::from_secs(1) / rate_hz;

@@ -84,6 +84,7 @@ pub(super) fn serve(mut stream: TcpStream, controller: &Controller, end: &End) -
             due = bench.now();
         }
         let now = bench.now();
+        link.rest_until(bench, now, |bytes| stream.write_all(bytes))?;
         if !wanted.is_started || due > now {
             continue;
         }

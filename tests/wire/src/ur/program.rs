@@ -5,6 +5,11 @@
 pub(super) enum Program {
     /// Moves in a straight line to x, y, z in m and a rotation vector in rad.
     MoveLine { pose: [f64; 6], speed_m_s: f64 },
+    /// Moves at a velocity of x, y, z in m/s for so long, and brakes then.
+    Cruise {
+        velocity_m_s: [f64; 3],
+        lasts_s: f64,
+    },
     /// Brakes.
     Stop,
     /// Anything else, which takes the place of what runs and does nothing.
@@ -22,26 +27,34 @@ impl Program {
     }
 
     fn read(program: &str) -> Program {
+        if program.contains("speedl(") {
+            return Program::cruise(program).unwrap_or(Program::Other);
+        }
         if program.contains("stopl(") {
             return Program::Stop;
         }
         Program::move_line(program).unwrap_or(Program::Other)
     }
 
+    fn cruise(program: &str) -> Option<Program> {
+        let (_, call) = program.split_once("speedl([")?;
+        let (velocity, rest) = call.split_once(']')?;
+        // Velocities that turn are not known here.
+        let &[x, y, z, 0.0, 0.0, 0.0] = &numbers(velocity)?[..] else {
+            return None;
+        };
+        let (_, lasts) = rest.split_once("t=")?;
+        let lasts_s: f64 = lasts[..lasts.find([',', ')'])?].trim().parse().ok()?;
+        Some(Program::Cruise {
+            velocity_m_s: [x, y, z],
+            lasts_s: Some(lasts_s).filter(|lasts_s| (0.0..=10.0).contains(lasts_s))?,
+        })
+    }
+
     fn move_line(program: &str) -> Option<Program> {
         let (_, call) = program.split_once("movel(p[")?;
         let (pose, rest) = call.split_once(']')?;
-        let numbers: Option<Vec<f64>> = pose
-            .split(',')
-            .map(|number| {
-                number
-                    .trim()
-                    .parse()
-                    .ok()
-                    .filter(|number: &f64| number.is_finite())
-            })
-            .collect();
-        let &[x, y, z, rx, ry, rz] = &numbers?[..] else {
+        let &[x, y, z, rx, ry, rz] = &numbers(pose)?[..] else {
             return None;
         };
         let (_, speed) = rest.split_once("v=")?;
@@ -51,6 +64,14 @@ impl Program {
             speed_m_s: speed[..end].trim().parse().ok()?,
         })
     }
+}
+
+/// Numbers between commas; `None` if one is none.
+fn numbers(text: &str) -> Option<Vec<f64>> {
+    let number = |number: &str| number.trim().parse().ok();
+    let numbers = text.split(',').map(number);
+    let finite = numbers.map(|number| number.filter(|number: &f64| number.is_finite()));
+    finite.collect()
 }
 
 #[cfg(test)]
@@ -71,5 +92,15 @@ mod tests {
         let (other, _) =
             Program::take("def c():\n  movel(p[nan,0,0,0,0,0], v=1)\nend\n").expect("one");
         assert_eq!(other, Program::Other);
+        let cruise =
+            "def d():\n  speedl([0, 0.001, -0.005, 0, 0, 0], a=0.5, t=0.200)\n  stopl(2.0)\nend\n";
+        let (cruise, _) = Program::take(cruise).expect("one");
+        let expected = Program::Cruise {
+            velocity_m_s: [0.0, 0.001, -0.005],
+            lasts_s: 0.2,
+        };
+        assert_eq!(cruise, expected);
+        let turning = "def e():\n  speedl([0, 0, 0, 0, 0, 1], a=0.5, t=0.2)\nend\n";
+        assert_eq!(Program::take(turning).expect("one").0, Program::Other);
     }
 }

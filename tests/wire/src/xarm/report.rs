@@ -57,7 +57,10 @@ pub(super) fn serve(mut stream: TcpStream, port: ReportPort, controller: &Contro
         }
         // Reports are made at even times, however long it takes to send one.
         due = (due + port.period()).max(bench.now());
-        std::thread::sleep(due.saturating_sub(bench.now()));
+        let rested = link.rest_until(bench, due, |bytes| stream.write_all(bytes));
+        if rested.is_err() {
+            return;
+        }
     }
 }
 

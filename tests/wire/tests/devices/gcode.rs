@@ -34,6 +34,15 @@ impl<E: Arm> Setup<E> {
         assert!(!truth.is_moving && truth.tip_mm[2] < -5.5, "{truth:?}");
     }
 
+    /// A line that another program has, or another part of this one, is refused as busy, and is free again once that is gone.
+    pub(crate) fn is_busy_while_another_has_it(&self) {
+        let first = self.open();
+        let second = self.try_open().map(drop).expect_err("it is taken");
+        assert_eq!(second.kind(), ErrorKind::Busy, "{second}");
+        drop(first);
+        self.open();
+    }
+
     /// What is no serial line is refused, each for what it is.
     pub(crate) fn refuses_what_is_no_line(&self) {
         let file = tempfile::NamedTempFile::new().expect("a file");

@@ -53,3 +53,8 @@ fn a_machine_that_falls_silent_on_its_way_is_held() {
 fn what_is_no_machine_is_refused() {
     setup().refuses_what_is_no_line();
 }
+
+#[test]
+fn a_line_that_another_program_has_is_refused_as_busy() {
+    setup().is_busy_while_another_has_it();
+}

@@ -1,9 +1,11 @@
 //! Every driver of a robot and of a force transducer against its emulated device, through sockets and a pseudo-terminal.
 
+mod expiring;
 #[cfg(unix)]
 mod gcode;
 #[cfg(unix)]
 mod grbl;
+mod links;
 #[cfg(unix)]
 mod marlin;
 mod netft;

@@ -105,3 +105,8 @@ fn a_printer_that_falls_silent_on_its_way_is_stopped() {
 fn what_is_no_printer_is_refused() {
     setup().refuses_what_is_no_line();
 }
+
+#[test]
+fn a_line_that_another_program_has_is_refused_as_busy() {
+    setup().is_busy_while_another_has_it();
+}

@@ -8,6 +8,7 @@ use taceva_drivers::UrFactory;
 use taceva_wire::ur::Emulator;
 use taceva_wire::{Arm, ArmFault, Device, FaultKind};
 
+use crate::expiring::die_moving;
 use crate::setup::Setup;
 use crate::support::{PATIENCE, inject, lower, moved, speed};
 
@@ -147,4 +148,30 @@ fn another_thread_sees_the_arm_move_and_its_faults() {
     drop(arm);
     let gone = watch.pose(PATIENCE).expect_err("the arm is gone");
     assert_eq!(gone.kind(), ErrorKind::Disconnected);
+}
+
+#[test]
+fn an_expiring_motion_ends_where_it_was_sent_and_lines_follow_it() {
+    setup().ends_where_it_was_sent();
+}
+
+#[test]
+fn a_halt_stops_an_expiring_motion_and_stays() {
+    setup().is_halted_while_it_expires();
+}
+
+#[test]
+fn states_that_fall_silent_let_an_expiring_motion_stand() {
+    setup().stands_where_its_link_falls_silent();
+}
+
+/// Moves the arm that it is told of, until somebody kills it; a test of nothing where it is told of none.
+#[test]
+fn the_host_that_dies() {
+    die_moving(&UrFactory::new().expect("a factory"));
+}
+
+#[test]
+fn an_arm_whose_host_is_killed_stands_within_the_expiry_and_one_on_a_line_goes_on() {
+    setup().stands_where_its_host_dies("ur::the_host_that_dies");
 }

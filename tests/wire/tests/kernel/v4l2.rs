@@ -70,8 +70,10 @@ fn what_it_does_not_give_is_refused_with_what_it_does() {
     assert_eq!(files.kind(), ErrorKind::Unsupported, "{files}");
     let rate = refused(&format!("{ARGUMENTS};rate=333"));
     assert_eq!(rate.kind(), ErrorKind::Unsupported, "{rate}");
-    let exposure = refused(&format!("{ARGUMENTS};exposure_ms=15"));
-    assert_eq!(exposure.kind(), ErrorKind::Unsupported, "{exposure}");
+    for setting in ["exposure_ms=15", "white_balance_k=5000", "focus=10"] {
+        let absent = refused(&format!("{ARGUMENTS};{setting}"));
+        assert_eq!(absent.kind(), ErrorKind::Unsupported, "{absent}");
+    }
     // The second file of the device takes pictures.
     let output = refused("device=/dev/video1;pixels=yuyv");
     assert_eq!(output.kind(), ErrorKind::InvalidArgument, "{output}");

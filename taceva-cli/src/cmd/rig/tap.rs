@@ -1,0 +1,57 @@
+//! `taceva rig tap`.
+
+use std::sync::Mutex;
+
+use taceva_core::shown;
+use taceva_protocol::Operator;
+use taceva_study::{HeldRigs, Workshop, read_rig, tap_rig};
+
+use crate::args::RigTapArgs;
+use crate::cmd::run::bench;
+use crate::cmd::{Context, Usage, operator};
+use crate::{exit, output, report};
+
+pub(super) fn run(args: &RigTapArgs, context: &Context) -> anyhow::Result<u8> {
+    if let Some(path) = args.output.path.as_deref() {
+        output::check_free(path, args.output.force)?;
+    }
+    let (drivers, models) = context.equipment(&args.rig)?;
+    let rig = read_rig(&args.rig)?;
+    let terminal: Option<Box<Mutex<dyn Operator + Send>>> = match operator::terminal(None) {
+        Some(terminal) => Some(Box::new(Mutex::new(terminal))),
+        None if rig.simulated => None,
+        None => {
+            return Err(Usage::error(
+                "somebody must let the robot move by its name at a terminal: start taceva rig tap from one",
+            ));
+        }
+    };
+    let held = HeldRigs::of_file(&rig)?;
+    let workshop = Workshop {
+        drivers: &drivers,
+        models: &models,
+        surroundings: &bench::surroundings,
+        cache: None,
+        progress: &context.progress,
+        operator: terminal.as_deref(),
+        viewer: None,
+    };
+    let tapped = tap_rig(&args.rig, workshop)?;
+    drop(held);
+    output::write_as(args.output.format, args.output.path.as_deref(), |out| {
+        report::rig::tap(&tapped, args.output.format, out)
+    })?;
+    if args.dry_run {
+        context.say(format_args!("{}: not written", shown(&args.rig)));
+        return Ok(exit::DONE);
+    }
+    let Some(text) = &tapped.text else {
+        let rig = shown(&args.rig);
+        anyhow::bail!(
+            "{rig}: a table there takes no line behind its `driver`; write each latency_ms by hand, or every device as a table of its own such as [force]"
+        );
+    };
+    super::write_anew(&args.rig, text)?;
+    context.say(format_args!("{}: written", shown(&args.rig)));
+    Ok(exit::DONE)
+}

@@ -1,0 +1,215 @@
+//! How much later each device of a rig says what is true, and how that is written into its file.
+
+use super::RigFile;
+use crate::run::Latency;
+use crate::scene::Setting;
+
+/// The latencies of the devices of a rig, in ms, each a tenth at finest: how long after it was true an observation is stamped.
+///
+/// ```
+/// use taceva_protocol::{RigFile, RigLatencies};
+/// let text = "rig_version = 1\n[force]\ndriver = \"lab/box\" # on the table\naxes = [\"x\", \"y\", \"z\"]\n";
+/// let rig = RigFile::parse("lab.toml", text)?;
+/// let latencies = RigLatencies { robot_ms: None, force_ms: 4.5, sensor_ms: 38.0 };
+/// // A rig without a sensor has nowhere to write its latency.
+/// assert_eq!(rig.with_latencies(&latencies), None);
+/// # Ok::<(), taceva_protocol::SceneError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct RigLatencies {
+    /// Of the robot; `None` where it stays what it is.
+    pub robot_ms: Option<f64>,
+    /// Of the transducer.
+    pub force_ms: f64,
+    /// Of the sensor.
+    pub sensor_ms: f64,
+}
+
+impl RigLatencies {
+    /// What taps say: `force` and `sensor` are by how much later than the robot they were with `before`, the latencies of robot, transducer and
+    /// sensor in ms that their stamps lacked already.
+    ///
+    /// Taps see differences alone. The robot keeps its latency, unless another would be below 0 by more than it errs: then all are that much
+    /// later, so that the earliest device has none.
+    pub fn measured(before: [f64; 3], force: &Latency, sensor: &Latency) -> RigLatencies {
+        let [robot_ms, force_ms, sensor_ms] = before;
+        let force_ms = force_ms + force.after_robot_ms;
+        let sensor_ms = sensor_ms + sensor.after_robot_ms;
+        let is_early = force_ms < -force.error_ms || sensor_ms < -sensor.error_ms;
+        let shift_ms = match is_early {
+            true => -force_ms.min(sensor_ms),
+            false => 0.0,
+        };
+        // An array in a file is read by people: no latency is known to less than a tenth.
+        let tenths = |latency_ms: f64| ((latency_ms + shift_ms).max(0.0) * 10.0).round() / 10.0;
+        RigLatencies {
+            robot_ms: is_early.then(|| tenths(robot_ms)),
+            force_ms: tenths(force_ms),
+            sensor_ms: tenths(sensor_ms),
+        }
+    }
+}
+
+impl RigFile {
+    /// Its text with `latencies`; everything else stays as it is written. `None` where a device is missing, or written so that a line cannot be
+    /// put behind it.
+    pub fn with_latencies(&self, latencies: &RigLatencies) -> Option<String> {
+        let (force, sensor) = (self.force.as_ref()?, self.sensor.as_ref()?);
+        let mut written = vec![
+            (&force.driver, force.latency_ms, latencies.force_ms),
+            (&sensor.driver, sensor.latency_ms, latencies.sensor_ms),
+        ];
+        if let Some(robot_ms) = latencies.robot_ms {
+            let robot = self.robot.as_ref()?;
+            written.push((&robot.driver, robot.latency_ms, robot_ms));
+        }
+        let mut text = self.text.whole().to_owned();
+        // From behind, so that places before stay where they are.
+        written.sort_by_key(|(driver, ..)| std::cmp::Reverse(driver.at()));
+        for (driver, before, latency_ms) in written {
+            put(&mut text, driver, before, latency_ms)?;
+        }
+        // A table that is written on one line, or by dotted keys, takes no line behind its driver.
+        let read = RigFile::parse(self.name(), &text).ok()?;
+        let latency = |setting: Option<Setting<f64>>| setting.map(|setting| setting.value);
+        let expected = RigFile {
+            text: read.text.clone(),
+            ..self.clone()
+        };
+        let expected = expected.with_values(latencies);
+        let is_as_meant = read == expected
+            && read
+                .force
+                .as_ref()
+                .and_then(|force| latency(force.latency_ms))
+                == Some(latencies.force_ms);
+        is_as_meant.then_some(text)
+    }
+
+    fn with_values(mut self, latencies: &RigLatencies) -> RigFile {
+        let set = |latency: &mut Option<Setting<f64>>, latency_ms: f64| {
+            *latency = Some(Setting::default_of(latency_ms));
+        };
+        if let Some(force) = &mut self.force {
+            set(&mut force.latency_ms, latencies.force_ms);
+        }
+        if let Some(sensor) = &mut self.sensor {
+            set(&mut sensor.latency_ms, latencies.sensor_ms);
+        }
+        if let (Some(robot), Some(robot_ms)) = (&mut self.robot, latencies.robot_ms) {
+            set(&mut robot.latency_ms, robot_ms);
+        }
+        self
+    }
+}
+
+/// Writes one latency in the place of the one that is there, or on a line behind the driver.
+fn put(
+    text: &mut String,
+    driver: &Setting<String>,
+    before: Option<Setting<f64>>,
+    latency_ms: f64,
+) -> Option<()> {
+    if let Some(at) = before.and_then(|before| before.at()) {
+        let is_of_number = |letter: char| letter.is_ascii_alphanumeric() || "+-._".contains(letter);
+        let number = text.get(at..)?;
+        let length = number.find(|letter| !is_of_number(letter));
+        let end = at + length.unwrap_or(number.len());
+        text.replace_range(at..end, &format!("{latency_ms:?}"));
+        return Some(());
+    }
+    let from = driver.at()?;
+    let end = text
+        .get(from..)?
+        .find('\n')
+        .map_or(text.len(), |end| from + end);
+    // Behind a carriage return the line ends as the others do.
+    let ending = match text.get(..end)?.ends_with('\r') {
+        true => "\r\n",
+        false => "\n",
+    };
+    let line = match end == text.len() {
+        true => format!("{ending}latency_ms = {latency_ms:?}"),
+        false => format!("latency_ms = {latency_ms:?}{ending}"),
+    };
+    text.insert_str((end + 1).min(text.len()), &line);
+    Some(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEXT: &str = "rig_version = 1\n# Ours.\n[robot]\ndriver = \"lab/arm\" # the old one\ncarries = \"indenter\"\norigin_mm = [0.0, 0.0, 0.0]\naxes = [\"x\", \"y\", \"z\"]\n[force]\ndriver = \"lab/box:x=1\"\naxes = [\"x\", \"y\", \"z\"]\nlatency_ms = 4.0# box\n[sensor]\ndriver = \"lab/camera\"";
+    const MEASURED: RigLatencies = RigLatencies {
+        robot_ms: Some(6.5),
+        force_ms: 0.0,
+        sensor_ms: 38.2,
+    };
+
+    fn late(after_robot_ms: f64) -> Latency {
+        Latency {
+            after_robot_ms,
+            error_ms: 0.5,
+            spread_ms: 1.0,
+        }
+    }
+
+    fn with(text: &str, latencies: &RigLatencies) -> Option<String> {
+        let rig = RigFile::parse("lab.toml", text).expect("a rig");
+        rig.with_latencies(latencies)
+    }
+
+    #[test]
+    fn latencies_stand_in_their_tables_and_everything_else_stays_as_it_is_written() {
+        let expected = TEXT
+            .replace("# the old one\n", "# the old one\nlatency_ms = 6.5\n")
+            .replace("4.0# box", "0.0# box")
+            + "\nlatency_ms = 38.2";
+        let written = with(TEXT, &MEASURED).expect("three tables");
+        assert_eq!(written, expected);
+        // Once more changes nothing, and a robot that keeps its latency is not touched.
+        assert_eq!(with(&written, &MEASURED), Some(written.clone()));
+        let kept = RigLatencies {
+            robot_ms: None,
+            ..MEASURED
+        };
+        assert!(!with(TEXT, &kept).expect("two tables").contains("6.5"));
+        let windows = TEXT.replace('\n', "\r\n");
+        let written = with(&windows, &MEASURED).expect("three tables");
+        assert!(
+            written.contains("# the old one\r\nlatency_ms = 6.5\r\n"),
+            "{written:?}"
+        );
+    }
+
+    #[test]
+    fn tables_that_take_no_line_behind_their_driver_are_left_alone() {
+        let inline = TEXT.replace(
+            "[sensor]\ndriver = \"lab/camera\"",
+            "sensor = { driver = \"lab/camera\" }",
+        );
+        let inline = inline.replace("rig_version = 1\n", "rig_version = 1\n#\n");
+        // In TOML it would belong to [force] there.
+        let moved = inline.replace("sensor = { driver = \"lab/camera\" }", "");
+        let moved = moved.replace("#\n", "sensor = { driver = \"lab/camera\" }\n");
+        assert_eq!(with(&moved, &MEASURED), None);
+        let alone = TEXT.split("[sensor]").next().expect("text before it");
+        assert_eq!(with(alone, &MEASURED), None);
+    }
+
+    #[test]
+    fn the_earliest_device_has_no_latency_and_noise_makes_none() {
+        let [force, sensor] = [late(4.04), late(33.0)];
+        let measured = RigLatencies::measured([0.0, 0.0, 5.0], &force, &sensor);
+        assert_eq!((measured.robot_ms, measured.force_ms), (None, 4.0));
+        assert!((measured.sensor_ms - 38.0).abs() < 1e-9);
+        // Below 0 by less than it errs.
+        let measured = RigLatencies::measured([2.0, 0.0, 0.0], &late(-0.3), &sensor);
+        assert_eq!((measured.robot_ms, measured.force_ms), (None, 0.0));
+        // The robot says it later than the transducer.
+        let measured = RigLatencies::measured([2.0, 0.0, 0.0], &late(-6.0), &sensor);
+        assert_eq!((measured.robot_ms, measured.force_ms), (Some(8.0), 0.0));
+        assert!((measured.sensor_ms - 39.0).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,358 @@
+//! From what was heard of taps to the latency of each device.
+
+use super::heard::{Said, TapHeard};
+
+/// Above the gel by this much nothing is touched yet, in mm: what was said before is what is said in the air.
+const AIR_MM: f64 = 0.1;
+/// The last part of a tap, in s: the tip rests in the gel, and every device shows it.
+const REST_S: f64 = 0.2;
+/// Readings, frames or poses of a stretch, at least.
+const LEAST: usize = 3;
+/// Half of the change is the edge; before it nothing reaches that, and at rest everything is far above it.
+const EDGE: f64 = 0.5;
+const AT_REST: f64 = 0.75;
+/// Poses so near both ends of the way are left out, in mm: there the arm speeds up or slows down.
+const END_MM: f64 = 0.05;
+/// Fast taps are at least so many times as fast as slow ones, or a way and a latency cannot be told apart.
+const LEAST_RATIO: f64 = 1.5;
+/// Standard deviations of one tap within which 95 of 100 lie.
+const WITHIN: f64 = 2.0;
+
+/// What was heard of taps at one place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tapped {
+    contact_mm: f64,
+    reference_mm: f64,
+    taps: Vec<TapHeard>,
+}
+
+/// By how much later than the robot a device says what was true at one moment.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[non_exhaustive]
+pub struct Latency {
+    /// In ms, by the stamps as they are corrected already; below 0 where the robot says it later.
+    pub after_robot_ms: f64,
+    /// Two standard errors of that, in ms.
+    pub error_ms: f64,
+    /// Two standard deviations of a single tap, in ms.
+    pub spread_ms: f64,
+}
+
+/// Why taps say no latency.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum TapError {
+    /// A device of which too little was heard.
+    #[error(
+        "tap {tap}: {count} {what} were heard {stretch}, expected at least {LEAST}: see with taceva rig check how often the {device} speaks"
+    )]
+    Few {
+        /// Which tap, from 1.
+        tap: usize,
+        /// `robot`, `force` or `sensor`.
+        device: &'static str,
+        /// What it says.
+        what: &'static str,
+        /// In which part of the tap.
+        stretch: &'static str,
+        /// How many there were.
+        count: usize,
+    },
+    /// A device that does not show the tap, or not the same way from its edge on.
+    #[error(
+        "tap {tap}: the {device} does not show it clearly: in the air its signal varies by {in_air:.2} of its change, expected below {EDGE}; see what it is fixed to, its light or its noise"
+    )]
+    Unclear {
+        /// Which tap, from 1.
+        tap: usize,
+        /// `force` or `sensor`.
+        device: &'static str,
+        /// The greatest signal in the air, as a part of the change.
+        in_air: f64,
+    },
+    /// A device whose signal still changes when the tip has long come to rest.
+    #[error(
+        "tap {tap}: the {device} still changes after the tip has rested for a third of a second: it is later than a tap can show, or the gel creeps"
+    )]
+    Late {
+        /// Which tap, from 1.
+        tap: usize,
+        /// `force` or `sensor`.
+        device: &'static str,
+    },
+    /// A robot that does not go at the speeds that it is sent with.
+    #[error(
+        "the fast taps are {ratio:.2} times as fast as the slow ones, expected 3: a way cannot be told from a latency; see whether the controller limits its speed"
+    )]
+    OneSpeed {
+        /// The greatest speed divided by the least.
+        ratio: f64,
+    },
+    /// Taps that contradict each other.
+    #[error(
+        "the latency of the {device} is spread over {spread_ms:.1} ms from tap to tap, expected at most half a frame, {allowed_ms:.1} ms: leave network and machine to it, start by chrt -f 10, and see that nothing shakes the rig"
+    )]
+    Spread {
+        /// `force` or `sensor`.
+        device: &'static str,
+        /// Two standard deviations of a tap, in ms.
+        spread_ms: f64,
+        /// The most that is allowed, in ms.
+        allowed_ms: f64,
+    },
+}
+
+/// Where the tip was in one tap, by a straight line through its poses.
+#[derive(Clone, Copy, Debug)]
+struct Passage {
+    /// When it passed the reference, in s.
+    at_s: f64,
+    speed_mm_s: f64,
+}
+
+impl Tapped {
+    /// Taps that have not been made yet, on a gel that begins at `contact_mm`; the moment of each is that at which the tip passes `reference_mm`.
+    pub(super) fn new(contact_mm: f64, reference_mm: f64) -> Tapped {
+        Tapped {
+            contact_mm,
+            reference_mm,
+            taps: Vec::new(),
+        }
+    }
+
+    pub(super) fn add(&mut self, heard: TapHeard) {
+        self.taps.push(heard);
+    }
+
+    /// How many taps there are.
+    pub fn count(&self) -> usize {
+        self.taps.len()
+    }
+
+    /// The latencies of the transducer and of the sensor.
+    ///
+    /// Of each tap the difference of two moments is taken: a device shows half of its change, and the tip passes one height. Over all taps it is
+    /// L + δ/v, a straight line in the reciprocal of the speed v: L is the latency, δ how far below that height the half is shown.
+    ///
+    /// # Errors
+    /// [`TapError`]: what is missing, unclear or contradicts itself.
+    pub fn latencies(&self) -> Result<(Latency, Latency), TapError> {
+        let mut passages = Vec::new();
+        for (place, heard) in self.taps.iter().enumerate() {
+            passages.push(self.passage(place + 1, heard)?);
+        }
+        let speeds = || passages.iter().map(|passage| passage.speed_mm_s);
+        let ratio = speeds().fold(0.0, f64::max) / speeds().fold(f64::INFINITY, f64::min);
+        if ratio.is_nan() || ratio < LEAST_RATIO {
+            return Err(TapError::OneSpeed { ratio });
+        }
+        let of = |device, what, said: fn(&TapHeard) -> &Said| {
+            let mut late = Vec::new();
+            for (place, (heard, passage)) in self.taps.iter().zip(&passages).enumerate() {
+                let listened = Listened {
+                    tap: place + 1,
+                    device,
+                    what,
+                };
+                let air_s = passage.at_s
+                    - (self.reference_mm - self.contact_mm + AIR_MM) / passage.speed_mm_s;
+                let edge_s = listened.edge_s(said(heard), air_s)?;
+                late.push((1.0 / passage.speed_mm_s, edge_s - passage.at_s));
+            }
+            Ok(intercept(&late))
+        };
+        let force = of("force", "readings", |heard| &heard.forces)?;
+        let sensor = of("sensor", "frames", |heard| &heard.frames)?;
+        let allowed_ms = self.frame_period_s() / 2.0 * 1e3;
+        for (device, latency) in [("force", force), ("sensor", sensor)] {
+            // What is no number is no agreement either.
+            if latency.spread_ms.is_nan() || latency.spread_ms > allowed_ms {
+                return Err(TapError::Spread {
+                    device,
+                    spread_ms: latency.spread_ms,
+                    allowed_ms,
+                });
+            }
+        }
+        Ok((force, sensor))
+    }
+
+    fn passage(&self, tap: usize, heard: &TapHeard) -> Result<Passage, TapError> {
+        let deepest = heard.heights.iter().map(|(_, height_mm)| *height_mm);
+        let highest_mm = deepest.clone().fold(f64::INFINITY, f64::min);
+        let deepest_mm = deepest.fold(f64::NEG_INFINITY, f64::max);
+        let inside = highest_mm + END_MM..deepest_mm - END_MM;
+        let under_way: Vec<(f64, f64)> = heard
+            .heights
+            .iter()
+            .filter(|(_, height_mm)| inside.contains(height_mm))
+            .map(|(at_s, height_mm)| (height_mm - self.reference_mm, *at_s))
+            .collect();
+        if under_way.len() < LEAST {
+            return Err(TapError::Few {
+                tap,
+                device: "robot",
+                what: "poses",
+                stretch: "on the way into the gel",
+                count: under_way.len(),
+            });
+        }
+        let line = Line::through(&under_way);
+        Ok(Passage {
+            at_s: line.at_zero,
+            speed_mm_s: 1.0 / line.slope,
+        })
+    }
+
+    /// The time from one frame to the next that half of them need, in s.
+    fn frame_period_s(&self) -> f64 {
+        let between = |heard: &TapHeard| -> Vec<f64> {
+            let pairs = heard.frames.windows(2);
+            pairs.map(|pair| pair[1].0 - pair[0].0).collect()
+        };
+        let mut periods: Vec<f64> = self.taps.iter().flat_map(between).collect();
+        periods.sort_by(f64::total_cmp);
+        periods.get(periods.len() / 2).copied().unwrap_or(0.0)
+    }
+}
+
+/// One device in one tap.
+struct Listened {
+    tap: usize,
+    device: &'static str,
+    what: &'static str,
+}
+
+impl Listened {
+    /// When half of the change was shown, in s: nothing is touched before `air_s`.
+    fn edge_s(&self, said: &Said, air_s: f64) -> Result<f64, TapError> {
+        let Listened { tap, device, what } = *self;
+        let end_s = said.last().map_or(0.0, |(at_s, _)| *at_s);
+        let few = |stretch, count| TapError::Few {
+            tap,
+            device,
+            what,
+            stretch,
+            count,
+        };
+        let stretch = |from_s: f64, to_s: f64| -> Vec<&[f64]> {
+            let inside = said
+                .iter()
+                .filter(|(at_s, _)| (from_s..to_s).contains(at_s));
+            inside.map(|(_, numbers)| numbers.as_slice()).collect()
+        };
+        let in_air = stretch(f64::NEG_INFINITY, air_s);
+        let at_rest = stretch(end_s - REST_S, f64::INFINITY);
+        if in_air.len() < LEAST {
+            return Err(few("in the air before the contact", in_air.len()));
+        }
+        if at_rest.len() < LEAST {
+            return Err(few("while the tip rested in the gel", at_rest.len()));
+        }
+        let (air, rest) = (mean(&in_air), mean(&at_rest));
+        let change: Vec<f64> = rest
+            .iter()
+            .zip(&air)
+            .map(|(rest, air)| rest - air)
+            .collect();
+        let whole: f64 = change.iter().map(|change| change * change).sum();
+        // How much of the change is shown: 0 in the air, 1 at rest, whatever else the numbers do.
+        let shown = |numbers: &[f64]| -> f64 {
+            let apart = numbers.iter().zip(&air).map(|(number, air)| number - air);
+            apart
+                .zip(&change)
+                .map(|(apart, change)| apart * change)
+                .sum::<f64>()
+                / whole
+        };
+        let greatest = in_air.iter().map(|numbers| shown(numbers).abs());
+        let in_air = greatest.fold(0.0, f64::max);
+        // Nothing that changed makes it no number.
+        if whole <= 0.0 || in_air.is_nan() || in_air >= EDGE {
+            return Err(TapError::Unclear {
+                tap,
+                device,
+                in_air: if whole > 0.0 { in_air } else { f64::INFINITY },
+            });
+        }
+        if at_rest.iter().any(|numbers| shown(numbers) < AT_REST) {
+            return Err(TapError::Late { tap, device });
+        }
+        let mut before = (0.0, 0.0);
+        for (at_s, numbers) in said {
+            let now = shown(numbers);
+            if now >= EDGE {
+                let part = (EDGE - before.1) / (now - before.1);
+                return Ok(before.0 + part * (at_s - before.0));
+            }
+            before = (*at_s, now);
+        }
+        Err(TapError::Late { tap, device })
+    }
+}
+
+/// The mean of each number.
+fn mean(rows: &[&[f64]]) -> Vec<f64> {
+    let mut sums = vec![0.0; rows.first().map_or(0, |row| row.len())];
+    let mut count = 0.0_f64;
+    for row in rows {
+        count += 1.0;
+        for (sum, number) in sums.iter_mut().zip(*row) {
+            *sum += number;
+        }
+    }
+    sums.into_iter().map(|sum| sum / count.max(1.0)).collect()
+}
+
+/// A straight line by least squares.
+struct Line {
+    at_zero: f64,
+    slope: f64,
+    /// The standard deviation of a point from it, and the standard error of `at_zero`.
+    deviation: f64,
+    error: f64,
+}
+
+impl Line {
+    fn through(points: &[(f64, f64)]) -> Line {
+        let mut count = 0.0_f64;
+        let (mut sum_x, mut sum_y) = (0.0, 0.0);
+        for (x, y) in points {
+            count += 1.0;
+            sum_x += x;
+            sum_y += y;
+        }
+        let (mean_x, mean_y) = (sum_x / count, sum_y / count);
+        let (mut squares, mut products) = (0.0, 0.0);
+        for (x, y) in points {
+            squares += (x - mean_x).powi(2);
+            products += (x - mean_x) * (y - mean_y);
+        }
+        let slope = products / squares;
+        let at_zero = mean_y - slope * mean_x;
+        let beside = points
+            .iter()
+            .map(|(x, y)| (y - at_zero - slope * x).powi(2));
+        let deviation = (beside.sum::<f64>() / (count - 2.0)).sqrt();
+        let error = deviation * (1.0 / count + mean_x * mean_x / squares).sqrt();
+        Line {
+            at_zero,
+            slope,
+            deviation,
+            error,
+        }
+    }
+}
+
+/// What is left of a delay at an infinite speed, in s, by pairs of a reciprocal speed and a delay.
+fn intercept(late: &[(f64, f64)]) -> Latency {
+    let line = Line::through(late);
+    Latency {
+        after_robot_ms: line.at_zero * 1e3,
+        error_ms: WITHIN * line.error * 1e3,
+        spread_ms: WITHIN * line.deviation * 1e3,
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,59 @@
+//! What is heard of every device during one tap.
+
+use taceva_core::{Frame, Pose, Stamp, Wrench};
+
+use crate::run::begin::picture::means;
+
+/// What was heard of every device from before a tap to the rest after it, each with the time at which it was true by its stamp.
+///
+/// ```
+/// use taceva_core::{Pose, Stamp};
+/// use taceva_protocol::TapHeard;
+/// let mut heard = TapHeard::default();
+/// heard.pose(&Pose::default(), &Stamp { valid_s: 1.0, received_s: None });
+/// assert_ne!(heard, TapHeard::default());
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TapHeard {
+    /// Heights of the tip, in s and mm.
+    pub(super) heights: Vec<(f64, f64)>,
+    pub(super) forces: Said,
+    pub(super) frames: Said,
+}
+
+/// What one device said, in order: when, and its numbers.
+pub(super) type Said = Vec<(f64, Vec<f64>)>;
+
+impl TapHeard {
+    /// Where the tip was.
+    pub fn pose(&mut self, pose: &Pose, stamp: &Stamp) {
+        let is_news = self
+            .heights
+            .last()
+            .is_none_or(|(last_s, _)| *last_s < stamp.valid_s);
+        if is_news {
+            self.heights.push((stamp.valid_s, pose.position.z.0));
+        }
+    }
+
+    /// What the transducer read.
+    pub fn force(&mut self, wrench: &Wrench, stamp: &Stamp) {
+        let forces = wrench.force.map(|force| force.0).to_vec();
+        add(&mut self.forces, forces, stamp);
+    }
+
+    /// What the sensor showed.
+    pub fn frame(&mut self, frame: &Frame, stamp: &Stamp) {
+        add(&mut self.frames, means(frame), stamp);
+    }
+}
+
+/// Adds what is news: a device may be asked more often than it speaks.
+fn add(said: &mut Said, numbers: Vec<f64>, stamp: &Stamp) {
+    if said
+        .last()
+        .is_none_or(|(last_s, _)| *last_s < stamp.valid_s)
+    {
+        said.push((stamp.valid_s, numbers));
+    }
+}

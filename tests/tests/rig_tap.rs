@@ -1,0 +1,117 @@
+//! `taceva rig tap` over sockets: links that are late by known amounts are found to be, and the rig file says so.
+
+use std::fs;
+use std::process::Output;
+use std::time::Duration;
+
+use serde_json::Value;
+use taceva_tests::wire::{OnTheWire, scene_of};
+use taceva_wire::{BenchOptions, Device, RobotKind, ServeOptions};
+
+const SEED: u64 = 7;
+/// By so much later than they were sent messages arrive, in ms.
+const FORCE_MS: f64 = 20.0;
+const CAMERA_MS: f64 = 60.0;
+/// What is found may be off by so much, in ms: a frame of 25 Hz is drawn and encoded while others compile, and the force is read every 5 ms.
+const FORCE_OFF_MS: f64 = 4.0;
+const CAMERA_OFF_MS: f64 = 15.0;
+/// Times that taps are asked for again where a busy machine scattered them, or read so late that it was refused.
+const PATIENCE: usize = 5;
+
+/// Emulated devices whose links lag.
+fn lagging(robot: RobotKind) -> OnTheWire {
+    let options = ServeOptions {
+        robot,
+        ..ServeOptions::over(BenchOptions::quiet(SEED))
+    };
+    let on = OnTheWire::new(&options, &scene_of(6));
+    let lag = |ms: f64| Duration::from_secs_f64(ms / 1e3);
+    on.served.bench().set_lag(Device::Force, lag(FORCE_MS));
+    on.served.bench().set_lag(Device::Camera, lag(CAMERA_MS));
+    on
+}
+
+fn tap(on: &OnTheWire, options: &[&str]) -> Output {
+    let mut taps = on.taps();
+    taps.args(options).output().expect("the program was built")
+}
+
+/// What the taps said, asked for again where the machine was too busy.
+fn tapped(on: &OnTheWire, options: &[&str]) -> Value {
+    let mut said = String::new();
+    for _ in 0..PATIENCE {
+        let output = tap(on, &[&["--format", "json"], options].concat());
+        if output.status.success() {
+            return serde_json::from_slice(&output.stdout).expect("JSON");
+        }
+        said = String::from_utf8_lossy(&output.stderr).into_owned();
+        let is_busy = ["is spread over", "ms late", "ms old", "heard"];
+        assert!(is_busy.iter().any(|words| said.contains(words)), "{said}");
+    }
+    panic!("{said}");
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().expect("a number")
+}
+
+#[test]
+#[expect(clippy::print_stderr, reason = "what is found is the result")]
+fn links_that_lag_by_known_amounts_are_found_to_and_the_rig_file_says_so() {
+    let on = lagging(RobotKind::Xarm);
+    let path = on.folder().join("rig.toml");
+    let before = fs::read_to_string(&path).expect("written");
+    let shown = tapped(&on, &["--dry-run"]);
+    assert_eq!(shown["schema"], "taceva.rig-tap/1");
+    assert_eq!(fs::read_to_string(&path).expect("there"), before);
+    let shown = tapped(&on, &[]);
+    eprintln!("{shown}");
+    let robot_ms = shown["latencies"]["robot_ms"].as_f64().unwrap_or(0.0);
+    let force_ms = number(&shown["latencies"]["force_ms"]) - robot_ms;
+    let camera_ms = number(&shown["latencies"]["sensor_ms"]) - robot_ms;
+    assert!((force_ms - FORCE_MS).abs() < FORCE_OFF_MS, "{shown}");
+    assert!((camera_ms - CAMERA_MS).abs() < CAMERA_OFF_MS, "{shown}");
+    let after = fs::read_to_string(&path).expect("there");
+    let (_, force) = after.split_once("[force]").expect("a transducer");
+    let line = force
+        .lines()
+        .find_map(|line| line.strip_prefix("latency_ms = "));
+    let written_ms: f64 = line.expect("it is written").parse().expect("a number");
+    assert!((written_ms - robot_ms - force_ms).abs() < 1e-9, "{after}");
+    // The comment of the first line, and every line but the two, are as they were.
+    let changed = before.lines().zip(after.lines());
+    let changed = changed.filter(|(before, after)| before != after).count();
+    assert!(
+        after.starts_with("# Everything here is simulated") && changed == 2,
+        "{after}"
+    );
+    // Tapped again, nothing is left: stamps are corrected by what is written.
+    let again = tapped(&on, &["--dry-run"]);
+    let left_ms = number(&again["force"]["after_robot_ms"]);
+    assert!(left_ms.abs() < FORCE_OFF_MS, "{again}");
+    // The arm stands above the gel, which was pressed by less than half of what is allowed.
+    let truth = on.served.bench().truth();
+    assert!(
+        truth.tip_mm[2] < -0.9 && truth.deepest_mm < 0.5,
+        "{truth:?}"
+    );
+}
+
+#[test]
+fn a_rig_without_limits_is_not_tapped_and_says_which_are_missing() {
+    let on = lagging(RobotKind::Xarm);
+    let path = on.folder().join("rig.toml");
+    let text = fs::read_to_string(&path).expect("written");
+    let without: String = text
+        .lines()
+        .filter(|line| !line.contains("_max_mm =") && !line.starts_with("Fz_max"))
+        .map(|line| format!("{line}\n"))
+        .collect();
+    fs::write(&path, &without).expect("written");
+    let output = tap(&on, &[]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    assert!(said.contains("Pz_max_mm"), "{said}");
+    assert_eq!(fs::read_to_string(&path).expect("there"), without);
+    assert!(on.served.bench().truth().way_mm < 1e-9, "nothing moved");
+}
