@@ -1,27 +1,17 @@
 //! Foreign text where it cannot do harm: names of sensors, ids of samples and reasons may hold anything.
 
+use maud::html;
 use taceva_core::is_obeyed;
 
-/// Text that HTML and SVG print as it stands, in elements and in quoted attributes; what they cannot print is shown as `U+FFFD`.
-///
-/// ```
-/// assert_eq!(taceva_report::escape_html("<b \"x\">&'\u{0}"), "&lt;b &quot;x&quot;&gt;&amp;&#39;\u{fffd}");
-/// ```
-pub fn html(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for letter in text.chars() {
-        match letter {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '"' => escaped.push_str("&quot;"),
-            '\'' => escaped.push_str("&#39;"),
-            '\n' | '\t' => escaped.push(letter),
-            _ if is_obeyed(letter) => escaped.push('\u{fffd}'),
-            _ => escaped.push(letter),
-        }
-    }
-    escaped
+/// Text that SVG prints as it stands, in elements and in quoted attributes; what it cannot print is shown as `U+FFFD`.
+pub(crate) fn svg(text: &str) -> String {
+    html! { (obeyed_replaced(text)) }.into_string()
+}
+
+/// `U+FFFD` in place of every letter that a reader's program obeys instead of showing it, but for ends of lines and tabs.
+pub(crate) fn obeyed_replaced(text: &str) -> String {
+    let is_replaced = |letter| is_obeyed(letter) && !matches!(letter, '\n' | '\t');
+    text.replace(is_replaced, "\u{fffd}")
 }
 
 /// Text that LaTeX prints as it stands.

@@ -10,6 +10,7 @@ mod left_out;
 mod methods;
 mod picks;
 mod pictures;
+mod pieces;
 mod place;
 mod provenance;
 mod published;
@@ -20,17 +21,19 @@ mod tables;
 mod themes;
 mod triple;
 
-pub use document::Document;
-pub(crate) use figures::one as figure;
+pub(crate) use document::Document;
+pub(crate) use figures::radars;
 pub(crate) use fold::{counted, fold};
 pub(crate) use glossary::{folded_glossary, glossary, metric_link, score_link};
 pub use picks::{Pick, picks};
 pub use pictures::Picture;
+pub(crate) use pieces::{filter, heads, right_heads, scroll, terms};
 pub(crate) use summary::{QUESTIONS, badge, lead};
 pub use triple::Triple;
 pub(crate) use triple::cards as triples;
 
-use crate::escape::html;
+use maud::{Markup, html};
+
 use crate::figures::figures as all_figures;
 use crate::results::Study;
 use crate::scores::ScoreTable;
@@ -54,78 +57,56 @@ pub struct Report<'a> {
 /// digests it names. The same results give the same bytes.
 pub fn report(report: &Report<'_>) -> String {
     let studies = report.studies;
-    let mut document = Document::new(report.title);
     if studies.is_empty() {
-        document.section(
-            "summary",
-            "Summary",
-            "<p>There is no sensor in these results.</p>",
-        );
+        let mut document = Document::new(report.title, Markup::default());
+        let nothing = html! { p { "There is no sensor in these results." } };
+        document.section("summary", "Summary", nothing);
         return document.finish();
     }
     let table = ScoreTable::of(studies);
     let figures = all_figures(studies);
-    document.lead(badge(studies));
-    let summary = format!(
-        "<p class=\"studied\">{}</p>\n{}{}",
-        html(&studied::studied(studies)),
-        triples(studies, report.triples),
-        summary::section(studies, &table)
-    );
-    document.section("summary", "Summary", &summary);
+    let mut document = Document::new(report.title, badge(studies));
+    let summary = html! {
+        p.studied { (studied::studied(studies)) } "\n"
+        (triples(studies, report.triples))
+        (summary::section(studies, &table))
+    };
+    document.section("summary", "Summary", summary);
     if let Some(section) = glance::section(&table, &figures) {
-        document.section("glance", "At a glance", &section);
+        document.section("glance", "At a glance", section);
     }
-    document.section(
-        "themes",
-        "Scores and figures",
-        &themes::section(&table, &figures),
-    );
+    let themes = themes::section(&table, &figures);
+    document.section("themes", "Scores and figures", themes);
     if let Some((count, section)) = published::section(studies) {
-        let holds = fold::counted(count, "number");
         let title = "Scores beside published ones of the same sensor";
-        let section = fold("published-all", title, &holds, &section);
-        document.section("published", "Published", &section);
+        let section = fold("published-all", title, &counted(count, "number"), &section);
+        document.section("published", "Published", section);
     }
     if let Some((count, section)) = seeds::section(studies) {
-        let holds = fold::counted(count, "score");
         let title = "Scores over the seeds of the training";
-        let section = fold("seeds-all", title, &holds, &section);
-        document.section("seeds", "Seeds", &section);
+        let section = fold("seeds-all", title, &counted(count, "score"), &section);
+        document.section("seeds", "Seeds", section);
     }
     if let Some((count, section)) = pictures::section(report) {
-        let holds = fold::counted(count, "sample");
-        let section = fold(
-            "samples-all",
-            "The samples predicted worst and best",
-            &holds,
-            &section,
-        );
-        document.section("samples", "Samples", &section);
+        let title = "The samples predicted worst and best";
+        let section = fold("samples-all", title, &counted(count, "sample"), &section);
+        document.section("samples", "Samples", section);
     }
-    document.section("methods", "Methods", &methods::section(studies, &table));
-    document.section("details", "Details", &details(studies, &table));
+    document.section("methods", "Methods", methods::section(studies, &table));
+    document.section("details", "Details", details(studies, &table));
     document.finish()
 }
 
 /// Details: meanings of metrics, skipped scores, and provenance.
-fn details(studies: &[Study], table: &ScoreTable) -> String {
+fn details(studies: &[Study], table: &ScoreTable) -> Markup {
     let named = table.rows.iter().map(|row| row.metric.as_str());
     let (count, left_out) = left_out::section(studies);
-    [
-        folded_glossary(named),
-        fold(
-            "left-out",
-            "Skipped scores and remarks",
-            &fold::counted(count, "entry").replace("entrys", "entries"),
-            &left_out,
-        ),
-        fold(
-            "provenance",
-            "Provenance",
-            "digests, settings, seeds, and methods of intervals",
-            &provenance::section(studies, table),
-        ),
-    ]
-    .concat()
+    let entries = counted(count, "entry").replace("entrys", "entries");
+    let provenance = provenance::section(studies, table);
+    let holds = "digests, settings, seeds, and methods of intervals";
+    html! {
+        (folded_glossary(named))
+        (fold("left-out", "Skipped scores and remarks", &entries, &left_out))
+        (fold("provenance", "Provenance", holds, &provenance))
+    }
 }

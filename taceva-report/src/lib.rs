@@ -32,12 +32,12 @@ pub use compare::{
     OVERVIEW_WIDTH, compare, ties,
 };
 pub use escape::{
-    csv as escape_csv, from_csv as unescape_csv, html as escape_html, latex as escape_latex,
+    csv as escape_csv, from_csv as unescape_csv, latex as escape_latex,
     markdown as escape_markdown, terminal as escape_terminal,
 };
 pub use figure::{DARK, Figure, LIGHT, SERIES, STYLE};
 pub use figures::{Race, RacePoint, decode_bench, figures, model_bench, names, race};
-pub use html::{Document, Pick, Picture, Report, Triple, picks, report};
+pub use html::{Pick, Picture, Report, Triple, picks, report};
 pub use number::{FormattedValue, spaced, with_interval};
 pub use results::{
     BENCH_SCHEMA, BenchMachine, BenchRecording, ChannelError, DecodeBench, DecodeRow,

@@ -316,7 +316,7 @@ fn methods_say_how_it_was_done_and_nothing_that_is_not_known() {
         "We evaluated 2 vision-based tactile sensors (one and two) with TacEva 0.1.0.",
         "none was measured on hardware",
         "Intervals are of 95 % (jackknife by point_id)",
-        "Holm&#39;s method",
+        "Holm's method",
         "the model one for one",
     ] {
         assert!(text.contains(part), "{part}: {text}");

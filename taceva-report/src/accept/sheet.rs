@@ -1,11 +1,11 @@
 //! The data sheet of a sensor unit: limits, what was found, pass or fail, on one page.
 
+use maud::{Markup, html};
 use serde_json::json;
 use taceva_metrics::Better;
 
 use super::{Finding, Limit};
-use crate::escape::html;
-use crate::html::{Document, Triple, badge, glossary, triples};
+use crate::html::{Document, Triple, badge, glossary, terms, triples};
 use crate::number::numeral;
 use crate::results::Study;
 use crate::samples::SampleChannel;
@@ -95,40 +95,33 @@ impl Acceptance<'_> {
 
     /// As a data sheet of one page.
     pub fn page(&self) -> String {
-        let study = self.study;
-        let mut document = Document::new(&format!("Data sheet: {}", study.sensor));
-        document.lead(&format!(
-            "{}{}",
-            badge(std::slice::from_ref(study)),
-            self.verdict()
-        ));
+        let studies = std::slice::from_ref(self.study);
+        let lead = html! { (badge(studies)) (self.verdict()) };
+        let mut document = Document::new(&format!("Data sheet: {}", self.study.sensor), lead);
         let pictures = self.pictures.map(std::slice::from_ref).unwrap_or_default();
-        let unit = format!(
-            "{}{}",
-            self.unit(),
-            triples(std::slice::from_ref(study), pictures)
-        );
-        document.section("unit", "Unit", &unit);
-        document.section("limits", "Limits", &self.table().html_with_links());
+        let unit = html! { (self.unit()) (triples(studies, pictures)) };
+        document.section("unit", "Unit", unit);
+        document.section("limits", "Limits", self.table().html_with_links());
         let named = self
             .findings
             .iter()
             .map(|finding| finding.limit.metric.as_str());
-        document.section("sheet-glossary", "What the metrics mean", &glossary(named));
+        document.section("sheet-glossary", "What the metrics mean", glossary(named));
         document.finish()
     }
 
-    fn verdict(&self) -> String {
-        let all = self.findings.len();
+    fn verdict(&self) -> Markup {
         let broken = self.findings.iter().filter(|finding| !finding.is_kept);
-        match broken.count() {
-            0 => "<p class=\"pass\">PASS: every limit is kept.</p>".to_owned(),
-            broken => format!("<p class=\"fail\">FAIL: {broken} of {all} limits are not kept.</p>"),
+        html! {
+            @match broken.count() {
+                0 => p.pass { "PASS: every limit is kept." },
+                broken => p.fail { "FAIL: " (broken) " of " (self.findings.len()) " limits are not kept." },
+            }
         }
     }
 
     /// The tested unit and the date.
-    fn unit(&self) -> String {
+    fn unit(&self) -> Markup {
         let study = self.study;
         let mut entries = vec![
             ("sensor", study.sensor.clone()),
@@ -154,10 +147,7 @@ impl Acceptance<'_> {
                 .map(|model| ("model", model.clone())),
         );
         entries.extend(known.map(|(name, text)| (name.as_str(), short_digests(text))));
-        let entries = entries
-            .iter()
-            .map(|(name, text)| format!("<dt>{}</dt><dd>{}</dd>", html(name), html(text)));
-        format!("<dl class=\"two\">{}</dl>\n", entries.collect::<String>())
+        html! { dl.two { (terms(entries)) } "\n" }
     }
 }
 

@@ -1,9 +1,9 @@
 //! Choices as rows, as JSON and as a page.
 
+use maud::html;
 use serde_json::json;
 
 use super::{Candidate, Choice, Dropped, Step};
-use crate::escape::html;
 use crate::figures::listed;
 use crate::html::Document;
 use crate::number::{fixed, numeral};
@@ -166,13 +166,13 @@ impl Choice {
 
     /// As a page.
     pub fn page(&self, needs: &str) -> String {
-        let mut document = Document::new("Which sensor?");
-        document.lead(&format!("<p class=\"lead\">Needs: {}</p>", html(needs)));
-        let answer = format!("<p><strong>{}.</strong></p>", html(&self.headline()));
-        document.section("answer", "Answer", &answer);
+        let lead = html! { p.lead { "Needs: " (needs) } };
+        let mut document = Document::new("Which sensor?", lead);
+        let answer = html! { p { strong { (self.headline()) "." } } };
+        document.section("answer", "Answer", answer);
         let mut table = self.table();
         "Every number considered".clone_into(&mut table.caption);
-        document.section("steps", "How sensors were ranked", &table.html());
+        document.section("steps", "How sensors were ranked", table.html());
         document.finish()
     }
 }

@@ -1,68 +1,55 @@
 //! Comparisons as a page.
 
+use maud::{Markup, html};
+
 use super::{Answer, Comparison};
-use crate::escape::html;
 use crate::figures::{figures, listed};
-use crate::html::{Document, counted, figure, fold, folded_glossary, lead, score_link};
+use crate::html::{Document, counted, fold, folded_glossary, lead, radars, score_link};
 use crate::number::{numeral, spaced};
 use crate::results::Study;
 
 impl Comparison {
     /// As a page: what is shown, every answer, and the sensors side by side.
     pub fn page(&self, studies: &[Study]) -> String {
-        let mut document = Document::new("Comparison");
-        document.lead(&lead(studies));
-        let decisions = self.decisions();
-        let lines: String = decisions
-            .iter()
-            .map(|decision| {
-                let of = score_link(&decision.metric, &decision.channel);
-                let asked = match decision.question.as_str() {
-                    "" => format!("<strong>{of}</strong>"),
-                    question => format!("<strong>{}</strong> ({of})", html(question)),
-                };
-                format!("<li>{asked}: {}</li>\n", html(&decision.words))
-            })
-            .collect();
-        let counts = html(&self.summary());
-        let summary = format!("<p>{counts}.</p>\n<ul class=\"verdicts\">\n{lines}</ul>\n");
-        document.section("summary", "Decisions", &summary);
-        document.section("answers", "Every pair", &self.pairs());
-        let radars: String = figures(studies)
-            .iter()
-            .filter(|drawn| drawn.id.starts_with("radar"))
-            .map(figure)
-            .collect();
-        if !radars.is_empty() {
-            let radars = format!("<div class=\"radars\">\n{radars}</div>\n");
-            document.section("figures", "Side by side", &radars);
+        let mut document = Document::new("Comparison", lead(studies));
+        document.section("summary", "Decisions", self.decided());
+        document.section("answers", "Every pair", self.pairs());
+        if let Some(radars) = radars(&figures(studies)) {
+            document.section("figures", "Side by side", radars);
         }
         let named = self.answers.iter().map(|answer| answer.metric.as_str());
-        document.section("meanings", "What the metrics mean", &folded_glossary(named));
+        document.section("meanings", "What the metrics mean", folded_glossary(named));
         document.finish()
     }
-}
 
-impl Comparison {
+    /// The questions that are asked first, with their answers.
+    fn decided(&self) -> Markup {
+        html! {
+            p { (self.summary()) "." } "\n"
+            ul.verdicts {
+                @for decision in self.decisions() {
+                    @let of = score_link(&decision.metric, &decision.channel);
+                    li {
+                        @if decision.question.is_empty() { strong { (of) } } @else { strong { (decision.question) } " (" (of) ")" }
+                        ": " (decision.words)
+                    } "\n"
+                }
+            } "\n"
+        }
+    }
+
     /// What is shown, score by score, and every answer, both folded.
-    fn pairs(&self) -> String {
-        let lines: String = self.won().iter().map(|won| won.html(&self.names)).collect();
-        let shown = if lines.is_empty() {
-            format!(
-                "<p>No difference is shown between {}.</p>\n",
-                html(&listed(&self.names))
-            )
-        } else {
-            let list = format!("<ul class=\"verdicts\">\n{lines}</ul>");
-            let holds = counted(self.won().len(), "line");
-            fold("shown-all", "All differences that are shown", &holds, &list)
-        };
-        let table = self.table().html_with_links();
-        let holds = counted(self.answers.len(), "answer");
-        format!(
-            "{shown}{}",
-            fold("answers-all", "Every answer", &holds, &table)
-        )
+    fn pairs(&self) -> Markup {
+        let (won, table) = (self.won(), self.table().html_with_links());
+        let shown = html! { ul.verdicts { @for won in &won { (won.html(&self.names)) } } };
+        html! {
+            @if won.is_empty() {
+                p { "No difference is shown between " (listed(&self.names)) "." } "\n"
+            } @else {
+                (fold("shown-all", "All differences that are shown", &counted(won.len(), "line"), &shown))
+            }
+            (fold("answers-all", "Every answer", &counted(self.answers.len(), "answer"), &table))
+        }
     }
 
     /// What is shown, score by score: who is better, and than whom.
@@ -97,7 +84,7 @@ struct Won<'a> {
 
 impl Won<'_> {
     /// `mae Fz: MagicTac is better than ViTacTip (0.092 and 0.17 N) and GelSight (0.092 and 0.3 N)`.
-    fn html(&self, names: &[String]) -> String {
+    fn html(&self, names: &[String]) -> Markup {
         let of = self.answers[0];
         let than = |answer: &&Answer| {
             let (loser, [own, other]) = match answer.sides.a == self.winner {
@@ -111,11 +98,8 @@ impl Won<'_> {
             format!("{}{scores}", names[loser])
         };
         let others: Vec<String> = self.answers.iter().map(than).collect();
-        format!(
-            "<li>{}: <strong>{}</strong> is better than {}</li>\n",
-            score_link(&of.metric, &of.channel),
-            html(&names[self.winner]),
-            html(&listed(&others))
-        )
+        html! {
+            li { (score_link(&of.metric, &of.channel)) ": " strong { (names[self.winner]) } " is better than " (listed(&others)) } "\n"
+        }
     }
 }

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::Figure;
 use super::canvas::{Anchor, Ink, Label, Mark, Points, Stroke};
 use super::palette::LIGHT;
-use crate::escape::html;
+use crate::escape;
 
 /// The style of figures: what a page or a figure that stands alone must hold, beside the values of its variables.
 pub const STYLE: &str = "\
@@ -20,7 +20,7 @@ svg path,svg polyline{fill:none;stroke-linejoin:round;stroke-linecap:round}svg p
 pub(super) fn write(figure: &Figure, alone: bool) -> String {
     let canvas = &figure.canvas;
     let (width, height) = (canvas.width, canvas.height);
-    let id = html(&figure.id);
+    let id = escape::svg(&figure.id);
     let mut out = String::new();
     let namespace = if alone {
         " xmlns=\"http://www.w3.org/2000/svg\""
@@ -32,8 +32,8 @@ pub(super) fn write(figure: &Figure, alone: bool) -> String {
         format_args!(
             "<svg{namespace} viewBox=\"0 0 {width:.0} {height:.0}\" role=\"img\" aria-labelledby=\"t-{id} d-{id}\">\
              <title id=\"t-{id}\">{}</title><desc id=\"d-{id}\">{}</desc>",
-            html(&figure.title),
-            html(&figure.description)
+            escape::svg(&figure.title),
+            escape::svg(&figure.description)
         ),
     );
     if alone {
@@ -134,9 +134,9 @@ fn close(words: &str, element: &str, alone: bool, out: &mut String) {
         (true, _) => out.push_str("/>"),
         (false, true) => push(
             out,
-            format_args!("><title>{}</title></{element}>", html(words)),
+            format_args!("><title>{}</title></{element}>", escape::svg(words)),
         ),
-        (false, false) => push(out, format_args!(" data-t=\"{}\"/>", html(words))),
+        (false, false) => push(out, format_args!(" data-t=\"{}\"/>", escape::svg(words))),
     }
 }
 
@@ -161,7 +161,7 @@ fn text(label: &Label, out: &mut String) {
         format_args!(
             "<text {place} text-anchor=\"{anchor}\" font-size=\"{}\"{paint}>{}</text>",
             label.size,
-            html(&label.text)
+            escape::svg(&label.text)
         ),
     );
 }

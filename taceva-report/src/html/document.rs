@@ -1,96 +1,86 @@
 //! The frame of every page: style, script, policy, navigation, sections.
 
+use maud::{DOCTYPE, Markup, PreEscaped, html};
 use sha2::{Digest, Sha256};
 
 use super::base64::base64;
-use crate::escape::html;
+use crate::escape;
 use crate::figure::{DARK, LIGHT, STYLE};
 
 const PAGE_STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
 
 /// A page that is being put together.
-#[derive(Clone, Debug)]
-pub struct Document {
+pub(crate) struct Document {
     title: String,
-    lead: String,
+    lead: Markup,
     sections: Vec<Section>,
 }
 
-#[derive(Clone, Debug)]
 struct Section {
-    id: String,
-    title: String,
-    body: String,
+    id: &'static str,
+    title: &'static str,
+    body: Markup,
 }
 
 impl Document {
-    /// A page without a section; `title` is plain text.
-    pub fn new(title: &str) -> Document {
+    /// A page without a section; `lead` stands below the title.
+    pub(crate) fn new(title: &str, lead: Markup) -> Document {
         Document {
             title: title.to_owned(),
-            lead: String::new(),
+            lead,
             sections: Vec::new(),
         }
     }
 
-    /// What stands below the title, as HTML.
-    pub fn lead(&mut self, body: &str) {
-        body.clone_into(&mut self.lead);
+    /// Adds a section; `id` is a word.
+    pub(crate) fn section(&mut self, id: &'static str, title: &'static str, body: Markup) {
+        self.sections.push(Section { id, title, body });
     }
 
-    /// Adds a section; `id` is a word, `title` plain text, `body` HTML.
-    pub fn section(&mut self, id: &str, title: &str, body: &str) {
-        self.sections.push(Section {
-            id: id.to_owned(),
-            title: title.to_owned(),
-            body: body.to_owned(),
-        });
-    }
-
-    /// The page as a file.
-    pub fn finish(&self) -> String {
+    /// The page as a file. Letters of foreign text that nobody sees, or that turn the direction of what follows, are replaced here, so that no
+    /// piece of a page can leave it out.
+    pub(crate) fn finish(self) -> String {
         let style = style();
         let policy = format!(
             "default-src 'none'; style-src 'sha256-{}'; script-src 'sha256-{}'; img-src data:; base-uri 'none'; form-action 'none'",
             digest(&style),
             digest(SCRIPT)
         );
-        let title = html(&self.title);
-        let mut out = format!(
-            "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-             <meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\n\
-             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-             <meta name=\"color-scheme\" content=\"light dark\">\n\
-             <meta name=\"referrer\" content=\"no-referrer\">\n\
-             <link rel=\"icon\" href=\"data:,\">\n\
-             <title>{title} · TacEva</title>\n<style>{style}</style>\n</head>\n<body>\n\
-             <a class=\"skip\" href=\"#main\">Skip to the results</a>\n\
-             <header><p class=\"mark\">TacEva</p><h1>{title}</h1>{}</header>\n",
-            self.lead
-        );
-        out += "<nav aria-label=\"Sections\"><ul>";
-        for section in &self.sections {
-            out += &format!(
-                "<li><a href=\"#{}\">{}</a></li>",
-                section.id,
-                html(&section.title)
-            );
-        }
-        out += "</ul></nav>\n<main id=\"main\">\n";
-        for section in &self.sections {
-            let Section { id, title, body } = section;
-            out += &format!(
-                "<section id=\"{id}\" aria-labelledby=\"h-{id}\">\n<h2 id=\"h-{id}\">{}</h2>\n{body}\n</section>\n",
-                html(title)
-            );
-        }
-        out += &format!(
-            "</main>\n<footer>Made by TacEva {}. This page is one file: it needs no network and sends nothing.</footer>\n\
-             <div id=\"tip\" role=\"status\" aria-live=\"polite\" hidden></div>\n<script>{SCRIPT}</script>\n</body>\n</html>\n",
-            env!("CARGO_PKG_VERSION")
-        );
-        out
+        let page = html! {
+            (DOCTYPE) "\n"
+            html lang="en" {
+                head {
+                    meta charset="utf-8"; "\n"
+                    meta http-equiv="Content-Security-Policy" content=(policy); "\n"
+                    meta name="viewport" content="width=device-width, initial-scale=1";
+                    meta name="color-scheme" content="light dark";
+                    meta name="referrer" content="no-referrer";
+                    link rel="icon" href="data:,"; "\n"
+                    title { (self.title) " · TacEva" } "\n"
+                    // Browsers read style and script as they stand, and the policy names their digests: both are constants, which nothing foreign enters.
+                    style { (PreEscaped(style)) } "\n"
+                }
+                body {
+                    a.skip href="#main" { "Skip to the results" } "\n"
+                    header { p.mark { "TacEva" } h1 { (self.title) } (self.lead) } "\n"
+                    nav aria-label="Sections" {
+                        ul { @for section in &self.sections { li { a href={ "#" (section.id) } { (section.title) } } } }
+                    } "\n"
+                    main id="main" {
+                        @for Section { id, title, body } in &self.sections {
+                            section id=(id) aria-labelledby={ "h-" (id) } { h2 id={ "h-" (id) } { (title) } "\n" (body) } "\n"
+                        }
+                    } "\n"
+                    footer {
+                        "Made by TacEva " (env!("CARGO_PKG_VERSION")) ". This page is one file: it needs no network and sends nothing."
+                    } "\n"
+                    div #tip role="status" aria-live="polite" hidden {}
+                    script { (PreEscaped(SCRIPT)) }
+                }
+            } "\n"
+        };
+        escape::obeyed_replaced(&page.into_string())
     }
 }
 
@@ -111,4 +101,16 @@ fn style() -> String {
 
 fn digest(text: &str) -> String {
     base64(&Sha256::digest(text.as_bytes()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn style_and_script_have_nothing_that_a_page_replaces() {
+        for text in [style(), SCRIPT.to_owned()] {
+            assert_eq!(escape::obeyed_replaced(&text), text);
+        }
+    }
 }

@@ -1,14 +1,15 @@
 //! What is folded until a reader asks for it; paper shows all of it.
 
-use crate::escape::html;
+use maud::{Markup, html};
 
-/// `body` behind `title`, with what it holds in a few words; `id` is a word, `body` HTML.
-pub(crate) fn fold(id: &str, title: &str, holds: &str, body: &str) -> String {
-    format!(
-        "<details class=\"fold\" id=\"{id}\"><summary><span class=\"title\">{}</span> <span class=\"holds\">{}</span></summary>\n{body}\n</details>\n",
-        html(title),
-        html(holds)
-    )
+/// `body` behind `title`, with what it holds in a few words; `id` is a word.
+pub(crate) fn fold(id: &str, title: &str, holds: &str, body: &Markup) -> Markup {
+    html! {
+        details.fold #(id) {
+            summary { span.title { (title) } " " span.holds { (holds) } } "\n"
+            (body)
+        } "\n"
+    }
 }
 
 /// `1 figure`, `3 figures`.

@@ -2,56 +2,55 @@
 
 use std::collections::BTreeSet;
 
+use maud::{Markup, html};
 use taceva_metrics::{Better, Metric, ScoreUnit, catalogue};
 
 use super::fold::fold;
-use crate::escape::html;
 
 /// The metrics that are named in `ids`, in the order of the catalogue: title, meaning, unit, direction and where each is defined. Names of
 /// variants stand for their metric.
-pub(crate) fn glossary<'a>(ids: impl Iterator<Item = &'a str>) -> String {
+pub(crate) fn glossary<'a>(ids: impl Iterator<Item = &'a str>) -> Markup {
     let named: BTreeSet<&str> = ids.map(base).collect();
-    let metrics = catalogue::ALL.iter();
-    let entries: String = metrics
-        .filter(|metric| named.contains(metric.id))
-        .map(|metric| entry(metric))
-        .collect();
-    match entries.is_empty() {
-        true => "<p>No metric of these results is in the catalogue.</p>".to_owned(),
-        false => format!("<dl class=\"glossary\">{entries}</dl>"),
+    let metrics = catalogue::ALL.iter().copied();
+    let metrics: Vec<&Metric> = metrics.filter(|metric| named.contains(metric.id)).collect();
+    html! {
+        @if metrics.is_empty() {
+            p { "No metric of these results is in the catalogue." }
+        } @else {
+            dl.glossary { @for metric in metrics { (entry(metric)) } }
+        }
     }
 }
 
 /// The same, folded; a link to a metric unfolds it.
-pub(crate) fn folded_glossary<'a>(ids: impl Iterator<Item = &'a str>) -> String {
+pub(crate) fn folded_glossary<'a>(ids: impl Iterator<Item = &'a str>) -> Markup {
     let holds = "what each metric means, its unit and its definition";
     fold("glossary", "Glossary", holds, &glossary(ids))
 }
 
 /// The name of a metric or variant as a link to what the metric means, with the sign of its direction; plain where the catalogue does not
 /// know it.
-pub(crate) fn metric_link(id: &str) -> String {
-    signed(id, &link(id))
+pub(crate) fn metric_link(id: &str) -> Markup {
+    html! { (link(id)) (sign(id)) }
 }
 
 /// A score with its metric as a link: `mae Pz ↓`.
-pub(crate) fn score_link(id: &str, channel: &str) -> String {
-    signed(id, &format!("{} {}", link(id), html(channel)))
+pub(crate) fn score_link(id: &str, channel: &str) -> Markup {
+    html! { (link(id)) " " (channel) (sign(id)) }
 }
 
-fn signed(id: &str, body: &str) -> String {
-    Better::of(id).map_or_else(|| body.to_owned(), |better| better.beside(body))
+/// ` ↓`, or nothing where the catalogue knows no direction.
+fn sign(id: &str) -> String {
+    Better::of(id).map_or_else(String::new, |better| better.beside(""))
 }
 
-fn link(id: &str) -> String {
-    match catalogue::find(base(id)) {
-        Some(metric) => format!(
-            "<a class=\"metric\" href=\"#metric-{}\" title=\"{}\">{}</a>",
-            metric.id,
-            html(metric.title),
-            html(id)
-        ),
-        None => html(id),
+fn link(id: &str) -> Markup {
+    html! {
+        @if let Some(metric) = catalogue::find(base(id)) {
+            a.metric href={ "#metric-" (metric.id) } title=(metric.title) { (id) }
+        } @else {
+            (id)
+        }
     }
 }
 
@@ -60,7 +59,7 @@ fn base(id: &str) -> &str {
     id.split('.').next().unwrap_or_default()
 }
 
-fn entry(metric: &Metric) -> String {
+fn entry(metric: &Metric) -> Markup {
     let unit = match metric.unit {
         ScoreUnit::OfChannel => "that of each channel, such as mm or N".to_owned(),
         ScoreUnit::PerHour => "that of each channel an hour, such as mm/h or N/h".to_owned(),
@@ -73,16 +72,13 @@ fn entry(metric: &Metric) -> String {
         Better::NearZero => "nearer to zero is better (→0)",
         _ => "descriptive, neither good nor bad by itself",
     };
-    format!(
-        "<dt id=\"metric-{}\" tabindex=\"-1\">{} <code>{}</code></dt><dd>{} Unit: {}; {better}. Definition <code>{}</code>: {}.</dd>",
-        metric.id,
-        html(metric.title),
-        metric.id,
-        html(metric.documentation),
-        html(&unit),
-        html(metric.definition),
-        html(metric.reference)
-    )
+    html! {
+        dt id={ "metric-" (metric.id) } tabindex="-1" { (metric.title) " " code { (metric.id) } }
+        dd {
+            (metric.documentation) " Unit: " (unit) "; " (better) ". "
+            "Definition " code { (metric.definition) } ": " (metric.reference) "."
+        }
+    }
 }
 
 #[cfg(test)]
@@ -92,12 +88,12 @@ mod tests {
     #[test]
     fn every_link_of_a_metric_meets_its_entry() {
         let ids = catalogue::ALL.iter().map(|metric| metric.id);
-        let text = glossary(ids.clone());
+        let text = glossary(ids.clone()).into_string();
         for id in ids {
-            let link = metric_link(&format!("{id}.some-variant"));
+            let link = metric_link(&format!("{id}.some-variant")).into_string();
             assert!(link.contains(&format!("href=\"#metric-{id}\"")), "{link}");
             assert!(text.contains(&format!("id=\"metric-{id}\"")), "{id}");
         }
-        assert_eq!(metric_link("<own>"), "&lt;own&gt;");
+        assert_eq!(metric_link("<own>").into_string(), "&lt;own&gt;");
     }
 }

@@ -1,21 +1,19 @@
 //! Skipped scores and remarks.
 
-use crate::escape::html;
+use maud::{Markup, html};
+
+use super::pieces::{heads, scroll};
 use crate::figures::names;
 use crate::results::Study;
 
 /// The rows of what was left out, and how many there are.
-pub(super) fn section(studies: &[Study]) -> (usize, String) {
-    let (mut count, mut rows) = (0, String::new());
+pub(super) fn section(studies: &[Study]) -> (usize, Markup) {
+    let mut rows: Vec<Markup> = Vec::new();
     for (study, name) in studies.iter().zip(names(studies)) {
-        let name = html(&name);
         let mut row = |kind: &str, what: &str, why: &str| {
-            count += 1;
-            rows += &format!(
-                "<tr><th scope=\"row\">{name}</th><td>{kind}</td><td class=\"wrap\">{}</td><td class=\"wrap long\">{}</td></tr>\n",
-                html(what),
-                html(why)
-            );
+            rows.push(html! {
+                tr { th scope="row" { (name) } td { (kind) } td.wrap { (what) } td.wrap.long { (why) } } "\n"
+            });
         };
         for skip in &study.skipped {
             row("skipped", &skip.what, &skip.reason);
@@ -34,13 +32,14 @@ pub(super) fn section(studies: &[Study]) -> (usize, String) {
         }
     }
     if rows.is_empty() {
-        let nothing =
-            "<p>Nothing was skipped, every score has a value, and no remark was made.</p>";
-        return (0, nothing.to_owned());
+        let nothing = "Nothing was skipped, every score has a value, and no remark was made.";
+        return (0, html! { p { (nothing) } });
     }
-    let table = format!(
-        "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"What was left out\"><table class=\"sorts\"><thead><tr><th scope=\"col\">sensor</th><th scope=\"col\">kind</th>\
-         <th scope=\"col\">what</th><th scope=\"col\">why</th></tr></thead><tbody>\n{rows}</tbody></table></div>"
-    );
-    (count, table)
+    let table = html! {
+        table.sorts {
+            thead { tr { (heads(["sensor", "kind", "what", "why"])) } }
+            tbody { @for row in &rows { (row) } }
+        }
+    };
+    (rows.len(), scroll("What was left out", &table))
 }

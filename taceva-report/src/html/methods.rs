@@ -4,9 +4,11 @@ mod statistics;
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use maud::{Markup, html};
+
 use super::fold::counted;
+use super::pieces::{heads, scroll};
 use super::studied::{points, span, whole};
-use crate::escape::html;
 use crate::figures::{listed, names};
 use crate::results::Study;
 use crate::scores::ScoreTable;
@@ -16,34 +18,21 @@ use crate::short_digests::short_digests;
 const STUDY: &str = "@article{taceva-study,\n  author  = {Cong and others},\n  title   = {{TacEva}},\n  journal = {Advanced Intelligent Systems},\n  year    = {2026},\n  doi     = {10.1002/aisy.202501179}\n}";
 
 /// The paragraph and the entries, each with a button that copies it, and the sensors in a table.
-pub(super) fn section(studies: &[Study], table: &ScoreTable) -> String {
-    format!(
-        "{}{}\n{}",
-        copied(
-            "methods-text",
-            "Methods",
-            &format!(
-                "<p id=\"methods-text\">{}</p>",
-                html(&paragraph(studies, table))
-            )
-        ),
-        copied(
-            "bibtex-text",
-            "BibTeX",
-            &format!(
-                "<pre id=\"bibtex-text\" tabindex=\"0\">{}</pre>",
-                html(&bibtex(studies))
-            )
-        ),
-        sensors(studies)
-    )
+pub(super) fn section(studies: &[Study], table: &ScoreTable) -> Markup {
+    let paragraph = html! { p id="methods-text" { (paragraph(studies, table)) } };
+    let entries = html! { pre id="bibtex-text" tabindex="0" { (bibtex(studies)) } };
+    html! {
+        (copied("methods-text", "Methods", &paragraph))
+        (copied("bibtex-text", "BibTeX", &entries))
+        (sensors(studies))
+    }
 }
 
 /// A text with a button that copies it; the page's script shows the button.
-fn copied(id: &str, what: &str, body: &str) -> String {
-    format!(
-        "<div class=\"copied\"><button type=\"button\" class=\"act\" data-copy=\"{id}\" hidden>Copy {what}</button>\n{body}</div>\n"
-    )
+fn copied(id: &str, what: &str, body: &Markup) -> Markup {
+    html! {
+        div.copied { button.act type="button" data-copy=(id) hidden { "Copy " (what) } "\n" (body) } "\n"
+    }
 }
 
 /// What was done, in sentences that a paper can take over; plain text.
@@ -261,22 +250,25 @@ fn plain(text: &str) -> String {
 }
 
 /// The sensors in a table.
-fn sensors(studies: &[Study]) -> String {
-    let mut out = String::from(
-        "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"Sensors\"><table><caption>Sensors</caption><thead><tr><th scope=\"col\">sensor</th><th scope=\"col\">serial</th>\
-         <th scope=\"col\">gel</th><th scope=\"col\">samples</th><th scope=\"col\">model</th><th scope=\"col\">split</th></tr></thead><tbody>\n",
-    );
-    for (study, name) in studies.iter().zip(names(studies)) {
-        let split = study.provenance.iter().find(|(name, _)| name == "split");
-        out += &format!(
-            "<tr><th scope=\"row\">{}</th><td class=\"wrap\">{}</td><td class=\"wrap\">{}</td><td>{}</td><td class=\"wrap\">{}</td><td class=\"wrap\">{}</td></tr>\n",
-            html(&name),
-            html(&study.serial),
-            html(&short_digests(&study.gel)),
-            html(&study.source),
-            html(study.made.model.as_deref().unwrap_or("–")),
-            html(split.map_or("–", |(_, split)| split))
-        );
-    }
-    out + "</tbody></table></div>\n"
+fn sensors(studies: &[Study]) -> Markup {
+    let split = |study: &Study| {
+        let mut known = study.provenance.iter();
+        let split = known.find(|(name, _)| name == "split");
+        split.map_or_else(|| "–".to_owned(), |(_, split)| split.clone())
+    };
+    let table = html! {
+        table {
+            caption { "Sensors" }
+            thead { tr { (heads(["sensor", "serial", "gel", "samples", "model", "split"])) } }
+            tbody {
+                @for (study, name) in studies.iter().zip(names(studies)) {
+                    tr {
+                        th scope="row" { (name) } td.wrap { (study.serial) } td.wrap { (short_digests(&study.gel)) } td { (study.source) }
+                        td.wrap { (study.made.model.as_deref().unwrap_or("–")) } td.wrap { (split(study)) }
+                    } "\n"
+                }
+            }
+        }
+    };
+    scroll("Sensors", &table)
 }

@@ -2,11 +2,13 @@
 
 use std::collections::BTreeMap;
 
+use maud::{Markup, html};
+
 use super::Report;
-use super::base64::base64;
+use super::base64::address;
 use super::picks::{Pick, picks};
+use super::pieces::{filter, heads};
 use super::place::Place;
-use crate::escape::html;
 use crate::figure::{middle_cut, short};
 use crate::figures::names;
 use crate::number::{numeral, spaced};
@@ -26,40 +28,38 @@ pub struct Picture {
 }
 
 /// A card a sample, and how many there are.
-pub(super) fn section(report: &Report<'_>) -> Option<(usize, String)> {
+pub(super) fn section(report: &Report<'_>) -> Option<(usize, Markup)> {
     let pictures: BTreeMap<(usize, &str), &Picture> = report
         .pictures
         .iter()
         .map(|picture| ((picture.study, picture.id.as_str()), picture))
         .collect();
     let names = names(report.studies);
-    let (mut count, mut cards) = (0, String::new());
+    let mut cards: Vec<Markup> = Vec::new();
     for (at, study) in report.studies.iter().enumerate() {
         let (Some(samples), picks) = (&study.samples, picks(study)) else {
             continue;
         };
         let place = Place::of(samples, &picks, at);
-        count += picks.len();
-        for pick in picks {
+        cards.extend(picks.iter().map(|pick| {
             let picture = pictures.get(&(at, pick.id.as_str())).copied();
-            cards += &card(samples, &pick, (at, &names[at]), (picture, place.as_ref()));
-        }
+            card(samples, pick, (at, &names[at]), (picture, place.as_ref()))
+        }));
     }
-    if cards.is_empty() {
-        return None;
-    }
-    let options = names.iter().enumerate();
-    let options = options.fold(String::new(), |all, (at, name)| {
-        all + &format!("<option value=\"s{at}\">{}</option>", html(name))
-    });
-    let body = format!(
-        "<p class=\"note\">Of the samples that the model has not seen, those with the greatest and the smallest error, each of another contact point. The error is the mean over channels of |true − predicted| as a part of the range of the true values. \
-         The circle is the same for all samples of a sensor; in it the true place (ring) and the predicted one (dot), with the shear force as a line from each.</p>\n\
-         <fieldset><legend>Show</legend><label>sensor <select data-filter=\"tag\"><option value=\"\">all</option>{options}</select></label>\
-         <label>samples <select data-filter=\"tag\"><option value=\"\">worst and best</option><option value=\"worst\">worst</option><option value=\"best\">best</option></select></label></fieldset>\n\
-         <ul class=\"cards\">\n{cards}</ul>"
-    );
-    Some((count, body))
+    let sensors = names.iter().enumerate();
+    let sensors = sensors.map(|(at, name)| (format!("s{at}"), name));
+    let body = html! {
+        p.note {
+            "Of the samples that the model has not seen, those with the greatest and the smallest error, each of another contact point. The error is the mean over channels of |true − predicted| as a part of the range of the true values. "
+            "The circle is the same for all samples of a sensor; in it the true place (ring) and the predicted one (dot), with the shear force as a line from each."
+        } "\n"
+        fieldset {
+            legend { "Show" } (filter("sensor", "all", sensors))
+            (filter("samples", "worst and best", ["worst", "best"].map(|kind| (kind, kind))))
+        } "\n"
+        ul.cards { @for card in &cards { (card) } }
+    };
+    (!cards.is_empty()).then_some((cards.len(), body))
 }
 
 fn card(
@@ -67,40 +67,33 @@ fn card(
     pick: &Pick,
     (at, name): (usize, &str),
     (picture, place): (Option<&Picture>, Option<&Place>),
-) -> String {
+) -> Markup {
     let kind = if pick.is_worst { "worst" } else { "best" };
-    let point = samples.word("point_id", pick.row);
-    let point = point.map_or_else(String::new, |point| {
-        format!(", point {}", middle_cut(point, 10))
-    });
-    let mut out = format!(
-        "<li class=\"card\" data-tags=\"s{at} {kind}\"><h3>{}: {kind}</h3><p class=\"error\">error {} % of the range</p><p>sample {}{}</p>",
-        html(&short(name, 30)),
-        numeral(pick.error * 100.0),
-        html(&middle_cut(&pick.id, 14)),
-        html(&point)
-    );
-    if let Some(picture) = picture {
-        out += &format!(
-            "<img alt=\"picture of sample {}\" src=\"data:{};base64,{}\">",
-            html(&middle_cut(&pick.id, 40)),
-            picture.media_type,
-            base64(&picture.bytes)
-        );
+    html! {
+        li.card data-tags={ "s" (at) " " (kind) } {
+            h3 { (short(name, 30)) ": " (kind) }
+            p.error { "error " (numeral(pick.error * 100.0)) " % of the range" }
+            p {
+                "sample " (middle_cut(&pick.id, 14))
+                @if let Some(point) = samples.word("point_id", pick.row) { ", point " (middle_cut(point, 10)) }
+            }
+            @if let Some(picture) = picture {
+                img alt={ "picture of sample " (middle_cut(&pick.id, 40)) } src=(address(picture.media_type, &picture.bytes));
+            }
+            @if let Some(place) = place { (place.draw(samples, pick)) }
+            table {
+                thead { tr { (heads(["channel", "true", "predicted", "error"])) } }
+                tbody {
+                    @for channel in samples.channels().iter().take(9) {
+                        @if let Some([truth, prediction]) = channel.pair(pick.row) {
+                            tr {
+                                th scope="row" { (short(&channel.name, 16)) (spaced(channel.unit())) }
+                                td { (numeral(truth)) } td { (numeral(prediction)) } td { (numeral(truth - prediction)) }
+                            }
+                        }
+                    }
+                }
+            }
+        } "\n"
     }
-    out += &place.map_or_else(String::new, |place| place.draw(samples, pick));
-    out += "<table><thead><tr><th scope=\"col\">channel</th><th scope=\"col\">true</th><th scope=\"col\">predicted</th><th scope=\"col\">error</th></tr></thead><tbody>";
-    for channel in samples.channels().iter().take(9) {
-        if let Some([truth, prediction]) = channel.pair(pick.row) {
-            out += &format!(
-                "<tr><th scope=\"row\">{}{}</th><td>{}</td><td>{}</td><td>{}</td></tr>",
-                html(&short(&channel.name, 16)),
-                spaced(channel.unit()),
-                numeral(truth),
-                numeral(prediction),
-                numeral(truth - prediction)
-            );
-        }
-    }
-    out + "</tbody></table></li>\n"
 }

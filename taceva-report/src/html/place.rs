@@ -1,5 +1,8 @@
 //! Truth and prediction of a sample seen from above, in one circle a sensor.
 
+use maud::Markup;
+
+use super::figures::drawing;
 use super::picks::Pick;
 use crate::figure::{Anchor, Canvas, Figure, Ink, Label, Points, Stroke};
 use crate::figures::SIX;
@@ -44,12 +47,12 @@ impl Place {
     }
 
     /// The circle with both places; nothing where one is not known.
-    pub(super) fn draw(&self, samples: &Samples, pick: &Pick) -> String {
+    pub(super) fn draw(&self, samples: &Samples, pick: &Pick) -> Markup {
         let pair = |name: &str| samples.channel(name)?.pair(pick.row);
         let (Some([true_x, predicted_x]), Some([true_y, predicted_y])) =
             (pair(SIX[0]), pair(SIX[1]))
         else {
-            return String::new();
+            return Markup::default();
         };
         let middle = SIZE / 2.0;
         let mut canvas = Canvas::new(SIZE, SIZE);
@@ -103,7 +106,7 @@ impl Place {
             ),
             canvas,
         };
-        figure.inline()
+        drawing(&figure)
     }
 }
 

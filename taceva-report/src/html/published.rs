@@ -1,14 +1,16 @@
 //! Scores beside what was published of the same sensor, where both are defined alike.
 
+use maud::{Markup, html};
+
 use super::glossary::metric_link;
+use super::pieces::{heads, right_heads, scroll};
 use crate::catalogue::find;
-use crate::escape::html;
 use crate::number::{minus, spaced, with_interval};
 use crate::results::Study;
 
 /// The number of published values, and their table; `None` where no value of these sensors was published under the same definition.
-pub(super) fn section(studies: &[Study]) -> Option<(usize, String)> {
-    let (mut count, mut rows) = (0, String::new());
+pub(super) fn section(studies: &[Study]) -> Option<(usize, Markup)> {
+    let mut rows: Vec<Markup> = Vec::new();
     for study in studies.iter().filter(|study| study.source != "published") {
         let Some(sensor) = find(&study.sensor) else {
             continue;
@@ -19,27 +21,26 @@ pub(super) fn section(studies: &[Study]) -> Option<(usize, String)> {
             let Some(published) = alike.filter(|_| score.value.number().is_some()) else {
                 continue;
             };
-            count += 1;
-            let source = sensor.source(&published.source);
-            rows += &format!(
-                "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td class=\"r\">{}</td><td class=\"r\">{}{}</td><td class=\"wrap long\">{}: {}</td></tr>\n",
-                html(&study.sensor),
-                metric_link(&score.metric),
-                html(&score.channel),
-                minus(&html(&with_interval(score))),
-                minus(&published.value.to_string()),
-                spaced(score.unit),
-                html(source.map_or("", |source| &source.text)),
-                html(&published.conditions),
-            );
+            let source = sensor
+                .source(&published.source)
+                .map_or("", |source| &source.text);
+            rows.push(html! {
+                tr {
+                    th scope="row" { (study.sensor) } td { (metric_link(&score.metric)) } td { (score.channel) }
+                    td.r { (minus(&with_interval(score))) }
+                    td.r { (minus(&published.value.to_string())) (spaced(score.unit)) }
+                    td.wrap.long { (source) ": " (published.conditions) }
+                } "\n"
+            });
         }
     }
-    (!rows.is_empty()).then(|| {
-        let table = format!(
-            "<p class=\"note\">Published numbers are of real sensors and other presses; they stand here where metric, channel, unit and definition are the same, and take part in no verdict.</p>\n\
-             <div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"Beside published values\"><table class=\"sorts\"><thead><tr><th scope=\"col\">sensor</th><th scope=\"col\">metric</th>\
-             <th scope=\"col\">channel</th><th scope=\"col\" class=\"r\">here</th><th scope=\"col\" class=\"r\">published</th><th scope=\"col\">source and conditions</th></tr></thead><tbody>\n{rows}</tbody></table></div>"
-        );
-        (count, table)
-    })
+    let note = "Published numbers are of real sensors and other presses; they stand here where metric, channel, unit and definition are the same, and take part in no verdict.";
+    let table = html! {
+        table.sorts {
+            thead { tr { (heads(["sensor", "metric", "channel"])) (right_heads(["here", "published"])) (heads(["source and conditions"])) } }
+            tbody { @for row in &rows { (row) } }
+        }
+    };
+    let body = html! { p.note { (note) } "\n" (scroll("Beside published values", &table)) };
+    (!rows.is_empty()).then_some((rows.len(), body))
 }

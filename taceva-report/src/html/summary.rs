@@ -1,8 +1,9 @@
 //! The results in words.
 
+use maud::{Markup, html};
+
 use super::glossary::score_link;
 use crate::compare::Answer;
-use crate::escape::html;
 use crate::figures::{listed, names};
 use crate::light;
 use crate::number::{minus, spaced};
@@ -12,24 +13,19 @@ use crate::spread;
 use crate::tie::{best, tie};
 
 /// The subtitle.
-pub(crate) fn lead(studies: &[Study]) -> String {
-    let names = names(studies);
-    format!(
-        "<p class=\"lead\">{}</p>{}",
-        html(&listed(&names)),
-        badge(studies)
-    )
+pub(crate) fn lead(studies: &[Study]) -> Markup {
+    html! { p.lead { (listed(&names(studies))) } (badge(studies)) }
 }
 
 /// Whether anything was measured at all; nothing where everything was.
-pub(crate) fn badge(studies: &[Study]) -> &'static str {
+pub(crate) fn badge(studies: &[Study]) -> Markup {
     let simulated = studies.iter().filter(|study| study.is_simulated()).count();
-    if simulated == studies.len() {
-        "<p class=\"badge\">Nothing here was measured: the samples are simulated.</p>"
-    } else if simulated > 0 {
-        "<p class=\"badge\">Not everything here was measured: some of the samples are simulated.</p>"
-    } else {
-        ""
+    html! {
+        @if simulated == studies.len() {
+            p.badge { "Nothing here was measured: the samples are simulated." }
+        } @else if simulated > 0 {
+            p.badge { "Not everything here was measured: some of the samples are simulated." }
+        }
     }
 }
 
@@ -48,61 +44,54 @@ pub(crate) const QUESTIONS: [(&str, &str, &str); 11] = [
     ("hysteresis", "Fz", "Hysteresis"),
 ];
 
-pub(super) fn section(studies: &[Study], table: &ScoreTable) -> String {
-    let mut out = String::from("<ul class=\"verdicts\">\n");
-    let mut answered = 0;
-    for (metric, channel, question) in QUESTIONS {
-        let row = table
-            .rows
-            .iter()
-            .find(|row| row.metric == metric && row.channel == channel);
-        if let Some(words) = row.and_then(|row| answer(studies, table, row)) {
-            out += &format!(
-                "<li><strong>{question}</strong> ({}): {words}</li>\n",
-                score_link(metric, channel)
-            );
-            answered += 1;
-        }
+pub(super) fn section(studies: &[Study], table: &ScoreTable) -> Markup {
+    let asked = QUESTIONS
+        .into_iter()
+        .filter_map(|(metric, channel, question)| {
+            let mut rows = table.rows.iter();
+            let row = rows.find(|row| row.metric == metric && row.channel == channel)?;
+            let words = answer(studies, table, row)?;
+            let of = score_link(metric, channel);
+            Some(html! { li { strong { (question) } " (" (of) "): " (words) } "\n" })
+        });
+    let mut lines: Vec<Markup> = asked.collect();
+    if lines.is_empty() {
+        let headlines = table.headlines();
+        let first = headlines.rows.iter().take(8);
+        lines.extend(first.filter_map(|row| {
+            let words = answer(studies, table, row)?;
+            let of = score_link(&row.metric, &row.channel);
+            Some(html! { li { (of) ": " (words) } "\n" })
+        }));
     }
-    if answered == 0 {
-        for row in table.headlines().rows.iter().take(8) {
-            if let Some(words) = answer(studies, table, row) {
-                let of = score_link(&row.metric, &row.channel);
-                out += &format!("<li>{of}: {words}</li>\n");
-            }
-        }
-    }
-    out + "</ul>\n"
+    html! { ul.verdicts { @for line in &lines { (line) } } "\n" }
 }
 
 /// The verdict, and the effect of light on scores of lighting.
-fn answer(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<String> {
+fn answer(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Markup> {
     let verdict = match studies {
         [_] => alone(row)?,
         _ => verdict(studies, table, row)?,
     };
     let light = light::words(studies, &table.names, &row.metric, &row.channel);
-    Some(match light.is_empty() {
-        true => verdict,
-        false => format!("{verdict} {}", html(&light)),
-    })
+    Some(html! { (verdict) @if !light.is_empty() { " " (light) } })
 }
 
 /// The score of a single sensor.
-fn alone(row: &ScoreRow) -> Option<String> {
+fn alone(row: &ScoreRow) -> Option<Markup> {
     let cell = row.cells.first()?.as_ref()?;
     if cell.value.is_none() {
         let reason = cell.formatted.reason.as_deref()?;
-        return Some(format!("no value ({}).", html(reason)));
+        return Some(html! { "no value (" (reason) ")." });
     }
-    let why = cell.standing.reason();
-    let why = why.map(|why| format!(" It claims nothing: {why}."));
-    let (said, n) = (phrase(cell, row), cell.n);
-    Some(format!("{said}, n = {n}.{}", why.unwrap_or_default()))
+    Some(html! {
+        (phrase(cell, row)) ", n = " (cell.n) "."
+        @if let Some(why) = cell.standing.reason() { " It claims nothing: " (why) "." }
+    })
 }
 
 /// Who is best of several sensors.
-fn verdict(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<String> {
+fn verdict(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Markup> {
     let score = |at: usize| studies.get(at)?.score(&row.metric, &row.channel);
     let known = row.cells.iter().enumerate();
     let known: Vec<Known<'_>> = known
@@ -121,25 +110,16 @@ fn verdict(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Stri
     let known = known.into_iter().filter(|known| known.cell.takes_part());
     let known: Vec<Known<'_>> = known.collect();
     if known.is_empty() && !barred.is_empty() {
-        return Some(format!("no verdict.{barred}"));
+        return Some(html! { "no verdict." (barred) });
     }
     let which: Vec<usize> = known.iter().map(|known| known.at).collect();
-    let spread = html(&spread::words(
-        (studies, &table.names),
-        &which,
-        &row.metric,
-        &row.channel,
-    ));
+    let spread = spread::words((studies, &table.names), &which, &row.metric, &row.channel);
     if let Some(tie) = tie(studies, &table.names, &row.metric, &row.channel) {
         let answers = table.answers.iter();
         let answers = answers.filter(|of| of.metric == row.metric && of.channel == row.channel);
         let answers: Vec<&Answer> = answers.collect();
         let unbeaten = tie.unbeaten(&answers, which, &table.names);
-        return Some(format!(
-            "{}{spread}{}.{beside}",
-            html(&tie.words),
-            html(&unbeaten)
-        ));
+        return Some(html! { (tie.words) (spread) (unbeaten) "." (beside) });
     }
     let (at, _) = best(known.iter().map(|known| (known.at, known.value)), better)?;
     let best = known.iter().find(|known| known.at == at)?;
@@ -155,8 +135,8 @@ fn verdict(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Stri
     } else {
         format!("has the best value, but is not shown to be better than {rivals}")
     };
-    let (name, value) = (html(&table.names[at]), phrase(best.cell, row));
-    Some(format!("{name} {verdict}, with {value}{spread}.{beside}"))
+    let (name, value) = (&table.names[at], phrase(best.cell, row));
+    Some(html! { (name) " " (verdict) ", with " (value) (spread) "." (beside) })
 }
 
 /// A cell that has a value.
@@ -170,7 +150,7 @@ struct Known<'a> {
 fn without(row: &ScoreRow, table: &ScoreTable) -> String {
     let missing = row.cells.iter().zip(&table.names);
     let missing = missing.filter(|(cell, _)| cell.as_ref().is_none_or(|cell| cell.value.is_none()));
-    let missing: Vec<String> = missing.map(|(_, name)| html(name)).collect();
+    let missing: Vec<String> = missing.map(|(_, name)| name.clone()).collect();
     match missing.len() {
         0 => String::new(),
         _ => format!(" No value: {}.", listed(&missing)),
@@ -183,7 +163,7 @@ fn barred(known: &[Known<'_>], table: &ScoreTable) -> String {
     let barred: Vec<String> = barred
         .filter_map(|known| {
             let (name, remark) = (&table.names[known.at], known.cell.remark()?);
-            Some(format!("{} ({})", html(name), html(&remark)))
+            Some(format!("{name} ({remark})"))
         })
         .collect();
     match barred.is_empty() {
@@ -203,24 +183,18 @@ fn rivals(best: usize, known: &[Known<'_>], (table, row): (&ScoreTable, &ScoreRo
     };
     let rivals = known.iter().map(|known| known.at);
     let rivals = rivals.filter(|at| *at != best && !loses(*at));
-    let rivals: Vec<String> = rivals.map(|at| html(&table.names[at])).collect();
+    let rivals: Vec<String> = rivals.map(|at| table.names[at].clone()).collect();
     listed(&rivals)
 }
 
-fn phrase(cell: &ScoreCell, row: &ScoreRow) -> String {
-    let unit = spaced(row.unit);
-    let value = minus(&cell.formatted.value);
-    let value = match &cell.formatted.interval {
-        Some([low, high]) => {
-            let [low, high] = [low, high].map(|end| minus(end));
-            format!(
-                "<span class=\"nb\">{value}{unit}</span> <span class=\"nb\">({low} … {high})</span>"
-            )
+fn phrase(cell: &ScoreCell, row: &ScoreRow) -> Markup {
+    let (value, unit) = (minus(&cell.formatted.value), spaced(row.unit));
+    html! {
+        @if let Some([low, high]) = &cell.formatted.interval {
+            span.nb { (value) (unit) } " " span.nb { "(" (minus(low)) " … " (minus(high)) ")" }
+        } @else {
+            (value) (unit)
         }
-        None => format!("{value}{unit}"),
-    };
-    match cell.remark() {
-        Some(remark) => format!("{value}, {}", html(&remark)),
-        None => value,
+        @if let Some(remark) = cell.remark() { ", " (remark) }
     }
 }

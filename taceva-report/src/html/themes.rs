@@ -1,6 +1,8 @@
 //! Scores and figures that are read together, theme by theme, each folded.
 
-use super::figures::one as figure;
+use maud::{Markup, html};
+
+use super::figures::{is_radar, one as figure};
 use super::fold::{counted, fold};
 use super::tables::table;
 use crate::figure::Figure;
@@ -83,52 +85,48 @@ const THEMES: [Theme; 6] = [
 ];
 
 /// Every score that is no variant and every figure but the radars, theme by theme, and all rows at the end.
-pub(super) fn section(table: &ScoreTable, figures: &[Figure]) -> String {
+pub(super) fn section(table: &ScoreTable, figures: &[Figure]) -> Markup {
     let headlines = table.headlines();
-    let mut out = String::from(
-        "<p class=\"note\">Below each value its 95 % interval and n. Bold: shown to be better than every other sensor that takes part in verdicts, at a level of 5 % after Holm's adjustment over the metric. Columns sort. \
-         Point at a mark of a figure for its value and n, or step through its marks with the arrow keys.</p>\n\
-         <p class=\"screen\"><button type=\"button\" class=\"act\" data-unfold hidden>Unfold everything</button></p>\n",
-    );
-    if table.rows.is_empty() {
-        out += "<p>There is no score in these results.</p>";
-    }
-    if figures.is_empty() {
-        out += "<p>There is nothing to draw: no score has a map or a curve, and there are no samples.</p>";
-    }
     let (mut rows_left, mut figures_left): (Vec<&ScoreRow>, Vec<&Figure>) = (
         headlines.rows.iter().collect(),
         figures.iter().filter(|figure| !is_radar(figure)).collect(),
     );
+    let mut folds = Vec::new();
     for theme in &THEMES {
         let (rows, others) = rows_left.into_iter().partition(|row| theme.has_metric(row));
         let (drawn, others_drawn) = figures_left
             .into_iter()
             .partition(|drawn| theme.has_figure(drawn));
         (rows_left, figures_left) = (others, others_drawn);
-        out += &one((theme.id, theme.title), &headlines.names, &rows, &drawn);
+        folds.extend(one(
+            (theme.id, theme.title),
+            &headlines.names,
+            &rows,
+            &drawn,
+        ));
     }
-    out += &one(
+    folds.extend(one(
         ("other", "Other"),
         &headlines.names,
         &rows_left,
         &figures_left,
-    );
+    ));
     if table.rows.len() > headlines.rows.len() {
         let all: Vec<&ScoreRow> = table.rows.iter().collect();
-        out += &fold(
-            "theme-all",
-            "Every score",
-            &format!("all {} rows: every channel and every variant", all.len()),
-            &self::table("all", "Every score", &table.names, &all),
-        );
+        let holds = format!("all {} rows: every channel and every variant", all.len());
+        let all = self::table("all", "Every score", &table.names, &all);
+        folds.push(fold("theme-all", "Every score", &holds, &all));
     }
-    out
-}
-
-/// Radars are placed in the overview of sensors.
-pub(crate) fn is_radar(figure: &Figure) -> bool {
-    figure.id.starts_with("radar")
+    html! {
+        p.note {
+            "Below each value its 95 % interval and n. Bold: shown to be better than every other sensor that takes part in verdicts, at a level of 5 % after Holm's adjustment over the metric. Columns sort. "
+            "Point at a mark of a figure for its value and n, or step through its marks with the arrow keys."
+        } "\n"
+        p.screen { button.act type="button" data-unfold hidden { "Unfold everything" } } "\n"
+        @if table.rows.is_empty() { p { "There is no score in these results." } }
+        @if figures.is_empty() { p { "There is nothing to draw: no score has a map or a curve, and there are no samples." } }
+        @for fold in &folds { (fold) }
+    }
 }
 
 impl Theme {
@@ -143,23 +141,19 @@ impl Theme {
     }
 }
 
+/// The fold of a theme; `None` where it has neither rows nor figures.
 fn one(
     (id, title): (&str, &str),
     names: &[String],
     rows: &[&ScoreRow],
     figures: &[&Figure],
-) -> String {
-    let mut holds = Vec::new();
-    if !rows.is_empty() {
-        holds.push(counted(rows.len(), "score"));
-    }
-    if !figures.is_empty() {
-        holds.push(counted(figures.len(), "figure"));
-    }
-    if holds.is_empty() {
-        return String::new();
-    }
-    let drawn = figures.iter().map(|drawn| figure(drawn));
-    let body = table(id, title, names, rows) + &drawn.collect::<String>();
-    fold(&format!("theme-{id}"), title, &holds.join(", "), &body)
+) -> Option<Markup> {
+    let holds = [(rows.len(), "score"), (figures.len(), "figure")];
+    let holds = holds.into_iter().filter(|(count, _)| *count > 0);
+    let holds: Vec<String> = holds.map(|(count, what)| counted(count, what)).collect();
+    let body = html! {
+        (table(id, title, names, rows))
+        @for drawn in figures { (figure(drawn)) }
+    };
+    (!holds.is_empty()).then(|| fold(&format!("theme-{id}"), title, &holds.join(", "), &body))
 }

@@ -1,7 +1,8 @@
 //! What a sensor sees: its gel untouched, pressed, and what is different.
 
-use super::base64::base64;
-use crate::escape::html;
+use maud::{Markup, html};
+
+use super::base64::address;
 use crate::figures::names;
 use crate::results::Study;
 
@@ -25,21 +26,17 @@ pub struct Triple {
 }
 
 /// A card a sensor that has pictures; nothing without any.
-pub(crate) fn cards(studies: &[Study], triples: &[Triple]) -> String {
+pub(crate) fn cards(studies: &[Study], triples: &[Triple]) -> Markup {
     let names = names(studies);
     let known = triples
         .iter()
         .filter_map(|triple| Some((names.get(triple.study)?, triple)));
-    let cards: String = known.map(|(name, triple)| triple.card(name)).collect();
-    match cards.is_empty() {
-        true => String::new(),
-        false => format!("<ul class=\"triples\">\n{cards}</ul>\n"),
-    }
+    let cards: Vec<Markup> = known.map(|(name, triple)| triple.card(name)).collect();
+    html! { @if !cards.is_empty() { ul.triples { @for card in &cards { (card) } } "\n" } }
 }
 
 impl Triple {
-    fn card(&self, name: &str) -> String {
-        let name = html(name);
+    fn card(&self, name: &str) -> Markup {
         let gain = match self.gain {
             gain if gain > 1.0 => format!("difference × {gain:.1}"),
             _ => "difference".to_owned(),
@@ -49,17 +46,18 @@ impl Triple {
             (Some(self.pressed.as_slice()), "pressed"),
             (self.difference.as_deref(), gain.as_str()),
         ];
-        let pictures = pictures.into_iter().filter_map(|(bytes, word)| {
-            Some(format!(
-                "<figure><img alt=\"{name}, {word}\" src=\"data:{};base64,{}\"><figcaption>{word}</figcaption></figure>",
-                self.media_type,
-                base64(bytes?)
-            ))
-        });
-        format!(
-            "<li><h3>{name}</h3><div>{}</div><p>{}</p></li>\n",
-            pictures.collect::<String>(),
-            html(&self.words)
-        )
+        html! {
+            li {
+                h3 { (name) }
+                div {
+                    @for (bytes, word) in pictures {
+                        @if let Some(bytes) = bytes {
+                            figure { img alt={ (name) ", " (word) } src=(address(self.media_type, bytes)); figcaption { (word) } }
+                        }
+                    }
+                }
+                p { (self.words) }
+            } "\n"
+        }
     }
 }

@@ -1,8 +1,9 @@
 //! Tables of pages.
 
+use maud::{Markup, html};
+
 use super::{Cell, Column, Direction, Row, Table};
-use crate::escape;
-use crate::html::metric_link;
+use crate::html::{metric_link, scroll};
 
 /// Letters of a cell that is broken into lines on a page.
 const LONG: usize = 28;
@@ -11,82 +12,60 @@ const VERY_LONG: usize = 70;
 
 impl Table {
     /// As a table of a page, that sorts.
-    pub fn html(&self) -> String {
+    pub(crate) fn html(&self) -> Markup {
         self.html_with(|column, row, cell| {
             let better = row.better.filter(|_| column.direction.is_by_row());
-            let words = cell.words().directed(better);
-            escape::html(words.plain())
+            html! { (cell.words().directed(better).plain()) }
         })
     }
 
     /// As a table of a page with a glossary: names of metrics are links to what they mean.
-    pub(crate) fn html_with_links(&self) -> String {
+    pub(crate) fn html_with_links(&self) -> Markup {
         self.html_with(|column, _, cell| match (column.direction, cell) {
             (Direction::OfMetrics, cell) => metric_link(&cell.plain()),
-            (_, Cell::Verdict(is_pass)) => format!(
-                "<span class=\"{}\">{}</span>",
-                if *is_pass { "pass" } else { "fail" },
-                escape::html(&cell.plain())
-            ),
-            (_, cell) => escape::html(&cell.plain()),
+            (_, Cell::Verdict(true)) => html! { span.pass { (cell.plain()) } },
+            (_, Cell::Verdict(false)) => html! { span.fail { (cell.plain()) } },
+            (_, cell) => html! { (cell.plain()) },
         })
     }
 
-    /// A table whose cells are HTML as `written` makes it.
-    fn html_with(&self, written: impl Fn(&Column, &Row, &Cell) -> String) -> String {
-        let caption = escape::html(&self.caption);
-        if self.rows.is_empty() {
-            return format!("<p>{caption}: none.</p>\n{}", self.html_notes());
-        }
-        let mut out = format!(
-            "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"{caption}\"><table class=\"sorts\"><caption>{caption}</caption><thead><tr>"
-        );
-        let classes: Vec<&str> = (0..self.columns.len()).map(|at| self.class(at)).collect();
+    /// A table whose cells are as `written` makes them.
+    fn html_with(&self, written: impl Fn(&Column, &Row, &Cell) -> Markup) -> Markup {
         // A column without any words takes room from the others.
         let has_words = |at: &usize| {
-            self.rows
-                .iter()
-                .any(|row| !row.cells[*at].plain().is_empty())
+            let mut rows = self.rows.iter();
+            rows.any(|row| !row.cells[*at].plain().is_empty())
         };
-        let shown: Vec<usize> = (0..self.columns.len()).filter(has_words).collect();
-        for &at in &shown {
-            let head = self.columns[at].head();
-            out += &format!(
-                "<th scope=\"col\"{}>{}</th>",
-                classes[at],
-                escape::html(head.plain())
-            );
-        }
-        out += "</tr></thead><tbody>\n";
-        for row in &self.rows {
-            out += "<tr>";
-            for &at in &shown {
-                let cell = written(&self.columns[at], row, &row.cells[at]);
-                out += &format!("<td{}>{cell}</td>", classes[at]);
+        let shown = (0..self.columns.len()).filter(has_words);
+        let shown: Vec<_> = shown.map(|at| (at, self.class(at))).collect();
+        let table = html! {
+            table.sorts {
+                caption { (self.caption) }
+                thead { tr { @for (at, class) in &shown { th scope="col" class=[class] { (self.columns[*at].head().plain()) } } } }
+                tbody {
+                    @for row in &self.rows {
+                        tr {
+                            @for (at, class) in &shown { td class=[class] { (written(&self.columns[*at], row, &row.cells[*at])) } }
+                        } "\n"
+                    }
+                }
             }
-            out += "</tr>\n";
+        };
+        html! {
+            @if self.rows.is_empty() { p { (self.caption) ": none." } "\n" } @else { (scroll(&self.caption, &table)) }
+            @for note in &self.notes { p.note { (note.plain()) } "\n" }
         }
-        out + "</tbody></table></div>\n" + &self.html_notes()
     }
 
     /// The class of the cells of a column: on which side they stand, and how they are broken.
-    fn class(&self, column: usize) -> &'static str {
+    fn class(&self, column: usize) -> Option<&'static str> {
         let lengths = self.rows.iter().map(|row| &row.cells[column]);
         let lengths = lengths.map(|cell| cell.plain().chars().count());
         match lengths.max().unwrap_or(0) {
-            _ if self.is_right(column) => " class=\"r\"",
-            letters if letters > VERY_LONG => " class=\"wrap long\"",
-            letters if letters > LONG => " class=\"wrap\"",
-            _ => "",
+            _ if self.is_right(column) => Some("r"),
+            letters if letters > VERY_LONG => Some("wrap long"),
+            letters if letters > LONG => Some("wrap"),
+            _ => None,
         }
-    }
-
-    fn html_notes(&self) -> String {
-        let notes = self.notes.iter();
-        let notes = notes.map(|note| {
-            let words = escape::html(note.plain());
-            format!("<p class=\"note\">{words}</p>\n")
-        });
-        notes.collect()
     }
 }

@@ -1,6 +1,9 @@
 //! What the renderers share.
 
+use maud::Markup;
+
 use super::*;
+use crate::html::Document;
 
 #[test]
 fn every_format_escapes_what_it_would_obey() {
@@ -10,11 +13,10 @@ fn every_format_escapes_what_it_would_obey() {
     assert!(table.csv().contains("'=cmd"));
     assert!(table.markdown().contains("=cmd\\[2J&amp; | 3"));
     assert!(table.latex(Layout::Float).contains("=cmd[2J\\& & 3"));
-    assert!(
-        table
-            .html()
-            .contains("=cmd\u{fffd}[2J&amp;</td><td class=\"r\">3</td>")
-    );
+    let mut page = Document::new("", Markup::default());
+    page.section("table", "Table", table.html());
+    let escaped = "=cmd\u{fffd}[2J&amp;</td><td class=\"r\">3</td>";
+    assert!(page.finish().contains(escaped));
 }
 
 #[test]
@@ -26,7 +28,7 @@ fn people_see_a_sign_and_programs_a_word() {
     for metric in ["mae", "own", "r2"] {
         table.push(["1", metric, "0.5"]);
     }
-    for form in [table.text(), table.markdown(), table.html()] {
+    for form in [table.text(), table.markdown(), table.html().into()] {
         assert!(form.contains("mae ↓") && form.contains("r2 ↑"), "{form}");
         assert!(!form.contains("own ") || !form.contains("own ↓"), "{form}");
     }
