@@ -12,6 +12,7 @@ mod messages;
 pub(crate) mod packed;
 mod parquet;
 mod pictures;
+mod several;
 
 use std::borrow::Cow;
 use std::fmt;
@@ -32,6 +33,7 @@ pub(crate) use files::FileRows;
 pub(crate) use json::JsonRows;
 pub(crate) use messages::topics;
 pub(crate) use pictures::{Picture, Pictures};
+pub(crate) use several::SeveralPictures;
 
 /// A table of any form.
 #[derive(Debug)]
@@ -61,6 +63,8 @@ pub(crate) enum TableForm {
     Arrays {
         format: ArrayFormat,
         rows: Option<String>,
+        /// The file is one row, each array of it a cell.
+        is_whole: bool,
     },
     Parquet,
     /// The messages of a topic of an MCAP recording.
@@ -102,11 +106,14 @@ impl ForeignTable {
                     messages::MessageRows::open(path, topic.as_deref())
                 })?)
             }
-            TableForm::Arrays { format, rows } => {
-                ForeignTable::Columns(ColumnTable::open(path, || {
-                    arrays::ArrayRows::open(path, *format, rows.as_deref())
-                })?)
-            }
+            TableForm::Arrays {
+                format,
+                rows,
+                is_whole,
+            } => ForeignTable::Columns(ColumnTable::open(path, || match is_whole {
+                true => arrays::ArrayRows::whole(path, *format),
+                false => arrays::ArrayRows::open(path, *format, rows.as_deref()),
+            })?),
         })
     }
 

@@ -237,14 +237,18 @@ fn form_of(path: &Path, group: &FileGroup) -> Option<(TableForm, String)> {
         "parquet" => plain(TableForm::Parquet),
         _ => {
             let format = ArrayFormat::of(path)?;
-            let whole = TableForm::Arrays { format, rows: None };
+            let of = |rows| TableForm::Arrays {
+                format,
+                rows,
+                is_whole: false,
+            };
+            let whole = of(None);
             let table = ForeignTable::read(path, &whole).ok()?;
             let Some(rows) = rows_within(&table.names()) else {
                 return plain(whole);
             };
             let extra = format!("rows = {rows:?}");
-            let rows = Some(rows);
-            Some((TableForm::Arrays { format, rows }, extra))
+            Some((of(Some(rows)), extra))
         }
     }
 }

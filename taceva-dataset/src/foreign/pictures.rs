@@ -35,6 +35,11 @@ pub(crate) trait Pictures: fmt::Debug + Send + Sync {
         None
     }
 
+    /// The file that the picture at `index` is in, and its number there.
+    fn origin(&self, index: u64) -> (&Path, u64) {
+        (self.path(), index)
+    }
+
     /// Whether there is a picture at `index`.
     fn check_index(&self, index: u64) -> Result<(), DatasetError> {
         if index < self.count() {

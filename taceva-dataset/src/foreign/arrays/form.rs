@@ -31,7 +31,7 @@ const LEAST_SIDE: u64 = 8;
 
 /// How an array holds pictures, if it seems to.
 pub(super) fn kind_of(file: &ArrayFile, name: &str, info: &ArrayInfo) -> Option<PictureKind> {
-    if info.element == Element::Bytes && info.shape.len() == 1 {
+    if matches!(info.element, Element::Bytes | Element::Text) && info.shape.len() == 1 {
         let first = file.read(name, 0..1).ok()?;
         let ArrayValues::Bytes(all) = first.values else {
             return None;
@@ -64,9 +64,15 @@ pub(super) fn kind_of(file: &ArrayFile, name: &str, info: &ArrayInfo) -> Option<
 
 /// How the rows of an array are frames, and the bytes of each in the file.
 pub(super) fn form_of(info: &ArrayInfo, names: &FrameNames) -> Result<(Form, u64), String> {
-    if let (FrameNames::Bytes(_), 1) = (names, info.shape.len()) {
+    let is_encoded = match names {
+        FrameNames::Bytes(_) => true,
+        FrameNames::Array(_) => matches!(info.element, Element::Bytes | Element::Text),
+        _ => false,
+    };
+    if is_encoded && info.shape.len() == 1 {
         return match info.element {
-            Element::Bytes => Ok((Form::Encoded, READ_BYTES / 16)),
+            // Fields of one length that hold no text are read as bytes.
+            Element::Bytes | Element::Text => Ok((Form::Encoded, READ_BYTES / 16)),
             other => Err(format!(
                 "{other}, where `bytes` are encoded pictures of any length"
             )),
@@ -165,7 +171,7 @@ impl Form {
             (Form::Encoded, ArrayValues::Bytes(all)) => {
                 return Ok(Picture::Encoded(all[at].clone()));
             }
-            (Form::Encoded, _) => return Err("no bytes".to_owned()),
+            (Form::Encoded, _) => return Err("a text, where bytes of a picture are expected".to_owned()),
             (
                 Form::Pixels {
                     info,

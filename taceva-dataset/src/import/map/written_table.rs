@@ -29,6 +29,8 @@ pub(super) struct WrittenForm {
     format: Option<Format>,
     header: Option<bool>,
     rows: Option<String>,
+    #[serde(default)]
+    whole: bool,
 }
 
 #[derive(Clone, Copy, Deserialize)]
@@ -89,7 +91,11 @@ fn form_of(path: &str, format: Option<Format>) -> TableForm {
         None => ArrayFormat::of(Path::new(path)),
     };
     if let Some(format) = arrays {
-        return TableForm::Arrays { format, rows: None };
+        return TableForm::Arrays {
+            format,
+            rows: None,
+            is_whole: false,
+        };
     }
     match (format, ending.as_deref()) {
         (Some(Format::Json), _) | (None, Some("json")) => TableForm::Json { rows: None },
@@ -151,6 +157,22 @@ impl Check<'_> {
                 ));
             }
         };
+        let form = match (form, described.whole) {
+            (form, false) => form,
+            (TableForm::Arrays { format, .. }, true) if described.rows.is_none() => {
+                TableForm::Arrays {
+                    format,
+                    rows: None,
+                    is_whole: true,
+                }
+            }
+            (_, true) => {
+                return Err(self.at(
+                    offset,
+                    "`whole = true` makes one row of a file of arrays, without `rows`",
+                ));
+            }
+        };
         let form = match (form, described.header, &described.rows) {
             (TableForm::Delimited { .. }, header, None) => TableForm::Delimited {
                 has_header: header.unwrap_or(true),
@@ -159,9 +181,16 @@ impl Check<'_> {
             (TableForm::Messages { .. }, None, rows) => TableForm::Messages {
                 topic: rows.clone(),
             },
-            (TableForm::Arrays { format, .. }, None, rows) => TableForm::Arrays {
+            (
+                TableForm::Arrays {
+                    format, is_whole, ..
+                },
+                None,
+                rows,
+            ) => TableForm::Arrays {
                 format,
                 rows: rows.clone(),
+                is_whole,
             },
             (form, None, None) => form,
             (_, Some(_), _) => return Err(self.at(offset, "`header` is for CSV and TSV alone")),
