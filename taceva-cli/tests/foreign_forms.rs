@@ -113,9 +113,12 @@ fn workbooks_and_bags_name_the_command_that_converts_them() {
     let bench = Bench::new();
     let rest = "[time]\nclock = \"unknown\"\n[columns]\nFz = { from = \"Fz\", unit = \"N\" }\n[sensor]\nmodel = \"m\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = true\n";
     for (table, command) in [
-        ("labels.xlsx", "libreoffice --headless"),
-        ("run.db3", "mcap convert"),
-        ("run.bag", "mcap convert"),
+        (
+            "labels.xlsx",
+            "libreoffice --headless --convert-to csv labels.xlsx",
+        ),
+        ("run.db3", "mcap convert run.db3 run.mcap"),
+        ("run.bag", "mcap convert run.bag run.mcap"),
     ] {
         bench.write(&format!("lab/{table}"), "x");
         bench.write(

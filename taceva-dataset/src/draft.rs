@@ -12,6 +12,7 @@ use std::path::Path;
 
 use crate::error::DatasetError;
 use crate::file::SourceFolder;
+use crate::preset::layouts::Preset;
 use survey::FileGroup;
 use tables::SeenTable;
 
@@ -74,6 +75,9 @@ impl MapDraft {
                 Err(problem) => notes.push(format!("not read: {problem}")),
             }
         }
+        if let Some(preset) = Preset::recognised(folder) {
+            notes.push(written::known_layout(preset.name(), preset.layout()));
+        }
         let text = match main_table(&source, &tables) {
             Some(main) => written::of_table(&source, &groups, (main, &tables), &notes),
             None => match pictures.iter().max_by_key(|group| group.paths.len()) {
@@ -113,6 +117,7 @@ fn main_table<'t, 'g>(
                 !table.pictures.is_empty() || frames::file_column(folder, table).is_some();
             (
                 has_pictures,
+                !table.is_single_array && table.own_taxels().is_some(),
                 table.channels(),
                 table.group.paths.len(),
                 table.rows,

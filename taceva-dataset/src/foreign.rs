@@ -13,6 +13,8 @@ pub(crate) mod packed;
 mod parquet;
 mod pictures;
 mod several;
+pub(crate) mod tar;
+mod webdataset;
 
 use std::borrow::Cow;
 use std::fmt;
@@ -73,6 +75,8 @@ pub(crate) enum TableForm {
     },
     /// A folder as LeRobot writes it, versions 2.1 and 3.0.
     LeRobot,
+    /// A shard of WebDataset.
+    WebDataset,
 }
 
 /// What an error says of the file at `path`, without the path, which is named around it.
@@ -101,6 +105,9 @@ impl ForeignTable {
             TableForm::LeRobot => ForeignTable::Columns(ColumnTable::open(path, || {
                 lerobot::LeRobotRows::open(path)
             })?),
+            TableForm::WebDataset => {
+                ForeignTable::Columns(ColumnTable::open(path, || webdataset::Shard::open(path))?)
+            }
             TableForm::Messages { topic } => {
                 ForeignTable::Columns(ColumnTable::open(path, || {
                     messages::MessageRows::open(path, topic.as_deref())
@@ -229,6 +236,14 @@ impl ForeignTable {
     pub(crate) fn classes(&self) -> Vec<(String, Vec<String>)> {
         match self {
             ForeignTable::Columns(table) => table.classes(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// What the numbers of a column are called, as the file states it; empty where it does not.
+    pub(crate) fn element_names(&self, column: &str) -> Vec<String> {
+        match self {
+            ForeignTable::Columns(table) => table.element_names(column),
             _ => Vec::new(),
         }
     }

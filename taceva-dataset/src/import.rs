@@ -1,20 +1,19 @@
 //! A lab's folder becomes a dataset, by a map that says what its columns are.
 
-mod advice;
+mod archive;
 mod copy;
 mod explain;
 mod frame_cells;
 mod map;
 mod plan;
-mod preset;
 mod resolve;
 mod rows;
 mod signals;
-mod source;
+pub(crate) mod source;
 mod summary;
 mod suspicion;
 
-pub(crate) use advice::advice;
+pub use archive::UnpackedArchive;
 pub use copy::ImportReport;
 pub(crate) use map::converter;
 pub use map::{
@@ -22,6 +21,5 @@ pub use map::{
     PixelRange, Placeholder, TimeMap, VideoFrames,
 };
 pub use plan::ImportPlan;
-pub use preset::Preset;
 pub use summary::{Conversion, ImportSummary, JoinSummary};
 pub use suspicion::{Suspicion, magnitude_suspicion};

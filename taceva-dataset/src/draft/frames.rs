@@ -13,7 +13,7 @@ use crate::foreign::{PictureColumn, PictureKind};
 const LOOKED_UP: usize = 20;
 
 pub(super) fn is_picture(ending: &str) -> bool {
-    matches!(ending, "png" | "jpg" | "jpeg")
+    matches!(ending, "png" | "jpg" | "jpeg" | "tif" | "tiff")
 }
 
 pub(super) fn is_clip(ending: &str) -> bool {

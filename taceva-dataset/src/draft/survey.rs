@@ -107,7 +107,7 @@ fn grouped(files: Vec<String>) -> Vec<FileGroup> {
 fn is_table_ending(ending: &str) -> bool {
     !matches!(
         ending,
-        "png" | "jpg" | "jpeg" | "avi" | "mp4" | "mkv" | "mov"
+        "png" | "jpg" | "jpeg" | "tif" | "tiff" | "avi" | "mp4" | "mkv" | "mov"
     )
 }
 

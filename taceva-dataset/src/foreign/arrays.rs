@@ -88,7 +88,10 @@ impl ArrayRows {
 
     /// A whole array as one cell.
     fn whole_cell(&self, path: &str, info: &ArrayInfo) -> Result<String, String> {
-        let elements = info.shape.iter().try_fold(1_u64, |product, side| product.checked_mul(*side));
+        let elements = info
+            .shape
+            .iter()
+            .try_fold(1_u64, |product, side| product.checked_mul(*side));
         let elements = elements.unwrap_or(u64::MAX);
         if elements > CELL_VALUES {
             return Err(format!(

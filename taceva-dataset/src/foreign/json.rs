@@ -70,7 +70,11 @@ impl JsonRows {
             };
             let each: Option<Vec<_>> = match in_order {
                 Some(members) => Some(members.into_iter().map(named).collect()),
-                None => found.into_iter().map(members).collect::<Option<Vec<_>>>().map(|all| all.concat()),
+                None => found
+                    .into_iter()
+                    .map(members)
+                    .collect::<Option<Vec<_>>>()
+                    .map(|all| all.concat()),
             };
             found = each.ok_or_else(|| {
                 wrong(format!(
@@ -222,18 +226,18 @@ fn named((name, value): (String, Value)) -> Named {
 /// The members of a list or an object, whose names stand behind `key`; `None` of anything else.
 fn members((key, value): Named) -> Option<Vec<Named>> {
     match value {
-        Value::Array(list) => Some(
-            list.into_iter()
-                .map(|value| (key.clone(), value))
-                .collect(),
-        ),
+        Value::Array(list) => Some(list.into_iter().map(|value| (key.clone(), value)).collect()),
         Value::Object(members) => {
             let full = |name: String| match &key {
                 Some(key) => format!("{key}/{name}"),
                 None => name,
             };
             let members = members.into_iter();
-            Some(members.map(|(name, value)| (Some(full(name)), value)).collect())
+            Some(
+                members
+                    .map(|(name, value)| (Some(full(name)), value))
+                    .collect(),
+            )
         }
         _ => None,
     }

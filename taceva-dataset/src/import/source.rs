@@ -10,7 +10,7 @@ use crate::limits;
 use crate::text::shown;
 
 /// The files that `pattern` names, sorted; `*` stands for any characters within one name.
-pub(super) fn matching_files(
+pub(crate) fn matching_files(
     folder: &SourceFolder,
     pattern: &str,
 ) -> Result<Vec<PathBuf>, DatasetError> {
@@ -107,7 +107,7 @@ pub(super) fn unnamed_images(folder: &Path, named: &BTreeSet<PathBuf>) -> Vec<Pa
 
 fn is_image(path: &Path) -> bool {
     path.extension().is_some_and(|extension| {
-        ["png", "jpg", "jpeg"]
+        ["png", "jpg", "jpeg", "tif", "tiff"]
             .iter()
             .any(|known| extension.eq_ignore_ascii_case(known))
     })

@@ -171,7 +171,9 @@ impl Form {
             (Form::Encoded, ArrayValues::Bytes(all)) => {
                 return Ok(Picture::Encoded(all[at].clone()));
             }
-            (Form::Encoded, _) => return Err("a text, where bytes of a picture are expected".to_owned()),
+            (Form::Encoded, _) => {
+                return Err("a text, where bytes of a picture are expected".to_owned());
+            }
             (
                 Form::Pixels {
                     info,

@@ -49,6 +49,7 @@ enum Format {
     Parquet,
     Mcap,
     Lerobot,
+    Webdataset,
 }
 
 impl Format {
@@ -60,7 +61,8 @@ impl Format {
             | Format::Jsonl
             | Format::Parquet
             | Format::Mcap
-            | Format::Lerobot => return None,
+            | Format::Lerobot
+            | Format::Webdataset => return None,
             Format::Npy => ArrayFormat::Npy,
             Format::Npz => ArrayFormat::Npz,
             Format::Hdf5 => ArrayFormat::Hdf5,
@@ -101,6 +103,7 @@ fn form_of(path: &str, format: Option<Format>) -> TableForm {
         (Some(Format::Json), _) | (None, Some("json")) => TableForm::Json { rows: None },
         (Some(Format::Parquet), _) | (None, Some("parquet")) => TableForm::Parquet,
         (Some(Format::Lerobot), _) => TableForm::LeRobot,
+        (Some(Format::Webdataset), _) | (None, Some("tar")) => TableForm::WebDataset,
         (Some(Format::Mcap), _) | (None, Some("mcap")) => TableForm::Messages { topic: None },
         (Some(Format::Jsonl), _) | (None, Some("jsonl" | "ndjson")) => TableForm::JsonLines,
         _ => TableForm::Delimited { has_header: true },
@@ -108,15 +111,19 @@ fn form_of(path: &str, format: Option<Format>) -> TableForm {
 }
 
 /// The command that makes a table which is read of one that is not, by what its name ends with.
-pub(crate) fn converter(path: &str) -> Option<&'static str> {
-    let ending = path.rsplit_once('.')?.1.to_ascii_lowercase();
-    Some(match ending.as_str() {
+pub(crate) fn converter(path: &str) -> Option<String> {
+    let (stem, ending) = path.rsplit_once('.')?;
+    let (stem, file) = match stem.contains('*') {
+        true => ("OUT", "FILE"),
+        false => (stem, path),
+    };
+    Some(match ending.to_ascii_lowercase().as_str() {
         "xlsx" | "xls" | "ods" => {
-            "`libreoffice --headless --convert-to csv FILE` writes a table that is"
+            format!("`libreoffice --headless --convert-to csv {file}` writes a table that is")
         }
-        "db3" | "bag" => {
-            "`mcap convert FILE OUT.mcap` of the mcap command line writes a recording that is"
-        }
+        "db3" | "bag" => format!(
+            "`mcap convert {file} {stem}.mcap` of the mcap command line writes a recording that is"
+        ),
         _ => return None,
     })
 }
