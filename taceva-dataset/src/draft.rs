@@ -16,7 +16,7 @@ use crate::preset::layouts::Preset;
 use survey::FileGroup;
 use tables::SeenTable;
 
-/// Tables that are read for a draft.
+/// The most tables that are read for a draft.
 const TABLES: usize = 64;
 
 /// A map of version 2 with open ends: every unit is `"?"`, which an import refuses by its line.
@@ -102,7 +102,7 @@ impl MapDraft {
     }
 }
 
-/// The table whose rows are the samples: the one that knows of pictures, or else has the most channels.
+/// The table whose rows are the samples: one that names pictures before one of taxels, then the one with the most channels.
 fn main_table<'t, 'g>(
     folder: &SourceFolder,
     tables: &'t [SeenTable<'g>],

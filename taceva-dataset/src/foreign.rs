@@ -53,7 +53,7 @@ pub(crate) enum TableForm {
     Delimited {
         has_header: bool,
     },
-    /// JSON, whose rows are what the pointer leads to: `/*` each member, the empty one the whole.
+    /// JSON, whose rows are what the pointer leads to: a step `*` stands for each member, the empty pointer for the whole.
     Json {
         rows: Option<String>,
     },
@@ -79,7 +79,7 @@ pub(crate) enum TableForm {
     WebDataset,
 }
 
-/// What an error says of the file at `path`, without the path, which is named around it.
+/// What an error says of the file at `path`, without the path: the error around it names that.
 fn said(path: &Path, error: &impl fmt::Display) -> String {
     let text = error.to_string();
     let rest = text.strip_prefix(&format!("{}: ", path.display()));

@@ -26,7 +26,7 @@ const FORCES: [&str; 3] = ["Fx", "Fy", "Fz"];
 const TORQUES: [&str; 3] = ["Tx", "Ty", "Tz"];
 const PLACES: [&str; 3] = ["Px", "Py", "Pz"];
 
-/// Seconds since 1970 are above this, s: the year 2001.
+/// Times above this, in seconds, count from 1970: it is a day in 2001.
 const UNIX_S: f64 = 1e9;
 
 /// What the column called `name` is; `about` is what its file is called, which explains columns called `value`.
@@ -57,7 +57,7 @@ pub(super) fn role(name: &str, about: &str, cells: &[String]) -> Role {
     }
 }
 
-/// What a column is whose numbers have names of their own: the channels that those names are, each once; what is commanded is measured by nobody.
+/// What a column is whose numbers have names of their own: the channels that those names are, each once; an action is commanded, not measured.
 pub(super) fn of_named(column: &str, names: &[String]) -> Option<Role> {
     let is_known = !names.is_empty() && names.iter().any(|name| !name.is_empty());
     if !is_known || column.starts_with("action") {

@@ -10,10 +10,10 @@ use crate::csv_table::number;
 use crate::file::SourceFolder;
 use crate::foreign::{ForeignTable, PictureColumn, TableForm, packed, topics};
 
-/// Rows whose cells are looked at.
+/// How many rows of a table are looked at.
 const SAMPLED: usize = 200;
 
-/// Numbers of a row that are taken for taxels.
+/// The fewest and the most numbers of a row that are taken for taxels.
 const LEAST_TAXELS: usize = 8;
 const MOST_TAXELS: usize = 4_096;
 
@@ -234,7 +234,7 @@ impl<'g> SeenTable<'g> {
     }
 }
 
-/// Takes three numbers without names for forces, and six for forces and torques; whether there are so many.
+/// Takes three numbers without names for forces, six for forces and torques; returns whether there are three or six.
 fn guess_channels(columns: &mut [SeenColumn]) -> bool {
     let names = ["Fx", "Fy", "Fz", "Tx", "Ty", "Tz"];
     let numbers: Vec<&mut SeenColumn> = columns

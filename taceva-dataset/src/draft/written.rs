@@ -13,8 +13,8 @@ use crate::import::converter;
 use crate::table::is_attribute_name;
 
 const HEAD: &str = "\
-# A draft: made from names, headers and the first rows. Every \"?\" is for you; an import refuses it by its line.
-# What a comment calls a guess is one. `taceva import FOLDER --map THIS --explain` says what would be read.
+# A draft: made from names, headers and the first rows. Every \"?\" is to be filled in; an import refuses it and names its line.
+# Lines with \"a guess\" may be wrong. `taceva import FOLDER --map THIS --explain` says what would be read.
 map_version = 2
 ";
 
@@ -106,10 +106,11 @@ pub(super) fn of_table(
         })
         .map(|(name, _)| name.as_str())
         .collect();
-    if main.has_guessed_channels {
+    let mut joined = joins.iter().map(|join| join.table.has_guessed_channels);
+    if main.has_guessed_channels || joined.any(|is_guessed| is_guessed) {
         channels.0.insert_str(
             0,
-            "# A guess: without a header, so many numbers are mostly these, in this order.\n",
+            "# A guess: three or six numbers without a header are mostly these, in this order.\n",
         );
     }
     let numbers = match numbers.is_empty() {

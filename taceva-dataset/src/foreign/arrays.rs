@@ -17,11 +17,11 @@ use crate::limits;
 use cells::Texts;
 pub(crate) use frames::ArrayPictures;
 
-/// How long a column may be, as text in memory, bytes.
+/// The most bytes that a column may take in memory as text.
 const COLUMN_BYTES: u64 = 1 << 30;
-/// Values of a cell that holds a whole array.
+/// The most values of a cell that holds a whole array.
 const CELL_VALUES: u64 = 1 << 16;
-/// Arrays that a message lists.
+/// The most arrays that a message lists.
 const LISTED: usize = 64;
 
 /// The rows of a file of arrays, of one group or several.
@@ -337,7 +337,7 @@ fn rows_of(file: &ArrayFile, group: &str) -> Result<usize, String> {
     }
 }
 
-/// What is wrong, without the file, which is named around it.
+/// What is wrong, without the path of the file: the error around it names that.
 fn problem(error: ArrayError) -> String {
     match error.array {
         Some(array) => format!("`{array}`: {}", error.problem),

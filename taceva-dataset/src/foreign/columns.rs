@@ -58,7 +58,7 @@ pub(crate) struct PictureColumn {
 /// How it holds them.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum PictureKind {
-    /// Bytes of a PNG or JPEG file.
+    /// Bytes of a PNG, JPEG or TIFF file.
     Encoded,
     /// Frames of clips beside the table.
     Clip,

@@ -13,7 +13,7 @@ use crate::limits;
 use crate::text::shown;
 use crate::toml_file::utf8;
 
-/// Rows looked at to list the members that there are.
+/// How many rows are looked at to list the members that there are.
 const LISTED: usize = 100;
 
 /// The rows of a JSON file.
@@ -94,7 +94,7 @@ impl JsonRows {
         })
     }
 
-    /// A row a line; blank lines are none.
+    /// The rows of JSON lines: each line that is not blank is one.
     ///
     /// # Errors
     /// [`DatasetError::Table`] naming the line that is no JSON.
@@ -176,7 +176,7 @@ impl JsonRows {
     }
 }
 
-/// Objects, and lists in which objects or lists lie, are gone into.
+/// Adds pointers to the leaves of `value`; objects, and lists that hold objects or lists, are descended into.
 fn add_leaves(value: &Value, pointer: String, found: &mut Vec<String>) {
     if found.len() >= LISTED {
         return;

@@ -9,9 +9,9 @@ use thiserror::Error;
 use crate::file::check_relative;
 
 const BLOCK: usize = 512;
-/// A long name, or the records of an extended header, bytes.
+/// The most bytes of a long name, or of the records of an extended header.
 const NAME_BYTES: u64 = 64 << 10;
-/// Members of an archive.
+/// The most members of an archive.
 pub(crate) const MEMBERS: u64 = 1 << 20;
 
 /// What is wrong with an archive.
@@ -26,7 +26,7 @@ pub(crate) enum TarError {
     Cut(u64),
     #[error("`{name}` at byte {at} states {size} bytes, more than the archive has behind it")]
     Size { name: String, at: u64, size: u64 },
-    #[error("a number of the header at byte {0} is none")]
+    #[error("the header at byte {0} has no number where one is expected")]
     Number(u64),
     #[error(
         "`{name}` is a link, which is not followed: write the archive with `tar --dereference`"
@@ -196,7 +196,7 @@ impl<T: Tape> Members<T> {
         }
     }
 
-    /// Reads the bytes of the member that was found last into `into`; `false` if the archive ends before.
+    /// Copies the bytes of `member`, the last that was found, to `into`; an archive that ends before is an error.
     pub(crate) fn copy(
         &mut self,
         member: &Member,

@@ -16,11 +16,11 @@ use crate::error::DatasetError;
 use crate::import::FrameNames;
 use crate::limits;
 
-/// Samples whose JSON is looked at for the names of columns.
+/// How many samples are looked at to find whether a JSON has a member.
 const LOOKED_AT: usize = 100;
-/// A JSON or a text of a sample, bytes.
+/// The most bytes of a JSON or a text of a sample.
 const TEXT_BYTES: u64 = 1 << 20;
-/// Names behind the dot that are texts.
+/// Endings of members that are texts.
 const TEXTS: [&str; 4] = ["txt", "text", "cls", "id"];
 
 /// The samples of a shard.
@@ -158,7 +158,7 @@ fn bytes_at(file: &mut File, (at, size): (u64, u64), cap: u64) -> Result<Vec<u8>
     read.map_err(|error| error.to_string())?;
     match bytes.len() as u64 == size {
         true => Ok(bytes),
-        false => Err("it became shorter while it was read".to_owned()),
+        false => Err("the shard became shorter while it was read".to_owned()),
     }
 }
 

@@ -353,6 +353,7 @@ fn a_draft_of_taxel_tables_needs_units_alone() {
     }
     let finished = draft
         .text()
+        .replace(", unit = \"?\" }", ", unit = \"N\" }")
         .replace("unit = \"?\"", "unit = \"uT\"")
         .replace("model = \"?\"", "model = \"magnetic\"");
     let map = ImportMap::parse("map.toml".as_ref(), &finished)
