@@ -152,7 +152,7 @@ fn a_draft_does_not_take_the_place_of_a_file_of_the_lab() {
 }
 
 #[test]
-fn presets_are_listed_printed_and_named_where_a_folder_does_not_fit() {
+fn presets_are_listed_written_and_named_where_a_folder_does_not_fit() {
     let bench = Bench::new();
     let list = bench.ok("import --presets");
     for part in [

@@ -76,7 +76,7 @@ impl MapDraft {
             }
         }
         if let Some(preset) = Preset::recognised(folder) {
-            notes.push(written::known_layout(preset.name(), preset.layout()));
+            notes.push(written::known_layout(preset.name()));
         }
         let text = match main_table(&source, &tables) {
             Some(main) => written::of_table(&source, &groups, (main, &tables), &notes),

@@ -104,7 +104,7 @@ fn what_is_not_read_is_refused_by_its_name() {
         ("refused-planes", "planes of colours"),
         ("refused-pages", "several pictures"),
         ("refused-cmyk", "CMYK(8)"),
-        ("refused-palette", "Palette(8)"),
+        ("refused-palette", "RGBPalette"),
         ("refused-bits", "Gray(1)"),
         ("refused-transparent", "transparent pixels"),
     ] {

@@ -25,8 +25,10 @@ pub(super) fn refused_form(group: &FileGroup) -> Option<String> {
 }
 
 /// That a preset is made for what lies here.
-pub(super) fn known_layout(name: &str, layout: &str) -> String {
-    format!("This looks like the layout of `--preset {name}` ({layout}), which needs no map.")
+pub(super) fn known_layout(preset: &str) -> String {
+    format!(
+        "This looks like the layout of `--preset {preset}`, which needs no map: `taceva import --presets` says what it reads."
+    )
 }
 
 /// The map of a folder whose samples are the rows of `main`.

@@ -331,7 +331,7 @@ fn own_name(header: &[u8; BLOCK]) -> Vec<u8> {
 /// A number of a header: octal digits, or from 2^33 on bytes behind a first one of 128.
 fn number(field: &[u8]) -> Option<u64> {
     if field[0] == 0x80 {
-        let (high, low) = field[1..].split_at(field.len() - 9);
+        let (high, low) = field[1..].split_at(field.len().checked_sub(9)?);
         let low: [u8; 8] = low.try_into().ok()?;
         return high
             .iter()

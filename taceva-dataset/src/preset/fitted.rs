@@ -11,7 +11,7 @@ use crate::error::{DatasetError, Place};
 use crate::file::{SourceFolder, read_capped};
 use crate::foreign::ForeignTable;
 use crate::import::ImportMap;
-use crate::import::source::matching_files;
+use crate::import::source::{has_match, matching_files};
 use crate::limits;
 
 /// The map that is built in.
@@ -41,7 +41,7 @@ pub(super) fn text(preset: Preset, folder: &SourceFolder) -> Result<String, Data
     let text = built_in(preset).to_owned();
     let text = match preset {
         Preset::Bristol => bristol(text, folder)?,
-        Preset::SparshForce if first(folder, "*/*/dataset_digit_*.pkl").is_err() => text
+        Preset::SparshForce if !has_match(folder.path(), "*/*/dataset_digit_*.pkl") => text
             .replace("dataset_digit_", "dataset_gelsight_")
             .replace("\"DIGIT\"", "\"GelSight Mini\""),
         Preset::Touchd => touchd(&text, folder)?,
@@ -72,7 +72,7 @@ fn first(folder: &SourceFolder, pattern: &str) -> Result<std::path::PathBuf, Dat
 fn there<'p>(folder: &SourceFolder, patterns: &[&'p str]) -> &'p str {
     let mut found = patterns
         .iter()
-        .filter(|pattern| matching_files(folder, pattern).is_ok());
+        .filter(|pattern| has_match(folder.path(), pattern));
     found.next().unwrap_or(&patterns[0])
 }
 

@@ -7,7 +7,7 @@ use std::path::Path;
 use crate::error::DatasetError;
 use crate::file::SourceFolder;
 use crate::import::converter;
-use crate::import::source::matching_files;
+use crate::import::source::has_match;
 use crate::text::{shown, shown_path};
 
 /// A layout whose map is built in.
@@ -117,8 +117,7 @@ impl Preset {
 
     /// The preset whose layout the folder at `source` has.
     pub(crate) fn recognised(source: &Path) -> Option<Preset> {
-        let folder = SourceFolder::open(source).ok()?;
-        let is_there = |pattern: &str| matching_files(&folder, pattern).is_ok();
+        let is_there = |pattern: &str| has_match(source, pattern);
         Preset::ALL.into_iter().find(|preset| {
             let facts = preset.facts();
             let mut needs = facts.needs.iter();
@@ -133,7 +132,7 @@ impl Preset {
     /// [`DatasetError::Path`] naming what was expected where.
     pub(super) fn check(self, folder: &SourceFolder) -> Result<(), DatasetError> {
         let facts = self.facts();
-        let is_there = |pattern: &&str| matching_files(folder, pattern).is_ok();
+        let is_there = |pattern: &&str| has_match(folder.path(), pattern);
         let mut needs = facts.needs.iter();
         let Some(missing) =
             needs.find(|need| !need.any_of.iter().any(|pattern| is_there(&pattern)))

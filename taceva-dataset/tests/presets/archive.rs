@@ -116,6 +116,8 @@ fn hostile_archives_are_refused_by_member_and_leave_nothing_behind() {
     let regular = EntryType::Regular;
     let mut wrong_sum = file(b"a", 0, regular);
     wrong_sum[0] = b'b';
+    let mut binary_sum = file(b"a", 0, regular);
+    binary_sum[148] = 0x80;
     let twice = [file(b"a", 0, regular), file(b"a", 0, regular)].concat();
     for (name, bytes, expected) in [
         (
@@ -143,6 +145,7 @@ fn hostile_archives_are_refused_by_member_and_leave_nothing_behind() {
             "a name of 1073741824 bytes",
         ),
         ("sum", wrong_sum, "the sum of the header at byte 0"),
+        ("binary sum", binary_sum, "the sum of the header at byte 0"),
         ("twice", twice, "stands twice"),
         (
             "no text",

@@ -401,7 +401,7 @@ fn a_preset_on_a_folder_of_another_layout_names_what_it_expects_and_which_fits()
 }
 
 #[test]
-fn the_printed_map_is_the_map_that_is_imported() {
+fn the_written_map_is_the_map_that_is_imported() {
     for expected in EXPECTED {
         let source = drawn(expected.preset.name());
         let text = expected.preset.text(&source).expect("a map");

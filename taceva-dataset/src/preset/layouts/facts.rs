@@ -16,7 +16,7 @@ pub(super) struct Layout {
     pub(super) reads: &'static str,
     pub(super) leaves_open: &'static str,
     pub(super) needs: &'static [Need],
-    /// What tells it from other folders, where what it needs would not.
+    /// A pattern that other folders lack, where what the layout needs is common.
     pub(super) mark: Option<&'static str>,
 }
 
@@ -181,7 +181,7 @@ impl Preset {
             Preset::LerobotV3 => &Layout {
                 name: "lerobot-v3",
                 layout: "meta/info.json, data/chunk-000/*.parquet, videos/ (versions 2.1 and 3.0)",
-                reads: "states whose names say force, torque or place (N, N·m, m), the first tactile video, times, task",
+                reads: "states whose names say force, torque or place (N, N·m, m), the first video, times, task",
                 leaves_open: "units are assumed; video loses detail unless its codec does not",
                 needs: &[Need {
                     any_of: &["meta/info.json"],
