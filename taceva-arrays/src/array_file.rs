@@ -118,11 +118,19 @@ impl ArrayFile {
         found.copied()
     }
 
-    /// The groups of HDF5 and zarr whose full names are as `pattern`, in order: `*` stands for any letters but `/`.
+    /// The groups of HDF5 and zarr whose full names are as `pattern`, in order: `*` stands for any letters but `/`. Dictionaries within the
+    /// dictionary of a pickle are groups too, behind dots: `trajectories.*`.
     #[must_use]
     pub fn groups(&self, pattern: &str) -> Vec<String> {
         let mut groups = self.store.groups();
-        groups.retain(|group| crate::pattern::matches(pattern, group));
+        let depth = |name: &str| match name.contains('/') {
+            true => 0,
+            false => name.matches('.').count(),
+        };
+        let is_like = |group: &String| {
+            depth(group) == depth(pattern) && crate::pattern::matches(pattern, group)
+        };
+        groups.retain(is_like);
         groups.sort_unstable();
         groups
     }

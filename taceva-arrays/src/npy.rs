@@ -145,6 +145,20 @@ impl Store for NpyArray {
         }
     }
 
+    fn refused(&self) -> &[(String, Problem)] {
+        match &self.content {
+            Content::Numbers(_) => &[],
+            Content::Objects(pickle) => pickle.refused(),
+        }
+    }
+
+    fn groups(&self) -> Vec<String> {
+        match &self.content {
+            Content::Numbers(_) => Vec::new(),
+            Content::Objects(pickle) => pickle.groups(),
+        }
+    }
+
     fn read(&self, index: usize, rows: Range<u64>) -> Result<ArrayData, Problem> {
         match &self.content {
             Content::Numbers(block) => block.read(index, rows),

@@ -189,6 +189,16 @@ impl Store for Pickle {
         &self.refused
     }
 
+    /// Dictionaries within the dictionary, by the keys that lead to them: `trajectories.0`.
+    fn groups(&self) -> Vec<String> {
+        let mut groups = std::collections::BTreeSet::new();
+        for (name, ..) in &self.columns {
+            let dots = name.match_indices('.');
+            groups.extend(dots.map(|(at, _)| name[..at].to_owned()));
+        }
+        groups.into_iter().collect()
+    }
+
     fn read(&self, index: usize, rows: Range<u64>) -> Result<ArrayData, Problem> {
         let (_, shape, stored) = &self.columns[index];
         let mut read = shape.clone();

@@ -11,6 +11,7 @@ pub(crate) mod page;
 pub(crate) mod plan;
 pub(crate) mod plugin;
 pub(crate) mod plugin_check;
+pub(crate) mod presets;
 mod profile;
 mod recordings;
 pub(crate) mod rig;

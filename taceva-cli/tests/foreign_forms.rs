@@ -113,9 +113,12 @@ fn workbooks_and_bags_name_the_command_that_converts_them() {
     let bench = Bench::new();
     let rest = "[time]\nclock = \"unknown\"\n[columns]\nFz = { from = \"Fz\", unit = \"N\" }\n[sensor]\nmodel = \"m\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = true\n";
     for (table, command) in [
-        ("labels.xlsx", "libreoffice --headless"),
-        ("run.db3", "mcap convert"),
-        ("run.bag", "mcap convert"),
+        (
+            "labels.xlsx",
+            "libreoffice --headless --convert-to csv labels.xlsx",
+        ),
+        ("run.db3", "mcap convert run.db3 run.mcap"),
+        ("run.bag", "mcap convert run.bag run.mcap"),
     ] {
         bench.write(&format!("lab/{table}"), "x");
         bench.write(
@@ -146,4 +149,71 @@ fn a_draft_does_not_take_the_place_of_a_file_of_the_lab() {
     );
     bench.ok("import --draft lab --out map.toml");
     bench.ok("import --draft lab --out map.toml --force");
+}
+
+#[test]
+fn presets_are_listed_written_and_named_where_a_folder_does_not_fit() {
+    let bench = Bench::new();
+    let list = bench.ok("import --presets");
+    for part in [
+        "bristol         targets.csv",
+        "diffusion-zarr",
+        "leaves open: ",
+        "--print",
+    ] {
+        assert!(list.contains(part), "{list}");
+    }
+    assert!(
+        list.lines().all(|line| line.chars().count() <= 110),
+        "{list}"
+    );
+    let json: serde_json::Value =
+        serde_json::from_str(&bench.ok("import --presets --format json")).expect("JSON");
+    assert_eq!(json["schema"], "taceva.presets/1");
+    assert_eq!(json["presets"].as_array().map(Vec::len), Some(16));
+    bench.write(
+        "poses/targets.csv",
+        "sensor_image,pose_x,pose_y\nimage_1.png,1.5,2\n",
+    );
+    bench.write("poses/images/readme.txt", "x");
+    let map = bench.ok("import poses --preset bristol --print");
+    assert!(
+        map.contains("Px = { from = \"pose_x\", unit = \"mm\" }"),
+        "{map}"
+    );
+    bench.ok("import poses --preset bristol --print --out map.toml");
+    let written = std::fs::read_to_string(bench.path("map.toml")).expect("written");
+    assert_eq!(written, map);
+    bench.refused(
+        "import poses --preset poseit --explain",
+        3,
+        "--preset bristol",
+    );
+    bench.refused("import --presets poses", 2, "cannot be used");
+    bench.refused("import poses --print --map map.toml", 2, "--preset");
+}
+
+#[test]
+fn an_archive_is_imported_as_the_folder_that_it_holds_and_leaves_nothing() {
+    let bench = Bench::new();
+    let mut tar = tar::Builder::new(Vec::new());
+    for (name, text) in [("run/labels.csv", "Fz\n1.5\n2.5\n"), ("run/note.txt", "x")] {
+        let mut about = tar::Header::new_ustar();
+        about.set_size(text.len() as u64);
+        about.set_mode(0o644);
+        tar.append_data(&mut about, name, text.as_bytes())
+            .expect("packed");
+    }
+    std::fs::write(bench.path("run.tar"), tar.into_inner().expect("packed")).expect("written");
+    let rest = "[time]\nclock = \"unknown\"\n[columns]\nFz = { from = \"Fz\", unit = \"N\" }\n[sensor]\nmodel = \"m\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = true\n";
+    bench.write(
+        "map.toml",
+        &format!("map_version = 2\ntable = \"labels.csv\"\n{rest}"),
+    );
+    let done = bench.ok("import run.tar --map map.toml --out data");
+    assert!(done.contains("wrote"), "{done}");
+    let names = std::fs::read_dir(bench.path("")).expect("there").flatten();
+    let hidden = names.filter(|entry| entry.file_name().to_string_lossy().contains("unpacked"));
+    assert_eq!(hidden.count(), 0);
+    assert!(bench.ok("import --draft run.tar").contains("from = \"Fz\""));
 }

@@ -12,11 +12,11 @@ use std::sync::{Arc, Mutex};
 
 use taceva_core::Frame;
 
+use crate::advice::advice;
 use crate::digest::{Digest, PartsDigest};
 use crate::error::DatasetError;
 use crate::header::Header;
 use crate::held::HeldFolder;
-use crate::import::advice;
 use crate::layout;
 use crate::scaled::DecodeScale;
 use crate::signals::SignalsReader;

@@ -1,4 +1,6 @@
-//! Images: from the bytes of a PNG or JPEG file to a frame.
+//! Images: from the bytes of a PNG, JPEG or TIFF file to a frame.
+
+mod tiff;
 
 use std::io::Cursor;
 
@@ -50,12 +52,15 @@ impl ChannelOrder {
 pub(crate) enum ImageKind {
     Png,
     Jpeg,
+    Tiff,
 }
 
 const PNG_SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
 const PNG_END: &[u8] = b"\0\0\0\0IEND\xaeB`\x82";
 const JPEG_SIGNATURE: &[u8] = b"\xff\xd8\xff";
 const JPEG_END: &[u8] = b"\xff\xd9";
+/// Of either order of bytes, and of files above 4 GiB.
+const TIFF_SIGNATURES: [&[u8]; 4] = [b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"];
 
 impl ImageKind {
     /// The kind whose signature `bytes` begin with; the name of the file plays no part.
@@ -65,7 +70,9 @@ impl ImageKind {
         } else if bytes.starts_with(JPEG_SIGNATURE) {
             Some(ImageKind::Jpeg)
         } else {
-            None
+            let mut tiff = TIFF_SIGNATURES.iter();
+            tiff.any(|signature| bytes.starts_with(signature))
+                .then_some(ImageKind::Tiff)
         }
     }
 
@@ -74,23 +81,26 @@ impl ImageKind {
         match self {
             ImageKind::Png => "png",
             ImageKind::Jpeg => "jpg",
+            ImageKind::Tiff => "tif",
         }
     }
 
     /// Whether files of this kind are called `*.extension`.
     pub(crate) fn has_extension(self, extension: &str) -> bool {
-        match self {
-            ImageKind::Png => extension.eq_ignore_ascii_case("png"),
-            ImageKind::Jpeg => ["jpg", "jpeg"]
-                .iter()
-                .any(|known| extension.eq_ignore_ascii_case(known)),
-        }
+        let known: &[&str] = match self {
+            ImageKind::Png => &["png"],
+            ImageKind::Jpeg => &["jpg", "jpeg"],
+            ImageKind::Tiff => &["tif", "tiff"],
+        };
+        known
+            .iter()
+            .any(|known| extension.eq_ignore_ascii_case(known))
     }
 }
 
 /// The frame in the image file `bytes`, whose colours are stored in `order`.
 ///
-/// 8 and 16 bit, gray and RGB are kept; palettes and fewer bits become 8-bit RGB or gray; an alpha channel is dropped if it is
+/// 8 and 16 bit, gray and RGB are kept; of PNG palettes and fewer bits become 8-bit RGB or gray; an alpha channel is dropped if it is
 /// opaque everywhere and refused otherwise. A file that does not end in its end marker is refused: it was cut, even where a
 /// decoder would fill the rest with gray.
 pub(crate) fn decode(bytes: &[u8], order: ChannelOrder) -> Result<(ImageKind, Frame), String> {
@@ -98,16 +108,17 @@ pub(crate) fn decode(bytes: &[u8], order: ChannelOrder) -> Result<(ImageKind, Fr
     let (info, pixels) = guarded(|| match kind {
         ImageKind::Png => decode_png(bytes),
         ImageKind::Jpeg => decode_jpeg(bytes),
+        ImageKind::Tiff => tiff::decode(bytes),
     })??;
     let pixels = in_order(info, pixels, order)?;
     let frame = Frame::new(info, pixels).map_err(|error| error.to_string())?;
     Ok((kind, frame))
 }
 
-/// Whether an image file of `kind` that decodes is whole: decoders of PNG check every part, those of JPEG fill what is missing with gray.
+/// Whether an image file of `kind` that decodes is whole: decoders of PNG check every part, those of TIFF that every strip is there, those of JPEG fill what is missing with gray.
 pub(crate) fn check_to_the_end(bytes: &[u8], kind: ImageKind) -> Result<(), String> {
     match kind {
-        ImageKind::Png => Ok(()),
+        ImageKind::Png | ImageKind::Tiff => Ok(()),
         ImageKind::Jpeg => guarded(|| check_whole(bytes))?
             .map_err(|problem| format!("cut short or damaged inside: {problem}")),
     }
@@ -116,9 +127,11 @@ pub(crate) fn check_to_the_end(bytes: &[u8], kind: ImageKind) -> Result<(), Stri
 /// The kind of an image file that is there to its end.
 pub(crate) fn kind_of_whole(bytes: &[u8]) -> Result<ImageKind, String> {
     let kind = ImageKind::of(bytes)
-        .ok_or("neither PNG nor JPEG: its first bytes are those of another format")?;
+        .ok_or("neither PNG nor JPEG nor TIFF: its first bytes are those of another format")?;
     let is_ended = match kind {
         ImageKind::Png => bytes.ends_with(PNG_END),
+        // It has none: its directory names every strip, which the decoder reads.
+        ImageKind::Tiff => true,
         // What some cameras write behind it is no part of the picture.
         ImageKind::Jpeg => {
             bytes.ends_with(JPEG_END) || bytes.windows(2).rev().any(|pair| pair == JPEG_END)

@@ -12,10 +12,11 @@ use std::path::Path;
 
 use crate::error::DatasetError;
 use crate::file::SourceFolder;
+use crate::preset::layouts::Preset;
 use survey::FileGroup;
 use tables::SeenTable;
 
-/// Tables that are read for a draft.
+/// The most tables that are read for a draft.
 const TABLES: usize = 64;
 
 /// A map of version 2 with open ends: every unit is `"?"`, which an import refuses by its line.
@@ -74,6 +75,9 @@ impl MapDraft {
                 Err(problem) => notes.push(format!("not read: {problem}")),
             }
         }
+        if let Some(preset) = Preset::recognised(folder) {
+            notes.push(written::known_layout(preset.name()));
+        }
         let text = match main_table(&source, &tables) {
             Some(main) => written::of_table(&source, &groups, (main, &tables), &notes),
             None => match pictures.iter().max_by_key(|group| group.paths.len()) {
@@ -98,7 +102,7 @@ impl MapDraft {
     }
 }
 
-/// The table whose rows are the samples: the one that knows of pictures, or else has the most channels.
+/// The table whose rows are the samples: one that names pictures before one of taxels, then the one with the most channels.
 fn main_table<'t, 'g>(
     folder: &SourceFolder,
     tables: &'t [SeenTable<'g>],
@@ -113,6 +117,7 @@ fn main_table<'t, 'g>(
                 !table.pictures.is_empty() || frames::file_column(folder, table).is_some();
             (
                 has_pictures,
+                !table.is_single_array && table.own_taxels().is_some(),
                 table.channels(),
                 table.group.paths.len(),
                 table.rows,

@@ -12,6 +12,9 @@ mod messages;
 pub(crate) mod packed;
 mod parquet;
 mod pictures;
+mod several;
+pub(crate) mod tar;
+mod webdataset;
 
 use std::borrow::Cow;
 use std::fmt;
@@ -32,6 +35,7 @@ pub(crate) use files::FileRows;
 pub(crate) use json::JsonRows;
 pub(crate) use messages::topics;
 pub(crate) use pictures::{Picture, Pictures};
+pub(crate) use several::SeveralPictures;
 
 /// A table of any form.
 #[derive(Debug)]
@@ -49,7 +53,7 @@ pub(crate) enum TableForm {
     Delimited {
         has_header: bool,
     },
-    /// JSON, whose rows are what the pointer leads to: `/*` each member, the empty one the whole.
+    /// JSON, whose rows are what the pointer leads to: a step `*` stands for each member, the empty pointer for the whole.
     Json {
         rows: Option<String>,
     },
@@ -61,6 +65,8 @@ pub(crate) enum TableForm {
     Arrays {
         format: ArrayFormat,
         rows: Option<String>,
+        /// The file is one row, each array of it a cell.
+        is_whole: bool,
     },
     Parquet,
     /// The messages of a topic of an MCAP recording.
@@ -69,9 +75,11 @@ pub(crate) enum TableForm {
     },
     /// A folder as LeRobot writes it, versions 2.1 and 3.0.
     LeRobot,
+    /// A shard of WebDataset.
+    WebDataset,
 }
 
-/// What an error says of the file at `path`, without the path, which is named around it.
+/// What an error says of the file at `path`, without the path: the error around it names that.
 fn said(path: &Path, error: &impl fmt::Display) -> String {
     let text = error.to_string();
     let rest = text.strip_prefix(&format!("{}: ", path.display()));
@@ -97,16 +105,22 @@ impl ForeignTable {
             TableForm::LeRobot => ForeignTable::Columns(ColumnTable::open(path, || {
                 lerobot::LeRobotRows::open(path)
             })?),
+            TableForm::WebDataset => {
+                ForeignTable::Columns(ColumnTable::open(path, || webdataset::Shard::open(path))?)
+            }
             TableForm::Messages { topic } => {
                 ForeignTable::Columns(ColumnTable::open(path, || {
                     messages::MessageRows::open(path, topic.as_deref())
                 })?)
             }
-            TableForm::Arrays { format, rows } => {
-                ForeignTable::Columns(ColumnTable::open(path, || {
-                    arrays::ArrayRows::open(path, *format, rows.as_deref())
-                })?)
-            }
+            TableForm::Arrays {
+                format,
+                rows,
+                is_whole,
+            } => ForeignTable::Columns(ColumnTable::open(path, || match is_whole {
+                true => arrays::ArrayRows::whole(path, *format),
+                false => arrays::ArrayRows::open(path, *format, rows.as_deref()),
+            })?),
         })
     }
 
@@ -222,6 +236,14 @@ impl ForeignTable {
     pub(crate) fn classes(&self) -> Vec<(String, Vec<String>)> {
         match self {
             ForeignTable::Columns(table) => table.classes(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// What the numbers of a column are called, as the file states it; empty where it does not.
+    pub(crate) fn element_names(&self, column: &str) -> Vec<String> {
+        match self {
+            ForeignTable::Columns(table) => table.element_names(column),
             _ => Vec::new(),
         }
     }

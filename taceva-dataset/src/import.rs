@@ -1,21 +1,20 @@
 //! A lab's folder becomes a dataset, by a map that says what its columns are.
 
-mod advice;
+mod archive;
 mod copy;
 mod explain;
 mod extend;
 mod frame_cells;
 mod map;
 mod plan;
-mod preset;
 mod resolve;
 mod rows;
 mod signals;
-mod source;
+pub(crate) mod source;
 mod summary;
 mod suspicion;
 
-pub(crate) use advice::advice;
+pub use archive::UnpackedArchive;
 pub use copy::ImportReport;
 pub use extend::Addition;
 pub(crate) use map::converter;
@@ -24,6 +23,5 @@ pub use map::{
     PixelRange, Placeholder, TimeMap, VideoFrames,
 };
 pub use plan::ImportPlan;
-pub use preset::Preset;
 pub use summary::{Conversion, ImportSummary, JoinSummary};
 pub use suspicion::{Suspicion, magnitude_suspicion};

@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod advice;
 #[cfg(feature = "ndarray")]
 mod arrays;
 mod csv_table;
@@ -23,6 +24,7 @@ mod layout;
 mod limits;
 mod pack;
 mod parallel;
+mod preset;
 mod quality;
 mod recorder;
 mod replaced;
@@ -55,9 +57,10 @@ pub use header::{
 pub use import::{
     Addition, ArrayFrames, ArrayLayout, ColumnMap, Conversion, DropRules, FrameMap, FrameNames,
     IdMap, ImportMap, ImportPlan, ImportReport, ImportSummary, JoinSummary, PixelRange,
-    Placeholder, Preset, Suspicion, TimeMap, VideoFrames, magnitude_suspicion,
+    Placeholder, Suspicion, TimeMap, UnpackedArchive, VideoFrames, magnitude_suspicion,
 };
 pub use pack::Span;
+pub use preset::Preset;
 pub use quality::names_quality;
 pub use recorder::{Recorder, RecordingSpec, Streamed};
 pub use replaced::settle;

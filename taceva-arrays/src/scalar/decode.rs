@@ -50,7 +50,7 @@ impl Scalar {
         debug_assert_eq!(raw.len(), count * self.bytes, "whole elements");
         match self.kind {
             Kind::Unsigned if self.bytes == 1 => Ok(ArrayValues::U8(raw)),
-            Kind::Text(filler) => self.texts(&raw, count, |bytes| utf8(bytes, filler)),
+            Kind::Text(filler) => Ok(self.texts_or_bytes(&raw, count, filler)),
             Kind::WideText => {
                 let of = if self.is_big_endian {
                     u32::from_be_bytes
@@ -116,6 +116,19 @@ impl Scalar {
         Ok(())
     }
 
+    /// Fields of one length as texts, or as bytes if one of them is no text: h5py writes JPEG files of a recording so.
+    fn texts_or_bytes(self, raw: &[u8], count: usize, filler: Filler) -> ArrayValues {
+        let fields = (0..count).map(|place| {
+            let bytes = &raw[place * self.bytes..(place + 1) * self.bytes];
+            &bytes[..length_of(bytes, filler)]
+        });
+        let texts = fields.clone().map(|field| std::str::from_utf8(field));
+        match texts.map(|text| text.map(str::to_owned)).collect() {
+            Ok(texts) => ArrayValues::Text(texts),
+            Err(_) => ArrayValues::Bytes(fields.map(<[u8]>::to_vec).collect()),
+        }
+    }
+
     fn texts(
         self,
         raw: &[u8],
@@ -137,23 +150,22 @@ impl Scalar {
     }
 }
 
-/// UTF-8 up to what fills the field.
-fn utf8(bytes: &[u8], filler: Filler) -> Option<String> {
+/// How many bytes stand before what fills the field.
+fn length_of(bytes: &[u8], filler: Filler) -> usize {
     let up_to_last = |filled: u8| {
         bytes
             .iter()
             .rposition(|byte| *byte != filled)
             .map_or(0, |last| last + 1)
     };
-    let end = match filler {
+    match filler {
         Filler::Zeros => up_to_last(0),
         Filler::FirstZero => bytes
             .iter()
             .position(|byte| *byte == 0)
             .unwrap_or(bytes.len()),
         Filler::Spaces => up_to_last(b' '),
-    };
-    std::str::from_utf8(&bytes[..end]).ok().map(str::to_owned)
+    }
 }
 
 /// UTF-32 up to the zeros that fill the field.
@@ -216,7 +228,13 @@ mod tests {
             .decode(b"ab\0\0\xc3\xbcx\0".to_vec(), 2)
             .expect("UTF-8");
         assert_eq!(values, ArrayValues::Text(vec!["ab".into(), "üx".into()]));
-        assert!(plain.decode(vec![0xff; 4], 1).is_err());
+        let values = plain
+            .decode(vec![0xff, 0xd8, 0, 0, b'a', 0, 0, 0], 2)
+            .expect("bytes");
+        assert_eq!(
+            values,
+            ArrayValues::Bytes(vec![vec![0xff, 0xd8], b"a".to_vec()])
+        );
         let wide = Scalar::from_numpy(">U2").expect("known");
         let values = wide
             .decode(vec![0, 0, 0x4e, 0x2d, 0, 0, 0, 0], 1)

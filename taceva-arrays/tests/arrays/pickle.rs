@@ -147,3 +147,75 @@ fn a_text_that_is_encoded_again_and_again_is_refused() {
             .contains("bytes of texts")
     );
 }
+
+/// An `.npy` file of objects, whose elements are this pickle.
+fn of_objects(pickle: &[u8]) -> Vec<u8> {
+    let mut header = b"{'descr': '|O', 'fortran_order': False, 'shape': (1,), }".to_vec();
+    header.resize(117, b' ');
+    header.push(b'\n');
+    let mut bytes = b"\x93NUMPY\x01\0".to_vec();
+    bytes.extend(118_u16.to_le_bytes());
+    [bytes, header, pickle.to_vec()].concat()
+}
+
+#[test]
+fn an_object_array_goes_through_the_same_machine() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("x.npy");
+    let open = |pickle: &[u8]| {
+        fs::write(&path, of_objects(pickle)).expect("written");
+        ArrayFile::open(&path, ArrayFormat::Npy)
+    };
+    // Protocol 2: a list that begins with what a table of pandas begins with, and one that would run a program.
+    let tables = open(b"\x80\x02]q\0ccopyreg\n_reconstructor\n.").expect_err("no array");
+    assert!(
+        tables
+            .to_string()
+            .contains("wants `copyreg._reconstructor`"),
+        "{tables}"
+    );
+    let tables = open(b"\x80\x02]q\0cpandas.core.frame\nDataFrame\n.").expect_err("a table");
+    let message = tables.to_string();
+    assert!(
+        message.contains("wants `pandas.core.frame.DataFrame`"),
+        "{message}"
+    );
+    assert!(
+        message.contains("each of a list of tables to a file of its own"),
+        "{message}"
+    );
+    let evil = open(b"\x80\x02cposix\nsystem\nX\x04\0\0\0true\x85R.").expect_err("a program");
+    assert!(evil.to_string().contains("wants `posix.system`"), "{evil}");
+    // A dictionary in it is read: {"a": [1, 2]}.
+    let read = open(b"\x80\x02}X\x01\0\0\0a]K\x01aK\x02as.").expect("a dictionary");
+    assert_eq!(read.names(), ["a"]);
+    assert_eq!(read.info("a").expect("listed").shape, [2]);
+}
+
+#[test]
+fn dictionaries_within_dictionaries_are_groups() {
+    // {"t": {"0": {"x": [1]}, "1": {"x": [2]}}, "all": [3]}
+    let press = |name: u8, number: u8| {
+        [
+            b"X\x01\0\0\0".as_slice(),
+            &[name],
+            b"}X\x01\0\0\0x]K",
+            &[number],
+            b"ass",
+        ]
+        .concat()
+    };
+    let bytes = [
+        b"\x80\x02}X\x01\0\0\0t}".as_slice(),
+        &press(b'0', 1),
+        &press(b'1', 2),
+        b"sX\x03\0\0\0all]K\x03as.",
+    ]
+    .concat();
+    let (file, _folder) = open(&bytes);
+    let file = file.expect("a dictionary");
+    assert_eq!(file.names(), ["t.0.x", "t.1.x", "all"]);
+    assert_eq!(file.groups("t.*"), ["t.0", "t.1"]);
+    assert_eq!(file.groups("*"), ["t"]);
+    assert_eq!(file.groups("all.*"), [String::new(); 0]);
+}

@@ -5,25 +5,35 @@ use std::path::PathBuf;
 use clap::{ArgGroup, Args};
 
 use super::renamed::FormerTo;
-use super::{ExplainArgs, Output, SplitArgs};
+use super::{ExplainArgs, ListFormat, Output, SplitArgs};
 
 /// The map says, in TOML, which column is which channel, in which unit, and where the pictures are.
 #[derive(Debug, Args)]
-#[command(group = ArgGroup::new("layout").required(true).args(["map", "preset", "draft"]))]
+#[command(group = ArgGroup::new("layout").required(true).args(["map", "preset", "draft", "presets"]))]
 pub(crate) struct Import {
-    /// The folder that holds the table and the pictures
-    pub(crate) source: PathBuf,
+    /// The folder that holds the table and the pictures, or a tar of it (.tar, .tar.gz, .tgz)
+    #[arg(required_unless_present = "presets")]
+    pub(crate) source: Option<PathBuf>,
     /// The map; see the documentation of taceva-dataset for its keys
     #[arg(long, value_name = "MAP.toml")]
     pub(crate) map: Option<PathBuf>,
-    /// A known layout: bristol, py3dcal
+    /// A known layout, which needs no map: --presets lists them
     #[arg(long, value_name = "NAME")]
     pub(crate) preset: Option<String>,
+    /// List the known layouts: what lies where, what of it is read, what it leaves open
+    #[arg(long, conflicts_with_all = ["source", "out", "explain", "force", "ffmpeg"])]
+    pub(crate) presets: bool,
+    /// Print the map of --preset instead of importing, to be adapted; to --out, else to the terminal
+    #[arg(long, requires = "preset", conflicts_with = "explain")]
+    pub(crate) print: bool,
+    /// How --presets is written
+    #[arg(long, value_name = "FORMAT", value_enum, default_value_t = ListFormat::Text, requires = "presets")]
+    pub(crate) format: ListFormat,
     /// Look at the folder and write a first map for it, with reasons as comments and units left open; to --out, else to the terminal
     #[arg(long, conflicts_with = "explain")]
     pub(crate) draft: bool,
     /// The dataset to write: a new folder
-    #[arg(long, value_name = "DATASET", required_unless_present_any = ["explain", "to", "draft", "extend"])]
+    #[arg(long, value_name = "DATASET", required_unless_present_any = ["explain", "to", "draft", "extend", "presets", "print"])]
     pub(crate) out: Option<PathBuf>,
     /// Add the rows to this dataset, imported before by a map of the same sensor; each row before keeps its part of every split
     #[arg(long, value_name = "DATASET", conflicts_with_all = ["out", "to", "draft", "force"])]

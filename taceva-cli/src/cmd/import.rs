@@ -3,12 +3,16 @@
 use std::path::{Path, PathBuf};
 
 use taceva_core::shown;
-use taceva_dataset::{Addition, Decoders, ImportMap, ImportPlan, MapDraft, Preset, settle};
+use taceva_dataset::{
+    Addition, Decoders, ImportMap, ImportPlan, MapDraft, Preset, UnpackedArchive, settle,
+};
+use taceva_durable::parent_of;
 
 use super::{Context, Usage};
 use crate::args::Import;
 use crate::date::today;
 use crate::disk_space::{self, Need};
+use crate::report::presets;
 use crate::{av1_child, exit, output};
 
 pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
@@ -17,8 +21,25 @@ pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
     }
     let target = args.out.as_deref().or(args.former.to.as_deref());
     let target = target.or(args.extend.as_deref());
+    if args.presets {
+        output::write_as(args.format, None, |out| {
+            presets::list(args.format, line(), out)
+        })?;
+        return Ok(exit::DONE);
+    }
+    let source = Source::open(args, target)?;
     if args.draft {
-        return draft(args, target, context);
+        let draft = MapDraft::of(source.folder())?;
+        return map_written(draft.text(), args, target, context);
+    }
+    if args.print {
+        let text = preset(args)?.map(|preset| preset.text(source.folder()));
+        return map_written(
+            &text.transpose()?.unwrap_or_default(),
+            args,
+            target,
+            context,
+        );
     }
     if let Some(target) = target {
         // What a kill left of an earlier one first: a dataset that was set aside stands in its place again.
@@ -28,7 +49,11 @@ pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
             false => output::check_free(target, args.force)?,
         }
     }
-    let plan = ImportPlan::with_decoders(&args.source, &map(args)?, &decoders(args)?)?;
+    let plan = ImportPlan::with_decoders(
+        source.folder(),
+        &map(args, source.folder())?,
+        &decoders(args)?,
+    )?;
     let Some(target) = target.filter(|_| !args.explain.is_wanted) else {
         output::write(None, |out| write!(out, "{}", plan.summary()))?;
         return Ok(exit::DONE);
@@ -44,7 +69,8 @@ pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
     let (jobs, progress) = (context.jobs, &context.progress);
     let report = match (args.extend.is_some(), args.force) {
         (true, _) => {
-            let added = Addition::new(today(), args.source.to_string_lossy());
+            let named = args.source.as_deref().unwrap_or(source.folder());
+            let added = Addition::new(today(), named.to_string_lossy());
             plan.extend(target, &added, jobs, progress)
         }
         (false, true) => plan.replace(target, jobs, progress),
@@ -62,8 +88,53 @@ pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// Writes a first map for the folder.
-fn draft(args: &Import, target: Option<&Path>, context: &Context) -> anyhow::Result<u8> {
+/// Letters of a line where standard output is no terminal, and the most of one where it is.
+const LINE: usize = 110;
+
+/// Letters of a line of the terminal.
+fn line() -> usize {
+    let size = terminal_size::terminal_size();
+    size.map_or(LINE, |(width, _)| usize::from(width.0).min(LINE))
+}
+
+/// The folder that is imported: the one that was named, or what an archive holds.
+enum Source {
+    Folder(PathBuf),
+    Archive(UnpackedArchive),
+}
+
+impl Source {
+    fn open(args: &Import, target: Option<&Path>) -> anyhow::Result<Source> {
+        let path = args
+            .source
+            .as_deref()
+            .ok_or_else(|| Usage::error("no folder is named"))?;
+        if !UnpackedArchive::is_archive(path) {
+            return Ok(Source::Folder(path.to_owned()));
+        }
+        // On the disk of the dataset, which will hold as much.
+        let beside = match target.filter(|_| !args.explain.is_wanted) {
+            Some(target) => parent_of(target).to_owned(),
+            None => std::env::temp_dir(),
+        };
+        Ok(Source::Archive(UnpackedArchive::open(path, &beside)?))
+    }
+
+    fn folder(&self) -> &Path {
+        match self {
+            Source::Folder(path) => path,
+            Source::Archive(archive) => archive.folder(),
+        }
+    }
+}
+
+/// Writes a map for the folder.
+fn map_written(
+    text: &str,
+    args: &Import,
+    target: Option<&Path>,
+    context: &Context,
+) -> anyhow::Result<u8> {
     if let Some(target) = target {
         output::check_free(target, args.force)?;
         let former = std::fs::read_to_string(target).unwrap_or_default();
@@ -74,14 +145,19 @@ fn draft(args: &Import, target: Option<&Path>, context: &Context) -> anyhow::Res
             )));
         }
     }
-    let draft = MapDraft::of(&args.source)?;
-    output::write(target, |out| write!(out, "{}", draft.text()))?;
-    if let Some(target) = target {
-        let open = draft.text().matches(" = \"?\"").count();
+    output::write(target, |out| write!(out, "{text}"))?;
+    if let (Some(target), Some(source)) = (target, &args.source) {
+        let open = text.matches(" = \"?\"").count();
+        let state = match (args.draft, open) {
+            (true, open) => {
+                format!("a draft, in which {open} places are `\"?\"`; fill them in, then: ")
+            }
+            (false, _) => "the map of the preset; adapt it, then: ".to_owned(),
+        };
         context.say(format_args!(
-            "{}: a draft, in which {open} places are `\"?\"`; fill them in, then: taceva import {} --map {} --explain",
+            "{}: {state}taceva import {} --map {} --explain",
             shown(target),
-            shown(&args.source),
+            shown(source),
             shown(target),
         ));
     }
@@ -114,21 +190,29 @@ fn on_path(name: &Path) -> Option<PathBuf> {
     programs.find(|program| program.is_file())
 }
 
-fn map(args: &Import) -> anyhow::Result<ImportMap> {
+fn map(args: &Import, folder: &Path) -> anyhow::Result<ImportMap> {
+    if let Some(preset) = preset(args)? {
+        return Ok(preset.map(folder)?);
+    }
+    let path = args
+        .map
+        .as_deref()
+        .ok_or_else(|| Usage::error("either --map or --preset is needed"))?;
+    Ok(ImportMap::read(path)?)
+}
+
+/// The preset that is named.
+fn preset(args: &Import) -> anyhow::Result<Option<Preset>> {
     let Some(name) = &args.preset else {
-        let path = args
-            .map
-            .as_deref()
-            .ok_or_else(|| Usage::error("either --map or --preset is needed"))?;
-        return Ok(ImportMap::read(path)?);
+        return Ok(None);
     };
-    let preset = Preset::from_name(name).ok_or_else(|| {
+    let found = Preset::from_name(name).ok_or_else(|| {
         let known: Vec<&str> = Preset::ALL.iter().map(|preset| preset.name()).collect();
         Usage::error(format!(
             "no preset is called `{}`, expected one of {}",
             shown(name),
             known.join(", ")
         ))
-    })?;
-    Ok(preset.map(&args.source)?)
+    });
+    found.map(Some)
 }

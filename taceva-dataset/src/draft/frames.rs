@@ -9,11 +9,11 @@ use super::tables::{SeenColumn, SeenTable};
 use crate::file::SourceFolder;
 use crate::foreign::{PictureColumn, PictureKind};
 
-/// Cells that are looked up as files.
+/// How many cells of a column are looked up as files.
 const LOOKED_UP: usize = 20;
 
 pub(super) fn is_picture(ending: &str) -> bool {
-    matches!(ending, "png" | "jpg" | "jpeg")
+    matches!(ending, "png" | "jpg" | "jpeg" | "tif" | "tiff")
 }
 
 pub(super) fn is_clip(ending: &str) -> bool {
@@ -156,7 +156,7 @@ fn in_array(picture: &PictureColumn, file: Option<&str>, others: &[PictureColumn
     }
 }
 
-/// The range that numbers are mostly of where pictures are kept so.
+/// The range that pictures of such numbers mostly have: 0 to 1, −1 to 1 or 0 to 255.
 fn guessed_range(least: f64, greatest: f64) -> (f64, f64) {
     match (least, greatest) {
         (least, greatest) if least >= 0.0 && greatest <= 1.0 => (0.0, 1.0),

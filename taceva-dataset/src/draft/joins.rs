@@ -81,7 +81,7 @@ fn beside(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<(String, Vec<St
     })
 }
 
-/// A column of both whose cells in `main` are among those of `other`, where each stands once.
+/// By key: a column of both tables whose cells are unique in `other` and some of which `main` has.
 fn by_key(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
     let key = main.columns.iter().find(|column| {
         let Some(there) = other.columns.iter().find(|there| there.name == column.name) else {
@@ -106,7 +106,7 @@ fn by_key(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
     ])
 }
 
-/// Two clocks that show some of the same times.
+/// By time: the times of both tables overlap.
 fn by_time(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
     let (own, own_unit, _) = main.time()?;
     let (there, unit, _) = other.time()?;
@@ -141,13 +141,13 @@ fn by_time(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
             "tolerance_ms = {:.3}   # the time between two of its rows",
             spacing_ms.max(0.001)
         ),
-        "lag_ms = 0   # how much later its clock shows the same instant: nobody knows it here"
+        "lag_ms = 0   # how much later its clock shows the same instant: the files do not say it"
             .to_owned(),
         "unmatched = \"drop\"".to_owned(),
     ])
 }
 
-/// As many rows, and no better reason.
+/// Row by row: both tables have as many rows, and nothing else relates them.
 fn by_row(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
     let is_alike = main.rows == other.rows && main.channels() == 0;
     is_alike.then(|| vec!["on = \"row\"   # both have as many rows".to_owned()])

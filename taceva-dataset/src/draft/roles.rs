@@ -26,7 +26,7 @@ const FORCES: [&str; 3] = ["Fx", "Fy", "Fz"];
 const TORQUES: [&str; 3] = ["Tx", "Ty", "Tz"];
 const PLACES: [&str; 3] = ["Px", "Py", "Pz"];
 
-/// Seconds since 1970 are above this, s: the year 2001.
+/// Times above this, in seconds, count from 1970: it is a day in 2001.
 const UNIX_S: f64 = 1e9;
 
 /// What the column called `name` is; `about` is what its file is called, which explains columns called `value`.
@@ -55,6 +55,26 @@ pub(super) fn role(name: &str, about: &str, cells: &[String]) -> Role {
             None => of_texts(&filled),
         },
     }
+}
+
+/// What a column is whose numbers have names of their own: the channels that those names are, each once; an action is commanded, not measured.
+pub(super) fn of_named(column: &str, names: &[String]) -> Option<Role> {
+    let is_known = !names.is_empty() && names.iter().any(|name| !name.is_empty());
+    if !is_known || column.starts_with("action") {
+        return None;
+    }
+    let mut found: Vec<(&'static str, String)> = Vec::new();
+    for (at, name) in names.iter().enumerate() {
+        if let Some(channel) = channel(&words(name))
+            && found.iter().all(|(known, _)| *known != channel)
+        {
+            found.push((channel, format!("[{at}]")));
+        }
+    }
+    Some(match found.is_empty() {
+        true => Role::Other,
+        false => Role::Channels(found),
+    })
 }
 
 fn of_numbers(words: &[String], numbers: &[f64]) -> Role {
@@ -241,6 +261,18 @@ mod tests {
         ] {
             assert_eq!(channel(&words(name)), expected, "{name}");
         }
+    }
+
+    #[test]
+    fn numbers_with_names_of_their_own_are_the_channels_that_those_name() {
+        let names = ["gripper", "Fz", "Fx", "joint_1.pos"].map(str::to_owned);
+        let found = of_named("observation.state", &names);
+        let expected = vec![("Fz", "[1]".to_owned()), ("Fx", "[2]".to_owned())];
+        assert_eq!(found, Some(Role::Channels(expected)));
+        let joints = ["joint_1", "joint_2"].map(str::to_owned);
+        assert_eq!(of_named("observation.state", &joints), Some(Role::Other));
+        assert_eq!(of_named("action", &names), None);
+        assert_eq!(of_named("observation.state", &[]), None);
     }
 
     #[test]

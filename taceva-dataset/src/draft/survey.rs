@@ -7,9 +7,9 @@ use super::path_parts::{PathParts, varying};
 use crate::error::DatasetError;
 use crate::file::SourceFolder;
 
-/// Files and folders that are looked at.
+/// The most files and folders that are looked at.
 const LOOKED_AT: usize = 100_000;
-/// Files of a group whose names are compared.
+/// The most files of a group whose names are compared.
 const COMPARED: usize = 2_000;
 
 /// Files that were written alike.
@@ -103,11 +103,11 @@ fn grouped(files: Vec<String>) -> Vec<FileGroup> {
     groups.collect()
 }
 
-/// Tables beside one another mostly hold different things, those that end alike the same.
+/// Whether files with this ending may be tables: of these, names that differ in their last word mostly hold different things.
 fn is_table_ending(ending: &str) -> bool {
     !matches!(
         ending,
-        "png" | "jpg" | "jpeg" | "avi" | "mp4" | "mkv" | "mov"
+        "png" | "jpg" | "jpeg" | "tif" | "tiff" | "avi" | "mp4" | "mkv" | "mov"
     )
 }
 

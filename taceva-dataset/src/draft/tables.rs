@@ -4,16 +4,16 @@ use std::path::Path;
 
 use taceva_arrays::ArrayFormat;
 
-use super::roles::{Role, role};
+use super::roles::{Role, of_named, role};
 use super::survey::FileGroup;
 use crate::csv_table::number;
 use crate::file::SourceFolder;
 use crate::foreign::{ForeignTable, PictureColumn, TableForm, packed, topics};
 
-/// Rows whose cells are looked at.
+/// How many rows of a table are looked at.
 const SAMPLED: usize = 200;
 
-/// Numbers of a row that are taken for taxels.
+/// The fewest and the most numbers of a row that are taken for taxels.
 const LEAST_TAXELS: usize = 8;
 const MOST_TAXELS: usize = 4_096;
 
@@ -31,6 +31,8 @@ pub(super) struct SeenTable<'g> {
     pub(super) pictures: Vec<PictureColumn>,
     /// Lists of classes that the file states.
     pub(super) classes: Vec<(String, Vec<String>)>,
+    /// Other tables with pictures in the same file, as a map writes them.
+    pub(super) others: Vec<String>,
 }
 
 #[derive(Debug)]
@@ -90,7 +92,13 @@ impl<'g> SeenTable<'g> {
             .skip(1)
             .filter(|table| !table.pictures.is_empty())
             .count();
-        tables.drain(1..=others);
+        let others: Vec<String> = tables
+            .drain(1..=others)
+            .map(|table| table.written)
+            .collect();
+        if let Some(first) = tables.first_mut() {
+            first.others = others;
+        }
         Ok(tables)
     }
 
@@ -110,7 +118,8 @@ impl<'g> SeenTable<'g> {
             let cells = cells.map(|row| table.cell(row, &name).unwrap_or_default());
             let cells: Vec<String> = cells.map(|cell| packed::plain(&cell).to_owned()).collect();
             SeenColumn {
-                role: role(&name, about, &cells),
+                role: of_named(&name, &table.element_names(&name))
+                    .unwrap_or_else(|| role(&name, about, &cells)),
                 name,
                 cells,
             }
@@ -134,6 +143,7 @@ impl<'g> SeenTable<'g> {
             group,
             rows,
             classes: table.classes(),
+            others: Vec::new(),
             pictures,
         })
     }
@@ -159,6 +169,42 @@ impl<'g> SeenTable<'g> {
         let count = numbers?.len();
         let is_many = (LEAST_TAXELS..=MOST_TAXELS).contains(&count);
         (self.is_single_array && self.pictures.is_empty() && is_many).then_some(count)
+    }
+
+    /// The taxels that its columns are, as a map writes them, and how many numbers: a cell of many, or a run of many columns whose names say nothing.
+    pub(super) fn own_taxels(&self) -> Option<(String, usize)> {
+        if let Some(count) = self.taxels() {
+            return Some((format!("{:?}", self.columns[0].name), count));
+        }
+        let is_number = |column: &&SeenColumn| column.role == Role::Number;
+        let run: Vec<&SeenColumn> = self
+            .columns
+            .iter()
+            .skip_while(|column| !is_number(column))
+            .take_while(is_number)
+            .collect();
+        let numbers = self.columns.iter().filter(is_number).count();
+        let is_taxels = run.len() == numbers
+            && numbers.is_multiple_of(3)
+            && (LEAST_TAXELS..=MOST_TAXELS).contains(&numbers);
+        if !is_taxels || self.channels() > 0 || !self.pictures.is_empty() {
+            return None;
+        }
+        let [first, .., last] = run.as_slice() else {
+            return None;
+        };
+        let is_position = |column: &SeenColumn| column.name.parse::<usize>().is_ok();
+        let from = match is_position(first) && is_position(last) {
+            true => format!("\"{}..{}\"", first.name, last.name),
+            false => {
+                let names: Vec<String> = run
+                    .iter()
+                    .map(|column| format!("{:?}", column.name))
+                    .collect();
+                format!("[{}]", names.join(", "))
+            }
+        };
+        Some((from, numbers))
     }
 
     /// How many channels its columns hold.
@@ -188,7 +234,7 @@ impl<'g> SeenTable<'g> {
     }
 }
 
-/// Takes three numbers without names for forces, and six for forces and torques; whether there are so many.
+/// Takes three numbers without names for forces, six for forces and torques; returns whether there are three or six.
 fn guess_channels(columns: &mut [SeenColumn]) -> bool {
     let names = ["Fx", "Fy", "Fz", "Tx", "Ty", "Tz"];
     let numbers: Vec<&mut SeenColumn> = columns
@@ -235,16 +281,26 @@ fn form_of(path: &Path, group: &FileGroup) -> Option<(TableForm, String)> {
         }
         "jsonl" | "ndjson" => plain(TableForm::JsonLines),
         "parquet" => plain(TableForm::Parquet),
+        "tar" => plain(TableForm::WebDataset),
         _ => {
             let format = ArrayFormat::of(path)?;
-            let whole = TableForm::Arrays { format, rows: None };
+            let of = |rows| TableForm::Arrays {
+                format,
+                rows,
+                is_whole: false,
+            };
+            let whole = of(None);
             let table = ForeignTable::read(path, &whole).ok()?;
-            let Some(rows) = rows_within(&table.names()) else {
+            let names = table.names();
+            let found = match format {
+                ArrayFormat::Pickle | ArrayFormat::Npy => rows_of_dictionaries(&names),
+                _ => rows_within(&names),
+            };
+            let Some(rows) = found else {
                 return plain(whole);
             };
             let extra = format!("rows = {rows:?}");
-            let rows = Some(rows);
-            Some((TableForm::Arrays { format, rows }, extra))
+            Some((of(Some(rows)), extra))
         }
     }
 }
@@ -254,6 +310,17 @@ fn is_of_numbers(names: &[String]) -> bool {
     let is_number =
         |name: &&String| number::number(packed::plain(name)).is_ok_and(|found| found.is_some());
     names.iter().filter(is_number).count() * 2 > names.len()
+}
+
+/// Where the rows of dictionaries within dictionaries are: `trajectories.*`, or in the fields of one record.
+fn rows_of_dictionaries(names: &[String]) -> Option<String> {
+    let first = |name: &String| name.split_once('.').map(|(first, _)| first.to_owned());
+    if let Some(deep) = names.iter().find(|name| name.matches('.').count() > 1) {
+        return Some(format!("{}.*", first(deep)?));
+    }
+    let own = first(names.first()?)?;
+    let is_one = names.iter().all(|name| first(name).as_ref() == Some(&own));
+    is_one.then(|| format!("/{own}"))
 }
 
 /// Where the rows of a file of arrays are: in a table with fields, or in groups that are called alike.

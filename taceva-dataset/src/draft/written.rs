@@ -13,8 +13,8 @@ use crate::import::converter;
 use crate::table::is_attribute_name;
 
 const HEAD: &str = "\
-# A draft: made from names, headers and the first rows. Every \"?\" is for you; an import refuses it by its line.
-# What a comment calls a guess is one. `taceva import FOLDER --map THIS --explain` says what would be read.
+# A draft: made from names, headers and the first rows. Every \"?\" is to be filled in; an import refuses it and names its line.
+# Lines with \"a guess\" may be wrong. `taceva import FOLDER --map THIS --explain` says what would be read.
 map_version = 2
 ";
 
@@ -22,6 +22,13 @@ map_version = 2
 pub(super) fn refused_form(group: &FileGroup) -> Option<String> {
     let remedy = converter(group.first())?;
     Some(format!("{} is not read: {remedy}", group.first()))
+}
+
+/// That a preset is made for what lies here.
+pub(super) fn known_layout(preset: &str) -> String {
+    format!(
+        "This looks like the layout of `--preset {preset}`, which needs no map: `taceva import --presets` says what it reads."
+    )
 }
 
 /// The map of a folder whose samples are the rows of `main`.
@@ -38,6 +45,10 @@ pub(super) fn of_table(
         &mut text,
         &format!("table = {}   # {} rows", main.written, main.rows),
     );
+    if !main.others.is_empty() {
+        let others = main.others.join(", ");
+        line(&mut text, &format!("# Other pictures in it: {others}"));
+    }
     let others: Vec<&str> = tables
         .iter()
         .map(|table| table.group.pattern())
@@ -87,15 +98,21 @@ pub(super) fn of_table(
     if main.has_groups() {
         attributes.add("group", "\"group\"");
     }
+    let own_taxels = main.own_taxels();
     let numbers: Vec<&str> = columns
         .iter()
-        .filter(|(_, role)| *role == Role::Number)
+        .filter(|(name, role)| {
+            let is_taxel =
+                own_taxels.is_some() && main.columns.iter().any(|column| column.name == *name);
+            *role == Role::Number && !is_taxel
+        })
         .map(|(name, _)| name.as_str())
         .collect();
-    if main.has_guessed_channels {
+    let mut joined = joins.iter().map(|join| join.table.has_guessed_channels);
+    if main.has_guessed_channels || joined.any(|is_guessed| is_guessed) {
         channels.0.insert_str(
             0,
-            "# A guess: without a header, so many numbers are mostly these, in this order.\n",
+            "# A guess: three or six numbers without a header are mostly these, in this order.\n",
         );
     }
     let numbers = match numbers.is_empty() {
@@ -139,21 +156,29 @@ pub(super) fn of_table(
     let mut taxels = tables
         .iter()
         .filter(|table| table.rows == main.rows && table.written != main.written);
-    if let Some((table, count)) = taxels.find_map(|table| Some((table, table.taxels()?))) {
-        add_section(&mut text, "signals", &signals(table, count));
+    let beside = |table: &SeenTable<'_>| {
+        let from = format!("{{ file = {:?} }}", table.group.first());
+        Some((from, table.taxels()?))
+    };
+    if let Some((from, count)) = own_taxels.or_else(|| taxels.find_map(beside)) {
+        add_section(&mut text, "signals", &signals(&from, count));
     }
     ended(text)
 }
 
-/// The taxels in an array beside the table.
-fn signals(table: &SeenTable<'_>, count: usize) -> String {
+/// Taxels: so many numbers a row.
+fn signals(from: &str, count: usize) -> String {
     let (places, channels) = match count % 3 {
         0 => (count / 3, "[\"x\", \"y\", \"z\"]"),
         _ => (count, "[\"value\"]"),
     };
+    let side = places.isqrt();
+    let grid = match side > 1 && side * side == places {
+        true => format!("[{side}, {side}]"),
+        false => format!("[{places}, 1]"),
+    };
     format!(
-        "from = {{ file = {:?} }}\nunit = \"?\"\nplaces = [{places}, 1]   # a guess: rows and columns of the grid\nchannels = {channels}   # a guess\norder = \"place-first\"   # a guess: x y z x y z …\n",
-        table.group.first()
+        "from = {from}\nunit = \"?\"\nplaces = {grid}   # a guess: rows and columns of the grid\nchannels = {channels}   # a guess\norder = \"place-first\"   # a guess: x y z x y z …\n"
     )
 }
 

@@ -17,9 +17,11 @@ use crate::limits;
 use cells::Texts;
 pub(crate) use frames::ArrayPictures;
 
-/// How long a column may be, as text in memory, bytes.
+/// The most bytes that a column may take in memory as text.
 const COLUMN_BYTES: u64 = 1 << 30;
-/// Arrays that a message lists.
+/// The most values of a cell that holds a whole array.
+const CELL_VALUES: u64 = 1 << 16;
+/// The most arrays that a message lists.
 const LISTED: usize = 64;
 
 /// The rows of a file of arrays, of one group or several.
@@ -29,6 +31,8 @@ pub(crate) struct ArrayRows {
     file: Arc<ArrayFile>,
     /// The groups whose arrays are columns, or the table itself of an HDF5 table; one without a name where the file has none.
     groups: Vec<Group>,
+    /// Whether the file is one row, each array of it a cell.
+    is_whole: bool,
 }
 
 #[derive(Debug)]
@@ -63,7 +67,42 @@ impl ArrayRows {
             path: path.to_owned(),
             groups: groups?,
             file: Arc::new(file),
+            is_whole: false,
         })
+    }
+
+    /// The file as one row.
+    pub(super) fn whole(path: &Path, format: ArrayFormat) -> Result<ArrayRows, String> {
+        let file = ArrayFile::open(path, format).map_err(problem)?;
+        let whole = Group {
+            path: String::new(),
+            rows: 1,
+        };
+        Ok(ArrayRows {
+            path: path.to_owned(),
+            groups: vec![whole],
+            file: Arc::new(file),
+            is_whole: true,
+        })
+    }
+
+    /// A whole array as one cell.
+    fn whole_cell(&self, path: &str, info: &ArrayInfo) -> Result<String, String> {
+        let elements = info
+            .shape
+            .iter()
+            .try_fold(1_u64, |product, side| product.checked_mul(*side));
+        let elements = elements.unwrap_or(u64::MAX);
+        if elements > CELL_VALUES {
+            return Err(format!(
+                "{elements} values, more than the {CELL_VALUES} that a cell holds; without `whole = true` each of them along the first axis is a row"
+            ));
+        }
+        let read = self.file.read(path, 0..info.rows()).map_err(problem)?;
+        let sides = info.shape.iter().map(|side| usize::try_from(*side));
+        let shape: Result<Vec<usize>, _> = sides.collect();
+        let shape = shape.map_err(|error| error.to_string())?;
+        Ok(Texts(&read.values).packed(0, &shape))
     }
 
     /// The array of a group that the map calls `name`.
@@ -89,12 +128,16 @@ impl ArrayRows {
             return Ok(vec![text; group.rows]);
         }
         if name == "group" {
-            let last = group.path.rsplit('/').next().unwrap_or_default();
+            let between = if group.path.contains('/') { '/' } else { '.' };
+            let last = group.path.rsplit(between).next().unwrap_or_default();
             return Ok(vec![last.to_owned(); group.rows]);
         }
         let (path, info) = self
             .info(group, name)
             .ok_or_else(|| format!("there is no array of this name in `{}`", group.path))?;
+        if self.is_whole {
+            return self.whole_cell(&path, info).map(|cell| vec![cell]);
+        }
         let across = info.row_elements().ok_or("larger than any memory")?;
         if across.saturating_mul(info.rows()) > COLUMN_BYTES / 8 {
             return Err(format!(
@@ -294,7 +337,7 @@ fn rows_of(file: &ArrayFile, group: &str) -> Result<usize, String> {
     }
 }
 
-/// What is wrong, without the file, which is named around it.
+/// What is wrong, without the path of the file: the error around it names that.
 fn problem(error: ArrayError) -> String {
     match error.array {
         Some(array) => format!("`{array}`: {}", error.problem),

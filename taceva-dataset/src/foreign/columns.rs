@@ -32,6 +32,11 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
         Vec::new()
     }
 
+    /// What the numbers of a column are called, as the file states it.
+    fn element_names(&self, _column: &str) -> Vec<String> {
+        Vec::new()
+    }
+
     /// The pictures that belong to the rows, by the number of the row.
     fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, String>;
 
@@ -53,7 +58,7 @@ pub(crate) struct PictureColumn {
 /// How it holds them.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum PictureKind {
-    /// Bytes of a PNG or JPEG file.
+    /// Bytes of a PNG, JPEG or TIFF file.
     Encoded,
     /// Frames of clips beside the table.
     Clip,
@@ -157,6 +162,10 @@ impl ColumnTable {
 
     pub(super) fn classes(&self) -> Vec<(String, Vec<String>)> {
         self.source.classes()
+    }
+
+    pub(super) fn element_names(&self, column: &str) -> Vec<String> {
+        self.source.element_names(column)
     }
 
     /// For each row the clip that `key` names, relative to the folder of the table, and the frame in it.

@@ -1,4 +1,4 @@
-//! Pictures whose files are the cells of a column.
+//! Pictures that are cells of a column, each the bytes of a picture file.
 
 use std::fmt;
 use std::path::Path;

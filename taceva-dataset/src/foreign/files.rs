@@ -1,4 +1,4 @@
-//! No table at all: a file is a row, and its path is what is known of it.
+//! Files without a table: each is a row, whose labels stand in its path alone.
 
 use std::path::{Path, PathBuf};
 

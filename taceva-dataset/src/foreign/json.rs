@@ -13,7 +13,7 @@ use crate::limits;
 use crate::text::shown;
 use crate::toml_file::utf8;
 
-/// Rows looked at to list the members that there are.
+/// How many rows are looked at to list the members that there are.
 const LISTED: usize = 100;
 
 /// The rows of a JSON file.
@@ -33,8 +33,8 @@ struct JsonRow {
 }
 
 impl JsonRows {
-    /// What `rows` leads to in the file at `path`: a pointer, whose last step may be `*` for each member. Without one, each element of a list, or
-    /// the whole of anything else.
+    /// What `rows` leads to in the file at `path`: a pointer, in which a step `*` stands for each member. Without one, each element of a list,
+    /// or the whole of anything else.
     ///
     /// # Errors
     /// [`DatasetError::Table`] naming the line if it is no JSON, or the pointer leads nowhere.
@@ -43,49 +43,58 @@ impl JsonRows {
         let value: Value =
             serde_json::from_str(&whole).map_err(|error| no_json(path, &error, 0))?;
         let pointer = rows.unwrap_or(if value.is_array() { "/*" } else { "" });
-        let (way, each) = match pointer.strip_suffix("/*") {
-            Some(way) => (way, true),
-            None => (pointer, false),
-        };
-        let found = taken(value, way).ok_or_else(|| DatasetError::Table {
+        let wrong = |problem: String| DatasetError::Table {
             place: Place::file(path),
-            problem: format!(
-                "there is nothing at `{}`, where the map says that the rows are",
-                shown(way)
-            ),
-        })?;
-        let row = |key, value| JsonRow {
+            problem,
+        };
+        let ways = ways(pointer);
+        let mut found = vec![(None, value)];
+        for (depth, way) in ways.iter().enumerate() {
+            // A member without what is wanted within it has no rows.
+            let within = found.into_iter();
+            let within = within.filter_map(|(key, value)| Some((key, taken(value, way)?)));
+            found = within.collect();
+            if found.is_empty() {
+                return Err(wrong(format!(
+                    "there is nothing at `{}`, where the map says that the rows are",
+                    shown(&ways[..=depth].join("/*"))
+                )));
+            }
+            if depth + 1 == ways.len() {
+                break;
+            }
+            // Rows are numbered, and joined, as they lie in the file.
+            let in_order = match depth {
+                0 => in_order(&whole, way),
+                _ => None,
+            };
+            let each: Option<Vec<_>> = match in_order {
+                Some(members) => Some(members.into_iter().map(named).collect()),
+                None => found
+                    .into_iter()
+                    .map(members)
+                    .collect::<Option<Vec<_>>>()
+                    .map(|all| all.concat()),
+            };
+            found = each.ok_or_else(|| {
+                wrong(format!(
+                    "`{}` is no list and no object, so that it has no members",
+                    shown(&ways[..=depth].join("/*"))
+                ))
+            })?;
+        }
+        let rows = found.into_iter().map(|(key, value)| JsonRow {
             key,
             value,
             line: None,
-        };
-        let rows = match (each, found) {
-            (false, found) => vec![row(None, found)],
-            (true, Value::Array(list)) => list.into_iter().map(|value| row(None, value)).collect(),
-            (true, Value::Object(members)) => {
-                // Rows are numbered, and joined, as they lie in the file.
-                let members =
-                    in_order(&whole, way).unwrap_or_else(|| members.into_iter().collect());
-                let members = members.into_iter();
-                members.map(|(key, value)| row(Some(key), value)).collect()
-            }
-            (true, _) => {
-                return Err(DatasetError::Table {
-                    place: Place::file(path),
-                    problem: format!(
-                        "`{}` is no list and no object, so that it has no members",
-                        shown(way)
-                    ),
-                });
-            }
-        };
+        });
         Ok(JsonRows {
             path: path.to_owned(),
-            rows,
+            rows: rows.collect(),
         })
     }
 
-    /// A row a line; blank lines are none.
+    /// The rows of JSON lines: each line that is not blank is one.
     ///
     /// # Errors
     /// [`DatasetError::Table`] naming the line that is no JSON.
@@ -167,7 +176,7 @@ impl JsonRows {
     }
 }
 
-/// Objects, and lists in which objects or lists lie, are gone into.
+/// Adds pointers to the leaves of `value`; objects, and lists that hold objects or lists, are descended into.
 fn add_leaves(value: &Value, pointer: String, found: &mut Vec<String>) {
     if found.len() >= LISTED {
         return;
@@ -189,6 +198,48 @@ fn add_leaves(value: &Value, pointer: String, found: &mut Vec<String>) {
             }
         }
         _ => found.push(pointer),
+    }
+}
+
+/// The parts of a pointer between its steps `*`.
+fn ways(pointer: &str) -> Vec<String> {
+    let mut ways = vec![String::new()];
+    for step in pointer.split('/').skip(1) {
+        match (step, ways.last_mut()) {
+            ("*", _) | (_, None) => ways.push(String::new()),
+            (step, Some(way)) => {
+                way.push('/');
+                way.push_str(step);
+            }
+        }
+    }
+    ways
+}
+
+/// A value with the names of the members that lead to it.
+type Named = (Option<String>, Value);
+
+fn named((name, value): (String, Value)) -> Named {
+    (Some(name), value)
+}
+
+/// The members of a list or an object, whose names stand behind `key`; `None` of anything else.
+fn members((key, value): Named) -> Option<Vec<Named>> {
+    match value {
+        Value::Array(list) => Some(list.into_iter().map(|value| (key.clone(), value)).collect()),
+        Value::Object(members) => {
+            let full = |name: String| match &key {
+                Some(key) => format!("{key}/{name}"),
+                None => name,
+            };
+            let members = members.into_iter();
+            Some(
+                members
+                    .map(|(name, value)| (Some(full(name)), value))
+                    .collect(),
+            )
+        }
+        _ => None,
     }
 }
 
@@ -238,6 +289,9 @@ mod tests {
         assert_eq!(of(r#"[{"a": "p"}, {"a": null}]"#, None), ["-:p", "-:"]);
         assert_eq!(of(r#"{"a": [1, 2]}"#, None), ["-:[1,2]"]);
         assert_eq!(of(r#"{"in": [{"a": 3}]}"#, Some("/in/*")), ["-:3"]);
+        let deep = r#"{"y": {"s": [{"a": 1}, {"a": 2}]}, "x": {"t": []}, "w": {"s": [{"a": 3}]}}"#;
+        assert_eq!(of(deep, Some("/*/s/*")), ["y:1", "y:2", "w:3"]);
+        assert_eq!(of(deep, Some("/*/s/0")), ["y:1", "w:3"]);
     }
 
     #[test]

@@ -58,6 +58,14 @@ impl ColumnSource for LeRobotRows {
         features.collect()
     }
 
+    fn element_names(&self, column: &str) -> Vec<String> {
+        let mut features = self.dataset.features().iter();
+        let found = features.find(|feature| feature.name == column);
+        found
+            .map(|feature| feature.names.clone())
+            .unwrap_or_default()
+    }
+
     fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, String> {
         let FrameNames::Bytes(feature) = names else {
             return Err(

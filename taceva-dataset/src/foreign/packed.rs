@@ -1,9 +1,9 @@
 //! Several values in one cell: `[0.1, 0.2]`, `1 2 3`, `1;2;3`, lists in lists; and numbers as NumPy prints them.
 
-/// How deep lists may lie in lists.
+/// The most levels of lists within lists.
 const DEEPEST: usize = 16;
 
-/// The value at `index` of what `cell` packs, position by position from the outermost list; why there is none.
+/// The value at `index` in `cell`, a position for each level from the outermost list inwards; the error says why there is none.
 pub(crate) fn item<'a>(cell: &'a str, index: &[usize]) -> Result<&'a str, String> {
     let mut found = cell.trim();
     for (depth, position) in index.iter().enumerate() {

@@ -35,6 +35,11 @@ pub(crate) trait Pictures: fmt::Debug + Send + Sync {
         None
     }
 
+    /// The file that the picture at `index` is in, and its number there.
+    fn origin(&self, index: u64) -> (&Path, u64) {
+        (self.path(), index)
+    }
+
     /// Whether there is a picture at `index`.
     fn check_index(&self, index: u64) -> Result<(), DatasetError> {
         if index < self.count() {
@@ -51,7 +56,7 @@ pub(crate) trait Pictures: fmt::Debug + Send + Sync {
 /// What is done with each picture.
 pub(crate) type Visit<'v> = &'v mut dyn FnMut(u64, Picture) -> Result<(), DatasetError>;
 
-/// Why a visit ended: what is wrong with the file, or what was said of a picture.
+/// Why a visit ended early: the file is wrong, or the caller refused a picture.
 pub(super) enum Ended<E> {
     File(E),
     Picture(DatasetError),
@@ -87,7 +92,7 @@ pub(super) fn damaged(path: &Path, problem: String) -> DatasetError {
 
 /// A picture as it was found.
 pub(crate) enum Picture {
-    /// The bytes of a PNG or JPEG file, which are kept.
+    /// The bytes of a PNG, JPEG or TIFF file, which are kept.
     Encoded(Vec<u8>),
     Pixels(Frame),
 }

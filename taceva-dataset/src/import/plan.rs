@@ -17,7 +17,7 @@ use super::summary::ImportSummary;
 use crate::decode::ChannelOrder;
 use crate::error::{DatasetError, Place};
 use crate::file::SourceFolder;
-use crate::foreign::{ArrayPictures, ClipPictures, Pictures, TableForm};
+use crate::foreign::{ArrayPictures, ClipPictures, Pictures, SeveralPictures, TableForm};
 use crate::store::RecordingFacts;
 use crate::table::Table;
 use crate::text::shown;
@@ -78,12 +78,16 @@ pub(super) enum FrameSource {
 impl FrameSource {
     /// Where it is in the folder of the lab.
     fn origin(&self, folder: &Path) -> String {
-        let path = self.path();
-        let inside = path.strip_prefix(folder).unwrap_or(path);
-        let inside = inside.to_string_lossy().replace('\\', "/");
+        let inside = |path: &Path| {
+            let inside = path.strip_prefix(folder).unwrap_or(path);
+            inside.to_string_lossy().replace('\\', "/")
+        };
         match self {
-            FrameSource::File(_) => inside,
-            FrameSource::Within(_, index) => format!("{inside}#{index}"),
+            FrameSource::File(path) => inside(path),
+            FrameSource::Within(pictures, index) => {
+                let (path, index) = pictures.origin(*index);
+                format!("{}#{index}", inside(path))
+            }
         }
     }
 
@@ -296,18 +300,31 @@ impl<'a> Reading<'a> {
         Ok(FrameSource::Within(pictures, index))
     }
 
-    /// The pictures in the file at `relative`, which is opened once.
+    /// The pictures in the file at `relative`, which is opened once; with `*` in it, those of all such files, counted through.
     fn pictures(&mut self, relative: &str) -> Result<Arc<dyn Pictures>, DatasetError> {
-        let path = self.folder.file(self.folder.path(), relative)?;
+        let path = self.folder.path().join(relative);
         if let Some(known) = self.opened.get(&path) {
             return Ok(Arc::clone(known));
         }
+        let mut files = Vec::new();
+        for file in matching_files(self.folder, relative)? {
+            files.push(self.open(&file, relative)?);
+        }
+        let pictures = match files.len() {
+            1 => files.remove(0),
+            _ => Arc::new(SeveralPictures::new(files)),
+        };
+        self.opened.insert(path, Arc::clone(&pictures));
+        Ok(pictures)
+    }
+
+    fn open(&self, path: &Path, relative: &str) -> Result<Arc<dyn Pictures>, DatasetError> {
         let names = self.map.frame.as_ref().map(|frame| &frame.names);
-        let pictures: Arc<dyn Pictures> = match names {
+        Ok(match names {
             Some(names @ FrameNames::Array(array)) => {
-                Arc::new(ArrayPictures::open(&path, names, array)?)
+                Arc::new(ArrayPictures::open(path, names, array)?)
             }
-            Some(FrameNames::Video(_)) => Arc::new(ClipPictures::open(&path, self.decoders)?),
+            Some(FrameNames::Video(_)) => Arc::new(ClipPictures::open(path, self.decoders)?),
             _ => {
                 return Err(DatasetError::Path {
                     place: None,
@@ -315,9 +332,7 @@ impl<'a> Reading<'a> {
                     problem: "neither an array nor a clip".to_owned(),
                 });
             }
-        };
-        self.opened.insert(path, Arc::clone(&pictures));
-        Ok(pictures)
+        })
     }
 
     /// That nothing is left to import, and why.

@@ -10,7 +10,7 @@ use crate::limits;
 use crate::text::shown;
 
 /// The files that `pattern` names, sorted; `*` stands for any characters within one name.
-pub(super) fn matching_files(
+pub(crate) fn matching_files(
     folder: &SourceFolder,
     pattern: &str,
 ) -> Result<Vec<PathBuf>, DatasetError> {
@@ -46,6 +46,16 @@ pub(super) fn matching_files(
         .iter()
         .map(|relative| folder.file(folder.path(), relative))
         .collect()
+}
+
+/// Whether a file or folder is as `pattern`; the first that is found ends the search.
+pub(crate) fn has_match(folder: &Path, pattern: &str) -> bool {
+    let (part, rest) = match pattern.split_once('/') {
+        Some((part, rest)) => (part, Some(rest)),
+        None => (pattern, None),
+    };
+    let mut names = names_like(folder, part).into_iter();
+    names.any(|name| rest.is_none_or(|rest| has_match(&folder.join(name), rest)))
 }
 
 fn names_like(folder: &Path, pattern: &str) -> Vec<String> {
@@ -107,7 +117,7 @@ pub(super) fn unnamed_images(folder: &Path, named: &BTreeSet<PathBuf>) -> Vec<Pa
 
 fn is_image(path: &Path) -> bool {
     path.extension().is_some_and(|extension| {
-        ["png", "jpg", "jpeg"]
+        ["png", "jpg", "jpeg", "tif", "tiff"]
             .iter()
             .any(|known| extension.eq_ignore_ascii_case(known))
     })
@@ -116,6 +126,22 @@ fn is_image(path: &Path) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_match_is_found_at_any_depth() {
+        let lab = tempfile::tempdir().expect("a folder");
+        fs::create_dir_all(lab.path().join("a/x")).expect("made");
+        fs::create_dir_all(lab.path().join("b/x")).expect("made");
+        fs::write(lab.path().join("b/x/1.png"), "x").expect("written");
+        for (pattern, expected) in [
+            ("*/x/*.png", true),
+            ("a/x/*.png", false),
+            ("b", true),
+            ("*/y", false),
+        ] {
+            assert_eq!(has_match(lab.path(), pattern), expected, "{pattern}");
+        }
+    }
 
     #[test]
     fn a_star_stands_for_any_characters_within_a_name() {

@@ -25,6 +25,8 @@ pub struct Feature {
     pub dtype: String,
     /// Its shape in one row.
     pub shape: Vec<u64>,
+    /// What its numbers are called, in order; empty where nothing says it.
+    pub names: Vec<String>,
     /// Frames a second of a video: its own where it states them, else those of the dataset.
     pub fps: f64,
 }
@@ -83,6 +85,7 @@ pub(super) fn parse(source: &Source, json: &Value) -> Result<Info, TableError> {
                 .flatten()
                 .filter_map(Value::as_u64)
                 .collect(),
+            names: feature.get("names").map(names).unwrap_or_default(),
             fps: own.filter(|fps| is_rate(*fps)).unwrap_or(fps),
         });
     }
@@ -97,6 +100,18 @@ pub(super) fn parse(source: &Source, json: &Value) -> Result<Info, TableError> {
             .max(1),
         features,
     })
+}
+
+/// Texts in a list, or in lists by a name: `["x", "y"]`, `{"motors": ["x", "y"]}`.
+fn names(written: &Value) -> Vec<String> {
+    let lists: Vec<&Value> = match written {
+        Value::Object(lists) => lists.values().collect(),
+        list => vec![list],
+    };
+    let texts = lists.into_iter().filter_map(Value::as_array).flatten();
+    texts
+        .map(|text| text.as_str().unwrap_or_default().to_owned())
+        .collect()
 }
 
 fn is_rate(fps: f64) -> bool {

@@ -11,7 +11,7 @@ use crate::foreign::pictures::Picture;
 use crate::import::{ArrayLayout, FrameNames, PixelRange};
 use crate::limits;
 
-/// What is read of an array at once, bytes.
+/// How many bytes of an array are read at once.
 pub(super) const READ_BYTES: u64 = 8 << 20;
 
 /// How the rows of an array are frames.
@@ -26,12 +26,12 @@ pub(super) enum Form {
     },
 }
 
-/// The least side of an array that is taken for pictures without being named so, pixels.
+/// The shortest side, in pixels, of an array that a draft takes for pictures.
 const LEAST_SIDE: u64 = 8;
 
 /// How an array holds pictures, if it seems to.
 pub(super) fn kind_of(file: &ArrayFile, name: &str, info: &ArrayInfo) -> Option<PictureKind> {
-    if info.element == Element::Bytes && info.shape.len() == 1 {
+    if matches!(info.element, Element::Bytes | Element::Text) && info.shape.len() == 1 {
         let first = file.read(name, 0..1).ok()?;
         let ArrayValues::Bytes(all) = first.values else {
             return None;
@@ -64,9 +64,15 @@ pub(super) fn kind_of(file: &ArrayFile, name: &str, info: &ArrayInfo) -> Option<
 
 /// How the rows of an array are frames, and the bytes of each in the file.
 pub(super) fn form_of(info: &ArrayInfo, names: &FrameNames) -> Result<(Form, u64), String> {
-    if let (FrameNames::Bytes(_), 1) = (names, info.shape.len()) {
+    let is_encoded = match names {
+        FrameNames::Bytes(_) => true,
+        FrameNames::Array(_) => matches!(info.element, Element::Bytes | Element::Text),
+        _ => false,
+    };
+    if is_encoded && info.shape.len() == 1 {
         return match info.element {
-            Element::Bytes => Ok((Form::Encoded, READ_BYTES / 16)),
+            // Fields of one length that hold no text are read as bytes.
+            Element::Bytes | Element::Text => Ok((Form::Encoded, READ_BYTES / 16)),
             other => Err(format!(
                 "{other}, where `bytes` are encoded pictures of any length"
             )),
@@ -88,7 +94,7 @@ pub(super) fn form_of(info: &ArrayInfo, names: &FrameNames) -> Result<(Form, u64
         (_, Some(range)) => (range.bits(), Some(range)),
         (other, None) => {
             return Err(format!(
-                "numbers of {other}, of which nobody knows which is black and which is full: write `range = [BLACK, FULL]` and `bits = 8` or 16"
+                "numbers of {other}, which do not state what is black and what is full: write `range = [BLACK, FULL]` and `bits = 8` or 16"
             ));
         }
     };
@@ -107,7 +113,11 @@ pub(super) fn form_of(info: &ArrayInfo, names: &FrameNames) -> Result<(Form, u64
         width > 0 && height > 0 && width <= limits::IMAGE_SIDE && height <= limits::IMAGE_SIDE;
     let bytes = info_of_frame.byte_len().map(|bytes| bytes as u64);
     if !is_accepted || bytes.is_none_or(|bytes| bytes > limits::DECODED_BYTES) {
-        return Err(format!("frames of {info_of_frame} are not accepted"));
+        return Err(format!(
+            "frames of {info_of_frame} are not accepted: a side has 1 to {} pixels, a frame at most {} bytes",
+            limits::IMAGE_SIDE,
+            limits::DECODED_BYTES
+        ));
     }
     let wide = match info.element {
         Element::Unsigned(bits) | Element::Signed(bits) | Element::Float(bits) => {
@@ -148,7 +158,7 @@ fn sides(shape: &[u64], layout: Option<ArrayLayout>) -> Result<(u32, u32, u64, b
         }
         _ => {
             return Err(format!(
-                "{}, expected (n, height, width), (n, height, width, 3), or with `layout = \"nchw\"` (n, 3, height, width); a colour more or less is no \
+                "{}, expected (n, height, width), (n, height, width, 3), or with `layout = \"nchw\"` (n, 3, height, width); other numbers of colours are no \
                  picture here",
                 said()
             ));
@@ -165,7 +175,9 @@ impl Form {
             (Form::Encoded, ArrayValues::Bytes(all)) => {
                 return Ok(Picture::Encoded(all[at].clone()));
             }
-            (Form::Encoded, _) => return Err("no bytes".to_owned()),
+            (Form::Encoded, _) => {
+                return Err("a text, where bytes of a picture are expected".to_owned());
+            }
             (
                 Form::Pixels {
                     info,
@@ -220,7 +232,7 @@ impl Form {
     }
 }
 
-/// Those of the values as 64 bit numbers.
+/// The values in the range `own` as 64-bit floating point.
 fn numbers(values: &ArrayValues, own: Range<usize>) -> Result<Vec<f64>, String> {
     fn of<T: Copy + Into<f64>>(all: &[T], own: Range<usize>) -> Option<Vec<f64>> {
         Some(all.get(own)?.iter().map(|value| (*value).into()).collect())
@@ -242,6 +254,6 @@ fn numbers(values: &ArrayValues, own: Range<usize>) -> Result<Vec<f64>, String> 
         _ => None,
     };
     numbers.ok_or_else(|| {
-        "whole numbers of 64 bits are no pixels, or there are fewer than the shape says".to_owned()
+        "the array holds integers of 64 bits, which are not read as pixels, or fewer values than its shape states".to_owned()
     })
 }

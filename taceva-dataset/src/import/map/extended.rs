@@ -27,6 +27,7 @@ pub(super) struct WrittenJoin {
     table: Spanned<WrittenTable>,
     on: Option<WrittenOn>,
     time: Option<WrittenJoinTime>,
+    until: Option<ColumnName>,
     pick: Option<Pick>,
     tolerance_ms: Option<f64>,
     lag_ms: Option<f64>,
@@ -130,6 +131,12 @@ impl Check<'_> {
         }
         let times = (written.pick, written.tolerance_ms, written.lag_ms);
         let by = match (written.on, written.time, times) {
+            (None, None, (None, None, None)) if written.until.is_some() => {
+                JoinBy::Until(written.until.map(ColumnName::into_name).unwrap_or_default())
+            }
+            _ if written.until.is_some() => {
+                return Err(self.at(offset, "`until` stands alone: the first row whose number there is above that of the row belongs to it"));
+            }
             (Some(on), None, (None, None, None)) => match on {
                 WrittenOn::Word(word) if word == "row" => JoinBy::Row,
                 WrittenOn::Word(word) if word == "all" => JoinBy::All,
@@ -153,7 +160,7 @@ impl Check<'_> {
             (None, Some(_), _) => {
                 return Err(self.at(offset, "a join by time says `tolerance_ms`, the greatest distance, and `lag_ms`, how much later this table's clock shows the same instant; 0 if both are one clock"));
             }
-            _ => return Err(self.at(offset, "a join has `on`, or `time` with `pick`, `tolerance_ms` and `lag_ms`: expected one of both")),
+            _ => return Err(self.at(offset, "a join has `on`, or `time` with `pick`, `tolerance_ms` and `lag_ms`, or `until`: expected one of the three")),
         };
         Ok(JoinMap {
             name: written.name,

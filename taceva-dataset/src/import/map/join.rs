@@ -27,6 +27,8 @@ pub(crate) enum JoinBy {
     All,
     /// That of the same time.
     Time(TimeJoin),
+    /// The first whose number in this column is above that of the row: where episodes end, counted through.
+    Until(String),
 }
 
 /// How times are compared.

@@ -22,6 +22,8 @@ enum Piece {
 enum Kind {
     /// The longest text without `/` that lets the rest match.
     Free,
+    /// Folders in front, each with its `/`; none, or as many as let the rest match.
+    Folders,
     /// Digits.
     Digits,
     /// A decimal number, with a sign and an exponent where it has them.
@@ -39,9 +41,10 @@ impl PathPattern {
                 None => (named, Kind::Free),
                 Some((name, "digits")) => (name, Kind::Digits),
                 Some((name, "number")) => (name, Kind::Number),
+                Some((name, "folders")) => (name, Kind::Folders),
                 Some((_, other)) => {
                     return Err(format!(
-                        "`:{other}` is no kind of part, expected `:digits`, `:number` or none"
+                        "`:{other}` is no kind of part, expected `:digits`, `:number`, `:folders` or none"
                     ));
                 }
             };
@@ -131,6 +134,10 @@ impl PathPattern {
 impl Kind {
     /// How long a part at the beginning of `text` may be, the longest first.
     fn lengths(self, text: &str) -> Vec<usize> {
+        if self == Kind::Folders {
+            let ends = text.match_indices('/').map(|(at, _)| at + 1);
+            return ends.rev().chain([0]).collect();
+        }
         let end = text.find('/').unwrap_or(text.len());
         let part = &text[..end];
         let ends = part
@@ -138,7 +145,7 @@ impl Kind {
             .map(|(at, letter)| at + letter.len_utf8());
         let mut lengths: Vec<usize> = ends.collect();
         match self {
-            Kind::Free => {}
+            Kind::Free | Kind::Folders => {}
             Kind::Digits => {
                 let digits = part.bytes().take_while(u8::is_ascii_digit).count();
                 lengths.retain(|length| *length <= digits);
@@ -182,6 +189,14 @@ mod tests {
         let found = captured("{object}_{repeat:digits}.avi", "two_words_12.avi");
         assert_eq!(found.expect("it follows"), ["two_words", "12"]);
         assert_eq!(captured("{a}.png", "b/c.png"), None);
+        let pattern = "{before:folders}{gel}/images/{name}";
+        let found = captured(pattern, "/home/me/set/clear/images/1.png");
+        assert_eq!(
+            found.expect("it follows"),
+            ["/home/me/set/", "clear", "1.png"]
+        );
+        let found = captured(pattern, "clear/images/1.png");
+        assert_eq!(found.expect("it follows"), ["", "clear", "1.png"]);
         let found = captured("{a}/{b}", "Größe/世界");
         assert_eq!(found.expect("it follows"), ["Größe", "世界"]);
     }

@@ -29,6 +29,8 @@ pub(super) struct WrittenForm {
     format: Option<Format>,
     header: Option<bool>,
     rows: Option<String>,
+    #[serde(default)]
+    whole: bool,
 }
 
 #[derive(Clone, Copy, Deserialize)]
@@ -47,6 +49,7 @@ enum Format {
     Parquet,
     Mcap,
     Lerobot,
+    Webdataset,
 }
 
 impl Format {
@@ -58,7 +61,8 @@ impl Format {
             | Format::Jsonl
             | Format::Parquet
             | Format::Mcap
-            | Format::Lerobot => return None,
+            | Format::Lerobot
+            | Format::Webdataset => return None,
             Format::Npy => ArrayFormat::Npy,
             Format::Npz => ArrayFormat::Npz,
             Format::Hdf5 => ArrayFormat::Hdf5,
@@ -89,12 +93,17 @@ fn form_of(path: &str, format: Option<Format>) -> TableForm {
         None => ArrayFormat::of(Path::new(path)),
     };
     if let Some(format) = arrays {
-        return TableForm::Arrays { format, rows: None };
+        return TableForm::Arrays {
+            format,
+            rows: None,
+            is_whole: false,
+        };
     }
     match (format, ending.as_deref()) {
         (Some(Format::Json), _) | (None, Some("json")) => TableForm::Json { rows: None },
         (Some(Format::Parquet), _) | (None, Some("parquet")) => TableForm::Parquet,
         (Some(Format::Lerobot), _) => TableForm::LeRobot,
+        (Some(Format::Webdataset), _) | (None, Some("tar")) => TableForm::WebDataset,
         (Some(Format::Mcap), _) | (None, Some("mcap")) => TableForm::Messages { topic: None },
         (Some(Format::Jsonl), _) | (None, Some("jsonl" | "ndjson")) => TableForm::JsonLines,
         _ => TableForm::Delimited { has_header: true },
@@ -102,15 +111,19 @@ fn form_of(path: &str, format: Option<Format>) -> TableForm {
 }
 
 /// The command that makes a table which is read of one that is not, by what its name ends with.
-pub(crate) fn converter(path: &str) -> Option<&'static str> {
-    let ending = path.rsplit_once('.')?.1.to_ascii_lowercase();
-    Some(match ending.as_str() {
+pub(crate) fn converter(path: &str) -> Option<String> {
+    let (stem, ending) = path.rsplit_once('.')?;
+    let (stem, file) = match stem.contains('*') {
+        true => ("OUT", "FILE"),
+        false => (stem, path),
+    };
+    Some(match ending.to_ascii_lowercase().as_str() {
         "xlsx" | "xls" | "ods" => {
-            "`libreoffice --headless --convert-to csv FILE` writes a table that is"
+            format!("`libreoffice --headless --convert-to csv {file}` writes a table that is")
         }
-        "db3" | "bag" => {
-            "`mcap convert FILE OUT.mcap` of the mcap command line writes a recording that is"
-        }
+        "db3" | "bag" => format!(
+            "`mcap convert {file} {stem}.mcap` of the mcap command line writes a recording that is"
+        ),
         _ => return None,
     })
 }
@@ -151,6 +164,22 @@ impl Check<'_> {
                 ));
             }
         };
+        let form = match (form, described.whole) {
+            (form, false) => form,
+            (TableForm::Arrays { format, .. }, true) if described.rows.is_none() => {
+                TableForm::Arrays {
+                    format,
+                    rows: None,
+                    is_whole: true,
+                }
+            }
+            (_, true) => {
+                return Err(self.at(
+                    offset,
+                    "`whole = true` makes one row of a file of arrays, without `rows`",
+                ));
+            }
+        };
         let form = match (form, described.header, &described.rows) {
             (TableForm::Delimited { .. }, header, None) => TableForm::Delimited {
                 has_header: header.unwrap_or(true),
@@ -159,9 +188,16 @@ impl Check<'_> {
             (TableForm::Messages { .. }, None, rows) => TableForm::Messages {
                 topic: rows.clone(),
             },
-            (TableForm::Arrays { format, .. }, None, rows) => TableForm::Arrays {
+            (
+                TableForm::Arrays {
+                    format, is_whole, ..
+                },
+                None,
+                rows,
+            ) => TableForm::Arrays {
                 format,
                 rows: rows.clone(),
+                is_whole,
             },
             (form, None, None) => form,
             (_, Some(_), _) => return Err(self.at(offset, "`header` is for CSV and TSV alone")),

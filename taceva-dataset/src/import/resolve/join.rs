@@ -33,6 +33,8 @@ struct Candidates {
     by_key: HashMap<Vec<String>, Vec<usize>>,
     /// Of a join by time: each row with its time, s, in order.
     by_time: Vec<(f64, usize)>,
+    /// Of a join up to a number: each row with its number, in order.
+    until: Vec<(u64, usize)>,
 }
 
 /// What belongs to a row of the main table.
@@ -97,7 +99,7 @@ impl<'a> Joined<'a> {
     pub(super) fn own_columns(&self) -> impl Iterator<Item = &str> {
         let columns = match &self.map.by {
             JoinBy::Columns(columns) => columns.as_slice(),
-            JoinBy::Row | JoinBy::All | JoinBy::Time(_) => &[],
+            JoinBy::Row | JoinBy::All | JoinBy::Time(_) | JoinBy::Until(_) => &[],
         };
         columns.iter().map(|(own, _)| own.as_str())
     }
@@ -114,6 +116,7 @@ impl<'a> Joined<'a> {
                     _ => Ok(String::new()),
                 }
             }
+            At::Row(row) if column == "row" && !table.has(column) => Ok(row.to_string()),
             At::Row(row) => cell_of(table, row, column),
             At::Between(rows, share) => {
                 let of = |row| -> Result<Option<f64>, DatasetError> {
@@ -204,6 +207,13 @@ impl<'a> Joined<'a> {
                     Some([]) => Ok(At::Nowhere),
                 }
             }
+            JoinBy::Until(_) => {
+                let behind = candidates
+                    .until
+                    .partition_point(|(end, _)| *end <= row as u64);
+                let found = candidates.until.get(behind);
+                Ok(found.map_or(At::Nowhere, |(_, row)| At::Row(*row)))
+            }
             JoinBy::Time(join) => {
                 let Some(time) = &sources.map.time else {
                     return Err(DatasetError::Table {
@@ -257,15 +267,35 @@ impl Candidates {
             rows,
             by_key: HashMap::new(),
             by_time: Vec::new(),
+            until: Vec::new(),
         };
         let Candidates {
             table,
             rows,
             by_key,
             by_time,
+            until,
         } = &mut candidates;
         match &map.by {
             JoinBy::Row | JoinBy::All => {}
+            JoinBy::Until(column) => {
+                for row in rows.iter() {
+                    let cell = cell_of(table, *row, column)?;
+                    let end = cell.trim().parse::<u64>();
+                    let end = end
+                        .ok()
+                        .filter(|end| until.last().is_none_or(|(last, _)| last <= end));
+                    let end = end.ok_or_else(|| DatasetError::Table {
+                        place: table.place(*row, column),
+                        problem: format!(
+                            "`{}`: expected a whole number that is not below the one before it, where join `{}` counts through",
+                            shown(&cell),
+                            map.name
+                        ),
+                    })?;
+                    until.push((end, *row));
+                }
+            }
             JoinBy::Columns(columns) => {
                 for row in rows.iter() {
                     let cells = columns.iter().map(|(_, other)| cell_of(table, *row, other));

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use super::preset::Preset;
+use crate::preset::layouts::Preset;
 use crate::text::{shown, shown_path};
 
 /// The plans of a run, the mark of its folder, and the folder of its recordings.
@@ -38,7 +38,7 @@ pub(crate) fn advice(path: &Path) -> String {
         let folder = quoted(path);
         format!("{missing}; import it first: taceva import {folder} {layout} --out DATASET")
     };
-    if let Some(preset) = Preset::ALL.iter().find(|preset| preset.is_in(path)) {
+    if let Some(preset) = Preset::recognised(path) {
         return line(&format!("--preset {}", preset.name()));
     }
     match tables(path).first() {

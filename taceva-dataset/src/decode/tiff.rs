@@ -1,0 +1,102 @@
+//! TIFF: one picture of 8 or 16 bits, gray or RGB, plain or packed by LZW, Deflate or PackBits.
+
+use std::io::Cursor;
+
+use taceva_core::{FrameInfo, PixelFormat};
+use tiff::ColorType;
+use tiff::decoder::{Decoder, DecodingResult, Limits};
+use tiff::tags::Tag;
+
+use super::{checked_length, without_alpha};
+use crate::limits;
+
+/// The picture in a TIFF file: what it is, and its pixels, colours side by side, numbers of 16 bits little-endian.
+///
+/// Other numbers (signed, floating point, fewer or more bits), colours (palettes, CMYK, YCbCr) and packings (JPEG, fax) are refused by name,
+/// and so are several pictures in one file.
+pub(super) fn decode(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
+    let mut allowed = Limits::default();
+    let most = usize::try_from(limits::DECODED_BYTES).unwrap_or(usize::MAX);
+    allowed.decoding_buffer_size = most;
+    allowed.intermediate_buffer_size = most;
+    let text = |error: tiff::TiffError| error.to_string();
+    let mut decoder = Decoder::new(Cursor::new(bytes))
+        .map_err(text)?
+        .with_limits(allowed);
+    let (width, height) = decoder.dimensions().map_err(text)?;
+    if width > limits::IMAGE_SIDE || height > limits::IMAGE_SIDE {
+        return Err(format!(
+            "{width}×{height}, more than the {} pixels a side that are accepted",
+            limits::IMAGE_SIDE
+        ));
+    }
+    let color = decoder.colortype().map_err(text)?;
+    let (format, samples) = match color {
+        ColorType::Gray(8) => (PixelFormat::Gray8, 1),
+        ColorType::Gray(16) => (PixelFormat::Gray16, 1),
+        ColorType::RGB(8) => (PixelFormat::Rgb8, 3),
+        ColorType::RGB(16) => (PixelFormat::Rgb16, 3),
+        ColorType::RGBA(8) => (PixelFormat::Rgb8, 4),
+        ColorType::RGBA(16) => (PixelFormat::Rgb16, 4),
+        other => {
+            return Err(format!(
+                "TIFF with pixels of type {other:?} is not read: expected 8 or 16 bits, gray or RGB"
+            ));
+        }
+    };
+    let info = FrameInfo {
+        width,
+        height,
+        format,
+    };
+    check_pieces(&mut decoder, bytes.len() as u64)?;
+    let values = u64::from(width) * u64::from(height) * samples;
+    let length = checked_length(values * format.bytes_per_sample() as u64)?;
+    let pixels = match decoder.read_image().map_err(text)? {
+        DecodingResult::U8(pixels) => pixels,
+        DecodingResult::U16(numbers) => numbers.into_iter().flat_map(u16::to_le_bytes).collect(),
+        _ => {
+            return Err(
+                "TIFF with signed numbers or such with a floating point is not read: expected unsigned ones of 8 or 16 bits".to_owned(),
+            );
+        }
+    };
+    if pixels.len() != length {
+        return Err(format!(
+            "TIFF with {} bytes of pixels for {width}×{height}: planes of colours one behind the other are not read",
+            pixels.len()
+        ));
+    }
+    if decoder.more_images() {
+        return Err("TIFF with several pictures: a frame is one; write a file each".to_owned());
+    }
+    let pixels = match color {
+        ColorType::RGBA(8) => without_alpha::<4, 1>(&pixels)?,
+        ColorType::RGBA(_) => without_alpha::<8, 2>(&pixels)?,
+        _ => pixels,
+    };
+    Ok((info, pixels))
+}
+
+/// Whether every strip or tile lies within the file: a decoder of Deflate has enough before the last bytes.
+fn check_pieces(decoder: &mut Decoder<Cursor<&[u8]>>, length: u64) -> Result<(), String> {
+    let text = |error: tiff::TiffError| error.to_string();
+    for (offsets, lengths) in [
+        (Tag::StripOffsets, Tag::StripByteCounts),
+        (Tag::TileOffsets, Tag::TileByteCounts),
+    ] {
+        let of = |decoder: &mut Decoder<Cursor<&[u8]>>, tag| {
+            let found: Option<Vec<u64>> = decoder.find_tag_unsigned_vec(tag).map_err(text)?;
+            Ok::<_, String>(found.unwrap_or_default())
+        };
+        let pieces = of(decoder, offsets)?.into_iter().zip(of(decoder, lengths)?);
+        for (at, bytes) in pieces {
+            if at.checked_add(bytes).is_none_or(|end| end > length) {
+                return Err(format!(
+                    "cut short or damaged: {bytes} bytes of the picture lie at byte {at}, the file has {length}"
+                ));
+            }
+        }
+    }
+    Ok(())
+}

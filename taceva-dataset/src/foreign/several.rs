@@ -1,0 +1,76 @@
+//! Pictures of several files, counted through.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::pictures::{Pictures, Visit};
+use crate::decode::ChannelOrder;
+use crate::error::DatasetError;
+use crate::header::FrameCodec;
+
+/// The pictures of several files, one file after the other.
+#[derive(Debug)]
+pub(crate) struct SeveralPictures {
+    /// Each file with the number of its first picture among those of all.
+    files: Vec<(u64, Arc<dyn Pictures>)>,
+    count: u64,
+}
+
+impl SeveralPictures {
+    /// The pictures of `files`, of which there is at least one, in this order.
+    pub(crate) fn new(files: Vec<Arc<dyn Pictures>>) -> SeveralPictures {
+        let mut count = 0_u64;
+        let files = files.into_iter().map(|pictures| {
+            let first = count;
+            count = count.saturating_add(pictures.count());
+            (first, pictures)
+        });
+        SeveralPictures {
+            files: files.collect(),
+            count,
+        }
+    }
+}
+
+impl Pictures for SeveralPictures {
+    fn path(&self) -> &Path {
+        self.files[0].1.path()
+    }
+
+    fn count(&self) -> u64 {
+        self.count
+    }
+
+    fn codec(&self) -> Option<FrameCodec> {
+        self.files.iter().find_map(|(_, pictures)| pictures.codec())
+    }
+
+    fn origin(&self, index: u64) -> (&Path, u64) {
+        let behind = self.files.partition_point(|(first, _)| *first <= index);
+        let (first, pictures) = &self.files[behind.saturating_sub(1)];
+        pictures.origin(index - first)
+    }
+
+    fn visit(
+        &self,
+        sorted: &[u64],
+        order: ChannelOrder,
+        each: Visit<'_>,
+    ) -> Result<(), DatasetError> {
+        for (first, pictures) in &self.files {
+            let begin = sorted.partition_point(|index| index < first);
+            let end = sorted.partition_point(|index| *index < first + pictures.count());
+            if begin == end {
+                continue;
+            }
+            let own: Vec<u64> = sorted[begin..end]
+                .iter()
+                .map(|index| index - first)
+                .collect();
+            pictures.visit(&own, order, &mut |index, picture| {
+                each(first + index, picture)
+            })?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,293 @@
+//! Shards of WebDataset: a tar whose members of one name before the first dot are a sample; pictures are read where they lie.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs::File;
+use std::io::{BufReader, Read, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use serde_json::Value;
+
+use super::columns::{ColumnSource, PictureColumn, PictureKind};
+use super::pictures::{Picture, Pictures, Visit, damaged};
+use super::tar::{FileTape, Members, TarError};
+use crate::decode::{ChannelOrder, ImageKind};
+use crate::error::DatasetError;
+use crate::import::FrameNames;
+use crate::limits;
+
+/// How many samples are looked at to find whether a JSON has a member.
+const LOOKED_AT: usize = 100;
+/// The most bytes of a JSON or a text of a sample.
+const TEXT_BYTES: u64 = 1 << 20;
+/// Endings of members that are texts.
+const TEXTS: [&str; 4] = ["txt", "text", "cls", "id"];
+
+/// The samples of a shard.
+#[derive(Debug)]
+pub(super) struct Shard {
+    path: PathBuf,
+    samples: Arc<Vec<Sample>>,
+}
+
+#[derive(Debug, Default)]
+struct Sample {
+    key: String,
+    /// By what stands behind the dot, where its bytes begin and how many they are.
+    parts: BTreeMap<Arc<str>, (u64, u64)>,
+}
+
+impl Shard {
+    pub(super) fn open(path: &Path) -> Result<Shard, String> {
+        let is_packed = path.extension().is_some_and(|ending| ending != "tar");
+        if is_packed {
+            return Err(
+                "shards are read where they lie, which a compressed one does not allow: `gunzip` it first".to_owned(),
+            );
+        }
+        let samples = samples(path).map_err(|error| error.to_string())?;
+        Ok(Shard {
+            path: path.to_owned(),
+            samples: Arc::new(samples),
+        })
+    }
+
+    fn bytes(&self, place: (u64, u64), cap: u64) -> Result<Vec<u8>, String> {
+        let mut file = File::open(&self.path).map_err(|error| error.to_string())?;
+        bytes_at(&mut file, place, cap)
+    }
+
+    fn text(&self, sample: &Sample, name: &str) -> Result<Option<String>, String> {
+        let Some(place) = sample.parts.get(name) else {
+            return Ok(None);
+        };
+        let text = String::from_utf8(self.bytes(*place, TEXT_BYTES)?);
+        text.map(Some)
+            .map_err(|_| format!("`{}.{name}` is no text of Unicode", sample.key))
+    }
+
+    fn json(&self, sample: &Sample) -> Result<Option<Value>, String> {
+        let text = self.text(sample, "json")?;
+        let value = text.map(|text| serde_json::from_str(&text)).transpose();
+        value.map_err(|error| format!("`{}.json`: no JSON: {error}", sample.key))
+    }
+
+    fn has_json(&self, pointer: &str) -> bool {
+        let mut first = self.samples.iter().take(LOOKED_AT);
+        first.any(|sample| {
+            let value = self.json(sample).ok().flatten();
+            value.is_some_and(|value| value.pointer(pointer).is_some())
+        })
+    }
+
+    fn cell(&self, sample: &Sample, name: &str) -> Result<String, String> {
+        if name == "key" {
+            return Ok(sample.key.clone());
+        }
+        let Some(pointer) = name.strip_prefix("json") else {
+            let text = self.text(sample, name)?.unwrap_or_default();
+            return Ok(text.trim().to_owned());
+        };
+        let value = self.json(sample)?;
+        Ok(
+            match value.as_ref().and_then(|value| value.pointer(pointer)) {
+                None | Some(Value::Null) => String::new(),
+                Some(Value::String(text)) => text.trim().to_owned(),
+                Some(value) => value.to_string(),
+            },
+        )
+    }
+}
+
+/// The samples of a shard in its order.
+fn samples(path: &Path) -> Result<Vec<Sample>, TarError> {
+    let file = File::open(path)?;
+    let length = file.metadata()?.len();
+    let mut members = Members::new(FileTape {
+        file: BufReader::new(file),
+        length,
+    });
+    let mut samples: Vec<Sample> = Vec::new();
+    let mut endings: BTreeSet<Arc<str>> = BTreeSet::new();
+    while let Some(member) = members.next()? {
+        let (folder, name) = member.name.rsplit_once('/').unwrap_or(("", &member.name));
+        let Some((stem, ending)) = name.split_once('.').filter(|(stem, _)| !stem.is_empty()) else {
+            continue;
+        };
+        let key = match folder {
+            "" => stem.to_owned(),
+            folder => format!("{folder}/{stem}"),
+        };
+        let ending = ending.to_ascii_lowercase();
+        let ending = match endings.get(ending.as_str()) {
+            Some(known) => Arc::clone(known),
+            None => {
+                let ending: Arc<str> = ending.into();
+                endings.insert(Arc::clone(&ending));
+                ending
+            }
+        };
+        if samples.last().is_none_or(|last| last.key != key) {
+            samples.push(Sample {
+                key,
+                ..Sample::default()
+            });
+        }
+        if let Some(sample) = samples.last_mut()
+            && sample
+                .parts
+                .insert(ending, (member.at, member.size))
+                .is_some()
+        {
+            return Err(TarError::Twice(member.name));
+        }
+    }
+    Ok(samples)
+}
+
+fn bytes_at(file: &mut File, (at, size): (u64, u64), cap: u64) -> Result<Vec<u8>, String> {
+    if size > cap {
+        return Err(format!(
+            "{size} bytes, more than the {cap} that are accepted here"
+        ));
+    }
+    let mut bytes = Vec::new();
+    let read = file
+        .seek(SeekFrom::Start(at))
+        .and_then(|_| file.take(size).read_to_end(&mut bytes));
+    read.map_err(|error| error.to_string())?;
+    match bytes.len() as u64 == size {
+        true => Ok(bytes),
+        false => Err("the shard became shorter while it was read".to_owned()),
+    }
+}
+
+impl ColumnSource for Shard {
+    fn rows(&self) -> usize {
+        self.samples.len()
+    }
+
+    fn names(&self) -> Vec<String> {
+        let Some(first) = self.samples.first() else {
+            return Vec::new();
+        };
+        let texts = first
+            .parts
+            .keys()
+            .filter(|ending| TEXTS.contains(&&***ending));
+        let mut names = vec!["key".to_owned()];
+        names.extend(texts.map(|ending| ending.to_string()));
+        let members = self.json(first).ok().flatten();
+        let members = members.as_ref().and_then(Value::as_object);
+        names.extend(
+            members
+                .into_iter()
+                .flatten()
+                .map(|(name, _)| format!("json/{name}")),
+        );
+        names
+    }
+
+    fn has(&self, name: &str) -> bool {
+        match name.strip_prefix("json/") {
+            Some(pointer) => self.has_json(&format!("/{pointer}")),
+            None => {
+                name == "key"
+                    || (TEXTS.contains(&name)
+                        && self
+                            .samples
+                            .iter()
+                            .any(|sample| sample.parts.contains_key(name)))
+            }
+        }
+    }
+
+    fn columns(&self, names: &[&str]) -> Result<Vec<Vec<String>>, String> {
+        let column = |name: &&str| {
+            self.samples
+                .iter()
+                .map(|sample| self.cell(sample, name))
+                .collect()
+        };
+        names.iter().map(column).collect()
+    }
+
+    fn picture_columns(&self) -> Vec<PictureColumn> {
+        let parts = self
+            .samples
+            .first()
+            .into_iter()
+            .flat_map(|first| &first.parts);
+        let pictures = parts.filter(|(_, place)| {
+            let bytes = self.bytes(**place, limits::IMAGE_BYTES);
+            bytes.is_ok_and(|bytes| ImageKind::of(&bytes).is_some())
+        });
+        let column = |(name, _): (&Arc<str>, _)| PictureColumn {
+            name: name.to_string(),
+            kind: PictureKind::Encoded,
+        };
+        pictures.map(column).collect()
+    }
+
+    fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, String> {
+        let FrameNames::Bytes(ending) = names else {
+            return Err("pictures in a shard are encoded: `bytes` says what their names end with, such as \"jpg\"".to_owned());
+        };
+        let ending = ending.to_ascii_lowercase();
+        if let Some(without) = self
+            .samples
+            .iter()
+            .find(|sample| !sample.parts.contains_key(ending.as_str()))
+        {
+            let there: Vec<&str> = without.parts.keys().map(|known| &**known).collect();
+            return Err(format!(
+                "sample `{}` has no `.{ending}`, but {}",
+                without.key,
+                there.join(", ")
+            ));
+        }
+        Ok(Arc::new(ShardPictures {
+            path: self.path.clone(),
+            samples: Arc::clone(&self.samples),
+            ending,
+        }))
+    }
+}
+
+/// The pictures of a shard, one a sample.
+#[derive(Debug)]
+struct ShardPictures {
+    path: PathBuf,
+    samples: Arc<Vec<Sample>>,
+    ending: String,
+}
+
+impl Pictures for ShardPictures {
+    fn path(&self) -> &Path {
+        &self.path
+    }
+
+    fn count(&self) -> u64 {
+        self.samples.len() as u64
+    }
+
+    fn visit(
+        &self,
+        sorted: &[u64],
+        _order: ChannelOrder,
+        each: Visit<'_>,
+    ) -> Result<(), DatasetError> {
+        let wrong = |problem: String| damaged(&self.path, problem);
+        let mut file = File::open(&self.path).map_err(DatasetError::io("open", &self.path))?;
+        for index in sorted {
+            let sample = usize::try_from(*index)
+                .ok()
+                .and_then(|at| self.samples.get(at));
+            let place = sample.and_then(|sample| sample.parts.get(self.ending.as_str()));
+            let place = place.ok_or_else(|| wrong(format!("no picture {index}")))?;
+            let bytes = bytes_at(&mut file, *place, limits::IMAGE_BYTES).map_err(wrong)?;
+            each(*index, Picture::Encoded(bytes))?;
+        }
+        Ok(())
+    }
+}

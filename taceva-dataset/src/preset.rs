@@ -1,0 +1,49 @@
+//! Layouts that are common enough to need no map from the user: a map that is built in, fitted to the folder.
+
+mod assumed;
+mod fitted;
+pub(crate) mod layouts;
+mod lines;
+
+use std::path::Path;
+
+use crate::error::DatasetError;
+use crate::file::SourceFolder;
+use crate::import::ImportMap;
+
+pub use layouts::Preset;
+
+impl Preset {
+    /// The map for the folder at `source`, with comments that say what of it was verified: what `import --preset` reads, to be printed and adapted.
+    ///
+    /// # Errors
+    /// [`DatasetError::Path`] naming the file that was expected if the folder has another layout; those of reading the first table.
+    ///
+    /// ```
+    /// use taceva_dataset::Preset;
+    ///
+    /// # let folder = tempfile::tempdir()?;
+    /// # std::fs::write(folder.path().join("targets.csv"), "sensor_image,pose_x,pose_y\na.png,1,2\n")?;
+    /// # std::fs::create_dir(folder.path().join("images"))?;
+    /// let text = Preset::Bristol.text(folder.path())?;
+    /// assert!(text.contains(r#"Px = { from = "pose_x", unit = "mm" }"#));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn text(self, source: &Path) -> Result<String, DatasetError> {
+        let folder = SourceFolder::open(source)?;
+        self.check(&folder)?;
+        match self {
+            Preset::LerobotV3 | Preset::Rosbag => assumed::text(self, source),
+            _ => fitted::text(self, &folder),
+        }
+    }
+
+    /// The map for the folder at `source`: the columns its table has, the folder its images are in, the colours they have.
+    ///
+    /// # Errors
+    /// As [`text`](Preset::text).
+    pub fn map(self, source: &Path) -> Result<ImportMap, DatasetError> {
+        let name = format!("the map of preset {}", self.name());
+        ImportMap::parse(name.as_ref(), &self.text(source)?)
+    }
+}

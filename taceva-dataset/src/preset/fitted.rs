@@ -1,0 +1,319 @@
+//! Built-in maps, fitted to a folder: which of the files and columns that a layout may have are there.
+
+use std::path::Path;
+
+use super::layouts::Preset;
+use super::layouts::facts::{FOTA_FILES, UNIVTAC_FILES};
+use super::lines::{kept, without_section};
+use crate::csv_table::CsvTable;
+use crate::decode::{ChannelOrder, decode};
+use crate::error::{DatasetError, Place};
+use crate::file::{SourceFolder, read_capped};
+use crate::foreign::ForeignTable;
+use crate::import::ImportMap;
+use crate::import::source::{has_match, matching_files};
+use crate::limits;
+
+/// The map that is built in.
+const fn built_in(preset: Preset) -> &'static str {
+    match preset {
+        Preset::Bristol => include_str!("maps/bristol.toml"),
+        Preset::Py3dcal => include_str!("maps/py3dcal.toml"),
+        Preset::NineDTact => include_str!("maps/9dtact.toml"),
+        Preset::AllSight => include_str!("maps/allsight.toml"),
+        Preset::SparshForce => include_str!("maps/sparsh-force.toml"),
+        Preset::YcbSlide => include_str!("maps/ycb-slide.toml"),
+        Preset::Touchd => include_str!("maps/touchd.toml"),
+        Preset::Tacquad => include_str!("maps/tacquad.toml"),
+        Preset::PoseIt => include_str!("maps/poseit.toml"),
+        Preset::ToolForce => include_str!("maps/tool-force.toml"),
+        Preset::UniVtac => include_str!("maps/univtac.toml"),
+        Preset::GelsightLive => include_str!("maps/gelsight-live.toml"),
+        Preset::Fota => include_str!("maps/fota.toml"),
+        Preset::DiffusionZarr => include_str!("maps/diffusion-zarr.toml"),
+        // Made from the folder.
+        Preset::LerobotV3 | Preset::Rosbag => "",
+    }
+}
+
+/// The map for the folder.
+pub(super) fn text(preset: Preset, folder: &SourceFolder) -> Result<String, DatasetError> {
+    let text = built_in(preset).to_owned();
+    let text = match preset {
+        Preset::Bristol => bristol(text, folder)?,
+        Preset::SparshForce if !has_match(folder.path(), "*/*/dataset_digit_*.pkl") => text
+            .replace("dataset_digit_", "dataset_gelsight_")
+            .replace("\"DIGIT\"", "\"GelSight Mini\""),
+        Preset::Touchd => touchd(&text, folder)?,
+        Preset::PoseIt => poseit(&text, folder)?,
+        Preset::ToolForce => tool_force(&text, folder)?,
+        Preset::UniVtac => univtac(&text, folder)?,
+        Preset::Fota => text.replace(FOTA_FILES[0], there(folder, FOTA_FILES)),
+        Preset::DiffusionZarr => diffusion_zarr(&text, folder)?,
+        _ => text,
+    };
+    let text = match preset {
+        Preset::AllSight | Preset::SparshForce | Preset::Fota | Preset::Py3dcal => {
+            let table = first_table(&text, folder)?;
+            with_time(&kept(&text, |_, column| is_there(&table, column)), &table)
+        }
+        _ => text,
+    };
+    coloured(text, folder)
+}
+
+/// The first of the files that are as `pattern`.
+fn first(folder: &SourceFolder, pattern: &str) -> Result<std::path::PathBuf, DatasetError> {
+    let mut found = matching_files(folder, pattern)?;
+    Ok(found.swap_remove(0))
+}
+
+/// The first of the patterns that some file is like.
+fn there<'p>(folder: &SourceFolder, patterns: &[&'p str]) -> &'p str {
+    let mut found = patterns
+        .iter()
+        .filter(|pattern| has_match(folder.path(), pattern));
+    found.next().unwrap_or(&patterns[0])
+}
+
+/// The first table that the map names.
+fn first_table(text: &str, folder: &SourceFolder) -> Result<ForeignTable, DatasetError> {
+    // Alone, since lines of channels may stand there twice until it is known which columns there are.
+    let table = text
+        .lines()
+        .find(|line| line.starts_with("table = "))
+        .unwrap_or_default();
+    let alone = format!(
+        "map_version = 2\n{table}\n[frame]\npattern = \"x\"\nchannel_order = \"rgb\"\nreference = \"unknown\"\n[time]\nclock = \"unknown\"\n\
+         [sensor]\nmodel = \"x\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = \"unknown\"\n"
+    );
+    let map = ImportMap::parse(Path::new("preset.toml"), &alone)?;
+    ForeignTable::read(&first(folder, &map.table)?, &map.form)
+}
+
+/// Whether the table has the column, or an element of it; parts of paths, names of rows and other tables are always there.
+fn is_there(table: &ForeignTable, column: &str) -> bool {
+    let base = column.rsplit_once('[').map_or(column, |(base, _)| base);
+    column.starts_with("path.") || ["group", "key", "row"].contains(&column) || table.has(base)
+}
+
+/// The text without the column of the time where the table has none.
+fn with_time(text: &str, table: &ForeignTable) -> String {
+    let stated = text.split_once("[time]").and_then(|(_, time)| {
+        let column = time
+            .lines()
+            .find_map(|line| line.strip_prefix("column = \""))?;
+        column.strip_suffix('"')
+    });
+    match stated {
+        Some(column) if !is_there(table, column) => {
+            text.replace(&format!("column = \"{column}\"\nunit = \"s\"\n"), "")
+        }
+        _ => text.to_owned(),
+    }
+}
+
+/// Gray where the first picture is gray; without the reference where there is none.
+fn coloured(text: String, folder: &SourceFolder) -> Result<String, DatasetError> {
+    let reference = quoted(&text, "reference = \"").filter(|path| *path != "unknown");
+    let text = match reference {
+        Some(path) if !folder.path().join(path).exists() => text.replace(
+            &format!("reference = \"{path}\""),
+            "reference = \"unknown\"",
+        ),
+        _ => text,
+    };
+    let pictures = match (
+        quoted(&text, "table = { files = \""),
+        quoted(&text, "folder = \""),
+    ) {
+        (Some(files), _) => vec![files.to_owned()],
+        (None, Some(".") | None) => return Ok(text),
+        (None, Some(images)) => vec![format!("{images}/*.png"), format!("{images}/*.jpg")],
+    };
+    let found = pictures
+        .iter()
+        .find_map(|pattern| first(folder, pattern).ok());
+    let Some(path) = found else {
+        return Ok(text);
+    };
+    let bytes = read_capped(&path, limits::IMAGE_BYTES)?;
+    Ok(match decode(&bytes, ChannelOrder::Gray) {
+        Ok(_) => text.replace("channel_order = \"rgb\"", "channel_order = \"gray\""),
+        Err(_) => text,
+    })
+}
+
+/// What stands in quotes behind `before` at the beginning of a line.
+fn quoted<'t>(text: &'t str, before: &str) -> Option<&'t str> {
+    let rest = text.lines().find_map(|line| line.strip_prefix(before))?;
+    Some(rest.split_once('"')?.0)
+}
+
+/// Either generation of columns; without forces where every one of them is the 0.0 of a column never filled.
+fn bristol(text: String, folder: &SourceFolder) -> Result<String, DatasetError> {
+    let table = CsvTable::read(&folder.file(folder.path(), "targets.csv")?)?;
+    let mut text = match table.has("pose_1") {
+        true => include_str!("maps/bristol-numbered.toml").to_owned(),
+        false => text,
+    };
+    let mut has_force = false;
+    for name in ["Fx", "Fy", "Fz"] {
+        if table.has(name) {
+            let forces = table.numbers_with_invalid(name)?;
+            has_force |= forces.values().iter().any(|force| *force != 0.0);
+        }
+    }
+    text = kept(&text, |name, column| {
+        table.has(column) && (has_force || !name.starts_with('F'))
+    });
+    let exists = |name: &str| folder.path().join(name).exists();
+    Ok(match !exists("sensor_images") && exists("images") {
+        true => text
+            .replace("folder = \"sensor_images\"", "folder = \"images\"")
+            .replace("sensor_images/image_0.png", "images/image_0.png"),
+        false => text,
+    })
+}
+
+/// The first sensor that the file names, and the pictures of the left hand where there are two.
+fn touchd(text: &str, folder: &SourceFolder) -> Result<String, DatasetError> {
+    let path = folder.file(folder.path(), "all_data_direction.json")?;
+    let wrong = |problem: &str| DatasetError::Table {
+        place: Place::file(&path),
+        problem: problem.to_owned(),
+    };
+    let bytes = read_capped(&path, limits::JSON_BYTES)?;
+    let value: serde_json::Value =
+        serde_json::from_slice(&bytes).map_err(|error| wrong(&format!("no JSON: {error}")))?;
+    let first = value.as_object().and_then(|all| all.iter().next());
+    let sensors = first.and_then(|(key, sensors)| Some((key, sensors.as_object()?)));
+    let (key, sensors) = sensors.ok_or_else(|| {
+        wrong("expected an object of objects of lists: object and speed, then sensor")
+    })?;
+    let (sensor, rows) = sensors
+        .iter()
+        .next()
+        .ok_or_else(|| wrong("no sensor in it"))?;
+    let number = rows
+        .pointer("/0/0")
+        .map(ToString::to_string)
+        .unwrap_or_default();
+    let is_left = folder
+        .path()
+        .join(format!("{key}/{sensor}/image_{number}_l.png"))
+        .is_file();
+    let name = if is_left {
+        "image_{/0}_l.png"
+    } else {
+        "image_{/0}.png"
+    };
+    Ok(text
+        .replace("/gelsight/", &format!("/{sensor}/"))
+        .replace("image_{/0}.png", name))
+}
+
+/// The names of the columns in the header of `f_t.csv`, whatever they are called, and a header of `stages.csv` where it has one.
+fn poseit(text: &str, folder: &SourceFolder) -> Result<String, DatasetError> {
+    let path = first(folder, "*/f_t.csv")?;
+    let forces = CsvTable::read(&path)?;
+    let [time, wrench @ ..] = forces.names() else {
+        return Ok(text.to_owned());
+    };
+    if wrench.len() < 6 {
+        return Err(DatasetError::Table {
+            place: Place::file(&path),
+            problem: format!(
+                "{} columns, expected 7: the second, three forces, three torques",
+                wrench.len() + 1
+            ),
+        });
+    }
+    let mut text = text.replace("column = \"time\"", &format!("column = {time:?}"));
+    for (name, found) in ["Fx", "Fy", "Fz", "Tx", "Ty", "Tz"].into_iter().zip(wrench) {
+        text = text.replace(
+            &format!("from = \"ft.{name}\""),
+            &format!("from = {:?}", format!("ft.{found}")),
+        );
+    }
+    let stages = CsvTable::read(&first(folder, "*/stages.csv")?)?;
+    Ok(match stages.names() {
+        [name, second, ..] if second.parse::<f64>().is_err() => text
+            .replace("stages.csv\", header = false }", "stages.csv\" }")
+            .replace(
+                "time = { column = 1,",
+                &format!("time = {{ column = {second:?},"),
+            )
+            .replace("\"stages.0\"", &format!("{:?}", format!("stages.{name}"))),
+        _ => text,
+    })
+}
+
+/// The last number of the line, however many there are.
+fn tool_force(text: &str, folder: &SourceFolder) -> Result<String, DatasetError> {
+    let line = CsvTable::read_headerless(&first(folder, "*/force/force_data_*.txt")?)?;
+    let last = line.names().len().saturating_sub(1);
+    Ok(text.replace("\"force.0\"", &format!("\"force.{last}\"")))
+}
+
+/// Where the episodes lie, and how they call the left gel and its pictures.
+fn univtac(text: &str, folder: &SourceFolder) -> Result<String, DatasetError> {
+    let text = text.replace(UNIVTAC_FILES[0], there(folder, UNIVTAC_FILES));
+    let table = first_table(&text, folder)?;
+    let text = match table.has("/tactile/left_gsmini/pose") || table.has("/tactile/left_gsmini/rgb")
+    {
+        true => text,
+        false => text.replace("left_gsmini/", "left_tactile/"),
+    };
+    let pictures = quoted(&text, "bytes = \"").unwrap_or_default();
+    let text = match table.has(pictures) {
+        true => text,
+        false => text.replace("/rgb\"", "/rgb_marker\""),
+    };
+    Ok(kept(&text, |_, column| is_there(&table, column)))
+}
+
+/// The store, whether its arrays lie in `data`, the first camera, and whether it says where episodes end.
+fn diffusion_zarr(text: &str, folder: &SourceFolder) -> Result<String, DatasetError> {
+    let store = first(folder, "*.zarr")?;
+    let name = store
+        .file_name()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned();
+    let mut text = text.replace("\"data.zarr\"", &format!("{name:?}"));
+    if !store.join("data").is_dir() {
+        text = text.replace(", rows = \"/data\"", "");
+    }
+    let table = first_table(&text, folder)?;
+    let cameras = table.picture_columns();
+    if !table.has("camera_0")
+        && let Some(camera) = cameras.first()
+    {
+        text = text.replace("\"camera_0\"", &format!("{:?}", camera.name));
+    }
+    if !store.join("meta/episode_ends").is_dir() {
+        text = without_section(&without_section(&text, "[[join]]"), "[ids]");
+        text = text.replace("episode = \"episode.row\"\n", "");
+    }
+    Ok(kept(&text, |_, column| {
+        column.starts_with("episode.") || is_there(&table, column)
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_built_in_map_is_a_map() {
+        let numbered = include_str!("maps/bristol-numbered.toml");
+        let others = Preset::ALL
+            .into_iter()
+            .map(built_in)
+            .filter(|text| !text.is_empty());
+        for text in others.chain([numbered]) {
+            ImportMap::parse(Path::new("preset.toml"), &kept(text, |_, _| true)).expect("a map");
+        }
+    }
+}

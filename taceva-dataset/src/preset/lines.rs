@@ -1,0 +1,72 @@
+//! Lines of a map: those that name a column that is not there are left out.
+
+use std::collections::BTreeSet;
+
+/// Sections whose lines are a name and a column each.
+const OPTIONAL: [&str; 2] = ["[columns]", "[attributes]"];
+
+/// The text without the lines of channels and attributes for which `has` is false, and of several for one name the first that is left.
+pub(super) fn kept(text: &str, has: impl Fn(&str, &str) -> bool) -> String {
+    let mut section = "";
+    let mut names = BTreeSet::new();
+    let mut kept = String::new();
+    for line in text.lines() {
+        if line.starts_with('[') {
+            section = line;
+            names.clear();
+        }
+        let entry = OPTIONAL.contains(&section).then(|| entry(line)).flatten();
+        if let Some((name, column)) = entry
+            && (!has(name, column) || !names.insert(name))
+        {
+            continue;
+        }
+        kept += line;
+        kept.push('\n');
+    }
+    kept
+}
+
+/// The name and the column of a line: `Fx = { from = "ft[0]", unit = "N" }`, `object = "path.object"`.
+fn entry(line: &str) -> Option<(&str, &str)> {
+    let (name, value) = line.split_once(" = ")?;
+    let value = value.strip_prefix("{ from = ").unwrap_or(value);
+    let (column, _) = value.strip_prefix('"')?.split_once('"')?;
+    Some((name, column))
+}
+
+/// The text without the section that begins with `first`, up to the next one.
+pub(super) fn without_section(text: &str, first: &str) -> String {
+    let mut is_within = false;
+    let mut kept = String::new();
+    for line in text.lines() {
+        if line.starts_with('[') {
+            is_within = line == first;
+        }
+        if !is_within {
+            kept += line;
+            kept.push('\n');
+        }
+    }
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_of_absent_columns_and_second_ones_of_a_name_go() {
+        let text = "a = 1\n[columns]\nFx = { from = \"ft/0\", unit = \"N\" }\nFx = { from = \"f/0\", unit = \"N\" }\nFy = { from = \"g\", unit = \"N\" }\n\
+                    [time]\ncolumn = \"g\"\n";
+        let left = kept(text, |_, column| column.starts_with('f'));
+        assert_eq!(
+            left,
+            "a = 1\n[columns]\nFx = { from = \"ft/0\", unit = \"N\" }\n[time]\ncolumn = \"g\"\n"
+        );
+        assert_eq!(
+            without_section(&left, "[columns]"),
+            "a = 1\n[time]\ncolumn = \"g\"\n"
+        );
+    }
+}
