@@ -156,6 +156,14 @@ impl ForeignTable {
         }
     }
 
+    /// The unit in which the file counts the times in a column, where it says that they are times: `us`. Their cells are in seconds.
+    pub(crate) fn time_unit(&self, name: &str) -> Option<&'static str> {
+        match self {
+            ForeignTable::Columns(table) => table.time_unit(name),
+            _ => None,
+        }
+    }
+
     /// The name of a row, where rows have names: the member of a JSON object.
     pub(crate) fn key(&self, row: usize) -> Option<&str> {
         match self {

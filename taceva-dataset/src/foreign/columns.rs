@@ -24,6 +24,11 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
     /// `[1.0, 2.0]`.
     fn columns(&self, names: &[&str]) -> Result<Vec<Vec<String>>, String>;
 
+    /// The unit in which the file counts the times in a column, where it says that they are times; their cells are in seconds.
+    fn time_unit(&self, _name: &str) -> Option<&'static str> {
+        None
+    }
+
     /// What of it seems to hold pictures.
     fn picture_columns(&self) -> Vec<PictureColumn>;
 
@@ -149,6 +154,10 @@ impl ColumnTable {
             read.insert(name.to_owned(), Arc::new(column));
         }
         Ok(())
+    }
+
+    pub(super) fn time_unit(&self, name: &str) -> Option<&'static str> {
+        guarded(|| self.source.time_unit(name)).unwrap_or_default()
     }
 
     pub(super) fn picture_columns(&self) -> Vec<PictureColumn> {

@@ -1,5 +1,6 @@
 //! The map of an import: which column is which channel, in which unit, and which facts are unknown.
 
+mod axes;
 mod check;
 mod columns;
 mod drop;

@@ -5,6 +5,7 @@ mod join;
 mod matrix;
 mod signals;
 mod table;
+mod times;
 
 use std::path::Path;
 
@@ -67,10 +68,13 @@ pub(super) fn resolve(
     let bases: Vec<&str> = bases.collect();
     sources.main.read_ahead(&bases)?;
     sources.capture()?;
+    // Before a join compares times, and once what is joined is known.
+    sources.check_units()?;
     for join in &map.joins {
         let joined = Joined::new(&sources, folder, join)?;
         sources.joined.push(joined);
     }
+    sources.check_units()?;
     let rows = sources.main.rows();
     let mut cells = Vec::with_capacity(names.len());
     for name in &names {
@@ -136,11 +140,7 @@ impl Sources<'_> {
         if let Some(part) = name.strip_prefix("path.") {
             return self.part(row, part);
         }
-        let join = name.split_once('.').and_then(|(join, column)| {
-            let mut joined = self.joined.iter();
-            Some((joined.find(|joined| joined.name() == join)?, column))
-        });
-        if let Some((joined, column)) = join.filter(|_| !self.main.has(name)) {
+        if let Some((joined, column)) = self.joined_column(name) {
             return joined.cell(row, column);
         }
         match name {
@@ -151,6 +151,13 @@ impl Sources<'_> {
             _ => {}
         }
         cell_of(&self.main, row, name)
+    }
+
+    /// The join that `name` begins with, and the column of it; none where the main table has a column of that name.
+    fn joined_column<'n>(&self, name: &'n str) -> Option<(&Joined<'_>, &'n str)> {
+        let (join, column) = name.split_once('.')?;
+        let joined = self.joined.iter().find(|joined| joined.name() == join)?;
+        (!self.main.has(name)).then_some((joined, column))
     }
 
     /// A part of the path.

@@ -49,8 +49,7 @@ impl<'a> FoundSignals<'a> {
             SignalsFrom::Columns(_) => Found::Numbers(Vec::new()),
             SignalsFrom::Array { file, path } => {
                 let file = folder.file(folder.path(), file)?;
-                let length = map.spec.info.len() as u64;
-                let array = ArraySignals::open(&file, path.as_deref(), length)?;
+                let array = ArraySignals::open(&file, path.as_deref(), map)?;
                 Found::Array(array, Vec::new())
             }
         };

@@ -4,8 +4,10 @@ mod matching;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
+use taceva_core::SourceUnit;
+
 use super::columns::{base_of, mentioned};
-use super::{Sources, cell_of};
+use super::{Sources, cell_of, times};
 use crate::csv_table::number;
 use crate::error::{DatasetError, Place};
 use crate::file::SourceFolder;
@@ -133,6 +135,12 @@ impl<'a> Joined<'a> {
                 }))
             }
         }
+    }
+
+    /// That `unit`, which the map states of `column`, agrees with what the files say of it.
+    pub(super) fn check_unit(&self, column: &str, unit: &SourceUnit) -> Result<(), DatasetError> {
+        let mut tables = self.tables.iter();
+        tables.try_for_each(|candidates| times::check(&candidates.table, column, unit))
     }
 
     /// What was matched.
@@ -278,6 +286,7 @@ impl Candidates {
                 }
             }
             JoinBy::Time(join) => {
+                times::check(table, &join.time.column, &join.time.unit)?;
                 for row in rows.iter() {
                     let cell = cell_of(table, *row, &join.time.column)?;
                     let place = || table.place(*row, &join.time.column);

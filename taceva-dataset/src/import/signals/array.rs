@@ -25,11 +25,11 @@ pub(super) struct ArraySignals {
 }
 
 impl ArraySignals {
-    /// The array called `name`, or the only one, of the file at `path`, which has `length` numbers a row.
+    /// The array called `name`, or the only one, of the file at `path`, whose rows have the axes that `map` states.
     pub(super) fn open(
         path: &Path,
         name: Option<&str>,
-        length: u64,
+        map: &SignalsMap,
     ) -> Result<ArraySignals, DatasetError> {
         let wrong = |problem| wrong(path, problem);
         let format = ArrayFormat::of(path).ok_or_else(|| {
@@ -60,21 +60,21 @@ impl ArraySignals {
             [rows, beside @ ..] => (*rows, beside),
             [] => (0, &[][..]),
         };
-        let found = beside
-            .iter()
-            .try_fold(1_u64, |product, side| product.checked_mul(*side));
-        if found != Some(length) || rows == 0 {
+        let array = crate::text::shown(&name);
+        if rows == 0 {
             return Err(wrong(format!(
-                "an array of shape {:?}, expected rows of {length} numbers, as `places` and `channels` of [signals] say",
+                "`{array}` of shape {:?} has no row of signals",
                 info.shape
             )));
         }
+        map.check_axes(beside)
+            .map_err(|problem| wrong(format!("`{array}`: {problem}")))?;
         Ok(ArraySignals {
             path: path.to_owned(),
             file,
             name,
             rows,
-            length,
+            length: map.spec.info.len() as u64,
         })
     }
 
