@@ -17,7 +17,7 @@ use crate::fields::{Field, Item};
 use crate::kept::Kept;
 use crate::limits;
 use crate::source::{ByteSource, FileBytes, bytes_of};
-use crate::store::{Arrays, Store};
+use crate::store::{Arrays, Store, chunks_of};
 use crate::values::ArrayData;
 
 use heap::GlobalHeap;
@@ -221,6 +221,21 @@ impl Store for Hdf5 {
 
     fn attribute(&self, owner: &str, name: &str) -> Option<String> {
         attribute::read(&self.file, owner, name)
+    }
+
+    fn absent_chunks(&self, index: usize) -> Result<u64, Problem> {
+        let listed = &self.datasets[self.listed[index].0];
+        let dataset = self.file.dataset(&listed.path).map_err(problem)?;
+        match dataset.layout().map_err(problem)? {
+            Layout::Contiguous { address: None, .. } => Ok(u64::from(!listed.shape.contains(&0))),
+            Layout::Chunked { chunk_shape, .. } => {
+                // One kind of index cannot be listed by the crate.
+                let there = dataset.chunks().map(|chunks| chunks.len() as u64);
+                let all = chunks_of(&listed.shape, &chunk_shape);
+                Ok(there.map_or(0, |there| all.saturating_sub(there)))
+            }
+            _ => Ok(0),
+        }
     }
 
     fn read(&self, index: usize, rows: Range<u64>) -> Result<ArrayData, Problem> {

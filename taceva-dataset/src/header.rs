@@ -2,6 +2,7 @@
 
 mod facts;
 mod footprint;
+mod left_out;
 mod stream;
 #[cfg(test)]
 mod tests;
@@ -25,6 +26,8 @@ use taceva_seal::{Opened, SealError};
 
 pub use facts::{FrameCodec, FramesInfo, Known, ReferenceInfo, SensorFacts, Source, TableInfo};
 pub use footprint::{Footprint, Shape};
+pub use left_out::LeftOut;
+pub(crate) use left_out::add as add_left_out;
 pub use stream::StreamFacts;
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -73,6 +76,8 @@ pub struct Header {
     pub attributes: Vec<String>,
     /// Columns of the imported table that no key of its map names; empty of a recording, and before format 1.4.
     pub unmentioned_columns: Vec<String>,
+    /// What an import left out; empty of a recording, and before format 1.8.
+    pub left_out: LeftOut,
     /// What all frames share; `None` if there is none.
     pub frames: Option<FramesInfo>,
     /// How many presses ended in which way, those without a sample too; empty where no protocol pressed, and before format 1.2.
@@ -112,6 +117,8 @@ struct Written {
     stream: Option<StreamFacts>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     signals: Option<WrittenSignals>,
+    #[serde(default, skip_serializing_if = "LeftOut::is_empty")]
+    left_out: LeftOut,
     table: TableInfo,
     channels: Vec<ChannelInfo>,
 }
@@ -169,6 +176,7 @@ impl Header {
             channels,
             attributes: written.attributes,
             unmentioned_columns: written.unmentioned_columns,
+            left_out: written.left_out,
             frames: written.frames,
             presses: written.presses,
             stream: written.stream,
@@ -204,6 +212,7 @@ impl Header {
             presses: self.presses.clone(),
             stream: self.stream,
             signals: self.signals.as_ref().map(WrittenSignals::from),
+            left_out: self.left_out.clone(),
             table: self.table,
             channels: self
                 .channels

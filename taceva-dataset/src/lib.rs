@@ -49,8 +49,8 @@ pub use error::{DatasetError, Place};
 pub use export::{export_csv, export_hugging_face};
 pub use header::reseal_header;
 pub use header::{
-    Footprint, FrameCodec, FramesInfo, Header, Known, ReferenceInfo, SensorFacts, Shape, Source,
-    StreamFacts, TableInfo,
+    Footprint, FrameCodec, FramesInfo, Header, Known, LeftOut, ReferenceInfo, SensorFacts, Shape,
+    Source, StreamFacts, TableInfo,
 };
 pub use import::{
     ArrayFrames, ArrayLayout, ColumnMap, Conversion, DropRules, FrameMap, FrameNames, IdMap,

@@ -8,7 +8,9 @@ use taceva_core::{Clock, PressOutcome};
 use crate::digest::{Digest, PartsDigest};
 use crate::error::DatasetError;
 use crate::file::write_durable;
-use crate::header::{Footprint, FramesInfo, Header, SensorFacts, Source, StreamFacts, TableInfo};
+use crate::header::{
+    Footprint, FramesInfo, Header, LeftOut, SensorFacts, Source, StreamFacts, TableInfo,
+};
 use crate::samples::to_parquet;
 use crate::signals::SignalsInfo;
 use crate::table::Table;
@@ -75,6 +77,8 @@ pub(crate) struct Beside {
     pub(crate) presses: BTreeMap<PressOutcome, u64>,
     /// Columns that no key of an import names.
     pub(crate) unmentioned_columns: Vec<String>,
+    /// What an import left out.
+    pub(crate) left_out: LeftOut,
     /// What was lost of a stream.
     pub(crate) stream: Option<StreamFacts>,
     /// The file of signals, which is written already.
@@ -97,7 +101,8 @@ pub(crate) fn write_table_and_header(
     let table_digest = table.digest();
     let mut written = Header {
         format: match table.source_row().iter().any(Option::is_some) {
-            _ if beside.signals.is_some() => Version::CURRENT,
+            _ if !beside.left_out.is_empty() => Version::CURRENT,
+            _ if beside.signals.is_some() => Version::WITHOUT_LEFT_OUT,
             true => Version::WITHOUT_SIGNALS,
             false if facts.settings.is_empty() && beside.stream.is_none() => {
                 Version::WITHOUT_SETTINGS
@@ -112,6 +117,7 @@ pub(crate) fn write_table_and_header(
         channels: table.channels().clone(),
         attributes: table.attribute_names().to_vec(),
         unmentioned_columns: beside.unmentioned_columns,
+        left_out: beside.left_out,
         digest: digest_with_signals(
             dataset_digest(table_digest, frames.as_ref()),
             beside.signals.as_ref(),

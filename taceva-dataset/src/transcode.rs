@@ -106,6 +106,7 @@ pub fn write_as_jpeg(
         Beside {
             presses: header.presses.clone(),
             unmentioned_columns: header.unmentioned_columns.clone(),
+            left_out: header.left_out.clone(),
             stream: header.stream,
             signals: header.signals.clone(),
         },

@@ -13,6 +13,7 @@ mod finding;
 mod label_lag;
 mod label_outliers;
 mod leakage;
+mod left_out;
 mod lost_frames;
 mod missing_labels;
 mod placeholder;
@@ -33,7 +34,7 @@ pub use run::{CheckRequest, check, check_plan};
 pub use signal_facts::{SignalFacts, TaxelFacts};
 
 /// Every check, in the order of its code.
-pub static ALL: [&Check; 20] = [
+pub static ALL: [&Check; 21] = [
     &units::CHECK,
     &duplicate_frames::CHECK,
     &channel_order::CHECK,
@@ -54,4 +55,5 @@ pub static ALL: [&Check; 20] = [
     &clipped_taxel::CHECK,
     &pressed_rest::CHECK,
     &label_lag::CHECK,
+    &left_out::CHECK,
 ];

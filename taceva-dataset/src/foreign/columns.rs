@@ -29,6 +29,11 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
         None
     }
 
+    /// The arrays behind these columns of which chunks were never written, and how many.
+    fn absent_chunks(&self, _names: &[&str]) -> Result<Vec<(String, u64)>, String> {
+        Ok(Vec::new())
+    }
+
     /// What of it seems to hold pictures.
     fn picture_columns(&self) -> Vec<PictureColumn>;
 
@@ -158,6 +163,11 @@ impl ColumnTable {
 
     pub(super) fn time_unit(&self, name: &str) -> Option<&'static str> {
         guarded(|| self.source.time_unit(name)).unwrap_or_default()
+    }
+
+    pub(super) fn absent_chunks(&self, names: &[&str]) -> Result<Vec<(String, u64)>, DatasetError> {
+        let counted = guarded(|| self.source.absent_chunks(names)).and_then(|counted| counted);
+        counted.map_err(|problem| wrong(&self.path, problem))
     }
 
     pub(super) fn picture_columns(&self) -> Vec<PictureColumn> {

@@ -9,12 +9,14 @@ use std::sync::Arc;
 use taceva_video::Decoders;
 
 use super::frame_cells::FrameName;
+use super::left_out;
 use super::map::{FrameMap, FrameNames, ImportMap};
+use super::planned_frames::{FrameSource, PlannedFrame, PlannedFrames};
+use super::resolve::JoinMatches;
 use super::rows::MappedTable;
 use super::signals::{FoundSignals, PlannedSignals};
 use super::source::{matching_files, unnamed_images};
 use super::summary::ImportSummary;
-use crate::decode::ChannelOrder;
 use crate::error::{DatasetError, Place};
 use crate::file::SourceFolder;
 use crate::foreign::{ArrayPictures, ClipPictures, Pictures, TableForm};
@@ -48,49 +50,6 @@ pub struct ImportPlan {
     pub(super) table: Table,
     pub(super) frames: Option<PlannedFrames>,
     pub(super) signals: Option<PlannedSignals>,
-}
-
-/// Where the frames come from.
-#[derive(Debug)]
-pub(super) struct PlannedFrames {
-    pub(super) order: ChannelOrder,
-    pub(super) reference: Option<PathBuf>,
-    /// For each kept row.
-    pub(super) of_rows: Vec<PlannedFrame>,
-}
-
-/// Where one frame comes from, and which cell says so.
-#[derive(Debug)]
-pub(super) struct PlannedFrame {
-    pub(super) from: FrameSource,
-    pub(super) named_at: Place,
-}
-
-#[derive(Debug)]
-pub(super) enum FrameSource {
-    File(PathBuf),
-    /// The picture of that number in another file.
-    Within(Arc<dyn Pictures>, u64),
-}
-
-impl FrameSource {
-    /// Where it is in the folder of the lab.
-    fn origin(&self, folder: &Path) -> String {
-        let path = self.path();
-        let inside = path.strip_prefix(folder).unwrap_or(path);
-        let inside = inside.to_string_lossy().replace('\\', "/");
-        match self {
-            FrameSource::File(_) => inside,
-            FrameSource::Within(_, index) => format!("{inside}#{index}"),
-        }
-    }
-
-    pub(super) fn path(&self) -> &Path {
-        match self {
-            FrameSource::File(path) => path,
-            FrameSource::Within(pictures, _) => pictures.path(),
-        }
-    }
 }
 
 impl ImportPlan {
@@ -183,6 +142,9 @@ struct Reading<'a> {
     opened: BTreeMap<PathBuf, Arc<dyn Pictures>>,
     frames: Vec<PlannedFrame>,
     signals: Option<FoundSignals<'a>>,
+    joins: Vec<JoinMatches>,
+    /// Chunks that were never written, by file and array.
+    absent_chunks: BTreeMap<String, u64>,
     samples: HashSet<String>,
     /// Every image that a row names, dropped ones too.
     named: BTreeSet<PathBuf>,
@@ -203,6 +165,8 @@ impl<'a> Reading<'a> {
             table: Table::new(map.channels.clone(), attributes),
             frames: Vec::new(),
             signals: None,
+            joins: Vec::new(),
+            absent_chunks: BTreeMap::new(),
             samples: HashSet::new(),
             named: BTreeSet::new(),
             bases: BTreeSet::new(),
@@ -211,11 +175,16 @@ impl<'a> Reading<'a> {
     }
 
     fn read(&mut self, path: &Path) -> Result<(), DatasetError> {
-        let rows = MappedTable::open(self.map, self.folder, path)?;
+        let mut rows = MappedTable::open(self.map, self.folder, path)?;
         self.summary.unmentioned_columns.extend(rows.unmentioned());
-        for join in &rows.joins {
-            self.summary.add_join(join);
+        for join in std::mem::take(&mut rows.joins) {
+            let mut joins = self.joins.iter_mut();
+            match joins.find(|known| known.name() == join.name()) {
+                Some(known) => known.add(join),
+                None => self.joins.push(join),
+            }
         }
+        self.absent_chunks.append(&mut rows.absent_chunks);
         let frame = self.map.frame.as_ref();
         let base = match frame.and_then(|frame| frame.folder.as_ref()) {
             Some(folder) => self.folder.path().join(folder),
@@ -349,6 +318,16 @@ impl<'a> Reading<'a> {
             None => None,
         };
         self.describe_channels();
+        self.summary.joins = self.joins.iter().map(JoinMatches::summary).collect();
+        if let Some(signals) = &self.signals {
+            signals.count_absent_chunks(self.folder, &mut self.absent_chunks)?;
+        }
+        left_out::count(
+            self.folder,
+            self.map.frame.as_ref().zip(frames.as_ref()),
+            self.absent_chunks,
+            &mut self.summary,
+        )?;
         let rows_read = self.summary.rows_read;
         let signals = self.signals.take();
         let signals = signals.map(|signals| signals.into_plan(rows_read));
@@ -369,11 +348,12 @@ impl<'a> Reading<'a> {
         };
         self.named.extend(reference.clone());
         if matches!(frame.names, FrameNames::Column(_) | FrameNames::Pattern(_)) {
-            let unnamed: BTreeSet<PathBuf> = self
-                .bases
-                .iter()
-                .flat_map(|base| unnamed_images(base, &self.named))
-                .collect();
+            let mut unnamed = BTreeSet::new();
+            for base in &self.bases {
+                let found = unnamed_images(base, &self.named);
+                self.summary.has_more_files |= found.has_more;
+                unnamed.extend(found.images);
+            }
             self.summary.unnamed_images = unnamed.len() as u64;
             self.summary.first_unnamed_images = unnamed.into_iter().take(LISTED_IMAGES).collect();
         }

@@ -7,16 +7,17 @@ mod signals;
 mod table;
 mod times;
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::map::{FrameNames, ImportMap};
-use super::summary::JoinSummary;
 use crate::error::{DatasetError, Place};
 use crate::file::SourceFolder;
 use crate::foreign::{ForeignTable, packed};
 use columns::{base_of, mentioned};
 use join::Joined;
 
+pub(super) use join::JoinMatches;
 pub(super) use signals::place_first;
 pub(super) use table::RowTable;
 
@@ -25,7 +26,9 @@ pub(super) struct Resolved {
     pub(super) table: table::ResolvedTable,
     /// The columns of the main table that the map does not mention.
     pub(super) unmentioned: Vec<String>,
-    pub(super) joins: Vec<JoinSummary>,
+    pub(super) joins: Vec<JoinMatches>,
+    /// Chunks that were never written of the arrays that are read, by file and array.
+    pub(super) absent_chunks: BTreeMap<String, u64>,
     /// The main table itself.
     pub(super) main: ForeignTable,
     /// The numbers of taxels of every row, where they are in columns.
@@ -82,6 +85,13 @@ pub(super) fn resolve(
             (0..rows).map(|row| sources.cell(row, name)).collect();
         cells.push(column?);
     }
+    let mut absent_chunks = BTreeMap::new();
+    sources
+        .main
+        .count_absent_chunks(folder, &bases, &mut absent_chunks)?;
+    for joined in &sources.joined {
+        joined.count_absent_chunks(folder, &names, &mut absent_chunks)?;
+    }
     let mut table = table::ResolvedTable::new(&sources, names, cells);
     for map in &map.matrices {
         matrix::apply(map, folder, &mut table)?;
@@ -93,8 +103,9 @@ pub(super) fn resolve(
     let signals = in_columns.map(|map| signals::numbers(&sources, map));
     Ok(Resolved {
         signals: signals.transpose()?,
+        absent_chunks,
         unmentioned: sources.unmentioned(&table),
-        joins: sources.joined.iter().map(Joined::summary).collect(),
+        joins: sources.joined.iter().map(Joined::matched).collect(),
         main: sources.main,
         table,
     })

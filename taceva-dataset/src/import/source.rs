@@ -80,8 +80,15 @@ fn is_like(name: &str, pattern: &str) -> bool {
     rest.ends_with(last)
 }
 
-/// The images below `folder` that are not among `named`, sorted; links are not followed.
-pub(super) fn unnamed_images(folder: &Path, named: &BTreeSet<PathBuf>) -> Vec<PathBuf> {
+/// Images that no row names.
+pub(super) struct Unnamed {
+    pub(super) images: Vec<PathBuf>,
+    /// Whether there are more files than are looked at.
+    pub(super) has_more: bool,
+}
+
+/// The images below `folder` that are not among `named`; links are not followed.
+pub(super) fn unnamed_images(folder: &Path, named: &BTreeSet<PathBuf>) -> Unnamed {
     let mut unnamed = Vec::new();
     let mut folders = vec![folder.to_owned()];
     let mut looked_at = 0;
@@ -89,7 +96,10 @@ pub(super) fn unnamed_images(folder: &Path, named: &BTreeSet<PathBuf>) -> Vec<Pa
         for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
             looked_at += 1;
             if looked_at > limits::WALKED_FILES {
-                break;
+                return Unnamed {
+                    images: unnamed,
+                    has_more: true,
+                };
             }
             let path = entry.path();
             match entry.file_type() {
@@ -101,8 +111,10 @@ pub(super) fn unnamed_images(folder: &Path, named: &BTreeSet<PathBuf>) -> Vec<Pa
             }
         }
     }
-    unnamed.sort_unstable();
-    unnamed
+    Unnamed {
+        images: unnamed,
+        has_more: false,
+    }
 }
 
 fn is_image(path: &Path) -> bool {

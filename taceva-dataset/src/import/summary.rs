@@ -7,6 +7,7 @@ use taceva_core::{SignalInfo, SourceUnit, Unit};
 
 use super::suspicion::Suspicion;
 use crate::decode::ChannelOrder;
+use crate::header::LeftOut;
 use crate::quality::names_quality;
 
 /// The counts of an import.
@@ -53,6 +54,12 @@ pub struct ImportSummary {
     pub unnamed_images: u64,
     /// The first of them.
     pub first_unnamed_images: Vec<PathBuf>,
+    /// Whether there may be more such images: only the first files below the folder were looked at.
+    pub has_more_files: bool,
+    /// Frames in arrays and clips that no row uses, by file.
+    pub unused_frames: BTreeMap<String, u64>,
+    /// Chunks of arrays that were never written, by file and array: what is read instead is their fill value.
+    pub absent_chunks: BTreeMap<String, u64>,
     /// Columns of the tables that the map does not mention, sorted.
     pub unmentioned_columns: BTreeSet<String>,
     /// Numbers that contradict their unit.
@@ -82,23 +89,30 @@ pub struct JoinSummary {
     pub unmatched: u64,
     /// Rows of the other table that belong to none.
     pub unused: u64,
+    /// Rows of the other table that `skip` says are no candidates.
+    pub skipped: u64,
     /// The greatest distance in time of what was matched, s; `None` of a join by anything else.
     pub greatest_gap_s: Option<f64>,
 }
 
 impl ImportSummary {
-    /// Adds what one of several main tables matched.
-    pub(super) fn add_join(&mut self, join: &JoinSummary) {
-        match self.joins.iter_mut().find(|known| known.name == join.name) {
-            None => self.joins.push(join.clone()),
-            Some(known) => {
-                known.matched += join.matched;
-                known.unmatched += join.unmatched;
-                known.unused += join.unused;
-                let gaps = [known.greatest_gap_s, join.greatest_gap_s];
-                known.greatest_gap_s = gaps.into_iter().flatten().reduce(f64::max);
-            }
-        }
+    /// What the dataset remembers of what is left out.
+    pub(super) fn left_out(&self) -> LeftOut {
+        let of_joins = |count: fn(&JoinSummary) -> u64| {
+            let joins = self.joins.iter();
+            let counts = joins.map(|join| (join.name.clone(), count(join)));
+            counts.filter(|(_, count)| *count > 0).collect()
+        };
+        let columns = self.unmentioned_columns.len() - self.columns_left_behind().len();
+        let mut left_out = LeftOut::default();
+        left_out.images = self.unnamed_images;
+        left_out.columns = columns as u64;
+        left_out.rows.clone_from(&self.dropped);
+        left_out.joined_rows = of_joins(|join| join.unused);
+        left_out.skipped_rows = of_joins(|join| join.skipped);
+        left_out.frames.clone_from(&self.unused_frames);
+        left_out.absent_chunks.clone_from(&self.absent_chunks);
+        left_out
     }
 
     /// The columns that the map does not mention, as the dataset remembers them: those that rate their rows first.

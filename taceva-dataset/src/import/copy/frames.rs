@@ -11,7 +11,7 @@ use crate::decode::ImageKind;
 use crate::error::DatasetError;
 use crate::foreign::{Picture, Pictures};
 use crate::header::{FramesInfo, ReferenceInfo};
-use crate::import::plan::{FrameSource, PlannedFrames};
+use crate::import::planned_frames::{FrameSource, PlannedFrames, within};
 use crate::layout;
 use crate::parallel::ordered_map;
 use crate::staged::StagedFolder;
@@ -174,32 +174,6 @@ impl Copying<'_> {
         self.progress.advance(1);
         Ok(())
     }
-}
-
-/// A file with pictures in it, the numbers of those that are wanted, ascending, and the row of each.
-type Within = (Arc<dyn Pictures>, Vec<(u64, usize)>);
-
-/// The files with pictures in them, each with the numbers of its pictures, ascending, and their rows.
-fn within(frames: &PlannedFrames) -> Vec<Within> {
-    let mut found: Vec<Within> = Vec::new();
-    for (row, planned) in frames.of_rows.iter().enumerate() {
-        let FrameSource::Within(pictures, index) = &planned.from else {
-            continue;
-        };
-        // Rows of one file mostly follow one another.
-        let known = found
-            .iter_mut()
-            .rev()
-            .find(|(known, _)| Arc::ptr_eq(known, pictures));
-        match known {
-            Some((_, rows)) => rows.push((*index, row)),
-            None => found.push((Arc::clone(pictures), vec![(*index, row)])),
-        }
-    }
-    for (_, rows) in &mut found {
-        rows.sort_unstable();
-    }
-    found
 }
 
 fn copy_reference(

@@ -1,11 +1,13 @@
 //! Signals in an array of another file, read some rows at a time.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use taceva_arrays::{ArrayFile, ArrayFormat};
 use taceva_core::Progress;
 
 use crate::error::{DatasetError, Place};
+use crate::file::SourceFolder;
 use crate::guard::guarded;
 use crate::import::map::SignalsMap;
 use crate::import::resolve::place_first;
@@ -97,6 +99,21 @@ impl ArraySignals {
                 format!("{} rows of signals for {rows} rows of the table", self.rows),
             )),
         }
+    }
+
+    /// Counts its chunks that were never written.
+    pub(super) fn count_absent_chunks(
+        &self,
+        folder: &SourceFolder,
+        into: &mut BTreeMap<String, u64>,
+    ) -> Result<(), DatasetError> {
+        let wrong = |problem| wrong(&self.path, problem);
+        let counted = guarded(|| self.file.absent_chunks(&self.name)).map_err(wrong)?;
+        let count = counted.map_err(|error| wrong(error.to_string()))?;
+        if count > 0 {
+            into.insert(folder.inside(&self.path, &self.name), count);
+        }
+        Ok(())
     }
 
     /// Writes the signals of `rows`, which ascend.
