@@ -9,6 +9,7 @@ mod map;
 mod plan;
 mod planned_frames;
 mod preset;
+mod references;
 mod resolve;
 mod rows;
 mod signals;

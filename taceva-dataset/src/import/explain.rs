@@ -59,6 +59,11 @@ impl fmt::Display for ImportSummary {
         )?;
         match &self.reference {
             Some(path) => writeln!(f, "without contact  {}", shown_path(path))?,
+            None if self.references > 0 => writeln!(
+                f,
+                "without contact  {} different pictures, named by the attribute `reference` and not copied",
+                self.references
+            )?,
             None => writeln!(f, "without contact  unknown")?,
         }
         if self.unnamed_images > 0 || self.has_more_files {

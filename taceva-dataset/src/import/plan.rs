@@ -12,6 +12,7 @@ use super::frame_cells::FrameName;
 use super::left_out;
 use super::map::{FrameMap, FrameNames, ImportMap};
 use super::planned_frames::{FrameSource, PlannedFrame, PlannedFrames};
+use super::references::{References, Settled};
 use super::resolve::JoinMatches;
 use super::rows::MappedTable;
 use super::signals::{FoundSignals, PlannedSignals};
@@ -142,6 +143,7 @@ struct Reading<'a> {
     opened: BTreeMap<PathBuf, Arc<dyn Pictures>>,
     frames: Vec<PlannedFrame>,
     signals: Option<FoundSignals<'a>>,
+    references: References,
     joins: Vec<JoinMatches>,
     /// Chunks that were never written, by file and array.
     absent_chunks: BTreeMap<String, u64>,
@@ -165,6 +167,7 @@ impl<'a> Reading<'a> {
             table: Table::new(map.channels.clone(), attributes),
             frames: Vec::new(),
             signals: None,
+            references: References::default(),
             joins: Vec::new(),
             absent_chunks: BTreeMap::new(),
             samples: HashSet::new(),
@@ -228,6 +231,9 @@ impl<'a> Reading<'a> {
                 labels.source_frame = Some(from.origin(self.folder.path()));
             }
             self.frames.push(PlannedFrame { from, named_at });
+        }
+        if let Some(named) = rows.reference_name(row) {
+            self.references.take(self.folder, base, named)?;
         }
         if let Some(signals) = &mut self.signals {
             signals.take(rows, row, number)?;
@@ -342,10 +348,22 @@ impl<'a> Reading<'a> {
     }
 
     fn planned_frames(&mut self, frame: &FrameMap) -> Result<PlannedFrames, DatasetError> {
-        let reference = match &frame.reference {
-            Some(path) => Some(self.folder.file(self.folder.path(), path)?),
-            None => None,
+        let references = std::mem::take(&mut self.references);
+        let Settled {
+            reference,
+            different,
+        } = match &frame.reference {
+            Some(path) => Settled {
+                reference: Some(self.folder.file(self.folder.path(), path)?),
+                different: 0,
+            },
+            None => {
+                let named = references.paths(self.folder);
+                self.named.extend(named);
+                references.settle(self.folder, &mut self.table)?
+            }
         };
+        self.summary.references = different as u64;
         self.named.extend(reference.clone());
         if matches!(frame.names, FrameNames::Column(_) | FrameNames::Pattern(_)) {
             let mut unnamed = BTreeSet::new();

@@ -41,6 +41,8 @@ pub(super) struct MappedTable<'a> {
     time: Option<usize>,
     flags: Option<usize>,
     frame: Option<FrameCells>,
+    /// The column of the frame without contact of each row.
+    reference: Option<usize>,
     /// The pictures that the table itself holds.
     pub(super) pictures: Option<Arc<dyn Pictures>>,
     /// The numbers of taxels of every row, where they are in columns.
@@ -126,6 +128,12 @@ impl<'a> MappedTable<'a> {
                     Some(clips) => Ok(FrameCells::Clips(clips)),
                     None => FrameCells::find(&frame.names, &table),
                 })
+                .transpose()?,
+            reference: map
+                .frame
+                .as_ref()
+                .and_then(|frame| frame.reference_column.as_ref())
+                .map(find)
                 .transpose()?,
             pictures,
             signals,
@@ -321,6 +329,12 @@ impl<'a> MappedTable<'a> {
             FrameCells::OfRow => (FrameName::Within(None, row as u64), usize::MAX),
         };
         Ok(Some((name, self.table.place(row, column))))
+    }
+
+    /// How the row names its frame without contact, and where; `None` if the map names no column of such.
+    pub(super) fn reference_name(&self, row: usize) -> Option<(&str, Place)> {
+        let column = self.reference?;
+        Some((self.table.cell(row, column), self.table.place(row, column)))
     }
 
     fn point_id(&self, row: usize) -> Option<String> {

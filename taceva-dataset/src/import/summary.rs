@@ -50,6 +50,9 @@ pub struct ImportSummary {
     pub channel_order: Option<ChannelOrder>,
     /// The frame without contact; `None` if none is known.
     pub reference: Option<PathBuf>,
+    /// How many different frames without contact rows name, where they do not all name the same one: the attribute `reference` says which, and
+    /// their pictures are not copied.
+    pub references: u64,
     /// Images beside the table that no row names.
     pub unnamed_images: u64,
     /// The first of them.

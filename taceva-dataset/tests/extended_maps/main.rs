@@ -2,6 +2,7 @@
 
 mod arrays;
 mod left_out;
+mod references;
 mod signals;
 mod times;
 
