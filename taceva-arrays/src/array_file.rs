@@ -215,6 +215,9 @@ impl ArrayFile {
         if let Some((_, reason)) = self.store.refused().iter().find(|(array, _)| is_of(array)) {
             return reason.again();
         }
+        if let Some(link) = self.store.link(name) {
+            return link;
+        }
         let shown: Vec<&str> = self
             .arrays
             .iter()

@@ -19,6 +19,11 @@ pub(crate) trait Store: std::fmt::Debug + Send + Sync {
         &[]
     }
 
+    /// Why an array that is not among them has a name here: it is a link to elsewhere.
+    fn link(&self, _name: &str) -> Option<Problem> {
+        None
+    }
+
     /// The full names of the groups, in no order; forms without groups have none.
     fn groups(&self) -> Vec<String> {
         Vec::new()
