@@ -99,9 +99,12 @@ pub(crate) fn write_table_and_header(
     })?;
     write_durable(samples, &bytes)?;
     let table_digest = table.digest();
+    let has_more_codecs = frames
+        .as_ref()
+        .is_some_and(|frames| !frames.other_codecs.is_empty());
     let mut written = Header {
         format: match table.source_row().iter().any(Option::is_some) {
-            _ if !beside.left_out.is_empty() => Version::CURRENT,
+            _ if !beside.left_out.is_empty() || has_more_codecs => Version::CURRENT,
             _ if beside.signals.is_some() => Version::WITHOUT_LEFT_OUT,
             true => Version::WITHOUT_SIGNALS,
             false if facts.settings.is_empty() && beside.stream.is_none() => {

@@ -35,6 +35,7 @@ fn header() -> Header {
             },
             channel_order: ChannelOrder::Bgr,
             codec: None,
+            other_codecs: Vec::new(),
             reference: None,
         }),
         stream: None,

@@ -1,6 +1,6 @@
 //! Finding tables and images in a stranger's folder, without leaving it.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -42,10 +42,34 @@ pub(super) fn matching_files(
             ),
         });
     }
-    found
+    let found: Result<Vec<PathBuf>, DatasetError> = found
         .iter()
         .map(|relative| folder.file(folder.path(), relative))
-        .collect()
+        .collect();
+    let found = found?;
+    each_once(folder, pattern, &found)?;
+    Ok(found)
+}
+
+/// That a pattern leads to no file twice, through a link: its rows would count twice.
+fn each_once(folder: &SourceFolder, pattern: &str, found: &[PathBuf]) -> Result<(), DatasetError> {
+    let mut known: BTreeMap<PathBuf, &PathBuf> = BTreeMap::new();
+    for path in found {
+        let real = path.canonicalize().unwrap_or_else(|_| path.clone());
+        if let Some(first) = known.insert(real, path) {
+            let [first, again] = [first, path].map(|path| folder.inside(path, ""));
+            return Err(DatasetError::Path {
+                place: None,
+                written: pattern.to_owned(),
+                problem: format!(
+                    "leads to one file twice, as {} and through a link as {}: narrow the pattern, or its rows count twice",
+                    shown(&first),
+                    shown(&again)
+                ),
+            });
+        }
+    }
+    Ok(())
 }
 
 fn names_like(folder: &Path, pattern: &str) -> Vec<String> {

@@ -10,7 +10,7 @@ use super::picture::Copied;
 use crate::decode::ImageKind;
 use crate::error::DatasetError;
 use crate::foreign::{Picture, Pictures};
-use crate::header::{FramesInfo, ReferenceInfo};
+use crate::header::{FrameCodec, FramesInfo, ReferenceInfo};
 use crate::import::planned_frames::{FrameSource, PlannedFrames, within};
 use crate::layout;
 use crate::parallel::ordered_map;
@@ -58,20 +58,27 @@ pub(super) fn copy_frames(
         .as_ref()
         .map(|path| copy_reference(staged, path, frames, info))
         .transpose()?;
+    let mut codecs = codecs(frames).into_iter();
+    let codec = codecs.next();
     let shared = FramesInfo {
         count: count as u64,
         info,
         channel_order: frames.order,
-        codec: frames
-            .of_rows
-            .iter()
-            .find_map(|planned| match &planned.from {
-                FrameSource::File(_) => None,
-                FrameSource::Within(pictures, _) => pictures.codec(),
-            }),
+        codec,
+        other_codecs: codecs.collect(),
         reference,
     };
     Ok((Some(shared), folders))
+}
+
+/// How the frames of clips were coded, each way once, in the order of the rows.
+fn codecs(frames: &PlannedFrames) -> Vec<FrameCodec> {
+    let mut found: Vec<FrameCodec> = Vec::new();
+    for (pictures, _) in within(frames) {
+        let codec = pictures.codec().filter(|codec| !found.contains(codec));
+        found.extend(codec);
+    }
+    found
 }
 
 struct Copying<'a> {
