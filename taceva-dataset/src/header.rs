@@ -58,11 +58,11 @@ struct ChannelInfo {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Header {
-    /// The format of the folder.
+    /// The version of the format of the folder.
     pub format: Version,
-    /// Real, simulated or made up.
+    /// Whether the samples are measured, simulated or made up.
     pub source: Source,
-    /// The clock of the times.
+    /// The clock that stamped the samples: what `t_s` counts from.
     pub clock: Clock,
     /// Which sensor it was.
     pub sensor: SensorFacts,
@@ -70,7 +70,7 @@ pub struct Header {
     pub footprint: Option<Footprint>,
     /// What was set of the camera and read back, by name: `exposure_ms` is `15.7`; empty where nobody knows, and before format 1.5.
     pub settings: BTreeMap<String, String>,
-    /// What was measured beside the frames.
+    /// What was measured beside the frames, each with its unit.
     pub channels: Channels,
     /// The names of the text columns kept for splits.
     pub attributes: Vec<String>,
@@ -86,7 +86,7 @@ pub struct Header {
     pub stream: Option<StreamFacts>,
     /// What the numbers of taxels share, and what their file must be; `None` where there are none, and before format 1.7.
     pub signals: Option<SignalsInfo>,
-    /// What the table must be.
+    /// What `samples.parquet` must be: its number of rows and its digests.
     pub table: TableInfo,
     /// The digest of the dataset: of its table, its frames and its signals.
     pub digest: Digest,

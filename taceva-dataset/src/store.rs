@@ -30,11 +30,11 @@ use taceva_seal::Opened;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct RecordingFacts {
-    /// Real, simulated or made up.
+    /// Whether the samples are measured, simulated or made up.
     pub source: Source,
-    /// The clock of the times.
+    /// The clock that stamps the samples: what `t_s` counts from.
     pub clock: Clock,
-    /// Which sensor it is.
+    /// Model, serial number and gel of the sensor.
     pub sensor: SensorFacts,
     /// Where the sensor senses, if it is known.
     pub footprint: Option<Footprint>,

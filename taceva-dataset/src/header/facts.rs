@@ -20,7 +20,7 @@ pub enum Source {
     /// A real sensor.
     #[default]
     Recorded,
-    /// A simulated bench.
+    /// A simulated bench: nothing was measured.
     Simulated,
     /// Numbers made up for a test.
     Synthetic,
@@ -36,9 +36,9 @@ pub enum Source {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Known<T> {
-    /// Written down.
+    /// The lab wrote it down.
     Is(T),
-    /// Not known.
+    /// Nobody wrote it down; reports carry `unknown`.
     #[default]
     Unknown,
 }
@@ -171,9 +171,9 @@ impl SensorFacts {
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FramesInfo {
-    /// How many there are.
+    /// How many frames there are, that without contact aside.
     pub count: u64,
-    /// Size and pixel format of each, decoded.
+    /// Width and height, pixels, and the pixel format of every frame once it is decoded.
     #[serde(flatten)]
     pub info: FrameInfo,
     /// The order of the colours in the files.
@@ -259,9 +259,9 @@ impl FrameCodec {
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ReferenceInfo {
-    /// Relative to the folder of the dataset.
+    /// Its file, relative to the folder of the dataset.
     pub path: String,
-    /// Of the bytes of the file.
+    /// The SHA-256 of the bytes of its file.
     pub sha256: Digest,
 }
 
@@ -291,9 +291,9 @@ pub struct ReferenceInfo {
 pub struct TableInfo {
     /// Number of samples.
     pub rows: u64,
-    /// Of what the table says.
+    /// The digest of what the table says, whatever bytes it is written as.
     pub digest: Digest,
-    /// Of the bytes of the file.
+    /// The SHA-256 of the bytes of `samples.parquet`, which is checked before it is read.
     pub sha256: Digest,
 }
 

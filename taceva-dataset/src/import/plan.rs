@@ -109,7 +109,7 @@ impl ImportPlan {
         reading.into_plan()
     }
 
-    /// What would be done.
+    /// What the import reads, converts, keeps and leaves out.
     pub fn summary(&self) -> &ImportSummary {
         &self.summary
     }

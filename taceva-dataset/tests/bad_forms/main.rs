@@ -344,3 +344,88 @@ fn the_public_collection_of_hdf5_files_that_broke_readers_is_refused_or_read() {
         drop(imported(lab.path(), &map));
     }
 }
+
+#[test]
+fn a_cell_that_is_no_picture_names_its_table_once() {
+    let table = workspace("taceva-tables/tests/data/plain/none-1.parquet");
+    let folder = lab(&[("run.parquet", &fs::read(table).expect("readable"))]);
+    let map = format!(
+        "table = \"run.parquet\"\n[frame]\nbytes = \"raw\"\nchannel_order = \"gray\"\nreference = \"unknown\"\n[columns]\nFz = {{ from = \"row\", unit = \"N\" }}\n{NO_TIME}"
+    );
+    let Err(problem) = imported(folder.path(), &map) else {
+        panic!("imported")
+    };
+    assert_eq!(problem.matches("run.parquet").count(), 1, "{problem}");
+    assert!(problem.contains("row 0"), "{problem}");
+}
+
+#[test]
+fn a_join_without_any_match_or_with_several_names_its_row() {
+    let folder = lab(&[
+        ("run.csv", b"k,value\n1,1\n"),
+        ("none.csv", b"k,Fz\n2,1\n"),
+        ("twice.csv", b"k,Fz\n1,1\n1,2\n"),
+    ]);
+    let map = |table: &str| {
+        format!(
+            "table = \"run.csv\"\n[[join]]\nname = \"ft\"\ntable = \"{table}\"\non = {{ k = \"k\" }}\n[columns]\nFz = {{ from = \"ft.Fz\", unit = \"N\" }}\n{NO_TIME}"
+        )
+    };
+    refused(
+        folder.path(),
+        &map("none.csv"),
+        &["run.csv, line 2", "no row of"],
+    );
+    refused(
+        folder.path(),
+        &map("twice.csv"),
+        &["run.csv, line 2", "two rows of join `ft` belong to it"],
+    );
+}
+
+#[test]
+fn clips_whose_index_is_cut_or_changed_are_refused_or_read() {
+    let whole = fs::read(workspace("tests/recordings/avi-mjpeg/ball_1.avi")).expect("readable");
+    let map = format!(
+        "table = \"labels.csv\"\n[frame]\nvideo = \"clip.avi\"\nchannel_order = \"rgb\"\nreference = \"unknown\"\n{FORCE}{NO_TIME}"
+    );
+    let index = whole
+        .windows(4)
+        .rposition(|bytes| bytes == b"idx1")
+        .expect("an index");
+    for (place, byte) in [
+        (index + 4, 0xff),
+        (index + 16, 0xff),
+        (index + 20, 0x7f),
+        (index, 0),
+    ] {
+        let mut bytes = whole.clone();
+        bytes[place] = byte;
+        let folder = lab(&[("clip.avi", &bytes), ("labels.csv", b"value\n1\n2\n")]);
+        drop(imported(folder.path(), &map));
+    }
+    let folder = lab(&[
+        ("clip.avi", &whole[..index + 6]),
+        ("labels.csv", b"value\n1\n"),
+    ]);
+    refused(folder.path(), &map, &["clip.avi"]);
+}
+
+#[test]
+fn messages_with_the_schema_of_another_message_are_refused_by_their_topic() {
+    let whole = fs::read(workspace("tests/recordings/mcap-none/run.mcap")).expect("readable");
+    let map = fs::read_to_string(workspace("tests/recordings/mcap-none/map.toml")).expect("there");
+    let map = map.replace("map_version = 2", "");
+    let map = map.split("[sensor]").next().expect("the rest");
+    // The schema of the forces says that they are positions: one letter of its text.
+    let place = whole
+        .windows(13)
+        .position(|bytes| bytes == b"float64 x\nflo");
+    let mut bytes = whole.clone();
+    if let Some(place) = place {
+        bytes[place..place + 7].copy_from_slice(b"float32");
+    }
+    let folder = lab(&[("run.mcap", &bytes)]);
+    let outcome = imported(folder.path(), map);
+    assert!(place.is_none() || outcome.is_err(), "{:?}", place);
+}

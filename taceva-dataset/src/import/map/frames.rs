@@ -120,7 +120,7 @@ pub enum ArrayLayout {
 }
 
 impl ArrayLayout {
-    /// As a map writes it.
+    /// The word for it in a map.
     pub const fn name(self) -> &'static str {
         match self {
             ArrayLayout::Nhwc => "nhwc",
