@@ -202,7 +202,11 @@ fn rows_that_a_join_left_out_are_repeated_by_the_check_and_a_whole_import_says_n
 
 #[test]
 fn frames_in_jpeg_are_said_to_depend_on_their_decoder() {
-    let jpeg = include_bytes!("../../../taceva-dataset/tests/fixtures/jpeg/baseline-gray.jpg");
+    let fixture = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../taceva-dataset/tests/fixtures/jpeg/baseline-gray.jpg"
+    );
+    let jpeg = std::fs::read(fixture).expect("readable");
     let folder = tempfile::tempdir().expect("a folder");
     std::fs::write(folder.path().join("1.jpg"), jpeg).expect("written");
     std::fs::write(folder.path().join("labels.csv"), "file,Fz\n1.jpg,1\n").expect("written");
