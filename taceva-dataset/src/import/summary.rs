@@ -107,15 +107,15 @@ impl ImportSummary {
             counts.filter(|(_, count)| *count > 0).collect()
         };
         let columns = self.unmentioned_columns.len() - self.columns_left_behind().len();
-        let mut left_out = LeftOut::default();
-        left_out.images = self.unnamed_images;
-        left_out.columns = columns as u64;
-        left_out.rows.clone_from(&self.dropped);
-        left_out.joined_rows = of_joins(|join| join.unused);
-        left_out.skipped_rows = of_joins(|join| join.skipped);
-        left_out.frames.clone_from(&self.unused_frames);
-        left_out.absent_chunks.clone_from(&self.absent_chunks);
-        left_out
+        LeftOut {
+            images: self.unnamed_images,
+            columns: columns as u64,
+            rows: self.dropped.clone(),
+            joined_rows: of_joins(|join| join.unused),
+            skipped_rows: of_joins(|join| join.skipped),
+            frames: self.unused_frames.clone(),
+            absent_chunks: self.absent_chunks.clone(),
+        }
     }
 
     /// The columns that the map does not mention, as the dataset remembers them: those that rate their rows first.
