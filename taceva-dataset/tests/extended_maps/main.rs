@@ -1,6 +1,7 @@
 //! Maps of version 2: labels in paths and cells, tables of other forms, joins, matrices, classes; and what of them is refused.
 
 mod arrays;
+mod codecs;
 mod left_out;
 mod references;
 mod signals;
