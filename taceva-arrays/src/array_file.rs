@@ -165,6 +165,29 @@ impl ArrayFile {
             .map_err(|problem| self.wrong(name, problem))
     }
 
+    /// How many chunks of the array were never written (HDF5, zarr): a reader gives their elements the fill value, mostly 0, and nothing in the
+    /// numbers says so. 0 of arrays without chunks, and where the index of an HDF5 file cannot be listed.
+    ///
+    /// ```no_run
+    /// # fn of(file: &taceva_arrays::ArrayFile) -> Result<(), taceva_arrays::ArrayError> {
+    /// match file.absent_chunks("/camera/rgb")? {
+    ///     0 => {}
+    ///     absent => println!("{absent} chunks are black because nobody wrote them"),
+    /// }
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// # Errors
+    /// [`ArrayError`] if there is no such array, or its chunks cannot be listed.
+    pub fn absent_chunks(&self, name: &str) -> Result<u64, ArrayError> {
+        let index = self.index(name);
+        let index = index.ok_or_else(|| self.wrong(name, self.absent(name)))?;
+        self.store
+            .absent_chunks(index)
+            .map_err(|problem| self.wrong(name, problem))
+    }
+
     fn rows(&self, name: &str, rows: Range<u64>) -> Result<ArrayData, Problem> {
         let index = self.index(name);
         let (index, info) = index
@@ -199,6 +222,9 @@ impl ArrayFile {
         };
         if let Some((_, reason)) = self.store.refused().iter().find(|(array, _)| is_of(array)) {
             return reason.again();
+        }
+        if let Some(link) = self.store.link(name) {
+            return link;
         }
         let shown: Vec<&str> = self
             .arrays

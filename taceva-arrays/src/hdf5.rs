@@ -3,6 +3,8 @@
 mod attribute;
 mod element;
 mod heap;
+mod link;
+mod soft_links;
 mod walk;
 
 use std::ops::Range;
@@ -17,10 +19,11 @@ use crate::fields::{Field, Item};
 use crate::kept::Kept;
 use crate::limits;
 use crate::source::{ByteSource, FileBytes, bytes_of};
-use crate::store::{Arrays, Store};
+use crate::store::{Arrays, Store, chunks_of};
 use crate::values::ArrayData;
 
 use heap::GlobalHeap;
+use soft_links::Patches;
 
 /// A file of HDF5.
 #[derive(Debug)]
@@ -57,8 +60,24 @@ struct Opened {
 impl Hdf5 {
     pub(crate) fn open(bytes: FileBytes) -> Result<Hdf5, Problem> {
         let bytes = Arc::new(bytes);
-        let file = File::from_source(Shared(Arc::clone(&bytes))).map_err(problem)?;
-        let found = walk::walk(&file)?;
+        let open = |patches| {
+            let shared = Shared {
+                bytes: Arc::clone(&bytes),
+                patches,
+            };
+            let file = File::from_source(shared).map_err(problem)?;
+            Ok((walk::walk(&file)?, file))
+        };
+        let (found, file) = match open(Patches::new()) {
+            Ok(opened) => opened,
+            // Perhaps for its soft links alone.
+            Err(problem) => match soft_links::followed(&bytes) {
+                Ok(patches) if patches.is_empty() => return Err(problem),
+                Err(link @ Problem::Unsupported { .. }) => return Err(link),
+                Err(_) => return Err(problem),
+                Ok(patches) => open(patches)?,
+            },
+        };
         let fields = found
             .datasets
             .iter()
@@ -211,6 +230,10 @@ impl Store for Hdf5 {
         &self.refused
     }
 
+    fn link(&self, name: &str) -> Option<Problem> {
+        link::of(&self.bytes, name)
+    }
+
     fn groups(&self) -> Vec<String> {
         self.groups.clone()
     }
@@ -221,6 +244,21 @@ impl Store for Hdf5 {
 
     fn attribute(&self, owner: &str, name: &str) -> Option<String> {
         attribute::read(&self.file, owner, name)
+    }
+
+    fn absent_chunks(&self, index: usize) -> Result<u64, Problem> {
+        let listed = &self.datasets[self.listed[index].0];
+        let dataset = self.file.dataset(&listed.path).map_err(problem)?;
+        match dataset.layout().map_err(problem)? {
+            Layout::Contiguous { address: None, .. } => Ok(u64::from(!listed.shape.contains(&0))),
+            Layout::Chunked { chunk_shape, .. } => {
+                // One kind of index cannot be listed by the crate.
+                let there = dataset.chunks().map(|chunks| chunks.len() as u64);
+                let all = chunks_of(&listed.shape, &chunk_shape);
+                Ok(there.map_or(0, |there| all.saturating_sub(there)))
+            }
+            _ => Ok(0),
+        }
     }
 
     fn read(&self, index: usize, rows: Range<u64>) -> Result<ArrayData, Problem> {
@@ -255,25 +293,41 @@ impl Store for Hdf5 {
 }
 
 /// The file as the crate reads it.
-struct Shared(Arc<FileBytes>);
+struct Shared {
+    bytes: Arc<FileBytes>,
+    patches: Patches,
+}
 
 impl Source for Shared {
     fn len(&self) -> u64 {
-        self.0.length()
+        self.bytes.length()
     }
 
     fn read_at(&self, offset: u64, buffer: &mut [u8]) -> Result<(), FormatError> {
         let end = offset.checked_add(buffer.len() as u64);
-        if end.is_none_or(|end| end > self.0.length()) {
+        if end.is_none_or(|end| end > self.bytes.length()) {
             return Err(FormatError::UnexpectedEof {
                 expected: buffer.len(),
-                available: usize::try_from(self.0.length().saturating_sub(offset))
+                available: usize::try_from(self.bytes.length().saturating_sub(offset))
                     .unwrap_or(usize::MAX),
             });
         }
-        self.0
+        self.bytes
             .read_at(offset, buffer)
-            .map_err(|problem| FormatError::Source(problem.to_string()))
+            .map_err(|problem| FormatError::Source(problem.to_string()))?;
+        let end = end.unwrap_or(u64::MAX);
+        let first = offset.saturating_sub(11);
+        for (at, patch) in self.patches.range(first..end) {
+            for (at, byte) in (*at..).zip(patch) {
+                let place = at
+                    .checked_sub(offset)
+                    .and_then(|at| usize::try_from(at).ok());
+                if let Some(read) = place.and_then(|place| buffer.get_mut(place)) {
+                    *read = *byte;
+                }
+            }
+        }
+        Ok(())
     }
 }
 
@@ -300,8 +354,8 @@ pub(crate) fn problem(error: hdf5_pure::Error) -> Problem {
             Problem::damaged(0, "no file of HDF5", "`\\x89HDF`")
         }
         Error::Format(FormatError::UnsupportedExternalStorage) => Problem::unsupported(
-            "a dataset whose elements lie in another file",
-            "copy it into this one: `h5repack`",
+            "a dataset whose elements lie in another file (external storage), which is not opened",
+            "copy them into this one: `h5repack -l CONTI FILE COPY`",
         ),
         other => Problem::Structure {
             problem: other.to_string(),

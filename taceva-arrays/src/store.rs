@@ -19,6 +19,11 @@ pub(crate) trait Store: std::fmt::Debug + Send + Sync {
         &[]
     }
 
+    /// Why an array that is not among them has a name here: it is a link to elsewhere.
+    fn link(&self, _name: &str) -> Option<Problem> {
+        None
+    }
+
     /// The full names of the groups, in no order; forms without groups have none.
     fn groups(&self) -> Vec<String> {
         Vec::new()
@@ -34,6 +39,19 @@ pub(crate) trait Store: std::fmt::Debug + Send + Sync {
         None
     }
 
+    /// How many chunks of the array at `index` of the list were never written, so that their elements are the fill value.
+    fn absent_chunks(&self, _index: usize) -> Result<u64, Problem> {
+        Ok(0)
+    }
+
     /// Rows of the array at `index` of the list; they were checked against its shape and the limits.
     fn read(&self, index: usize, rows: Range<u64>) -> Result<ArrayData, Problem>;
+}
+
+/// How many chunks an array has, as far as 64 bits can say.
+pub(crate) fn chunks_of(shape: &[u64], chunk: &[u64]) -> u64 {
+    let sides = shape.iter().zip(chunk);
+    sides.fold(1, |all: u64, (side, chunk)| {
+        all.saturating_mul(side.div_ceil((*chunk).max(1)))
+    })
 }

@@ -19,7 +19,7 @@ use crate::error::Problem;
 use crate::kept::Kept;
 use crate::limits;
 use crate::source::{ByteSource, FileBytes, bytes_of};
-use crate::store::{Arrays, Store};
+use crate::store::{Arrays, Store, chunks_of};
 use crate::values::ArrayData;
 
 use array::ZarrArray;
@@ -191,6 +191,28 @@ impl Zarr {
     }
 }
 
+/// How many chunks of the array in `folder` are there: a file that has the name of one.
+fn written(folder: &Path, array: &ZarrArray) -> Result<u64, Problem> {
+    let mut there = 0;
+    let mut folders = vec![(folder.to_owned(), String::new(), 0)];
+    while let Some((folder, before, depth)) = folders.pop() {
+        for entry in fs::read_dir(folder).map_err(Problem::io("list"))? {
+            let entry = entry.map_err(Problem::io("list"))?;
+            let name = entry.file_name();
+            let Some(name) = name.to_str() else { continue };
+            let kind = entry.file_type().map_err(Problem::io("list"))?;
+            let name = format!("{before}{name}");
+            // Of a chunk `c/0/1` each axis may be a folder.
+            if kind.is_dir() && depth <= array.shape.len() {
+                folders.push((entry.path(), format!("{name}/"), depth + 1));
+            } else if kind.is_file() && array.is_key(&name) {
+                there += 1;
+            }
+        }
+    }
+    Ok(there)
+}
+
 impl Store for Zarr {
     fn arrays(&self) -> Arrays {
         let each = self.arrays.iter();
@@ -222,6 +244,12 @@ impl Store for Zarr {
             Value::Null => None,
             other => Some(other.to_string()),
         }
+    }
+
+    fn absent_chunks(&self, index: usize) -> Result<u64, Problem> {
+        let (folder, array) = &self.arrays[self.listed[index].0];
+        let all = chunks_of(&array.shape, &array.chunk);
+        Ok(all.saturating_sub(written(folder, array)?))
     }
 
     fn read(&self, index: usize, rows: Range<u64>) -> Result<ArrayData, Problem> {

@@ -16,6 +16,7 @@ use zune_jpeg::JpegDecoder;
 use crate::guard::guarded;
 use crate::jpeg::check_whole;
 use crate::limits;
+use crate::scaled::{DecodeScale, jpeg_at};
 
 /// In which order the colours of a pixel are stored in the image files.
 ///
@@ -107,6 +108,8 @@ pub(crate) fn decode(bytes: &[u8], order: ChannelOrder) -> Result<(ImageKind, Fr
     let kind = kind_of_whole(bytes)?;
     let (info, pixels) = guarded(|| match kind {
         ImageKind::Png => decode_png(bytes),
+        // `zune-jpeg` gives another picture of these, and no error.
+        ImageKind::Jpeg if has_a_scan_a_component(bytes) => jpeg_at(bytes, DecodeScale::Full),
         ImageKind::Jpeg => decode_jpeg(bytes),
         ImageKind::Tiff => tiff::decode(bytes),
     })??;
@@ -181,6 +184,35 @@ fn decode_png(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
         format,
     };
     Ok((info, pixels))
+}
+
+/// Whether a JPEG that is not progressive has the colours one after the other, each in a scan of its own: its first scan is of fewer components
+/// than its frame (ITU-T T.81, B.2.2 and B.2.3).
+fn has_a_scan_a_component(bytes: &[u8]) -> bool {
+    let mut of_frame = None;
+    let mut rest = bytes.get(2..).unwrap_or(&[]);
+    while let [0xff, marker, behind @ ..] = rest {
+        let [high, low, ..] = behind else {
+            return false;
+        };
+        let length = usize::from(u16::from_be_bytes([*high, *low]));
+        match marker {
+            0xff => {
+                rest = &rest[1..];
+                continue;
+            }
+            0xc0 | 0xc1 => of_frame = behind.get(7).copied(),
+            0xda => {
+                let of_scan = behind.get(2).copied();
+                return of_frame
+                    .zip(of_scan)
+                    .is_some_and(|(of_frame, of_scan)| of_scan < of_frame);
+            }
+            _ => {}
+        }
+        rest = behind.get(length..).unwrap_or(&[]);
+    }
+    false
 }
 
 fn decode_jpeg(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {

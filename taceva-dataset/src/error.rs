@@ -63,7 +63,7 @@ pub enum DatasetError {
         problem: String,
     },
     /// An image, or an array of images, that is damaged, too large or unlike the others.
-    #[error("{}{}: {problem}", named_by(place), shown_path(path))]
+    #[error("{}{problem}", image_at(place, path))]
     Image {
         /// Where the image is named.
         place: Option<Box<Place>>,
@@ -286,6 +286,14 @@ impl Place {
             line: Some(line),
             ..Place::file(path)
         }
+    }
+}
+
+/// Where a picture is: the place that names it, and its own file where that is another one.
+fn image_at(place: &Option<Box<Place>>, path: &Path) -> String {
+    match place {
+        Some(place) if place.path == path => format!("{place}: "),
+        _ => format!("{}{}: ", named_by(place), shown_path(path)),
     }
 }
 

@@ -78,6 +78,16 @@ impl SourceFolder {
         &self.given
     }
 
+    /// How the file at `path`, and what is called `part` in it, is named in the folder: with `/` on every system.
+    pub(crate) fn inside(&self, path: &Path, part: &str) -> String {
+        let inside = path.strip_prefix(&self.given).unwrap_or(path);
+        let file = inside.to_string_lossy().replace('\\', "/");
+        match part.trim_start_matches('/') {
+            "" => file,
+            part => format!("{file}/{part}"),
+        }
+    }
+
     /// The file `relative` to `base`, a folder inside this one.
     pub(crate) fn file(&self, base: &Path, relative: &str) -> Result<PathBuf, DatasetError> {
         let refused = |problem: &str| DatasetError::Path {

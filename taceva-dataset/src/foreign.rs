@@ -17,6 +17,7 @@ pub(crate) mod tar;
 mod webdataset;
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
@@ -25,6 +26,7 @@ use taceva_arrays::ArrayFormat;
 
 use crate::csv_table::CsvTable;
 use crate::error::{DatasetError, Place};
+use crate::file::SourceFolder;
 use crate::import::FrameNames;
 use crate::text::{nearest, shown};
 
@@ -84,6 +86,16 @@ fn said(path: &Path, error: &impl fmt::Display) -> String {
     let text = error.to_string();
     let rest = text.strip_prefix(&format!("{}: ", path.display()));
     rest.unwrap_or(&text).to_owned()
+}
+
+/// Names that a message lists; the others are counted.
+fn listed(names: &[String]) -> String {
+    const LISTED: usize = 64;
+    let shown: Vec<String> = names.iter().take(LISTED).map(|name| shown(name)).collect();
+    match names.len().saturating_sub(LISTED) {
+        0 => shown.join(", "),
+        more => format!("{} and {more} more", shown.join(", ")),
+    }
 }
 
 impl ForeignTable {
@@ -170,6 +182,14 @@ impl ForeignTable {
         }
     }
 
+    /// The unit in which the file counts the times in a column, where it says that they are times: `us`. Their cells are in seconds.
+    pub(crate) fn time_unit(&self, name: &str) -> Option<&'static str> {
+        match self {
+            ForeignTable::Columns(table) => table.time_unit(name),
+            _ => None,
+        }
+    }
+
     /// The name of a row, where rows have names: the member of a JSON object.
     pub(crate) fn key(&self, row: usize) -> Option<&str> {
         match self {
@@ -224,6 +244,22 @@ impl ForeignTable {
         }
     }
 
+    /// Counts the chunks that were never written of the arrays that are these columns, by file and array.
+    pub(crate) fn count_absent_chunks(
+        &self,
+        folder: &SourceFolder,
+        names: &[&str],
+        into: &mut BTreeMap<String, u64>,
+    ) -> Result<(), DatasetError> {
+        let ForeignTable::Columns(table) = self else {
+            return Ok(());
+        };
+        for (array, count) in table.absent_chunks(names)? {
+            into.insert(folder.inside(self.path(), &array), count);
+        }
+        Ok(())
+    }
+
     /// The columns that a draft of a map looks at.
     pub(crate) fn columns(&self) -> Vec<String> {
         match self {
@@ -276,10 +312,9 @@ impl ForeignTable {
         let guess = guess.map_or_else(String::new, |guess| {
             format!(", did you mean `{}`", shown(guess))
         });
-        let known: Vec<String> = names.iter().map(|name| shown(name)).collect();
-        let known = match known.is_empty() {
+        let known = match names.is_empty() {
             true => "it has none of its own".to_owned(),
-            false => format!("the columns are {}", known.join(", ")),
+            false => format!("the columns are {}", listed(&names)),
         };
         DatasetError::Table {
             place: Place::file(self.path()),

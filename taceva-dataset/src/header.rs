@@ -3,6 +3,7 @@
 mod extended;
 mod facts;
 mod footprint;
+mod left_out;
 mod stream;
 #[cfg(test)]
 mod tests;
@@ -27,6 +28,8 @@ use taceva_seal::{Edit, Opened, SealError};
 pub use extended::Extension;
 pub use facts::{FrameCodec, FramesInfo, Known, ReferenceInfo, SensorFacts, Source, TableInfo};
 pub use footprint::{Footprint, Shape};
+pub use left_out::LeftOut;
+pub(crate) use left_out::add as add_left_out;
 pub use stream::StreamFacts;
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -57,11 +60,11 @@ struct ChannelInfo {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Header {
-    /// The format of the folder.
+    /// The version of the format of the folder.
     pub format: Version,
-    /// Real, simulated or made up.
+    /// Whether the samples are measured, simulated or made up.
     pub source: Source,
-    /// The clock of the times.
+    /// The clock that stamped the samples: what `t_s` counts from.
     pub clock: Clock,
     /// Which sensor it was.
     pub sensor: SensorFacts,
@@ -69,12 +72,14 @@ pub struct Header {
     pub footprint: Option<Footprint>,
     /// What was set of the camera and read back, by name: `exposure_ms` is `15.7`; empty where nobody knows, and before format 1.5.
     pub settings: BTreeMap<String, String>,
-    /// What was measured beside the frames.
+    /// What was measured beside the frames, each with its unit.
     pub channels: Channels,
     /// The names of the text columns kept for splits.
     pub attributes: Vec<String>,
     /// Columns of the imported table that no key of its map names; empty of a recording, and before format 1.4.
     pub unmentioned_columns: Vec<String>,
+    /// What an import left out; empty of a recording, and before format 1.8.
+    pub left_out: LeftOut,
     /// What all frames share; `None` if there is none.
     pub frames: Option<FramesInfo>,
     /// How many presses ended in which way, those without a sample too; empty where no protocol pressed, and before format 1.2.
@@ -86,7 +91,7 @@ pub struct Header {
     /// What the recording was before each time that rows were added to it, the first first; empty of one that is as it was imported or
     /// recorded, and before format 1.8.
     pub extended: Vec<Extension>,
-    /// What the table must be.
+    /// What `samples.parquet` must be: its number of rows and its digests.
     pub table: TableInfo,
     /// The digest of the dataset: of its table, its frames and its signals.
     pub digest: Digest,
@@ -117,6 +122,8 @@ struct Written {
     stream: Option<StreamFacts>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     signals: Option<WrittenSignals>,
+    #[serde(default, skip_serializing_if = "LeftOut::is_empty")]
+    left_out: LeftOut,
     table: TableInfo,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     extended: Vec<Extension>,
@@ -179,6 +186,7 @@ impl Header {
             channels,
             attributes: written.attributes,
             unmentioned_columns: written.unmentioned_columns,
+            left_out: written.left_out,
             frames: written.frames,
             presses: written.presses,
             stream: written.stream,
@@ -215,6 +223,7 @@ impl Header {
             presses: self.presses.clone(),
             stream: self.stream,
             signals: self.signals.as_ref().map(WrittenSignals::from),
+            left_out: self.left_out.clone(),
             table: self.table,
             extended: self.extended.clone(),
             channels: self

@@ -51,8 +51,8 @@ pub use error::{DatasetError, Place};
 pub use export::{export_csv, export_hugging_face};
 pub use header::reseal_header;
 pub use header::{
-    Extension, Footprint, FrameCodec, FramesInfo, Header, Known, ReferenceInfo, SensorFacts, Shape,
-    Source, StreamFacts, TableInfo,
+    Extension, Footprint, FrameCodec, FramesInfo, Header, Known, LeftOut, ReferenceInfo,
+    SensorFacts, Shape, Source, StreamFacts, TableInfo,
 };
 pub use import::{
     Addition, ArrayFrames, ArrayLayout, ColumnMap, Conversion, DropRules, FrameMap, FrameNames,

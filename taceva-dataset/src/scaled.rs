@@ -70,12 +70,13 @@ pub(crate) fn decode_scaled(
             "a PNG, which is decoded at its full size only; JPEG would be at 1/{denominator}"
         ));
     }
-    let (info, pixels) = guarded(|| decode_jpeg(bytes, scale))??;
+    let (info, pixels) = guarded(|| jpeg_at(bytes, scale))??;
     let pixels = in_order(info, pixels, order)?;
     Frame::new(info, pixels).map_err(|error| error.to_string())
 }
 
-fn decode_jpeg(bytes: &[u8], scale: DecodeScale) -> Result<(FrameInfo, Vec<u8>), String> {
+/// The JPEG `bytes` by `jpeg-decoder`, at any scale.
+pub(crate) fn jpeg_at(bytes: &[u8], scale: DecodeScale) -> Result<(FrameInfo, Vec<u8>), String> {
     let text = |error: jpeg_decoder::Error| error.to_string();
     let mut decoder = Decoder::new(bytes);
     let most = checked_length(limits::DECODED_BYTES)?;

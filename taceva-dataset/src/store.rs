@@ -9,7 +9,7 @@ use crate::digest::{Digest, PartsDigest};
 use crate::error::DatasetError;
 use crate::file::write_durable;
 use crate::header::{
-    Extension, Footprint, FramesInfo, Header, SensorFacts, Source, StreamFacts, TableInfo,
+    Extension, Footprint, FramesInfo, Header, LeftOut, SensorFacts, Source, StreamFacts, TableInfo,
 };
 use crate::samples::to_parquet;
 use crate::signals::SignalsInfo;
@@ -30,11 +30,11 @@ use taceva_seal::{Edit, Opened};
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct RecordingFacts {
-    /// Real, simulated or made up.
+    /// Whether the samples are measured, simulated or made up.
     pub source: Source,
-    /// The clock of the times.
+    /// The clock that stamps the samples: what `t_s` counts from.
     pub clock: Clock,
-    /// Which sensor it is.
+    /// Model, serial number and gel of the sensor.
     pub sensor: SensorFacts,
     /// Where the sensor senses, if it is known.
     pub footprint: Option<Footprint>,
@@ -77,6 +77,8 @@ pub(crate) struct Beside {
     pub(crate) presses: BTreeMap<PressOutcome, u64>,
     /// Columns that no key of an import names.
     pub(crate) unmentioned_columns: Vec<String>,
+    /// What an import left out.
+    pub(crate) left_out: LeftOut,
     /// What was lost of a stream.
     pub(crate) stream: Option<StreamFacts>,
     /// The file of signals, which is written already.
@@ -101,9 +103,13 @@ pub(crate) fn write_table_and_header(
     })?;
     write_durable(samples, &bytes)?;
     let table_digest = table.digest();
+    let has_more_codecs = frames
+        .as_ref()
+        .is_some_and(|frames| !frames.other_codecs.is_empty());
     let mut written = Header {
         format: match table.source_row().iter().any(Option::is_some) {
             _ if !beside.extended.is_empty() => Version::CURRENT,
+            _ if !beside.left_out.is_empty() || has_more_codecs => Version::CURRENT,
             _ if beside.signals.is_some() => Version::NEVER_EXTENDED,
             true => Version::WITHOUT_SIGNALS,
             false if facts.settings.is_empty() && beside.stream.is_none() => {
@@ -119,6 +125,7 @@ pub(crate) fn write_table_and_header(
         channels: table.channels().clone(),
         attributes: table.attribute_names().to_vec(),
         unmentioned_columns: beside.unmentioned_columns,
+        left_out: beside.left_out,
         digest: digest_with_signals(
             dataset_digest(table_digest, frames.as_ref()),
             beside.signals.as_ref(),

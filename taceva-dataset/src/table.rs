@@ -148,6 +148,16 @@ impl Table {
     ///
     /// # Panics
     /// If there is not one, or none, a row.
+    /// Adds an attribute.
+    ///
+    /// # Panics
+    /// If there is not a text for each row.
+    pub(crate) fn push_attribute(&mut self, name: String, texts: Vec<Option<String>>) {
+        assert_eq!(texts.len(), self.rows(), "a text a row");
+        self.attribute_names.push(name);
+        self.attributes.push(texts);
+    }
+
     pub(crate) fn with_frames(self, frames: Vec<Option<FrameEntry>>) -> Table {
         assert_eq!(frames.len(), self.frames.len(), "one a row");
         Table { frames, ..self }

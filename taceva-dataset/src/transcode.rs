@@ -108,6 +108,7 @@ pub fn write_as_jpeg(
             history: Vec::new(),
             presses: header.presses.clone(),
             unmentioned_columns: header.unmentioned_columns.clone(),
+            left_out: header.left_out.clone(),
             stream: header.stream,
             signals: header.signals.clone(),
         },

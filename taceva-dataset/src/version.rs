@@ -29,7 +29,7 @@ impl Version {
     /// The newest that this crate writes.
     pub const CURRENT: Version = Version { major: 1, minor: 8 };
 
-    /// The version of a header of a recording to which no rows were added, so that it is what it was before 1.8.
+    /// The version of a header of a recording to which no rows were added and of which nothing was left out, so that it is what it was before 1.8.
     pub(crate) const NEVER_EXTENDED: Version = Version { major: 1, minor: 7 };
 
     /// The version of a header of a recording without signals, so that it is what it was before 1.7.
@@ -91,7 +91,7 @@ mod tests {
     fn another_minor_is_readable_and_another_major_is_not() {
         let readable = |text: &str| text.parse::<Version>().map(Version::is_readable);
         assert_eq!(readable("1.0"), Ok(true));
-        assert_eq!(readable("1.7"), Ok(true));
+        assert_eq!(readable("1.8"), Ok(true));
         assert_eq!(readable("2.0"), Ok(false));
         assert_eq!(readable("0.9"), Ok(false));
         assert!(readable("1").is_err() && readable("one.two").is_err());

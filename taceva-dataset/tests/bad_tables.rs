@@ -129,7 +129,7 @@ fn an_existing_target_is_never_written_over() {
 fn a_dataset_of_a_newer_major_is_refused_and_says_so() {
     let lab = Lab::new();
     lab.import().expect("imported");
-    lab.replace("set/dataset.toml", "format = \"1.4\"", "format = \"2.3\"");
+    lab.replace("set/dataset.toml", "format = \"1.8\"", "format = \"2.3\"");
     let error = Dataset::open(&lab.path("set")).expect_err("newer");
     assert!(matches!(error, DatasetError::Version { .. }));
     assert!(

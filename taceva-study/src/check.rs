@@ -2,10 +2,14 @@
 //!
 //! One file a check under `check/`; each is a pure function of the [`Evidence`] and has a stable code.
 
+mod blank;
 mod channel_order;
 mod clipped_taxel;
+mod clock_jumps;
 mod clusters;
 mod damaged_frames;
+mod doubled_frames;
+mod dropped_frames;
 mod duplicate_frames;
 mod evidence;
 mod facts;
@@ -13,6 +17,8 @@ mod finding;
 mod label_lag;
 mod label_outliers;
 mod leakage;
+mod left_out;
+mod lossy_frames;
 mod lost_frames;
 mod missing_labels;
 mod placeholder;
@@ -21,6 +27,7 @@ mod pressed_rest;
 mod run;
 mod saturation;
 mod signal_facts;
+mod stream;
 mod stuck_channel;
 mod stuck_taxel;
 mod timing;
@@ -33,7 +40,7 @@ pub use run::{CheckRequest, check, check_plan};
 pub use signal_facts::{SignalFacts, TaxelFacts};
 
 /// Every check, in the order of its code.
-pub static ALL: [&Check; 20] = [
+pub static ALL: [&Check; 26] = [
     &units::CHECK,
     &duplicate_frames::CHECK,
     &channel_order::CHECK,
@@ -54,4 +61,10 @@ pub static ALL: [&Check; 20] = [
     &clipped_taxel::CHECK,
     &pressed_rest::CHECK,
     &label_lag::CHECK,
+    &left_out::CHECK,
+    &doubled_frames::CHECK,
+    &dropped_frames::CHECK,
+    &clock_jumps::CHECK,
+    &blank::CHECK,
+    &lossy_frames::CHECK,
 ];

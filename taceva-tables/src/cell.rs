@@ -24,8 +24,11 @@ pub enum Cell {
     Null,
     /// A truth value.
     Bool(bool),
-    /// An integer: any of 8 to 64 bits, with or without sign. Times are integers of the unit that their column has.
+    /// An integer: any of 8 to 64 bits, with or without sign.
     Integer(i128),
+    /// A time that the file says to be one, in nanoseconds, whatever unit it counts in: since 1970, since midnight, or a duration. Its text is
+    /// in seconds.
+    Time(i128),
     /// A number; NaN and infinities are kept.
     Number(f64),
     /// A text.
@@ -41,6 +44,8 @@ pub enum Cell {
 impl Cell {
     /// The cell as a CSV has it: numbers in the shortest form that reads back, lists as `[1, 2]`, nothing for [`Cell::Null`].
     ///
+    /// A [`Cell::Time`] is written in seconds with as many decimals as it has, so that nobody has to know the unit of the file.
+    ///
     /// Inside lists and structures the text is JSON, but for numbers that JSON cannot say (`NaN`, `inf`). Bytes that are UTF-8 stand as
     /// they are, others in hexadecimal digits.
     ///
@@ -49,6 +54,7 @@ impl Cell {
     /// assert_eq!(Cell::Number(0.1_f32.into()).text(), "0.10000000149011612");
     /// assert_eq!(Cell::Number(1e-30).text(), "1e-30");
     /// assert_eq!(Cell::List(vec![Cell::Integer(1), Cell::Text("a".into())]).text(), r#"[1, "a"]"#);
+    /// assert_eq!(Cell::Time(-1_500_000_001).text(), "-1.500000001");
     /// assert_eq!(Cell::Null.text(), "");
     /// ```
     pub fn text(&self) -> Cow<'_, str> {
@@ -133,7 +139,7 @@ impl Cell {
     /// The memory that the cell takes, about.
     pub(crate) fn bytes(&self) -> u64 {
         let inside = match self {
-            Cell::Null | Cell::Bool(_) | Cell::Integer(_) | Cell::Number(_) => 0,
+            Cell::Null | Cell::Bool(_) | Cell::Integer(_) | Cell::Time(_) | Cell::Number(_) => 0,
             Cell::Text(text) => text.len() as u64,
             Cell::Bytes(bytes) => bytes.len() as u64,
             Cell::List(cells) => cells.iter().map(Cell::bytes).sum(),
@@ -150,6 +156,7 @@ impl Cell {
             Cell::Null => into.push_str("null"),
             Cell::Bool(value) => into.push_str(if *value { "true" } else { "false" }),
             Cell::Integer(value) => push(into, format_args!("{value}")),
+            Cell::Time(nanoseconds) => write_seconds(*nanoseconds, into),
             Cell::Number(value) => write_number(*value, into),
             Cell::Text(text) => write_quoted(text, into),
             Cell::Bytes(_) => write_quoted(&self.text(), into),
@@ -184,6 +191,15 @@ fn write_number(value: f64, into: &mut String) {
     } else {
         push(into, format_args!("{value:e}"));
     }
+}
+
+/// Nanoseconds as seconds, with the decimals that they have.
+fn write_seconds(nanoseconds: i128, into: &mut String) {
+    const SECOND: u128 = 1_000_000_000;
+    let sign = if nanoseconds < 0 { "-" } else { "" };
+    let size = nanoseconds.unsigned_abs();
+    let text = format!("{sign}{}.{:09}", size / SECOND, size % SECOND);
+    into.push_str(text.trim_end_matches('0').trim_end_matches('.'));
 }
 
 /// A text between quotes, as JSON has it.
@@ -244,6 +260,15 @@ mod tests {
             (1e-5, "0.00001"),
         ] {
             assert_eq!(Cell::Number(number).text(), text);
+        }
+        for (nanoseconds, text) in [
+            (0, "0"),
+            (1_700_000_000_123_456_789, "1700000000.123456789"),
+            (86_400_000_000_000, "86400"),
+            (-1, "-0.000000001"),
+            (1_500_000_000, "1.5"),
+        ] {
+            assert_eq!(Cell::Time(nanoseconds).text(), text);
         }
         assert_eq!(Cell::Number(f64::NAN).text(), "NaN");
         assert_eq!(Cell::Number(f64::NEG_INFINITY).text(), "-inf");

@@ -15,7 +15,7 @@ use self::pattern::Value as Filled;
 use crate::cell::Cell;
 use crate::error::{Place, TableError};
 use crate::limits;
-use crate::parquet::ParquetTable;
+use crate::parquet::{ColumnKind, ParquetTable};
 use crate::rows::check_sorted;
 use crate::source::Source;
 
@@ -171,6 +171,28 @@ impl LeRobot {
             table.read_column(name, &mut bytes, &mut cells)?;
         }
         Ok(cells)
+    }
+
+    /// What the cells of the column called `name` are, by the first data file.
+    ///
+    /// # Errors
+    /// As [`ParquetTable::kind`].
+    ///
+    /// ```
+    /// use taceva_tables::{ColumnKind, LeRobot};
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/presses-lerobot");
+    /// let dataset = LeRobot::open(path.as_ref())?;
+    /// assert_eq!(dataset.kind("timestamp")?, ColumnKind::Number);
+    /// assert_eq!(dataset.kind("task")?, ColumnKind::Text);
+    /// # Ok::<(), taceva_tables::TableError>(())
+    /// ```
+    pub fn kind(&self, name: &str) -> Result<ColumnKind, TableError> {
+        if name == "task" && !self.tasks.is_empty() {
+            return Ok(ColumnKind::Text);
+        }
+        let first = self.files.first().filter(|_| self.has(name));
+        let first = first.ok_or_else(|| self.source.missing(name, self.names.clone()))?;
+        first.open()?.kind(name)
     }
 
     /// Hands the pictures of a feature of dtype `image` (or the bytes of another column) of the rows `sorted` to `each`, as

@@ -1,5 +1,6 @@
 //! Tables in Parquet files.
 
+mod arrow_schema;
 mod assemble;
 mod cells;
 mod kind;
@@ -64,8 +65,11 @@ impl ParquetTable {
         let metadata = ParquetMetaDataReader::new()
             .parse_and_finish(&file)
             .map_err(|error| source.damaged(Place::default(), format!("the footer: {error}")))?;
-        let columns = schema::columns(metadata.file_metadata().schema_descr())
+        let mut columns = schema::columns(metadata.file_metadata().schema_descr())
             .map_err(|problem| source.unsupported(Place::default(), problem))?;
+        if let Some(text) = written(&metadata, "ARROW:schema") {
+            arrow_schema::apply(text, &mut columns);
+        }
         let mut rows = 0_u64;
         for (at, group) in metadata.row_groups().iter().enumerate() {
             let more = u64::try_from(group.num_rows()).map_err(|_| {
@@ -115,9 +119,7 @@ impl ParquetTable {
     /// # Ok::<(), taceva_tables::TableError>(())
     /// ```
     pub fn metadata(&self, key: &str) -> Option<&str> {
-        let all = self.metadata.file_metadata().key_value_metadata()?;
-        let found = all.iter().find(|entry| entry.key == key)?;
-        found.value.as_deref()
+        written(&self.metadata, key)
     }
 
     /// What the cells of the column called `name` are, which may be a structure, or a place inside lists.
@@ -214,6 +216,13 @@ impl ParquetTable {
         }
         Ok(())
     }
+}
+
+/// What is written under `key` in the footer.
+fn written<'m>(metadata: &'m ParquetMetaData, key: &str) -> Option<&'m str> {
+    let all = metadata.file_metadata().key_value_metadata()?;
+    let found = all.iter().find(|entry| entry.key == key)?;
+    found.value.as_deref()
 }
 
 /// Rows of a group; the sum over all groups was checked when the table was opened.

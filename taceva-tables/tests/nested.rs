@@ -15,6 +15,8 @@ fn plain(cell: &Cell) -> Value {
             Ok(value) => Value::from(value),
             Err(_) => Value::from(i64::try_from(*value).expect("of 64 bits")),
         },
+        // `make.py` has the one column of times in nanoseconds.
+        Cell::Time(nanoseconds) => Value::from(i64::try_from(*nanoseconds).expect("of 64 bits")),
         Cell::Number(value) if value.is_nan() => Value::from("NaN"),
         Cell::Number(value) => Value::from(*value),
         Cell::Text(text) => Value::from(text.as_str()),

@@ -38,6 +38,28 @@ impl ZarrArray {
         }
     }
 
+    /// Whether `name` is that of a chunk within the shape.
+    pub(crate) fn is_key(&self, name: &str) -> bool {
+        let numbers = name.strip_prefix(self.prefix).unwrap_or(name);
+        let numbers = numbers.trim_start_matches(self.separator);
+        let place: Option<Vec<u64>> = match self.shape.is_empty() {
+            true => Some(Vec::new()),
+            false => numbers
+                .split(self.separator)
+                .map(|number| number.parse().ok())
+                .collect(),
+        };
+        place.is_some_and(|place| {
+            let sides = self.shape.iter().zip(&self.chunk).zip(&place);
+            let is_inside = |((side, chunk), number): ((&u64, &u64), &u64)| {
+                *number < side.div_ceil((*chunk).max(1))
+            };
+            place.len() == self.shape.len()
+                && sides.into_iter().all(is_inside)
+                && self.key(&place) == name
+        })
+    }
+
     /// Bytes of a chunk once everything is undone.
     pub(crate) fn chunk_bytes(&self) -> Option<u64> {
         let bytes = self

@@ -100,10 +100,15 @@ fn what_is_not_read_says_so_and_leaves_the_others_alone() {
 #[test]
 fn links_are_not_followed_and_cycles_end() {
     let file = opened("hdf5/types.h5");
-    for name in ["/soft", "/outside"] {
-        let error = file.read(name, 0..1).expect_err("a link");
-        assert!(matches!(error.problem, Problem::Absent { .. }), "{error}");
+    for (name, words) in [
+        ("/soft", "a soft link to `/record`"),
+        ("/outside", "a link to `/x` of another file, `other.h5`"),
+    ] {
+        let error = file.read(name, 0..1).expect_err("a link").to_string();
+        assert!(error.contains(words), "{error}");
     }
+    let absent = file.read("/none", 0..1).expect_err("no such array");
+    assert!(matches!(absent.problem, Problem::Absent { .. }), "{absent}");
     let file = opened("refused/cycle.h5");
     let names = file.names();
     assert!(names.len() < 1_000, "{}", names.len());
@@ -115,6 +120,90 @@ fn links_are_not_followed_and_cycles_end() {
         file.read("/a/b/up/b/x", 1..2).expect("the same").values,
         ArrayValues::I64(vec![1])
     );
+}
+
+#[test]
+fn soft_links_of_the_default_layout_lead_to_what_they_name() {
+    let file = opened("refused/soft-links.h5");
+    let names = file.names();
+    for name in [
+        "/run/frames",
+        "/frames",
+        "/latest/frames",
+        "/latest/ft",
+        "/twice",
+        "/run/first",
+    ] {
+        assert!(
+            names.iter().any(|known| known == name),
+            "{name} of {names:?}"
+        );
+    }
+    let own = file.read("/run/frames", 2..5).expect("there");
+    assert_eq!(file.read("/frames", 2..5).expect("linked"), own);
+    assert_eq!(file.read("/latest/frames", 2..5).expect("linked"), own);
+    assert_eq!(
+        file.read("/twice", 1..3).expect("linked").values,
+        ArrayValues::F64(vec![1.0, 2.0])
+    );
+    assert_eq!(file.groups("/*"), ["/latest", "/run"]);
+}
+
+#[test]
+fn a_soft_link_that_leads_nowhere_or_back_to_itself_names_the_line_that_removes_it() {
+    for (name, words) in [
+        ("refused/dangling.h5", "`/frames` leads to `/nowhere`"),
+        ("refused/cycle-soft.h5", "`/a` leads to `/b`"),
+    ] {
+        let error = ArrayFile::open(&at(name), ArrayFormat::Hdf5).expect_err(name);
+        let error = error.to_string();
+        assert!(error.contains(words), "{error}");
+        assert!(error.contains("del f['"), "{error}");
+    }
+}
+
+#[test]
+fn links_of_the_newer_layout_are_refused_by_what_they_lead_to() {
+    let file = opened("refused/links.h5");
+    assert!(why(&file, "/frames").contains("ask for `/run/frames` itself"));
+    let elsewhere = why(&file, "elsewhere");
+    assert!(
+        elsewhere.contains("`/x` of another file, `other.h5`"),
+        "{elsewhere}"
+    );
+    assert!(elsewhere.contains("h5py.File(path, 'a')"), "{elsewhere}");
+}
+
+#[test]
+fn files_with_soft_links_that_are_damaged_are_errors() {
+    let whole = fs::read(at("refused/soft-links.h5")).expect("readable");
+    let folder = tempfile::tempdir().expect("a folder");
+    let copy = folder.path().join("run.h5");
+    for position in 0..whole.len().min(4_000) {
+        let mut bytes = whole.clone();
+        bytes[position] ^= 1 << (position % 8);
+        fs::write(&copy, &bytes).expect("written");
+        let opened = std::panic::catch_unwind(|| {
+            ArrayFile::open(&copy, ArrayFormat::Hdf5).map(|file| file.names().len())
+        });
+        assert!(opened.is_ok(), "bit {} of byte {position}", position % 8);
+    }
+}
+
+#[test]
+fn chunks_that_were_never_written_are_counted() {
+    let file = opened("hdf5/types.h5");
+    for (name, absent) in [
+        ("/unwritten", 4),
+        ("/filled", 1),
+        ("/half-chunk", 0),
+        ("/plain/i4", 0),
+    ] {
+        if file.info(name).is_some() {
+            assert_eq!(file.absent_chunks(name).expect(name), absent, "{name}");
+        }
+    }
+    assert!(file.info("/unwritten").is_some() && file.info("/filled").is_some());
 }
 
 #[test]

@@ -32,6 +32,28 @@ fn groups_and_attributes_are_found_in_both_versions() {
 }
 
 #[test]
+fn chunks_that_were_never_written_are_counted() {
+    let two = opened("zarr/two.zarr");
+    for (name, absent) in [
+        // 4 × 2 chunks, of which two rows are written.
+        ("/unwritten/whole", 6),
+        ("/unwritten/true", 8),
+        ("/packed/zstd", 0),
+    ] {
+        assert_eq!(two.absent_chunks(name).expect(name), absent, "{name}");
+    }
+    let three = opened("zarr/three.zarr");
+    for (name, absent) in [("/unwritten", 6), ("/turned", 0), ("/scalar", 0)] {
+        assert_eq!(three.absent_chunks(name).expect(name), absent, "{name}");
+    }
+    assert_eq!(
+        opened("zarr/alone.zarr").absent_chunks("/").expect("there"),
+        0
+    );
+    assert!(two.absent_chunks("/nothing").is_err());
+}
+
+#[test]
 fn a_slash_in_front_may_be_left_out() {
     let file = opened("zarr/two.zarr");
     let short = file.read("packed/zstd", 0..2).expect("there");

@@ -116,6 +116,21 @@ def write_hdf5():
         f.create_virtual_dataset("virtual", h5py.VirtualLayout((4,), "f8"))
     with h5py.File(refused / "cycle.h5", "w") as f: f["a/b/x"] = np.arange(2); f["a/b/up"] = f["a"]; f["a/b/root"] = f["/"]
 
+def write_links():
+    """Soft links in the default layout, one that leads nowhere, and links in the newer layout, which are refused by their name."""
+    import h5py
+    refused = HERE / "refused"; refused.mkdir(exist_ok=True)
+    with h5py.File(refused / "soft-links.h5", "w") as f:
+        f["run/frames"] = np.arange(24, dtype="u1").reshape(6, 2, 2); f["run/ft"] = np.arange(6.0)
+        f["frames"] = h5py.SoftLink("/run/frames"); f["latest"] = h5py.SoftLink("run"); f["twice"] = h5py.SoftLink("latest/ft"); f["run/first"] = h5py.SoftLink("ft")
+    with h5py.File(refused / "dangling.h5", "w") as f:
+        f["ft"] = np.arange(6.0); f["frames"] = h5py.SoftLink("/nowhere")
+    with h5py.File(refused / "cycle-soft.h5", "w") as f:
+        f["ft"] = np.arange(6.0); f["a"] = h5py.SoftLink("/b"); f["b"] = h5py.SoftLink("/a")
+    with h5py.File(refused / "links.h5", "w", libver=("v110", "v110")) as f:
+        f["run/frames"] = np.arange(24, dtype="u1").reshape(6, 2, 2)
+        f["frames"] = h5py.SoftLink("/run/frames"); f["elsewhere"] = h5py.ExternalLink("other.h5", "/x")
+
 def write_zarr():
     import zarr
     from numcodecs import GZip, LZ4, Zlib, Zstd, Blosc, Delta

@@ -82,7 +82,8 @@ pub(crate) struct Reseal {
     pub(crate) reason: String,
 }
 
-/// Every finding has a stable code and a hint. The exit code is 1 if one of them is an error.
+/// Every finding has a stable code, from TAC001 to TAC026, and a hint. `--explain` lists the checks and what each looks for: units, copies, doubled and dropped frames,
+/// clocks that jump, lags, blank frames, saturation, leakage between parts, what an import left out, and more. The exit code is 1 if a finding is an error.
 #[derive(Debug, Args)]
 pub(crate) struct Check {
     /// The dataset to check; of several recordings each is checked, and then whether they can be taken as one

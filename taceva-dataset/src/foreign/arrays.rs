@@ -11,6 +11,7 @@ use std::sync::Arc;
 use taceva_arrays::{ArrayError, ArrayFile, ArrayFormat, ArrayInfo};
 
 use super::columns::{ColumnSource, PictureColumn};
+use super::listed;
 use super::pictures::Pictures;
 use crate::import::FrameNames;
 use crate::limits;
@@ -21,7 +22,7 @@ pub(crate) use frames::ArrayPictures;
 const COLUMN_BYTES: u64 = 1 << 30;
 /// The most values of a cell that holds a whole array.
 const CELL_VALUES: u64 = 1 << 16;
-/// The most arrays that a message lists.
+/// Arrays that a draft looks into for pictures.
 const LISTED: usize = 64;
 
 /// The rows of a file of arrays, of one group or several.
@@ -191,11 +192,7 @@ impl ColumnSource for ArrayRows {
             path => self.file.attributes(path),
         };
         let attributes = attributes.into_iter().map(|name| format!("@{name}"));
-        names
-            .filter_map(named)
-            .chain(attributes)
-            .take(LISTED)
-            .collect()
+        names.filter_map(named).chain(attributes).collect()
     }
 
     fn has(&self, name: &str) -> bool {
@@ -225,6 +222,18 @@ impl ColumnSource for ArrayRows {
         }
     }
 
+    fn absent_chunks(&self, names: &[&str]) -> Result<Vec<(String, u64)>, String> {
+        let mut arrays: Vec<String> = self
+            .groups
+            .iter()
+            .flat_map(|group| names.iter().filter_map(|name| self.info(group, name)))
+            .map(|(path, _)| path)
+            .collect();
+        arrays.sort_unstable();
+        arrays.dedup();
+        absent_chunks(&self.file, arrays.iter().map(String::as_str))
+    }
+
     fn picture_columns(&self) -> Vec<PictureColumn> {
         let Some(group) = self.groups.first() else {
             return Vec::new();
@@ -234,7 +243,8 @@ impl ColumnSource for ArrayRows {
             let kind = form::kind_of(&self.file, &path, info)?;
             Some(PictureColumn { name, kind })
         };
-        self.names().into_iter().filter_map(seems).collect()
+        let names = self.names().into_iter().take(LISTED);
+        names.filter_map(seems).collect()
     }
 
     fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, String> {
@@ -273,7 +283,7 @@ impl ColumnSource for ArrayRows {
                             "" => "it",
                             path => path,
                         },
-                        self.names().join(", ")
+                        listed(&self.names())
                     )
                 })
             })
@@ -331,10 +341,25 @@ fn rows_of(file: &ArrayFile, group: &str) -> Result<usize, String> {
             },
             match names.is_empty() {
                 true => "none that is read".to_owned(),
-                false => names.join(", "),
+                false => listed(&names),
             }
         )),
     }
+}
+
+/// Those of the arrays of which chunks were never written, and how many.
+fn absent_chunks<'n>(
+    file: &ArrayFile,
+    names: impl Iterator<Item = &'n str>,
+) -> Result<Vec<(String, u64)>, String> {
+    let counted = names.map(|name| {
+        let count = file.absent_chunks(name).map_err(problem)?;
+        Ok((name.to_owned(), count))
+    });
+    let counted: Result<Vec<(String, u64)>, String> = counted.collect();
+    let mut counted = counted?;
+    counted.retain(|(_, count)| *count > 0);
+    Ok(counted)
 }
 
 /// What is wrong, without the path of the file: the error around it names that.

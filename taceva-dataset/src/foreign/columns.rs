@@ -24,6 +24,16 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
     /// `[1.0, 2.0]`.
     fn columns(&self, names: &[&str]) -> Result<Vec<Vec<String>>, String>;
 
+    /// The unit in which the file counts the times in a column, where it says that they are times; their cells are in seconds.
+    fn time_unit(&self, _name: &str) -> Option<&'static str> {
+        None
+    }
+
+    /// The arrays behind these columns of which chunks were never written, and how many.
+    fn absent_chunks(&self, _names: &[&str]) -> Result<Vec<(String, u64)>, String> {
+        Ok(Vec::new())
+    }
+
     /// What of it seems to hold pictures.
     fn picture_columns(&self) -> Vec<PictureColumn>;
 
@@ -154,6 +164,15 @@ impl ColumnTable {
             read.insert(name.to_owned(), Arc::new(column));
         }
         Ok(())
+    }
+
+    pub(super) fn time_unit(&self, name: &str) -> Option<&'static str> {
+        guarded(|| self.source.time_unit(name)).unwrap_or_default()
+    }
+
+    pub(super) fn absent_chunks(&self, names: &[&str]) -> Result<Vec<(String, u64)>, DatasetError> {
+        let counted = guarded(|| self.source.absent_chunks(names)).and_then(|counted| counted);
+        counted.map_err(|problem| wrong(&self.path, problem))
     }
 
     pub(super) fn picture_columns(&self) -> Vec<PictureColumn> {

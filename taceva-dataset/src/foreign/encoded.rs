@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
 
-use taceva_tables::{Cell, LeRobot, ParquetTable, TableError};
+use taceva_tables::{Cell, ColumnKind, LeRobot, ParquetTable, TableError};
 
 use super::pictures::{Ended, Picture, Pictures, Visit, damaged, guarded_visit};
 use super::said;
@@ -19,12 +19,25 @@ pub(super) trait ByteColumns: fmt::Debug + Send + Sync {
     fn place(&self) -> &Path;
     fn count(&self) -> u64;
     fn cells(&self, name: &str) -> Result<Vec<Cell>, TableError>;
+    fn kind_of(&self, name: &str) -> Result<ColumnKind, TableError>;
     fn visit(
         &self,
         name: &str,
         sorted: &[u64],
         each: VisitBytes<'_>,
     ) -> Result<(), Ended<TableError>>;
+
+    /// The unit of the times in a column, or in its lists.
+    fn unit_of_times(&self, name: &str) -> Option<&'static str> {
+        let mut kind = self.kind_of(name).ok()?;
+        while let ColumnKind::List(element) = kind {
+            kind = *element;
+        }
+        match kind {
+            ColumnKind::Time(unit) => Some(unit),
+            _ => None,
+        }
+    }
 
     /// The cells of columns as texts.
     fn texts(&self, names: &[&str]) -> Result<Vec<Vec<String>>, String> {
@@ -51,6 +64,10 @@ macro_rules! byte_columns {
 
             fn cells(&self, name: &str) -> Result<Vec<Cell>, TableError> {
                 self.column(name)
+            }
+
+            fn kind_of(&self, name: &str) -> Result<ColumnKind, TableError> {
+                self.kind(name)
             }
 
             fn visit(

@@ -43,6 +43,10 @@ impl ColumnSource for LeRobotRows {
         self.dataset.texts(names)
     }
 
+    fn time_unit(&self, name: &str) -> Option<&'static str> {
+        self.dataset.unit_of_times(name)
+    }
+
     fn picture_columns(&self) -> Vec<PictureColumn> {
         let features = self.dataset.features().iter().filter_map(|feature| {
             let kind = match feature.dtype.as_str() {

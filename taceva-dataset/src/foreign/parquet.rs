@@ -45,6 +45,10 @@ impl ColumnSource for ParquetRows {
         self.table.texts(names)
     }
 
+    fn time_unit(&self, name: &str) -> Option<&'static str> {
+        self.table.unit_of_times(name)
+    }
+
     fn picture_columns(&self) -> Vec<PictureColumn> {
         let is_encoded = |name: &String| {
             let mut is_encoded = false;

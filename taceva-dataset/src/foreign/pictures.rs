@@ -40,6 +40,14 @@ pub(crate) trait Pictures: fmt::Debug + Send + Sync {
         (self.path(), index)
     }
 
+    /// The arrays that they lie in of which chunks were never written, and how many.
+    ///
+    /// # Errors
+    /// What is wrong with the list of chunks.
+    fn absent_chunks(&self) -> Result<Vec<(String, u64)>, DatasetError> {
+        Ok(Vec::new())
+    }
+
     /// Whether there is a picture at `index`.
     fn check_index(&self, index: u64) -> Result<(), DatasetError> {
         if index < self.count() {

@@ -1,5 +1,6 @@
 //! Pictures of several files, counted through.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -43,6 +44,16 @@ impl Pictures for SeveralPictures {
 
     fn codec(&self) -> Option<FrameCodec> {
         self.files.iter().find_map(|(_, pictures)| pictures.codec())
+    }
+
+    fn absent_chunks(&self) -> Result<Vec<(String, u64)>, DatasetError> {
+        let mut absent: BTreeMap<String, u64> = BTreeMap::new();
+        for (_, pictures) in &self.files {
+            for (array, count) in pictures.absent_chunks()? {
+                *absent.entry(array).or_default() += count;
+            }
+        }
+        Ok(absent.into_iter().collect())
     }
 
     fn origin(&self, index: u64) -> (&Path, u64) {

@@ -20,7 +20,7 @@ pub enum Source {
     /// A real sensor.
     #[default]
     Recorded,
-    /// A simulated bench.
+    /// A simulated bench: nothing was measured.
     Simulated,
     /// Numbers made up for a test.
     Synthetic,
@@ -36,9 +36,9 @@ pub enum Source {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Known<T> {
-    /// Written down.
+    /// The lab wrote it down.
     Is(T),
-    /// Not known.
+    /// Nobody wrote it down; reports carry `unknown`.
     #[default]
     Unknown,
 }
@@ -171,9 +171,9 @@ impl SensorFacts {
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FramesInfo {
-    /// How many there are.
+    /// How many frames there are, that without contact aside.
     pub count: u64,
-    /// Size and pixel format of each, decoded.
+    /// Width and height, pixels, and the pixel format of every frame once it is decoded.
     #[serde(flatten)]
     pub info: FrameInfo,
     /// The order of the colours in the files.
@@ -181,6 +181,9 @@ pub struct FramesInfo {
     /// How the frames of clips, of several those of the first, were coded and decoded; absent of all others.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub codec: Option<FrameCodec>,
+    /// How those of other clips were, each once, where that is not the same; absent before format 1.8.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub other_codecs: Vec<FrameCodec>,
     /// The frame without contact; absent if the lab does not know one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reference: Option<ReferenceInfo>,
@@ -206,6 +209,19 @@ pub struct FrameCodec {
     /// What decoded it, with its version where it says one; absent where frames are kept as they came.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub decoder: Option<String>,
+    /// The bits of a sample in the clip, where they are more than 8: luma keeps its numbers in 16 bits and is not scaled up to their full range.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bits: Option<u8>,
+}
+
+/// The bits of a sample by the name of a pixel format of FFmpeg, where they are more than 8: 10 of `yuv420p10le`.
+fn bits_of(pixel_format: &str) -> Option<u8> {
+    let name = pixel_format.strip_suffix("le");
+    let name = name.or_else(|| pixel_format.strip_suffix("be"))?;
+    let digits = name
+        .rsplit(|letter: char| !letter.is_ascii_digit())
+        .next()?;
+    digits.parse().ok().filter(|bits| (9..=16).contains(bits))
 }
 
 impl FrameCodec {
@@ -215,6 +231,7 @@ impl FrameCodec {
             pixel_format: pixel_format.to_owned(),
             lossy: None,
             decoder: None,
+            bits: bits_of(pixel_format),
         }
     }
 }
@@ -242,9 +259,9 @@ impl FrameCodec {
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ReferenceInfo {
-    /// Relative to the folder of the dataset.
+    /// Its file, relative to the folder of the dataset.
     pub path: String,
-    /// Of the bytes of the file.
+    /// The SHA-256 of the bytes of its file.
     pub sha256: Digest,
 }
 
@@ -274,8 +291,27 @@ pub struct ReferenceInfo {
 pub struct TableInfo {
     /// Number of samples.
     pub rows: u64,
-    /// Of what the table says.
+    /// The digest of what the table says, whatever bytes it is written as.
     pub digest: Digest,
-    /// Of the bytes of the file.
+    /// The SHA-256 of the bytes of `samples.parquet`, which is checked before it is read.
     pub sha256: Digest,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_bits_of_a_sample_stand_in_the_name_of_its_format() {
+        for (name, bits) in [
+            ("yuv420p", None),
+            ("yuv420p10le", Some(10)),
+            ("gray16be", Some(16)),
+            ("gray", None),
+            ("rgb24", None),
+            ("yuv444p12le", Some(12)),
+        ] {
+            assert_eq!(bits_of(name), bits, "{name}");
+        }
+    }
 }

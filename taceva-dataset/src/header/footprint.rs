@@ -19,18 +19,18 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Footprint {
-    /// Its outline.
+    /// The form of its outline, which says which of the lengths below are stated.
     pub shape: Shape,
-    /// Of a disc.
+    /// The radius of a disc, mm; absent of a rectangle.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius_mm: Option<f64>,
-    /// Half the width of a rectangle along x.
+    /// Half the width of a rectangle along x, mm; absent of a disc.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub half_x_mm: Option<f64>,
-    /// Half the width of a rectangle along y.
+    /// Half the width of a rectangle along y, mm; absent of a disc.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub half_y_mm: Option<f64>,
-    /// The deepest indentation the gel bears.
+    /// The deepest indentation that the gel bears, mm; absent if nobody knows.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub depth_max_mm: Option<f64>,
 }

@@ -24,6 +24,7 @@ fn header() -> Header {
         settings: BTreeMap::from([("exposure_ms".to_owned(), "15.7".to_owned())]),
         channels: Channels::new([Channel::FZ, Channel::PZ]).expect("distinct"),
         attributes: vec!["video".to_owned()],
+        left_out: LeftOut::default(),
         unmentioned_columns: vec!["quality_flags".to_owned()],
         frames: Some(FramesInfo {
             count: 3,
@@ -34,6 +35,7 @@ fn header() -> Header {
             },
             channel_order: ChannelOrder::Bgr,
             codec: None,
+            other_codecs: Vec::new(),
             reference: None,
         }),
         stream: None,

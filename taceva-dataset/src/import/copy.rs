@@ -38,13 +38,13 @@ pub(super) use frames::copy_frames;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ImportReport {
-    /// The counts.
+    /// What was read, kept and left out.
     pub summary: ImportSummary,
     /// Size and format of the frames; `None` if there is none.
     pub frames: Option<FrameInfo>,
     /// The digest of the dataset.
     pub digest: Digest,
-    /// Where the dataset is.
+    /// The folder of the dataset.
     pub path: PathBuf,
 }
 
@@ -107,6 +107,7 @@ impl ImportPlan {
             (&table, frames),
             Beside {
                 unmentioned_columns: self.summary.columns_left_behind(),
+                left_out: self.summary.left_out(),
                 signals: signals.transpose()?,
                 ..Beside::default()
             },

@@ -40,6 +40,13 @@ impl fmt::Display for ImportSummary {
         if let Some(info) = self.signals {
             writeln!(f, "signals  {} samples of {info}", self.rows_kept)?;
         }
+        for (array, count) in &self.absent_chunks {
+            writeln!(
+                f,
+                "chunks that were never written: {count} of {}; their numbers are its fill value",
+                shown(array)
+            )?;
+        }
         self.write_unmentioned(f)?;
         let Some(order) = self.channel_order else {
             return self.write_suspicions(f);
@@ -52,13 +59,25 @@ impl fmt::Display for ImportSummary {
         )?;
         match &self.reference {
             Some(path) => writeln!(f, "without contact  {}", shown_path(path))?,
+            None if self.references > 0 => writeln!(
+                f,
+                "without contact  {} different pictures, named by the attribute `reference` and not copied",
+                self.references
+            )?,
             None => writeln!(f, "without contact  unknown")?,
         }
-        if self.unnamed_images > 0 {
-            writeln!(f, "images that no row names: {}", self.unnamed_images)?;
+        if self.unnamed_images > 0 || self.has_more_files {
+            let more = match self.has_more_files {
+                true => ", and perhaps more: there are more files than are looked at",
+                false => "",
+            };
+            writeln!(f, "images that no row names: {}{more}", self.unnamed_images)?;
             for path in &self.first_unnamed_images {
                 writeln!(f, "         {}", shown_path(path))?;
             }
+        }
+        for (file, count) in &self.unused_frames {
+            writeln!(f, "frames that no row uses: {count} of {}", shown(file))?;
         }
         self.write_suspicions(f)
     }
@@ -132,7 +151,11 @@ impl fmt::Display for JoinSummary {
             f,
             ", {} unmatched; {} of its rows unused",
             self.unmatched, self.unused
-        )
+        )?;
+        match self.skipped {
+            0 => Ok(()),
+            skipped => write!(f, ", {skipped} skipped"),
+        }
     }
 }
 

@@ -10,7 +10,8 @@ use std::path::Path;
 use taceva_core::Progress;
 
 use super::copy::{ImportReport, copy_frames};
-use super::plan::{ImportPlan, PlannedFrames};
+use super::plan::ImportPlan;
+use super::planned_frames::PlannedFrames;
 use super::signals::PlannedSignals;
 use crate::dataset::{Dataset, Difference, differences_of_added};
 use crate::digest::Digest;

@@ -1,5 +1,6 @@
 //! The map of an import: which column is which channel, in which unit, and which facts are unknown.
 
+mod axes;
 mod check;
 mod columns;
 mod drop;
@@ -25,6 +26,7 @@ use crate::foreign::TableForm;
 use crate::store::RecordingFacts;
 use crate::toml_file::read_toml_text;
 
+pub(crate) use frames::REFERENCE_ATTRIBUTE;
 pub(crate) use join::{JoinBy, JoinMap, Pick, TimeJoin, Unmatched};
 pub(crate) use matrix::{MatrixMap, MatrixRows};
 pub(crate) use path_pattern::PathPattern;

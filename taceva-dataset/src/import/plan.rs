@@ -9,12 +9,15 @@ use std::sync::Arc;
 use taceva_video::Decoders;
 
 use super::frame_cells::FrameName;
+use super::left_out;
 use super::map::{FrameMap, FrameNames, ImportMap};
+use super::planned_frames::{FrameSource, PlannedFrame, PlannedFrames};
+use super::references::{References, Settled};
+use super::resolve::JoinMatches;
 use super::rows::MappedTable;
 use super::signals::{FoundSignals, PlannedSignals};
 use super::source::{matching_files, unnamed_images};
 use super::summary::ImportSummary;
-use crate::decode::ChannelOrder;
 use crate::error::{DatasetError, Place};
 use crate::file::SourceFolder;
 use crate::foreign::{ArrayPictures, ClipPictures, Pictures, SeveralPictures, TableForm};
@@ -50,53 +53,6 @@ pub struct ImportPlan {
     pub(super) signals: Option<PlannedSignals>,
     /// Whether samples are called by the number of their row, because the map names no column for it.
     pub(super) is_numbered: bool,
-}
-
-/// Where the frames come from.
-#[derive(Debug)]
-pub(super) struct PlannedFrames {
-    pub(super) order: ChannelOrder,
-    pub(super) reference: Option<PathBuf>,
-    /// For each kept row.
-    pub(super) of_rows: Vec<PlannedFrame>,
-}
-
-/// Where one frame comes from, and which cell says so.
-#[derive(Debug)]
-pub(super) struct PlannedFrame {
-    pub(super) from: FrameSource,
-    pub(super) named_at: Place,
-}
-
-#[derive(Debug)]
-pub(super) enum FrameSource {
-    File(PathBuf),
-    /// The picture of that number in another file.
-    Within(Arc<dyn Pictures>, u64),
-}
-
-impl FrameSource {
-    /// Where it is in the folder of the lab.
-    fn origin(&self, folder: &Path) -> String {
-        let inside = |path: &Path| {
-            let inside = path.strip_prefix(folder).unwrap_or(path);
-            inside.to_string_lossy().replace('\\', "/")
-        };
-        match self {
-            FrameSource::File(path) => inside(path),
-            FrameSource::Within(pictures, index) => {
-                let (path, index) = pictures.origin(*index);
-                format!("{}#{index}", inside(path))
-            }
-        }
-    }
-
-    pub(super) fn path(&self) -> &Path {
-        match self {
-            FrameSource::File(path) => path,
-            FrameSource::Within(pictures, _) => pictures.path(),
-        }
-    }
 }
 
 impl ImportPlan {
@@ -155,7 +111,7 @@ impl ImportPlan {
         reading.into_plan()
     }
 
-    /// What would be done.
+    /// What the import reads, converts, keeps and leaves out.
     pub fn summary(&self) -> &ImportSummary {
         &self.summary
     }
@@ -189,6 +145,10 @@ struct Reading<'a> {
     opened: BTreeMap<PathBuf, Arc<dyn Pictures>>,
     frames: Vec<PlannedFrame>,
     signals: Option<FoundSignals<'a>>,
+    references: References,
+    joins: Vec<JoinMatches>,
+    /// Chunks that were never written, by file and array.
+    absent_chunks: BTreeMap<String, u64>,
     samples: HashSet<String>,
     /// Every image that a row names, dropped ones too.
     named: BTreeSet<PathBuf>,
@@ -209,6 +169,9 @@ impl<'a> Reading<'a> {
             table: Table::new(map.channels.clone(), attributes),
             frames: Vec::new(),
             signals: None,
+            references: References::default(),
+            joins: Vec::new(),
+            absent_chunks: BTreeMap::new(),
             samples: HashSet::new(),
             named: BTreeSet::new(),
             bases: BTreeSet::new(),
@@ -217,11 +180,16 @@ impl<'a> Reading<'a> {
     }
 
     fn read(&mut self, path: &Path) -> Result<(), DatasetError> {
-        let rows = MappedTable::open(self.map, self.folder, path)?;
+        let mut rows = MappedTable::open(self.map, self.folder, path)?;
         self.summary.unmentioned_columns.extend(rows.unmentioned());
-        for join in &rows.joins {
-            self.summary.add_join(join);
+        for join in std::mem::take(&mut rows.joins) {
+            let mut joins = self.joins.iter_mut();
+            match joins.find(|known| known.name() == join.name()) {
+                Some(known) => known.add(join),
+                None => self.joins.push(join),
+            }
         }
+        self.absent_chunks.append(&mut rows.absent_chunks);
         let frame = self.map.frame.as_ref();
         let base = match frame.and_then(|frame| frame.folder.as_ref()) {
             Some(folder) => self.folder.path().join(folder),
@@ -265,6 +233,9 @@ impl<'a> Reading<'a> {
                 labels.source_frame = Some(from.origin(self.folder.path()));
             }
             self.frames.push(PlannedFrame { from, named_at });
+        }
+        if let Some(named) = rows.reference_name(row) {
+            self.references.take(self.folder, base, named)?;
         }
         if let Some(signals) = &mut self.signals {
             signals.take(rows, row, number)?;
@@ -366,6 +337,16 @@ impl<'a> Reading<'a> {
             None => None,
         };
         self.describe_channels();
+        self.summary.joins = self.joins.iter().map(JoinMatches::summary).collect();
+        if let Some(signals) = &self.signals {
+            signals.count_absent_chunks(self.folder, &mut self.absent_chunks)?;
+        }
+        left_out::count(
+            self.folder,
+            self.map.frame.as_ref().zip(frames.as_ref()),
+            self.absent_chunks,
+            &mut self.summary,
+        )?;
         let rows_read = self.summary.rows_read;
         let signals = self.signals.take();
         let signals = signals.map(|signals| signals.into_plan(rows_read));
@@ -381,17 +362,30 @@ impl<'a> Reading<'a> {
     }
 
     fn planned_frames(&mut self, frame: &FrameMap) -> Result<PlannedFrames, DatasetError> {
-        let reference = match &frame.reference {
-            Some(path) => Some(self.folder.file(self.folder.path(), path)?),
-            None => None,
+        let references = std::mem::take(&mut self.references);
+        let Settled {
+            reference,
+            different,
+        } = match &frame.reference {
+            Some(path) => Settled {
+                reference: Some(self.folder.file(self.folder.path(), path)?),
+                different: 0,
+            },
+            None => {
+                let named = references.paths(self.folder);
+                self.named.extend(named);
+                references.settle(self.folder, &mut self.table)?
+            }
         };
+        self.summary.references = different as u64;
         self.named.extend(reference.clone());
         if matches!(frame.names, FrameNames::Column(_) | FrameNames::Pattern(_)) {
-            let unnamed: BTreeSet<PathBuf> = self
-                .bases
-                .iter()
-                .flat_map(|base| unnamed_images(base, &self.named))
-                .collect();
+            let mut unnamed = BTreeSet::new();
+            for base in &self.bases {
+                let found = unnamed_images(base, &self.named);
+                self.summary.has_more_files |= found.has_more;
+                unnamed.extend(found.images);
+            }
             self.summary.unnamed_images = unnamed.len() as u64;
             self.summary.first_unnamed_images = unnamed.into_iter().take(LISTED_IMAGES).collect();
         }

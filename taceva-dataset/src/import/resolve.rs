@@ -5,17 +5,19 @@ mod join;
 mod matrix;
 mod signals;
 mod table;
+mod times;
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::map::{FrameNames, ImportMap};
-use super::summary::JoinSummary;
 use crate::error::{DatasetError, Place};
 use crate::file::SourceFolder;
 use crate::foreign::{ForeignTable, packed};
 use columns::{base_of, mentioned};
 use join::Joined;
 
+pub(super) use join::JoinMatches;
 pub(super) use signals::place_first;
 pub(super) use table::RowTable;
 
@@ -24,7 +26,9 @@ pub(super) struct Resolved {
     pub(super) table: table::ResolvedTable,
     /// The columns of the main table that the map does not mention.
     pub(super) unmentioned: Vec<String>,
-    pub(super) joins: Vec<JoinSummary>,
+    pub(super) joins: Vec<JoinMatches>,
+    /// Chunks that were never written of the arrays that are read, by file and array.
+    pub(super) absent_chunks: BTreeMap<String, u64>,
     /// The main table itself.
     pub(super) main: ForeignTable,
     /// The numbers of taxels of every row, where they are in columns.
@@ -67,16 +71,26 @@ pub(super) fn resolve(
     let bases: Vec<&str> = bases.collect();
     sources.main.read_ahead(&bases)?;
     sources.capture()?;
+    // Before a join compares times, and once what is joined is known.
+    sources.check_units()?;
     for join in &map.joins {
         let joined = Joined::new(&sources, folder, join)?;
         sources.joined.push(joined);
     }
+    sources.check_units()?;
     let rows = sources.main.rows();
     let mut cells = Vec::with_capacity(names.len());
     for name in &names {
         let column: Result<Vec<String>, DatasetError> =
             (0..rows).map(|row| sources.cell(row, name)).collect();
         cells.push(column?);
+    }
+    let mut absent_chunks = BTreeMap::new();
+    sources
+        .main
+        .count_absent_chunks(folder, &bases, &mut absent_chunks)?;
+    for joined in &sources.joined {
+        joined.count_absent_chunks(folder, &names, &mut absent_chunks)?;
     }
     let mut table = table::ResolvedTable::new(&sources, names, cells);
     for map in &map.matrices {
@@ -89,8 +103,9 @@ pub(super) fn resolve(
     let signals = in_columns.map(|map| signals::numbers(&sources, map));
     Ok(Resolved {
         signals: signals.transpose()?,
+        absent_chunks,
         unmentioned: sources.unmentioned(&table),
-        joins: sources.joined.iter().map(Joined::summary).collect(),
+        joins: sources.joined.iter().map(Joined::matched).collect(),
         main: sources.main,
         table,
     })
@@ -136,11 +151,7 @@ impl Sources<'_> {
         if let Some(part) = name.strip_prefix("path.") {
             return self.part(row, part);
         }
-        let join = name.split_once('.').and_then(|(join, column)| {
-            let mut joined = self.joined.iter();
-            Some((joined.find(|joined| joined.name() == join)?, column))
-        });
-        if let Some((joined, column)) = join.filter(|_| !self.main.has(name)) {
+        if let Some((joined, column)) = self.joined_column(name) {
             return joined.cell(row, column);
         }
         match name {
@@ -151,6 +162,13 @@ impl Sources<'_> {
             _ => {}
         }
         cell_of(&self.main, row, name)
+    }
+
+    /// The join that `name` begins with, and the column of it; none where the main table has a column of that name.
+    fn joined_column<'n>(&self, name: &'n str) -> Option<(&Joined<'_>, &'n str)> {
+        let (join, column) = name.split_once('.')?;
+        let joined = self.joined.iter().find(|joined| joined.name() == join)?;
+        (!self.main.has(name)).then_some((joined, column))
     }
 
     /// A part of the path.

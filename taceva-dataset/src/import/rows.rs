@@ -2,13 +2,13 @@
 
 mod labels;
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::frame_cells::{FrameCells, FrameName, columns_of, filled};
 use super::map::{FrameNames, ImportMap};
-use super::resolve::{RowTable, resolve};
-use super::summary::JoinSummary;
+use super::resolve::{JoinMatches, RowTable, resolve};
 use crate::csv_table::CsvTable;
 use crate::error::{DatasetError, Place};
 use crate::file::SourceFolder;
@@ -22,7 +22,9 @@ pub(super) struct MappedTable<'a> {
     table: RowTable,
     /// The columns that the map mentions nowhere, where they are not found by the others.
     unmentioned: Option<Vec<String>>,
-    pub(super) joins: Vec<JoinSummary>,
+    pub(super) joins: Vec<JoinMatches>,
+    /// Chunks that were never written of the arrays that are read, by file and array.
+    pub(super) absent_chunks: BTreeMap<String, u64>,
     truth: Vec<usize>,
     sample: Option<usize>,
     point_id: Vec<usize>,
@@ -39,6 +41,8 @@ pub(super) struct MappedTable<'a> {
     time: Option<usize>,
     flags: Option<usize>,
     frame: Option<FrameCells>,
+    /// The column of the frame without contact of each row.
+    reference: Option<usize>,
     /// The pictures that the table itself holds.
     pub(super) pictures: Option<Arc<dyn Pictures>>,
     /// The numbers of taxels of every row, where they are in columns.
@@ -52,6 +56,7 @@ impl<'a> MappedTable<'a> {
         path: &Path,
     ) -> Result<MappedTable<'a>, DatasetError> {
         let mut clips = None;
+        let mut absent_chunks = BTreeMap::new();
         let (table, unmentioned, joins, pictures, signals) = match map.is_extended {
             false => (
                 RowTable::AsItLies(CsvTable::read(path)?),
@@ -62,6 +67,7 @@ impl<'a> MappedTable<'a> {
             ),
             true => {
                 let found = resolve(map, folder, path)?;
+                absent_chunks = found.absent_chunks;
                 let names = map.frame.as_ref().map(|frame| &frame.names);
                 if let (TableForm::LeRobot, Some(FrameNames::Video(video))) = (&map.form, names) {
                     clips = Some(found.main.clips(&video.file)?);
@@ -123,10 +129,17 @@ impl<'a> MappedTable<'a> {
                     None => FrameCells::find(&frame.names, &table),
                 })
                 .transpose()?,
+            reference: map
+                .frame
+                .as_ref()
+                .and_then(|frame| frame.reference_column.as_ref())
+                .map(find)
+                .transpose()?,
             pictures,
             signals,
             unmentioned,
             joins,
+            absent_chunks,
             table,
         })
     }
@@ -316,6 +329,12 @@ impl<'a> MappedTable<'a> {
             FrameCells::OfRow => (FrameName::Within(None, row as u64), usize::MAX),
         };
         Ok(Some((name, self.table.place(row, column))))
+    }
+
+    /// How the row names its frame without contact, and where; `None` if the map names no column of such.
+    pub(super) fn reference_name(&self, row: usize) -> Option<(&str, Place)> {
+        let column = self.reference?;
+        Some((self.table.cell(row, column), self.table.place(row, column)))
     }
 
     fn point_id(&self, row: usize) -> Option<String> {

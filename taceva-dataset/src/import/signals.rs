@@ -2,6 +2,7 @@
 
 mod array;
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use taceva_core::Progress;
@@ -49,8 +50,7 @@ impl<'a> FoundSignals<'a> {
             SignalsFrom::Columns(_) => Found::Numbers(Vec::new()),
             SignalsFrom::Array { file, path } => {
                 let file = folder.file(folder.path(), file)?;
-                let length = map.spec.info.len() as u64;
-                let array = ArraySignals::open(&file, path.as_deref(), length)?;
+                let array = ArraySignals::open(&file, path.as_deref(), map)?;
                 Found::Array(array, Vec::new())
             }
         };
@@ -118,6 +118,18 @@ impl<'a> FoundSignals<'a> {
                 ..rows.place(row)
             },
             problem: format!("[signals]: {problem}"),
+        }
+    }
+
+    /// Counts the chunks of an array that were never written.
+    pub(super) fn count_absent_chunks(
+        &self,
+        folder: &SourceFolder,
+        into: &mut BTreeMap<String, u64>,
+    ) -> Result<(), DatasetError> {
+        match &self.from {
+            Found::Numbers(_) => Ok(()),
+            Found::Array(array, _) => array.count_absent_chunks(folder, into),
         }
     }
 

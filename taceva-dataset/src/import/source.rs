@@ -1,6 +1,6 @@
 //! Finding tables and images in a stranger's folder, without leaving it.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -42,10 +42,34 @@ pub(crate) fn matching_files(
             ),
         });
     }
-    found
+    let found: Result<Vec<PathBuf>, DatasetError> = found
         .iter()
         .map(|relative| folder.file(folder.path(), relative))
-        .collect()
+        .collect();
+    let found = found?;
+    each_once(folder, pattern, &found)?;
+    Ok(found)
+}
+
+/// That a pattern leads to no file twice, through a link: its rows would count twice.
+fn each_once(folder: &SourceFolder, pattern: &str, found: &[PathBuf]) -> Result<(), DatasetError> {
+    let mut known: BTreeMap<PathBuf, &PathBuf> = BTreeMap::new();
+    for path in found {
+        let real = path.canonicalize().unwrap_or_else(|_| path.clone());
+        if let Some(first) = known.insert(real, path) {
+            let [first, again] = [first, path].map(|path| folder.inside(path, ""));
+            return Err(DatasetError::Path {
+                place: None,
+                written: pattern.to_owned(),
+                problem: format!(
+                    "leads to one file twice, as {} and through a link as {}: narrow the pattern, or its rows count twice",
+                    shown(&first),
+                    shown(&again)
+                ),
+            });
+        }
+    }
+    Ok(())
 }
 
 /// Whether a file or folder is as `pattern`; the first that is found ends the search.
@@ -90,8 +114,15 @@ fn is_like(name: &str, pattern: &str) -> bool {
     rest.ends_with(last)
 }
 
-/// The images below `folder` that are not among `named`, sorted; links are not followed.
-pub(super) fn unnamed_images(folder: &Path, named: &BTreeSet<PathBuf>) -> Vec<PathBuf> {
+/// Images that no row names.
+pub(super) struct Unnamed {
+    pub(super) images: Vec<PathBuf>,
+    /// Whether there are more files than are looked at.
+    pub(super) has_more: bool,
+}
+
+/// The images below `folder` that are not among `named`; links are not followed.
+pub(super) fn unnamed_images(folder: &Path, named: &BTreeSet<PathBuf>) -> Unnamed {
     let mut unnamed = Vec::new();
     let mut folders = vec![folder.to_owned()];
     let mut looked_at = 0;
@@ -99,7 +130,10 @@ pub(super) fn unnamed_images(folder: &Path, named: &BTreeSet<PathBuf>) -> Vec<Pa
         for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
             looked_at += 1;
             if looked_at > limits::WALKED_FILES {
-                break;
+                return Unnamed {
+                    images: unnamed,
+                    has_more: true,
+                };
             }
             let path = entry.path();
             match entry.file_type() {
@@ -111,8 +145,10 @@ pub(super) fn unnamed_images(folder: &Path, named: &BTreeSet<PathBuf>) -> Vec<Pa
             }
         }
     }
-    unnamed.sort_unstable();
-    unnamed
+    Unnamed {
+        images: unnamed,
+        has_more: false,
+    }
 }
 
 fn is_image(path: &Path) -> bool {

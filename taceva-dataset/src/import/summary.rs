@@ -7,6 +7,7 @@ use taceva_core::{SignalInfo, SourceUnit, Unit};
 
 use super::suspicion::Suspicion;
 use crate::decode::ChannelOrder;
+use crate::header::LeftOut;
 use crate::quality::names_quality;
 
 /// The counts of an import.
@@ -29,19 +30,19 @@ use crate::quality::names_quality;
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct ImportSummary {
-    /// The tables, in order.
+    /// The main tables, in the order in which their rows are read.
     pub tables: Vec<PathBuf>,
-    /// Files that are rows, where there is no table.
+    /// How many files are rows of their own, where there is no table; else 0.
     pub files: u64,
-    /// Rows in them.
+    /// How many rows the main tables have.
     pub rows_read: u64,
-    /// Rows that become samples.
+    /// How many of them become samples of the dataset.
     pub rows_kept: u64,
     /// Rows left out by each rule; a row may be left out by several.
     pub dropped: BTreeMap<String, u64>,
-    /// What other tables gave.
+    /// How the rows of joined tables were matched, a join each.
     pub joins: Vec<JoinSummary>,
-    /// What happens to each channel.
+    /// How each channel is computed from its column, and how many values it has.
     pub conversions: Vec<Conversion>,
     /// The grid and the unit of the signals; `None` without such.
     pub signals: Option<SignalInfo>,
@@ -49,13 +50,22 @@ pub struct ImportSummary {
     pub channel_order: Option<ChannelOrder>,
     /// The frame without contact; `None` if none is known.
     pub reference: Option<PathBuf>,
+    /// How many different frames without contact rows name, where they do not all name the same one: the attribute `reference` says which, and
+    /// their pictures are not copied.
+    pub references: u64,
     /// Images beside the table that no row names.
     pub unnamed_images: u64,
-    /// The first of them.
+    /// The first 20 of these images, sorted.
     pub first_unnamed_images: Vec<PathBuf>,
+    /// Whether there may be more such images: only the first files below the folder were looked at.
+    pub has_more_files: bool,
+    /// Frames in arrays and clips that no row uses, by file.
+    pub unused_frames: BTreeMap<String, u64>,
+    /// Chunks of arrays that were never written, by file and array: what is read instead is their fill value.
+    pub absent_chunks: BTreeMap<String, u64>,
     /// Columns of the tables that the map does not mention, sorted.
     pub unmentioned_columns: BTreeSet<String>,
-    /// Numbers that contradict their unit.
+    /// Channels whose numbers look like those of another unit.
     pub suspicions: Vec<Suspicion>,
 }
 
@@ -74,7 +84,7 @@ const REMEMBERED_BYTES: usize = 256;
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct JoinSummary {
-    /// What the map calls it.
+    /// The name of the join in the map.
     pub name: String,
     /// Rows of the main table to which one belongs.
     pub matched: u64,
@@ -82,22 +92,29 @@ pub struct JoinSummary {
     pub unmatched: u64,
     /// Rows of the other table that belong to none.
     pub unused: u64,
+    /// Rows of the other table that `skip` says are no candidates.
+    pub skipped: u64,
     /// The greatest distance in time of what was matched, s; `None` of a join by anything else.
     pub greatest_gap_s: Option<f64>,
 }
 
 impl ImportSummary {
-    /// Adds what one of several main tables matched.
-    pub(super) fn add_join(&mut self, join: &JoinSummary) {
-        match self.joins.iter_mut().find(|known| known.name == join.name) {
-            None => self.joins.push(join.clone()),
-            Some(known) => {
-                known.matched += join.matched;
-                known.unmatched += join.unmatched;
-                known.unused += join.unused;
-                let gaps = [known.greatest_gap_s, join.greatest_gap_s];
-                known.greatest_gap_s = gaps.into_iter().flatten().reduce(f64::max);
-            }
+    /// What the dataset remembers of what is left out.
+    pub(super) fn left_out(&self) -> LeftOut {
+        let of_joins = |count: fn(&JoinSummary) -> u64| {
+            let joins = self.joins.iter();
+            let counts = joins.map(|join| (join.name.clone(), count(join)));
+            counts.filter(|(_, count)| *count > 0).collect()
+        };
+        let columns = self.unmentioned_columns.len() - self.columns_left_behind().len();
+        LeftOut {
+            images: self.unnamed_images,
+            columns: columns as u64,
+            rows: self.dropped.clone(),
+            joined_rows: of_joins(|join| join.unused),
+            skipped_rows: of_joins(|join| join.skipped),
+            frames: self.unused_frames.clone(),
+            absent_chunks: self.absent_chunks.clone(),
         }
     }
 
@@ -116,7 +133,7 @@ impl ImportSummary {
     }
 }
 
-/// What happens to one channel.
+/// How one channel is computed: unit(sign · scale · (cell − offset)).
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, SourceUnit};
@@ -137,20 +154,20 @@ impl ImportSummary {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Conversion {
-    /// The channel.
+    /// The name of the channel, such as `Fz`.
     pub channel: String,
-    /// Its column in the table.
+    /// The column that it comes from, as the map names it.
     pub column: String,
-    /// The unit there.
+    /// The unit of the numbers in the column.
     pub from: SourceUnit,
-    /// The unit it is kept in.
+    /// The unit that the dataset keeps them in.
     pub to: Unit,
     /// Whether its sign is turned.
     pub is_negated: bool,
-    /// What is taken from a cell first, in the unit of the cells.
+    /// What is subtracted from each cell first, in the unit of the cells.
     pub offset: Option<f64>,
     /// What the difference is then multiplied by.
     pub scale: Option<f64>,
-    /// Samples that have a value.
+    /// How many samples have a value of it.
     pub present: u64,
 }

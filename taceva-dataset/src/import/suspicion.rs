@@ -20,11 +20,11 @@ use taceva_core::{Channel, SourceUnit, Unit};
 pub struct Suspicion {
     /// Stable, for scripts: `magnitude-small` or `magnitude-large`.
     pub code: &'static str,
-    /// The channel.
+    /// The name of the channel, such as `Fz`.
     pub channel: String,
     /// The magnitude looked at, in the channel's unit: the largest, the median, or the one that 95 % stay below.
     pub magnitude: f64,
-    /// The channel's unit.
+    /// The unit that the map states, as the dataset keeps it.
     pub unit: Unit,
     /// The units that the numbers may be in, as they follow `are the numbers in`.
     pub perhaps: String,

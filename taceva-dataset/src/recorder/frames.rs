@@ -183,6 +183,7 @@ impl Recorder {
                 ChannelOrder::Rgb
             },
             codec: None,
+            other_codecs: Vec::new(),
             reference: self.reference.clone(),
         })
     }

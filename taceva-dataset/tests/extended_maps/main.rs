@@ -1,7 +1,11 @@
 //! Maps of version 2: labels in paths and cells, tables of other forms, joins, matrices, classes; and what of them is refused.
 
 mod arrays;
+mod codecs;
+mod left_out;
+mod references;
 mod signals;
+mod times;
 
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -41,8 +45,12 @@ fn imported(
     map: &str,
     columns: &[&str],
 ) -> (ImportSummary, Vec<Vec<String>>) {
-    let folder = lab(files);
-    let plan = planned(folder.path(), map).expect("an import");
+    imported_from(lab(files).path(), map, columns)
+}
+
+/// The same of a folder that is there.
+fn imported_from(folder: &Path, map: &str, columns: &[&str]) -> (ImportSummary, Vec<Vec<String>>) {
+    let plan = planned(folder, map).expect("an import");
     let summary = plan.summary().clone();
     let target = tempfile::tempdir().expect("a folder");
     let target = target.path().join("dataset");

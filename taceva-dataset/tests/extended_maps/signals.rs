@@ -219,7 +219,11 @@ fn an_array_of_other_rows_or_numbers_than_the_table_is_refused() {
         [5.0, 6.0]
     );
     write("(2, 3)", &good);
-    assert!(said().contains("expected rows of 2 numbers"), "{}", said());
+    assert!(
+        said().contains("places = [1, 2] of 1 number say"),
+        "{}",
+        said()
+    );
     write("(2, 2)", &good[..4]);
     assert!(said().contains("2 rows of signals"), "{}", said());
     write("(4, 2)", &[good.as_slice(), &[7.0, 8.0]].concat());
@@ -244,4 +248,74 @@ fn an_array_of_other_rows_or_numbers_than_the_table_is_refused() {
             .to_string()
             .contains("`signals` as it stands here")
     );
+}
+
+/// Three rows of 4 × 3 places with two numbers each, as an array of this shape, and their forces.
+fn taxels_lab(shape: &str) -> tempfile::TempDir {
+    let folder = lab(&[("skin.csv", "Fz\n1\n2\n3\n")]);
+    let numbers: Vec<f32> = (0..72_u8).map(f32::from).collect();
+    let array = npy("<f4", shape, &bytes_of(&numbers));
+    std::fs::write(folder.path().join("taxels.npy"), array).expect("written");
+    folder
+}
+
+#[test]
+fn an_array_that_is_transposed_or_of_another_shape_is_refused_naming_both() {
+    let taxels = |order: &str| {
+        let columns = MAP.replace("[drop]\nplaceholders = { Fz = -1 }\n", "");
+        format!(
+            "{columns}{NO_TIME}[signals]\nfrom = {{ file = \"taxels.npy\" }}\nunit = \"uT\"\nplaces = [4, 3]\nchannels = [\"x\", \"y\"]\norder = \"{order}\"\n"
+        )
+    };
+    for (shape, order, accepted) in [
+        ("(3, 4, 3, 2)", "place-first", true),
+        ("(3, 12, 2)", "place-first", true),
+        ("(3, 24)", "channel-first", true),
+        ("(3, 2, 4, 3)", "channel-first", true),
+        ("(3, 2, 4, 3)", "place-first", false),
+        ("(3, 3, 4, 2)", "place-first", false),
+        ("(3, 4, 3, 2)", "channel-first", false),
+        ("(3, 8, 3)", "place-first", false),
+    ] {
+        let folder = taxels_lab(shape);
+        let outcome = planned(folder.path(), &taxels(order));
+        if accepted {
+            outcome.expect(shape);
+            continue;
+        }
+        let problem = outcome.expect_err(shape);
+        let rest = format!("({}", &shape[4..]);
+        for words in ["taxels.npy", &rest, "places = [4, 3] of 2 numbers", order] {
+            assert!(problem.contains(words), "no `{words}` in {problem}");
+        }
+    }
+}
+
+#[test]
+fn lists_of_lists_in_a_cell_are_held_against_the_places() {
+    let packed = |order: &str, channels: &str| {
+        let columns = MAP.replace("[drop]\nplaceholders = { Fz = -1 }\n", "");
+        format!(
+            "{columns}{NO_TIME}[signals]\nfrom = \"taxels\"\nunit = \"uT\"\nplaces = [3, 1]\nchannels = {channels}\norder = \"{order}\"\n"
+        )
+    };
+    let files = |cell: &str| format!("Fz,taxels\n1,\"{cell}\"\n");
+    let two = "[\"x\", \"y\"]";
+    let place_first = files("[[1, 2], [3, 4], [5, 6]]");
+    assert_eq!(
+        numbers(&[("skin.csv", &place_first)], &packed("place-first", two)),
+        [[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]]
+    );
+    let problem = refused(&[("skin.csv", &place_first)], &packed("channel-first", two));
+    assert!(
+        problem.contains("skin.csv, line 2, column `taxels`"),
+        "{problem}"
+    );
+    assert!(
+        problem.contains("order = \"place-first\" would fit it"),
+        "{problem}"
+    );
+    let ragged = files("[[1, 2, 3], [4, 5], [6]]");
+    let problem = refused(&[("skin.csv", &ragged)], &packed("place-first", two));
+    assert!(problem.contains("lists of 3 and of 2 members"), "{problem}");
 }

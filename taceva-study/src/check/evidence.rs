@@ -55,6 +55,8 @@ pub struct FrameFacts {
     pub full: f64,
     /// Share of numbers at zero.
     pub zero: f64,
+    /// Whether every pixel has the same numbers.
+    pub is_flat: bool,
     /// Mean absolute difference from the frame without contact, where there is one of the same size.
     pub distance: Option<f64>,
 }
@@ -107,6 +109,10 @@ fn facts_of_bytes(frame: &Frame, reference: Option<&Frame>) -> FrameFacts {
         mean: std::array::from_fn(|colour| mean(&histograms[colour.min(depth - 1)])),
         full: share(counted(255), total * depth as u64),
         zero: share(counted(0), total * depth as u64),
+        is_flat: histograms.iter().all(|histogram| {
+            let levels = histogram.iter().filter(|count| **count > 0);
+            levels.count() == 1
+        }),
         distance,
     }
 }
@@ -120,6 +126,11 @@ fn facts_of_samples(frame: &Frame, reference: Option<&Frame>, format: PixelForma
         zero += u64::from(number == 0);
         count += 1;
     }
+    let pixel = frame.samples().take(depth).collect::<Vec<u16>>();
+    let is_flat = frame
+        .samples()
+        .enumerate()
+        .all(|(position, number)| pixel[position % depth] == number);
     let count = count.max(1);
     let scale = count * u64::from(top);
     let distance = reference
@@ -139,6 +150,7 @@ fn facts_of_samples(frame: &Frame, reference: Option<&Frame>, format: PixelForma
         }),
         full: share(full, count),
         zero: share(zero, count),
+        is_flat,
         distance,
     }
 }

@@ -18,6 +18,8 @@ pub struct SignalFacts {
     pub taxels: Vec<TaxelFacts>,
     /// Samples that were looked at.
     pub samples: u64,
+    /// Rows whose numbers are all exactly 0, where other rows are not.
+    pub zero_rows: Vec<usize>,
     /// The rows that are said to be without contact.
     pub rest_rows: Vec<usize>,
     /// The mean over those; `None` if there is none.
@@ -57,6 +59,7 @@ impl SignalFacts {
             names: header.spec.column_names().collect(),
             taxels: Vec::new(),
             samples: 0,
+            zero_rows: Vec::new(),
             rest_rows: dataset.rest_rows().collect(),
             rest,
             distance: Vec::new(),
@@ -67,8 +70,11 @@ impl SignalFacts {
             pass,
             "read signals",
             |row| dataset.signals(row),
-            |_, signals| {
+            |row, signals| {
                 if let Some(signals) = signals {
+                    if signals.values().iter().all(|value| value.abs() <= 0.0) {
+                        facts.zero_rows.push(row);
+                    }
                     facts.add(signals.values());
                 }
                 Ok(())

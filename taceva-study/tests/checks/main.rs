@@ -1,6 +1,7 @@
 //! Every check: a recording that triggers it, and one that must not.
 
 mod lag;
+mod streams;
 
 use std::num::NonZeroUsize;
 use std::path::Path;

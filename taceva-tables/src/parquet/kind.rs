@@ -28,7 +28,8 @@ pub enum ColumnKind {
     Text,
     /// Bytes, such as encoded pictures.
     Bytes,
-    /// Times as integers of a unit: `d`, `ms`, `us` or `ns`; points in time since 1970, times of day since midnight.
+    /// Times that the file counts in a unit, `d`, `s`, `ms`, `us` or `ns`: points in time since 1970-01-01 00:00 (of UTC, where they have a time
+    /// zone; else of the clock that was read), times of day since midnight, and durations. Their cells are [`Cell::Time`](crate::Cell::Time).
     Time(&'static str),
     /// Lists of cells of a kind.
     List(Box<ColumnKind>),

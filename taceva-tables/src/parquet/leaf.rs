@@ -199,9 +199,7 @@ impl Leaf {
                 LeafForm::Unsigned => Cell::Integer(value.cast_unsigned().into()),
                 _ => self.integer((*value).into()),
             }),
-            Values::Int96(values) => values
-                .get(at)
-                .map(|value| Cell::Integer(nanoseconds(value))),
+            Values::Int96(values) => values.get(at).map(|value| Cell::Time(nanoseconds(value))),
             Values::Float(values) => values.get(at).map(|value| Cell::Number((*value).into())),
             Values::Double(values) => values.get(at).map(|value| Cell::Number(*value)),
             Values::Bytes(values) => match values.get(at) {
@@ -219,6 +217,7 @@ impl Leaf {
     fn integer(&self, value: i128) -> Cell {
         match self.form {
             LeafForm::Decimal { scale } => decimal(value, scale),
+            LeafForm::Time(unit) => Cell::Time(value * nanoseconds_in(unit)),
             _ => Cell::Integer(value),
         }
     }
@@ -275,6 +274,17 @@ fn decimal(value: i128, scale: i32) -> Cell {
         text.parse()
             .expect("digits and a power of ten are a number"),
     )
+}
+
+/// The nanoseconds in a unit that a leaf counts times in; 64 bits of the longest, days, are far from the end of 128.
+fn nanoseconds_in(unit: &str) -> i128 {
+    match unit {
+        "ns" => 1,
+        "us" => 1_000,
+        "ms" => 1_000_000,
+        "s" => 1_000_000_000,
+        _ => 86_400_000_000_000,
+    }
 }
 
 /// A time stamp of 12 bytes: nanoseconds of the day and the Julian day, in nanoseconds since 1970.

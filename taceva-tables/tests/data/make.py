@@ -1,6 +1,6 @@
 """Writes the small files that are not among the shared recordings, by pyarrow, and what pyarrow reads back of them as JSON.
 
-    python make.py [KIND ...]      kinds: nested plain mcap lerobot
+    python make.py [KIND ...]      kinds: nested plain times mcap lerobot
 
 pyarrow 26, numpy, mcap 1.6, mcap-ros2-support 0.6, pillow. Numbers are drawn in closed form."""
 import datetime, decimal, json, sys
@@ -87,6 +87,48 @@ def plain():
         for version in ["1.0", "2.0"]:
             pq.write_table(table, folder / f"{codec}-{version[0]}.parquet", compression=codec, data_page_version=version, use_dictionary=False, row_group_size=50, data_page_size=1500, write_batch_size=8,
                            write_statistics=False, write_page_checksum=codec in ("none", "gzip"), store_schema=False)
+
+
+def times():
+    """Every type of a time that pyarrow writes, and what each is in seconds as exact decimals."""
+    counts = [-1, 0, 1, 86_399, None, 1_700_000_000]
+    per = {"s": 1, "ms": 10**3, "us": 10**6, "ns": 10**9}
+    def seconds(count, unit):
+        if count is None:
+            return None
+        text = format(decimal.Decimal(count) / per[unit], "f")
+        return text.rstrip("0").rstrip(".") if "." in text else text
+
+    columns, read = {}, {}
+    for unit in per:
+        own = [None if c is None else c * per[unit] + (c % per[unit]) // 2 for c in counts]
+        for name, kind in [("stamp", pa.timestamp(unit)), ("zoned", pa.timestamp(unit, "+02:00")), ("duration", pa.duration(unit))]:
+            columns[f"{name}_{unit}"] = pa.array(own, pa.int64()).cast(kind)
+            read[f"{name}_{unit}"] = [seconds(c, unit) for c in own]
+        day = [None if c is None else (c * per[unit] + 1) % (86_400 * per[unit]) for c in counts]
+        width, kind = (pa.int32(), pa.time32(unit)) if unit in ("s", "ms") else (pa.int64(), pa.time64(unit))
+        columns[f"time_{unit}"] = pa.array(day, width).cast(kind)
+        read[f"time_{unit}"] = [seconds(c, unit) for c in day]
+    days = [-1, 0, 1, 2, None, 19_675]
+    columns["date32"] = pa.array(days, pa.int32()).cast(pa.date32())
+    columns["date64"] = pa.array([None if d is None else d * 86_400_000 for d in days], pa.int64()).cast(pa.date64())
+    read["date32"] = read["date64"] = [None if d is None else str(d * 86_400) for d in days]
+    columns["nested"] = pa.array([{"at": [1500, None], "n": 7}] * 6, pa.struct([("at", pa.list_(pa.duration("ms"))), ("n", pa.int64())]))
+    read["nested.at"] = ["[1.5, null]"] * 6
+    columns["count"] = pa.array(counts, pa.int64())
+    read["count"] = [None if c is None else str(c) for c in counts]
+    columns["Fz"] = pa.array([0.5 * k for k in range(6)])
+    table = pa.table(columns)
+    folder = HERE / "times"
+    folder.mkdir(exist_ok=True)
+    pq.write_table(table, folder / "times.parquet", compression="snappy", write_statistics=False)
+    pq.write_table(table, folder / "old.parquet", compression="snappy", write_statistics=False, version="1.0", use_deprecated_int96_timestamps=True)
+    for name in ("times", "old"):
+        back = pq.read_table(folder / f"{name}.parquet")
+        for column in columns:
+            if column.startswith(("stamp", "zoned")):
+                assert [None if v is None else v.value for v in back[column].cast(pa.timestamp("ns", back[column].type.tz))] == [None if v is None else int(decimal.Decimal(v) * 10**9) for v in read[column]], column
+    (folder / "expected.json").write_text(json.dumps(read, indent=1) + "\n")
 
 
 HEADER = "std_msgs/Header header\n"
@@ -270,5 +312,5 @@ def lerobot():
 
 
 if __name__ == "__main__":
-    for kind in sys.argv[1:] or ["nested", "plain", "mcap", "lerobot"]:
+    for kind in sys.argv[1:] or ["nested", "plain", "times", "mcap", "lerobot"]:
         globals()[kind]()

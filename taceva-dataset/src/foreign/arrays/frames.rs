@@ -7,9 +7,10 @@ use std::sync::Arc;
 use taceva_arrays::{ArrayFile, ArrayFormat};
 
 use super::form::{Form, READ_BYTES, form_of};
-use super::problem;
+use super::{absent_chunks, problem};
 use crate::decode::ChannelOrder;
 use crate::error::DatasetError;
+use crate::foreign::listed;
 use crate::foreign::pictures::{Pictures, Visit, damaged};
 use crate::guard::guarded;
 use crate::import::{ArrayFrames, FrameNames};
@@ -49,7 +50,7 @@ impl ArrayPictures {
                 (None, _) => {
                     return Err(format!(
                         "it holds several arrays, of which `path` names one: {}",
-                        names_there.join(", ")
+                        listed(&names_there)
                     ));
                 }
             };
@@ -71,7 +72,7 @@ impl ArrayPictures {
             let info = file.info(&name).ok_or_else(|| {
                 format!(
                     "there is no array `{name}`; there are {}",
-                    file.names().join(", ")
+                    listed(&file.names())
                 )
             })?;
             let (form, row_bytes) =
@@ -132,6 +133,12 @@ impl Pictures for ArrayPictures {
     fn count(&self) -> u64 {
         let last = self.arrays.last();
         last.map_or(0, |array| array.first + array.rows)
+    }
+
+    fn absent_chunks(&self) -> Result<Vec<(String, u64)>, DatasetError> {
+        let names = self.arrays.iter().map(|array| array.name.as_str());
+        let counted = guarded(|| absent_chunks(&self.file, names)).and_then(|counted| counted);
+        counted.map_err(|problem| damaged(&self.path, problem))
     }
 
     fn visit(

@@ -10,8 +10,8 @@ use super::picture::Copied;
 use crate::decode::ImageKind;
 use crate::error::DatasetError;
 use crate::foreign::{Picture, Pictures};
-use crate::header::{FramesInfo, ReferenceInfo};
-use crate::import::plan::{FrameSource, PlannedFrames};
+use crate::header::{FrameCodec, FramesInfo, ReferenceInfo};
+use crate::import::planned_frames::{FrameSource, PlannedFrames, within};
 use crate::layout;
 use crate::parallel::ordered_map;
 use crate::staged::StagedFolder;
@@ -60,20 +60,27 @@ pub(in crate::import) fn copy_frames(
         .as_ref()
         .map(|path| copy_reference(staged, path, frames, info))
         .transpose()?;
+    let mut codecs = codecs(frames).into_iter();
+    let codec = codecs.next();
     let shared = FramesInfo {
         count: count as u64,
         info,
         channel_order: frames.order,
-        codec: frames
-            .of_rows
-            .iter()
-            .find_map(|planned| match &planned.from {
-                FrameSource::File(_) => None,
-                FrameSource::Within(pictures, _) => pictures.codec(),
-            }),
+        codec,
+        other_codecs: codecs.collect(),
         reference,
     };
     Ok((Some(shared), folders))
+}
+
+/// How the frames of clips were coded, each way once, in the order of the rows.
+fn codecs(frames: &PlannedFrames) -> Vec<FrameCodec> {
+    let mut found: Vec<FrameCodec> = Vec::new();
+    for (pictures, _) in within(frames) {
+        let codec = pictures.codec().filter(|codec| !found.contains(codec));
+        found.extend(codec);
+    }
+    found
 }
 
 struct Copying<'a> {
@@ -178,32 +185,6 @@ impl Copying<'_> {
         self.progress.advance(1);
         Ok(())
     }
-}
-
-/// A file with pictures in it, the numbers of those that are wanted, ascending, and the row of each.
-type Within = (Arc<dyn Pictures>, Vec<(u64, usize)>);
-
-/// The files with pictures in them, each with the numbers of its pictures, ascending, and their rows.
-fn within(frames: &PlannedFrames) -> Vec<Within> {
-    let mut found: Vec<Within> = Vec::new();
-    for (row, planned) in frames.of_rows.iter().enumerate() {
-        let FrameSource::Within(pictures, index) = &planned.from else {
-            continue;
-        };
-        // Rows of one file mostly follow one another.
-        let known = found
-            .iter_mut()
-            .rev()
-            .find(|(known, _)| Arc::ptr_eq(known, pictures));
-        match known {
-            Some((_, rows)) => rows.push((*index, row)),
-            None => found.push((Arc::clone(pictures), vec![(*index, row)])),
-        }
-    }
-    for (_, rows) in &mut found {
-        rows.sort_unstable();
-    }
-    found
 }
 
 fn copy_reference(

@@ -17,13 +17,13 @@ use taceva_core::SourceUnit;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ColumnMap {
-    /// Its name in the table.
+    /// The name of the column in the table, or the way to it: `ft[2]`, `/pose/0`, `JOIN.column`.
     pub from: String,
-    /// The unit it is in there.
+    /// The unit of its numbers.
     pub unit: SourceUnit,
     /// Whether its sign is turned.
     pub is_negated: bool,
-    /// What is taken from a cell first, in the unit of the cells.
+    /// What is subtracted from each cell first, in the unit of the cells.
     pub offset: Option<f64>,
     /// What the difference is then multiplied by.
     pub scale: Option<f64>,
@@ -65,15 +65,15 @@ pub struct IdMap {
     /// The contact location; several columns are joined with `:`.
     #[serde(deserialize_with = "one_or_more")]
     pub point_id: Vec<String>,
-    /// The sensor unit.
+    /// Which unit of the sensor it is, of several of one model.
     pub unit_id: Option<String>,
-    /// The lighting scene or the like.
+    /// The scene of the light, or what else of the surroundings was varied.
     pub scene: Option<String>,
-    /// The depth level.
+    /// The level of depth within a press, a whole number from 0.
     pub depth_step: Option<String>,
-    /// The number of the repeat.
+    /// The number of the repeat of one contact, a whole number from 0.
     pub repeat: Option<String>,
-    /// Load or unload.
+    /// Whether the press deepens or lifts: cells are `load` or `unload`.
     pub phase: Option<String>,
     /// The part of a declared split.
     pub part: Option<String>,
@@ -96,9 +96,9 @@ pub struct IdMap {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct TimeMap {
-    /// Its name in the table.
+    /// The name of the column in the table.
     pub column: String,
-    /// The unit it is in there.
+    /// The unit of its numbers.
     pub unit: SourceUnit,
 }
 

@@ -32,7 +32,7 @@ pub struct DropRules {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Placeholder {
-    /// The channel.
+    /// The channel whose column holds it, such as `Fz`.
     pub channel: String,
     /// The number in the table, before it is converted.
     pub number: f64,

@@ -2,6 +2,9 @@
 
 use crate::decode::ChannelOrder;
 
+/// The attribute that says which frame without contact a row names, where rows name different ones.
+pub(crate) const REFERENCE_ATTRIBUTE: &str = "reference";
+
 /// Where the frames are.
 ///
 /// ```
@@ -21,6 +24,9 @@ pub struct FrameMap {
     pub channel_order: ChannelOrder,
     /// The frame without contact, relative to the source folder; `None` if none is known.
     pub reference: Option<String>,
+    /// The column that names the frame without contact of each row, relative to `folder` as frames are: kept as that of the recording where all
+    /// rows name the same, else as the attribute `reference`.
+    pub reference_column: Option<String>,
 }
 
 impl FrameMap {
@@ -31,6 +37,7 @@ impl FrameMap {
             folder: None,
             channel_order,
             reference: None,
+            reference_column: None,
         }
     }
 }
@@ -113,7 +120,7 @@ pub enum ArrayLayout {
 }
 
 impl ArrayLayout {
-    /// As a map writes it.
+    /// The word for it in a map.
     pub const fn name(self) -> &'static str {
         match self {
             ArrayLayout::Nhwc => "nhwc",

@@ -9,6 +9,7 @@ use toml::Spanned;
 
 use super::check::{Check, ColumnName};
 use super::extended::{WrittenClass, WrittenJoin, WrittenMatrix, WrittenPath};
+use super::frames::REFERENCE_ATTRIBUTE;
 use super::signals::WrittenSignals;
 use super::written_frame::WrittenFrame;
 use super::written_table::WrittenTable;
@@ -102,7 +103,10 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
     let classes = classes.map(|(name, class)| (name, class.span().start));
     for (name, offset) in attributes.chain(classes) {
         let is_twice = written.attributes.contains_key(name) && written.classes.contains_key(name);
-        if is_twice || !is_attribute_name(name) || channels.position(name).is_some() {
+        let is_reference = name == REFERENCE_ATTRIBUTE
+            && (written.frame.as_ref()).is_some_and(|frame| frame.get_ref().has_reference_column());
+        if is_twice || is_reference || !is_attribute_name(name) || channels.position(name).is_some()
+        {
             return Err(check.at(
                 offset,
                 &format!("`{name}` is taken or no name: a letter, then letters, digits or `_`"),

@@ -22,7 +22,24 @@ pub(super) struct WrittenFrame {
     bits: Option<u8>,
     folder: Option<String>,
     channel_order: ChannelOrder,
-    reference: String,
+    reference: WrittenReference,
+}
+
+/// A path, or the column that names one a row.
+#[derive(Deserialize)]
+#[serde(
+    untagged,
+    expecting = "the path of a picture, { column = … } that names one a row, or \"unknown\""
+)]
+enum WrittenReference {
+    Path(String),
+    Column(WrittenReferenceColumn),
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenReferenceColumn {
+    column: ColumnName,
 }
 
 /// An array: its name in the file of the table (of map version 1: its file), or the file too.
@@ -44,6 +61,10 @@ struct WrittenArrayFile {
 }
 
 impl WrittenFrame {
+    pub(super) fn has_reference_column(&self) -> bool {
+        matches!(self.reference, WrittenReference::Column(_))
+    }
+
     /// Whether maps of version 1 cannot say it.
     pub(super) fn is_extended(&self) -> bool {
         let is_array_extended = match &self.array {
@@ -54,7 +75,10 @@ impl WrittenFrame {
                 self.index.is_none() && self.column.is_none() && self.pattern.is_none()
             }
         };
-        let has_more = self.layout.is_some() || self.range.is_some() || self.bits.is_some();
+        let has_more = self.has_reference_column()
+            || self.layout.is_some()
+            || self.range.is_some()
+            || self.bits.is_some();
         is_array_extended || has_more || self.bytes.is_some() || self.video.is_some()
     }
 }
@@ -121,7 +145,11 @@ impl Check<'_> {
                 ));
             }
         };
-        let reference = Some(written.reference).filter(|path| path != "unknown");
+        let (reference, reference_column) = match written.reference {
+            WrittenReference::Path(path) if path == "unknown" => (None, None),
+            WrittenReference::Path(path) => (Some(path), None),
+            WrittenReference::Column(named) => (None, Some(named.column.into_name())),
+        };
         for path in reference.iter().chain(&written.folder) {
             self.relative(path, offset)?;
         }
@@ -130,6 +158,7 @@ impl Check<'_> {
             folder: written.folder,
             channel_order: written.channel_order,
             reference,
+            reference_column,
         })
     }
 

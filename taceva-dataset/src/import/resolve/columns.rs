@@ -55,7 +55,9 @@ pub(super) fn mentioned(map: &ImportMap) -> Vec<String> {
         let parts = parts.filter_map(|part| part.split_once('}'));
         parts.map(|(name, _)| name.to_owned()).collect()
     };
-    match map.frame.as_ref().map(|frame| &frame.names) {
+    let frame = map.frame.as_ref();
+    names.extend(frame.and_then(|frame| frame.reference_column.clone()));
+    match frame.map(|frame| &frame.names) {
         Some(FrameNames::Column(column)) => names.push(column.clone()),
         Some(FrameNames::Pattern(pattern)) => names.extend(of_pattern(pattern)),
         Some(FrameNames::Array(array)) => {

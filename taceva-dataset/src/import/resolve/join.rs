@@ -1,19 +1,24 @@
 //! Which row of another table belongs to each row of the main one.
 
+mod matches;
 mod matching;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
+use taceva_core::SourceUnit;
+
 use super::columns::{base_of, mentioned};
-use super::{Sources, cell_of};
+use super::{Sources, cell_of, times};
 use crate::csv_table::number;
 use crate::error::{DatasetError, Place};
 use crate::file::SourceFolder;
 use crate::foreign::ForeignTable;
 use crate::import::map::{JoinBy, JoinMap, Unmatched};
-use crate::import::summary::JoinSummary;
 use crate::text::shown;
+use matches::TableUses;
 use matching::{At, about, comparable, seconds};
+
+pub(in crate::import) use matches::JoinMatches;
 
 /// A joined table, or one for each path that its name leads to.
 pub(super) struct Joined<'a> {
@@ -138,29 +143,51 @@ impl<'a> Joined<'a> {
         }
     }
 
-    /// What was matched.
-    pub(super) fn summary(&self) -> JoinSummary {
-        let mut used: BTreeSet<(usize, usize)> = BTreeSet::new();
+    /// That `unit`, which the map states of `column`, agrees with what the files say of it.
+    pub(super) fn check_unit(&self, column: &str, unit: &SourceUnit) -> Result<(), DatasetError> {
+        let mut tables = self.tables.iter();
+        tables.try_for_each(|candidates| times::check(&candidates.table, column, unit))
+    }
+
+    /// Counts the chunks that were never written of the arrays that are read.
+    pub(super) fn count_absent_chunks(
+        &self,
+        folder: &SourceFolder,
+        names: &[String],
+        into: &mut BTreeMap<String, u64>,
+    ) -> Result<(), DatasetError> {
+        let own = own_columns(names, &self.map.name);
+        let mut tables = self.tables.iter();
+        tables.try_for_each(|candidates| candidates.table.count_absent_chunks(folder, &own, into))
+    }
+
+    /// What was matched, of the rows of one main table.
+    pub(super) fn matched(&self) -> JoinMatches {
+        let mut used: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); self.tables.len()];
         for Match { table, at } in &self.matches {
             match at {
                 At::Nowhere => {}
-                At::Row(row) => drop(used.insert((*table, *row))),
-                At::Between(rows, _) => used.extend(rows.map(|row| (*table, row))),
+                At::Row(row) => drop(used[*table].insert(*row)),
+                At::Between(rows, _) => used[*table].extend(rows),
             }
         }
-        let count = |number: usize| number as u64;
-        let matched = self
-            .matches
-            .iter()
-            .filter(|found| found.at != At::Nowhere)
-            .count();
-        let candidates: usize = self.tables.iter().map(|table| table.rows.len()).sum();
-        JoinSummary {
+        let matched = self.matches.iter();
+        let matched = matched.filter(|found| found.at != At::Nowhere).count();
+        let tables = self.tables.iter().zip(used).map(|(candidates, used)| {
+            let table = &candidates.table;
+            let uses = TableUses {
+                candidates: candidates.rows.len(),
+                skipped: table.rows() - candidates.rows.len(),
+                used,
+            };
+            (table.path().to_owned(), uses)
+        });
+        JoinMatches {
             name: self.map.name.clone(),
-            matched: count(matched),
-            unmatched: count(self.matches.len() - matched),
-            unused: count(candidates - used.len().min(candidates)),
+            matched: matched as u64,
+            unmatched: (self.matches.len() - matched) as u64,
             greatest_gap_s: self.greatest_gap_s,
+            tables: tables.collect(),
         }
     }
 
@@ -308,6 +335,7 @@ impl Candidates {
                 }
             }
             JoinBy::Time(join) => {
+                times::check(table, &join.time.column, &join.time.unit)?;
                 for row in rows.iter() {
                     let cell = cell_of(table, *row, &join.time.column)?;
                     let place = || table.place(*row, &join.time.column);

@@ -22,7 +22,14 @@ pub(super) fn numbers(sources: &Sources<'_>, map: &SignalsMap) -> Result<Vec<f32
         for name in map.columns() {
             let cell = sources.cell(row, name)?;
             match map.columns() {
-                [_] => cells.extend(packed(&cell).map(|cell| read(cell, map))),
+                [_] => {
+                    let wrong = |problem: String| sources.wrong_signals(row, name, &problem);
+                    let shape = nested(&cell).map_err(wrong)?;
+                    if shape.len() > 1 {
+                        map.check_axes(&shape).map_err(wrong)?;
+                    }
+                    cells.extend(packed(&cell).map(|cell| read(cell, map)));
+                }
                 _ => cells.push(read(&cell, map)),
             }
         }
@@ -35,6 +42,59 @@ pub(super) fn numbers(sources: &Sources<'_>, map: &SignalsMap) -> Result<Vec<f32
         }
     }
     Ok(numbers)
+}
+
+impl Sources<'_> {
+    fn wrong_signals(&self, row: usize, name: &str, problem: &str) -> DatasetError {
+        DatasetError::Table {
+            place: self.main.place(row, name),
+            problem: format!("[signals]: {problem}"),
+        }
+    }
+}
+
+/// The lengths of the lists in a cell, from the outermost one; none of a cell without brackets.
+///
+/// # Errors
+/// Why there are no such lengths.
+fn nested(cell: &str) -> Result<Vec<u64>, String> {
+    let mut open: Vec<u64> = Vec::new();
+    let mut sides: Vec<Option<u64>> = Vec::new();
+    if !cell.contains(['[', '(']) {
+        return Ok(Vec::new());
+    }
+    let mut is_in_number = false;
+    for letter in cell.chars() {
+        let begins = matches!(letter, '[' | '(');
+        let is_between = letter.is_whitespace() || "[](),;".contains(letter);
+        if let Some(members) = open.last_mut() {
+            *members += u64::from(begins || !is_between && !is_in_number);
+        } else if !is_between {
+            return Err("numbers beside the brackets".to_owned());
+        }
+        is_in_number = !is_between;
+        if begins {
+            open.push(0);
+        } else if matches!(letter, ']' | ')') {
+            let members = open.pop().ok_or("a bracket that nothing opens")?;
+            if sides.len() <= open.len() {
+                sides.resize(open.len() + 1, None);
+            }
+            match sides[open.len()].replace(members) {
+                Some(before) if before != members => {
+                    return Err(format!(
+                        "lists of {before} and of {members} members side by side"
+                    ));
+                }
+                _ => {}
+            }
+        }
+    }
+    let sides: Option<Vec<u64>> = sides.into_iter().collect();
+    let is_whole = open.is_empty();
+    sides
+        .filter(|_| is_whole)
+        .ok_or_else(|| "a bracket that nothing closes".to_owned())
 }
 
 /// The numbers that one cell packs, whatever lists they are in.
@@ -69,4 +129,30 @@ pub(in crate::import) fn place_first<'v>(
         true => values[position % depth * places + position / depth],
         false => values[position],
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_lengths_of_lists_are_counted_from_the_outermost_one() {
+        for (cell, expected) in [
+            ("1;2;3", &[][..]),
+            ("[1.0, 2.0]", &[2]),
+            ("[[0.1, 0.2, 3], [0.3, 1e-2, -4]]", &[2, 3]),
+            ("[[1 2]\n [3 4]]", &[2, 2]),
+            ("[[[1], [2]]]", &[1, 2, 1]),
+            ("([1, 2], [3, 4], [5, 6])", &[3, 2]),
+        ] {
+            assert_eq!(nested(cell).as_deref(), Ok(expected), "{cell}");
+        }
+        for (cell, word) in [
+            ("[[1, 2], [3]]", "lists of 2 and of 1"),
+            ("[1, 2", "nothing closes"),
+            ("[1] 2", "beside"),
+        ] {
+            assert!(nested(cell).expect_err("refused").contains(word), "{cell}");
+        }
+    }
 }

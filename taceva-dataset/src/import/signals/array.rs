@@ -1,11 +1,13 @@
 //! Signals in an array of another file, read some rows at a time.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use taceva_arrays::{ArrayFile, ArrayFormat};
 use taceva_core::Progress;
 
 use crate::error::{DatasetError, Place};
+use crate::file::SourceFolder;
 use crate::guard::guarded;
 use crate::import::map::SignalsMap;
 use crate::import::resolve::place_first;
@@ -25,11 +27,11 @@ pub(super) struct ArraySignals {
 }
 
 impl ArraySignals {
-    /// The array called `name`, or the only one, of the file at `path`, which has `length` numbers a row.
+    /// The array called `name`, or the only one, of the file at `path`, whose rows have the axes that `map` states.
     pub(super) fn open(
         path: &Path,
         name: Option<&str>,
-        length: u64,
+        map: &SignalsMap,
     ) -> Result<ArraySignals, DatasetError> {
         let wrong = |problem| wrong(path, problem);
         let format = ArrayFormat::of(path).ok_or_else(|| {
@@ -60,21 +62,21 @@ impl ArraySignals {
             [rows, beside @ ..] => (*rows, beside),
             [] => (0, &[][..]),
         };
-        let found = beside
-            .iter()
-            .try_fold(1_u64, |product, side| product.checked_mul(*side));
-        if found != Some(length) || rows == 0 {
+        let array = crate::text::shown(&name);
+        if rows == 0 {
             return Err(wrong(format!(
-                "an array of shape {:?}, expected rows of {length} numbers, as `places` and `channels` of [signals] say",
+                "`{array}` of shape {:?} has no row of signals",
                 info.shape
             )));
         }
+        map.check_axes(beside)
+            .map_err(|problem| wrong(format!("`{array}`: {problem}")))?;
         Ok(ArraySignals {
             path: path.to_owned(),
             file,
             name,
             rows,
-            length,
+            length: map.spec.info.len() as u64,
         })
     }
 
@@ -97,6 +99,21 @@ impl ArraySignals {
                 format!("{} rows of signals for {rows} rows of the table", self.rows),
             )),
         }
+    }
+
+    /// Counts its chunks that were never written.
+    pub(super) fn count_absent_chunks(
+        &self,
+        folder: &SourceFolder,
+        into: &mut BTreeMap<String, u64>,
+    ) -> Result<(), DatasetError> {
+        let wrong = |problem| wrong(&self.path, problem);
+        let counted = guarded(|| self.file.absent_chunks(&self.name)).map_err(wrong)?;
+        let count = counted.map_err(|error| wrong(error.to_string()))?;
+        if count > 0 {
+            into.insert(folder.inside(&self.path, &self.name), count);
+        }
+        Ok(())
     }
 
     /// Writes the signals of `rows`, which ascend.

@@ -1,0 +1,90 @@
+//! What an import did not take of what lay in the folder of a lab.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+/// What an import left out: nothing of it is in the dataset, and a reader of the dataset should know that it was there.
+///
+/// Files are named relative to the folder of the lab. Of many files the first 64 are named, and the others are counted together under `…`.
+///
+/// ```
+/// use taceva_dataset::LeftOut;
+///
+/// let mut left_out = LeftOut::default();
+/// assert!(left_out.is_empty());
+/// left_out.rows.insert("join ft".into(), 3);
+/// left_out.frames.insert("clip.mp4".into(), 12);
+/// assert!(!left_out.is_empty());
+/// ```
+#[non_exhaustive]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct LeftOut {
+    /// Images beside the tables that no row names.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub images: u64,
+    /// Columns that no key of the map names and whose names the dataset does not keep either: there are more than 256, or they are too long.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub columns: u64,
+    /// Rows of the tables, by the rule that left them out; one row may be left out by several.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub rows: BTreeMap<String, u64>,
+    /// Rows of joined tables that belong to no row, by the name of the join.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub joined_rows: BTreeMap<String, u64>,
+    /// Rows of joined tables that `skip` says are no candidates, by the name of the join.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub skipped_rows: BTreeMap<String, u64>,
+    /// Frames in arrays and clips that no row of the dataset uses, by file.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub frames: BTreeMap<String, u64>,
+    /// Chunks of arrays that were never written, so that what is in the dataset instead is their fill value, by file and array.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub absent_chunks: BTreeMap<String, u64>,
+}
+
+/// Names that are kept of one kind.
+const NAMED: usize = 64;
+/// What the others are counted under.
+const OTHERS: &str = "…";
+
+impl LeftOut {
+    /// Whether nothing was left out.
+    pub fn is_empty(&self) -> bool {
+        *self == LeftOut::default()
+    }
+}
+
+/// Adds `count` to what is counted under `name`; of many names, under the others.
+pub(crate) fn add(counts: &mut BTreeMap<String, u64>, name: &str, count: u64) {
+    if count == 0 {
+        return;
+    }
+    let is_named = counts.len() < NAMED || counts.contains_key(name);
+    let name = if is_named { name } else { OTHERS };
+    *counts.entry(name.to_owned()).or_default() += count;
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
+fn is_zero(count: &u64) -> bool {
+    *count == 0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_many_files_the_first_are_named_and_nothing_is_lost() {
+        let mut counts = BTreeMap::new();
+        for file in 0..200 {
+            add(&mut counts, &format!("clip_{file:03}.mp4"), 2);
+        }
+        add(&mut counts, "clip_000.mp4", 1);
+        add(&mut counts, "none.mp4", 0);
+        assert_eq!(counts.values().sum::<u64>(), 401);
+        assert_eq!((counts.len(), counts["clip_000.mp4"]), (NAMED + 1, 3));
+        assert_eq!(counts[OTHERS], 2 * (200 - 64));
+    }
+}

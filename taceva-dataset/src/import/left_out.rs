@@ -1,0 +1,38 @@
+//! What an import does not take of files that it reads, counted once every row is known.
+
+use std::collections::BTreeMap;
+
+use super::map::{FrameMap, FrameNames};
+use super::planned_frames::{PlannedFrames, within};
+use super::summary::ImportSummary;
+use crate::error::DatasetError;
+use crate::file::SourceFolder;
+use crate::header::add_left_out;
+
+/// Counts the frames of arrays and clips that no row uses, and the chunks of arrays that were never written; `absent_chunks` are those of
+/// arrays that are no frames.
+pub(super) fn count(
+    folder: &SourceFolder,
+    frames: Option<(&FrameMap, &PlannedFrames)>,
+    mut absent_chunks: BTreeMap<String, u64>,
+    summary: &mut ImportSummary,
+) -> Result<(), DatasetError> {
+    if let Some((map, planned)) = frames {
+        for (pictures, mut rows) in within(planned) {
+            rows.dedup_by_key(|(index, _)| *index);
+            let unused = pictures.count().saturating_sub(rows.len() as u64);
+            // A picture that is a cell of the table is left out with its row.
+            if !matches!(map.names, FrameNames::Bytes(_)) {
+                let file = folder.inside(pictures.path(), "");
+                add_left_out(&mut summary.unused_frames, &file, unused);
+            }
+            for (array, absent) in pictures.absent_chunks()? {
+                absent_chunks.insert(folder.inside(pictures.path(), &array), absent);
+            }
+        }
+    }
+    for (array, absent) in absent_chunks {
+        add_left_out(&mut summary.absent_chunks, &array, absent);
+    }
+    Ok(())
+}

@@ -1,0 +1,77 @@
+//! Frames without contact that rows name each for themselves: one of the recording where all name the same, else an attribute.
+
+use std::num::NonZeroUsize;
+
+use taceva_core::SilentProgress;
+use taceva_dataset::{Dataset, ImportSummary};
+
+use super::{NO_TIME, lab, planned};
+
+/// The summary, the dataset and its folder of an import whose rows name these references.
+fn imported(named: [&str; 3]) -> Result<(ImportSummary, Dataset, tempfile::TempDir), String> {
+    let rows = named.iter().enumerate().map(|(at, name)| {
+        format!("{{\"frame\": \"{at}.png\", \"ref\": \"{name}\", \"Fz\": {at}}}\n")
+    });
+    let folder = lab(&[("data/labels.jsonl", &rows.collect::<String>())]);
+    for (at, name) in ["0.png", "1.png", "2.png", "ref_a.png", "ref_b.png"]
+        .iter()
+        .enumerate()
+    {
+        let gray = u8::try_from(10 * at).expect("dark");
+        image::GrayImage::from_pixel(8, 8, image::Luma([gray]))
+            .save(folder.path().join(name))
+            .expect("saved");
+    }
+    let map = format!(
+        "table = \"data/labels.jsonl\"\n[frame]\ncolumn = \"/frame\"\nfolder = \".\"\nchannel_order = \"gray\"\nreference = {{ column = \"/ref\" }}\n[columns]\nFz = {{ from = \"/Fz\", unit = \"N\" }}\n{NO_TIME}"
+    );
+    let plan = planned(folder.path(), &map)?;
+    let summary = plan.summary().clone();
+    let target = tempfile::tempdir().expect("a folder");
+    let path = target.path().join("dataset");
+    plan.run(&path, NonZeroUsize::MIN, &SilentProgress)
+        .map_err(|error| error.to_string())?;
+    Ok((summary, Dataset::open(&path).expect("a dataset"), target))
+}
+
+#[test]
+fn a_reference_that_all_rows_name_is_that_of_the_recording() {
+    let (summary, dataset, _target) = imported(["ref_a.png"; 3]).expect("imported");
+    assert_eq!(summary.references, 0);
+    let reference = dataset.reference().expect("read").expect("there");
+    assert_eq!(reference.bytes()[0], 30);
+    assert_eq!(dataset.table().attribute_names(), [""; 0]);
+    // The other one is a picture that no row names.
+    assert_eq!(summary.unnamed_images, 1);
+}
+
+#[test]
+fn references_that_differ_are_an_attribute_and_the_summary_says_so() {
+    let (summary, dataset, _target) = imported(["ref_a.png", "ref_b.png", ""]).expect("imported");
+    assert!(dataset.reference().expect("read").is_none());
+    let names = dataset.table().as_text("reference").expect("an attribute");
+    assert_eq!(
+        names,
+        [
+            Some("ref_a.png".to_owned()),
+            Some("ref_b.png".to_owned()),
+            None
+        ]
+    );
+    let words = summary.to_string();
+    assert!(
+        words.contains("2 different pictures, named by the attribute `reference`"),
+        "{words}"
+    );
+    assert_eq!(summary.unnamed_images, 0);
+    // One that some rows do not name is not that of the recording either.
+    let (_, dataset, _target) = imported(["ref_a.png", "", "ref_a.png"]).expect("imported");
+    assert!(dataset.reference().expect("read").is_none());
+}
+
+#[test]
+fn a_reference_that_is_not_there_names_its_row() {
+    let problem = imported(["ref_a.png", "ref_c.png", "ref_a.png"]).expect_err("refused");
+    assert!(problem.contains("ref_c.png"), "{problem}");
+    assert!(problem.contains("labels.jsonl, line 2"), "{problem}");
+}

@@ -1,0 +1,238 @@
+//! What writers that use Arrow say of columns beside the schema of Parquet, which has no type for durations: the unit of their integers.
+//!
+//! The text under `ARROW:schema` is the base64 of an Arrow IPC message, whose schema is a FlatBuffers table
+//! (<https://arrow.apache.org/docs/format/Columnar.html#encapsulated-message-format>). Only names, types, children and units of durations are
+//! read; of a schema that contradicts itself, or is not that of the columns, nothing is taken.
+
+use super::kind::ColumnKind;
+use super::schema::{LeafForm, Node, NodeKind};
+
+/// The type of a field that is a duration.
+const DURATION: u8 = 18;
+/// The header of a message that is a schema.
+const SCHEMA: u8 = 1;
+/// The longest schema that is read, as text, bytes.
+const LONGEST: usize = 1 << 20;
+
+/// Gives those of `columns` that `text` calls durations their unit.
+pub(super) fn apply(text: &str, columns: &mut [Node]) {
+    let Some(bytes) = (text.len() <= LONGEST).then(|| decoded(text)).flatten() else {
+        return;
+    };
+    let fields = message(&bytes).and_then(|message| {
+        let is_schema = message.byte(1)? == SCHEMA;
+        is_schema.then(|| message.table(2)?.tables(1)).flatten()
+    });
+    for (position, node) in columns.iter_mut().enumerate() {
+        let field = fields.and_then(|fields| fields.at(position));
+        if let Some(field) = field.filter(|field| field.text(0) == Some(node.name.as_bytes())) {
+            name_units(field, node);
+        }
+    }
+}
+
+/// Columns and fields are trees of the same form and order.
+fn name_units(field: Table<'_>, node: &mut Node) {
+    let child = |position| field.tables(5)?.at(position);
+    match &mut node.kind {
+        NodeKind::Leaf { form, kind, .. } => {
+            let is_plain = *form == LeafForm::Plain && *kind == ColumnKind::Integer;
+            let unit = (is_plain && field.byte(2) == Some(DURATION))
+                .then(|| duration(field))
+                .flatten();
+            if let Some(unit) = unit {
+                *form = LeafForm::Time(unit);
+                *kind = ColumnKind::Time(unit);
+            }
+        }
+        NodeKind::Struct(members) => {
+            for (position, member) in members.iter_mut().enumerate() {
+                let own = child(position);
+                let own = own.filter(|own| own.text(0) == Some(member.name.as_bytes()));
+                if let Some(own) = own {
+                    name_units(own, member);
+                }
+            }
+        }
+        NodeKind::List { element, .. } => {
+            if let Some(own) = child(0) {
+                name_units(own, element);
+            }
+        }
+    }
+}
+
+/// The unit of a field that is a duration; where none is written it is the one that the format names for that.
+fn duration(field: Table<'_>) -> Option<&'static str> {
+    let unit = field.table(3)?.short(0).unwrap_or(1);
+    ["s", "ms", "us", "ns"].get(usize::from(unit)).copied()
+}
+
+/// The table of a message: behind its length, which newer writers mark.
+fn message(bytes: &[u8]) -> Option<Table<'_>> {
+    let begin = if bytes.get(..4)? == [0xff; 4] { 8 } else { 4 };
+    let bytes = bytes.get(begin..)?;
+    let at = unsigned(bytes, 0)?;
+    Some(Table { bytes, at })
+}
+
+/// A FlatBuffers table: what is at a place of it is found by the list of offsets that it names.
+#[derive(Clone, Copy)]
+struct Table<'b> {
+    bytes: &'b [u8],
+    at: usize,
+}
+
+/// A vector of tables.
+#[derive(Clone, Copy)]
+struct Tables<'b> {
+    bytes: &'b [u8],
+    at: usize,
+    length: usize,
+}
+
+impl<'b> Table<'b> {
+    /// Where the field of that number begins.
+    fn field(self, number: usize) -> Option<usize> {
+        let back = unsigned(self.bytes, self.at)?;
+        let back = i32::from_le_bytes(u32::try_from(back).ok()?.to_le_bytes());
+        let list = i64::try_from(self.at).ok()? - i64::from(back);
+        let list = usize::try_from(list).ok()?;
+        let place = 4 + 2 * number;
+        let has_place = place + 2 <= usize::from(short(self.bytes, list)?);
+        let offset = has_place.then(|| short(self.bytes, list.checked_add(place)?));
+        match offset.flatten()? {
+            0 => None,
+            offset => self.at.checked_add(usize::from(offset)),
+        }
+    }
+
+    fn byte(self, number: usize) -> Option<u8> {
+        self.bytes.get(self.field(number)?).copied()
+    }
+
+    fn short(self, number: usize) -> Option<u16> {
+        short(self.bytes, self.field(number)?)
+    }
+
+    /// Where what the field leads to begins.
+    fn lead(self, number: usize) -> Option<usize> {
+        let at = self.field(number)?;
+        at.checked_add(unsigned(self.bytes, at)?)
+    }
+
+    fn table(self, number: usize) -> Option<Table<'b>> {
+        let at = self.lead(number)?;
+        Some(Table { at, ..self })
+    }
+
+    fn text(self, number: usize) -> Option<&'b [u8]> {
+        let at = self.lead(number)?;
+        let begin = at.checked_add(4)?;
+        let end = begin.checked_add(unsigned(self.bytes, at)?)?;
+        self.bytes.get(begin..end)
+    }
+
+    fn tables(self, number: usize) -> Option<Tables<'b>> {
+        let at = self.lead(number)?;
+        Some(Tables {
+            bytes: self.bytes,
+            at: at.checked_add(4)?,
+            length: unsigned(self.bytes, at)?,
+        })
+    }
+}
+
+impl<'b> Tables<'b> {
+    fn at(self, position: usize) -> Option<Table<'b>> {
+        let place = position.checked_mul(4)?.checked_add(self.at)?;
+        let is_there = position < self.length;
+        let at = is_there.then(|| place.checked_add(unsigned(self.bytes, place)?));
+        Some(Table {
+            bytes: self.bytes,
+            at: at.flatten()?,
+        })
+    }
+}
+
+fn short(bytes: &[u8], at: usize) -> Option<u16> {
+    let own = bytes.get(at..at.checked_add(2)?)?;
+    Some(u16::from_le_bytes(own.try_into().ok()?))
+}
+
+fn unsigned(bytes: &[u8], at: usize) -> Option<usize> {
+    let own = bytes.get(at..at.checked_add(4)?)?;
+    usize::try_from(u32::from_le_bytes(own.try_into().ok()?)).ok()
+}
+
+/// The bytes of base64.
+fn decoded(text: &str) -> Option<Vec<u8>> {
+    let mut bytes = Vec::with_capacity(text.len() / 4 * 3);
+    let (mut held, mut bits) = (0_u32, 0);
+    for letter in text.trim_end_matches('=').bytes() {
+        let six = match letter {
+            b'A'..=b'Z' => letter - b'A',
+            b'a'..=b'z' => letter - b'a' + 26,
+            b'0'..=b'9' => letter - b'0' + 52,
+            b'+' => 62,
+            b'/' => 63,
+            _ => return None,
+        };
+        held = held << 6 | u32::from(six);
+        bits += 6;
+        if bits >= 8 {
+            bits -= 8;
+            bytes.push((held >> bits).to_le_bytes()[0]);
+        }
+    }
+    Some(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn columns() -> Vec<Node> {
+        let leaf = |name: &str| Node {
+            name: name.to_owned(),
+            definition: 0,
+            kind: NodeKind::Leaf {
+                column: 0,
+                form: LeafForm::Plain,
+                kind: ColumnKind::Integer,
+            },
+        };
+        vec![leaf("d"), leaf("n")]
+    }
+
+    /// As pyarrow 26 writes it of `d: duration[us]` and `n: int64`.
+    const WRITTEN: &str = include_str!("arrow_schema.base64");
+
+    #[test]
+    fn durations_have_the_unit_that_is_written_and_integers_have_none() {
+        let mut found = columns();
+        apply(WRITTEN.trim(), &mut found);
+        let kinds: Vec<ColumnKind> = found.iter().map(ColumnKind::of).collect();
+        assert_eq!(kinds, [ColumnKind::Time("us"), ColumnKind::Integer]);
+        // A schema of other columns says nothing of these.
+        let mut other = columns();
+        other[0].name = "e".to_owned();
+        apply(WRITTEN.trim(), &mut other);
+        assert_eq!(ColumnKind::of(&other[0]), ColumnKind::Integer);
+    }
+
+    #[test]
+    fn a_damaged_schema_ends_nothing() {
+        let text = WRITTEN.trim();
+        for end in 0..text.len() {
+            apply(&text[..end], &mut columns());
+        }
+        for at in 0..text.len() {
+            for letter in ["A", "/", "g", "é"] {
+                let mut damaged = text.to_owned();
+                damaged.replace_range(at..=at, letter);
+                apply(&damaged, &mut columns());
+            }
+        }
+    }
+}
