@@ -3,7 +3,9 @@
 mod attribute;
 mod element;
 mod heap;
+mod lookup3;
 mod walk;
+mod write;
 
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -21,6 +23,8 @@ use crate::store::{Arrays, Store};
 use crate::values::ArrayData;
 
 use heap::GlobalHeap;
+
+pub use write::{Hdf5Writer, WrittenElement};
 
 /// A file of HDF5.
 #[derive(Debug)]

@@ -1,12 +1,243 @@
-//! A dataset for other programs: its table as CSV, the whole as Parquet with pictures.
+//! A dataset for other programs: its table as CSV, or the whole in a form that they read, with the map that brings it back.
 
+mod cells;
+mod csv;
+mod hdf5;
 mod hugging_face;
+mod lerobot;
+mod map;
+mod picture;
 
 use std::io::{self, Write};
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+use taceva_core::Progress;
 
 use crate::dataset::Dataset;
+use crate::error::DatasetError;
+use crate::file::write_durable;
+use crate::staged::{Place, StagedFolder};
+use crate::table::{Cells, NamedColumn};
 
-pub use hugging_face::export_hugging_face;
+use picture::Pictures;
+
+/// The map in the folder of an export.
+const MAP: &str = "map.toml";
+
+/// A form that other programs read.
+///
+/// ```
+/// use taceva_dataset::ExportForm;
+///
+/// assert_eq!(ExportForm::ALL.map(ExportForm::name), ["csv", "huggingface", "hdf5", "lerobot"]);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum ExportForm {
+    /// `labels.csv`, a row a sample, and each picture in a file of its own.
+    Csv,
+    /// Parquet whose column `image` holds the pictures, as the library `datasets` of Hugging Face reads it.
+    HuggingFace,
+    /// `recording.h5`: an array a column, the pictures as one array of pixels.
+    Hdf5,
+    /// A folder of LeRobot, version 3.0: an episode a press.
+    LeRobot,
+}
+
+impl ExportForm {
+    /// Every form.
+    pub const ALL: [ExportForm; 4] = [
+        ExportForm::Csv,
+        ExportForm::HuggingFace,
+        ExportForm::Hdf5,
+        ExportForm::LeRobot,
+    ];
+
+    /// The word for it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            ExportForm::Csv => "csv",
+            ExportForm::HuggingFace => "huggingface",
+            ExportForm::Hdf5 => "hdf5",
+            ExportForm::LeRobot => "lerobot",
+        }
+    }
+}
+
+/// What was exported.
+///
+/// ```
+/// # use taceva_core::{Channel, Channels, Clock, Readings, Sample};
+/// # use taceva_dataset::{Dataset, ExportForm, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("recording");
+/// # let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, SensorFacts::new("my gel"));
+/// # let mut recorder = Recorder::create(&path, &RecordingSpec::new(facts, Channels::new([Channel::FZ])?))?;
+/// # recorder.append(&Sample::new("0").with_truth(Readings::from_values([0.5])))?;
+/// # recorder.close()?;
+/// let dataset = Dataset::open(&path)?;
+/// let to = folder.path().join("exported");
+/// let report = dataset.export(ExportForm::Csv, &to, (std::num::NonZeroUsize::MIN, &taceva_core::SilentProgress))?;
+/// assert_eq!((report.samples, report.pictures), (1, 0));
+/// assert!(report.left_out.is_empty());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct ExportReport {
+    /// How many samples there are.
+    pub samples: u64,
+    /// How many of them have a picture.
+    pub pictures: u64,
+    /// How many pictures are not in the bytes that the dataset has them in; their pixels are the same.
+    pub encoded_anew: u64,
+    /// What the dataset says and the map of the export cannot, in words.
+    pub left_out: Vec<String>,
+    /// The map that brings the export back.
+    pub map: PathBuf,
+}
+
+/// What an export is made of.
+struct Exported<'a> {
+    dataset: &'a Dataset,
+    columns: Vec<NamedColumn<'a>>,
+    pictures: Option<Pictures<'a>>,
+    jobs: NonZeroUsize,
+    progress: &'a dyn Progress,
+}
+
+impl Dataset {
+    /// Writes the dataset in `form` to the new folder `target`, on as many threads as `jobs` says, with `map.toml` beside it: an import of the folder by
+    /// that map gives the samples, labels, times, signals and the origin of each row again, and pictures of the same pixels.
+    ///
+    /// # Units
+    /// Each channel in the unit that the dataset keeps it in, which the map states.
+    ///
+    /// # Errors
+    /// [`DatasetError::TargetExists`]; [`DatasetError::Request`] if there is no sample; [`DatasetError::Sample`] if the form cannot hold one as it is;
+    /// [`DatasetError::Image`] and [`DatasetError::Digest`] of a picture that is damaged; [`DatasetError::Cancelled`]; [`DatasetError::Io`]. After any of
+    /// them `target` is absent.
+    ///
+    /// # Examples
+    /// See [`ExportReport`].
+    pub fn export(
+        &self,
+        form: ExportForm,
+        target: &Path,
+        (jobs, progress): (NonZeroUsize, &dyn Progress),
+    ) -> Result<ExportReport, DatasetError> {
+        let table = self.table();
+        if table.rows() == 0 {
+            return Err(DatasetError::Request {
+                path: self.path().to_owned(),
+                problem: "no samples: there is nothing to export".to_owned(),
+            });
+        }
+        let mut columns = table.columns();
+        // An import measures the brightness of each picture again.
+        columns.retain(|column| {
+            column.name != "intensity"
+                && !matches!(column.cells, Cells::FramePath(_) | Cells::FrameDigest(_))
+        });
+        let exported = Exported {
+            dataset: self,
+            columns,
+            pictures: Pictures::of(self, form),
+            jobs,
+            progress,
+        };
+        let staged = StagedFolder::create(target, Place::Free)?;
+        staged.mark()?;
+        progress.begin("export samples", Some(table.rows() as u64));
+        let written = match form {
+            ExportForm::Csv => csv::write(&exported, &staged),
+            ExportForm::HuggingFace => hugging_face::write(&exported, &staged),
+            ExportForm::Hdf5 => hdf5::write(&exported, &staged),
+            ExportForm::LeRobot => lerobot::write(&exported, &staged),
+        };
+        progress.end();
+        let (map, folders) = written?;
+        let map = map::text(&exported, form, &map);
+        write_durable(&staged.path().join(MAP), map.as_bytes())?;
+        staged.put_in_place(&folders)?;
+        let pictures = exported.pictures.as_ref();
+        Ok(ExportReport {
+            samples: table.rows() as u64,
+            pictures: pictures.map_or(0, |pictures| pictures.count()),
+            encoded_anew: pictures.map_or(0, |pictures| pictures.encoded_anew()),
+            left_out: exported.left_out(),
+            map: target.join(MAP),
+        })
+    }
+}
+
+impl Exported<'_> {
+    /// What no map says.
+    fn left_out(&self) -> Vec<String> {
+        let header = self.dataset.header();
+        let table = self.dataset.table();
+        let pictures = table.frames().iter().flatten().count();
+        let is_partly = pictures > 0 && pictures < table.rows();
+        let parts = [
+            (!header.settings.is_empty(), "the settings of the camera"),
+            (!header.presses.is_empty(), "how many presses ended in which way"),
+            (header.stream.is_some(), "what was lost of the stream"),
+            (
+                header.frames.as_ref().is_some_and(|frames| frames.codec.is_some()),
+                "how the clips were coded",
+            ),
+            (
+                self.has_blanks(),
+                "blanks around texts, which an import takes off",
+            ),
+            (
+                is_partly,
+                "that samples have no picture, which an import refuses",
+            ),
+        ];
+        let left = parts.into_iter().filter(|(is_left, _)| *is_left);
+        left.map(|(_, what)| what.to_owned()).collect()
+    }
+
+    /// Whether a text has blanks around it, or is empty and there.
+    fn has_blanks(&self) -> bool {
+        let rows = self.dataset.table().rows();
+        let texts = self.columns.iter().filter(|column| column.cells.is_text());
+        texts
+            .flat_map(|column| (0..rows).filter_map(|row| column.cells.text(row)))
+            .any(|text| text.is_empty() || text.trim() != text)
+    }
+
+    /// The numbers of the taxels of a row.
+    fn signals(&self, row: usize) -> Result<Vec<f32>, DatasetError> {
+        let signals = self.dataset.signals(row)?;
+        Ok(signals.map_or_else(Vec::new, |signals| signals.values().to_vec()))
+    }
+
+    /// Writes the picture without contact beside the file of the others; returns its name, none if nobody knows one.
+    fn write_reference(&self, staged: &StagedFolder) -> Result<Option<String>, DatasetError> {
+        let picture = match &self.pictures {
+            Some(pictures) => pictures.reference()?,
+            None => None,
+        };
+        let Some(picture) = picture else {
+            return Ok(None);
+        };
+        let name = format!("reference.{}", picture.extension);
+        write_durable(&staged.path().join(&name), &picture.bytes)?;
+        Ok(Some(name))
+    }
+
+    /// One step further.
+    fn advance(&self, rows: usize) -> Result<(), DatasetError> {
+        self.progress.advance(rows as u64);
+        match self.progress.is_cancelled() {
+            true => Err(DatasetError::Cancelled),
+            false => Ok(()),
+        }
+    }
+}
 
 /// Writes the labels of `dataset` as CSV: a row a sample, bare channel names, an empty cell where there is no value.
 ///
@@ -18,7 +249,7 @@ pub use hugging_face::export_hugging_face;
 pub fn export_csv(dataset: &Dataset, writer: impl Write) -> io::Result<()> {
     let table = dataset.table();
     let columns = table.columns();
-    let mut writer = csv::Writer::from_writer(writer);
+    let mut writer = ::csv::Writer::from_writer(writer);
     writer.write_record(columns.iter().map(|column| column.name))?;
     for row in 0..table.rows() {
         writer.write_record(

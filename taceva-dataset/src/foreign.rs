@@ -72,7 +72,7 @@ pub(crate) enum TableForm {
 }
 
 /// What an error says of the file at `path`, without the path, which is named around it.
-fn said(path: &Path, error: &impl fmt::Display) -> String {
+pub(crate) fn said(path: &Path, error: &impl fmt::Display) -> String {
     let text = error.to_string();
     let rest = text.strip_prefix(&format!("{}: ", path.display()));
     rest.unwrap_or(&text).to_owned()

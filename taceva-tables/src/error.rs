@@ -18,6 +18,14 @@ pub enum TableError {
         /// What the system said.
         source: io::Error,
     },
+    /// The system refused to write a file.
+    #[error("cannot write {}: {source}", core_shown(path))]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
     /// Bytes that contradict the format: cut short, changed, or never written by a program that knew it.
     #[error("{}{place}: {}", core_shown(path), core_shown(problem))]
     Damaged {
@@ -86,6 +94,7 @@ impl TableError {
     pub fn path(&self) -> &Path {
         match self {
             TableError::Io { path, .. }
+            | TableError::Write { path, .. }
             | TableError::Damaged { path, .. }
             | TableError::Unsupported { path, .. }
             | TableError::TooLarge { path, .. }

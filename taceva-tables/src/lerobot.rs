@@ -1,10 +1,13 @@
 //! Folders of LeRobot.
 
+mod described;
 mod episodes;
 mod files;
 mod info;
 mod pattern;
+mod stats;
 mod video;
+mod write;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -20,7 +23,9 @@ use crate::rows::check_sorted;
 use crate::source::Source;
 
 pub use self::info::Feature;
+pub use self::stats::FeatureStats;
 pub use self::video::VideoFrames;
+pub use self::write::{LeRobotWriter, WrittenFeature};
 
 /// A dataset of LeRobot, version 2.1 or 3.0: the rows of all its data files, one after another.
 ///

@@ -12,7 +12,9 @@ use super::extended::{WrittenClass, WrittenJoin, WrittenMatrix, WrittenPath};
 use super::signals::WrittenSignals;
 use super::written_frame::WrittenFrame;
 use super::written_table::WrittenTable;
-use super::{ColumnMap, DropRules, IdMap, ImportMap, MatrixMap, Placeholder, TimeMap};
+use super::{
+    ColumnMap, DropRules, IdMap, ImportMap, MatrixMap, OriginMap, Placeholder, TimeMap,
+};
 use crate::error::DatasetError;
 use crate::header::{Footprint, SensorFacts, Source};
 use crate::store::RecordingFacts;
@@ -41,6 +43,7 @@ struct WrittenMap {
     #[serde(default)]
     classes: BTreeMap<String, Spanned<WrittenClass>>,
     signals: Option<Spanned<WrittenSignals>>,
+    origin: Option<Spanned<OriginMap>>,
     time: WrittenTime,
     #[serde(default)]
     drop: WrittenDrop,
@@ -128,6 +131,7 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
             .signals
             .map(|signals| check.signals(signals))
             .transpose()?,
+        origin: written.origin.map(Spanned::into_inner),
         is_extended,
         table,
         form,
@@ -176,6 +180,7 @@ impl Check<'_> {
                 written.classes.values().next().map(Spanned::span),
             ),
             ("signals", written.signals.as_ref().map(Spanned::span)),
+            ("origin", written.origin.as_ref().map(Spanned::span)),
             ("offset` or `scale", scaled.map(Spanned::span)),
         ];
         let newer = newer.into_iter().find_map(|(key, span)| Some((key, span?)));
