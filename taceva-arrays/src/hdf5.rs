@@ -4,8 +4,10 @@ mod attribute;
 mod element;
 mod heap;
 mod lookup3;
+mod structures;
 mod walk;
 mod write;
+mod written_element;
 
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -24,7 +26,8 @@ use crate::values::ArrayData;
 
 use heap::GlobalHeap;
 
-pub use write::{Hdf5Writer, WrittenElement};
+pub use write::Hdf5Writer;
+pub use written_element::WrittenElement;
 
 /// A file of HDF5.
 #[derive(Debug)]

@@ -69,7 +69,7 @@ impl ExportForm {
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, Readings, Sample};
-/// # use taceva_dataset::{Dataset, ExportForm, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
+/// # use taceva_dataset::{Dataset, ExportForm, ExportPlan, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
 /// # let folder = tempfile::tempdir()?;
 /// # let path = folder.path().join("recording");
 /// # let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, SensorFacts::new("my gel"));
@@ -78,7 +78,8 @@ impl ExportForm {
 /// # recorder.close()?;
 /// let dataset = Dataset::open(&path)?;
 /// let to = folder.path().join("exported");
-/// let report = dataset.export(ExportForm::Csv, &to, (std::num::NonZeroUsize::MIN, &taceva_core::SilentProgress))?;
+/// let plan = ExportPlan::new(&dataset, ExportForm::Csv)?;
+/// let report = plan.run(&to, std::num::NonZeroUsize::MIN, &taceva_core::SilentProgress)?;
 /// assert_eq!((report.samples, report.pictures), (1, 0));
 /// assert!(report.left_out.is_empty());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -107,33 +108,69 @@ struct Exported<'a> {
     progress: &'a dyn Progress,
 }
 
-impl Dataset {
-    /// Writes the dataset in `form` to the new folder `target`, on as many threads as `jobs` says, with `map.toml` beside it: an import of the folder by
-    /// that map gives the samples, labels, times, signals and the origin of each row again, and pictures of the same pixels.
+/// An export that can be made: the dataset has samples.
+///
+/// ```
+/// # use taceva_core::{Channel, Channels, Clock, Readings, Sample};
+/// # use taceva_dataset::{Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("recording");
+/// # let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, SensorFacts::new("my gel"));
+/// # let mut recorder = Recorder::create(&path, &RecordingSpec::new(facts, Channels::new([Channel::FZ])?))?;
+/// # recorder.append(&Sample::new("0").with_truth(Readings::from_values([0.5])))?;
+/// # recorder.close()?;
+/// use std::num::NonZeroUsize;
+/// use taceva_core::SilentProgress;
+/// use taceva_dataset::{Dataset, ExportForm, ExportPlan, ImportMap, ImportPlan};
+///
+/// let dataset = Dataset::open(&path)?;
+/// let exported = folder.path().join("exported");
+/// let plan = ExportPlan::new(&dataset, ExportForm::LeRobot)?;
+/// let report = plan.run(&exported, NonZeroUsize::MIN, &SilentProgress)?;
+///
+/// let plan = ImportPlan::new(&exported, &ImportMap::read(&report.map)?)?;
+/// let again = plan.run(&folder.path().join("again"), NonZeroUsize::MIN, &SilentProgress)?;
+/// assert_eq!(again.digest, dataset.digest());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct ExportPlan<'a> {
+    dataset: &'a Dataset,
+    form: ExportForm,
+}
+
+impl<'a> ExportPlan<'a> {
+    /// An export of `dataset` in `form`.
+    ///
+    /// # Errors
+    /// [`DatasetError::Request`] if there is no sample.
+    pub fn new(dataset: &'a Dataset, form: ExportForm) -> Result<ExportPlan<'a>, DatasetError> {
+        match dataset.table().rows() {
+            0 => Err(DatasetError::Request {
+                path: dataset.path().to_owned(),
+                problem: "no samples: there is nothing to export".to_owned(),
+            }),
+            _ => Ok(ExportPlan { dataset, form }),
+        }
+    }
+
+    /// Writes the new folder `target` on `jobs` threads, and `map.toml` into it: an import of the folder by that map gives the samples, labels, times,
+    /// signals and the origin of each row again, and pictures of the same pixels. The same dataset gives the same bytes, on any number of threads.
     ///
     /// # Units
     /// Each channel in the unit that the dataset keeps it in, which the map states.
     ///
     /// # Errors
-    /// [`DatasetError::TargetExists`]; [`DatasetError::Request`] if there is no sample; [`DatasetError::Sample`] if the form cannot hold one as it is;
-    /// [`DatasetError::Image`] and [`DatasetError::Digest`] of a picture that is damaged; [`DatasetError::Cancelled`]; [`DatasetError::Io`]. After any of
-    /// them `target` is absent.
-    ///
-    /// # Examples
-    /// See [`ExportReport`].
-    pub fn export(
-        &self,
-        form: ExportForm,
+    /// [`DatasetError::TargetExists`]; [`DatasetError::Sample`] if the form cannot hold one as it is; [`DatasetError::Image`] and
+    /// [`DatasetError::Digest`] of a picture that is damaged; [`DatasetError::Cancelled`]; [`DatasetError::Io`]. After any of them `target` is absent.
+    pub fn run(
+        self,
         target: &Path,
-        (jobs, progress): (NonZeroUsize, &dyn Progress),
+        jobs: NonZeroUsize,
+        progress: &dyn Progress,
     ) -> Result<ExportReport, DatasetError> {
-        let table = self.table();
-        if table.rows() == 0 {
-            return Err(DatasetError::Request {
-                path: self.path().to_owned(),
-                problem: "no samples: there is nothing to export".to_owned(),
-            });
-        }
+        let ExportPlan { dataset, form } = self;
+        let table = dataset.table();
         let mut columns = table.columns();
         // An import measures the brightness of each picture again.
         columns.retain(|column| {
@@ -141,9 +178,9 @@ impl Dataset {
                 && !matches!(column.cells, Cells::FramePath(_) | Cells::FrameDigest(_))
         });
         let exported = Exported {
-            dataset: self,
+            dataset,
             columns,
-            pictures: Pictures::of(self, form),
+            pictures: Pictures::of(dataset, form),
             jobs,
             progress,
         };
@@ -181,10 +218,16 @@ impl Exported<'_> {
         let is_partly = pictures > 0 && pictures < table.rows();
         let parts = [
             (!header.settings.is_empty(), "the settings of the camera"),
-            (!header.presses.is_empty(), "how many presses ended in which way"),
+            (
+                !header.presses.is_empty(),
+                "how many presses ended in which way",
+            ),
             (header.stream.is_some(), "what was lost of the stream"),
             (
-                header.frames.as_ref().is_some_and(|frames| frames.codec.is_some()),
+                header
+                    .frames
+                    .as_ref()
+                    .is_some_and(|frames| frames.codec.is_some()),
                 "how the clips were coded",
             ),
             (

@@ -46,7 +46,7 @@ pub use decode::ChannelOrder;
 pub use digest::{Digest, DigestError};
 pub use draft::MapDraft;
 pub use error::{DatasetError, Place};
-pub use export::{ExportForm, ExportReport, export_csv};
+pub use export::{ExportForm, ExportPlan, ExportReport, export_csv};
 pub use header::reseal_header;
 pub use header::{
     Footprint, FrameCodec, FramesInfo, Header, Known, ReferenceInfo, SensorFacts, Shape, Source,

@@ -2,6 +2,7 @@
 
 mod described;
 mod episodes;
+mod feature;
 mod files;
 mod info;
 mod pattern;
@@ -22,10 +23,11 @@ use crate::parquet::ParquetTable;
 use crate::rows::check_sorted;
 use crate::source::Source;
 
+pub use self::feature::WrittenFeature;
 pub use self::info::Feature;
 pub use self::stats::FeatureStats;
 pub use self::video::VideoFrames;
-pub use self::write::{LeRobotWriter, WrittenFeature};
+pub use self::write::LeRobotWriter;
 
 /// A dataset of LeRobot, version 2.1 or 3.0: the rows of all its data files, one after another.
 ///

@@ -1,6 +1,7 @@
 //! `taceva export`.
 
 use taceva_core::shown;
+use taceva_dataset::ExportPlan;
 
 use super::{Context, open};
 use crate::args::Export;
@@ -8,8 +9,8 @@ use crate::{exit, output};
 
 pub(crate) fn run(args: &Export, context: &Context) -> anyhow::Result<u8> {
     let dataset = open(&args.dataset)?;
-    let how = (context.jobs, &context.progress as &dyn taceva_core::Progress);
-    let report = dataset.export(args.format.into(), &args.out, how)?;
+    let plan = ExportPlan::new(&dataset, args.format.into())?;
+    let report = plan.run(&args.out, context.jobs, &context.progress)?;
     for what in &report.left_out {
         context.say(format_args!("left out: {what}"));
     }

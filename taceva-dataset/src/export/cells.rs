@@ -45,7 +45,9 @@ impl Exported<'_> {
     /// The numbers of the taxels of a row as a list.
     pub(super) fn signals_cell(&self, row: usize) -> Result<Cell, DatasetError> {
         let numbers = self.signals(row)?.into_iter();
-        Ok(Cell::List(numbers.map(|number| Cell::Number(number.into())).collect()))
+        Ok(Cell::List(
+            numbers.map(|number| Cell::Number(number.into())).collect(),
+        ))
     }
 
     /// `name`, or that with `_` behind it while a column is called so.

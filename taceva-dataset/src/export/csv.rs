@@ -4,9 +4,9 @@ use std::fs::File;
 use std::io::BufWriter;
 use std::num::NonZeroUsize;
 
+use super::Exported;
 use super::map::{self, Written, quoted};
 use super::picture::Encoded;
-use super::Exported;
 use crate::error::DatasetError;
 use crate::file::write_durable;
 use crate::layout;
@@ -49,7 +49,11 @@ pub(super) fn write(
         frame: frames.map(|_| "column = \"frame\"".to_owned()),
         reference,
         signals: signals.map(|signals| {
-            let names: Vec<String> = signals.spec.column_names().map(|name| quoted(&name)).collect();
+            let names: Vec<String> = signals
+                .spec
+                .column_names()
+                .map(|name| quoted(&name))
+                .collect();
             format!("[{}]", names.join(", "))
         }),
         names: map::bare,
@@ -98,7 +102,11 @@ fn write_table(
     let failed = |error: csv::Error| DatasetError::io("write", &path)(error.into());
     let file = File::create_new(&path).map_err(DatasetError::io("create", &path))?;
     let mut writer = csv::Writer::from_writer(BufWriter::new(file));
-    let mut names: Vec<String> = exported.columns.iter().map(|column| column.name.to_owned()).collect();
+    let mut names: Vec<String> = exported
+        .columns
+        .iter()
+        .map(|column| column.name.to_owned())
+        .collect();
     names.extend(frames.map(|_| "frame".to_owned()));
     let signals = exported.dataset.header().signals.iter();
     names.extend(signals.flat_map(|signals| signals.spec.column_names()));

@@ -25,21 +25,36 @@ pub(super) fn write(
     for column in &exported.columns {
         write_column(exported, &mut writer, (column.name, &column.cells))?;
     }
-    let taxels = header.signals.as_ref().map(|_| exported.free_name("signals"));
+    let taxels = header
+        .signals
+        .as_ref()
+        .map(|_| exported.free_name("signals"));
     if let (Some(name), Some(signals)) = (&taxels, &header.signals) {
         let info = signals.spec.info;
         let sides = [info.rows, info.columns, info.channels].map(u64::from);
         let shape = [rows as u64, sides[0], sides[1], sides[2]];
         let names = signals.spec.channels.join(" ");
-        let attributes = [("unit", info.unit.symbol()), ("channels", &names), ("axes", "sample row column channel")];
-        writer.begin(name, WrittenElement::F32, &shape, &attributes).map_err(of_arrays)?;
+        let attributes = [
+            ("unit", info.unit.symbol()),
+            ("channels", &names),
+            ("axes", "sample row column channel"),
+        ];
+        writer
+            .begin(name, WrittenElement::F32, &shape, &attributes)
+            .map_err(of_arrays)?;
         for row in 0..rows {
             let numbers = exported.signals(row)?;
-            let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
+            let bytes: Vec<u8> = numbers
+                .iter()
+                .flat_map(|number| number.to_le_bytes())
+                .collect();
             writer.write(&bytes).map_err(of_arrays)?;
         }
     }
-    let frames = exported.pictures.as_ref().map(|_| exported.free_name("frames"));
+    let frames = exported
+        .pictures
+        .as_ref()
+        .map(|_| exported.free_name("frames"));
     if let Some(name) = &frames {
         write_frames(exported, &mut writer, name)?;
     } else {
@@ -48,19 +63,27 @@ pub(super) fn write(
     let source = format!("{:?}", header.source).to_lowercase();
     let (clock, digest) = (header.clock.to_string(), dataset.digest().to_string());
     let sensor = &header.sensor;
-    writer.finish(&[
-        ("source", &source),
-        ("clock", &clock),
-        ("sensor", &sensor.model),
-        ("serial", &sensor.serial),
-        ("gel", &sensor.gel),
-        ("dataset", &digest),
-    ]).map_err(of_arrays)?;
+    writer
+        .finish(&[
+            ("source", &source),
+            ("clock", &clock),
+            ("sensor", &sensor.model),
+            ("serial", &sensor.serial),
+            ("gel", &sensor.gel),
+            ("dataset", &digest),
+        ])
+        .map_err(of_arrays)?;
     let written = Written {
         table: quoted(FILE),
         frame: frames.map(|name| format!("array = {}", quoted(&name))),
         reference: exported.write_reference(staged)?,
-        signals: taxels.map(|name| format!("{{ file = {}, path = {} }}", quoted(FILE), quoted(&format!("/{name}")))),
+        signals: taxels.map(|name| {
+            format!(
+                "{{ file = {}, path = {} }}",
+                quoted(FILE),
+                quoted(&format!("/{name}"))
+            )
+        }),
         names: map::bare,
         channels: map::bare_channels(exported),
     };
@@ -84,29 +107,44 @@ fn write_column(
     let attributes: Vec<(&str, &str)> = unit.map(|unit| ("unit", unit)).into_iter().collect();
     match cells {
         Cells::Count(counts) if counts.iter().all(Option::is_some) => {
-            writer.begin(name, WrittenElement::I64, &shape, &attributes).map_err(of_arrays)?;
+            writer
+                .begin(name, WrittenElement::I64, &shape, &attributes)
+                .map_err(of_arrays)?;
             for count in counts.iter().flatten() {
-                writer.write(&i64::from(*count).to_le_bytes()).map_err(of_arrays)?;
+                writer
+                    .write(&i64::from(*count).to_le_bytes())
+                    .map_err(of_arrays)?;
             }
         }
         Cells::Count(_) | Cells::Number(_) | Cells::Measured(_) | Cells::Spacing(_) => {
-            writer.begin(name, WrittenElement::F64, &shape, &attributes).map_err(of_arrays)?;
+            writer
+                .begin(name, WrittenElement::F64, &shape, &attributes)
+                .map_err(of_arrays)?;
             for row in 0..rows {
                 let number = match cells {
                     Cells::Count(counts) => counts[row].map(f64::from),
                     cells => cells.number(row),
                 };
-                writer.write(&number.unwrap_or(f64::NAN).to_le_bytes()).map_err(of_arrays)?;
+                writer
+                    .write(&number.unwrap_or(f64::NAN).to_le_bytes())
+                    .map_err(of_arrays)?;
             }
         }
         _ => {
             let texts = (0..rows).map(|row| cells.text(row).unwrap_or_default());
-            let longest = texts.clone().map(|text| text.len()).max().unwrap_or(0).max(1);
+            let longest = texts
+                .clone()
+                .map(|text| text.len())
+                .max()
+                .unwrap_or(0)
+                .max(1);
             let bytes = u32::try_from(longest).unwrap_or(u32::MAX);
             for (row, text) in texts.clone().enumerate() {
                 check_text(exported, (row, name), &text)?;
             }
-            writer.begin(name, WrittenElement::Text { bytes }, &shape, &attributes).map_err(of_arrays)?;
+            writer
+                .begin(name, WrittenElement::Text { bytes }, &shape, &attributes)
+                .map_err(of_arrays)?;
             for text in texts {
                 let mut padded = text.into_bytes();
                 padded.resize(longest, 0);
@@ -123,7 +161,10 @@ fn check_text(
     text: &str,
 ) -> Result<(), DatasetError> {
     let problem = if text.len() > TEXT_BYTES {
-        format!("`{name}` has {} bytes, at most {TEXT_BYTES} are written, since all texts of an array have the room of the longest", text.len())
+        format!(
+            "`{name}` has {} bytes, at most {TEXT_BYTES} are written, since all texts of an array have the room of the longest",
+            text.len()
+        )
     } else if text.contains('\0') {
         format!("`{name}` holds a NUL character, which ends a text of HDF5")
     } else {
@@ -162,10 +203,18 @@ fn write_frames(
             "rgb"
         }
     };
-    let axes = if is_gray { "sample row column" } else { "sample row column colour" };
-    writer.begin(name, element, &shape, &[("colours", order), ("axes", axes)]).map_err(of_arrays)?;
+    let axes = if is_gray {
+        "sample row column"
+    } else {
+        "sample row column colour"
+    };
+    writer
+        .begin(name, element, &shape, &[("colours", order), ("axes", axes)])
+        .map_err(of_arrays)?;
     for row in 0..rows {
-        writer.write(pictures.frame(row)?.bytes()).map_err(of_arrays)?;
+        writer
+            .write(pictures.frame(row)?.bytes())
+            .map_err(of_arrays)?;
         exported.advance(1)?;
     }
     Ok(())

@@ -2,8 +2,8 @@
 
 use taceva_tables::{ParquetWriter, WrittenColumn, WrittenKind, huggingface_features};
 
-use super::map::{self, Written, quoted};
 use super::cells::of_table;
+use super::map::{self, Written, quoted};
 use super::{Exported, cells};
 use crate::error::DatasetError;
 use crate::file::write_durable;
@@ -19,7 +19,10 @@ pub(super) fn write(
     staged.create_folder("data")?;
     let dataset = exported.dataset;
     let signals = dataset.header().signals.as_ref();
-    let image = exported.pictures.as_ref().map(|_| exported.free_name("image"));
+    let image = exported
+        .pictures
+        .as_ref()
+        .map(|_| exported.free_name("image"));
     let taxels = signals.map(|_| exported.free_name("signals"));
     let columns = exported.columns.iter();
     let columns = columns.map(|column| WrittenColumn::new(column.name, cells::kind(&column.cells)));
@@ -28,7 +31,11 @@ pub(super) fn write(
         let kind = WrittenKind::Singles(Some(signals.spec.info.len()));
         columns.push(WrittenColumn::new(name, kind));
     }
-    columns.extend(image.iter().map(|name| WrittenColumn::new(name, WrittenKind::Picture)));
+    columns.extend(
+        image
+            .iter()
+            .map(|name| WrittenColumn::new(name, WrittenKind::Picture)),
+    );
     let mut metadata = vec![
         ("huggingface".to_owned(), huggingface_features(&columns)),
         (
@@ -38,14 +45,23 @@ pub(super) fn write(
     ];
     let channels = dataset.table().channels().iter();
     metadata.extend(channels.map(|channel| {
-        (format!("unit.{}", channel.name()), channel.unit().symbol().to_owned())
+        (
+            format!("unit.{}", channel.name()),
+            channel.unit().symbol().to_owned(),
+        )
     }));
     if let (Some(name), Some(signals)) = (&taxels, signals) {
-        metadata.push((format!("unit.{name}"), signals.spec.info.unit.symbol().to_owned()));
+        metadata.push((
+            format!("unit.{name}"),
+            signals.spec.info.unit.symbol().to_owned(),
+        ));
     }
-    let metadata: Vec<(&str, &str)> =
-        metadata.iter().map(|(key, text)| (key.as_str(), text.as_str())).collect();
-    let mut writer = ParquetWriter::create(&staged.path().join(FILE), &columns, &metadata).map_err(of_table)?;
+    let metadata: Vec<(&str, &str)> = metadata
+        .iter()
+        .map(|(key, text)| (key.as_str(), text.as_str()))
+        .collect();
+    let mut writer =
+        ParquetWriter::create(&staged.path().join(FILE), &columns, &metadata).map_err(of_table)?;
     for row in 0..dataset.table().rows() {
         let own = exported.columns.iter();
         let mut cells: Vec<_> = own.map(|column| cells::cell(&column.cells, row)).collect();

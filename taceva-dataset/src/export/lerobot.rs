@@ -7,11 +7,13 @@
 use std::collections::BTreeMap;
 
 use taceva_core::Frame;
-use taceva_tables::{Cell, FeatureStats, LeRobotWriter, WrittenColumn, WrittenFeature, WrittenKind};
+use taceva_tables::{
+    Cell, FeatureStats, LeRobotWriter, WrittenColumn, WrittenFeature, WrittenKind,
+};
 
+use super::cells::of_table;
 use super::map::{Written, quoted};
 use super::picture::Pictures;
-use super::cells::of_table;
 use super::{Exported, cells};
 use crate::error::DatasetError;
 use crate::staged::StagedFolder;
@@ -31,7 +33,8 @@ pub(super) fn write(
     let (header, table) = (dataset.header(), dataset.table());
     let model = header.sensor.model.as_str();
     let rate_hz = rate_hz(table);
-    let mut writer = LeRobotWriter::create(staged.path(), model, rate_hz, features(exported)).map_err(of_table)?;
+    let mut writer = LeRobotWriter::create(staged.path(), model, rate_hz, features(exported))
+        .map_err(of_table)?;
     let task = format!("press {model}");
     let mut stats = exported
         .pictures
@@ -64,7 +67,9 @@ pub(super) fn write(
         names: name_of,
         channels: match table.channels().len() {
             1 => vec![STATE.to_owned()],
-            several => (0..several).map(|position| format!("{STATE}[{position}]")).collect(),
+            several => (0..several)
+                .map(|position| format!("{STATE}[{position}]"))
+                .collect(),
         },
     };
     Ok((written, folders))
@@ -93,13 +98,20 @@ fn features(exported: &Exported<'_>) -> Vec<WrittenFeature> {
     let mut features = Vec::new();
     if let Some(info) = exported.pictures.as_ref().and_then(Pictures::info) {
         let column = WrittenColumn::new(PICTURE, WrittenKind::Picture);
-        let shape = [info.height.into(), info.width.into(), info.format.samples() as u64];
+        let shape = [
+            info.height.into(),
+            info.width.into(),
+            info.format.samples() as u64,
+        ];
         let feature = WrittenFeature::new(column, shape);
         features.push(feature.with_names(["height", "width", "channels"]));
     }
     if !channels.is_empty() {
         let column = WrittenColumn::new(STATE, WrittenKind::Numbers(Some(channels.len())));
-        let units: Vec<&str> = channels.iter().map(|channel| channel.unit().symbol()).collect();
+        let units: Vec<&str> = channels
+            .iter()
+            .map(|channel| channel.unit().symbol())
+            .collect();
         let feature = WrittenFeature::new(column, [channels.len() as u64]);
         let feature = feature.with_names(channels.iter().map(|channel| channel.name()));
         features.push(feature.with_unit(units.join(" ")));

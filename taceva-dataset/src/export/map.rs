@@ -69,19 +69,34 @@ pub(super) fn text(exported: &Exported<'_>, form: ExportForm, written: &Written)
     let has_origin = ORIGIN.iter().any(|(_, column)| has(column));
     // A plain table with pictures beside it is what the first version of maps reads, and its rows have no origin of their own.
     let is_plain = form == ExportForm::Csv && written.signals.is_none() && !has_origin;
-    let mut text = String::from("# The dataset again: taceva import FOLDER --map FOLDER/map.toml --out DATASET\n");
+    let mut text = String::from(
+        "# The dataset again: taceva import FOLDER --map FOLDER/map.toml --out DATASET\n",
+    );
     // Writing to a string does not fail.
     let mut line = |words: std::fmt::Arguments<'_>| {
         let _ = text.write_fmt(format_args!("{words}\n"));
     };
-    line(format_args!("map_version = {}", if is_plain { 1 } else { 2 }));
+    line(format_args!(
+        "map_version = {}",
+        if is_plain { 1 } else { 2 }
+    ));
     let source = format!("{:?}", header.source).to_lowercase();
     line(format_args!("source = {}", quoted(&source)));
-    line(format_args!("table = {}   # {} rows", written.table, table.rows()));
+    line(format_args!(
+        "table = {}   # {} rows",
+        written.table,
+        table.rows()
+    ));
     if let Some(frame) = &written.frame {
-        let order = exported.pictures.as_ref().map_or(ChannelOrder::Rgb, |pictures| pictures.order);
+        let order = exported
+            .pictures
+            .as_ref()
+            .map_or(ChannelOrder::Rgb, |pictures| pictures.order);
         let reference = written.reference.as_deref().unwrap_or("unknown");
-        line(format_args!("\n[frame]\n{frame}\nchannel_order = {}", quoted(order.name())));
+        line(format_args!(
+            "\n[frame]\n{frame}\nchannel_order = {}",
+            quoted(order.name())
+        ));
         line(format_args!("reference = {}", quoted(reference)));
     }
     if !table.channels().is_empty() {
@@ -105,9 +120,15 @@ pub(super) fn text(exported: &Exported<'_>, form: ExportForm, written: &Written)
             line(format_args!("{key} = {}", quoted(&(written.names)(column))));
         }
     }
-    line(format_args!("\n[time]\nclock = {}", quoted(&header.clock.to_string())));
+    line(format_args!(
+        "\n[time]\nclock = {}",
+        quoted(&header.clock.to_string())
+    ));
     if has("t_s") {
-        line(format_args!("column = {}\nunit = \"s\"", quoted(&(written.names)("t_s"))));
+        line(format_args!(
+            "column = {}\nunit = \"s\"",
+            quoted(&(written.names)("t_s"))
+        ));
     }
     let attributes = exported.columns.iter().map(|column| column.name);
     let attributes: Vec<&str> = attributes
@@ -121,11 +142,28 @@ pub(super) fn text(exported: &Exported<'_>, form: ExportForm, written: &Written)
     }
     if let (Some(from), Some(signals)) = (&written.signals, &header.signals) {
         let info = signals.spec.info;
-        let names: Vec<String> = signals.spec.channels.iter().map(|name| quoted(name)).collect();
-        line(format_args!("\n[signals]\nfrom = {from}\nunit = {}", quoted(info.unit.symbol())));
-        line(format_args!("places = [{}, {}]\nchannels = [{}]", info.rows, info.columns, names.join(", ")));
+        let names: Vec<String> = signals
+            .spec
+            .channels
+            .iter()
+            .map(|name| quoted(name))
+            .collect();
+        line(format_args!(
+            "\n[signals]\nfrom = {from}\nunit = {}",
+            quoted(info.unit.symbol())
+        ));
+        line(format_args!(
+            "places = [{}, {}]\nchannels = [{}]",
+            info.rows,
+            info.columns,
+            names.join(", ")
+        ));
         line(format_args!("order = \"place-first\""));
-        let rest = signals.spec.rest.iter().map(|[first, last]| format!("\"{first}..{last}\""));
+        let rest = signals
+            .spec
+            .rest
+            .iter()
+            .map(|[first, last]| format!("\"{first}..{last}\""));
         let rest: Vec<String> = rest.collect();
         if !rest.is_empty() {
             line(format_args!("rest = [{}]", rest.join(", ")));
@@ -139,7 +177,10 @@ fn facts(sensor: &SensorFacts, footprint: Option<Footprint>) -> String {
     let words = "texts, numbers and truth values can be written as TOML";
     let mut text = format!("\n[sensor]\n{}", toml::to_string(sensor).expect(words));
     if let Some(footprint) = footprint {
-        text += &format!("\n[footprint]\n{}", toml::to_string(&footprint).expect(words));
+        text += &format!(
+            "\n[footprint]\n{}",
+            toml::to_string(&footprint).expect(words)
+        );
     }
     text
 }

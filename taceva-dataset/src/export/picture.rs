@@ -31,8 +31,8 @@ impl<'a> Pictures<'a> {
         // Other programs take colours for red, green, blue; a map beside CSV says what they are.
         let is_turned = frames.channel_order == ChannelOrder::Bgr;
         let mut entries = dataset.table().frames().iter().flatten();
-        let is_anew = is_turned
-            && (form != ExportForm::Csv || entries.any(|entry| entry.is_difference()));
+        let is_anew =
+            is_turned && (form != ExportForm::Csv || entries.any(|entry| entry.is_difference()));
         Some(Pictures {
             dataset,
             order: match is_anew {
@@ -72,13 +72,18 @@ impl<'a> Pictures<'a> {
     /// The picture without contact as a file; none if nobody knows one.
     pub(super) fn reference(&self) -> Result<Option<Encoded>, DatasetError> {
         let header = self.dataset.header();
-        let reference = header.frames.as_ref().and_then(|frames| frames.reference.as_ref());
+        let reference = header
+            .frames
+            .as_ref()
+            .and_then(|frames| frames.reference.as_ref());
         let Some(reference) = reference else {
             return Ok(None);
         };
         if self.is_anew {
             let frame = self.dataset.reference()?;
-            return frame.map(|frame| self.png(&frame, &reference.path)).transpose();
+            return frame
+                .map(|frame| self.png(&frame, &reference.path))
+                .transpose();
         }
         let bytes = self.dataset.reference_bytes()?;
         Ok(bytes.map(Encoded::of))
@@ -101,7 +106,11 @@ impl<'a> Pictures<'a> {
 
     /// Size and format of each.
     pub(super) fn info(&self) -> Option<taceva_core::FrameInfo> {
-        self.dataset.header().frames.as_ref().map(|frames| frames.info)
+        self.dataset
+            .header()
+            .frames
+            .as_ref()
+            .map(|frames| frames.info)
     }
 
     /// The number of colours of a pixel.

@@ -36,7 +36,9 @@ pub(super) trait ByteColumns: Sized + fmt::Debug + Send + Sync {
         let texts = |name: &&str| {
             let cells = self.cells(name);
             let cells = cells.map_err(|error| said(self.place(), &error))?;
-            let texts = cells.into_iter().map(|cell| Self::present(cell).text().into_owned());
+            let texts = cells
+                .into_iter()
+                .map(|cell| Self::present(cell).text().into_owned());
             Ok(texts.collect())
         };
         names.iter().map(texts).collect()

@@ -11,8 +11,8 @@ use taceva_core::{
     SignalInfo, Signals, SilentProgress, Stamp, Unit,
 };
 use taceva_dataset::{
-    Dataset, ExportForm, ExportReport, Footprint, ImportMap, ImportPlan, Recorder, RecordingFacts,
-    RecordingSpec, SensorFacts, SignalsSpec, Source,
+    Dataset, ExportForm, ExportPlan, ExportReport, Footprint, ImportMap, ImportPlan, Recorder,
+    RecordingFacts, RecordingSpec, SensorFacts, SignalsSpec, Source,
 };
 
 /// More than a row group of a table holds.
@@ -21,10 +21,16 @@ const SAMPLES: u16 = 1030;
 /// A recording with every id, absent labels, a picture without contact, and frames that are kept as differences.
 pub(crate) fn recorded(folder: &Path) -> Dataset {
     let path = folder.join("recorded");
-    let sensor = SensorFacts::new("gel \"π\"").with_serial("7").with_opaque(true);
+    let sensor = SensorFacts::new("gel \"π\"")
+        .with_serial("7")
+        .with_opaque(true);
     let facts = RecordingFacts::new(Source::Simulated, Clock::Monotonic, sensor)
         .with_footprint(Footprint::rectangle(8.5, 10.0).with_depth_max(2.25));
-    let channels = [Channel::FX, Channel::FZ, Channel::named("Tz", Unit::NewtonMillimetre).expect("a name")];
+    let channels = [
+        Channel::FX,
+        Channel::FZ,
+        Channel::named("Tz", Unit::NewtonMillimetre).expect("a name"),
+    ];
     let channels = Channels::new(channels).expect("distinct");
     let mut recorder = Recorder::create(&path, &RecordingSpec::new(facts, channels)).expect("new");
     let info = FrameInfo {
@@ -36,13 +42,21 @@ pub(crate) fn recorded(folder: &Path) -> Dataset {
     let frame = |seed: u16| {
         let pixels = (0..576_u32).map(|pixel| {
             let [.., texture] = pixel.wrapping_mul(2_654_435_761).to_le_bytes();
-            if pixel < 3 { seed.to_le_bytes()[0] } else { texture.wrapping_mul(31) ^ texture >> 3 }
+            if pixel < 3 {
+                seed.to_le_bytes()[0]
+            } else {
+                texture.wrapping_mul(31) ^ texture >> 3
+            }
         });
         Frame::new(info, pixels.collect()).expect("whole")
     };
     for number in 0..SAMPLES {
         let force = Some(f64::from(number) / 7.0).filter(|_| number % 5 != 0);
-        let truth = vec![force, Some(-0.1 * f64::from(number)), Some(1e-9 / f64::from(number + 1))];
+        let truth = vec![
+            force,
+            Some(-0.1 * f64::from(number)),
+            Some(1e-9 / f64::from(number + 1)),
+        ];
         let mut sample = Sample::new(format!("s{number}"))
             .with_point_id(format!("p{}", number / 20))
             .with_truth(Readings::new(truth))
@@ -70,10 +84,12 @@ pub(crate) fn skin(folder: &Path) -> Dataset {
     let info = SignalInfo::new(2, 3, 2, Unit::Microtesla).expect("a grid");
     let signals = SignalsSpec::new(info, ["x", "y"]).expect("named");
     let channels = Channels::new([Channel::FZ]).expect("distinct");
-    let spec = RecordingSpec::new(facts, channels).with_signals(signals.with_rest([[0, 2], [5, 5]]));
+    let spec =
+        RecordingSpec::new(facts, channels).with_signals(signals.with_rest([[0, 2], [5, 5]]));
     let mut recorder = Recorder::create(&path, &spec).expect("new");
     for number in 0..40_u8 {
-        let values = (0..12_u8).map(|place| (f32::from(place) - 3.3) * 10_f32.powi(i32::from(number % 9) - 5) / 3.0);
+        let values = (0..12_u8)
+            .map(|place| (f32::from(place) - 3.3) * 10_f32.powi(i32::from(number % 9) - 5) / 3.0);
         let sample = Sample::new(format!("{number}"))
             .with_truth(Readings::new(vec![Some(f64::from(number) / 3.0)]))
             .with_signals(Signals::new(info, values.collect()).expect("whole"));
@@ -119,10 +135,17 @@ pub(crate) fn imported(folder: &Path) -> Dataset {
     fs::create_dir_all(lab.join("bilder")).expect("made");
     let mut table = "file,name,force,part,kind,spacing,kleid,操作者,t\n".to_owned();
     for number in 0..12_u8 {
-        let (name, part) = (format!("нажатие {number} ✓"), ["train", "test"][usize::from(number % 2)]);
+        let (name, part) = (
+            format!("нажатие {number} ✓"),
+            ["train", "test"][usize::from(number % 2)],
+        );
         let kind = ["line", "dot", ""][usize::from(number % 3)];
         let spacing = if kind.is_empty() { "" } else { "0.35" };
-        let force = if number == 4 { String::new() } else { format!("{}.5", u32::from(number) * 100) };
+        let force = if number == 4 {
+            String::new()
+        } else {
+            format!("{}.5", u32::from(number) * 100)
+        };
         writeln!(table, "bilder/{number}.jpg,{name},{force},{part},{kind},{spacing},\"a, \"\"b\"\"\",山田 {number},{}", 1_700_000_000_000_u64 + u64::from(number))
             .expect("text");
         let picture = RgbImage::from_fn(16, 8, |x, y| {
@@ -150,8 +173,7 @@ pub(crate) fn import(source: &Path, map: &ImportMap, target: &Path) -> Dataset {
 pub(crate) fn exported(dataset: &Dataset, form: ExportForm) -> (PathBuf, ExportReport) {
     let target = dataset.path().with_extension(form.name());
     let jobs = NonZeroUsize::new(3).expect("three");
-    let report = dataset
-        .export(form, &target, (jobs, &SilentProgress))
-        .expect("exported");
+    let plan = ExportPlan::new(dataset, form).expect("samples");
+    let report = plan.run(&target, jobs, &SilentProgress).expect("exported");
     (target, report)
 }

@@ -38,12 +38,18 @@ fn python(variable: &str, (need, module): (Need, &str)) -> Option<PathBuf> {
     if imported.is_ok_and(|status| status.success()) {
         return Some(found);
     }
-    skip(need, format!("{} has no module `{module}`", found.display()));
+    skip(
+        need,
+        format!("{} has no module `{module}`", found.display()),
+    );
     None
 }
 
 fn libraries() -> Option<PathBuf> {
-    python("TACEVA_LIBRARIES", (Need::Libraries, "datasets, h5py, pandas, PIL, pyarrow"))
+    python(
+        "TACEVA_LIBRARIES",
+        (Need::Libraries, "datasets, h5py, pandas, PIL, pyarrow"),
+    )
 }
 
 /// What the library of `form` finds in `folder`.
@@ -53,12 +59,19 @@ fn read_back(python: &Path, form: &str, folder: &Path) -> ReadBack {
         .args(["-c", include_str!("read_back.py"), form])
         .arg(folder)
         // Nothing is asked of the network, and nothing is left in the home of whoever tests.
-        .envs([("HF_HUB_OFFLINE", "1"), ("HF_DATASETS_OFFLINE", "1"), ("HF_HUB_DISABLE_TELEMETRY", "1")])
+        .envs([
+            ("HF_HUB_OFFLINE", "1"),
+            ("HF_DATASETS_OFFLINE", "1"),
+            ("HF_HUB_DISABLE_TELEMETRY", "1"),
+        ])
         .env("HF_HOME", home)
         .stdin(Stdio::null())
         .output()
         .expect("the interpreter that was just tried");
-    let (said, errors) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    let (said, errors) = (
+        String::from_utf8_lossy(&output.stdout),
+        String::from_utf8_lossy(&output.stderr),
+    );
     assert!(output.status.success(), "{form}: {said}\n{errors}");
     let line = said.lines().find_map(|line| line.strip_prefix("= "));
     serde_json::from_str(line.expect("a line")).expect("JSON")
@@ -71,8 +84,13 @@ fn is_same(found: Option<&str>, expected: Option<&str>, is_single: bool) -> bool
     };
     let numbers = (found.parse::<f64>(), expected.parse::<f64>());
     match numbers {
-        #[expect(clippy::cast_possible_truncation, reason = "single precision is asked for")]
-        (Ok(found), Ok(expected)) if is_single => (found as f32).to_bits() == (expected as f32).to_bits(),
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "single precision is asked for"
+        )]
+        (Ok(found), Ok(expected)) if is_single => {
+            (found as f32).to_bits() == (expected as f32).to_bits()
+        }
         (Ok(found), Ok(expected)) => found.to_bits() == expected.to_bits(),
         _ => found == expected,
     }
@@ -88,7 +106,23 @@ fn is_read(python: &Path, dataset: &Dataset, (form, reader): (ExportForm, &str))
     };
     let read = read_back(python, reader, &folder);
     let table = dataset.table();
-    let mut names: Vec<&str> = ["sample", "point_id", "scene", "depth_step", "repeat", "phase", "limited_by", "part", "kind", "spacing_mm", "t_s", "source_table", "source_row", "source_frame"].to_vec();
+    let mut names: Vec<&str> = [
+        "sample",
+        "point_id",
+        "scene",
+        "depth_step",
+        "repeat",
+        "phase",
+        "limited_by",
+        "part",
+        "kind",
+        "spacing_mm",
+        "t_s",
+        "source_table",
+        "source_row",
+        "source_frame",
+    ]
+    .to_vec();
     names.extend(table.channels().iter().map(|channel| channel.name()));
     names.extend(table.attribute_names().iter().map(String::as_str));
     let is_single = reader == "lerobot";
@@ -98,12 +132,22 @@ fn is_read(python: &Path, dataset: &Dataset, (form, reader): (ExportForm, &str))
             continue;
         };
         let is_attribute = table.attribute(name).is_some() && form == ExportForm::LeRobot;
-        let there = if is_attribute { format!("attribute.{name}") } else { name.to_owned() };
-        let found = read.columns.get(&there).unwrap_or_else(|| panic!("{reader}: no `{there}`"));
+        let there = if is_attribute {
+            format!("attribute.{name}")
+        } else {
+            name.to_owned()
+        };
+        let found = read
+            .columns
+            .get(&there)
+            .unwrap_or_else(|| panic!("{reader}: no `{there}`"));
         assert_eq!(found.len(), expected.len(), "{reader}: {name}");
         for (row, (found, expected)) in found.iter().zip(&expected).enumerate() {
             let same = is_same(found.as_deref(), expected.as_deref(), is_single);
-            assert!(same, "{reader}: {name}, row {row}: {found:?}, expected {expected:?}");
+            assert!(
+                same,
+                "{reader}: {name}, row {row}: {found:?}, expected {expected:?}"
+            );
             compared += 1;
         }
     }
@@ -123,8 +167,14 @@ fn is_read(python: &Path, dataset: &Dataset, (form, reader): (ExportForm, &str))
         assert_eq!(read.signals.len(), table.rows(), "{reader}");
         for (row, found) in read.signals.iter().enumerate() {
             let signals = dataset.signals(row).expect("read").expect("signals");
-            #[expect(clippy::cast_possible_truncation, reason = "they are of single precision")]
-            let found: Vec<f32> = found.iter().map(|text| text.parse::<f64>().expect("a number") as f32).collect();
+            #[expect(
+                clippy::cast_possible_truncation,
+                reason = "they are of single precision"
+            )]
+            let found: Vec<f32> = found
+                .iter()
+                .map(|text| text.parse::<f64>().expect("a number") as f32)
+                .collect();
             assert_eq!(found, signals.values(), "{reader}: row {row}");
         }
     }
@@ -137,7 +187,11 @@ fn each_form_is_read_by_the_libraries_that_it_is_for() {
         return;
     };
     let folder = tempfile::tempdir().expect("a folder");
-    for dataset in [recorded(folder.path()), skin(folder.path()), imported(folder.path())] {
+    for dataset in [
+        recorded(folder.path()),
+        skin(folder.path()),
+        imported(folder.path()),
+    ] {
         is_read(&python, &dataset, (ExportForm::Csv, "csv"));
         is_read(&python, &dataset, (ExportForm::HuggingFace, "huggingface"));
         let arrays = is_read(&python, &dataset, (ExportForm::Hdf5, "hdf5"));
@@ -148,7 +202,10 @@ fn each_form_is_read_by_the_libraries_that_it_is_for() {
 
 #[test]
 fn lerobot_itself_reads_its_form_with_a_press_as_an_episode() {
-    let Some(python) = python("TACEVA_LEROBOT", (Need::Lerobot, "lerobot.datasets.lerobot_dataset")) else {
+    let Some(python) = python(
+        "TACEVA_LEROBOT",
+        (Need::Lerobot, "lerobot.datasets.lerobot_dataset"),
+    ) else {
         return;
     };
     let folder = tempfile::tempdir().expect("a folder");
@@ -156,6 +213,14 @@ fn lerobot_itself_reads_its_form_with_a_press_as_an_episode() {
     let read = is_read(&python, &dataset, (ExportForm::LeRobot, "lerobot"));
     // Two repeats of ten rows at each of 51 places and a half, and the scene ends amid one of them.
     assert_eq!(read.columns["@episodes"], [Some("103".to_owned())]);
-    is_read(&python, &skin(folder.path()), (ExportForm::LeRobot, "lerobot"));
-    is_read(&python, &imported(folder.path()), (ExportForm::LeRobot, "lerobot"));
+    is_read(
+        &python,
+        &skin(folder.path()),
+        (ExportForm::LeRobot, "lerobot"),
+    );
+    is_read(
+        &python,
+        &imported(folder.path()),
+        (ExportForm::LeRobot, "lerobot"),
+    );
 }

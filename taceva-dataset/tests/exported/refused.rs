@@ -9,7 +9,8 @@ use taceva_core::{
     SilentProgress,
 };
 use taceva_dataset::{
-    Dataset, DatasetError, ExportForm, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source,
+    Dataset, DatasetError, ExportForm, ExportPlan, Recorder, RecordingFacts, RecordingSpec,
+    SensorFacts, Source,
 };
 
 use crate::drawn::{exported, skin};
@@ -32,7 +33,8 @@ fn export(
     (form, target): (ExportForm, &Path),
     progress: &dyn Progress,
 ) -> Result<(), DatasetError> {
-    dataset.export(form, target, (NonZeroUsize::MIN, progress)).map(drop)
+    let plan = ExportPlan::new(dataset, form)?;
+    plan.run(target, NonZeroUsize::MIN, progress).map(drop)
 }
 
 fn names(folder: &Path) -> Vec<String> {
@@ -57,7 +59,10 @@ fn an_export_that_is_stopped_or_has_no_free_place_leaves_nothing_new() {
     fs::create_dir(&target).expect("made");
     for form in ExportForm::ALL {
         let taken = export(&dataset, (form, &target), &SilentProgress);
-        assert!(matches!(taken, Err(DatasetError::TargetExists { .. })), "{form:?}");
+        assert!(
+            matches!(taken, Err(DatasetError::TargetExists { .. })),
+            "{form:?}"
+        );
     }
     assert_eq!(names(&target), Vec::<String>::new());
 }
@@ -96,9 +101,16 @@ fn a_dataset_without_samples_is_refused() {
     recorder(&path).close().expect("closed");
     let dataset = Dataset::open(&path).expect("a dataset");
     for form in ExportForm::ALL {
-        let refused = export(&dataset, (form, &folder.path().join("out")), &SilentProgress);
+        let refused = export(
+            &dataset,
+            (form, &folder.path().join("out")),
+            &SilentProgress,
+        );
         let message = refused.expect_err("nothing").to_string();
-        assert!(message.ends_with("no samples: there is nothing to export"), "{message}");
+        assert!(
+            message.ends_with("no samples: there is nothing to export"),
+            "{message}"
+        );
     }
 }
 
@@ -113,19 +125,31 @@ fn samples_without_a_picture_are_kept_where_the_form_can_and_named_where_not() {
         format: PixelFormat::Gray8,
     };
     let frame = Frame::new(info, vec![7, 90]).expect("whole");
-    recorder.append(&sample("with").with_frame(frame)).expect("recorded");
+    recorder
+        .append(&sample("with").with_frame(frame))
+        .expect("recorded");
     recorder.append(&sample("without")).expect("recorded");
     recorder.close().expect("closed");
     let dataset = Dataset::open(&path).expect("a dataset");
     for form in [ExportForm::Csv, ExportForm::HuggingFace] {
         let (_, report) = exported(&dataset, form);
         assert_eq!((report.samples, report.pictures), (2, 1));
-        assert_eq!(report.left_out, ["that samples have no picture, which an import refuses"]);
+        assert_eq!(
+            report.left_out,
+            ["that samples have no picture, which an import refuses"]
+        );
     }
     for form in [ExportForm::Hdf5, ExportForm::LeRobot] {
-        let refused = export(&dataset, (form, &folder.path().join("out")), &SilentProgress);
+        let refused = export(
+            &dataset,
+            (form, &folder.path().join("out")),
+            &SilentProgress,
+        );
         let message = refused.expect_err("one is missing").to_string();
-        assert!(message.starts_with("sample `without`: no picture, and this form wants one"), "{message}");
+        assert!(
+            message.starts_with("sample `without`: no picture, and this form wants one"),
+            "{message}"
+        );
         assert!(!folder.path().join("out").exists());
     }
 }
@@ -136,13 +160,21 @@ fn texts_that_a_form_cannot_hold_are_named() {
     let path = folder.path().join("texts");
     let mut recorder = recorder(&path);
     recorder.append(&sample("a\0b")).expect("recorded");
-    recorder.append(&sample(" padded ").with_point_id("x".repeat(5000))).expect("recorded");
+    recorder
+        .append(&sample(" padded ").with_point_id("x".repeat(5000)))
+        .expect("recorded");
     recorder.close().expect("closed");
     let dataset = Dataset::open(&path).expect("a dataset");
     let target = folder.path().join("out");
     let refused = export(&dataset, (ExportForm::Hdf5, &target), &SilentProgress);
     let message = refused.expect_err("a zero").to_string();
-    assert!(message.contains("`sample` holds a NUL character"), "{message}");
+    assert!(
+        message.contains("`sample` holds a NUL character"),
+        "{message}"
+    );
     let (_, report) = exported(&dataset, ExportForm::Csv);
-    assert_eq!(report.left_out, ["blanks around texts, which an import takes off"]);
+    assert_eq!(
+        report.left_out,
+        ["blanks around texts, which an import takes off"]
+    );
 }

@@ -1,9 +1,11 @@
 //! Out and in again, by the map that the export wrote.
 
 use std::fs;
-use std::path::Path;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
 
-use taceva_dataset::{Dataset, ExportForm, ImportMap};
+use taceva_core::SilentProgress;
+use taceva_dataset::{Dataset, ExportForm, ExportPlan, ExportReport, ImportMap};
 
 use crate::drawn::{exported, import, imported, recorded, skin};
 
@@ -13,28 +15,74 @@ fn comes_back(dataset: &Dataset, form: ExportForm) -> Dataset {
     let (folder, report) = exported(dataset, form);
     assert_eq!(report.samples, dataset.table().rows() as u64);
     let map = ImportMap::read(&report.map).expect("a map");
-    let again = import(&folder, &map, &dataset.path().with_extension(format!("{}-again", form.name())));
+    let again = import(
+        &folder,
+        &map,
+        &dataset
+            .path()
+            .with_extension(format!("{}-again", form.name())),
+    );
     let (before, after) = (dataset.header(), again.header());
     assert_eq!(after.source, before.source);
     assert_eq!(after.clock, before.clock);
     assert_eq!(after.sensor, before.sensor);
     assert_eq!(after.footprint, before.footprint);
     assert_eq!(after.channels, before.channels);
-    let spec = |dataset: &Dataset| dataset.header().signals.as_ref().map(|signals| signals.spec.clone());
+    let spec = |dataset: &Dataset| {
+        dataset
+            .header()
+            .signals
+            .as_ref()
+            .map(|signals| signals.spec.clone())
+    };
     assert_eq!(spec(&again), spec(dataset));
-    let ids = ["sample", "point_id", "unit_id", "scene", "depth_step", "repeat", "phase", "limited_by", "part", "kind", "spacing_mm", "t_s", "intensity"];
+    let ids = [
+        "sample",
+        "point_id",
+        "unit_id",
+        "scene",
+        "depth_step",
+        "repeat",
+        "phase",
+        "limited_by",
+        "part",
+        "kind",
+        "spacing_mm",
+        "t_s",
+        "intensity",
+    ];
     let origin = ["source_table", "source_row", "source_frame"];
     let channels = before.channels.iter().map(|channel| channel.name());
     let attributes = before.attributes.iter().map(String::as_str);
     assert_eq!(after.attributes, before.attributes);
-    for name in ids.into_iter().chain(origin).chain(channels).chain(attributes) {
-        assert_eq!(again.table().as_text(name), dataset.table().as_text(name), "{name}");
+    for name in ids
+        .into_iter()
+        .chain(origin)
+        .chain(channels)
+        .chain(attributes)
+    {
+        assert_eq!(
+            again.table().as_text(name),
+            dataset.table().as_text(name),
+            "{name}"
+        );
     }
     for row in 0..dataset.table().rows() {
-        assert_eq!(again.frame(row).expect("read"), dataset.frame(row).expect("read"), "{row}");
-        assert_eq!(again.signals(row).expect("read"), dataset.signals(row).expect("read"), "{row}");
+        assert_eq!(
+            again.frame(row).expect("read"),
+            dataset.frame(row).expect("read"),
+            "{row}"
+        );
+        assert_eq!(
+            again.signals(row).expect("read"),
+            dataset.signals(row).expect("read"),
+            "{row}"
+        );
     }
-    assert_eq!(again.reference().expect("read"), dataset.reference().expect("read"));
+    assert_eq!(
+        again.reference().expect("read"),
+        dataset.reference().expect("read")
+    );
     again
 }
 
@@ -70,9 +118,16 @@ fn every_form_brings_an_import_back_with_where_its_rows_came_from() {
     for form in ExportForm::ALL {
         let again = comes_back(&dataset, form);
         // A table with pictures beside it keeps even their bytes.
-        assert_eq!(again.digest() == dataset.digest(), form == ExportForm::Csv, "{form:?}");
+        assert_eq!(
+            again.digest() == dataset.digest(),
+            form == ExportForm::Csv,
+            "{form:?}"
+        );
     }
-    let first = dataset.path().with_extension("csv").join("frames/0000/000000.jpg");
+    let first = dataset
+        .path()
+        .with_extension("csv")
+        .join("frames/0000/000000.jpg");
     let lab = folder.path().join("lab/bilder/0.jpg");
     assert_eq!(fs::read(first).expect("read"), fs::read(lab).expect("read"));
 }
@@ -94,14 +149,12 @@ fn the_same_dataset_gives_the_same_files() {
 }
 
 /// The same export at another place, on one thread.
-fn exported_anew(
-    dataset: &Dataset,
-    folder: &Path,
-    form: ExportForm,
-) -> (std::path::PathBuf, taceva_dataset::ExportReport) {
+fn exported_anew(dataset: &Dataset, folder: &Path, form: ExportForm) -> (PathBuf, ExportReport) {
     let target = folder.join(format!("anew-{}", form.name()));
-    let how = (std::num::NonZeroUsize::MIN, &taceva_core::SilentProgress as &dyn taceva_core::Progress);
-    let report = dataset.export(form, &target, how).expect("exported");
+    let plan = ExportPlan::new(dataset, form).expect("samples");
+    let report = plan
+        .run(&target, NonZeroUsize::MIN, &SilentProgress)
+        .expect("exported");
     (target, report)
 }
 
@@ -114,7 +167,12 @@ fn files(folder: &Path) -> Vec<String> {
             let path = entry.path();
             match path.is_dir() {
                 true => open.push(path),
-                false => found.push(path.strip_prefix(folder).expect("inside").to_string_lossy().into_owned()),
+                false => found.push(
+                    path.strip_prefix(folder)
+                        .expect("inside")
+                        .to_string_lossy()
+                        .into_owned(),
+                ),
             }
         }
     }

@@ -30,7 +30,7 @@ struct Element {
 }
 
 impl FeatureStats {
-    /// Of a feature of `length` numbers a row, of which no row was seen.
+    /// The statistics of a feature of `length` numbers a row, before its first row.
     pub fn new(length: usize) -> FeatureStats {
         let nothing = Element {
             count: 0.0,

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use serde_json::{Map, Value, json};
 
 use super::described::{describe_episodes, describe_tasks};
+use super::feature::WrittenFeature;
 use super::stats::FeatureStats;
 use crate::cell::Cell;
 use crate::error::TableError;
@@ -25,75 +26,6 @@ const OWN: [(&str, WrittenKind, &str); 5] = [
     ("index", WrittenKind::Integer, "int64"),
     ("task_index", WrittenKind::Integer, "int64"),
 ];
-
-/// A feature of a dataset that is written.
-///
-/// ```
-/// use taceva_tables::{WrittenColumn, WrittenFeature, WrittenKind};
-/// let state = WrittenColumn::new("observation.state", WrittenKind::Numbers(Some(2)));
-/// let feature = WrittenFeature::new(state, [2]).with_names(["Fx", "Fz"]).with_unit("N");
-/// assert_eq!(feature.names.as_deref(), Some(&["Fx".to_owned(), "Fz".to_owned()][..]));
-/// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct WrittenFeature {
-    /// Its name, without `/`, and what its cells are.
-    pub column: WrittenColumn,
-    /// Its shape in one row: of a picture height, width, colours.
-    pub shape: Vec<u64>,
-    /// What its elements are called, or the axes of a picture.
-    pub names: Option<Vec<String>>,
-    /// The unit of its numbers, or several in the order of its names; a key that LeRobot leaves alone.
-    pub unit: Option<String>,
-}
-
-impl WrittenFeature {
-    /// A feature of that shape, whose elements have no names. LeRobot reads a list of one number as that number, so that it is written so too.
-    pub fn new(column: WrittenColumn, shape: impl IntoIterator<Item = u64>) -> WrittenFeature {
-        WrittenFeature {
-            column,
-            shape: shape.into_iter().collect(),
-            names: None,
-            unit: None,
-        }
-    }
-
-    /// The same with names of its elements, or of the axes of a picture.
-    #[must_use]
-    pub fn with_names<N: Into<String>>(self, names: impl IntoIterator<Item = N>) -> WrittenFeature {
-        WrittenFeature {
-            names: Some(names.into_iter().map(Into::into).collect()),
-            ..self
-        }
-    }
-
-    /// The same with the unit of its numbers.
-    #[must_use]
-    pub fn with_unit(self, unit: impl Into<String>) -> WrittenFeature {
-        WrittenFeature {
-            unit: Some(unit.into()),
-            ..self
-        }
-    }
-
-    fn dtype(&self) -> &'static str {
-        match self.column.kind {
-            WrittenKind::Integer => "int64",
-            WrittenKind::Number | WrittenKind::Numbers(_) => "float64",
-            WrittenKind::Single | WrittenKind::Singles(_) => "float32",
-            WrittenKind::Text | WrittenKind::Texts => "string",
-            WrittenKind::Picture => "image",
-        }
-    }
-
-    fn json(&self) -> Value {
-        let mut feature = json!({ "dtype": self.dtype(), "shape": self.shape, "names": self.names });
-        if let Some(unit) = &self.unit {
-            feature["unit"] = unit.as_str().into();
-        }
-        feature
-    }
-}
 
 /// An episode that was written.
 #[derive(Clone, Copy, Debug)]
@@ -176,15 +108,24 @@ impl LeRobotWriter {
             problem: problem.to_owned(),
         };
         if !(rate_hz > 0.0 && rate_hz.is_finite()) {
-            return Err(refused("fps", &format!("{rate_hz}, expected a finite number above 0")));
+            return Err(refused(
+                "fps",
+                &format!("{rate_hz}, expected a finite number above 0"),
+            ));
         }
         let names = features.iter().map(|feature| feature.column.name.as_str());
         for name in names {
             if name == "task" || OWN.iter().any(|(own, ..)| *own == name) {
-                return Err(refused(name, "a column of LeRobot itself; call it otherwise"));
+                return Err(refused(
+                    name,
+                    "a column of LeRobot itself; call it otherwise",
+                ));
             }
             if name.contains('/') {
-                return Err(refused(name, "a `/` in the name of a feature, which LeRobot takes for a level; write `.`"));
+                return Err(refused(
+                    name,
+                    "a `/` in the name of a feature, which LeRobot takes for a level; write `.`",
+                ));
             }
         }
         let length = |kind: &WrittenKind| match kind {
@@ -192,9 +133,12 @@ impl LeRobotWriter {
             WrittenKind::Numbers(length) | WrittenKind::Singles(length) => *length,
             _ => None,
         };
-        let numbers = features.iter().map(|feature| (feature.column.name.as_str(), &feature.column.kind));
+        let numbers = features
+            .iter()
+            .map(|feature| (feature.column.name.as_str(), &feature.column.kind));
         let numbers = numbers.chain(OWN.iter().map(|(name, kind, _)| (*name, kind)));
-        let stats = numbers.filter_map(|(name, kind)| Some((name.to_owned(), FeatureStats::new(length(kind)?))));
+        let stats = numbers
+            .filter_map(|(name, kind)| Some((name.to_owned(), FeatureStats::new(length(kind)?))));
         let stats = stats.collect();
         Ok(LeRobotWriter {
             folder: folder.to_owned(),
@@ -252,7 +196,10 @@ impl LeRobotWriter {
             });
         };
         for (feature, cell) in self.features.iter().zip(&mut row) {
-            let is_one = matches!(feature.column.kind, WrittenKind::Number | WrittenKind::Single);
+            let is_one = matches!(
+                feature.column.kind,
+                WrittenKind::Number | WrittenKind::Single
+            );
             if let (true, Cell::List(cells)) = (is_one, &mut *cell)
                 && cells.len() == 1
             {
@@ -265,7 +212,10 @@ impl LeRobotWriter {
             row.push(Cell::Number(seconds(frame, self.rate_hz)));
             row.extend(own.map(|number| Cell::Integer(number.into())));
         }
-        let names = self.features.iter().map(|feature| feature.column.name.as_str());
+        let names = self
+            .features
+            .iter()
+            .map(|feature| feature.column.name.as_str());
         let names = names.chain(OWN.iter().map(|(name, ..)| *name));
         for (name, cell) in names.zip(&row) {
             match (self.stats.get_mut(name), cell) {
@@ -318,9 +268,15 @@ impl LeRobotWriter {
         if file == 0 {
             self.make_folder(&format!("data/chunk-{chunk:03}"))?;
         }
-        let mut columns: Vec<WrittenColumn> =
-            self.features.iter().map(|feature| feature.column.clone()).collect();
-        columns.extend(OWN.iter().map(|(name, kind, _)| WrittenColumn::new(*name, kind.clone())));
+        let mut columns: Vec<WrittenColumn> = self
+            .features
+            .iter()
+            .map(|feature| feature.column.clone())
+            .collect();
+        columns.extend(
+            OWN.iter()
+                .map(|(name, kind, _)| WrittenColumn::new(*name, kind.clone())),
+        );
         let path = format!("data/chunk-{chunk:03}/file-{file:03}.parquet");
         let features = huggingface_features(&columns);
         let metadata = [("huggingface", features.as_str())];
@@ -376,7 +332,10 @@ impl LeRobotWriter {
 }
 
 /// The time of a frame in its episode, s, as LeRobot counts it.
-#[expect(clippy::cast_precision_loss, reason = "frames of an episode are far fewer than 2^53")]
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "frames of an episode are far fewer than 2^53"
+)]
 fn seconds(frame: u64, rate_hz: f64) -> f64 {
     frame as f64 / rate_hz
 }
@@ -391,7 +350,10 @@ fn rate(rate_hz: f64) -> Value {
 }
 
 /// The number in a cell; NaN of none.
-#[expect(clippy::cast_precision_loss, reason = "what is said of a feature is rounded anyway")]
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "what is said of a feature is rounded anyway"
+)]
 fn number(cell: &Cell) -> f64 {
     match cell {
         Cell::Number(number) => *number,

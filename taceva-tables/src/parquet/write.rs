@@ -62,8 +62,15 @@ impl ParquetWriter {
         metadata: &[(&str, &str)],
     ) -> Result<ParquetWriter, TableError> {
         for (position, column) in columns.iter().enumerate() {
-            if columns[..position].iter().any(|other| other.name == column.name) {
-                return Err(mismatch(path, &column.name, "a name of two columns".to_owned()));
+            if columns[..position]
+                .iter()
+                .any(|other| other.name == column.name)
+            {
+                return Err(mismatch(
+                    path,
+                    &column.name,
+                    "a name of two columns".to_owned(),
+                ));
             }
         }
         let failed = |error| failed(path, error);
@@ -72,7 +79,8 @@ impl ParquetWriter {
         let schema = Type::group_type_builder("schema").with_fields(fields.map_err(failed)?);
         let schema = schema.build().map_err(failed)?;
         let metadata = metadata.iter();
-        let metadata = metadata.map(|(key, text)| KeyValue::new((*key).to_owned(), (*text).to_owned()));
+        let metadata =
+            metadata.map(|(key, text)| KeyValue::new((*key).to_owned(), (*text).to_owned()));
         let properties = WriterProperties::builder()
             .set_compression(Compression::SNAPPY)
             .set_created_by("taceva".to_owned())
@@ -133,7 +141,10 @@ impl ParquetWriter {
             self.write_group()?;
         }
         let path = self.path;
-        let file = self.writer.into_inner().map_err(|error| failed(&path, error))?;
+        let file = self
+            .writer
+            .into_inner()
+            .map_err(|error| failed(&path, error))?;
         file.sync_all()
             .map_err(|source| TableError::Write { path, source })
     }

@@ -89,7 +89,11 @@ impl WrittenColumn {
     }
 }
 
-fn leaf(name: &str, physical: Physical, logical: Option<LogicalType>) -> Result<Type, ParquetError> {
+fn leaf(
+    name: &str,
+    physical: Physical,
+    logical: Option<LogicalType>,
+) -> Result<Type, ParquetError> {
     Type::primitive_type_builder(name, physical)
         .with_repetition(Repetition::OPTIONAL)
         .with_logical_type(logical)
@@ -199,7 +203,9 @@ pub(super) fn write_column<W: Write + Send>(
                     _ => None,
                 };
                 // A value that is there is below two optional levels.
-                let levels = cells.iter().map(|cell| 2 * i16::from(inside(cell).is_some()));
+                let levels = cells
+                    .iter()
+                    .map(|cell| 2 * i16::from(inside(cell).is_some()));
                 let values = cells.iter().filter_map(inside).collect();
                 write::<ByteArrayType, W>(group, values, (levels.collect(), None))?;
             }
@@ -288,95 +294,5 @@ fn bytes(cell: &Cell) -> Option<ByteArray> {
         Cell::Text(text) => Some(ByteArray::from(text.as_bytes().to_vec())),
         Cell::Bytes(bytes) => Some(ByteArray::from(bytes.clone())),
         _ => None,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{ParquetTable, ParquetWriter, TableError};
-
-    /// A row of each kind of column, absent wherever `number` is a multiple of one of the numbers.
-    fn row(number: i16) -> Vec<Cell> {
-        let unless = |every: i16, cell: Cell| match number % every {
-            0 => Cell::Null,
-            _ => cell,
-        };
-        let value = f64::from(number) / 7.0;
-        let exact = f64::from(number) / 8.0;
-        let text = format!("テスト {number}");
-        let picture = vec![
-            ("bytes".to_owned(), Cell::Bytes(vec![number.to_le_bytes()[0]; 9])),
-            ("path".to_owned(), Cell::Text(text.clone())),
-        ];
-        let many = (0..number % 4).map(|_| Cell::Text(text.clone()));
-        vec![
-            unless(3, Cell::Integer(i128::from(number) << 40)),
-            unless(4, Cell::Number(value)),
-            unless(5, Cell::Number(exact)),
-            unless(6, Cell::Text(text.clone())),
-            unless(7, Cell::List(vec![unless(2, Cell::Number(value)), Cell::Number(-0.0)])),
-            unless(8, Cell::List(vec![Cell::Number(exact)])),
-            unless(9, Cell::List(many.collect())),
-            unless(10, Cell::Struct(picture)),
-        ]
-    }
-
-    fn columns() -> Vec<WrittenColumn> {
-        let kinds = [
-            WrittenKind::Integer,
-            WrittenKind::Number,
-            WrittenKind::Single,
-            WrittenKind::Text,
-            WrittenKind::Numbers(Some(2)),
-            WrittenKind::Singles(None),
-            WrittenKind::Texts,
-            WrittenKind::Picture,
-        ];
-        let named = kinds.into_iter().enumerate();
-        named
-            .map(|(at, kind)| WrittenColumn::new(format!("c{at}"), kind))
-            .collect()
-    }
-
-    #[test]
-    fn every_kind_of_cell_is_read_back_over_several_row_groups() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let path = folder.path().join("written.parquet");
-        let mut writer = ParquetWriter::create(&path, &columns(), &[("a", "ö")]).expect("new");
-        for number in 0..2500 {
-            writer.push(row(number)).expect("written");
-        }
-        assert!(writer.written_bytes() > 0, "two groups are written");
-        writer.finish().expect("whole");
-        let table = ParquetTable::open(&path).expect("a table");
-        assert_eq!((table.rows(), table.metadata("a")), (2500, Some("ö")));
-        for (at, column) in columns().iter().enumerate() {
-            let read = table.column(&column.name).expect("a column");
-            for number in 0..2500 {
-                let expected = &row(number)[at];
-                assert_eq!(&read[usize::try_from(number).expect("small")], expected, "{number}");
-            }
-        }
-    }
-
-    #[test]
-    fn what_does_not_fit_is_refused_by_its_name() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let path = folder.path().join("written.parquet");
-        let mut writer = ParquetWriter::create(&path, &columns(), &[]).expect("new");
-        let mut wrong = row(1);
-        wrong[4] = Cell::List(vec![Cell::Number(1.0)]);
-        let refused = writer.push(wrong).expect_err("one number").to_string();
-        assert!(refused.contains("`c4`: `[1]`, expected a list of 2 numbers"), "{refused}");
-        let short = writer.push(Vec::new()).expect_err("no cell").to_string();
-        assert!(short.contains("0 cells for 8 columns"), "{short}");
-        let again = ParquetWriter::create(&path, &columns(), &[]).expect_err("there");
-        assert!(matches!(again, TableError::Write { .. }), "{again}");
-        let twice = [columns(), columns()].concat();
-        let other = folder.path().join("other.parquet");
-        let refused = ParquetWriter::create(&other, &twice, &[]).expect_err("twice");
-        assert!(refused.to_string().contains("a name of two columns"), "{refused}");
-        assert!(!other.exists());
     }
 }

@@ -12,9 +12,7 @@ use super::extended::{WrittenClass, WrittenJoin, WrittenMatrix, WrittenPath};
 use super::signals::WrittenSignals;
 use super::written_frame::WrittenFrame;
 use super::written_table::WrittenTable;
-use super::{
-    ColumnMap, DropRules, IdMap, ImportMap, MatrixMap, OriginMap, Placeholder, TimeMap,
-};
+use super::{ColumnMap, DropRules, IdMap, ImportMap, MatrixMap, OriginMap, Placeholder, TimeMap};
 use crate::error::DatasetError;
 use crate::header::{Footprint, SensorFacts, Source};
 use crate::store::RecordingFacts;
