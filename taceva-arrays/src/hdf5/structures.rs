@@ -4,7 +4,7 @@ use super::lookup3::lookup3;
 use super::written_element::WrittenElement;
 
 /// Bytes of the superblock, behind which the first array begins.
-pub(super) const SUPERBLOCK_BYTES: u64 = 48;
+pub(super) const SUPERBLOCK_BYTES: usize = 48;
 /// An address that nothing has.
 pub(super) const NOWHERE: u64 = u64::MAX;
 

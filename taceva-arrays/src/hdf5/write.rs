@@ -65,14 +65,14 @@ impl Hdf5Writer {
         let begun = File::create_new(path).and_then(|file| {
             let mut file = BufWriter::new(file);
             // What a kill leaves has no signature, and nobody takes it for a whole file.
-            file.write_all(&[0; SUPERBLOCK_BYTES as usize])?;
+            file.write_all(&[0; SUPERBLOCK_BYTES])?;
             Ok(file)
         });
         let file = begun.map_err(|source| failed(path, None, Problem::io("create")(source)))?;
         Ok(Hdf5Writer {
             path: path.to_owned(),
             file,
-            at: SUPERBLOCK_BYTES,
+            at: SUPERBLOCK_BYTES as u64,
             arrays: Vec::new(),
         })
     }

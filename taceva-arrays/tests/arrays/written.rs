@@ -41,7 +41,7 @@ fn every_type_and_shape_is_read_back_with_its_attributes() {
         "日本",
         WrittenElement::Text { bytes: 6 },
         &[3],
-        "ä\0\0\0\0\u{0}日本\0\0\0\0\0\0".as_bytes(),
+        "ä\0\0\0\0日本\0\0\0\0\0\0".as_bytes(),
     );
     put("nothing", WrittenElement::F64, &[0, 4], &[]);
     let long = "x".repeat(100_000);

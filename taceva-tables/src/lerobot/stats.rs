@@ -2,7 +2,8 @@
 
 use serde_json::{Value, json};
 
-/// Least, greatest, mean and spread of each element of a feature.
+/// Least, greatest, mean and standard deviation of each element of a feature, in its unit. Policies normalise by them; they are no scores, and are rounded with each
+/// row.
 ///
 /// ```
 /// use taceva_tables::FeatureStats;

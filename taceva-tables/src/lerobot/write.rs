@@ -166,7 +166,7 @@ impl LeRobotWriter {
                 self.tasks.len() - 1
             }
         };
-        let is_full = |data: &DataFile| data.writer.written_bytes() >= FILE_MB << 20;
+        let is_full = |data: &DataFile| data.writer.size_bytes() >= FILE_MB << 20;
         if let Some(full) = self.data.take_if(|data| is_full(data)) {
             full.writer.finish()?;
             self.begin_file(full.number + 1)?;

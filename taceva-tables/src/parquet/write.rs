@@ -127,9 +127,9 @@ impl ParquetWriter {
         }
     }
 
-    /// The bytes that are in the file so far; those of rows that are in memory are not among them.
-    pub fn written_bytes(&self) -> u64 {
-        self.writer.bytes_written() as u64
+    /// About how large the file is, bytes: what it holds, and the cells in memory as they are before they are compressed.
+    pub fn size_bytes(&self) -> u64 {
+        self.writer.bytes_written() as u64 + self.held_bytes
     }
 
     /// Ends the file and waits until its bytes are on the disk; its name is not.
