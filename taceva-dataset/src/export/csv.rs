@@ -1,5 +1,6 @@
 //! A table of text, and a file a picture.
 
+use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::BufWriter;
 use std::num::NonZeroUsize;
@@ -110,6 +111,15 @@ fn write_table(
     names.extend(frames.map(|_| "frame".to_owned()));
     let signals = exported.dataset.header().signals.iter();
     names.extend(signals.flat_map(|signals| signals.spec.column_names()));
+    let mut known = BTreeSet::new();
+    if let Some(name) = names.iter().find(|name| !known.insert(name.as_str())) {
+        return Err(DatasetError::Request {
+            path: exported.dataset.path().to_owned(),
+            problem: format!(
+                "a channel or an attribute is called `{name}` as a number of a taxel is, and a table has each name once: --format huggingface keeps both"
+            ),
+        });
+    }
     writer.write_record(&names).map_err(failed)?;
     for row in 0..exported.dataset.table().rows() {
         let mut cells: Vec<String> = exported

@@ -6,11 +6,11 @@ use std::path::Path;
 
 use taceva_core::{
     Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Progress, Readings, Sample,
-    SilentProgress,
+    SignalInfo, Signals, SilentProgress, Unit,
 };
 use taceva_dataset::{
     Dataset, DatasetError, ExportForm, ExportPlan, Recorder, RecordingFacts, RecordingSpec,
-    SensorFacts, Source,
+    SensorFacts, SignalsSpec, Source,
 };
 
 use crate::drawn::{exported, skin};
@@ -177,4 +177,33 @@ fn texts_that_a_form_cannot_hold_are_named() {
         report.left_out,
         ["blanks around texts, which an import takes off"]
     );
+}
+
+#[test]
+fn a_channel_that_is_called_as_a_taxel_has_no_place_in_a_table_and_one_elsewhere() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("names");
+    let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, SensorFacts::new("skin"));
+    let info = SignalInfo::new(1, 2, 1, Unit::Count).expect("a grid");
+    let channel = Channel::named("taxel_0_1_p", Unit::Newton).expect("a name");
+    let spec = RecordingSpec::new(facts, Channels::new([channel]).expect("distinct"));
+    let signals = SignalsSpec::new(info, ["p"]).expect("named");
+    let mut recorder = Recorder::create(&path, &spec.with_signals(signals)).expect("new");
+    let signals = Signals::new(info, vec![1.0, 2.0]).expect("whole");
+    recorder
+        .append(&sample("a").with_signals(signals))
+        .expect("recorded");
+    recorder.close().expect("closed");
+    let dataset = Dataset::open(&path).expect("a dataset");
+    let target = folder.path().join("out");
+    let refused = export(&dataset, (ExportForm::Csv, &target), &SilentProgress);
+    let message = refused.expect_err("twice").to_string();
+    assert!(message.contains("is called `taxel_0_1_p`"), "{message}");
+    for form in [
+        ExportForm::HuggingFace,
+        ExportForm::Hdf5,
+        ExportForm::LeRobot,
+    ] {
+        exported(&dataset, form);
+    }
 }

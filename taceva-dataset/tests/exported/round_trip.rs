@@ -4,8 +4,8 @@ use std::fs;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use taceva_core::SilentProgress;
-use taceva_dataset::{Dataset, ExportForm, ExportPlan, ExportReport, ImportMap};
+use taceva_core::{Limit, SilentProgress};
+use taceva_dataset::{Dataset, ExportForm, ExportPlan, ExportReport, ImportMap, ImportPlan};
 
 use crate::drawn::{exported, import, imported, recorded, skin};
 
@@ -130,6 +130,29 @@ fn every_form_brings_an_import_back_with_where_its_rows_came_from() {
         .join("frames/0000/000000.jpg");
     let lab = folder.path().join("lab/bilder/0.jpg");
     assert_eq!(fs::read(first).expect("read"), fs::read(lab).expect("read"));
+}
+
+#[test]
+fn a_table_says_which_limit_ended_a_press_and_where_rows_first_came_from() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let lab = folder.path().join("lab");
+    fs::create_dir(&lab).expect("made");
+    let map = "map_version = 2\ntable = \"labels.csv\"\n[columns]\nFz = { from = \"f\", unit = \"N\" }\n[ids]\nlimited_by = \"limit\"\n\
+        [origin]\nrow = \"was\"\n[time]\nclock = \"unknown\"\n[sensor]\nmodel = \"m\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = true\n";
+    let map = ImportMap::parse("map.toml".as_ref(), map).expect("a map");
+    fs::write(lab.join("labels.csv"), "f,limit,was\n1,depth,7\n2,,\n").expect("written");
+    let dataset = import(&lab, &map, &folder.path().join("set"));
+    assert_eq!(dataset.table().limited_by(), [Some(Limit::Depth), None]);
+    assert_eq!(dataset.table().source_row(), [Some(7), None]);
+    assert_eq!(dataset.table().source_table(), [None, None]);
+    fs::write(lab.join("labels.csv"), "f,limit,was\n1,weather,7\n").expect("written");
+    let message = ImportPlan::new(&lab, &map)
+        .expect_err("no limit")
+        .to_string();
+    assert!(
+        message.ends_with("line 2, column `limit`: `weather`: expected one of `depth`, `normal-force`, `shear-force`"),
+        "{message}"
+    );
 }
 
 #[test]
