@@ -2,6 +2,8 @@
 
 mod cells;
 mod csv;
+mod exported;
+mod form;
 mod hdf5;
 mod hugging_face;
 mod lerobot;
@@ -18,52 +20,15 @@ use crate::dataset::Dataset;
 use crate::error::DatasetError;
 use crate::file::write_durable;
 use crate::staged::{Place, StagedFolder};
-use crate::table::{Cells, NamedColumn};
+use crate::table::Cells;
 
+use exported::Exported;
 use picture::Pictures;
+
+pub use form::ExportForm;
 
 /// The map in the folder of an export.
 const MAP: &str = "map.toml";
-
-/// A form that other programs read.
-///
-/// ```
-/// use taceva_dataset::ExportForm;
-///
-/// assert_eq!(ExportForm::ALL.map(ExportForm::name), ["csv", "huggingface", "hdf5", "lerobot"]);
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum ExportForm {
-    /// `labels.csv`, a row a sample, and each picture in a file of its own.
-    Csv,
-    /// Parquet whose column `image` holds the pictures, as the library `datasets` of Hugging Face reads it.
-    HuggingFace,
-    /// `recording.h5`: an array a column, the pictures as one array of pixels.
-    Hdf5,
-    /// A folder of LeRobot, version 3.0: an episode a press.
-    LeRobot,
-}
-
-impl ExportForm {
-    /// Every form.
-    pub const ALL: [ExportForm; 4] = [
-        ExportForm::Csv,
-        ExportForm::HuggingFace,
-        ExportForm::Hdf5,
-        ExportForm::LeRobot,
-    ];
-
-    /// The word for it.
-    pub const fn name(self) -> &'static str {
-        match self {
-            ExportForm::Csv => "csv",
-            ExportForm::HuggingFace => "huggingface",
-            ExportForm::Hdf5 => "hdf5",
-            ExportForm::LeRobot => "lerobot",
-        }
-    }
-}
 
 /// What was exported.
 ///
@@ -97,15 +62,6 @@ pub struct ExportReport {
     pub left_out: Vec<String>,
     /// The map that brings the export back.
     pub map: PathBuf,
-}
-
-/// What an export is made of.
-struct Exported<'a> {
-    dataset: &'a Dataset,
-    columns: Vec<NamedColumn<'a>>,
-    pictures: Option<Pictures<'a>>,
-    jobs: NonZeroUsize,
-    progress: &'a dyn Progress,
 }
 
 /// An export that can be made: the dataset has samples.
@@ -206,79 +162,6 @@ impl<'a> ExportPlan<'a> {
             left_out: exported.left_out(),
             map: target.join(MAP),
         })
-    }
-}
-
-impl Exported<'_> {
-    /// What no map says.
-    fn left_out(&self) -> Vec<String> {
-        let header = self.dataset.header();
-        let table = self.dataset.table();
-        let pictures = table.frames().iter().flatten().count();
-        let is_partly = pictures > 0 && pictures < table.rows();
-        let parts = [
-            (!header.settings.is_empty(), "the settings of the camera"),
-            (
-                !header.presses.is_empty(),
-                "how many presses ended in which way",
-            ),
-            (header.stream.is_some(), "what was lost of the stream"),
-            (
-                header
-                    .frames
-                    .as_ref()
-                    .is_some_and(|frames| frames.codec.is_some()),
-                "how the clips were coded",
-            ),
-            (
-                self.has_blanks(),
-                "blanks around texts, which an import takes off",
-            ),
-            (
-                is_partly,
-                "that samples have no picture, which an import refuses",
-            ),
-        ];
-        let left = parts.into_iter().filter(|(is_left, _)| *is_left);
-        left.map(|(_, what)| what.to_owned()).collect()
-    }
-
-    /// Whether a text has blanks around it, or is empty and there.
-    fn has_blanks(&self) -> bool {
-        let rows = self.dataset.table().rows();
-        let texts = self.columns.iter().filter(|column| column.cells.is_text());
-        texts
-            .flat_map(|column| (0..rows).filter_map(|row| column.cells.text(row)))
-            .any(|text| text.is_empty() || text.trim() != text)
-    }
-
-    /// The numbers of the taxels of a row.
-    fn signals(&self, row: usize) -> Result<Vec<f32>, DatasetError> {
-        let signals = self.dataset.signals(row)?;
-        Ok(signals.map_or_else(Vec::new, |signals| signals.values().to_vec()))
-    }
-
-    /// Writes the picture without contact beside the file of the others; returns its name, none if nobody knows one.
-    fn write_reference(&self, staged: &StagedFolder) -> Result<Option<String>, DatasetError> {
-        let picture = match &self.pictures {
-            Some(pictures) => pictures.reference()?,
-            None => None,
-        };
-        let Some(picture) = picture else {
-            return Ok(None);
-        };
-        let name = format!("reference.{}", picture.extension);
-        write_durable(&staged.path().join(&name), &picture.bytes)?;
-        Ok(Some(name))
-    }
-
-    /// One step further.
-    fn advance(&self, rows: usize) -> Result<(), DatasetError> {
-        self.progress.advance(rows as u64);
-        match self.progress.is_cancelled() {
-            true => Err(DatasetError::Cancelled),
-            false => Ok(()),
-        }
     }
 }
 

@@ -15,7 +15,7 @@ use crate::packets::JpegClip;
 
 /// Programs that decode the codecs which this process does not.
 ///
-/// There will be no third one: a codec is decoded in this process, in a confined child process, or by ffmpeg.
+/// It gets no further field: a codec is decoded in this process, in a confined child process, or by ffmpeg.
 ///
 /// ```
 /// use std::path::PathBuf;

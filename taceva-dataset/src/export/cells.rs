@@ -3,7 +3,7 @@
 use taceva_arrays::{ArrayError, Problem};
 use taceva_tables::{Cell, TableError, WrittenKind};
 
-use super::Exported;
+use super::exported::Exported;
 use super::picture::Encoded;
 use crate::error::DatasetError;
 use crate::table::Cells;

@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io::BufWriter;
 use std::num::NonZeroUsize;
 
-use super::Exported;
+use super::exported::Exported;
 use super::map::{self, Written, quoted};
 use super::picture::Encoded;
 use crate::error::DatasetError;

@@ -3,8 +3,8 @@
 use taceva_arrays::{Hdf5Writer, WrittenElement};
 use taceva_core::PixelFormat;
 
-use super::Exported;
 use super::cells::of_arrays;
+use super::exported::Exported;
 use super::map::{self, Written, quoted};
 use crate::error::DatasetError;
 use crate::staged::StagedFolder;

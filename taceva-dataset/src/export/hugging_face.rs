@@ -2,9 +2,10 @@
 
 use taceva_tables::{ParquetWriter, WrittenColumn, WrittenKind, huggingface_features};
 
+use super::cells;
 use super::cells::of_table;
+use super::exported::Exported;
 use super::map::{self, Written, quoted};
-use super::{Exported, cells};
 use crate::error::DatasetError;
 use crate::file::write_durable;
 use crate::staged::StagedFolder;

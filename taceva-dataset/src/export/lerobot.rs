@@ -11,10 +11,11 @@ use taceva_tables::{
     Cell, FeatureStats, LeRobotWriter, WrittenColumn, WrittenFeature, WrittenKind,
 };
 
+use super::cells;
 use super::cells::of_table;
+use super::exported::Exported;
 use super::map::{Written, quoted};
 use super::picture::Pictures;
-use super::{Exported, cells};
 use crate::error::DatasetError;
 use crate::staged::StagedFolder;
 use crate::table::{RESERVED, Table};

@@ -2,7 +2,8 @@
 
 use std::fmt::Write as _;
 
-use super::{ExportForm, Exported};
+use super::exported::Exported;
+use super::form::ExportForm;
 use crate::decode::ChannelOrder;
 use crate::header::{Footprint, SensorFacts};
 use crate::table::RESERVED;

@@ -2,7 +2,7 @@
 
 use taceva_core::{Frame, PixelFormat};
 
-use super::ExportForm;
+use super::form::ExportForm;
 use crate::dataset::Dataset;
 use crate::decode::{ChannelOrder, ImageKind};
 use crate::encode::encode_png;
@@ -27,7 +27,9 @@ pub(super) struct Encoded {
 
 impl<'a> Pictures<'a> {
     pub(super) fn of(dataset: &'a Dataset, form: ExportForm) -> Option<Pictures<'a>> {
-        let frames = dataset.header().frames.as_ref()?;
+        let frames = dataset.header().frames.as_ref();
+        // A picture without contact alone is none of a sample.
+        let frames = frames.filter(|frames| frames.count > 0)?;
         // Other programs take colours for red, green, blue; a map beside CSV says what they are.
         let is_turned = frames.channel_order == ChannelOrder::Bgr;
         let mut entries = dataset.table().frames().iter().flatten();

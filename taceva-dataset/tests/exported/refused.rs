@@ -155,6 +155,31 @@ fn samples_without_a_picture_are_kept_where_the_form_can_and_named_where_not() {
 }
 
 #[test]
+fn a_picture_without_contact_alone_is_named_as_left_out() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("alone");
+    let mut recorder = recorder(&path);
+    recorder.append(&sample("a")).expect("recorded");
+    let info = FrameInfo {
+        width: 2,
+        height: 1,
+        format: PixelFormat::Gray8,
+    };
+    let frame = Frame::new(info, vec![7, 90]).expect("whole");
+    recorder.append_reference(&frame).expect("recorded");
+    recorder.close().expect("closed");
+    let dataset = Dataset::open(&path).expect("a dataset");
+    for form in ExportForm::ALL {
+        let (out, report) = exported(&dataset, form);
+        let left = "the picture without contact, since no sample has one";
+        let expected = dataset.header().frames.as_ref().map(|_| left.to_owned());
+        assert_eq!(report.left_out, Vec::from_iter(expected), "{form:?}");
+        let map = fs::read_to_string(out.join("map.toml")).expect("a map");
+        assert!(!map.contains("[frame]"), "{map}");
+    }
+}
+
+#[test]
 fn texts_that_a_form_cannot_hold_are_named() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("texts");
