@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::path::PathBuf;
 
-/// A file of arrays that cannot be read, with the array that was asked for.
+/// Why a file of arrays, or an array of it, was not read or not written.
 ///
 /// ```
 /// use std::path::Path;
@@ -46,7 +46,7 @@ pub enum Problem {
         /// What the system said.
         source: std::io::Error,
     },
-    /// Bytes that the form does not allow.
+    /// Bytes that contradict the format.
     #[error("byte {at}: {found}, expected {expected}")]
     Damaged {
         /// Where, in bytes.
@@ -56,7 +56,7 @@ pub enum Problem {
         /// What should.
         expected: String,
     },
-    /// The form allows it, it is not read here.
+    /// Something that the format allows and this crate does not read, or that it does not write.
     #[error("{found}; {mend}")]
     Unsupported {
         /// What was found.

@@ -29,7 +29,7 @@ pub enum ArrayFormat {
 }
 
 impl ArrayFormat {
-    /// Each of them, in the order of the endings.
+    /// Every form.
     pub const ALL: [ArrayFormat; 6] = [
         ArrayFormat::Npy,
         ArrayFormat::Npz,

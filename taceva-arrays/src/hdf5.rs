@@ -4,8 +4,12 @@ mod attribute;
 mod element;
 mod heap;
 mod link;
+mod lookup3;
 mod soft_links;
+mod structures;
 mod walk;
+mod write;
+mod written_element;
 
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -24,6 +28,9 @@ use crate::values::ArrayData;
 
 use heap::GlobalHeap;
 use soft_links::Patches;
+
+pub use write::Hdf5Writer;
+pub use written_element::WrittenElement;
 
 /// A file of HDF5.
 #[derive(Debug)]

@@ -32,4 +32,6 @@ pub use array_file::ArrayFile;
 pub use element::{ArrayInfo, Element};
 pub use error::{ArrayError, Problem};
 pub use format::ArrayFormat;
+#[cfg(feature = "hdf5")]
+pub use hdf5::{Hdf5Writer, WrittenElement};
 pub use values::{ArrayData, ArrayValues};

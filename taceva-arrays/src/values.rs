@@ -24,7 +24,7 @@ pub struct ArrayData {
     pub values: ArrayValues,
 }
 
-/// Elements in the byte order of this machine. Numbers of 16 bits with a floating point are widened to 32, which is exact.
+/// Elements in the byte order of this machine. Floating-point numbers of 16 bits are widened to 32 bits, which is exact.
 ///
 /// ```
 /// use taceva_arrays::ArrayValues;

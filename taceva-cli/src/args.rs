@@ -16,7 +16,7 @@ use clap::{Args, Parser, Subcommand};
 
 pub(crate) use self::bench::{Bench, BenchDecode, BenchKernels, BenchModels, BenchSubject};
 pub(crate) use self::cache::{CacheCommand, CacheList, CachePrune, CacheSubject};
-pub(crate) use self::dataset::{Check, Export, ExportForm, Import, Reseal};
+pub(crate) use self::dataset::{Check, Export, Import, Reseal};
 pub(crate) use self::live::{Capture, LiveArgs, Preview};
 pub(crate) use self::model::{Evaluate, Fit, Merge, Predict, Score};
 pub(crate) use self::plugin::{

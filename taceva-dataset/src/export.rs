@@ -1,12 +1,169 @@
-//! A dataset for other programs: its table as CSV, the whole as Parquet with pictures.
+//! A dataset for other programs: its table as CSV, or the whole in a form that they read, with the map that brings it back.
 
+mod cells;
+mod csv;
+mod exported;
+mod form;
+mod hdf5;
 mod hugging_face;
+mod lerobot;
+mod map;
+mod picture;
 
 use std::io::{self, Write};
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+use taceva_core::Progress;
 
 use crate::dataset::Dataset;
+use crate::error::DatasetError;
+use crate::file::write_durable;
+use crate::staged::{Place, StagedFolder};
+use crate::table::Cells;
 
-pub use hugging_face::export_hugging_face;
+use exported::Exported;
+use picture::Pictures;
+
+pub use form::ExportForm;
+
+/// The map in the folder of an export.
+const MAP: &str = "map.toml";
+
+/// What was exported.
+///
+/// ```
+/// # use taceva_core::{Channel, Channels, Clock, Readings, Sample};
+/// # use taceva_dataset::{Dataset, ExportForm, ExportPlan, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("recording");
+/// # let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, SensorFacts::new("my gel"));
+/// # let mut recorder = Recorder::create(&path, &RecordingSpec::new(facts, Channels::new([Channel::FZ])?))?;
+/// # recorder.append(&Sample::new("0").with_truth(Readings::from_values([0.5])))?;
+/// # recorder.close()?;
+/// let dataset = Dataset::open(&path)?;
+/// let to = folder.path().join("exported");
+/// let plan = ExportPlan::new(&dataset, ExportForm::Csv)?;
+/// let report = plan.run(&to, std::num::NonZeroUsize::MIN, &taceva_core::SilentProgress)?;
+/// assert_eq!((report.samples, report.pictures), (1, 0));
+/// assert!(report.left_out.is_empty());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct ExportReport {
+    /// How many samples there are.
+    pub samples: u64,
+    /// How many of them have a picture.
+    pub pictures: u64,
+    /// How many pictures are not in the bytes that the dataset has them in; their pixels are the same.
+    pub encoded_anew: u64,
+    /// What the dataset says and the map of the export cannot, in words.
+    pub left_out: Vec<String>,
+    /// The map that brings the export back.
+    pub map: PathBuf,
+}
+
+/// An export that can be made: the dataset has samples.
+///
+/// ```
+/// # use taceva_core::{Channel, Channels, Clock, Readings, Sample};
+/// # use taceva_dataset::{Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("recording");
+/// # let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, SensorFacts::new("my gel"));
+/// # let mut recorder = Recorder::create(&path, &RecordingSpec::new(facts, Channels::new([Channel::FZ])?))?;
+/// # recorder.append(&Sample::new("0").with_truth(Readings::from_values([0.5])))?;
+/// # recorder.close()?;
+/// use std::num::NonZeroUsize;
+/// use taceva_core::SilentProgress;
+/// use taceva_dataset::{Dataset, ExportForm, ExportPlan, ImportMap, ImportPlan};
+///
+/// let dataset = Dataset::open(&path)?;
+/// let exported = folder.path().join("exported");
+/// let plan = ExportPlan::new(&dataset, ExportForm::LeRobot)?;
+/// let report = plan.run(&exported, NonZeroUsize::MIN, &SilentProgress)?;
+///
+/// let plan = ImportPlan::new(&exported, &ImportMap::read(&report.map)?)?;
+/// let again = plan.run(&folder.path().join("again"), NonZeroUsize::MIN, &SilentProgress)?;
+/// assert_eq!(again.digest, dataset.digest());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct ExportPlan<'a> {
+    dataset: &'a Dataset,
+    form: ExportForm,
+}
+
+impl<'a> ExportPlan<'a> {
+    /// An export of `dataset` in `form`.
+    ///
+    /// # Errors
+    /// [`DatasetError::Request`] if there is no sample.
+    pub fn new(dataset: &'a Dataset, form: ExportForm) -> Result<ExportPlan<'a>, DatasetError> {
+        match dataset.table().rows() {
+            0 => Err(DatasetError::Request {
+                path: dataset.path().to_owned(),
+                problem: "no samples: there is nothing to export".to_owned(),
+            }),
+            _ => Ok(ExportPlan { dataset, form }),
+        }
+    }
+
+    /// Writes the new folder `target` on `jobs` threads, and `map.toml` into it: an import of the folder by that map gives the samples, labels, times,
+    /// signals and the origin of each row again, and pictures of the same pixels. The same dataset gives the same bytes, on any number of threads.
+    ///
+    /// # Units
+    /// Each channel in the unit that the dataset keeps it in, which the map states.
+    ///
+    /// # Errors
+    /// [`DatasetError::TargetExists`]; [`DatasetError::Sample`] if the form cannot hold one as it is; [`DatasetError::Image`] and
+    /// [`DatasetError::Digest`] of a picture that is damaged; [`DatasetError::Cancelled`]; [`DatasetError::Io`]. After any of them `target` is absent.
+    pub fn run(
+        self,
+        target: &Path,
+        jobs: NonZeroUsize,
+        progress: &dyn Progress,
+    ) -> Result<ExportReport, DatasetError> {
+        let ExportPlan { dataset, form } = self;
+        let table = dataset.table();
+        let mut columns = table.columns();
+        // An import measures the brightness of each picture again.
+        columns.retain(|column| {
+            column.name != "intensity"
+                && !matches!(column.cells, Cells::FramePath(_) | Cells::FrameDigest(_))
+        });
+        let exported = Exported {
+            dataset,
+            columns,
+            pictures: Pictures::of(dataset, form),
+            jobs,
+            progress,
+        };
+        let staged = StagedFolder::create(target, Place::Free)?;
+        staged.mark()?;
+        progress.begin("export samples", Some(table.rows() as u64));
+        let written = match form {
+            ExportForm::Csv => csv::write(&exported, &staged),
+            ExportForm::HuggingFace => hugging_face::write(&exported, &staged),
+            ExportForm::Hdf5 => hdf5::write(&exported, &staged),
+            ExportForm::LeRobot => lerobot::write(&exported, &staged),
+        };
+        progress.end();
+        let (map, folders) = written?;
+        let map = map::text(&exported, form, &map);
+        write_durable(&staged.path().join(MAP), map.as_bytes())?;
+        staged.put_in_place(&folders)?;
+        let pictures = exported.pictures.as_ref();
+        Ok(ExportReport {
+            samples: table.rows() as u64,
+            pictures: pictures.map_or(0, |pictures| pictures.count()),
+            encoded_anew: pictures.map_or(0, |pictures| pictures.encoded_anew()),
+            left_out: exported.left_out(),
+            map: target.join(MAP),
+        })
+    }
+}
 
 /// Writes the labels of `dataset` as CSV: a row a sample, bare channel names, an empty cell where there is no value.
 ///
@@ -18,7 +175,7 @@ pub use hugging_face::export_hugging_face;
 pub fn export_csv(dataset: &Dataset, writer: impl Write) -> io::Result<()> {
     let table = dataset.table();
     let columns = table.columns();
-    let mut writer = csv::Writer::from_writer(writer);
+    let mut writer = ::csv::Writer::from_writer(writer);
     writer.write_record(columns.iter().map(|column| column.name))?;
     for row in 0..table.rows() {
         writer.write_record(

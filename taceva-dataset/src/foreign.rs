@@ -82,7 +82,7 @@ pub(crate) enum TableForm {
 }
 
 /// What an error says of the file at `path`, without the path: the error around it names that.
-fn said(path: &Path, error: &impl fmt::Display) -> String {
+pub(crate) fn said(path: &Path, error: &impl fmt::Display) -> String {
     let text = error.to_string();
     let rest = text.strip_prefix(&format!("{}: ", path.display()));
     rest.unwrap_or(&text).to_owned()

@@ -8,6 +8,9 @@ pub(crate) const SIGNALS: &str = "signals.parquet";
 pub(crate) const FRAMES: &str = "frames";
 pub(crate) const JOURNAL: &str = "journal";
 
+/// Stands in the folder of an export while it is written: what a kill leaves is known by it.
+pub(crate) const MARK: &str = ".taceva-export";
+
 /// Every name that stands in the folder of a dataset or of a recording.
 pub(crate) const ALL: [&str; 5] = [HEADER, SAMPLES, SIGNALS, FRAMES, JOURNAL];
 

@@ -48,7 +48,7 @@ pub use decode::ChannelOrder;
 pub use digest::{Digest, DigestError};
 pub use draft::MapDraft;
 pub use error::{DatasetError, Place};
-pub use export::{export_csv, export_hugging_face};
+pub use export::{ExportForm, ExportPlan, ExportReport, export_csv};
 pub use header::reseal_header;
 pub use header::{
     Extension, Footprint, FrameCodec, FramesInfo, Header, Known, LeftOut, ReferenceInfo,

@@ -13,7 +13,6 @@ use crate::table::Table;
 use read::read;
 use rows::assemble;
 use write::write;
-pub(crate) use write::{field, properties, units, write_column, write_values};
 
 /// The bytes of the file that holds `table`.
 pub(crate) fn to_parquet(table: &Table) -> Result<Vec<u8>, String> {

@@ -10,6 +10,7 @@ use taceva_durable::parent_of;
 use crate::error::DatasetError;
 use crate::file::make_names_durable;
 use crate::held::is_same;
+use crate::layout;
 use crate::replaced;
 use crate::text::shown;
 
@@ -84,6 +85,12 @@ impl StagedFolder {
         &self.path
     }
 
+    /// Says that whatever will be in it is ours, until it is put in place: of an export, whose names are not those of a dataset.
+    pub(crate) fn mark(&self) -> Result<(), DatasetError> {
+        let path = self.path.join(layout::MARK);
+        fs::write(&path, "").map_err(DatasetError::io("create", &path))
+    }
+
     /// Creates a folder inside.
     pub(crate) fn create_folder(&self, relative: &str) -> Result<(), DatasetError> {
         let path = self.path.join(relative);
@@ -116,7 +123,13 @@ impl StagedFolder {
         for folder in folders {
             make_names_durable(&self.path.join(folder))?;
         }
-        make_names_durable(&self.path)?;
+        let mark = self.path.join(layout::MARK);
+        match fs::remove_file(&mark) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => {
+                return Err(DatasetError::io("remove", &mark)(error));
+            }
+            _ => make_names_durable(&self.path)?,
+        }
         check_place(&self.target, self.place)?;
         let replaces = fs::symlink_metadata(&self.target).is_ok();
         let swapped = |exchanged: io::Result<bool>| {
@@ -196,7 +209,8 @@ pub(crate) fn check_place(target: &Path, place: Place) -> Result<(), DatasetErro
 
 /// Removes the folder that an interrupted import left at `path`; what was set aside and is still read gets out of the way.
 fn remove_leftover(path: &Path, target: &Path) -> Result<(), DatasetError> {
-    if let Some(stranger) = replaced::foreign_entry(path) {
+    let is_export = path.join(layout::MARK).is_file();
+    if let Some(stranger) = replaced::foreign_entry(path).filter(|_| !is_export) {
         return Err(DatasetError::Request {
             path: path.to_owned(),
             problem: format!(
@@ -250,7 +264,6 @@ pub(crate) fn lock_folder(path: &Path) -> Result<File, DatasetError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::layout;
 
     #[test]
     fn nothing_is_left_of_a_folder_that_is_not_put_in_place() {

@@ -6,13 +6,21 @@ use std::path::{Path, PathBuf};
 
 use taceva_core::shown as core_shown;
 
-/// Why a table was not read, or one of its columns.
+/// Why a table, or a column of it, was not read or not written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum TableError {
-    /// The system refused a file.
+    /// The operating system refused to open or to read a file.
     #[error("cannot read {}: {source}", core_shown(path))]
     Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The operating system refused to make or to write a file.
+    #[error("cannot write {}: {source}", core_shown(path))]
+    Write {
         /// The file.
         path: PathBuf,
         /// What the system said.
@@ -63,7 +71,7 @@ pub enum TableError {
         /// What there is.
         known: Vec<String>,
     },
-    /// A column, or a place in it, that is not what was asked for.
+    /// A column, a place in it or a cell that is not what was asked for, or a value that cannot be written.
     #[error("{}, `{}`: {}", core_shown(path), shown(name), core_shown(problem))]
     Mismatch {
         /// The file.
@@ -86,6 +94,7 @@ impl TableError {
     pub fn path(&self) -> &Path {
         match self {
             TableError::Io { path, .. }
+            | TableError::Write { path, .. }
             | TableError::Damaged { path, .. }
             | TableError::Unsupported { path, .. }
             | TableError::TooLarge { path, .. }

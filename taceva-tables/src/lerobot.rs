@@ -1,10 +1,14 @@
 //! Folders of LeRobot.
 
+mod described;
 mod episodes;
+mod feature;
 mod files;
 mod info;
 mod pattern;
+mod stats;
 mod video;
+mod write;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -19,8 +23,11 @@ use crate::parquet::{ColumnKind, ParquetTable};
 use crate::rows::check_sorted;
 use crate::source::Source;
 
+pub use self::feature::WrittenFeature;
 pub use self::info::Feature;
+pub use self::stats::FeatureStats;
 pub use self::video::VideoFrames;
+pub use self::write::LeRobotWriter;
 
 /// A dataset of LeRobot, version 2.1 or 3.0: the rows of all its data files, one after another.
 ///

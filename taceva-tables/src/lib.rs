@@ -17,7 +17,9 @@ mod unpack;
 
 pub use cell::Cell;
 pub use error::{Place, TableError};
-pub use lerobot::{Feature, LeRobot, VideoFrames};
+pub use lerobot::{Feature, FeatureStats, LeRobot, LeRobotWriter, VideoFrames, WrittenFeature};
 pub use mcap::{Mcap, McapTable, Topic};
-pub use parquet::{ColumnKind, ParquetTable};
+pub use parquet::{
+    ColumnKind, ParquetTable, ParquetWriter, WrittenColumn, WrittenKind, huggingface_features,
+};
 pub use ros::{Picture, SampleForm, Samples};

@@ -12,6 +12,8 @@ mod schema;
 mod select;
 mod stream;
 mod values;
+mod write;
+mod written;
 
 use std::path::Path;
 
@@ -27,6 +29,8 @@ use crate::limits;
 use crate::source::Source;
 
 pub use self::kind::ColumnKind;
+pub use self::write::ParquetWriter;
+pub use self::written::{WrittenColumn, WrittenKind, huggingface_features};
 
 /// Rows that are decoded at once.
 const ROWS_AT_ONCE: usize = 256;

@@ -23,17 +23,17 @@ pub struct VideoInfo {
     pub codec: String,
     /// How pixels are stored, by the names of FFmpeg, such as `yuv420p`.
     pub pixel_format: String,
-    /// Columns of every frame.
+    /// Width of every frame, pixels.
     pub width: u32,
-    /// Rows of every frame.
+    /// Height of every frame, pixels.
     pub height: u32,
     /// How many frames are presented.
     pub frames: u64,
-    /// When each is presented, where the container says so.
+    /// When each is presented, s; `None` where the container has no times.
     pub times_s: Option<Vec<f64>>,
-    /// Whether the codec loses detail; nothing where a codec can do either.
+    /// Whether the codec loses detail; `None` for a codec that has modes of both kinds.
     pub lossy: Option<bool>,
-    /// What decodes the frames, with its version where it says one; none where they are kept as they came.
+    /// What decodes the frames, with its version where it says one; `None` where frames are the packets of the clip as they are.
     pub decoder: Option<String>,
 }
 
@@ -79,7 +79,7 @@ pub enum Colours {
 #[non_exhaustive]
 pub enum Picture {
     /// A JPEG file, whatever [`Colours`] were asked for: the bytes that lie in the clip. Where these have no Huffman tables, as Motion JPEG may,
-    /// the standard ones stand in it before the scan, since nothing else could be read by others.
+    /// the standard ones stand in it before the scan: without them no other program reads it.
     Jpeg(Vec<u8>),
     /// Pixels of 8 bits a sample.
     Pixels {

@@ -190,7 +190,7 @@ pub enum VisitError<E> {
     /// The clip could not be read or decoded.
     #[error(transparent)]
     Video(#[from] VideoError),
-    /// Whoever was shown the frames wanted no more.
+    /// The caller's own error, which ended the visit.
     #[error("{0}")]
     Caller(E),
 }

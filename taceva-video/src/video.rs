@@ -13,9 +13,9 @@ use crate::h264::{H264Clip, Refusal};
 use crate::open;
 use crate::packets::JpegClip;
 
-/// Programs that decode what is not decoded here.
+/// Programs that decode the codecs which this process does not.
 ///
-/// Complete: a codec is decoded in this process, in a confined child, or by a program of others.
+/// It gets no further field: a codec is decoded in this process, in a confined child process, or by ffmpeg.
 ///
 /// ```
 /// use std::path::PathBuf;
@@ -32,7 +32,7 @@ use crate::packets::JpegClip;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Decoders {
-    /// The program ffmpeg, for everything that is not named elsewhere.
+    /// The program ffmpeg, which decodes every codec and container that nothing else here does.
     pub ffmpeg: Option<PathBuf>,
     /// A program and its arguments that runs `taceva_video::av1::serve` between its standard input and output, for AV1.
     pub av1: Option<Vec<OsString>>,
@@ -91,7 +91,7 @@ impl Video {
         &self.info
     }
 
-    /// Shows the frames of `sorted`, rising numbers from 0 in the order of presentation, to `each`, which gets every number once.
+    /// Hands the frames whose numbers are in `sorted` to `each`, with the number: strictly ascending, from 0 in the order of presentation.
     ///
     /// Nothing but what lies between the key frame before a frame and that frame is decoded. One picture is in memory at a time, and those
     /// that the codec keeps to decode the next. Threads may share the clip, each with a visit of its own.

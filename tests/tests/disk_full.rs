@@ -71,6 +71,38 @@ fn an_import_whose_files_cannot_grow_says_so_and_leaves_nothing() {
 }
 
 #[test]
+fn an_export_whose_files_cannot_grow_says_so_and_leaves_nothing() {
+    let lab = Lab::drawn(Form::Png, 6);
+    let sets = scratch();
+    let set = sets.path().join("set");
+    assert!(
+        with_small_files(1 << 20, &import(&lab, &set))
+            .status
+            .success()
+    );
+    for form in ["csv", "huggingface", "hdf5", "lerobot"] {
+        let folder = scratch();
+        let target = folder.path().join("out");
+        let mut words: Vec<PathBuf> = vec![taceva()];
+        words.extend(["export", "--quiet", "--jobs", "1", "--format", form].map(PathBuf::from));
+        words.extend([set.clone(), "--out".into(), target.clone()]);
+        let mut refusals = 0;
+        for blocks in 0..256 {
+            let output = with_small_files(blocks, &words);
+            if output.status.success() {
+                break;
+            }
+            assert_left_nothing(&output, folder.path(), "File too large");
+            refusals += 1;
+        }
+        assert!(
+            refusals >= 1 && target.join("map.toml").is_file(),
+            "{form}: {refusals}"
+        );
+    }
+}
+
+#[test]
 fn a_recording_whose_files_cannot_grow_is_resumed_where_there_is_room() {
     let recorded = Recorded::up_to(30);
     let mut refusals = 0;

@@ -10,4 +10,6 @@ mod pickle;
 mod recordings;
 mod refusals;
 mod threads;
+#[cfg(feature = "hdf5")]
+mod written;
 mod zarr;

@@ -50,24 +50,45 @@ pub(crate) struct Import {
     pub(crate) ffmpeg: Option<PathBuf>,
 }
 
-/// Other programs read what is written: `datasets.load_dataset("FOLDER")` of Hugging Face, pandas, pyarrow.
+/// Labels keep their last bit, taxels theirs, pictures their pixels, and where the form holds files of pictures, their bytes too; `map.toml` beside them brings
+/// it all back: `taceva import FOLDER --map FOLDER/map.toml --out DATASET`. What no map can say (settings of the camera, how presses ended) is named.
+///
+/// Read by: huggingface: `datasets.load_dataset("FOLDER")`; lerobot: `LeRobotDataset("me/it", root="FOLDER")`; hdf5: `h5py.File("FOLDER/recording.h5")`;
+/// csv: anything.
 #[derive(Debug, Args)]
 pub(crate) struct Export {
     /// The dataset
     pub(crate) dataset: PathBuf,
-    /// The new folder
+    /// The folder to write: a new one, there whole or not at all
     #[arg(long, value_name = "FOLDER")]
     pub(crate) out: PathBuf,
     /// In which form
-    #[arg(long, value_name = "FORM", value_enum, default_value_t = ExportForm::Huggingface)]
-    pub(crate) format: ExportForm,
+    #[arg(long, value_name = "FORM", value_enum, default_value_t = Form::Huggingface)]
+    pub(crate) format: Form,
 }
 
 /// The form of an export.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum ExportForm {
+pub(crate) enum Form {
+    /// A table, labels.csv, and a file a picture in the bytes it came in
+    Csv,
     /// Parquet with the pictures in a column, as Hugging Face writes it
     Huggingface,
+    /// One file of HDF5: an array a column with its unit, the pictures as an array of pixels
+    Hdf5,
+    /// LeRobot 3.0: an episode a press, the pictures in the tables
+    Lerobot,
+}
+
+impl From<Form> for taceva_dataset::ExportForm {
+    fn from(form: Form) -> taceva_dataset::ExportForm {
+        match form {
+            Form::Csv => taceva_dataset::ExportForm::Csv,
+            Form::Huggingface => taceva_dataset::ExportForm::HuggingFace,
+            Form::Hdf5 => taceva_dataset::ExportForm::Hdf5,
+            Form::Lerobot => taceva_dataset::ExportForm::LeRobot,
+        }
+    }
 }
 
 /// Files that decide a number or a claim are sealed: dataset.toml, results, states and models. One that was changed is refused until the edit

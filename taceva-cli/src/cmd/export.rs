@@ -1,22 +1,35 @@
 //! `taceva export`.
 
 use taceva_core::shown;
-use taceva_dataset::export_hugging_face;
+use taceva_dataset::ExportPlan;
 
 use super::{Context, open};
-use crate::args::{Export, ExportForm};
+use crate::args::Export;
 use crate::{exit, output};
 
 pub(crate) fn run(args: &Export, context: &Context) -> anyhow::Result<u8> {
     let dataset = open(&args.dataset)?;
-    match args.format {
-        ExportForm::Huggingface => export_hugging_face(&dataset, &args.out, &context.progress)?,
+    let plan = ExportPlan::new(&dataset, args.format.into())?;
+    let report = plan.run(&args.out, context.jobs, &context.progress)?;
+    for what in &report.left_out {
+        context.say(format_args!("left out: {what}"));
     }
-    if dataset.header().signals.is_some() {
-        context.say(format_args!(
-            "the numbers of taxels are not in it: signals.parquet of the dataset holds them"
-        ));
-    }
-    output::write(None, |out| writeln!(out, "wrote    {}", shown(&args.out)))?;
+    output::write(None, |out| {
+        writeln!(out, "wrote    {}", shown(&args.out))?;
+        writeln!(out, "samples  {}", report.samples)?;
+        if report.pictures > 0 {
+            let anew = match report.encoded_anew {
+                0 => "in the bytes they came in".to_owned(),
+                anew => format!("{anew} of them encoded anew, with the same pixels"),
+            };
+            writeln!(out, "pictures {}, {anew}", report.pictures)?;
+        }
+        writeln!(
+            out,
+            "again    taceva import {0} --map {1} --out DATASET",
+            shown(&args.out),
+            shown(&report.map)
+        )
+    })?;
     Ok(exit::DONE)
 }

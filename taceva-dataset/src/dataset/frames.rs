@@ -66,6 +66,12 @@ impl Dataset {
         frame.transpose()
     }
 
+    /// The bytes of the picture without contact as they were recorded, verified.
+    pub(crate) fn reference_bytes(&self) -> Result<Option<Vec<u8>>, DatasetError> {
+        let entry = self.reference_entry();
+        entry.map(|entry| self.frame_bytes(&entry)).transpose()
+    }
+
     fn read_frame(&self, entry: &FrameEntry, info: &FramesInfo) -> Result<Frame, DatasetError> {
         let path = self.path().join(&entry.path);
         let bytes = self.frame_bytes(entry)?;

@@ -15,7 +15,7 @@ use crate::error::DatasetError;
 type VisitBytes<'v> = &'v mut dyn FnMut(u64, Option<Vec<u8>>) -> Result<(), Ended<TableError>>;
 
 /// A table with columns of bytes.
-pub(super) trait ByteColumns: fmt::Debug + Send + Sync {
+pub(super) trait ByteColumns: Sized + fmt::Debug + Send + Sync {
     fn place(&self) -> &Path;
     fn count(&self) -> u64;
     fn cells(&self, name: &str) -> Result<Vec<Cell>, TableError>;
@@ -39,12 +39,20 @@ pub(super) trait ByteColumns: fmt::Debug + Send + Sync {
         }
     }
 
+    /// The cell, with nothing where the form writes that there is nothing.
+    fn present(cell: Cell) -> Cell {
+        cell
+    }
+
     /// The cells of columns as texts.
     fn texts(&self, names: &[&str]) -> Result<Vec<Vec<String>>, String> {
         let texts = |name: &&str| {
             let cells = self.cells(name);
             let cells = cells.map_err(|error| said(self.place(), &error))?;
-            Ok(cells.iter().map(|cell| cell.text().into_owned()).collect())
+            let texts = cells
+                .into_iter()
+                .map(|cell| Self::present(cell).text().into_owned());
+            Ok(texts.collect())
         };
         names.iter().map(texts).collect()
     }
@@ -52,8 +60,10 @@ pub(super) trait ByteColumns: fmt::Debug + Send + Sync {
 
 /// The readers of both forms have the same methods, but for what they call the place of the table.
 macro_rules! byte_columns {
-    ($table:ty, $place:ident) => {
+    ($table:ty, $place:ident $(, $present:item)?) => {
         impl ByteColumns for $table {
+            $($present)?
+
             fn place(&self) -> &Path {
                 self.$place()
             }
@@ -83,7 +93,18 @@ macro_rules! byte_columns {
 }
 
 byte_columns!(ParquetTable, path);
-byte_columns!(LeRobot, folder);
+byte_columns!(
+    LeRobot,
+    folder,
+    // Its library reads no null among numbers, so that NaN is the one sign of an absent one.
+    fn present(cell: Cell) -> Cell {
+        match cell {
+            Cell::Number(number) if number.is_nan() => Cell::Null,
+            Cell::List(cells) => Cell::List(cells.into_iter().map(Self::present).collect()),
+            cell => cell,
+        }
+    }
+);
 
 /// The encoded pictures in a column.
 #[derive(Debug)]

@@ -54,6 +54,25 @@ impl LeftOut {
     pub fn is_empty(&self) -> bool {
         *self == LeftOut::default()
     }
+
+    /// What this import and `other`, which added rows to it, left out together.
+    #[must_use]
+    pub(crate) fn and(mut self, other: LeftOut) -> LeftOut {
+        self.images += other.images;
+        self.columns += other.columns;
+        for (counts, added) in [
+            (&mut self.rows, other.rows),
+            (&mut self.joined_rows, other.joined_rows),
+            (&mut self.skipped_rows, other.skipped_rows),
+            (&mut self.frames, other.frames),
+            (&mut self.absent_chunks, other.absent_chunks),
+        ] {
+            for (name, count) in added {
+                add(counts, &name, count);
+            }
+        }
+        self
+    }
 }
 
 /// Adds `count` to what is counted under `name`; of many names, under the others.
@@ -74,6 +93,22 @@ fn is_zero(count: &u64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_was_left_out_before_rows_were_added_is_still_counted() {
+        let mut before = LeftOut {
+            images: 2,
+            ..LeftOut::default()
+        };
+        before.rows.insert("frame".into(), 3);
+        let mut added = before.clone();
+        added.frames.insert("clip.mp4".into(), 4);
+        let both = before.and(added);
+        assert_eq!(
+            (both.images, both.rows["frame"], both.frames["clip.mp4"]),
+            (4, 6, 4)
+        );
+    }
 
     #[test]
     fn of_many_files_the_first_are_named_and_nothing_is_lost() {

@@ -306,6 +306,7 @@ fn write_header(
             unmentioned_columns: unmentioned,
             signals,
             extended,
+            left_out: header.left_out.clone().and(plan.summary.left_out()),
             history: header.seal.history.clone(),
             ..Beside::default()
         },

@@ -33,6 +33,7 @@ pub(crate) use path_pattern::PathPattern;
 pub(crate) use signals::{SignalsFrom, SignalsMap};
 pub(crate) use written_table::converter;
 
+pub(crate) use columns::OriginMap;
 pub use columns::{ColumnMap, IdMap, TimeMap};
 pub use drop::{DropRules, Placeholder};
 pub use frames::{ArrayFrames, ArrayLayout, FrameMap, FrameNames, PixelRange, VideoFrames};
@@ -88,6 +89,8 @@ pub struct ImportMap {
     pub(crate) matrices: Vec<MatrixMap>,
     /// Where the numbers of taxels are; without it the dataset has none.
     pub(crate) signals: Option<SignalsMap>,
+    /// Where rows first came from, of a table that was exported.
+    pub(crate) origin: Option<OriginMap>,
     /// Text columns whose values are of a closed list: name, column and list.
     pub(crate) classes: BTreeMap<String, ClassMap>,
     /// Whether names of columns may be ways into cells, paths and other tables: of map version 2.
@@ -120,6 +123,7 @@ impl ImportMap {
             joins: Vec::new(),
             matrices: Vec::new(),
             signals: None,
+            origin: None,
             classes: BTreeMap::new(),
             is_extended: false,
         }

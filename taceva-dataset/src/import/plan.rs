@@ -229,7 +229,7 @@ impl<'a> Reading<'a> {
             let from = self
                 .frame_source(rows, base, name)
                 .map_err(|error| error.named_at(named_at.clone()))?;
-            if labels.source_table.is_some() {
+            if self.map.origin.is_none() && labels.source_table.is_some() {
                 labels.source_frame = Some(from.origin(self.folder.path()));
             }
             self.frames.push(PlannedFrame { from, named_at });

@@ -253,7 +253,10 @@ fn cell_of(table: &ForeignTable, row: usize, name: &str) -> Result<String, Datas
     }
     let found = packed::item(&cell, &index);
     found
-        .map(str::to_owned)
+        .map(|found| match (table, found) {
+            (ForeignTable::Columns(_), "null") => String::new(),
+            _ => found.to_owned(),
+        })
         .map_err(|problem| DatasetError::Table {
             place: table.place(row, base),
             problem,

@@ -33,12 +33,15 @@ pub(super) struct MappedTable<'a> {
     depth_step: Option<usize>,
     repeat: Option<usize>,
     phase: Option<usize>,
+    limited_by: Option<usize>,
     part: Option<usize>,
     kind: Option<usize>,
     spacing: Option<usize>,
     attributes: Vec<usize>,
     classes: Vec<usize>,
     time: Option<usize>,
+    /// The columns of the table, the row and the picture that rows first came from.
+    origin: [Option<usize>; 3],
     flags: Option<usize>,
     frame: Option<FrameCells>,
     /// The column of the frame without contact of each row.
@@ -102,6 +105,7 @@ impl<'a> MappedTable<'a> {
             depth_step: find_optional(&ids.depth_step)?,
             repeat: find_optional(&ids.repeat)?,
             phase: find_optional(&ids.phase)?,
+            limited_by: find_optional(&ids.limited_by)?,
             part: find_optional(&ids.part)?,
             kind: find_optional(&ids.kind)?,
             spacing: find_optional(&ids.spacing_mm)?,
@@ -120,6 +124,14 @@ impl<'a> MappedTable<'a> {
                 .as_ref()
                 .map(|time| find(&time.column))
                 .transpose()?,
+            origin: match &map.origin {
+                Some(origin) => [
+                    find_optional(&origin.table)?,
+                    find_optional(&origin.row)?,
+                    find_optional(&origin.frame)?,
+                ],
+                None => [None; 3],
+            },
             flags: has_flags.then(|| find(&map.drop.flag_column)).transpose()?,
             frame: map
                 .frame
@@ -156,6 +168,7 @@ impl<'a> MappedTable<'a> {
             self.depth_step,
             self.repeat,
             self.phase,
+            self.limited_by,
             self.part,
             self.kind,
             self.spacing,
@@ -254,6 +267,12 @@ impl<'a> MappedTable<'a> {
             Some(column) => text(Some(column))
                 .ok_or_else(|| self.wrong(row, column, "empty, expected the name of the sample"))?,
         };
+        let [table, of_table, frame] = self.origin;
+        let (source_table, source_row) = match (&self.map.origin, self.table.source()) {
+            (Some(_), _) => (text(table), self.count(row, of_table)?),
+            (None, Some(source)) => (Some(source.to_owned()), u32::try_from(row).ok()),
+            (None, None) => (None, None),
+        };
         Ok(Row {
             sample,
             point_id: self.point_id(row),
@@ -262,13 +281,10 @@ impl<'a> MappedTable<'a> {
             depth_step: self.count(row, self.depth_step)?,
             repeat: self.count(row, self.repeat)?,
             phase: self.phase(row)?,
-            limited_by: None,
-            source_table: self.table.source().map(str::to_owned),
-            source_row: match self.table.source() {
-                Some(_) => u32::try_from(row).ok(),
-                None => None,
-            },
-            source_frame: None,
+            limited_by: self.limited_by(row)?,
+            source_table,
+            source_row,
+            source_frame: text(frame),
             part: text(self.part),
             t_s: self.time(row)?,
             kind: self.kind(row)?,

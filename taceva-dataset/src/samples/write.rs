@@ -34,7 +34,7 @@ pub(super) fn write(table: &Table) -> Result<Vec<u8>, ParquetError> {
 }
 
 /// The unit of each channel, beside the data of a file.
-pub(crate) fn units(table: &Table) -> Vec<KeyValue> {
+fn units(table: &Table) -> Vec<KeyValue> {
     let units = table.channels().iter().map(|channel| {
         KeyValue::new(
             format!("unit.{}", channel.name()),
@@ -45,7 +45,7 @@ pub(crate) fn units(table: &Table) -> Vec<KeyValue> {
 }
 
 /// How files are written: the same table is the same bytes.
-pub(crate) fn properties(metadata: Vec<KeyValue>) -> WriterProperties {
+fn properties(metadata: Vec<KeyValue>) -> WriterProperties {
     WriterProperties::builder()
         .set_compression(Compression::SNAPPY)
         .set_created_by("taceva".to_owned())
@@ -53,7 +53,7 @@ pub(crate) fn properties(metadata: Vec<KeyValue>) -> WriterProperties {
         .build()
 }
 
-pub(crate) fn field(column: &NamedColumn<'_>) -> Result<Type, ParquetError> {
+fn field(column: &NamedColumn<'_>) -> Result<Type, ParquetError> {
     let (physical, logical) = match column.cells {
         Cells::Number(_) | Cells::Measured(_) | Cells::Spacing(_) => (PhysicalType::DOUBLE, None),
         Cells::Count(_) => (PhysicalType::INT64, None),
@@ -66,7 +66,7 @@ pub(crate) fn field(column: &NamedColumn<'_>) -> Result<Type, ParquetError> {
 }
 
 /// Writes those rows of a column.
-pub(crate) fn write_column<W: Write + Send>(
+fn write_column<W: Write + Send>(
     group: &mut SerializedRowGroupWriter<'_, W>,
     cells: &Cells<'_>,
     rows: Range<usize>,
@@ -93,7 +93,7 @@ pub(crate) fn write_column<W: Write + Send>(
 }
 
 /// Writes the next column; a value that is there is at the definition level `level`.
-pub(crate) fn write_values<T: DataType, W: Write + Send>(
+fn write_values<T: DataType, W: Write + Send>(
     group: &mut SerializedRowGroupWriter<'_, W>,
     cells: impl Iterator<Item = Option<T::T>>,
     level: i16,

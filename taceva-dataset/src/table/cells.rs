@@ -69,6 +69,11 @@ impl Cells<'_> {
         }
     }
 
+    /// Whether the cells are texts that anything may stand in.
+    pub(crate) fn is_text(&self) -> bool {
+        matches!(self, Cells::Name(_) | Cells::Text(_))
+    }
+
     /// The number in a row, of a column of numbers.
     pub(crate) fn number(&self, row: usize) -> Option<f64> {
         match self {

@@ -23,7 +23,7 @@ pub struct Feature {
     pub name: String,
     /// `video`, `image`, or the type of its numbers, such as `float32`.
     pub dtype: String,
-    /// Its shape in one row.
+    /// Lengths of its axes in one row; of pictures height, width and colours.
     pub shape: Vec<u64>,
     /// What its numbers are called, in order; empty where nothing says it.
     pub names: Vec<String>,

@@ -13,7 +13,7 @@ pub enum ServeError {
     /// The parent could not be read from or written to, or is another program.
     #[error("the parent of the decoder of AV1: {0}")]
     Parent(#[from] io::Error),
-    /// The process could not give up what it can do; nothing was decoded.
+    /// The process could not be confined; nothing was decoded.
     #[error("the decoder of AV1 cannot be confined: {0}")]
     Confinement(String),
     /// The decoder could not be made.
@@ -24,8 +24,8 @@ pub enum ServeError {
 /// Decodes AV1 for a parent that writes to `input` and reads from `output`, until it closes `input`.
 ///
 /// The whole process is confined for good before the first byte of a clip is decoded. On Linux it can then open no file, make no connection,
-/// start no process, and use no more memory than such frames take; that needs seccomp filters, on x86-64 or a 64-bit ARM. Elsewhere nothing is
-/// taken from it. It is the program's last act: call it from a command of its own.
+/// start no process, and use no more memory than frames of that size take; that needs seccomp filters, on x86-64 or a 64-bit ARM. On other
+/// systems the process keeps its rights. It is the program's last act: call it from a command of its own.
 ///
 /// # Errors
 /// [`ServeError`]; the parent sees the child end. A panic in the decoder ends the process.

@@ -42,6 +42,10 @@ pub enum Need {
     Kernel,
     /// Python with OctoPrint, whose virtual printer speaks as Marlin does.
     VirtualPrinter,
+    /// Python with the libraries that exports are for: `datasets`, h5py, pandas, Pillow, pyarrow.
+    Libraries,
+    /// Python with LeRobot and its torch, 8 GB, which nothing installs here; who has one names its interpreter in `TACEVA_LEROBOT`.
+    Lerobot,
     /// The right to make device files, which stand for cameras and scales that are not there.
     DeviceFiles,
     /// A machine without other load, on which bounds of milliseconds hold. No test can find that out: it is named in `TACEVA_REQUIRE`.
@@ -59,7 +63,7 @@ pub struct UnknownNeed(
 
 impl Need {
     /// Every need.
-    pub const ALL: [Need; 20] = [
+    pub const ALL: [Need; 22] = [
         Need::Browser,
         Need::Axe,
         Need::Latex,
@@ -77,6 +81,8 @@ impl Need {
         Need::Ffmpeg,
         Need::Kernel,
         Need::VirtualPrinter,
+        Need::Libraries,
+        Need::Lerobot,
         Need::DeviceFiles,
         Need::QuietMachine,
         Need::Example,
@@ -102,6 +108,8 @@ impl Need {
             Need::Ffmpeg => "ffmpeg",
             Need::Kernel => "kernel",
             Need::VirtualPrinter => "virtual-printer",
+            Need::Libraries => "libraries",
+            Need::Lerobot => "lerobot",
             Need::DeviceFiles => "device-files",
             Need::QuietMachine => "quiet-machine",
             Need::Example => "example",

@@ -75,12 +75,34 @@ pub struct IdMap {
     pub repeat: Option<String>,
     /// Whether the press deepens or lifts: cells are `load` or `unload`.
     pub phase: Option<String>,
+    /// The limit of the gel that ended a press: `normal-force` and the like.
+    pub limited_by: Option<String>,
     /// The part of a declared split.
     pub part: Option<String>,
     /// The relief of a grating: `line` or `dot`.
     pub kind: Option<String>,
     /// The spacing of a grating, in mm as decimal text.
     pub spacing_mm: Option<String>,
+}
+
+/// The columns that say where rows first came from. A map that has them is of a table that was exported: what they say stands in the place of
+/// where the rows lie now, and what they do not say is not known.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct OriginMap {
+    /// The table of the lab.
+    pub(crate) table: Option<String>,
+    /// The row in it, from 0.
+    pub(crate) row: Option<String>,
+    /// The picture.
+    pub(crate) frame: Option<String>,
+}
+
+impl OriginMap {
+    /// The columns that it names.
+    pub(crate) fn columns(&self) -> impl Iterator<Item = &String> {
+        [&self.table, &self.row, &self.frame].into_iter().flatten()
+    }
 }
 
 /// The column of the time.

@@ -118,6 +118,11 @@ fn each_mistake_names_its_line_and_what_is_accepted() {
             "clock = \"unix\"\ncolumn = \"t\"\nunit = \"mm\"",
             "no unit of time",
         ),
+        (
+            "[time]",
+            "[origin]\ntable = \"t\"\n[time]",
+            "`origin` as it stands here is of map version 2",
+        ),
     ] {
         let message = message(from, to);
         assert!(message.contains(expected), "{from} → {to}: {message}");

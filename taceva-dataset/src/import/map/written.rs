@@ -13,7 +13,7 @@ use super::frames::REFERENCE_ATTRIBUTE;
 use super::signals::WrittenSignals;
 use super::written_frame::WrittenFrame;
 use super::written_table::WrittenTable;
-use super::{ColumnMap, DropRules, IdMap, ImportMap, MatrixMap, Placeholder, TimeMap};
+use super::{ColumnMap, DropRules, IdMap, ImportMap, MatrixMap, OriginMap, Placeholder, TimeMap};
 use crate::error::DatasetError;
 use crate::header::{Footprint, SensorFacts, Source};
 use crate::store::RecordingFacts;
@@ -42,6 +42,7 @@ struct WrittenMap {
     #[serde(default)]
     classes: BTreeMap<String, Spanned<WrittenClass>>,
     signals: Option<Spanned<WrittenSignals>>,
+    origin: Option<Spanned<OriginMap>>,
     time: WrittenTime,
     #[serde(default)]
     drop: WrittenDrop,
@@ -132,6 +133,7 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
             .signals
             .map(|signals| check.signals(signals))
             .transpose()?,
+        origin: written.origin.map(Spanned::into_inner),
         is_extended,
         table,
         form,
@@ -180,6 +182,7 @@ impl Check<'_> {
                 written.classes.values().next().map(Spanned::span),
             ),
             ("signals", written.signals.as_ref().map(Spanned::span)),
+            ("origin", written.origin.as_ref().map(Spanned::span)),
             ("offset` or `scale", scaled.map(Spanned::span)),
         ];
         let newer = newer.into_iter().find_map(|(key, span)| Some((key, span?)));

@@ -34,6 +34,7 @@ pub(super) fn mentioned(map: &ImportMap) -> Vec<String> {
         &ids.depth_step,
         &ids.repeat,
         &ids.phase,
+        &ids.limited_by,
         &ids.part,
         &ids.kind,
         &ids.spacing_mm,
@@ -41,6 +42,8 @@ pub(super) fn mentioned(map: &ImportMap) -> Vec<String> {
     names.extend(single.into_iter().flatten().cloned());
     names.extend(ids.point_id.iter().chain(map.attributes.values()).cloned());
     names.extend(map.classes.values().map(|class| class.from.clone()));
+    let origin = map.origin.iter().flat_map(|origin| origin.columns());
+    names.extend(origin.cloned());
     names.extend(map.time.iter().map(|time| time.column.clone()));
     names.extend(
         map.matrices

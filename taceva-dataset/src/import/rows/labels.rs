@@ -1,6 +1,6 @@
 //! The labels of a row: numbers in the units that they are kept in, and texts of closed lists.
 
-use taceva_core::{GratingKind, Nanometre, Phase, is_scorable};
+use taceva_core::{GratingKind, Limit, Nanometre, Phase, is_scorable};
 
 use super::MappedTable;
 use crate::error::DatasetError;
@@ -63,6 +63,19 @@ impl MappedTable<'_> {
             name => Phase::from_name(name)
                 .map(Some)
                 .ok_or_else(|| self.wrong(row, column, "expected `load` or `unload`")),
+        }
+    }
+
+    pub(super) fn limited_by(&self, row: usize) -> Result<Option<Limit>, DatasetError> {
+        let Some(column) = self.limited_by else {
+            return Ok(None);
+        };
+        match self.table.cell(row, column) {
+            "" => Ok(None),
+            name => Limit::from_name(name).map(Some).ok_or_else(|| {
+                let known = Limit::ALL.map(Limit::name).join("`, `");
+                self.wrong(row, column, &format!("expected one of `{known}`"))
+            }),
         }
     }
 

@@ -1,0 +1,266 @@
+//! Files of HDF5 written an array after another, each in one piece: rows go to the disk as they come, what describes them stands at the end.
+//!
+//! `hdf5-pure` reads here and does not write: an array of several axes it takes from memory alone, and a recording of pictures is larger. Written is the
+//! least that the format asks: superblock 2, object headers 2 with their checksums, links in the header of the root group (HDF5 File Format
+//! Specification, version 3). Every library since 1.8 reads it.
+
+use std::fs::File;
+use std::io::{self, BufWriter, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use super::structures::{
+    Heap, NOWHERE, SUPERBLOCK_BYTES, attribute, contiguous, dataspace, header, link, superblock,
+};
+use super::written_element::WrittenElement;
+use crate::error::{ArrayError, Problem};
+
+/// The longest text of an attribute, bytes.
+const TEXT_BYTES: usize = 1 << 20;
+
+/// A file of HDF5 while it is written.
+///
+/// ```
+/// use taceva_arrays::{ArrayFile, ArrayFormat, ArrayValues, Hdf5Writer, WrittenElement};
+///
+/// # let path = std::env::temp_dir().join(format!("taceva-written-{}.h5", std::process::id()));
+/// let mut writer = Hdf5Writer::create(&path)?;
+/// writer.begin("force", WrittenElement::F32, &[2, 3], &[("unit", "N")])?;
+/// for row in [[0.0_f32, 0.5, 2.0], [0.25, 0.5, 2.5]] {
+///     writer.write(&row.map(f32::to_le_bytes).concat())?;
+/// }
+/// writer.finish(&[("made by", "an example")])?;
+///
+/// let file = ArrayFile::open(&path, ArrayFormat::Hdf5)?;
+/// assert_eq!(file.read("force", 1..2)?.values, ArrayValues::F32(vec![0.25, 0.5, 2.5]));
+/// assert_eq!(file.attribute("force", "unit").as_deref(), Some("N"));
+/// # std::fs::remove_file(&path).ok();
+/// # Ok::<(), taceva_arrays::ArrayError>(())
+/// ```
+#[derive(Debug)]
+pub struct Hdf5Writer {
+    path: PathBuf,
+    file: BufWriter<File>,
+    at: u64,
+    /// The arrays that are written, the last one perhaps in part.
+    arrays: Vec<Written>,
+}
+
+/// An array of the file.
+#[derive(Debug)]
+struct Written {
+    name: String,
+    element: WrittenElement,
+    shape: Vec<u64>,
+    attributes: Vec<(String, String)>,
+    at: u64,
+    bytes: u64,
+}
+
+impl Hdf5Writer {
+    /// Begins the new file at `path`.
+    ///
+    /// # Errors
+    /// [`Problem::Io`] if it is there already, or cannot be made.
+    pub fn create(path: &Path) -> Result<Hdf5Writer, ArrayError> {
+        let begun = File::create_new(path).and_then(|file| {
+            let mut file = BufWriter::new(file);
+            // What a kill leaves has no signature, and nobody takes it for a whole file.
+            file.write_all(&[0; SUPERBLOCK_BYTES])?;
+            Ok(file)
+        });
+        let file = begun.map_err(|source| failed(path, None, Problem::io("create")(source)))?;
+        Ok(Hdf5Writer {
+            path: path.to_owned(),
+            file,
+            at: SUPERBLOCK_BYTES as u64,
+            arrays: Vec::new(),
+        })
+    }
+
+    /// Begins the array called `name`, with texts as its attributes; the one before has ended.
+    ///
+    /// # Errors
+    /// [`Problem::Damaged`] if the array before has not all of its bytes; [`Problem::Unsupported`] of a name that is empty, taken or has `/`, of a
+    /// shape beyond 64 bits, and of an attribute above 1 MiB; [`Problem::Io`].
+    pub fn begin(
+        &mut self,
+        name: &str,
+        element: WrittenElement,
+        shape: &[u64],
+        attributes: &[(&str, &str)],
+    ) -> Result<(), ArrayError> {
+        self.check_whole()?;
+        let unsupported = |found: &str, mend: &str| {
+            failed(&self.path, Some(name), Problem::unsupported(found, mend))
+        };
+        let is_taken = self.arrays.iter().any(|array| array.name == name);
+        if name.is_empty() || name.len() > 255 || name.contains(['/', '\0']) || is_taken {
+            return Err(unsupported(
+                "a name that an array cannot have here",
+                "write up to 255 bytes without `/`, each once",
+            ));
+        }
+        let bytes = shape
+            .iter()
+            .try_fold(u64::from(element.bytes()), |bytes, side| {
+                bytes.checked_mul(*side)
+            });
+        let bytes =
+            bytes.ok_or_else(|| unsupported("a shape beyond 64 bits", "write fewer rows"))?;
+        if attributes
+            .iter()
+            .any(|(key, text)| key.len() > 255 || text.len() > TEXT_BYTES)
+        {
+            return Err(unsupported(
+                "an attribute longer than 1 MiB",
+                "write an array of texts",
+            ));
+        }
+        // Elements lie where their size divides the place.
+        let padded = self.pad();
+        padded.map_err(|source| failed(&self.path, Some(name), Problem::io("write")(source)))?;
+        self.arrays.push(Written {
+            name: name.to_owned(),
+            element,
+            shape: shape.to_vec(),
+            attributes: owned(attributes),
+            at: self.at,
+            bytes,
+        });
+        Ok(())
+    }
+
+    /// Writes the next elements of the array that was begun last, little endian and the last axis fastest.
+    ///
+    /// # Errors
+    /// [`Problem::Damaged`] if they are more than its shape says; [`Problem::Io`].
+    pub fn write(&mut self, bytes: &[u8]) -> Result<(), ArrayError> {
+        let left = self.left();
+        if bytes.len() as u64 > left {
+            return Err(self.not_all(left as i128 - bytes.len() as i128));
+        }
+        let written = self.file.write_all(bytes);
+        written.map_err(|source| failed(&self.path, None, Problem::io("write")(source)))?;
+        self.at += bytes.len() as u64;
+        Ok(())
+    }
+
+    /// Ends the file, with texts as attributes of its root, and waits until its bytes are on the disk; its name is not.
+    ///
+    /// # Errors
+    /// [`Problem::Damaged`] if the last array has not all of its bytes; [`Problem::Io`].
+    pub fn finish(mut self, attributes: &[(&str, &str)]) -> Result<(), ArrayError> {
+        self.check_whole()?;
+        let path = self.path.clone();
+        let ended = self.end(&owned(attributes));
+        ended.map_err(|source| failed(&path, None, Problem::io("write")(source)))
+    }
+
+    fn end(&mut self, attributes: &[(String, String)]) -> io::Result<()> {
+        let arrays = std::mem::take(&mut self.arrays);
+        self.pad()?;
+        let heap_at = self.at;
+        let mut heap = Heap::default();
+        let mut texts = |attributes: &[(String, String)]| -> Vec<(u8, Vec<u8>)> {
+            let each = attributes.iter();
+            each.map(|(key, text)| attribute(key, text.len(), (heap_at, heap.add(text))))
+                .collect()
+        };
+        let of_arrays: Vec<Vec<(u8, Vec<u8>)>> = arrays
+            .iter()
+            .map(|array| texts(&array.attributes))
+            .collect();
+        let of_root = texts(attributes);
+        if heap.count > 0 {
+            self.put(&heap.collection())?;
+        }
+        let mut root = vec![
+            // Link info: links are here and in no heap. Group info: nothing unusual.
+            (
+                0x02,
+                [&[0, 0][..], &NOWHERE.to_le_bytes(), &NOWHERE.to_le_bytes()].concat(),
+            ),
+            (0x0a, vec![0, 0]),
+        ];
+        for (array, attributes) in arrays.iter().zip(of_arrays) {
+            let mut messages = vec![
+                (0x01, dataspace(&array.shape)),
+                (0x03, array.element.message()),
+                // The fill value: late allocation, written if it is set, which it is not.
+                (0x05, vec![3, 0x0a]),
+                (0x08, contiguous(array.at, array.bytes)),
+            ];
+            messages.extend(attributes);
+            let at = self.at;
+            self.put(&header(&messages))?;
+            root.push((0x06, link(&array.name, at)));
+        }
+        root.extend(of_root);
+        let at = self.at;
+        self.put(&header(&root))?;
+        let superblock = superblock(self.at, at);
+        self.file.flush()?;
+        let file = self.file.get_mut();
+        // All but the beginning is on the disk before the beginning says that there is a file.
+        file.sync_all()?;
+        file.seek(SeekFrom::Start(0))?;
+        file.write_all(&superblock)?;
+        file.sync_all()
+    }
+
+    /// Goes on where eight divides the place.
+    fn pad(&mut self) -> io::Result<()> {
+        let padding = usize::try_from(self.at.next_multiple_of(8) - self.at).unwrap_or(0);
+        self.put(&[0; 8][..padding])
+    }
+
+    fn put(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.file.write_all(bytes)?;
+        self.at += bytes.len() as u64;
+        Ok(())
+    }
+
+    /// Bytes that the last array does not have yet.
+    fn left(&self) -> u64 {
+        self.arrays
+            .last()
+            .map_or(0, |array| array.at + array.bytes - self.at)
+    }
+
+    fn check_whole(&self) -> Result<(), ArrayError> {
+        match self.left() {
+            0 => Ok(()),
+            left => Err(self.not_all(left.into())),
+        }
+    }
+
+    /// That the last array has so many bytes too few, or too many.
+    fn not_all(&self, missing: i128) -> ArrayError {
+        let array = self.arrays.last();
+        let whole = array.map_or(0, |array| array.bytes);
+        let given = i128::from(whole) - missing;
+        failed(
+            &self.path,
+            array.map(|array| array.name.as_str()),
+            Problem::damaged(
+                0,
+                format!("{given} bytes given"),
+                format!("{whole}, as its shape and type say"),
+            ),
+        )
+    }
+}
+
+fn owned(attributes: &[(&str, &str)]) -> Vec<(String, String)> {
+    let each = attributes.iter();
+    each.map(|(key, text)| ((*key).to_owned(), (*text).to_owned()))
+        .collect()
+}
+
+fn failed(path: &Path, array: Option<&str>, problem: Problem) -> ArrayError {
+    ArrayError {
+        path: path.to_owned(),
+        array: array.map(str::to_owned),
+        problem,
+    }
+}

@@ -1,0 +1,67 @@
+//! The types of the elements that are written.
+
+/// What the elements of a written array are, little endian.
+///
+/// ```
+/// use taceva_arrays::WrittenElement;
+/// assert_eq!(WrittenElement::Text { bytes: 12 }.bytes(), 12);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum WrittenElement {
+    /// Whole numbers from 0, of 8 bits.
+    U8,
+    /// Whole numbers from 0, of 16 bits.
+    U16,
+    /// Whole numbers with a sign, of 64 bits.
+    I64,
+    /// Numbers of single precision.
+    F32,
+    /// Numbers of double precision; NaN where there is none.
+    F64,
+    /// Texts in UTF-8 of at most so many bytes, zeros behind shorter ones.
+    Text {
+        /// How many, at least 1.
+        bytes: u32,
+    },
+}
+
+impl WrittenElement {
+    /// Bytes of one element.
+    pub const fn bytes(self) -> u32 {
+        match self {
+            WrittenElement::U8 => 1,
+            WrittenElement::U16 => 2,
+            WrittenElement::F32 => 4,
+            WrittenElement::I64 | WrittenElement::F64 => 8,
+            WrittenElement::Text { bytes } => bytes,
+        }
+    }
+
+    /// The message of the type.
+    pub(super) fn message(self) -> Vec<u8> {
+        let size = self.bytes();
+        let bits = u16::try_from(size.saturating_mul(8)).unwrap_or(u16::MAX);
+        let mut message = Vec::new();
+        let mut put = |class: u8, of_class: [u8; 3], rest: &[u8]| {
+            // The version of the message, 1, stands above the class.
+            message.push(0x10 | class);
+            message.extend(of_class);
+            message.extend(size.to_le_bytes());
+            message.extend(rest);
+        };
+        let [low, high] = bits.to_le_bytes();
+        let whole = [0, 0, low, high];
+        // Bit offset and precision, place and width of exponent and mantissa, and the bias of the exponent.
+        let single = [0, 0, low, high, 23, 8, 0, 23, 127, 0, 0, 0];
+        let double = [0, 0, low, high, 52, 11, 0, 52, 0xff, 0x03, 0, 0];
+        match self {
+            WrittenElement::U8 | WrittenElement::U16 => put(0, [0, 0, 0], &whole),
+            WrittenElement::I64 => put(0, [0x08, 0, 0], &whole),
+            WrittenElement::F32 => put(1, [0x20, 31, 0], &single),
+            WrittenElement::F64 => put(1, [0x20, 63, 0], &double),
+            WrittenElement::Text { .. } => put(3, [0x11, 0, 0], &[]),
+        }
+        message
+    }
+}

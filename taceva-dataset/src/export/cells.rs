@@ -1,0 +1,91 @@
+//! Columns of a dataset as the cells of another program's table.
+
+use taceva_arrays::{ArrayError, Problem};
+use taceva_tables::{Cell, TableError, WrittenKind};
+
+use super::exported::Exported;
+use super::picture::Encoded;
+use crate::error::DatasetError;
+use crate::table::Cells;
+
+/// What the cells of a column are there.
+pub(super) fn kind(cells: &Cells<'_>) -> WrittenKind {
+    match cells {
+        Cells::Number(_) | Cells::Measured(_) | Cells::Spacing(_) => WrittenKind::Number,
+        Cells::Count(_) => WrittenKind::Integer,
+        _ => WrittenKind::Text,
+    }
+}
+
+/// The cell of a row.
+pub(super) fn cell(cells: &Cells<'_>, row: usize) -> Cell {
+    let found = match cells {
+        Cells::Number(_) | Cells::Measured(_) | Cells::Spacing(_) => {
+            cells.number(row).map(Cell::Number)
+        }
+        Cells::Count(counts) => counts[row].map(|count| Cell::Integer(count.into())),
+        _ => cells.text(row).map(Cell::Text),
+    };
+    found.unwrap_or(Cell::Null)
+}
+
+/// The picture of the sample called `sample`; null of none.
+pub(super) fn picture(picture: Option<Encoded>, sample: &str) -> Cell {
+    let Some(Encoded { bytes, extension }) = picture else {
+        return Cell::Null;
+    };
+    let path = Cell::Text(format!("{sample}.{extension}"));
+    Cell::Struct(vec![
+        ("bytes".to_owned(), Cell::Bytes(bytes)),
+        ("path".to_owned(), path),
+    ])
+}
+
+impl Exported<'_> {
+    /// The numbers of the taxels of a row as a list.
+    pub(super) fn signals_cell(&self, row: usize) -> Result<Cell, DatasetError> {
+        let numbers = self.signals(row)?.into_iter();
+        Ok(Cell::List(
+            numbers.map(|number| Cell::Number(number.into())).collect(),
+        ))
+    }
+
+    /// `name`, or that with `_` behind it while a column is called so.
+    pub(super) fn free_name(&self, name: &str) -> String {
+        let mut free = name.to_owned();
+        while self.columns.iter().any(|column| column.name == free) {
+            free.push('_');
+        }
+        free
+    }
+}
+
+/// What went wrong while a table was written.
+pub(super) fn of_table(error: TableError) -> DatasetError {
+    match error {
+        TableError::Write { path, source } => DatasetError::Io {
+            doing: "write",
+            path,
+            source,
+        },
+        other => DatasetError::Damaged {
+            path: other.path().to_owned(),
+            problem: crate::foreign::said(other.path(), &other),
+        },
+    }
+}
+
+/// What went wrong while arrays were written.
+pub(super) fn of_arrays(error: ArrayError) -> DatasetError {
+    match error.problem {
+        Problem::Io { doing, source } => DatasetError::Io {
+            doing,
+            path: error.path,
+            source,
+        },
+        _ => DatasetError::Damaged {
+            problem: crate::foreign::said(&error.path, &error),
+            path: error.path,
+        },
+    }
+}

@@ -1,0 +1,156 @@
+//! A table of text, and a file a picture.
+
+use std::collections::BTreeSet;
+use std::fs::File;
+use std::io::BufWriter;
+use std::num::NonZeroUsize;
+
+use super::exported::Exported;
+use super::map::{self, Written, quoted};
+use super::picture::Encoded;
+use crate::error::DatasetError;
+use crate::file::write_durable;
+use crate::layout;
+use crate::parallel::ordered_map;
+use crate::staged::StagedFolder;
+
+/// The table, whose rows are as those of the dataset.
+const TABLE: &str = "labels.csv";
+/// Pictures written at a time by each job: most of it is waiting until the disk has them.
+const PICTURES_A_JOB: NonZeroUsize = NonZeroUsize::new(4).expect("four");
+
+pub(super) fn write(
+    exported: &Exported<'_>,
+    staged: &StagedFolder,
+) -> Result<(Written, Vec<String>), DatasetError> {
+    let rows = exported.dataset.table().rows();
+    let mut folders = Vec::new();
+    let mut frames = None;
+    let mut reference = None;
+    if let Some(pictures) = &exported.pictures {
+        folders.push(layout::FRAMES.to_owned());
+        folders.extend(layout::frame_folders(0..rows));
+        for folder in &folders {
+            staged.create_folder(folder)?;
+        }
+        frames = Some(write_pictures(exported, staged)?);
+        reference = match pictures.reference()? {
+            Some(picture) => Some(put(
+                staged,
+                layout::reference_path(picture.extension),
+                &picture,
+            )?),
+            None => None,
+        };
+    }
+    write_table(exported, staged, frames.as_deref())?;
+    let signals = exported.dataset.header().signals.as_ref();
+    let written = Written {
+        table: quoted(TABLE),
+        frame: frames.map(|_| "column = \"frame\"".to_owned()),
+        reference,
+        signals: signals.map(|signals| {
+            let names: Vec<String> = signals
+                .spec
+                .column_names()
+                .map(|name| quoted(&name))
+                .collect();
+            format!("[{}]", names.join(", "))
+        }),
+        names: map::bare,
+        channels: map::bare_channels(exported),
+    };
+    Ok((written, folders))
+}
+
+/// Writes a file a picture; returns their names, empty where a row has none.
+fn write_pictures(
+    exported: &Exported<'_>,
+    staged: &StagedFolder,
+) -> Result<Vec<String>, DatasetError> {
+    let Some(pictures) = &exported.pictures else {
+        return Ok(Vec::new());
+    };
+    let mut names = Vec::new();
+    let jobs = exported.jobs.saturating_mul(PICTURES_A_JOB);
+    let work = |row: usize| match pictures.encoded(row)? {
+        Some(picture) => put(staged, layout::frame_path(row, picture.extension), &picture),
+        None => Ok(String::new()),
+    };
+    ordered_map(
+        exported.dataset.table().rows(),
+        jobs,
+        work,
+        |_, name: Result<String, DatasetError>| {
+            names.push(name?);
+            exported.advance(1)
+        },
+    )?;
+    Ok(names)
+}
+
+fn put(staged: &StagedFolder, name: String, picture: &Encoded) -> Result<String, DatasetError> {
+    write_durable(&staged.path().join(&name), &picture.bytes)?;
+    Ok(name)
+}
+
+fn write_table(
+    exported: &Exported<'_>,
+    staged: &StagedFolder,
+    frames: Option<&[String]>,
+) -> Result<(), DatasetError> {
+    let path = staged.path().join(TABLE);
+    let failed = |error: csv::Error| DatasetError::io("write", &path)(error.into());
+    let file = File::create_new(&path).map_err(DatasetError::io("create", &path))?;
+    let mut writer = csv::Writer::from_writer(BufWriter::new(file));
+    let mut names: Vec<String> = exported
+        .columns
+        .iter()
+        .map(|column| column.name.to_owned())
+        .collect();
+    names.extend(frames.map(|_| "frame".to_owned()));
+    let signals = exported.dataset.header().signals.iter();
+    names.extend(signals.flat_map(|signals| signals.spec.column_names()));
+    let mut known = BTreeSet::new();
+    if let Some(name) = names.iter().find(|name| !known.insert(name.as_str())) {
+        return Err(DatasetError::Request {
+            path: exported.dataset.path().to_owned(),
+            problem: format!(
+                "a channel or an attribute is called `{name}` as a number of a taxel is, and a table has each name once: --format huggingface keeps both"
+            ),
+        });
+    }
+    writer.write_record(&names).map_err(failed)?;
+    for row in 0..exported.dataset.table().rows() {
+        let mut cells: Vec<String> = exported
+            .columns
+            .iter()
+            .map(|column| column.cells.text(row).unwrap_or_default())
+            .collect();
+        cells.extend(frames.map(|frames| frames[row].clone()));
+        cells.extend(exported.signals(row)?.into_iter().map(single));
+        writer.write_record(&cells).map_err(failed)?;
+        if frames.is_none() {
+            exported.advance(1)?;
+        }
+    }
+    let file = writer.into_inner().map_err(|error| error.into_error());
+    let file = file.map_err(DatasetError::io("write", &path))?;
+    let file = file.into_inner().map_err(|error| error.into_error());
+    file.and_then(|file| file.sync_all())
+        .map_err(DatasetError::io("make durable", &path))
+}
+
+/// The shortest text that gives the same number of single precision to whoever reads it in double precision and then rounds.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "that this rounding gives the number is what is looked at"
+)]
+fn single(value: f32) -> String {
+    let text = format!("{value:?}");
+    let back = text.parse::<f64>().map(|wide| (wide as f32).to_bits());
+    match back == Ok(value.to_bits()) {
+        true => text,
+        false => format!("{:?}", f64::from(value)),
+    }
+}

@@ -1,0 +1,101 @@
+//! What every form of an export is made of.
+
+use std::num::NonZeroUsize;
+
+use taceva_core::Progress;
+
+use super::picture::Pictures;
+use crate::dataset::Dataset;
+use crate::error::DatasetError;
+use crate::file::write_durable;
+use crate::staged::StagedFolder;
+use crate::table::NamedColumn;
+
+/// What an export is made of.
+pub(super) struct Exported<'a> {
+    pub(super) dataset: &'a Dataset,
+    pub(super) columns: Vec<NamedColumn<'a>>,
+    pub(super) pictures: Option<Pictures<'a>>,
+    pub(super) jobs: NonZeroUsize,
+    pub(super) progress: &'a dyn Progress,
+}
+
+impl Exported<'_> {
+    /// What no map says.
+    pub(super) fn left_out(&self) -> Vec<String> {
+        let header = self.dataset.header();
+        let table = self.dataset.table();
+        let pictures = table.frames().iter().flatten().count();
+        let is_partly = pictures > 0 && pictures < table.rows();
+        let parts = [
+            (!header.settings.is_empty(), "the settings of the camera"),
+            (
+                !header.presses.is_empty(),
+                "how many presses ended in which way",
+            ),
+            (header.stream.is_some(), "what was lost of the stream"),
+            (
+                header
+                    .frames
+                    .as_ref()
+                    .is_some_and(|frames| frames.codec.is_some()),
+                "how the clips were coded",
+            ),
+            (
+                pictures == 0 && header.frames.is_some(),
+                "the picture without contact, since no sample has one",
+            ),
+            (
+                self.has_blanks(),
+                "blanks around texts, which an import takes off",
+            ),
+            (
+                is_partly,
+                "that samples have no picture, which an import refuses",
+            ),
+        ];
+        let left = parts.into_iter().filter(|(is_left, _)| *is_left);
+        left.map(|(_, what)| what.to_owned()).collect()
+    }
+
+    /// Whether a text has blanks around it, or is empty and there.
+    fn has_blanks(&self) -> bool {
+        let rows = self.dataset.table().rows();
+        let texts = self.columns.iter().filter(|column| column.cells.is_text());
+        texts
+            .flat_map(|column| (0..rows).filter_map(|row| column.cells.text(row)))
+            .any(|text| text.is_empty() || text.trim() != text)
+    }
+
+    /// The numbers of the taxels of a row.
+    pub(super) fn signals(&self, row: usize) -> Result<Vec<f32>, DatasetError> {
+        let signals = self.dataset.signals(row)?;
+        Ok(signals.map_or_else(Vec::new, |signals| signals.values().to_vec()))
+    }
+
+    /// Writes the picture without contact beside the file of the others; returns its name, none if nobody knows one.
+    pub(super) fn write_reference(
+        &self,
+        staged: &StagedFolder,
+    ) -> Result<Option<String>, DatasetError> {
+        let picture = match &self.pictures {
+            Some(pictures) => pictures.reference()?,
+            None => None,
+        };
+        let Some(picture) = picture else {
+            return Ok(None);
+        };
+        let name = format!("reference.{}", picture.extension);
+        write_durable(&staged.path().join(&name), &picture.bytes)?;
+        Ok(Some(name))
+    }
+
+    /// One step further.
+    pub(super) fn advance(&self, rows: usize) -> Result<(), DatasetError> {
+        self.progress.advance(rows as u64);
+        match self.progress.is_cancelled() {
+            true => Err(DatasetError::Cancelled),
+            false => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,191 @@
+//! A folder of LeRobot, version 3.0, with the pictures in its tables.
+//!
+//! An episode is a press: rows that follow one another and share sensor unit, scene, contact location and repeat. LeRobot takes the rows of an episode
+//! for frames that follow one another in time, which those of a contact location need not be: its repeats may lie hours apart, in between others. And
+//! since episodes are runs of rows, rows keep their order.
+
+use std::collections::BTreeMap;
+
+use taceva_core::Frame;
+use taceva_tables::{
+    Cell, FeatureStats, LeRobotWriter, WrittenColumn, WrittenFeature, WrittenKind,
+};
+
+use super::cells;
+use super::cells::of_table;
+use super::exported::Exported;
+use super::map::{Written, quoted};
+use super::picture::Pictures;
+use crate::error::DatasetError;
+use crate::staged::StagedFolder;
+use crate::table::{RESERVED, Table};
+
+const STATE: &str = "observation.state";
+const TAXELS: &str = "observation.tactile";
+const PICTURE: &str = "observation.images.gel";
+/// Pictures that say what all are like; LeRobot itself looks at about as many.
+const LOOKED_AT: usize = 100;
+
+pub(super) fn write(
+    exported: &Exported<'_>,
+    staged: &StagedFolder,
+) -> Result<(Written, Vec<String>), DatasetError> {
+    let dataset = exported.dataset;
+    let (header, table) = (dataset.header(), dataset.table());
+    let model = header.sensor.model.as_str();
+    let rate_hz = rate_hz(table);
+    let mut writer = LeRobotWriter::create(staged.path(), model, rate_hz, features(exported))
+        .map_err(of_table)?;
+    let task = format!("press {model}");
+    let mut stats = exported
+        .pictures
+        .as_ref()
+        .map(|pictures| FeatureStats::new(pictures.colours()));
+    let looked_at = table.rows().div_ceil(LOOKED_AT);
+    for row in 0..table.rows() {
+        if row == 0 || !is_same_press(table, row - 1, row) {
+            writer.begin_episode(&task).map_err(of_table)?;
+        }
+        writer.push(cells_of(exported, row)?).map_err(of_table)?;
+        if let (Some(stats), Some(pictures)) = (&mut stats, &exported.pictures)
+            && row % looked_at == 0
+        {
+            add_picture(stats, &pictures.frame(row)?);
+        }
+        exported.advance(1)?;
+    }
+    let stats = stats.map(|stats| (PICTURE.to_owned(), stats));
+    let stats: BTreeMap<String, FeatureStats> = stats.into_iter().collect();
+    let folders = writer.finish(&stats).map_err(of_table)?;
+    let written = Written {
+        table: "{ file = \".\", format = \"lerobot\" }".to_owned(),
+        frame: exported
+            .pictures
+            .as_ref()
+            .map(|_| format!("bytes = {}", quoted(&format!("{PICTURE}.bytes")))),
+        reference: exported.write_reference(staged)?,
+        signals: header.signals.as_ref().map(|_| quoted(TAXELS)),
+        names: name_of,
+        channels: match table.channels().len() {
+            1 => vec![STATE.to_owned()],
+            several => (0..several)
+                .map(|position| format!("{STATE}[{position}]"))
+                .collect(),
+        },
+    };
+    Ok((written, folders))
+}
+
+/// What a column is called: attributes stand apart from the columns that LeRobot has.
+fn name_of(name: &str) -> String {
+    match RESERVED.contains(&name) {
+        true => name.to_owned(),
+        false => format!("attribute.{name}"),
+    }
+}
+
+/// Those of the columns that are no channels, which stand together.
+fn labels<'e, 'd>(
+    exported: &'e Exported<'d>,
+) -> impl Iterator<Item = &'e crate::table::NamedColumn<'d>> {
+    let channels = exported.dataset.table().channels();
+    let columns = exported.columns.iter();
+    columns.filter(|column| channels.position(column.name).is_none())
+}
+
+fn features(exported: &Exported<'_>) -> Vec<WrittenFeature> {
+    let header = exported.dataset.header();
+    let channels = &header.channels;
+    let mut features = Vec::new();
+    if let Some(info) = exported.pictures.as_ref().and_then(Pictures::info) {
+        let column = WrittenColumn::new(PICTURE, WrittenKind::Picture);
+        let shape = [
+            info.height.into(),
+            info.width.into(),
+            info.format.samples() as u64,
+        ];
+        let feature = WrittenFeature::new(column, shape);
+        features.push(feature.with_names(["height", "width", "channels"]));
+    }
+    if !channels.is_empty() {
+        let column = WrittenColumn::new(STATE, WrittenKind::Numbers(Some(channels.len())));
+        let units: Vec<&str> = channels
+            .iter()
+            .map(|channel| channel.unit().symbol())
+            .collect();
+        let feature = WrittenFeature::new(column, [channels.len() as u64]);
+        let feature = feature.with_names(channels.iter().map(|channel| channel.name()));
+        features.push(feature.with_unit(units.join(" ")));
+    }
+    if let Some(signals) = &header.signals {
+        let length = signals.spec.info.len();
+        let column = WrittenColumn::new(TAXELS, WrittenKind::Singles(Some(length)));
+        let feature = WrittenFeature::new(column, [length as u64]);
+        let feature = feature.with_names(signals.spec.column_names());
+        features.push(feature.with_unit(signals.spec.info.unit.symbol()));
+    }
+    for label in labels(exported) {
+        let column = WrittenColumn::new(name_of(label.name), cells::kind(&label.cells));
+        let feature = WrittenFeature::new(column, [1]);
+        features.push(match label.name {
+            "t_s" => feature.with_unit("s"),
+            "spacing_mm" => feature.with_unit("mm"),
+            _ => feature,
+        });
+    }
+    features
+}
+
+/// The cells of a row, in the order of the features.
+fn cells_of(exported: &Exported<'_>, row: usize) -> Result<Vec<Cell>, DatasetError> {
+    let table = exported.dataset.table();
+    let mut row_cells = Vec::new();
+    if let Some(pictures) = &exported.pictures {
+        let encoded = pictures.encoded(row)?.ok_or_else(|| pictures.none(row))?;
+        row_cells.push(cells::picture(Some(encoded), &table.samples()[row]));
+    }
+    if !table.channels().is_empty() {
+        // LeRobot reads no null among numbers.
+        let channels = 0..table.channels().len();
+        let values = channels.map(|position| table.truth(position).get(row).unwrap_or(f64::NAN));
+        row_cells.push(Cell::List(values.map(Cell::Number).collect()));
+    }
+    if exported.dataset.header().signals.is_some() {
+        row_cells.push(exported.signals_cell(row)?);
+    }
+    row_cells.extend(labels(exported).map(|label| cells::cell(&label.cells, row)));
+    Ok(row_cells)
+}
+
+/// Whether two rows that follow one another are of one press.
+fn is_same_press(table: &Table, before: usize, row: usize) -> bool {
+    table.point_id()[before] == table.point_id()[row]
+        && table.repeat()[before] == table.repeat()[row]
+        && table.unit_id()[before] == table.unit_id()[row]
+        && table.scene()[before] == table.scene()[row]
+}
+
+/// How many frames a second there are within presses, whole, as LeRobot wants it: by the median time between two; 1 where nobody knows.
+fn rate_hz(table: &Table) -> f64 {
+    let pairs = (1..table.rows()).filter(|row| is_same_press(table, row - 1, *row));
+    let steps = pairs.filter_map(|row| Some(table.t_s()[row]? - table.t_s()[row - 1]?));
+    let mut steps: Vec<f64> = steps.filter(|step| *step > 0.0).collect();
+    steps.sort_by(f64::total_cmp);
+    let median = steps.get(steps.len() / 2);
+    median.map_or(1.0, |step| (1.0 / step).round().clamp(1.0, 1e6))
+}
+
+/// Adds the pixels of a picture, each from 0 to 1.
+fn add_picture(stats: &mut FeatureStats, frame: &Frame) {
+    let format = frame.info().format;
+    let full = f64::from(format.full_scale());
+    match format.bytes_per_sample() {
+        1 => stats.add_picture(frame.bytes().iter().map(|pixel| f64::from(*pixel) / full)),
+        _ => stats.add_picture(
+            frame
+                .bytes()
+                .chunks_exact(2)
+                .map(|pair| f64::from(u16::from_le_bytes([pair[0], pair[1]])) / full),
+        ),
+    }
+}

@@ -1,0 +1,187 @@
+//! The map beside an export: what brings it back without anything else.
+
+use std::fmt::Write as _;
+
+use super::exported::Exported;
+use super::form::ExportForm;
+use crate::decode::ChannelOrder;
+use crate::header::{Footprint, SensorFacts};
+use crate::table::RESERVED;
+
+/// Where a form has what the map names.
+pub(super) struct Written {
+    /// The value of `table`, as TOML.
+    pub(super) table: String,
+    /// The key and value that name the pictures, as TOML; none without pictures.
+    pub(super) frame: Option<String>,
+    /// The file of the picture without contact.
+    pub(super) reference: Option<String>,
+    /// The value of `from` of [signals], as TOML; none without signals.
+    pub(super) signals: Option<String>,
+    /// What the file calls the column of that name, where it has another one there.
+    pub(super) names: fn(&str) -> String,
+    /// What the file calls each channel.
+    pub(super) channels: Vec<String>,
+}
+
+/// The bare names of a table.
+pub(super) fn bare(name: &str) -> String {
+    name.to_owned()
+}
+
+/// The bare names of the channels.
+pub(super) fn bare_channels(exported: &Exported<'_>) -> Vec<String> {
+    let channels = exported.dataset.table().channels().iter();
+    channels.map(|channel| channel.name().to_owned()).collect()
+}
+
+/// A text as TOML writes it.
+pub(super) fn quoted(text: &str) -> String {
+    toml::Value::String(text.to_owned()).to_string()
+}
+
+/// The ids that a map names as the table does.
+const IDS: [&str; 11] = [
+    "sample",
+    "point_id",
+    "unit_id",
+    "scene",
+    "depth_step",
+    "repeat",
+    "phase",
+    "limited_by",
+    "part",
+    "kind",
+    "spacing_mm",
+];
+
+/// Where rows first came from: the key of the map, and the column.
+const ORIGIN: [(&str, &str); 3] = [
+    ("table", "source_table"),
+    ("row", "source_row"),
+    ("frame", "source_frame"),
+];
+
+/// The map of an export of which `written` says where things are.
+pub(super) fn text(exported: &Exported<'_>, form: ExportForm, written: &Written) -> String {
+    let header = exported.dataset.header();
+    let table = exported.dataset.table();
+    let has = |name: &str| exported.columns.iter().any(|column| column.name == name);
+    let has_origin = ORIGIN.iter().any(|(_, column)| has(column));
+    // A plain table with pictures beside it is what the first version of maps reads, and its rows have no origin of their own.
+    let is_plain = form == ExportForm::Csv && written.signals.is_none() && !has_origin;
+    let mut text = String::from(
+        "# The dataset again: taceva import FOLDER --map FOLDER/map.toml --out DATASET\n",
+    );
+    // Writing to a string does not fail.
+    let mut line = |words: std::fmt::Arguments<'_>| {
+        let _ = text.write_fmt(format_args!("{words}\n"));
+    };
+    line(format_args!(
+        "map_version = {}",
+        if is_plain { 1 } else { 2 }
+    ));
+    let source = format!("{:?}", header.source).to_lowercase();
+    line(format_args!("source = {}", quoted(&source)));
+    line(format_args!(
+        "table = {}   # {} rows",
+        written.table,
+        table.rows()
+    ));
+    if let Some(frame) = &written.frame {
+        let order = exported
+            .pictures
+            .as_ref()
+            .map_or(ChannelOrder::Rgb, |pictures| pictures.order);
+        let reference = written.reference.as_deref().unwrap_or("unknown");
+        line(format_args!(
+            "\n[frame]\n{frame}\nchannel_order = {}",
+            quoted(order.name())
+        ));
+        line(format_args!("reference = {}", quoted(reference)));
+    }
+    if !table.channels().is_empty() {
+        line(format_args!("\n[columns]"));
+    }
+    for (channel, from) in table.channels().iter().zip(&written.channels) {
+        line(format_args!(
+            "{} = {{ from = {}, unit = {} }}",
+            channel.name(),
+            quoted(from),
+            quoted(channel.unit().symbol())
+        ));
+    }
+    line(format_args!("\n[ids]"));
+    for id in IDS.into_iter().filter(|id| has(id)) {
+        line(format_args!("{id} = {}", quoted(&(written.names)(id))));
+    }
+    if !is_plain {
+        line(format_args!("\n[origin]"));
+        for (key, column) in ORIGIN.into_iter().filter(|(_, column)| has(column)) {
+            line(format_args!("{key} = {}", quoted(&(written.names)(column))));
+        }
+    }
+    line(format_args!(
+        "\n[time]\nclock = {}",
+        quoted(&header.clock.to_string())
+    ));
+    if has("t_s") {
+        line(format_args!(
+            "column = {}\nunit = \"s\"",
+            quoted(&(written.names)("t_s"))
+        ));
+    }
+    let attributes = exported.columns.iter().map(|column| column.name);
+    let attributes: Vec<&str> = attributes
+        .filter(|name| !RESERVED.contains(name) && table.channels().position(name).is_none())
+        .collect();
+    if !attributes.is_empty() {
+        line(format_args!("\n[attributes]"));
+    }
+    for name in attributes {
+        line(format_args!("{name} = {}", quoted(&(written.names)(name))));
+    }
+    if let (Some(from), Some(signals)) = (&written.signals, &header.signals) {
+        let info = signals.spec.info;
+        let names: Vec<String> = signals
+            .spec
+            .channels
+            .iter()
+            .map(|name| quoted(name))
+            .collect();
+        line(format_args!(
+            "\n[signals]\nfrom = {from}\nunit = {}",
+            quoted(info.unit.symbol())
+        ));
+        line(format_args!(
+            "places = [{}, {}]\nchannels = [{}]",
+            info.rows,
+            info.columns,
+            names.join(", ")
+        ));
+        line(format_args!("order = \"place-first\""));
+        let rest = signals
+            .spec
+            .rest
+            .iter()
+            .map(|[first, last]| format!("\"{first}..{last}\""));
+        let rest: Vec<String> = rest.collect();
+        if !rest.is_empty() {
+            line(format_args!("rest = [{}]", rest.join(", ")));
+        }
+    }
+    text + &facts(&header.sensor, header.footprint)
+}
+
+/// The sensor and its footprint, as the header writes them.
+fn facts(sensor: &SensorFacts, footprint: Option<Footprint>) -> String {
+    let words = "texts, numbers and truth values can be written as TOML";
+    let mut text = format!("\n[sensor]\n{}", toml::to_string(sensor).expect(words));
+    if let Some(footprint) = footprint {
+        text += &format!(
+            "\n[footprint]\n{}",
+            toml::to_string(&footprint).expect(words)
+        );
+    }
+    text
+}

@@ -1,0 +1,142 @@
+//! The pictures of an export: in the bytes that the dataset has them in, where the form can keep them so.
+
+use taceva_core::{Frame, PixelFormat};
+
+use super::form::ExportForm;
+use crate::dataset::Dataset;
+use crate::decode::{ChannelOrder, ImageKind};
+use crate::encode::encode_png;
+use crate::error::DatasetError;
+
+/// The pictures of a dataset that has any.
+pub(super) struct Pictures<'a> {
+    dataset: &'a Dataset,
+    /// The order of colours in the files that are exported.
+    pub(super) order: ChannelOrder,
+    /// Whether every picture is encoded anew, and not those alone that are kept as differences.
+    is_anew: bool,
+    /// Whether the form holds pixels, and no files.
+    is_pixels: bool,
+}
+
+/// A picture as a file.
+pub(super) struct Encoded {
+    pub(super) bytes: Vec<u8>,
+    pub(super) extension: &'static str,
+}
+
+impl<'a> Pictures<'a> {
+    pub(super) fn of(dataset: &'a Dataset, form: ExportForm) -> Option<Pictures<'a>> {
+        let frames = dataset.header().frames.as_ref();
+        // A picture without contact alone is none of a sample.
+        let frames = frames.filter(|frames| frames.count > 0)?;
+        // Other programs take colours for red, green, blue; a map beside CSV says what they are.
+        let is_turned = frames.channel_order == ChannelOrder::Bgr;
+        let mut entries = dataset.table().frames().iter().flatten();
+        let is_anew =
+            is_turned && (form != ExportForm::Csv || entries.any(|entry| entry.is_difference()));
+        Some(Pictures {
+            dataset,
+            order: match is_anew {
+                true => ChannelOrder::Rgb,
+                false => frames.channel_order,
+            },
+            is_anew,
+            is_pixels: form == ExportForm::Hdf5,
+        })
+    }
+
+    /// How many there are.
+    pub(super) fn count(&self) -> u64 {
+        self.dataset.table().frames().iter().flatten().count() as u64
+    }
+
+    /// How many are encoded anew.
+    pub(super) fn encoded_anew(&self) -> u64 {
+        let entries = self.dataset.table().frames().iter().flatten();
+        let anew = entries.filter(|entry| self.is_pixels || self.is_anew || entry.is_difference());
+        anew.count() as u64
+    }
+
+    /// The picture of a row as a file; none if the row has none.
+    pub(super) fn encoded(&self, row: usize) -> Result<Option<Encoded>, DatasetError> {
+        let Some(entry) = &self.dataset.table().frames()[row] else {
+            return Ok(None);
+        };
+        if self.is_anew || entry.is_difference() {
+            let frame = self.dataset.frame(row)?;
+            return frame.map(|frame| self.png(&frame, &entry.path)).transpose();
+        }
+        let bytes = self.dataset.frame_bytes(entry)?;
+        Ok(Some(Encoded::of(bytes)))
+    }
+
+    /// The picture without contact as a file; none if nobody knows one.
+    pub(super) fn reference(&self) -> Result<Option<Encoded>, DatasetError> {
+        let header = self.dataset.header();
+        let reference = header
+            .frames
+            .as_ref()
+            .and_then(|frames| frames.reference.as_ref());
+        let Some(reference) = reference else {
+            return Ok(None);
+        };
+        if self.is_anew {
+            let frame = self.dataset.reference()?;
+            return frame
+                .map(|frame| self.png(&frame, &reference.path))
+                .transpose();
+        }
+        let bytes = self.dataset.reference_bytes()?;
+        Ok(bytes.map(Encoded::of))
+    }
+
+    /// The decoded picture of a row, which the form asks of every one.
+    pub(super) fn frame(&self, row: usize) -> Result<Frame, DatasetError> {
+        let frame = self.dataset.frame(row)?;
+        frame.ok_or_else(|| self.none(row))
+    }
+
+    /// That a row has no picture, where the form asks one of each.
+    pub(super) fn none(&self, row: usize) -> DatasetError {
+        DatasetError::Sample {
+            id: self.dataset.table().samples()[row].clone(),
+            problem: "no picture, and this form wants one of each sample or of none; `--format huggingface` and `csv` keep such samples"
+                .to_owned(),
+        }
+    }
+
+    /// Size and format of each.
+    pub(super) fn info(&self) -> Option<taceva_core::FrameInfo> {
+        self.dataset
+            .header()
+            .frames
+            .as_ref()
+            .map(|frames| frames.info)
+    }
+
+    /// The number of colours of a pixel.
+    pub(super) fn colours(&self) -> usize {
+        self.info()
+            .map_or(PixelFormat::Rgb8.samples(), |info| info.format.samples())
+    }
+
+    fn png(&self, frame: &Frame, path: &str) -> Result<Encoded, DatasetError> {
+        let bytes = encode_png(frame).map_err(|problem| DatasetError::Image {
+            place: None,
+            path: self.dataset.path().join(path),
+            problem,
+        })?;
+        Ok(Encoded::of(bytes))
+    }
+}
+
+impl Encoded {
+    fn of(bytes: Vec<u8>) -> Encoded {
+        let kind = ImageKind::of(&bytes).unwrap_or(ImageKind::Png);
+        Encoded {
+            bytes,
+            extension: kind.extension(),
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! The features of a dataset that is written.
+
+use serde_json::{Value, json};
+
+use crate::parquet::{WrittenColumn, WrittenKind};
+
+/// A feature of a dataset that is written.
+///
+/// ```
+/// use taceva_tables::{WrittenColumn, WrittenFeature, WrittenKind};
+/// let state = WrittenColumn::new("observation.state", WrittenKind::Numbers(Some(2)));
+/// let feature = WrittenFeature::new(state, [2]).with_names(["Fx", "Fz"]).with_unit("N");
+/// assert_eq!(feature.names.as_deref(), Some(&["Fx".to_owned(), "Fz".to_owned()][..]));
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct WrittenFeature {
+    /// Its name, without `/`, and what its cells are.
+    pub column: WrittenColumn,
+    /// Its shape in one row: of a picture height, width, colours.
+    pub shape: Vec<u64>,
+    /// What its elements are called, or the axes of a picture.
+    pub names: Option<Vec<String>>,
+    /// The unit of its numbers, or several in the order of its names; a key that LeRobot leaves alone.
+    pub unit: Option<String>,
+}
+
+impl WrittenFeature {
+    /// A feature of that shape, whose elements have no names. LeRobot reads a list of one number as that number, so that it is written so too.
+    pub fn new(column: WrittenColumn, shape: impl IntoIterator<Item = u64>) -> WrittenFeature {
+        WrittenFeature {
+            column,
+            shape: shape.into_iter().collect(),
+            names: None,
+            unit: None,
+        }
+    }
+
+    /// The same with names of its elements, or of the axes of a picture.
+    #[must_use]
+    pub fn with_names<N: Into<String>>(self, names: impl IntoIterator<Item = N>) -> WrittenFeature {
+        WrittenFeature {
+            names: Some(names.into_iter().map(Into::into).collect()),
+            ..self
+        }
+    }
+
+    /// The same with the unit of its numbers.
+    #[must_use]
+    pub fn with_unit(self, unit: impl Into<String>) -> WrittenFeature {
+        WrittenFeature {
+            unit: Some(unit.into()),
+            ..self
+        }
+    }
+
+    fn dtype(&self) -> &'static str {
+        match self.column.kind {
+            WrittenKind::Integer => "int64",
+            WrittenKind::Number | WrittenKind::Numbers(_) => "float64",
+            WrittenKind::Single | WrittenKind::Singles(_) => "float32",
+            WrittenKind::Text | WrittenKind::Texts => "string",
+            WrittenKind::Picture => "image",
+        }
+    }
+
+    pub(super) fn json(&self) -> Value {
+        let mut feature =
+            json!({ "dtype": self.dtype(), "shape": self.shape, "names": self.names });
+        if let Some(unit) = &self.unit {
+            feature["unit"] = unit.as_str().into();
+        }
+        feature
+    }
+}

@@ -1,0 +1,195 @@
+//! Tables written as Parquet files, a row at a time.
+
+use std::fs::File;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use parquet::basic::Compression;
+use parquet::errors::ParquetError;
+use parquet::file::metadata::KeyValue;
+use parquet::file::properties::WriterProperties;
+use parquet::file::writer::SerializedFileWriter;
+use parquet::schema::types::Type;
+
+use super::written::{WrittenColumn, write_column};
+use crate::cell::Cell;
+use crate::error::TableError;
+
+/// Rows of a row group: who reads one row reads its group.
+const GROUP_ROWS: usize = 1000;
+/// Bytes of cells in memory that end a row group before it has so many rows.
+const GROUP_BYTES: u64 = 16 << 20;
+
+/// A Parquet file while it is written: the cells of one row group are in memory, compressed by snappy when it ends. The same rows are the same bytes.
+///
+/// ```
+/// use taceva_tables::{Cell, ParquetTable, ParquetWriter, WrittenColumn, WrittenKind};
+///
+/// # let path = std::env::temp_dir().join(format!("taceva-written-{}.parquet", std::process::id()));
+/// let columns = [
+///     WrittenColumn::new("press", WrittenKind::Text),
+///     WrittenColumn::new("wrench", WrittenKind::Numbers(Some(2))),
+/// ];
+/// let mut writer = ParquetWriter::create(&path, &columns, &[("unit.wrench", "N")])?;
+/// let wrench = vec![Cell::Number(0.5), Cell::Number(-2.0)];
+/// writer.push(vec![Cell::Text("a".into()), Cell::List(wrench)])?;
+/// writer.push(vec![Cell::Text("b".into()), Cell::Null])?;
+/// writer.finish()?;
+///
+/// let table = ParquetTable::open(&path)?;
+/// assert_eq!(table.column("wrench[1]")?, [Cell::Number(-2.0), Cell::Null]);
+/// # std::fs::remove_file(&path).ok();
+/// # Ok::<(), taceva_tables::TableError>(())
+/// ```
+pub struct ParquetWriter {
+    path: PathBuf,
+    columns: Vec<WrittenColumn>,
+    writer: SerializedFileWriter<File>,
+    /// Of each column the cells of the rows that no group holds yet.
+    held: Vec<Vec<Cell>>,
+    held_bytes: u64,
+}
+
+impl ParquetWriter {
+    /// Begins the new file at `path`, with texts beside the table by their keys.
+    ///
+    /// # Errors
+    /// [`TableError::Write`] if the file is there already or cannot be made; [`TableError::Mismatch`] if two columns have one name.
+    pub fn create(
+        path: &Path,
+        columns: &[WrittenColumn],
+        metadata: &[(&str, &str)],
+    ) -> Result<ParquetWriter, TableError> {
+        for (position, column) in columns.iter().enumerate() {
+            if columns[..position]
+                .iter()
+                .any(|other| other.name == column.name)
+            {
+                return Err(mismatch(
+                    path,
+                    &column.name,
+                    "a name of two columns".to_owned(),
+                ));
+            }
+        }
+        let failed = |error| failed(path, error);
+        let fields = columns.iter().map(|column| column.field().map(Arc::new));
+        let fields: Result<Vec<_>, ParquetError> = fields.collect();
+        let schema = Type::group_type_builder("schema").with_fields(fields.map_err(failed)?);
+        let schema = schema.build().map_err(failed)?;
+        let metadata = metadata.iter();
+        let metadata =
+            metadata.map(|(key, text)| KeyValue::new((*key).to_owned(), (*text).to_owned()));
+        let properties = WriterProperties::builder()
+            .set_compression(Compression::SNAPPY)
+            .set_created_by("taceva".to_owned())
+            .set_key_value_metadata(Some(metadata.collect()))
+            .build();
+        let file = File::create_new(path).map_err(|source| TableError::Write {
+            path: path.to_owned(),
+            source,
+        })?;
+        let writer = SerializedFileWriter::new(file, Arc::new(schema), Arc::new(properties));
+        Ok(ParquetWriter {
+            path: path.to_owned(),
+            held: vec![Vec::new(); columns.len()],
+            columns: columns.to_vec(),
+            writer: writer.map_err(failed)?,
+            held_bytes: 0,
+        })
+    }
+
+    /// Adds a row, a cell a column.
+    ///
+    /// # Errors
+    /// [`TableError::Mismatch`] if a cell is not of the kind of its column or there is not one for each, and nothing of the row is written;
+    /// [`TableError::Write`] if the system refuses a row group.
+    pub fn push(&mut self, row: Vec<Cell>) -> Result<(), TableError> {
+        if row.len() != self.columns.len() {
+            let problem = format!("{} cells for {} columns", row.len(), self.columns.len());
+            return Err(mismatch(&self.path, "row", problem));
+        }
+        for (column, cell) in self.columns.iter().zip(&row) {
+            if !column.kind.takes(cell) {
+                let problem = format!("`{}`, expected {}", cell.text(), column.kind);
+                return Err(mismatch(&self.path, &column.name, problem));
+            }
+        }
+        for (cells, cell) in self.held.iter_mut().zip(row) {
+            self.held_bytes += cell.bytes();
+            cells.push(cell);
+        }
+        let rows = self.held.first().map_or(0, Vec::len);
+        match rows >= GROUP_ROWS || self.held_bytes >= GROUP_BYTES {
+            true => self.write_group(),
+            false => Ok(()),
+        }
+    }
+
+    /// About how large the file is, bytes: what it holds, and the cells in memory as they are before they are compressed.
+    pub fn size_bytes(&self) -> u64 {
+        self.writer.bytes_written() as u64 + self.held_bytes
+    }
+
+    /// Ends the file and waits until its bytes are on the disk; its name is not.
+    ///
+    /// # Errors
+    /// [`TableError::Write`].
+    pub fn finish(mut self) -> Result<(), TableError> {
+        if self.held.first().is_some_and(|cells| !cells.is_empty()) {
+            self.write_group()?;
+        }
+        let path = self.path;
+        let file = self
+            .writer
+            .into_inner()
+            .map_err(|error| failed(&path, error))?;
+        file.sync_all()
+            .map_err(|source| TableError::Write { path, source })
+    }
+
+    fn write_group(&mut self) -> Result<(), TableError> {
+        let failed = |error| failed(&self.path, error);
+        let mut group = self.writer.next_row_group().map_err(failed)?;
+        for (column, cells) in self.columns.iter().zip(&self.held) {
+            write_column(&mut group, &column.kind, cells).map_err(failed)?;
+        }
+        group.close().map_err(failed)?;
+        self.held.iter_mut().for_each(Vec::clear);
+        self.held_bytes = 0;
+        Ok(())
+    }
+}
+
+impl std::fmt::Debug for ParquetWriter {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("ParquetWriter")
+            .field("path", &self.path)
+            .field("columns", &self.columns)
+            .finish_non_exhaustive()
+    }
+}
+
+fn mismatch(path: &Path, name: &str, problem: String) -> TableError {
+    TableError::Mismatch {
+        path: path.to_owned(),
+        name: name.to_owned(),
+        problem,
+    }
+}
+
+/// What the system said, out of what the crate wraps around it.
+fn failed(path: &Path, error: ParquetError) -> TableError {
+    let source = match error {
+        ParquetError::External(source) => match source.downcast::<io::Error>() {
+            Ok(source) => *source,
+            Err(other) => io::Error::other(other),
+        },
+        other => io::Error::other(other.to_string()),
+    };
+    TableError::Write {
+        path: path.to_owned(),
+        source,
+    }
+}
