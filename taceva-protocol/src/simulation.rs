@@ -22,6 +22,7 @@ mod oracle;
 mod record;
 mod scenario;
 mod shared;
+mod switch;
 #[cfg(test)]
 mod tests;
 mod world;

@@ -101,7 +101,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_permission_another_program_and_no_such_line_are_told_apart() {
+    fn no_permission_another_program_and_no_such_line_are_distinguished() {
         let kind = |source: io::ErrorKind| {
             let path = "/dev/ttyUSB0".to_owned();
             let source = source.into();

@@ -109,7 +109,7 @@ impl Run<'_> {
         let slow = Speed::try_new(fast.mm_per_s() * SLOW_PART).unwrap_or(fast);
         let mut tapped = Tapped::new(way.contact_mm, way.reference_mm);
         for number in 0..TAPS {
-            let speed = if number % 2 == 0 { fast } else { slow };
+            let speed = if number.is_multiple_of(2) { fast } else { slow };
             tapped.add(self.tap_patiently(&way, speed, listener)?);
         }
         Ok(tapped)

@@ -5,9 +5,9 @@ use taceva_core::Fault;
 use super::fault::{FaultKind, Faults, fraction};
 use super::gel::Gel;
 use super::guard::Guard;
-use super::oracle::{Ended, HALT_WITHIN_S, Oracle, SILENCE, TOO_HARD, UNHELD};
+use super::oracle::{Ended, Oracle, SILENCE, TOO_HARD};
 use crate::draw::Draws;
-use crate::run::{Cancel, Enabling};
+use crate::run::Cancel;
 
 /// How a call to a device travels, in s each way.
 const LINK_S: f64 = 0.000_5;
@@ -330,39 +330,6 @@ impl World {
             .faults
             .strike_once(FaultKind::EmergencyStop, self.now_s);
         self.stopped
-    }
-
-    /// What the enabling switch says to the thread that looks at it.
-    pub(super) fn feel(&mut self, now_s: f64) -> Enabling {
-        let said = [
-            (FaultKind::Unplugged, Enabling::Lost),
-            (FaultKind::Released, Enabling::Released),
-        ];
-        let mut said = said.into_iter();
-        let said = said.find(|(kind, _)| self.faults.strike(*kind, now_s));
-        let said = said.filter(|_| self.sabotage != Sabotage::UnheededSwitch);
-        said.map_or(Enabling::Held, |(_, enabling)| enabling)
-    }
-
-    /// Whether the enabling switch is not there.
-    pub(super) fn is_unplugged(&self) -> bool {
-        let unheld = self.faults.unheld(self.now_s);
-        unheld.is_some_and(|(kind, _)| kind == FaultKind::Unplugged)
-    }
-
-    /// The robot moves now, after it set out at `began_s`: it must be halted soon after the switch was let go, and must not set out when that
-    /// has long been so.
-    pub(super) fn is_let_move(&mut self, began_s: f64) {
-        let Some((_, since_s)) = self.faults.unheld(self.now_s) else {
-            self.oracle.is_held();
-            return;
-        };
-        if began_s - since_s > HALT_WITHIN_S {
-            self.oracle
-                .defied("a motion while nobody holds the enabling switch");
-        } else {
-            self.hazard(UNHELD, since_s.max(began_s));
-        }
     }
 
     /// When a motion to `target` ends that begins now.

@@ -123,6 +123,8 @@ impl<E> Setup<E> {
         assert!(expiring <= EXPIRES + SLACK, "{expiring:?}");
         let mut arm = self.open();
         let (at, _) = arm.pose(PATIENCE).expect("a pose");
+        // Who comes after a host that died ends what that left: an xArm takes velocities until then.
+        arm.clear_halt(PATIENCE).expect("nothing is wrong with it");
         arm.move_to(lower(at, -5.0), speed(50.0), PATIENCE)
             .expect("up again");
         drop(arm);

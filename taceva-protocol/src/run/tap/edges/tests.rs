@@ -38,7 +38,7 @@ fn noise(tap: u32, place: u32) -> f64 {
 
 impl Rig {
     fn tap(&self, number: u32) -> TapHeard {
-        let speed = if number % 2 == 0 { 4.5 } else { 1.5 };
+        let speed = if number.is_multiple_of(2) { 4.5 } else { 1.5 };
         let way_mm = LEAD_MM + DEPTH_MM;
         let over_s = SETS_OUT_S + way_mm / speed + LASTS_S;
         let height_mm = |at_s: f64| {

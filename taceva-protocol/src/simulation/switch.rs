@@ -1,0 +1,41 @@
+//! The enabling switch of the world: what it says, and what must not happen while nobody holds it.
+
+use super::fault::FaultKind;
+use super::oracle::{HALT_WITHIN_S, UNHELD};
+use super::world::{Sabotage, World};
+use crate::run::Enabling;
+
+impl World {
+    /// What the enabling switch says to the thread that looks at it.
+    pub(super) fn feel(&mut self, now_s: f64) -> Enabling {
+        let said = [
+            (FaultKind::Unplugged, Enabling::Lost),
+            (FaultKind::Released, Enabling::Released),
+        ];
+        let mut said = said.into_iter();
+        let said = said.find(|(kind, _)| self.faults.strike(*kind, now_s));
+        let said = said.filter(|_| self.sabotage != Sabotage::UnheededSwitch);
+        said.map_or(Enabling::Held, |(_, enabling)| enabling)
+    }
+
+    /// Whether the enabling switch is not there.
+    pub(super) fn is_unplugged(&self) -> bool {
+        let unheld = self.faults.unheld(self.now_s);
+        unheld.is_some_and(|(kind, _)| kind == FaultKind::Unplugged)
+    }
+
+    /// The robot moves now, after it set out at `began_s`: it must be halted soon after the switch was let go, and must not set out when that
+    /// has long been so.
+    pub(super) fn is_let_move(&mut self, began_s: f64) {
+        let Some((_, since_s)) = self.faults.unheld(self.now_s) else {
+            self.oracle.is_held();
+            return;
+        };
+        if began_s - since_s > HALT_WITHIN_S {
+            self.oracle
+                .defied("a motion while nobody holds the enabling switch");
+        } else {
+            self.hazard(UNHELD, since_s.max(began_s));
+        }
+    }
+}
