@@ -106,7 +106,11 @@ fn the_example_is_allowed_checked_and_planned_with_and_says_what_is_wrong_with_i
         "plugin check org.example.line-transducer {folder} --with {KEY}:host=localhost;port={port} --only force/reads"
     ));
     assert_eq!(silent.code, 1, "{}", silent.out);
-    assert!(silent.out.contains("no reading came in time"), "{}", silent.out);
+    assert!(
+        silent.out.contains("no reading came in time"),
+        "{}",
+        silent.out
+    );
 
     // The plan opens nothing, and says what would be refused.
     let rig = format!(
