@@ -34,12 +34,14 @@ enum Mood {
     Gone,
 }
 
+/// The places that it was told, and whether the arm stood above the gel at the beginning and at the end of each turn.
+type Turns = Mutex<Vec<(usize, bool)>>;
+
 /// The carousel on the other side of its line.
 struct Carousel {
     port: u16,
     mood: Arc<Mutex<Mood>>,
-    /// The places that it was told, and whether the arm stood above the gel at the beginning and at the end of each turn.
-    turns: Arc<Mutex<Vec<(usize, bool)>>>,
+    turns: Arc<Turns>,
 }
 
 impl Carousel {
@@ -70,11 +72,7 @@ fn stands_above(bench: &WallBench) -> bool {
     !truth.is_moving && truth.tip_mm[2] < -0.5
 }
 
-fn serve(
-    stream: TcpStream,
-    bench: &WallBench,
-    (mood, turns): (&Mutex<Mood>, &Mutex<Vec<(usize, bool)>>),
-) {
+fn serve(stream: TcpStream, bench: &WallBench, (mood, turns): (&Mutex<Mood>, &Turns)) {
     let mut answers = stream.try_clone().expect("a second handle");
     for line in BufReader::new(stream).lines() {
         let Ok(line) = line else {
