@@ -217,5 +217,5 @@ fn dictionaries_within_dictionaries_are_groups() {
     assert_eq!(file.names(), ["t.0.x", "t.1.x", "all"]);
     assert_eq!(file.groups("t.*"), ["t.0", "t.1"]);
     assert_eq!(file.groups("*"), ["t"]);
-    assert_eq!(file.groups("all.*"), [String::new(); 0]);
+    assert!(file.groups("all.*").is_empty());
 }

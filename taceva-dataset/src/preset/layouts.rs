@@ -134,9 +134,7 @@ impl Preset {
         let facts = self.facts();
         let is_there = |pattern: &&str| has_match(folder.path(), pattern);
         let mut needs = facts.needs.iter();
-        let Some(missing) =
-            needs.find(|need| !need.any_of.iter().any(|pattern| is_there(&pattern)))
-        else {
+        let Some(missing) = needs.find(|need| !need.any_of.iter().any(is_there)) else {
             return Ok(());
         };
         let another = Preset::recognised(folder.path());

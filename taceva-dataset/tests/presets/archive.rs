@@ -95,8 +95,8 @@ fn long_names_of_posix_and_gnu_are_read() {
         .expect("packed");
     tar.append_pax_extensions([("path", "posix/Größe.csv".as_bytes())])
         .expect("packed");
-    let mut about = header(b"short", 2, EntryType::Regular);
-    tar.append(&mut about, &b"y\n"[..]).expect("packed");
+    let about = header(b"short", 2, EntryType::Regular);
+    tar.append(&about, &b"y\n"[..]).expect("packed");
     tar.finish().expect("written");
     let unpacked = UnpackedArchive::open(&path, lab.path()).expect("unpacked");
     assert_eq!(
@@ -179,8 +179,8 @@ fn compressed_bombs_and_cut_ones_are_refused() {
             File::create(&plain).expect("created"),
             Compression::fast(),
         ));
-        let mut about = header(b"zeros", size, EntryType::Regular);
-        tar.append(&mut about, std::io::Read::take(std::io::repeat(0), size))
+        let about = header(b"zeros", size, EntryType::Regular);
+        tar.append(&about, std::io::Read::take(std::io::repeat(0), size))
             .expect("packed");
         tar.into_inner().expect("ended").finish().expect("written");
     }

@@ -380,8 +380,8 @@ fn a_draft_of_taxel_tables_needs_units_alone() {
     let map = ImportMap::parse("map.toml".as_ref(), &finished).expect("a map");
     let dataset = import(&lab.path().join("grid"), &map, &lab.path().join("taxels"));
     assert_eq!(
-        dataset.signals(2).expect("read").expect("there").values()[0],
-        96.0
+        dataset.signals(2).expect("read").expect("there").values()[..1],
+        [96.0]
     );
 }
 
