@@ -8,8 +8,16 @@ use taceva_core::{Channel, Unit};
 use crate::escape;
 
 /// Columns of words.
-const WORDS: [&str; 8] = [
-    "id", "protocol", "part", "point_id", "unit_id", "scene", "phase", "kind",
+const WORDS: [&str; 9] = [
+    "id",
+    "recording",
+    "protocol",
+    "part",
+    "point_id",
+    "unit_id",
+    "scene",
+    "phase",
+    "kind",
 ];
 /// Columns of numbers that are no channel.
 const NUMBERS: [&str; 6] = [
