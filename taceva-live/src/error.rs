@@ -1,8 +1,8 @@
-//! Why there is no page.
+//! Why a page cannot be opened.
 
 use std::io;
 
-/// Why there is no page.
+/// Why a page cannot be opened.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PageError {
@@ -16,10 +16,10 @@ pub enum PageError {
         /// Why.
         source: io::Error,
     },
-    /// No random numbers for the token.
+    /// The system gives no random numbers for the token.
     #[error("this system gives no random numbers for the token of the page: {0}")]
     Random(String),
-    /// No thread starts.
+    /// A thread of the page cannot be started.
     #[error("cannot start a thread of the page: {0}")]
     Thread(io::Error),
 }

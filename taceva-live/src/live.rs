@@ -1,4 +1,4 @@
-//! What whoever runs the devices says, and what a page reads: the newest of everything, and no more.
+//! The state that the program with the devices writes and the page reads: the newest value of everything, and no history.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -10,7 +10,7 @@ use taceva_protocol::{Answer, Question};
 use crate::frames::Frames;
 use crate::state::{Asked, Limits, Place, PlaceState, State};
 
-/// What a page shows. Clones share one; every call returns at once, whoever reads.
+/// What a page shows, written by the program that runs the devices. Clones share one state; no call waits for a reader.
 #[derive(Clone)]
 pub struct Live {
     pub(crate) shared: Arc<Shared>,
@@ -40,7 +40,7 @@ struct Inside {
 const RATE_OVER: Duration = Duration::from_secs(2);
 
 impl Live {
-    /// Nothing is known yet of what is called `title`.
+    /// A page headed `title`, of which nothing else is known yet.
     pub fn new(title: &str) -> Live {
         let state = State {
             title: title.to_owned(),
@@ -61,7 +61,7 @@ impl Live {
         }
     }
 
-    /// A frame was taken: the newest is shown, as often as somebody can look.
+    /// Shows `frame` as the newest one; frames that come faster than pictures are made of them are counted and not shown.
     pub fn frame(&self, frame: &Frame) {
         let now = Instant::now();
         {
@@ -80,36 +80,36 @@ impl Live {
         self.shared.frames.offer(frame);
     }
 
-    /// The transducer read this, its zero taken off.
+    /// Shows a reading of the force transducer, tared.
     pub fn force(&self, wrench: &Wrench) {
         let [x, y, z] = wrench.force.map(|force| force.0);
         let mut inside = self.shared.inside();
         (inside.state.normal_n, inside.state.shear_n) = (Some(z), Some(x.hypot(y)));
     }
 
-    /// The tip is here, in the sensor's frame.
+    /// Shows the depth of the tip at `pose`, which is in the sensor's frame.
     pub fn pose(&self, pose: &Pose) {
         self.shared.inside().state.depth_mm = Some(pose.position.z.0);
     }
 
-    /// What may not be passed.
+    /// Shows the limits of force and depth.
     pub fn limits(&self, limits: Limits) {
         self.shared.inside().state.limits = limits;
     }
 
-    /// What is going on, in words.
+    /// Shows what the program is doing, in words.
     pub fn stage(&self, words: &str) {
         words.clone_into(&mut self.shared.inside().state.stage);
     }
 
-    /// So many frames were lost; whether the camera numbers them, so that all are counted.
+    /// Shows the number of frames that were dropped and of those that came damaged; only where the camera numbers its frames are all dropped ones counted.
     pub fn lost(&self, dropped: u64, damaged: u64, numbered: bool) {
         let mut inside = self.shared.inside();
         let state = &mut inside.state;
         (state.dropped, state.damaged, state.numbered) = (dropped, damaged, numbered);
     }
 
-    /// Where the gel will be pressed.
+    /// Shows the places where the gel will be pressed.
     pub fn places(&self, places: Vec<Place>) {
         let mut inside = self.shared.inside();
         inside.state.presses = [done(&places), places.len()];
@@ -117,7 +117,7 @@ impl Live {
         inside.places_version += 1;
     }
 
-    /// The press at place `number`, from 0, is in another state.
+    /// Changes the state of the press at place `number`, counted from 0.
     pub fn place(&self, number: usize, state: PlaceState) {
         let mut inside = self.shared.inside();
         let Some(place) = inside.places.get_mut(number) else {
@@ -128,7 +128,7 @@ impl Live {
         inside.places_version += 1;
     }
 
-    /// It is over: the page says how.
+    /// Ends the page, which shows in words how the run ended.
     pub fn ended(&self, words: &str) {
         self.shared.inside().state.ended = Some(words.to_owned());
     }
@@ -157,14 +157,14 @@ fn done(places: &[Place]) -> usize {
     places.iter().filter(is_done).count()
 }
 
-/// A question on the page.
+/// An open question on the page; dropping it takes it off.
 pub struct Open {
     live: Live,
     number: u64,
 }
 
 impl Open {
-    /// The answer, waited for as long as `patience`.
+    /// Waits for the answer for at most `patience`; `None` if none came.
     pub fn answer(&self, patience: Duration) -> Option<Answer> {
         let shared = &self.live.shared;
         let is_open = |inside: &mut Inside| match &inside.state.question {

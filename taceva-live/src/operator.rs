@@ -1,4 +1,4 @@
-//! The person at the page, asked by its buttons.
+//! The operator, asked on the page and answering by its buttons.
 
 use std::time::Duration;
 
@@ -9,7 +9,7 @@ use crate::live::Live;
 /// How often it is looked whether the run goes on.
 const LOOK: Duration = Duration::from_millis(100);
 
-/// Asks at the page alone.
+/// Asks on the page alone, not at the terminal.
 ///
 /// ```
 /// use taceva_live::{Live, PageOperator};
@@ -25,7 +25,7 @@ pub struct PageOperator {
 }
 
 impl PageOperator {
-    /// Whoever looks at the page of `live`.
+    /// An operator who has the page of `live` open.
     pub fn new(live: Live) -> PageOperator {
         PageOperator { live }
     }

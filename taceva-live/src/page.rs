@@ -89,7 +89,7 @@ impl Page {
         format!("http://{}/#{}", self.address, self.token.text())
     }
 
-    /// Where it listens.
+    /// The address and port that it listens on, always of loopback.
     pub fn address(&self) -> SocketAddr {
         self.address
     }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use taceva_protocol::{Answer, Question};
 
-/// What may not be passed.
+/// The greatest forces and the deepest indentation that the run allows; `None` where there is no limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Limits {
@@ -44,18 +44,18 @@ impl Limits {
     }
 }
 
-/// Where the gel is pressed, in the sensor's frame, and how far that is.
+/// A place where the gel is pressed, in the sensor's frame, and the state of that press.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Place {
     /// Along x, in mm.
     pub x_mm: f64,
     /// Along y, in mm.
     pub y_mm: f64,
-    /// How far it is.
+    /// The state of the press.
     pub state: PlaceState,
 }
 
-/// How far a press is.
+/// The state of a press.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]

@@ -24,7 +24,7 @@ pub struct LimitsFile {
     /// 1, also where the file does not say.
     #[serde(default = "limits_version")]
     limits_version: u32,
-    /// What they are for.
+    /// What the limits are for, such as a production line; may be empty.
     #[serde(default)]
     pub name: String,
     /// The limits, in order.
@@ -61,14 +61,14 @@ pub enum LimitsError {
     /// A value is none of those that are accepted.
     #[error("limit {number}: {problem}")]
     Limit {
-        /// Which one, counted from 1; 0 for the file.
+        /// The number of the limit in the file, counted from 1; 0 where no single limit is meant.
         number: usize,
         /// What is wrong, and what is accepted.
         problem: String,
     },
 }
 
-/// What became of one limit.
+/// Whether one limit is kept, and by which value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
     /// The limit.
@@ -77,13 +77,13 @@ pub struct Finding {
     pub value: Option<f64>,
     /// Both ends of its interval.
     pub ends: Option<[f64; 2]>,
-    /// Samples it is made of.
+    /// How many samples the score is computed from.
     pub n: u64,
     /// Whether the limit is kept.
     pub is_kept: bool,
     /// Why it is not kept, or that it is kept without an interval, in words.
     pub reason: Option<String>,
-    /// Which part the score takes in verdicts: one that takes none keeps no limit.
+    /// Whether the score takes part in verdicts, and if not, why; a limit on a score that takes none is not kept.
     pub standing: Standing,
 }
 
@@ -147,7 +147,7 @@ impl LimitsFile {
     }
 }
 
-/// Holds `study` to every limit. A score that is missing or has no value does not keep to one.
+/// The finding of each limit on the scores of `study`, in the order of the limits. A limit on a score that is missing or has no value is not kept.
 pub fn accept(study: &Study, limits: &LimitsFile) -> Vec<Finding> {
     limits
         .limits

@@ -7,7 +7,7 @@ use crate::results::{DecodeBench, DecodeRow, ModelBench, ModelRow, ScaledError};
 use crate::table::{Column, Direction, Table};
 
 impl ModelBench {
-    /// A row a model: what it takes, and the error of each channel with its interval.
+    /// One row for each model: its times, and the error of each channel with its interval.
     pub fn table(&self) -> Table {
         // Times and errors alike: less is better.
         let lower = |name: String| Column::new(name).direction(Direction::Is(Better::Lower));
@@ -84,7 +84,7 @@ impl ModelRow {
 }
 
 impl DecodeBench {
-    /// A row a scale: what decoding takes, the error of each channel, and how much more it is than at full size.
+    /// One row for each scale: the time to decode a frame, the error of each channel, and how much more it is than at full size.
     pub fn table(&self) -> Table {
         let known = self.rows.iter().map(|row| &row.errors);
         let known: &[ScaledError] = known

@@ -27,22 +27,22 @@ pub struct Choice {
     pub dropped: Vec<Dropped>,
     /// Those that are not ranked, because a number that a need uses takes no part in verdicts.
     pub barred: Vec<Dropped>,
-    /// Those of which not a single number is known that a need asks for.
+    /// Sensors of which no number that a need asks for is known.
     pub unknown: Vec<String>,
-    /// The differences between those that are ranked that tests show; none where nothing was tested, as of published numbers.
+    /// The differences between ranked sensors that tests show; `None` where nothing was tested, as with published numbers.
     pub evidence: Option<Vec<Evidence>>,
-    /// Which of the errors that rank are of labels of different spread, in a sentence.
+    /// A sentence on those errors, among the numbers that rank, whose labels differ in spread between the sensors.
     pub spread: Option<String>,
     /// Whether samples behind the numbers are simulated.
     pub simulated: bool,
-    /// Those of which a need asks what they stand, which is of the catalogue and not of their results.
+    /// Sensors whose greatest depth or force a need asks for; both are taken from the catalogue, not from their results.
     pub limits_of_catalogue: Vec<String>,
 }
 
 /// A sensor that meets every hard need, as far as is known.
 #[derive(Clone, Debug)]
 pub struct Candidate {
-    /// What it is called.
+    /// Its name.
     pub name: String,
     /// The mean over soft needs of its share of the best; 1 where nothing ranks.
     pub share: f64,
@@ -61,7 +61,7 @@ pub struct Step {
     pub value: Option<f64>,
     /// Its interval of 95 %, if there is one.
     pub interval: Option<[f64; 2]>,
-    /// Which part the number takes in verdicts.
+    /// Whether the number takes part in verdicts, and if not, why.
     pub standing: Standing,
     /// Its share of the best of those that remain; none for hard needs and unknown numbers.
     pub share: Option<f64>,
@@ -74,7 +74,7 @@ pub struct Step {
 /// A sensor of which a hard need asks what is not known.
 #[derive(Clone, Debug)]
 pub struct Open {
-    /// What it is called.
+    /// Its name.
     pub name: String,
     /// The need, and what is not known.
     pub reason: String,
@@ -83,7 +83,7 @@ pub struct Open {
 /// A sensor that is not ranked.
 #[derive(Clone, Debug)]
 pub struct Dropped {
-    /// What it is called.
+    /// Its name.
     pub name: String,
     /// The need that it does not meet, with the number that decided, or why its number takes no part.
     pub reason: String,

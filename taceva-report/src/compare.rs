@@ -24,21 +24,21 @@ use taceva_metrics::{
 use crate::results::{Score, Study};
 use remarks::Remarks;
 
-/// What a comparison is asked.
+/// What to compare, and how.
 #[derive(Clone, Debug, Default)]
 pub struct CompareRequest {
     /// The metrics that are compared; all that are one number and better on one side, if empty.
     pub metrics: Vec<String>,
     /// How far apart scores may be and still count as equal, by `mae` or `mae.Fz`; the longer name comes first.
     pub margins: BTreeMap<String, f64>,
-    /// The seed of what is drawn.
+    /// The seed of the random signs of the sign-flip test.
     pub seed: u64,
 }
 
-/// Answers, metric by metric.
+/// One answer for each pair of studies and each score that both have, metric by metric.
 #[derive(Clone, Debug)]
 pub struct Comparison {
-    /// What the studies are called.
+    /// The names of the studies, in their order.
     pub names: Vec<String>,
     /// Every pair of studies that have the same score.
     pub answers: Vec<Answer>,
@@ -55,7 +55,7 @@ pub struct Answer {
     pub metric: String,
     /// The channel or plane.
     pub channel: String,
-    /// Which scores are good.
+    /// Whether lower or higher scores are better.
     pub direction: Better,
     /// The unit of both scores.
     pub unit: Unit,
@@ -69,7 +69,7 @@ pub struct Answer {
     pub difference: Option<Difference>,
     /// Why there is no answer.
     pub reason: Option<String>,
-    /// Which part each score takes in verdicts.
+    /// Whether each score takes part in verdicts, and if not, why.
     pub standings: Sides<Standing>,
 }
 
@@ -124,8 +124,8 @@ struct Pair<'a> {
 /// Compares every pair of `studies`.
 ///
 /// The mean absolute error is compared sample by sample where both studies predict the same samples (the sign-flip test, by contact point);
-/// everything else by the intervals of both, on their own scales. The pairs and channels of one metric are a family, about which
-/// Holm's procedure decides: verdict, p value and interval of an answer come from that one decision.
+/// everything else by the intervals of both, on their own scales. The pairs and channels of one metric are one family of Holm's
+/// procedure: verdict, p value and interval of an answer come from that one decision.
 pub fn compare(studies: &[Study], request: &CompareRequest) -> Comparison {
     let names = crate::figures::names(studies);
     let mut answers = Vec::new();

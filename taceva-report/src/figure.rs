@@ -31,7 +31,7 @@ pub struct Figure {
     pub title: String,
     /// What a reader must know: what is drawn, of how many samples, what was left out.
     pub caption: String,
-    /// What is to be seen, for those who cannot see it.
+    /// What the figure shows, in words, for screen readers.
     pub description: String,
     pub(crate) canvas: Canvas,
 }
@@ -59,7 +59,7 @@ impl Figure {
         pdf::letters_without_glyph(self)
     }
 
-    /// How many marks it has.
+    /// How many marks it consists of: lines, areas, boxes, groups of points and labels.
     pub fn marks(&self) -> usize {
         self.canvas.marks.len()
     }

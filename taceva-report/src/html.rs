@@ -41,7 +41,7 @@ use crate::scores::ScoreTable;
 /// What a report shows.
 #[derive(Clone, Copy, Debug)]
 pub struct Report<'a> {
-    /// What stands above it: the name of the scene or the recording.
+    /// The title of the page: the name of the scene or the recording.
     pub title: &'a str,
     /// The results.
     pub studies: &'a [Study],

@@ -44,11 +44,11 @@ pub struct Study {
     pub skipped: Vec<Skip>,
     /// From what, and how: names and texts, in the order they were written.
     pub provenance: Vec<(String, String)>,
-    /// What of it a paragraph of methods needs in parts.
+    /// Those entries of the provenance that the paragraph on methods needs one by one.
     pub made: Made,
     /// What a reader should know.
     pub notes: Vec<String>,
-    /// What scores become with other seeds of the training, where the model was fitted with several.
+    /// The scores with other seeds of the training, where the model was fitted with several.
     pub over_seeds: Option<OverSeeds>,
     /// The samples themselves, where they are at hand; figures that need them are left out otherwise.
     pub samples: Option<Samples>,
@@ -99,7 +99,7 @@ impl Study {
         scores.filter(move |score| score.metric == metric)
     }
 
-    /// Whether no sensor was pressed for it.
+    /// Whether its samples are simulated or synthetic, so that no real sensor was pressed.
     pub fn is_simulated(&self) -> bool {
         matches!(self.source.as_str(), "simulated" | "synthetic")
     }

@@ -48,11 +48,11 @@ pub struct Samples {
 /// A channel of samples.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SampleChannel {
-    /// What it is called.
+    /// Its name.
     pub name: String,
-    /// The readings of the reference instruments.
+    /// The readings of the reference instruments, in the unit of the channel; `None` where one is missing.
     pub truth: Vec<Option<f64>>,
-    /// What was predicted; absent everywhere where nothing was.
+    /// The predictions, in the unit of the channel; `None` for every sample where nothing was predicted.
     pub prediction: Vec<Option<f64>>,
 }
 
@@ -155,7 +155,7 @@ impl Samples {
         }
     }
 
-    /// How many there are.
+    /// The number of samples.
     pub fn rows(&self) -> usize {
         self.rows
     }

@@ -14,7 +14,7 @@ use crate::results::{Interval, Score, Study, Value};
 /// The scores of studies side by side.
 #[derive(Clone, Debug)]
 pub struct ScoreTable {
-    /// What the studies are called.
+    /// The names of the studies, in their order.
     pub names: Vec<String>,
     /// Where the samples of each come from: `recorded`, `simulated`, `synthetic`, `published`, `unknown` or `several`.
     pub sources: Vec<String>,
@@ -37,7 +37,7 @@ pub struct ScoreRow {
     pub unit: Unit,
     /// Whether it is the score itself and not one of its variants.
     pub is_headline: bool,
-    /// A cell a study; a study without the score has none.
+    /// One cell for each study; `None` for a study without the score.
     pub cells: Vec<Option<ScoreCell>>,
 }
 
@@ -46,7 +46,7 @@ pub struct ScoreRow {
 pub struct ScoreCell {
     /// The number itself, if there is one.
     pub value: Option<f64>,
-    /// As it is printed.
+    /// Value and interval as they are printed.
     pub formatted: FormattedValue,
     /// Both ends of its interval.
     pub ends: Option<[f64; 2]>,
@@ -54,7 +54,7 @@ pub struct ScoreCell {
     pub method: Option<String>,
     /// Degrees of freedom of Student's t that the ends were made with, where the result says so.
     pub degrees_of_freedom: Option<f64>,
-    /// Samples it is made of.
+    /// How many samples it is computed from.
     pub n: u64,
     /// Samples left out because a value was no usable number.
     pub n_invalid: u64,

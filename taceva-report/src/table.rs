@@ -46,7 +46,7 @@ pub struct Table {
 pub struct Row {
     /// A cell for each column.
     pub cells: Vec<Cell>,
-    /// Which values of this row are good; used with a column of [`Direction::OfRows`].
+    /// Whether lower or higher values of this row are better; used with a column of [`Direction::OfRows`].
     pub better: Option<Better>,
     /// Whether LaTeX sets this row apart from the one above it.
     pub begins_group: bool,
@@ -81,7 +81,7 @@ impl Table {
         self.push_directed(better, cells);
     }
 
-    /// Adds a row whose numbers are good as `better` says.
+    /// Adds a row of which lower or higher numbers are better, as `better` says.
     pub fn push_directed<C: Into<Cell>>(
         &mut self,
         better: Option<Better>,

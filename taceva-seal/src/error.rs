@@ -1,24 +1,24 @@
-//! Why a file is not believed.
+//! Why a sealed file is refused.
 
-/// Why a file is not believed.
+/// Why a sealed file is refused.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SealError {
-    /// It does not say what it said when it was sealed.
+    /// Its content was changed after it was sealed.
     #[error(
         "{} was changed after it was sealed; restore it, or accept a deliberate edit with `taceva reseal FILE --reason …`",
         what(key)
     )]
     Changed {
-        /// The key whose value is another, where it is known.
+        /// The key whose value was changed, where it is known.
         key: Option<String>,
     },
-    /// Its version says that there must be a seal.
+    /// It has no seal, though files of its version have one.
     #[error(
         "the seal is gone, which files of this version have; restore it, or accept the file as it is with `taceva reseal FILE --reason …`"
     )]
     Gone,
-    /// Nothing stands before the seal.
+    /// It holds a seal and nothing else.
     #[error("a seal without the file that it belongs to")]
     Alone,
     /// The seal itself cannot be read.

@@ -36,7 +36,7 @@ fn short(digest: &str) -> &str {
 /// Whether files of a version have a seal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Version {
-    /// They have.
+    /// They have a seal.
     Sealed,
     /// They were written before there were seals; one that has a seal is checked all the same.
     BeforeSeals,

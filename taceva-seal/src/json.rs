@@ -13,10 +13,10 @@ const SEAL: &str = "seal";
 /// The key of the edits that were accepted.
 const HISTORY: &str = "history";
 
-/// `text`, an object, with its seal; one that it had is replaced.
+/// `text`, a JSON object without a seal, with its seal as the last key.
 ///
 /// # Errors
-/// [`SealError::Content`] if it is no JSON object.
+/// [`SealError::Content`] if it is no JSON object, or has a seal.
 pub fn seal(text: &str) -> Result<String, SealError> {
     seal_with(text, &[])
 }
@@ -33,7 +33,7 @@ pub fn seal_with(text: &str, attached: &[(&str, &[u8])]) -> Result<String, SealE
     with_entries(text, &[(SEAL, seal_entry(&parsed))])
 }
 
-/// Whether `text` says what it said when it was sealed.
+/// Checks that `text` says what it said when it was sealed, whatever its spaces and the order of its keys.
 ///
 /// # Errors
 /// [`SealError`]: changed, with the key where it is known; the seal gone that a file of this version has; a seal alone.

@@ -9,7 +9,7 @@ use crate::written::{PREFIX, digest_of_bytes};
 /// The line with which the seal begins.
 const SEAL: &str = "[seal]";
 
-/// `body` with its seal.
+/// `body`, TOML, with its seal as the last table.
 ///
 /// # Errors
 /// [`SealError::Content`] if it is no TOML, or has a seal.
@@ -27,7 +27,7 @@ pub fn seal(body: &str) -> Result<String, SealError> {
     ))
 }
 
-/// Whether `text` is what it was when it was sealed.
+/// Checks that `text` is what it was when it was sealed, to the byte.
 ///
 /// # Errors
 /// [`SealError`]: changed, with the key where it is known; the seal gone that a file of this version has; a seal alone.

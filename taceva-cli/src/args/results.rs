@@ -104,7 +104,7 @@ pub(crate) enum CatalogueSubject {
     List(Output),
     /// Show what was published of one sensor, each number with its source
     Show(CatalogueShow),
-    /// Write the catalogue as pages: a list that filters and sorts, and a page a sensor
+    /// Write the catalogue as pages: a list that filters and sorts, and one page for each sensor
     Site(CatalogueSite),
 }
 

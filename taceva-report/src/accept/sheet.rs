@@ -15,7 +15,7 @@ use crate::table::{Cell, Column, Table};
 /// The schema of an acceptance as JSON. 1.1: each finding says which values are good.
 pub const ACCEPTANCE_SCHEMA: &str = "taceva.acceptance/1.1";
 
-/// Findings with what they are of.
+/// The findings of one sensor unit, with what its data sheet names beside them.
 #[derive(Clone, Copy, Debug)]
 pub struct Acceptance<'a> {
     /// The name of the limits.
@@ -36,7 +36,7 @@ impl Acceptance<'_> {
         self.findings.iter().all(|finding| finding.is_kept)
     }
 
-    /// A row a limit.
+    /// One row for each limit.
     pub fn table(&self) -> Table {
         let verdict = if self.is_passed() { "passed" } else { "failed" };
         let name = match self.name {

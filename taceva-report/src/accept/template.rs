@@ -13,7 +13,7 @@ const MARGIN: f64 = 0.2;
 /// Digits of a limit: a limit of more is read as if it were known that well.
 const DIGITS: i32 = 3;
 
-/// Limits that `study` keeps, as a file that [`super::LimitsFile::read`] reads: a limit a score that is better on one side, a fifth worse
+/// Limits that `study` keeps, as a file that [`super::LimitsFile::read`] reads: one limit for each score of which lower or higher is better, a fifth worse
 /// than the value, or the worse end of its interval where that is further.
 ///
 /// ```

@@ -13,7 +13,7 @@ use super::published::{Missing, Published, Source};
 pub struct Sensor {
     /// 1.
     pub(super) catalogue_version: u32,
-    /// What it is called.
+    /// Its name.
     pub name: String,
     /// `sensor`, or `study` of an evaluation of others.
     pub kind: Kind,
@@ -76,7 +76,7 @@ impl Sensor {
         built.or_else(|| Some(self.result("intrinsic", "field_of_view")?.value))
     }
 
-    /// How many numbers are known of it.
+    /// How many numbers are known of it: of its construction, its limits and its published results.
     pub fn known(&self) -> usize {
         let built = if self.intrinsic.is_some() { 4 } else { 0 };
         let limits = if self.limits.is_some() { 3 } else { 0 };
@@ -88,7 +88,7 @@ impl Sensor {
         self.sources.iter().find(|source| source.id == id)
     }
 
-    /// By which it is named in files and links: letters and digits of its name.
+    /// Its name in file names and links: ASCII letters in lower case and digits as they are, `-` for every other character.
     pub fn slug(&self) -> String {
         let letters = self.name.chars().map(|letter| {
             if letter.is_ascii_alphanumeric() {

@@ -15,7 +15,7 @@ pub struct Intrinsic {
     pub thickness_mm: f64,
     /// Area of the sensing surface, in mm².
     pub field_of_view_mm2: f64,
-    /// Pictures a second.
+    /// Frames a second, in Hz.
     #[serde(rename = "frame_rate_Hz")]
     pub frame_rate_hz: f64,
 }

@@ -6,7 +6,7 @@ use super::{Kind, Sensor};
 use crate::number::numeral;
 use crate::table::{Column, Direction, Table};
 
-/// A row a sensor; studies of sensors are named below the rows.
+/// One row for each sensor; studies of sensors are named below the rows.
 pub fn list(sensors: &[Sensor]) -> Table {
     let error = |name: &str, unit: &str| {
         let column = Column::new(name).unit(unit);
@@ -51,7 +51,7 @@ pub fn list(sensors: &[Sensor]) -> Table {
         .collect();
     if !studies.is_empty() {
         table.note(format!(
-            "Studies of sensors, which have rows of their own nowhere: {}.",
+            "Studies of sensors, which have no rows of their own: {}.",
             studies.join(", ")
         ));
     }

@@ -7,9 +7,9 @@ use taceva_metrics::Standing;
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Source {
-    /// By what it is named in the file.
+    /// The name by which numbers of the same file refer to it.
     pub id: String,
-    /// Who, what, where, when.
+    /// Authors, title, place and year of publication.
     pub text: String,
     /// Its address, if it has one.
     pub link: Option<String>,
@@ -35,11 +35,11 @@ pub struct Published {
     pub conditions: String,
     /// How it is defined.
     pub definition: String,
-    /// How the number is to be read where it is no measured value: `about` it, `above` or `below` it.
+    /// How the true value relates to the number where it is not stated exactly: `about`, `above` or `below` it; absent of an exact number.
     pub bound: Option<Roughly>,
     /// What a reader must know.
     pub note: Option<String>,
-    /// Which part it takes in verdicts: by the published R² of its channel.
+    /// Whether it takes part in verdicts, by the published R² of its channel.
     #[serde(skip)]
     pub standing: Standing,
     /// Its interval of 95 %; none of published numbers.

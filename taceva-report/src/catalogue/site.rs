@@ -1,4 +1,4 @@
-//! The catalogue as a static site: a list that filters and sorts, and a page a sensor under a permanent name.
+//! The catalogue as a static site: a list that filters and sorts, and one page for each sensor, whose file name does not change.
 
 use maud::{Markup, html};
 
@@ -17,7 +17,7 @@ const TITLE: &str = "Catalogue of vision-based tactile sensors";
 pub struct SitePage {
     /// Its name: `index.html`, `vitactip.html`.
     pub file: String,
-    /// What is in it.
+    /// Its content, as HTML.
     pub text: String,
 }
 
@@ -148,10 +148,8 @@ fn study(entry: &Sensor) -> Markup {
 
 fn page(sensor: &Sensor) -> String {
     let lead = html! {
-        @match sensor.kind {
-            Kind::Sensor => p.lead { a href="index.html" { (TITLE) } },
-            Kind::Study => p { "A study of sensors, and no sensor." },
-        }
+        p.lead { a href="index.html" { (TITLE) } }
+        @if sensor.kind == Kind::Study { p { "A study of sensors, and no sensor." } }
     };
     let mut document = Document::new(&sensor.name, lead);
     document.section("properties", "Properties", properties(sensor));
@@ -256,5 +254,20 @@ fn results(sensor: &Sensor) -> Markup {
     html! {
         (scroll("Published results", &table))
         @for missing in &sensor.missing { p.note { "No number of " (missing.metric) ": " (missing.reason) "." } }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_page_leads_back_to_the_list() {
+        let pages = site(&super::super::all(), &[]);
+        assert!(pages.len() > 12);
+        for page in &pages[1..] {
+            let link = format!("<a href=\"index.html\">{TITLE}</a>");
+            assert!(page.text.contains(&link), "{}", page.file);
+        }
     }
 }

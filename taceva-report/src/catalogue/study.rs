@@ -14,8 +14,8 @@ use crate::results::{Interval, Made, Score, Study, Value, by_published_r2};
 pub(crate) const PUBLISHED: &str = "published";
 
 impl Sensor {
-    /// Results as a sensor that can be chosen: its numbers, and whether light is kept out as far as the results say. What a sensor stands is no
-    /// result; it is taken from the sensor of that name in the catalogue, if there is one, and not known of a sensor that was simulated.
+    /// Results as a sensor that can be chosen: its numbers, and whether light is kept out as far as the results say. The limits of a
+    /// sensor are not part of results; they are taken from the sensor of that name in the catalogue, if there is one, and not known of one that was simulated.
     pub fn of_study(study: &Study) -> Sensor {
         let result = |score: &Score| {
             Some(Published {

@@ -10,14 +10,14 @@ use crate::number::significant;
 use crate::results::Study;
 use crate::spread;
 
-/// A difference that is shown between two that are ranked, in a number that they were ranked by.
+/// A difference that a test shows between two ranked sensors, in one of the numbers that they were ranked by.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Evidence {
-    /// Who is better.
+    /// The sensor that is better.
     pub better: String,
-    /// Than whom.
+    /// The sensor that it is better than.
     pub than: String,
-    /// In which number.
+    /// The number in which it is better.
     pub property: Property,
     /// The p value, adjusted by Holm's method over all pairs and channels of the metric.
     pub p: f64,

@@ -10,18 +10,18 @@ use super::words::{QUANTITIES, Quantity, WORDS};
 /// One need of a task.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Need {
-    /// As it was given.
+    /// The need as it was written.
     pub words: String,
-    /// What drops a sensor.
+    /// Bounds; a sensor that breaks one is dropped.
     pub bounds: Vec<Bound>,
-    /// What ranks those that remain.
+    /// Properties by which the remaining sensors are ranked.
     pub ranks: Vec<Property>,
 }
 
 /// A number that a sensor must reach or stay below.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bound {
-    /// Of what.
+    /// The property that is bounded.
     pub property: Property,
     /// Whether the number must be at least this, else at most.
     pub is_least: bool,

@@ -22,7 +22,7 @@ pub enum Property {
     Sensitivity,
     /// Evenness of the sensitivity over the surface.
     Uniformity,
-    /// Pictures a second, in Hz.
+    /// Frames a second, in Hz.
     FrameRate,
     /// The area that is sensed, in mm².
     FieldOfView,
@@ -84,14 +84,14 @@ impl Property {
         sensor.result(metric, channel)?.interval
     }
 
-    /// Which part the number of `sensor` takes in verdicts; what is no score counts.
+    /// Whether the number of `sensor` takes part in verdicts, and if not, why; what is no score takes part.
     pub fn standing(self, sensor: &Sensor) -> Standing {
         let score = self.score();
         let result = score.and_then(|(metric, channel)| sensor.result(metric, channel));
         result.map_or(Standing::Counts, |result| result.standing)
     }
 
-    /// Which numbers are good.
+    /// Whether lower or higher numbers are better.
     pub fn better(self) -> Better {
         match self {
             Property::Error(_)

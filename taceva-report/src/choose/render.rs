@@ -15,7 +15,7 @@ use crate::table::{Column, Direction, Table};
 pub const CHOICE_SCHEMA: &str = "taceva.choice/1.5";
 
 impl Choice {
-    /// A row a sensor, need and number; the best sensor first, those that were dropped last.
+    /// One row for each sensor, need and number; the best sensor first, those that were dropped last.
     pub fn table(&self) -> Table {
         let columns = [
             Column::new("place"),
@@ -55,7 +55,7 @@ impl Choice {
             let unsure = candidate.steps.iter().filter(|step| step.is_unsure);
             for step in unsure {
                 table.note(format!(
-                    "Met by the value alone: `{}` by {}: the interval of its {} reaches beyond.",
+                    "Met by the value alone: `{}` by {}: the interval of its {} reaches beyond the bound.",
                     step.need, candidate.name, step.property
                 ));
             }

@@ -8,9 +8,9 @@ use crate::html::QUESTIONS;
 use crate::number::{at_most, numeral, spaced};
 use crate::tie::best;
 
-/// Lines of the first screen.
+/// The most lines of [`Comparison::overview`].
 pub const OVERVIEW_LINES: usize = 12;
-/// Letters of a line of a terminal.
+/// The most letters of a line of a terminal.
 pub const OVERVIEW_WIDTH: usize = 100;
 
 /// A question about one score, and its answer.
@@ -22,7 +22,7 @@ pub struct Decision {
     pub metric: String,
     /// The channel or plane.
     pub channel: String,
-    /// Which values are good.
+    /// Whether lower or higher values are better.
     pub better: Better,
     /// The position of the study that is shown to be better than every other one.
     pub winner: Option<usize>,
@@ -89,8 +89,8 @@ impl Comparison {
         )
     }
 
-    /// The first screen: what decides, in at most [`OVERVIEW_LINES`] lines. With a `width` they have at most so many letters, cut between
-    /// words; questions without room are counted.
+    /// The questions that are asked first with their answers, in at most [`OVERVIEW_LINES`] lines. With a `width` they have at most so many letters, cut between
+    /// words; questions for which there is no line left are counted.
     pub fn overview(&self, width: Option<usize>) -> String {
         let line = |words: &str| {
             let words = crate::escape::terminal(words);

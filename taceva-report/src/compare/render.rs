@@ -35,7 +35,7 @@ fn level(confidence: f64) -> String {
 }
 
 impl Comparison {
-    /// A row an answer.
+    /// One row for each answer.
     pub fn table(&self) -> Table {
         let columns = [Column::of_metrics()].into_iter();
         let mut table = Table::new("Comparison", columns.chain(HEAD.map(Column::new)));

@@ -5,7 +5,7 @@ use crate::figures::listed;
 use crate::results::Study;
 use crate::tie::{GRATINGS, Tie, tie};
 
-/// The ties of `studies` in telling gratings, a line each: `sr line: tie: GelSight and TacTip both predict the spacing of gratings down to 0.25 mm to within
+/// The ties of `studies` in predicting the spacing of gratings, one line each: `sr line: tie: GelSight and TacTip both predict the spacing of gratings down to 0.25 mm to within
 /// 0.05 mm`.
 pub fn ties(studies: &[Study]) -> Vec<String> {
     let names = crate::figures::names(studies);

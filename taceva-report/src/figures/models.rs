@@ -18,7 +18,7 @@ struct Dot<'a> {
     is_on_front: bool,
 }
 
-/// Draws what one prediction takes against how far off it is; nothing if no model has an error.
+/// The time from a frame to its prediction against the mean absolute error of each model; `None` if no model has an error.
 pub fn model_bench(bench: &ModelBench) -> Option<Figure> {
     let time = "time from frame to prediction (ms)";
     let (canvas, fronts) = draw(bench, time)?;
@@ -31,7 +31,7 @@ pub fn model_bench(bench: &ModelBench) -> Option<Figure> {
     })
 }
 
-/// Draws what decoding a frame takes against how far off the model is; nothing if there is no error.
+/// The time to decode a frame against the mean absolute error of the model, at each scale; `None` if there is no error.
 pub fn decode_bench(bench: &DecodeBench) -> Option<Figure> {
     let mut raced = ModelBench::new(bench.machine.clone(), bench.recording.clone());
     raced.rows = bench.rows.iter().map(as_model).collect();

@@ -11,11 +11,11 @@ use crate::number::numeral;
 pub struct Race {
     /// The title: `Summation kernels`.
     pub title: String,
-    /// What a reader must know: machine, sizes, rounds.
+    /// The conditions that a reader must know, such as machine, sizes and rounds.
     pub caption: String,
-    /// What is gained, to the right: `right digits`.
+    /// The name of the horizontal axis, on which more is better: `right digits`.
     pub gain: String,
-    /// What it costs, upwards and by logarithm: `ns a pair`.
+    /// The name of the vertical axis, logarithmic, on which less is better: `ns a pair`.
     pub cost: String,
     /// A lower bound of the cost, and its name.
     pub floor: Option<(f64, String)>,

@@ -1,4 +1,4 @@
-//! What is folded until a reader asks for it; paper shows all of it.
+//! Passages that are folded on the screen until a reader opens them, and always open on paper.
 
 use maud::{Markup, html};
 

@@ -20,7 +20,7 @@ pub struct DecodeBench {
     pub machine: BenchMachine,
     /// What the model learned from.
     pub recording: BenchRecording,
-    /// What was done to the frames before; empty where they are as they were recorded.
+    /// What was done to the frames before they were decoded; empty where they are as they were recorded.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub note: String,
     /// The name of the model in the registry: `ridge`.
@@ -28,11 +28,11 @@ pub struct DecodeBench {
     /// Its settings in words; empty for its defaults.
     #[serde(default)]
     pub settings: String,
-    /// A scale each, the largest first.
+    /// One row for each scale, the largest first.
     pub rows: Vec<DecodeRow>,
 }
 
-/// One scale: what a frame takes, and how far off the model is.
+/// One scale: the time to decode a frame, and the error of the model.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DecodeRow {
@@ -51,13 +51,13 @@ pub struct DecodeRow {
     pub failed: Option<String>,
 }
 
-/// The error of one channel, and how much more it is than at full size.
+/// The error of one channel, and its difference from that at full size.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ScaledError {
     /// The error.
     #[serde(flatten)]
     pub error: ChannelError,
-    /// Less that at full size, on the same samples; `None` at full size, or where that could not be scored.
+    /// This error less that at full size, on the same samples, in the same unit; `None` at full size, or where that could not be scored.
     pub change: Option<f64>,
     /// Its 95 % interval by contact point; `None` if there are too few points.
     pub change_ci95: Option<[f64; 2]>,
@@ -100,7 +100,7 @@ impl DecodeBench {
         text + "\n"
     }
 
-    /// Whether no sensor was pressed for it.
+    /// Whether its samples are simulated or synthetic, so that no real sensor was pressed.
     pub fn is_simulated(&self) -> bool {
         is_simulated(&self.recording.source)
     }

@@ -7,7 +7,7 @@ pub enum ResultsError {
     /// They are no JSON.
     #[error("not JSON: {0}")]
     Json(#[from] serde_json::Error),
-    /// They are not what they were when they were written.
+    /// They were changed after they were sealed, or their seal is missing or unreadable.
     #[error("{0}")]
     Seal(#[from] taceva_seal::SealError),
     /// They have no schema, or one that is not known here.

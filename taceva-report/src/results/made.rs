@@ -7,8 +7,8 @@ pub struct Made {
     pub model: Option<String>,
     /// The settings of the model, chosen ones included, by name.
     pub settings: Vec<(String, String)>,
-    /// Samples a part of the split, by name: `train`, `validation`, `test`.
+    /// The number of samples of each part of the split, by its name: `train`, `validation`, `test`.
     pub samples: Vec<(String, u64)>,
-    /// Presses of the recording, however they ended; 0 where nobody counted.
+    /// Presses of the recording, however they ended; 0 where the result does not say.
     pub presses: u64,
 }

@@ -22,7 +22,7 @@ pub struct ModelBench {
     pub machine: BenchMachine,
     /// What the models learned from.
     pub recording: BenchRecording,
-    /// A model each, in the order of the race.
+    /// One row for each model, in the order of the benchmark.
     pub rows: Vec<ModelRow>,
 }
 
@@ -36,7 +36,7 @@ pub struct BenchMachine {
     pub cores: usize,
     /// Threads that the benchmark used.
     pub threads: usize,
-    /// Instruction sets with a path of their own, the widest first.
+    /// Instruction sets of the processor for which the program has code of its own, the widest first.
     pub isa: Vec<String>,
     /// Programs that wanted a core in the minute before, per core; `None` where the system does not say.
     pub load: Option<f64>,
@@ -46,7 +46,7 @@ pub struct BenchMachine {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BenchRecording {
-    /// What it is called.
+    /// Its name.
     pub name: String,
     /// The sensor model.
     pub sensor: String,
@@ -60,7 +60,7 @@ pub struct BenchRecording {
     pub test: u64,
 }
 
-/// One model: what it costs and how far off it is.
+/// One model: its times and its errors.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ModelRow {
@@ -97,9 +97,9 @@ pub struct ChannelError {
     pub mae: f64,
     /// Its 95 % interval by contact point; `None` if there are too few points.
     pub ci95: Option<[f64; 2]>,
-    /// Samples it is made of.
+    /// How many samples it is computed from.
     pub n: u64,
-    /// The models of the race that take less processor time to fit and than which this one is not shown to be nearer.
+    /// Models that take less processor time to fit, and than whose errors that of this one is not shown to be smaller.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub beaten_by: Vec<String>,
 }
@@ -141,7 +141,7 @@ impl ModelBench {
         text + "\n"
     }
 
-    /// Whether no sensor was pressed for it.
+    /// Whether its samples are simulated or synthetic, so that no real sensor was pressed.
     pub fn is_simulated(&self) -> bool {
         is_simulated(&self.recording.source)
     }

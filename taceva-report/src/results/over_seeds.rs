@@ -2,7 +2,7 @@
 
 use taceva_core::Unit;
 
-/// What the scores of a model become with other seeds of its training.
+/// The scores of a model with each of several seeds of its training.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct OverSeeds {
     /// The seeds; the scores of the study are those of the first.
@@ -22,12 +22,12 @@ pub struct SeedScore {
     pub channel: String,
     /// The unit of every number.
     pub unit: Unit,
-    /// The value with each seed; none where there is none.
+    /// The value with each seed, in `unit`; `None` where the score has no value.
     pub values: Vec<Option<f64>>,
-    /// The mean of them.
+    /// The mean of the values.
     pub mean: f64,
     /// Their standard deviation.
     pub standard_deviation: f64,
-    /// Where the mean over ever more seeds lies, at 95 %.
+    /// The 95 % confidence interval of the mean over seeds.
     pub interval: [f64; 2],
 }

@@ -14,17 +14,17 @@ pub struct Score {
     pub value: Value,
     /// The unit of value and interval.
     pub unit: Unit,
-    /// Samples it is made of.
+    /// How many samples it is computed from.
     pub n: u64,
     /// Samples left out because a value was no usable number.
     pub n_invalid: u64,
-    /// Its 95 % interval; `None` where the question makes no sense.
+    /// Its 95 % interval; `None` where an interval has no meaning.
     pub interval: Option<Interval>,
     /// Which definition was computed: `mae/1`.
     pub definition: String,
     /// The constants of the definition.
     pub parameters: Vec<(String, f64)>,
-    /// What was counted on the way.
+    /// What was counted while it was computed, by name.
     pub counts: Vec<(String, u64)>,
     /// What a reader must know before trusting it.
     pub flags: Vec<String>,
@@ -33,22 +33,22 @@ pub struct Score {
     /// Which share of the predictions it was formed with lie beyond the bounds of the model; `None` where no prediction enters it or nobody
     /// wrote it down.
     pub bounded_share: Option<f64>,
-    /// The channels it is made of, if it is not one channel's own.
+    /// The channels that it is computed from, where they are several.
     pub of: Vec<String>,
-    /// What else the metric says there.
+    /// Other values of the same metric and channel.
     pub variants: Vec<Variant>,
 }
 
 /// Another value of the same metric and channel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variant {
-    /// What it is called: `slope`, `map`.
+    /// Its name: `slope`, `map`.
     pub name: String,
     /// The value, in `unit`.
     pub value: Value,
     /// The unit of value and interval.
     pub unit: Unit,
-    /// Its 95 % interval; `None` where the question makes no sense.
+    /// Its 95 % interval; `None` where an interval has no meaning.
     pub interval: Option<Interval>,
 }
 
@@ -95,7 +95,7 @@ impl Score {
         self.variants.iter().find(|variant| variant.name == name)
     }
 
-    /// Which part the score, or its variant of that name, takes in verdicts: a reference constant is no claim of the model, and always counts.
+    /// Whether the score, or its variant of that name, takes part in verdicts, and if not, why: a reference constant is no claim of the model, and always counts.
     pub fn standing_of(&self, variant: Option<&str>) -> Standing {
         match variant {
             Some("of_constant" | "constant") => Standing::Counts,
@@ -103,7 +103,7 @@ impl Score {
         }
     }
 
-    /// Which values are good; of metrics that are not known here, none.
+    /// Whether lower or higher values are better; neither of metrics that are not known here.
     pub fn better(&self) -> Better {
         catalogue::find(&self.metric).map_or(Better::Described, |metric| metric.better)
     }

@@ -31,7 +31,7 @@ const REPEATABILITY: [&str; 2] = [
 const BARRED: &str = "†";
 
 impl ScoreTable {
-    /// A row a score and study, for programs: numbers in shortest round-trip form.
+    /// One row for each score and study, for programs: numbers in shortest round-trip form.
     pub fn every_number(&self) -> Table {
         let columns = [
             Column::new("sensor"),
@@ -62,7 +62,7 @@ impl ScoreTable {
         table
     }
 
-    /// A row a score, a column a study, for pages: values with intervals, bold where one is shown to be better than all others of its row.
+    /// One row for each score and one column for each study, for pages: values with intervals, bold where one is shown to be better than all others of its row.
     pub fn for_pages(&self) -> Table {
         let columns = ["metric", "channel", "unit"].map(Column::new);
         let [metric, channel, unit] = columns;

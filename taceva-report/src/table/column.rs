@@ -4,23 +4,23 @@ use taceva_metrics::Better;
 
 use super::Words;
 
-/// A column: what its cells are, in which unit, and which of them are good.
+/// A column: what its cells are, in which unit, and whether lower or higher ones are better.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Column {
-    /// What its cells are.
+    /// Its name.
     pub name: Words,
     /// Their unit, where all have the same.
     pub unit: Option<String>,
-    /// Which of them are good.
+    /// Whether lower or higher ones are better.
     pub direction: Direction,
     /// On which side they stand.
     pub align: Align,
 }
 
-/// Which numbers are good: a sign for people, a word for programs.
+/// Whether lower or higher numbers are better; people read a sign, programs a word.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Direction {
-    /// They are no scores.
+    /// The cells are no scores.
     #[default]
     None,
     /// All of the column alike: people find the sign in the head; programs know the column by its name.
