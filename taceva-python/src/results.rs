@@ -70,7 +70,7 @@ fn rendered(table: &Table, form: &str) -> PyResult<String> {
         "csv" => table.csv(),
         "md" => table.markdown(),
         "tex" => table.latex(Layout::Float),
-        "html" => table.html(),
+        "html" => table.html_fragment(),
         other => {
             return Err(value_error(format_args!(
                 "form {other:?}: expected text, csv, md, tex or html"

@@ -3,6 +3,7 @@
 use maud::{Markup, html};
 
 use super::{Cell, Column, Direction, Row, Table};
+use crate::escape;
 use crate::html::{metric_link, scroll};
 
 /// Letters of a cell that is broken into lines on a page.
@@ -11,6 +12,18 @@ const LONG: usize = 28;
 const VERY_LONG: usize = 70;
 
 impl Table {
+    /// As a piece of HTML for somebody else's page, such as a notebook: every text is escaped, and what a terminal or a page would obey is replaced.
+    ///
+    /// ```
+    /// use taceva_report::{Cell, Table};
+    /// let mut table = Table::new("Sensors", ["name"]);
+    /// table.push([Cell::text("<script>")]);
+    /// assert!(table.html_fragment().contains("&lt;script&gt;"));
+    /// ```
+    pub fn html_fragment(&self) -> String {
+        escape::obeyed_replaced(&self.html().into_string())
+    }
+
     /// As a table of a page, that sorts.
     pub(crate) fn html(&self) -> Markup {
         self.html_with(|column, row, cell| {
