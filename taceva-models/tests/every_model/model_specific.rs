@@ -46,7 +46,7 @@ fn predictions_stay_within_the_bounds_outside_the_training_range() {
     let counts = beyond(&model, &free);
     assert!(counts.iter().sum::<usize>() > 60, "{counts:?}");
     let mut bounded = free.clone();
-    model.bound(&mut bounded);
+    model.label_bounds().bound(&mut bounded);
     assert_eq!(bounded, found);
     for (position, count) in counts.into_iter().enumerate() {
         let [least, greatest] = model.label_bounds().of(position).expect("a new model");
@@ -65,7 +65,7 @@ fn beyond(model: &Model, predictions: &[f64]) -> Vec<usize> {
     let channels = model.channels().len();
     let of = |position: usize| {
         let own = predictions.iter().skip(position).step_by(channels);
-        own.filter(|value| model.is_beyond(position, **value) == Some(true))
+        own.filter(|value| model.label_bounds().is_beyond(position, **value) == Some(true))
             .count()
     };
     (0..channels).map(of).collect()
