@@ -58,7 +58,7 @@ pub enum TapError {
         /// How many there were.
         count: usize,
     },
-    /// A device that does not show the tap, or not the same way from its edge on.
+    /// A device that does not show the tap: in the air its signal varies by half of its change, or more.
     #[error(
         "tap {tap}: the {device} does not show it clearly: in the air its signal varies by {in_air:.2} of its change, expected below {EDGE}; see what it is fixed to, its light or its noise"
     )]
