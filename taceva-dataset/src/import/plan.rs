@@ -69,7 +69,6 @@ impl ImportPlan {
     ///
     /// # Errors
     /// As [`new`](ImportPlan::new); [`DatasetError::Image`] naming the codec and what would mend it if nothing at hand decodes a clip.
-    ///
     /// ```
     /// # use taceva_core::{Channel, Channels, Clock, SourceUnit};
     /// # use taceva_dataset::{ColumnMap, ImportMap, ImportPlan, RecordingFacts, SensorFacts, Source};
@@ -277,10 +276,9 @@ impl<'a> Reading<'a> {
         if let Some(known) = self.opened.get(&path) {
             return Ok(Arc::clone(known));
         }
-        let mut files = Vec::new();
-        for file in matching_files(self.folder, relative)? {
-            files.push(self.open(&file, relative)?);
-        }
+        let found = matching_files(self.folder, relative)?.into_iter();
+        let files = found.map(|file| self.open(&file, relative));
+        let mut files = files.collect::<Result<Vec<_>, _>>()?;
         let pictures = match files.len() {
             1 => files.remove(0),
             _ => Arc::new(SeveralPictures::new(files)),
@@ -290,8 +288,7 @@ impl<'a> Reading<'a> {
     }
 
     fn open(&self, path: &Path, relative: &str) -> Result<Arc<dyn Pictures>, DatasetError> {
-        let names = self.map.frame.as_ref().map(|frame| &frame.names);
-        Ok(match names {
+        Ok(match self.map.frame.as_ref().map(|frame| &frame.names) {
             Some(names @ FrameNames::Array(array)) => {
                 Arc::new(ArrayPictures::open(path, names, array)?)
             }

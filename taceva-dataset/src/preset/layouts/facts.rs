@@ -238,7 +238,7 @@ impl Preset {
 }
 
 /// Where episodes of UniVTAC lie.
-pub(in crate::preset) const UNIVTAC_FILES: &[&str] =
+pub(crate) const UNIVTAC_FILES: &[&str] =
     &["*.hdf5", "hdf5/*.hdf5", "clean/*.hdf5", "*/clean/*.hdf5"];
 /// Where shards of FoTa lie.
-pub(in crate::preset) const FOTA_FILES: &[&str] = &["data-*.tar", "*/data-*.tar"];
+pub(crate) const FOTA_FILES: &[&str] = &["data-*.tar", "*/data-*.tar"];
