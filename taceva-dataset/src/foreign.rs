@@ -28,7 +28,7 @@ use crate::csv_table::CsvTable;
 use crate::error::{DatasetError, Place};
 use crate::file::SourceFolder;
 use crate::import::FrameNames;
-use crate::text::{nearest, shown};
+use crate::text::{listed, nearest, shown};
 
 pub(crate) use arrays::ArrayPictures;
 pub(crate) use clips::ClipPictures;
@@ -86,16 +86,6 @@ pub(crate) fn said(path: &Path, error: &impl fmt::Display) -> String {
     let text = error.to_string();
     let rest = text.strip_prefix(&format!("{}: ", path.display()));
     rest.unwrap_or(&text).to_owned()
-}
-
-/// Names that a message lists; the others are counted.
-fn listed(names: &[String]) -> String {
-    const LISTED: usize = 64;
-    let shown: Vec<String> = names.iter().take(LISTED).map(|name| shown(name)).collect();
-    match names.len().saturating_sub(LISTED) {
-        0 => shown.join(", "),
-        more => format!("{} and {more} more", shown.join(", ")),
-    }
 }
 
 impl ForeignTable {

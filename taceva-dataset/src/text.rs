@@ -36,6 +36,16 @@ pub(crate) fn nearest<'a>(
         .map(|(_, candidate)| candidate)
 }
 
+/// Names that a message lists; the others are counted.
+pub(crate) fn listed(names: &[String]) -> String {
+    const LISTED: usize = 64;
+    let shown: Vec<String> = names.iter().take(LISTED).map(|name| shown(name)).collect();
+    match names.len().saturating_sub(LISTED) {
+        0 => shown.join(", "),
+        more => format!("{} and {more} more", shown.join(", ")),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -11,10 +11,10 @@ use std::sync::Arc;
 use taceva_arrays::{ArrayError, ArrayFile, ArrayFormat, ArrayInfo};
 
 use super::columns::{ColumnSource, PictureColumn};
-use super::listed;
 use super::pictures::Pictures;
 use crate::import::FrameNames;
 use crate::limits;
+use crate::text::listed;
 use cells::Texts;
 pub(crate) use frames::ArrayPictures;
 

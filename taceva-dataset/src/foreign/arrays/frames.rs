@@ -10,10 +10,10 @@ use super::form::{Form, READ_BYTES, form_of};
 use super::{absent_chunks, problem};
 use crate::decode::ChannelOrder;
 use crate::error::DatasetError;
-use crate::foreign::listed;
 use crate::foreign::pictures::{Pictures, Visit, damaged};
 use crate::guard::guarded;
 use crate::import::{ArrayFrames, FrameNames};
+use crate::text::listed;
 
 /// The frames of one array, or of several one after the other.
 #[derive(Debug)]

@@ -1,0 +1,91 @@
+//! Archives, HDF5, object arrays and pickles, and signals that are no numbers.
+
+use std::fs;
+use std::path::Path;
+
+use taceva_needs::{Need, skip};
+
+use super::crafted::{archive_of_zeros, npy};
+use super::{FORCE, NO_TIME, imported, lab, refused, workspace};
+
+#[test]
+fn zip_bombs_in_npz_are_refused_before_they_are_inflated() {
+    for (size, packed) in [
+        (2_000_000_000, vec![0; 8_000_000]),
+        (1 << 50, vec![0; 1_000]),
+    ] {
+        let folder = lab(&[("bomb.npz", &archive_of_zeros(size, &packed))]);
+        let map = format!("table = \"bomb.npz\"\n{FORCE}{NO_TIME}");
+        refused(folder.path(), &map, &["bomb.npz"]);
+    }
+}
+
+#[test]
+fn cyclic_and_external_links_of_hdf5_end_or_are_named() {
+    let from = |file: &str| {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = workspace("taceva-arrays/tests/data/refused").join(file);
+        fs::copy(path, folder.path().join("run.h5")).expect("copied");
+        folder
+    };
+    let map = |array: &str| {
+        format!(
+            "table = \"run.h5\"\n[columns]\nFz = {{ from = \"{array}\", unit = \"N\" }}\n{NO_TIME}"
+        )
+    };
+    let cycle = imported(from("cycle.h5").path(), &map("/a/b/x"));
+    assert!(cycle.is_ok(), "{:?}", cycle.err());
+    refused(
+        from("cycle-soft.h5").path(),
+        &map("/ft"),
+        &["`/a` leads to `/b`", "del f['"],
+    );
+    refused(from("kinds.h5").path(), &map("/elsewhere"), &["/elsewhere"]);
+    refused(from("links.h5").path(), &map("/elsewhere"), &["/elsewhere"]);
+}
+
+#[test]
+fn object_arrays_and_pickles_run_nothing() {
+    let proof = std::env::temp_dir().join(format!("taceva-was-run-{}", std::process::id()));
+    let code = format!("cos\nsystem\n(S'touch {}'\ntR.", proof.display());
+    let array = npy("|O", "(2,)", code.as_bytes());
+    let pickle = [&b"\x80\x02"[..], code.as_bytes()].concat();
+    let folder = lab(&[("value.npy", &array), ("value.pkl", &pickle)]);
+    for table in ["value.npy", "value.pkl"] {
+        let map = format!("table = \"{table}\"\n{FORCE}{NO_TIME}");
+        refused(folder.path(), &map, &[table]);
+        assert!(!proof.exists(), "{table} was run");
+    }
+}
+
+#[test]
+fn signals_that_are_no_numbers_name_their_row() {
+    let numbers = [1.0_f32, 2.0, 3.0, f32::NAN];
+    let bytes: Vec<u8> = numbers
+        .iter()
+        .flat_map(|value| value.to_le_bytes())
+        .collect();
+    let folder = lab(&[
+        ("labels.csv", b"value\n1\n2\n"),
+        ("taxels.npy", &npy("<f4", "(2, 2)", &bytes)),
+    ]);
+    let map = format!(
+        "table = \"labels.csv\"\n{FORCE}{NO_TIME}[signals]\nfrom = {{ file = \"taxels.npy\" }}\nunit = \"uT\"\nplaces = [2, 1]\nchannels = [\"z\"]\n"
+    );
+    refused(folder.path(), &map, &["taxels.npy", "row 1", "NaN"]);
+}
+
+/// The collection of files that broke other readers is nobody's to copy: it is read where somebody put it.
+#[test]
+fn the_public_collection_of_hdf5_files_that_broke_readers_is_refused_or_read() {
+    let folder = std::env::var_os("TACEVA_DATA").map(|data| Path::new(&data).join("cve_hdf5"));
+    let Some(folder) = folder.filter(|folder| folder.is_dir()) else {
+        return skip(Need::Recordings, "no folder `cve_hdf5` in TACEVA_DATA");
+    };
+    for entry in fs::read_dir(folder).expect("a folder").flatten() {
+        let lab = tempfile::tempdir().expect("a folder");
+        fs::copy(entry.path(), lab.path().join("run.h5")).expect("copied");
+        let map = format!("table = \"run.h5\"\n{FORCE}{NO_TIME}");
+        drop(imported(lab.path(), &map));
+    }
+}
