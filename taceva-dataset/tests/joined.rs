@@ -32,7 +32,7 @@ fn record(folder: &Path, name: &str, first: u8, clock: Clock) -> PathBuf {
         recorder
             .append(
                 &Sample::new(number.to_string())
-                    .with_point_id("p1")
+                    .with_point_id("p1".to_owned())
                     .with_frame(Frame::new(info, vec![number, 90]).expect("whole"))
                     .with_signals(Signals::new(taxels, values).expect("finite"))
                     .with_truth(Readings::from_values([f64::from(number)])),
