@@ -246,7 +246,13 @@ fn rows_that_are_added_can_be_killed_at_any_moment_and_nothing_is_lost_or_double
     let (mut before, mut amid, mut after) = (0, 0, 0);
     let (mut old, mut new) = (None, None);
     for number in 0..KILLS_OF_ADDITIONS {
-        assert!(import(&first, &target).arg("--force").status().expect("built").success());
+        assert!(
+            import(&first, &target)
+                .arg("--force")
+                .status()
+                .expect("built")
+                .success()
+        );
         let old = *old.get_or_insert(open_whole(&target).expect("imported").digest());
         let whole = entries_below(&target);
         let mut child = extend().spawn().expect("built");
@@ -261,7 +267,11 @@ fn rows_that_are_added_can_be_killed_at_any_moment_and_nothing_is_lost_or_double
             (true, 4) if is_clean => before += 1,
             (true, 4) => amid += 1,
             (false, 64) => {
-                assert_eq!(*new.get_or_insert(dataset.digest()), dataset.digest(), "{context}");
+                assert_eq!(
+                    *new.get_or_insert(dataset.digest()),
+                    dataset.digest(),
+                    "{context}"
+                );
                 after += 1;
             }
             (_, rows) => panic!("{context}: {rows} rows"),
@@ -269,12 +279,21 @@ fn rows_that_are_added_can_be_killed_at_any_moment_and_nothing_is_lost_or_double
         // Once more: what was not added is added now, and what was added is refused.
         let was_added = dataset.digest() != old;
         drop(dataset);
-        assert_eq!(extend().status().expect("built").success(), !was_added, "{context}");
+        assert_eq!(
+            extend().status().expect("built").success(),
+            !was_added,
+            "{context}"
+        );
         let rows = open_whole(&target).expect(&context).table().rows();
         assert_eq!(rows, 64, "{context}");
     }
-    eprintln!("additions killed: {before} before the first file, {amid} amid, {after} after the exchange");
-    assert!(amid >= KILLS_OF_ADDITIONS / 8, "the moments were chosen badly");
+    eprintln!(
+        "additions killed: {before} before the first file, {amid} amid, {after} after the exchange"
+    );
+    assert!(
+        amid >= KILLS_OF_ADDITIONS / 8,
+        "the moments were chosen badly"
+    );
 }
 
 #[test]
