@@ -131,8 +131,7 @@ pub(crate) fn capacitive() -> String {
 }
 
 #[expect(clippy::print_stderr, reason = "a program of its own")]
-#[allow(dead_code, reason = "a test takes the tables alone")]
-fn main() -> std::process::ExitCode {
+pub(crate) fn main() -> std::process::ExitCode {
     let Some(folder) = std::env::args_os().nth(1) else {
         eprintln!("usage: draw_taxels FOLDER");
         return std::process::ExitCode::from(2);

@@ -25,7 +25,7 @@ fn notes(report: &Value) -> String {
 }
 
 #[test]
-fn a_single_recording_has_the_same_bytes_as_ever_and_no_key_of_several() {
+fn a_single_recording_has_no_key_of_several() {
     let bench = Bench::new();
     bench.record("monday", 24);
     let report = bench.json("evaluate monday --model ridge --set size=8 --metrics accuracy");

@@ -104,6 +104,8 @@ mod draw_taxels;
 /// The examples of sensors of taxels, as their README says.
 #[test]
 fn the_drawn_examples_are_what_their_program_draws_and_are_evaluated() {
+    // A program of its own, of which the tables alone are needed here.
+    let _: fn() -> std::process::ExitCode = draw_taxels::main;
     let examples = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/taxels");
     for (name, drawn, least) in [
         ("magnetic", draw_taxels::magnetic(), 0.9),

@@ -7,12 +7,13 @@ use std::path::Path;
 use taceva_core::shown;
 
 use anyhow::Context as _;
+use taceva_dataset::Dataset;
 use taceva_report::{
     Layout, Picture, Report, Samples, ScoreTable, Study, Triple, escape_csv, figures, picks,
 };
 use taceva_study::EvaluationReport;
 
-use crate::cmd::{Context, open_all};
+use crate::cmd::Context;
 use crate::output;
 
 use super::thumbnail::{MEDIA_TYPE, thumbnail};
@@ -50,7 +51,9 @@ impl Page {
         else {
             return Ok(());
         };
-        let dataset = open_all(paths)?;
+        let recordings: Result<Vec<Dataset>, _> =
+            paths.iter().map(|path| Dataset::open(path)).collect();
+        let dataset = Dataset::joined(recordings?)?;
         self.triples.extend(triple(&dataset, at)?);
         let ids = dataset.table().samples();
         for pick in picks(&self.studies[at]) {

@@ -1,0 +1,75 @@
+//! Rows of one table in another, and what makes two rows the same.
+
+use taceva_core::Channel;
+
+use super::{FrameEntry, Row, Table};
+use crate::digest::{Digest, PartsDigest};
+
+/// What a row of another table is called here, and where its frame lies.
+pub(crate) struct RowNames {
+    pub(crate) sample: String,
+    pub(crate) point_id: Option<String>,
+    pub(crate) frame: Option<FrameEntry>,
+}
+
+impl Table {
+    /// Adds the row at `row` of `other`, a table of the same channels in any order; an attribute that only one of both has is absent in the rows
+    /// of the other.
+    ///
+    /// # Panics
+    /// If `other` lacks a channel, or has no such row.
+    pub(crate) fn push_of(&mut self, other: &Table, row: usize, names: RowNames) {
+        let truth = |channel: &Channel| {
+            let position = other.channels.position(channel.name());
+            other.truth[position.expect("a table of the same channels")].get(row)
+        };
+        let attribute = |name: &String| other.attribute(name).and_then(|cells| cells[row].clone());
+        let row = Row {
+            sample: names.sample,
+            point_id: names.point_id,
+            unit_id: other.unit_id[row].clone(),
+            scene: other.scene[row].clone(),
+            depth_step: other.depth_step[row],
+            repeat: other.repeat[row],
+            phase: other.phase[row],
+            limited_by: other.limited_by[row],
+            source_table: other.source_table[row].clone(),
+            source_row: other.source_row[row],
+            source_frame: other.source_frame[row].clone(),
+            part: other.part[row].clone(),
+            t_s: other.t_s[row],
+            kind: other.kind[row],
+            spacing: other.spacing[row],
+            intensity: other.intensity[row],
+            truth: self.channels.iter().map(truth).collect(),
+            attributes: self.attribute_names.iter().map(attribute).collect(),
+            frame: names.frame,
+        };
+        self.push(row);
+    }
+
+    /// A digest a row of what it says, however it is called and wherever it came from: its labels, its time, and the digest of its frame.
+    pub(crate) fn row_digests(&self) -> Vec<Digest> {
+        const NAMES: [&str; 6] = [
+            "sample",
+            "source_table",
+            "source_row",
+            "source_frame",
+            "part",
+            "frame",
+        ];
+        let mut digests = vec![PartsDigest::default(); self.rows()];
+        for column in self.columns() {
+            if NAMES.contains(&column.name) {
+                continue;
+            }
+            for (row, digest) in digests.iter_mut().enumerate() {
+                if column.cells.is_present(row) {
+                    digest.part(column.name.as_bytes());
+                    column.cells.digest(row, digest);
+                }
+            }
+        }
+        digests.into_iter().map(PartsDigest::finish).collect()
+    }
+}
