@@ -119,7 +119,7 @@ pub(crate) fn record(
         let bytes = Python::attach(|py| frames.bytes(py, row));
         Frame::new(info, bytes).map(Some).map_err(value_error)
     };
-    let written = watched::run(py, bar, |progress| -> PyResult<()> {
+    watched::run(py, bar, |progress| -> PyResult<()> {
         let mut recorder = Recorder::create(&path, &spec).map_err(dataset_error)?;
         let done = (|| {
             if let Some(reference) = &reference {
@@ -160,8 +160,7 @@ pub(crate) fn record(
             Ok(()) => recorder.close().map(drop).map_err(dataset_error),
             Err(error) => Err(error),
         }
-    })?;
-    written
+    })?
 }
 
 /// The form of one frame of `[rows, height, width, samples]`, or of `[height, width, samples]`.
