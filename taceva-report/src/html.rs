@@ -1,6 +1,6 @@
 //! One-file pages: open from disk, need no network, and let nothing but their own style and script act.
 
-mod base64;
+mod data_address;
 mod document;
 mod figures;
 mod fold;

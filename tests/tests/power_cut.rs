@@ -107,6 +107,11 @@ fn an_import_that_replaces_a_dataset_leaves_the_old_one_or_the_new_one_in_place(
     };
     assert!(trace.status.success(), "{}", trace.complaint);
     let expected = open_whole(&target).expect("imported").digest();
+    assert_old_or_new("import --force", &trace, [replaced, expected]);
+}
+
+/// Whether, after any operation of `trace`, the dataset is the old one or the new one, the new one once it was reported, and nothing else is left.
+fn assert_old_or_new(command: &str, trace: &Trace, [old, new]: [Digest; 2]) {
     let counted = trace.each_state(0..trace.operations.len() + 1, |state| {
         let restarted = scratch();
         let target = restarted.path().join("set");
@@ -115,7 +120,7 @@ fn an_import_that_replaces_a_dataset_leaves_the_old_one_or_the_new_one_in_place(
             .expect("room for a small folder");
         let was_reported = state.printed.iter().any(|line| line.starts_with("digest"));
         let found = open_whole(&target)?.digest();
-        if found != expected && (was_reported || found != replaced) {
+        if found != new && (was_reported || found != old) {
             return Err(format!("in place {found}, reported: {was_reported}"));
         }
         let left = restarted.path().read_dir().expect("there").flatten();
@@ -125,7 +130,7 @@ fn an_import_that_replaces_a_dataset_leaves_the_old_one_or_the_new_one_in_place(
             _ => Err(format!("left after it was opened: {left:?}")),
         }
     });
-    assert_kept("import --force", &counted, 100);
+    assert_kept(command, &counted, 100);
 }
 
 /// Adds the pictures of `lab` to the dataset at `target`.
@@ -159,25 +164,7 @@ fn rows_that_are_added_are_all_there_or_none_is_and_no_row_of_before_is_lost() {
     let expected = open_whole(&target).expect("extended");
     assert_eq!(expected.table().rows(), 5);
     let expected = expected.digest();
-    let counted = trace.each_state(0..trace.operations.len() + 1, |state| {
-        let restarted = scratch();
-        let target = restarted.path().join("set");
-        state
-            .write_to(restarted.path())
-            .expect("room for a small folder");
-        let was_reported = state.printed.iter().any(|line| line.starts_with("digest"));
-        let found = open_whole(&target)?.digest();
-        if found != expected && (was_reported || found != before) {
-            return Err(format!("in place {found}, reported: {was_reported}"));
-        }
-        let left = restarted.path().read_dir().expect("there").flatten();
-        let left: Vec<_> = left.map(|entry| entry.file_name()).collect();
-        match left.as_slice() {
-            [only] if only == "set" => Ok(()),
-            _ => Err(format!("left after it was opened: {left:?}")),
-        }
-    });
-    assert_kept("import --extend", &counted, 100);
+    assert_old_or_new("import --extend", &trace, [before, expected]);
 }
 
 /// A recording, traced, and the operation after which the last sample was acknowledged.

@@ -1,5 +1,7 @@
 //! The value of elements that were never written.
 
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD;
 use serde_json::Value;
 
 use crate::fields::Item;
@@ -37,24 +39,7 @@ fn float(text: &str) -> Option<f64> {
 
 /// Version 2 writes texts and records as the base64 of their bytes.
 fn bytes(text: &str, item: &Item) -> Option<Vec<u8>> {
-    let mut bytes = Vec::with_capacity(text.len() / 4 * 3);
-    let (mut bits, mut held) = (0_u32, 0_u32);
-    for letter in text.trim_end_matches('=').bytes() {
-        let six = match letter {
-            b'A'..=b'Z' => letter - b'A',
-            b'a'..=b'z' => letter - b'a' + 26,
-            b'0'..=b'9' => letter - b'0' + 52,
-            b'+' => 62,
-            b'/' => 63,
-            _ => return None,
-        };
-        held = held << 6 | u32::from(six);
-        bits += 6;
-        if bits >= 8 {
-            bits -= 8;
-            bytes.push((held >> bits).to_le_bytes()[0]);
-        }
-    }
+    let bytes = BASE64_STANDARD.decode(text).ok()?;
     (bytes.len() == item.bytes).then_some(bytes)
 }
 

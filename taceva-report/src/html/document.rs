@@ -1,9 +1,10 @@
 //! The frame of every page: style, script, policy, navigation, sections.
 
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use sha2::{Digest, Sha256};
 
-use super::base64::base64;
 use crate::escape;
 use crate::figure::{DARK, LIGHT, STYLE};
 
@@ -100,7 +101,7 @@ fn style() -> String {
 }
 
 fn digest(text: &str) -> String {
-    base64(&Sha256::digest(text.as_bytes()))
+    BASE64_STANDARD.encode(Sha256::digest(text.as_bytes()))
 }
 
 #[cfg(test)]

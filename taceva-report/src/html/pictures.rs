@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use maud::{Markup, html};
 
 use super::Report;
-use super::base64::address;
+use super::data_address::address;
 use super::picks::{Pick, picks};
 use super::pieces::{filter, heads};
 use super::place::Place;

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::base64::address;
+use super::data_address::address;
 use crate::figures::names;
 use crate::results::Study;
 

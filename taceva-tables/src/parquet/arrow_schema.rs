@@ -4,6 +4,9 @@
 //! (<https://arrow.apache.org/docs/format/Columnar.html#encapsulated-message-format>). Only names, types, children and units of durations are
 //! read; of a schema that contradicts itself, or is not that of the columns, nothing is taken.
 
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD;
+
 use super::kind::ColumnKind;
 use super::schema::{LeafForm, Node, NodeKind};
 
@@ -16,7 +19,10 @@ const LONGEST: usize = 1 << 20;
 
 /// Gives those of `columns` that `text` calls durations their unit.
 pub(super) fn apply(text: &str, columns: &mut [Node]) {
-    let Some(bytes) = (text.len() <= LONGEST).then(|| decoded(text)).flatten() else {
+    let Some(bytes) = (text.len() <= LONGEST)
+        .then(|| BASE64_STANDARD.decode(text).ok())
+        .flatten()
+    else {
         return;
     };
     let fields = message(&bytes).and_then(|message| {
@@ -163,29 +169,6 @@ fn short(bytes: &[u8], at: usize) -> Option<u16> {
 fn unsigned(bytes: &[u8], at: usize) -> Option<usize> {
     let own = bytes.get(at..at.checked_add(4)?)?;
     usize::try_from(u32::from_le_bytes(own.try_into().ok()?)).ok()
-}
-
-/// The bytes of base64.
-fn decoded(text: &str) -> Option<Vec<u8>> {
-    let mut bytes = Vec::with_capacity(text.len() / 4 * 3);
-    let (mut held, mut bits) = (0_u32, 0);
-    for letter in text.trim_end_matches('=').bytes() {
-        let six = match letter {
-            b'A'..=b'Z' => letter - b'A',
-            b'a'..=b'z' => letter - b'a' + 26,
-            b'0'..=b'9' => letter - b'0' + 52,
-            b'+' => 62,
-            b'/' => 63,
-            _ => return None,
-        };
-        held = held << 6 | u32::from(six);
-        bits += 6;
-        if bits >= 8 {
-            bits -= 8;
-            bytes.push((held >> bits).to_le_bytes()[0]);
-        }
-    }
-    Some(bytes)
 }
 
 #[cfg(test)]

@@ -4,6 +4,8 @@ use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD;
 use serde_json::{Value, json};
 
 /// Names under which it is installed.
@@ -183,26 +185,5 @@ impl Drop for Browser {
 /// # Panics
 /// If the text is not base64.
 pub fn from_base64(text: &str) -> Vec<u8> {
-    let value = |letter: u8| match letter {
-        b'A'..=b'Z' => letter - b'A',
-        b'a'..=b'z' => letter - b'a' + 26,
-        b'0'..=b'9' => letter - b'0' + 52,
-        b'+' => 62,
-        b'/' => 63,
-        other => panic!("`{other}` is no letter of base64"),
-    };
-    let letters: Vec<u8> = text
-        .bytes()
-        .filter(|letter| *letter != b'=')
-        .map(value)
-        .collect();
-    let mut bytes = Vec::with_capacity(letters.len() * 3 / 4);
-    for four in letters.chunks(4) {
-        let bits = four
-            .iter()
-            .fold(0_u32, |bits, six| bits << 6 | u32::from(*six));
-        let bits = bits << (6 * (4 - four.len()));
-        bytes.extend(&bits.to_be_bytes()[1..four.len()]);
-    }
-    bytes
+    BASE64_STANDARD.decode(text).expect("base64")
 }
