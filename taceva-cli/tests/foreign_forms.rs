@@ -190,7 +190,7 @@ fn presets_are_listed_written_and_named_where_a_folder_does_not_fit() {
         "--preset bristol",
     );
     bench.refused("import --presets poses", 2, "cannot be used");
-    bench.refused("import poses --print --map map.toml", 2, "--preset");
+    bench.refused("import poses --print --map map.toml", 2, "cannot be used");
 }
 
 #[test]

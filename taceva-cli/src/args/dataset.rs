@@ -24,7 +24,7 @@ pub(crate) struct Import {
     #[arg(long, conflicts_with_all = ["source", "out", "explain", "force", "ffmpeg"])]
     pub(crate) presets: bool,
     /// Print the map of --preset instead of importing, to be adapted; to --out, else to the terminal
-    #[arg(long, requires = "preset", conflicts_with = "explain")]
+    #[arg(long, requires = "preset", conflicts_with_all = ["explain", "map", "draft"])]
     pub(crate) print: bool,
     /// How --presets is written
     #[arg(long, value_name = "FORMAT", value_enum, default_value_t = ListFormat::Text, requires = "presets")]

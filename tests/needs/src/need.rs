@@ -32,6 +32,8 @@ pub enum Need {
     Poppler,
     /// Real recordings, in the folder that `TACEVA_DATA` names.
     Recordings,
+    /// The public collection of HDF5 files that broke other readers, in the folder `cve_hdf5` of the one that `TACEVA_DATA` names.
+    HostileHdf5,
     /// A GPU that the features which were built in can reach.
     Gpu,
     /// Python with the public clients of devices, and ports that they expect: what proves that emulated devices speak as real ones.
@@ -63,7 +65,7 @@ pub struct UnknownNeed(
 
 impl Need {
     /// Every need.
-    pub const ALL: [Need; 22] = [
+    pub const ALL: [Need; 23] = [
         Need::Browser,
         Need::Axe,
         Need::Latex,
@@ -76,6 +78,7 @@ impl Need {
         Need::Libjpeg,
         Need::Poppler,
         Need::Recordings,
+        Need::HostileHdf5,
         Need::Gpu,
         Need::PublicClients,
         Need::Ffmpeg,
@@ -103,6 +106,7 @@ impl Need {
             Need::Libjpeg => "libjpeg",
             Need::Poppler => "poppler",
             Need::Recordings => "recordings",
+            Need::HostileHdf5 => "hostile-hdf5",
             Need::Gpu => "gpu",
             Need::PublicClients => "public-clients",
             Need::Ffmpeg => "ffmpeg",
