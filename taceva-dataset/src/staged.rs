@@ -85,7 +85,7 @@ impl StagedFolder {
         &self.path
     }
 
-    /// Says that whatever will be in it is ours, until it is put in place: of an export, whose names are not those of a dataset.
+    /// Marks the folder as ours until it is put in place: for an export, whose files do not have the names of those of a dataset.
     pub(crate) fn mark(&self) -> Result<(), DatasetError> {
         let path = self.path.join(layout::MARK);
         fs::write(&path, "").map_err(DatasetError::io("create", &path))

@@ -1,7 +1,7 @@
 //! PNG files of noisy pictures: the five filters of the format, then Huffman codes alone.
 //!
 //! What is left of a camera's picture after a filter is mostly noise. In noise nothing repeats, so that looking for repeats (what costs time
-//! in deflate) finds only accidents and makes files larger: of pictures as the simulated cameras give them by a fifth. An even picture
+//! in deflate) finds only accidents and makes files larger: those of pictures of the simulated cameras by a fifth. An even picture
 //! takes an eighth of its bytes at best.
 
 use miniz_oxide::deflate::core::{

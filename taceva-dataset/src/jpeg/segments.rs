@@ -5,7 +5,7 @@ use super::frame::Frame;
 use super::huffman::Huffman;
 use super::scan::{Scan, Tables};
 
-/// Goes through a file.
+/// Goes through the segments of a file.
 pub(super) struct Reader<'a> {
     bytes: &'a [u8],
     position: usize,

@@ -5,7 +5,7 @@ use taceva_core::{Channel, Column, GratingKind, Limit, Nanometre, Phase, Unit};
 use super::FrameEntry;
 use crate::digest::PartsDigest;
 
-/// Names that columns beside the channels have on disk; no channel and no attribute may be called so.
+/// The names of the columns on disk that are no channels; no channel and no attribute may be called so.
 pub(crate) const RESERVED: [&str; 18] = [
     "sample",
     "point_id",
