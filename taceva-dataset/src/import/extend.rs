@@ -191,7 +191,7 @@ impl ImportPlan {
 
 fn differs(key: &str, own: &str, other: &str) -> String {
     format!(
-        "`{key}` is {own} in the dataset and {other} in the map; rows are added to what they are of, others are a dataset of their own"
+        "`{key}` is {own} in the dataset and {other} in the map; rows are added only where both agree; import these as a dataset of their own"
     )
 }
 

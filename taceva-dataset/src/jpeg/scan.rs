@@ -160,7 +160,7 @@ impl Scan {
                 place: *place,
                 first: table(0)?,
                 others: table(1)?,
-                quantiser: quantiser.ok_or("a scan before its table of quantisation")? as i64,
+                quantiser: quantiser.ok_or("a scan before its quantisation table")? as i64,
             })
         });
         coders.collect()
@@ -302,7 +302,7 @@ impl State {
     ) -> Result<(), String> {
         let size = u32::from(table.decode(bits)?);
         if size > 11 {
-            return Err("a first coefficient of more bits than a picture has".to_owned());
+            return Err("a DC coefficient of more bits than a picture has".to_owned());
         }
         let value = i64::from(bits.take(size)?);
         // The upper half of the numbers of a size is positive, the lower half negative.
