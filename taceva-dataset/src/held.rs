@@ -16,7 +16,7 @@ use crate::replaced::settle;
 const ATTEMPTS: u32 = 200;
 const PAUSE: Duration = Duration::from_millis(1);
 
-/// A folder with a shared lock: who replaces the dataset leaves the old one whole until it is let go.
+/// A folder with a shared lock: who replaces the dataset leaves the old one whole until the lock is released.
 #[derive(Debug)]
 pub(crate) struct HeldFolder {
     path: PathBuf,

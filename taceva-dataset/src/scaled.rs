@@ -10,7 +10,7 @@ use crate::limits;
 /// The fraction of its sides at which a JPEG is decoded.
 ///
 /// A pixel is the mean of those it stands for, but for rounding and for what the coefficients that are left out would have carried over the
-/// border of a block. Edges that are no whole multiple are rounded up.
+/// border of a block. Sides that are no whole multiple are rounded up.
 ///
 /// ```
 /// use taceva_core::{FrameInfo, PixelFormat};

@@ -244,7 +244,7 @@ fn is_read(path: &Path) -> bool {
 const ATTEMPTS: u32 = 20;
 const PAUSE: Duration = Duration::from_millis(5);
 
-/// Locks a folder for this process; the system lets go when the process ends, however it ends.
+/// Locks a folder for this process; the system releases the lock when the process ends, however it ends.
 pub(crate) fn lock_folder(path: &Path) -> Result<File, DatasetError> {
     let folder = File::open(path).map_err(DatasetError::io("open", path))?;
     for _ in 0..ATTEMPTS {

@@ -69,7 +69,7 @@ impl Cells<'_> {
         }
     }
 
-    /// Whether the cells are texts that anything may stand in.
+    /// Whether the cells are texts in which anything may stand.
     pub(crate) fn is_text(&self) -> bool {
         matches!(self, Cells::Name(_) | Cells::Text(_))
     }

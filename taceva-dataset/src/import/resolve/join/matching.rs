@@ -14,7 +14,7 @@ const ROUNDING_S: f64 = 1e-6;
 pub(super) enum At {
     Nowhere,
     Row(usize),
-    /// Of two rows, so much of the second.
+    /// Between two rows; the weight of the second, from 0 to 1.
     Between([usize; 2], f64),
 }
 
