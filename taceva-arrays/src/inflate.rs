@@ -76,7 +76,7 @@ fn broken(at: u64, status: TINFLStatus) -> Problem {
     let (found, expected) = match status {
         TINFLStatus::HasMoreOutput => ("more bytes than are stated", "the end of what is deflated"),
         TINFLStatus::Adler32Mismatch => (
-            "another checksum than what was inflated has",
+            "a checksum that is not that of what was inflated",
             "bytes as they were written",
         ),
         TINFLStatus::FailedCannotMakeProgress | TINFLStatus::NeedsMoreInput => {

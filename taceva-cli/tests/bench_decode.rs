@@ -44,7 +44,7 @@ fn a_dataset_of_png_is_refused_and_says_what_it_is() {
     bench.refused(
         "bench decode data",
         3,
-        "a PNG, which is decoded at its full size only",
+        "a PNG or TIFF, which is decoded at its full size only",
     );
     bench.refused("bench decode data --model rigde", 2, "did you mean `ridge`");
 }

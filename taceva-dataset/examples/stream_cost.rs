@@ -1,9 +1,9 @@
 //! What recording a stream costs beside writing and hashing the same bytes: `stream_cost RECORDING FOLDER [ROUNDS]`.
 //!
-//! RECORDING is what `taceva capture` made of a camera that sends files; FOLDER is a new one on the disk that is asked about. The frames are
+//! RECORDING is what `taceva capture` made of a camera that sends files; FOLDER is a new one on the disk that is measured. The frames are
 //! recorded anew, 8 at once as a capture does and as fast as it goes, and closed. Beside that the same bytes are written to one file and hashed
 //! frame by frame, once made durable after every 8 frames and once at the end alone. Decoding is not counted: a capture does it while the
-//! camera exposes the next frame. The least of so many rounds counts, 3 by default.
+//! camera exposes the next frame. The shortest time of ROUNDS rounds counts, 3 by default.
 #![expect(clippy::print_stdout, reason = "an example talks to a person")]
 
 use std::error::Error;

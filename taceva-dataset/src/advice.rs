@@ -6,9 +6,9 @@ use std::path::Path;
 use crate::preset::layouts::Preset;
 use crate::text::{shown, shown_path};
 
-/// The plans of a run, the mark of its folder, and the folder of its recordings.
+/// The file of the plans of a run, by which its folder is recognised, and the folder of its recordings.
 const RUN: [&str; 2] = ["plans.json", "recordings"];
-/// Names that are listed before the rest is counted.
+/// How many names are listed; the others are counted.
 const LISTED: usize = 8;
 
 /// What stands at `path`, which has no header, and the command that makes a dataset of it or names the one that is there.

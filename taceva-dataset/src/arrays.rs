@@ -26,9 +26,9 @@ use crate::error::DatasetError;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum FrameArray {
-    /// Of a format with 8 bits a number.
+    /// Pixels of a format with 8 bits per number.
     U8(Array3<u8>),
-    /// Of a format with 16 bits a number.
+    /// Pixels of a format with 16 bits per number.
     U16(Array3<u16>),
 }
 
@@ -53,9 +53,9 @@ pub enum FrameArray {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum FrameArrays {
-    /// Of a format with 8 bits a number.
+    /// Pixels of a format with 8 bits per number.
     U8(Array4<u8>),
-    /// Of a format with 16 bits a number.
+    /// Pixels of a format with 16 bits per number.
     U16(Array4<u16>),
 }
 
@@ -181,7 +181,7 @@ impl Pixels {
         }
     }
 
-    /// Whether `frame` was of that size, and is kept.
+    /// Adds the pixels of `frame`, if it is of that size and format; returns whether it is.
     fn push(&mut self, frame: &Frame) -> bool {
         if frame.info() != self.info {
             return false;

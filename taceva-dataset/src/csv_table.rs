@@ -43,7 +43,7 @@ pub struct CsvTable {
     rows: usize,
     /// The line of each row, where quoted cells may hold line ends; else lines are counted in the text.
     lines: Option<Vec<u64>>,
-    /// The same counted there, once somebody asks for one.
+    /// The same, counted in the text once a line is asked for.
     counted: OnceLock<Vec<u64>>,
     /// Lines of the text that the file does not have: the names of columns of a file without a header.
     added_lines: u64,
@@ -171,7 +171,7 @@ impl CsvTable {
             .ok_or_else(|| self.not_a_number(row, column))
     }
 
-    /// That a cell holds something else than `expected`.
+    /// The error that a cell holds something else than `expected`.
     ///
     /// # Panics
     /// If there is no such row or column.

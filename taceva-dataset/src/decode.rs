@@ -31,7 +31,7 @@ use crate::scaled::{DecodeScale, jpeg_at};
 pub enum ChannelOrder {
     /// Red, green, blue: what image files promise.
     Rgb,
-    /// Blue, green, red: written by a program that forgot to swap. Frames are swapped back when decoded.
+    /// Blue, green, red: written by a program that did not convert its pixels to the order of the file. Decoded frames are red, green, blue.
     Bgr,
     /// One number a pixel.
     Gray,
@@ -60,7 +60,7 @@ const PNG_SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
 const PNG_END: &[u8] = b"\0\0\0\0IEND\xaeB`\x82";
 const JPEG_SIGNATURE: &[u8] = b"\xff\xd8\xff";
 const JPEG_END: &[u8] = b"\xff\xd9";
-/// Of either order of bytes, and of files above 4 GiB.
+/// The signatures of either byte order, and of BigTIFF, which may be above 4 GiB.
 const TIFF_SIGNATURES: [&[u8]; 4] = [b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"];
 
 impl ImageKind {

@@ -1,4 +1,4 @@
-//! A frame as the difference to another: what both show takes no room.
+//! A frame as the difference to another: what both show is zero in it, which takes little room once it is compressed.
 
 use taceva_core::{Frame, FrameError};
 

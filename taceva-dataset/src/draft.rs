@@ -19,7 +19,7 @@ use tables::SeenTable;
 /// The most tables that are read for a draft.
 const TABLES: usize = 64;
 
-/// A map of version 2 with open ends: every unit is `"?"`, which an import refuses by its line.
+/// A map of version 2 with gaps to fill in: every unit but that of times is `"?"`, which an import refuses, naming the line.
 ///
 /// ```
 /// # let folder = tempfile::tempdir()?;

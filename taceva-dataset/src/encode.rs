@@ -1,4 +1,4 @@
-//! Frames to PNG files, without loss, and to JPEG files, with.
+//! Encoding frames: as PNG files without loss, as JPEG files with loss.
 
 mod png;
 
@@ -32,7 +32,7 @@ pub(crate) fn encode_jpeg(frame: &Frame, quality: u8) -> Result<Vec<u8>, String>
     Ok(file)
 }
 
-/// What a frame of `format` is of as JPEG.
+/// The pixel format that a frame of `format` has as JPEG.
 pub(crate) fn of_eight_bits(format: PixelFormat) -> PixelFormat {
     match format {
         PixelFormat::Gray16 => PixelFormat::Gray8,

@@ -72,7 +72,7 @@ pub enum DatasetError {
         /// What is wrong and what would be accepted.
         problem: String,
     },
-    /// Something is already there; nothing is ever written over it.
+    /// Something is already there; it is not written over.
     #[error(
         "{} exists already; choose another place or remove it",
         shown_path(path)
@@ -187,7 +187,7 @@ pub enum DatasetError {
 }
 
 impl DatasetError {
-    /// The same, a line higher up: of a table to which a header was added.
+    /// The same error, a line higher up: of a table to which a header was added.
     pub(crate) fn a_line_above(mut self) -> DatasetError {
         if let DatasetError::Table { place, .. } = &mut self
             && let Some(line) = &mut place.line

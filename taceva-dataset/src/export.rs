@@ -56,7 +56,7 @@ pub struct ExportReport {
     pub samples: u64,
     /// How many of them have a picture.
     pub pictures: u64,
-    /// How many pictures are not in the bytes that the dataset has them in; their pixels are the same.
+    /// How many pictures were encoded anew, so that their bytes are not those of the dataset; their pixels are the same.
     pub encoded_anew: u64,
     /// What the dataset says and the map of the export cannot, in words.
     pub left_out: Vec<String>,
@@ -165,7 +165,7 @@ impl<'a> ExportPlan<'a> {
     }
 }
 
-/// Writes the labels of `dataset` as CSV: a row a sample, bare channel names, an empty cell where there is no value.
+/// Writes the labels of `dataset` as CSV: one row for each sample, bare channel names, an empty cell where there is no value.
 ///
 /// Numbers are in the shortest form that reads back to the same binary64; the units are those of the header. The column
 /// `frame` is relative to the folder of the dataset.

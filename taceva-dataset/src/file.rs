@@ -1,4 +1,4 @@
-//! Files of strangers, opened with care, and files of ours, written to stay.
+//! Foreign files, checked before they are opened, and our own files, written durably.
 
 use std::fs::{self, File, Metadata};
 use std::io::{Read, Write};
@@ -54,7 +54,7 @@ pub(crate) fn read_capped(path: &Path, cap: u64) -> Result<Vec<u8>, DatasetError
     Ok(bytes)
 }
 
-/// A folder of a stranger, out of which no path leads.
+/// A foreign folder: paths that lead out of it are refused.
 #[derive(Clone, Debug)]
 pub(crate) struct SourceFolder {
     /// As the caller wrote it: for messages.

@@ -81,7 +81,7 @@ pub(crate) enum TableForm {
     WebDataset,
 }
 
-/// What an error says of the file at `path`, without the path: the error around it names that.
+/// The message of an error about the file at `path`, without the path: the error around it names that.
 pub(crate) fn said(path: &Path, error: &impl fmt::Display) -> String {
     let text = error.to_string();
     let rest = text.strip_prefix(&format!("{}: ", path.display()));
@@ -295,7 +295,7 @@ impl ForeignTable {
         }
     }
 
-    /// That there is no column called `name`, and which there are.
+    /// The error that there is no column called `name`; it lists those there are.
     pub(crate) fn no_column(&self, name: &str) -> DatasetError {
         let names = self.names();
         let guess = nearest(name, names.iter().map(String::as_str));

@@ -10,7 +10,7 @@ thread_local! {
 
 /// Runs `decode`; if it panics, the panic's message is the error.
 ///
-/// The process-wide panic hook is wrapped once: it stays silent on a thread that is inside a guard and is otherwise the
+/// The process-wide panic hook is wrapped once: it prints nothing on a thread that is inside a guard and is otherwise the
 /// hook that was there before.
 pub(crate) fn guarded<T>(decode: impl FnOnce() -> T) -> Result<T, String> {
     static QUIET: Once = Once::new();

@@ -70,7 +70,7 @@ pub struct Header {
     pub sensor: SensorFacts,
     /// Where the sensor senses, if it is known.
     pub footprint: Option<Footprint>,
-    /// What was set of the camera and read back, by name: `exposure_ms` is `15.7`; empty where nobody knows, and before format 1.5.
+    /// The settings of the camera that were set and read back, by name: `exposure_ms` is `15.7`; empty where nobody knows, and before format 1.5.
     pub settings: BTreeMap<String, String>,
     /// What was measured beside the frames, each with its unit.
     pub channels: Channels,

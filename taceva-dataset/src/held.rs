@@ -12,11 +12,11 @@ use crate::error::DatasetError;
 use crate::layout;
 use crate::replaced::settle;
 
-/// How often a folder that is being put in its place is asked for again, and how long each time is.
+/// How often a folder that is being put in its place is tried again, and how long the pause before each try is.
 const ATTEMPTS: u32 = 200;
 const PAUSE: Duration = Duration::from_millis(1);
 
-/// A folder with a shared lock: who replaces the dataset leaves the old one whole until it is let go.
+/// A folder with a shared lock: who replaces the dataset leaves the old one whole until the lock is released.
 #[derive(Debug)]
 pub(crate) struct HeldFolder {
     path: PathBuf,

@@ -1,4 +1,4 @@
-//! A lab's folder becomes a dataset, by a map that says what its columns are.
+//! Making a dataset of the folder of a lab, by a map that says what its columns are.
 
 mod archive;
 mod copy;

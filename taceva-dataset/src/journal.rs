@@ -1,4 +1,4 @@
-//! The journal of a recording: what was appended is there after a power cut, or the append never returned.
+//! The journal of a recording: whatever was appended is there after a power cut, if the append had returned.
 //!
 //! A record is `length: u32 · kind: u8 · sequence: u64 · header check: 8 bytes · payload · chain: 32 bytes`, numbers
 //! little-endian. The header check is the beginning of a SHA-256 over the 13 bytes before it, so that a length can be trusted

@@ -1,6 +1,6 @@
 //! Columns of a table that rate its rows.
 
-/// What the name of a column says whose rows may not be what they seem.
+/// Words in the name of a column that may say which rows are bad.
 const WORDS: [&str; 9] = [
     "quality", "flag", "valid", "status", "error", "outlier", "reject", "bad", "warning",
 ];

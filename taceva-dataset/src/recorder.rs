@@ -254,8 +254,9 @@ impl Recorder {
     /// Records a sample and returns its number in the journal, from 1, once it is durable. Predictions are not recorded.
     ///
     /// # Errors
-    /// [`DatasetError::Sample`] if its name is empty or taken, a number is not finite, there are more values than channels, or
-    /// its frame is unlike the first; [`DatasetError::Io`], after which the recording must be resumed.
+    /// [`DatasetError::Sample`] if its name is empty or taken, a number is not finite, there are more values than channels, its
+    /// signals are not of the taxels of the recording, or its frame is unlike the first; [`DatasetError::Io`], after which the recording
+    /// must be resumed.
     pub fn append(&mut self, sample: &Sample) -> Result<u64, DatasetError> {
         self.check(sample)?;
         let mut entries = self.write_frames(std::slice::from_ref(sample))?;

@@ -19,7 +19,7 @@ use crate::layout;
 
 /// The most old datasets of one name that are kept while they are still read.
 const SET_ASIDE: usize = 64;
-/// How often, and how long each time, a replacement that is between two renames is waited for.
+/// How often a replacement that is between two renames is waited for, and how long each time.
 const WAITS: u32 = 2_000;
 const PAUSE: Duration = Duration::from_millis(1);
 

@@ -1,4 +1,4 @@
-//! `samples.parquet`: a table as a file, a column a column.
+//! `samples.parquet`: a table as a file, with one column for each column of the table.
 
 mod read;
 mod rows;

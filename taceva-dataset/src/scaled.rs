@@ -10,7 +10,7 @@ use crate::limits;
 /// The fraction of its sides at which a JPEG is decoded.
 ///
 /// A pixel is the mean of those it stands for, but for rounding and for what the coefficients that are left out would have carried over the
-/// border of a block. Edges that are no whole multiple are rounded up.
+/// border of a block. Sides that are no whole multiple are rounded up.
 ///
 /// ```
 /// use taceva_core::{FrameInfo, PixelFormat};
@@ -67,7 +67,7 @@ pub(crate) fn decode_scaled(
     if kind_of_whole(bytes)? != ImageKind::Jpeg {
         let denominator = scale.denominator();
         return Err(format!(
-            "a PNG, which is decoded at its full size only; JPEG would be at 1/{denominator}"
+            "a PNG or TIFF, which is decoded at its full size only; JPEG would be at 1/{denominator}"
         ));
     }
     let (info, pixels) = guarded(|| jpeg_at(bytes, scale))??;
@@ -194,7 +194,7 @@ mod tests {
         let decode = |bytes: &[u8]| decode_scaled(bytes, ChannelOrder::Gray, DecodeScale::Half);
         let message = decode(&png).expect_err("a PNG");
         assert!(
-            message.starts_with("a PNG, which is decoded at its full size only"),
+            message.starts_with("a PNG or TIFF, which is decoded at its full size only"),
             "{message}"
         );
         let file = encode_jpeg(&smooth(PixelFormat::Gray8), 90).expect("encodes");

@@ -1,4 +1,4 @@
-//! `signals.parquet`: the numbers of taxels, a FLOAT column a number of a sample, beside the table of labels.
+//! `signals.parquet`: the numbers of taxels, one FLOAT column for each number of a sample, beside the table of labels.
 
 mod read;
 mod spec;

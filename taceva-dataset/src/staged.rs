@@ -85,7 +85,7 @@ impl StagedFolder {
         &self.path
     }
 
-    /// Says that whatever will be in it is ours, until it is put in place: of an export, whose names are not those of a dataset.
+    /// Marks the folder as ours until it is put in place: for an export, whose files do not have the names of those of a dataset.
     pub(crate) fn mark(&self) -> Result<(), DatasetError> {
         let path = self.path.join(layout::MARK);
         fs::write(&path, "").map_err(DatasetError::io("create", &path))
@@ -244,7 +244,7 @@ fn is_read(path: &Path) -> bool {
 const ATTEMPTS: u32 = 20;
 const PAUSE: Duration = Duration::from_millis(5);
 
-/// Locks a folder for this process; the system lets go when the process ends, however it ends.
+/// Locks a folder for this process; the system releases the lock when the process ends, however it ends.
 pub(crate) fn lock_folder(path: &Path) -> Result<File, DatasetError> {
     let folder = File::open(path).map_err(DatasetError::io("open", path))?;
     for _ in 0..ATTEMPTS {

@@ -1,4 +1,4 @@
-//! The last step of every dataset: table and header are written, each with the digests that the other must have.
+//! The last step of every dataset: its table is written, and its header with the digests that table, frames and signals must have.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -38,7 +38,7 @@ pub struct RecordingFacts {
     pub sensor: SensorFacts,
     /// Where the sensor senses, if it is known.
     pub footprint: Option<Footprint>,
-    /// What was set of the camera and read back, by name: `exposure_ms` is `15.7`; empty where nobody knows.
+    /// The settings of the camera that were set and read back, by name: `exposure_ms` is `15.7`; empty where nobody knows.
     pub settings: BTreeMap<String, String>,
 }
 
@@ -54,7 +54,7 @@ impl RecordingFacts {
         }
     }
 
-    /// The same with what was set of the camera and read back.
+    /// The same with the settings of the camera that were set and read back.
     #[must_use]
     pub fn with_settings(self, settings: BTreeMap<String, String>) -> RecordingFacts {
         RecordingFacts { settings, ..self }
@@ -70,7 +70,7 @@ impl RecordingFacts {
     }
 }
 
-/// What a header says beside the table: of how it came to be.
+/// What a header says besides, of how the recording was made.
 #[derive(Debug, Default)]
 pub(crate) struct Beside {
     /// How many presses ended in which way.

@@ -71,7 +71,7 @@ impl Table {
     /// Adds a row.
     ///
     /// # Panics
-    /// If the row has not a value a channel and a text an attribute.
+    /// If the row does not have one value for each channel and one text for each attribute.
     pub fn push(&mut self, row: Row) {
         assert_eq!(row.truth.len(), self.truth.len(), "a value a channel");
         assert_eq!(
@@ -104,10 +104,6 @@ impl Table {
         }
     }
 
-    /// The same labels with other frames.
-    ///
-    /// # Panics
-    /// If there is not one, or none, a row.
     /// Adds an attribute.
     ///
     /// # Panics
@@ -118,6 +114,10 @@ impl Table {
         self.attributes.push(texts);
     }
 
+    /// The same labels with other frames.
+    ///
+    /// # Panics
+    /// If there is not one entry, which may be `None`, for each row.
     pub(crate) fn with_frames(self, frames: Vec<Option<FrameEntry>>) -> Table {
         assert_eq!(frames.len(), self.frames.len(), "one a row");
         Table { frames, ..self }
@@ -133,7 +133,7 @@ impl Table {
         &self.channels
     }
 
-    /// What the reference instruments said, of the channel at `position`.
+    /// The values of the channel at `position`, as the reference instruments measured them.
     pub fn truth(&self, position: usize) -> &Column {
         &self.truth[position]
     }
@@ -143,7 +143,7 @@ impl Table {
         &self.sample
     }
 
-    /// The contact location of each row.
+    /// The contact point of each row.
     pub fn point_id(&self) -> &[Option<String>] {
         &self.point_id
     }

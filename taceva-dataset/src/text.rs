@@ -1,4 +1,4 @@
-//! Foreign text in messages: by the rule of [`taceva_core::shown`], and nothing runs on for ever.
+//! Foreign text in messages: by the rule of [`taceva_core::shown`], and long texts and lists are cut.
 
 use std::path::Path;
 

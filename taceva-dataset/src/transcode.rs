@@ -18,7 +18,8 @@ use crate::store::{Beside, RecordingFacts, write_table_and_header};
 use crate::table::FrameEntry;
 
 /// Writes `dataset` to a new folder at `path` with each frame as a JPEG of `quality`, from 1 to 100: what a camera with a JPEG stream
-/// would have sent. Labels stay as they are; what the compression loses is lost, and what 16 bits hold beyond 8.
+/// would have sent. Labels stay as they are; detail that the compression discards is lost, and so is what 16-bit pixels hold beyond
+/// 8 bits.
 ///
 /// # Errors
 /// Those of [`Dataset::frame`]; [`DatasetError::TargetExists`]; [`DatasetError::Io`];

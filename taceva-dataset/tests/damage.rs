@@ -1,4 +1,4 @@
-//! A damaged dataset is never read as a whole one, and no bytes of a stranger make us panic or hang.
+//! A damaged dataset is never read as a whole one, and no foreign bytes make the readers panic or hang.
 
 mod lab;
 

@@ -86,7 +86,7 @@ impl<R: BufRead> SnappyStream<R> {
                     .take(some as u64)
                     .read_to_end(&mut self.window)?;
                 if read < some || some == 0 {
-                    return Err(wrong("the snappy is cut short, or too long"));
+                    return Err(wrong("the Snappy block is cut short, or too long"));
                 }
                 *length -= some;
                 self.left -= some;
@@ -114,7 +114,7 @@ impl<R: BufRead> SnappyStream<R> {
                         break;
                     };
                     if length > left {
-                        return Err(wrong("the snappy is longer than it announces"));
+                        return Err(wrong("the Snappy block is longer than it announces"));
                     }
                     window.extend_from_slice(literal);
                     (at, left) = (begin + length, left - length);

@@ -76,7 +76,7 @@ pub(crate) fn stream(
         Codec::Brotli => Box::new(brotli_decompressor::Decompressor::new(packed, 64 << 10)),
         Codec::Zstd => Box::new(ZstdStream(
             ruzstd::decoding::StreamingDecoder::new(packed)
-                .map_err(|error| format!("no whole Zstandard: {error}"))?,
+                .map_err(|error| format!("no whole Zstandard frame: {error}"))?,
         )),
         Codec::Snappy => Box::new(SnappyStream::new(packed, size)?),
         Codec::Lz4Block | Codec::Lz4Hadoop | Codec::Lz4Frame => {
@@ -105,7 +105,7 @@ impl<R: Read> Read for ZstdStream<R> {
             let stated = decoder.get_checksum_from_data();
             if stated.is_some() && stated != decoder.get_calculated_checksum() {
                 return Err(io::Error::other(
-                    "the sum in the Zstandard frame does not match",
+                    "the checksum in the Zstandard frame does not match",
                 ));
             }
         }
@@ -124,7 +124,7 @@ fn streamed(name: &str, decoder: impl Read, size: usize) -> Result<Vec<u8>, Stri
 }
 
 fn snappy(packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
-    let wrong = |error: snap::Error| format!("no whole snappy: {error}");
+    let wrong = |error: snap::Error| format!("no whole Snappy block: {error}");
     let announced = snap::raw::decompress_len(packed).map_err(wrong)?;
     if announced != size || size > packed.len().saturating_mul(SNAPPY_GROWTH) {
         return Err(format!(
@@ -143,7 +143,7 @@ fn lz4_block(packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
     }
     let mut unpacked = vec![0; size];
     let length = lz4_flex::block::decompress_into(packed, &mut unpacked)
-        .map_err(|error| format!("no whole LZ4: {error}"))?;
+        .map_err(|error| format!("no whole LZ4 block: {error}"))?;
     unpacked.truncate(length);
     Ok(unpacked)
 }
@@ -173,12 +173,12 @@ fn zstd(packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
     let mut unpacked = Vec::new();
     while !rest.is_empty() {
         let mut decoder = ruzstd::decoding::StreamingDecoder::new(&mut rest)
-            .map_err(|error| format!("no whole Zstandard: {error}"))?;
+            .map_err(|error| format!("no whole Zstandard frame: {error}"))?;
         let more = (size - unpacked.len()) as u64 + 1;
         (&mut decoder)
             .take(more)
             .read_to_end(&mut unpacked)
-            .map_err(|error| format!("no whole Zstandard: {error}"))?;
+            .map_err(|error| format!("no whole Zstandard frame: {error}"))?;
         if unpacked.len() > size {
             break;
         }
@@ -187,7 +187,7 @@ fn zstd(packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
             decoder.decoder.get_calculated_checksum(),
         );
         if stated.is_some() && stated != formed {
-            return Err("the sum in the Zstandard frame does not match".to_owned());
+            return Err("the checksum in the Zstandard frame does not match".to_owned());
         }
     }
     Ok(unpacked)

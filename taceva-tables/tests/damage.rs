@@ -210,7 +210,7 @@ fn no_changed_byte_of_data_with_a_sum_goes_unnoticed() {
         std::fs::write(&copy, &changed).expect("written");
         let problem = Mcap::open(&copy).expect_err("changed").to_string();
         assert!(
-            problem.contains("the sum of the data") || at < 8,
+            problem.contains("the checksum of the data") || at < 8,
             "byte {at}: {problem}"
         );
     }
@@ -235,7 +235,7 @@ fn no_changed_byte_of_pages_with_sums_goes_unnoticed() {
             match attempt(|| every_column(&copy)) {
                 Ok(Ok(columns)) => assert_eq!(format!("{columns:?}"), whole, "byte {at}"),
                 Ok(Err(error)) => {
-                    sums += usize::from(error.to_string().contains("the sum of the page"))
+                    sums += usize::from(error.to_string().contains("the checksum of the page"))
                 }
                 // Headers have no sum: one that names another encoding can make the decoder panic.
                 Err(place) => assert!(!place.contains("taceva-tables"), "byte {at}: {place}"),

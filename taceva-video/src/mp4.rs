@@ -115,13 +115,13 @@ fn read_track(
         None => Some(Edit::default()),
     };
     let Some(edit) = edit else {
-        return elsewhere("with several edits");
+        return elsewhere("with several edits or another speed");
     };
     let mut samples = samples::read(source, &tables)?;
     if has_fragments {
         let number = track_number(source, &track.need(source, b"tkhd")?)?;
         if !fragments::append(source, movie, number, &mut samples)? {
-            return elsewhere("in fragments that do not say where and when");
+            return elsewhere("in fragments that do not state the place or time of their frames");
         }
     }
     let (presented, times_s) = present(&samples, edit, ticks_per_s, movie_ticks_per_s);

@@ -1,4 +1,5 @@
-//! A program that decodes: what it says and gives comes in pieces of a bounded size, and it is killed when it falls silent or is no longer wanted.
+//! A program that decodes: what it says and gives comes in pieces of a bounded size, and it is killed when it gives nothing for too long or is
+//! no longer wanted.
 
 use std::io::{self, BufRead, BufReader, Read};
 use std::process::{Child, Command, ExitStatus, Stdio};

@@ -26,7 +26,8 @@ impl CsvTable {
         self.whole(name, Invalid::Refuse)
     }
 
-    /// The numbers of the column called `name`, with NaN for each cell that is no finite number, so that they can be counted.
+    /// The numbers of the column called `name`, with NaN for each cell that is neither empty nor a finite number, so that these can be counted;
+    /// empty cells are absent.
     ///
     /// # Errors
     /// [`DatasetError::Table`] if there is no such column.
@@ -48,7 +49,7 @@ impl CsvTable {
         self.some(column, rows, Invalid::Refuse)
     }
 
-    /// As [`numbers_in`](CsvTable::numbers_in), with NaN for each cell that is no finite number.
+    /// As [`numbers_in`](CsvTable::numbers_in), with NaN for each cell that is neither empty nor a finite number.
     ///
     /// # Errors
     /// Never: the type is that of [`numbers_in`](CsvTable::numbers_in), so that a caller can choose between the two.
@@ -64,7 +65,7 @@ impl CsvTable {
 
     /// The finite number in a cell, in the unit it is kept in, or `None` if the cell is empty.
     ///
-    /// Where the way between the units is a power of ten, the decimal point is moved before the number is read, so that
+    /// Where the factor between the units is a power of ten, the decimal point is moved before the number is read, so that
     /// `1212.4 um` is the binary64 nearest to 1.2124 mm.
     ///
     /// # Errors

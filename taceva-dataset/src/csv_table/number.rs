@@ -10,7 +10,7 @@ const EXACT_POWERS: [f64; 23] = [
     1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
 ];
 
-/// The largest integer below which binary64 holds every one.
+/// The limit up to which binary64 holds every integer exactly.
 const EXACT_INTEGERS: u64 = 1 << 53;
 
 /// 16 digits and a point: more are beyond 2^53 unless they begin with zeros.
@@ -131,8 +131,8 @@ fn eight_digits(digits: u64) -> u64 {
     fours.wrapping_mul((10_000 << 32) + 1) >> 32
 }
 
-/// The finite number in `cell` in the unit that it is kept in, `None` if the cell is empty; why there is none. Where the way between the units is a
-/// power of ten, the decimal point is moved before the number is read.
+/// The finite number in `cell` in the unit that it is kept in, `None` if the cell is empty; the error says why there is none. Where the factor
+/// between the units is a power of ten, the decimal point is moved before the number is read.
 pub(crate) fn number_in_unit(cell: &str, unit: &SourceUnit) -> Result<Option<f64>, String> {
     let Some(number) = number(cell)? else {
         return Ok(None);
@@ -146,7 +146,7 @@ pub(crate) fn number_in_unit(cell: &str, unit: &SourceUnit) -> Result<Option<f64
     }
 }
 
-/// The finite number in `cell`, `None` if the cell is empty; why there is none.
+/// The finite number in `cell`, `None` if the cell is empty; the error says why there is none.
 pub(crate) fn number(cell: &str) -> Result<Option<f64>, String> {
     parse_number(cell, 0..cell.len()).ok_or_else(|| not_a_number(cell))
 }

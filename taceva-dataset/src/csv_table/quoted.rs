@@ -1,4 +1,4 @@
-//! Tables with quoted cells: unquoted into a text of their own.
+//! Tables with quoted cells, which are unquoted into a new text.
 
 use std::path::Path;
 

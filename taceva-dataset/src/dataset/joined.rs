@@ -18,7 +18,7 @@ mod alike;
 
 pub(crate) use alike::{Difference, differences, differences_of_added};
 
-/// Between the name of a recording and what a sample, a contact point or a frame is called in it; no name of a recording holds it.
+/// Separates the name of a recording from the name of a sample, a contact point or a frame in it; no name of a recording contains it.
 const SEPARATOR: char = '/';
 
 /// One of the recordings that [`Dataset::joined`] read as one.
@@ -127,7 +127,7 @@ impl Dataset {
         Some((&own.dataset, row - own.rows.start))
     }
 
-    /// The recording that the frame at `entry` is of, and what that calls it.
+    /// The recording that the frame at `entry` belongs to, and the entry of the frame in that recording.
     pub(super) fn entry_of(&self, entry: &FrameEntry) -> Option<(&Dataset, FrameEntry)> {
         let (name, path) = entry.path.split_once(SEPARATOR)?;
         let own = self.joined.iter().find(|own| own.name == name)?;
@@ -228,7 +228,7 @@ fn joined_table(recordings: &[Dataset], names: &[String]) -> Table {
     table
 }
 
-/// What is known of all of them; of what differs, what says least.
+/// The header of all of them. Where they differ, the clock is unknown, and serial number and gel are `several`.
 fn joined_header(recordings: &[Dataset], table: &Table) -> Header {
     let mut digest = PartsDigest::default();
     digest.part(b"taceva.dataset/1 of several recordings");

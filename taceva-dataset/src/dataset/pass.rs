@@ -138,7 +138,8 @@ impl Dataset {
         })
     }
 
-    /// Calls `work` with each row on one of the threads and `take` with the results, in order, on this one; `stage` is what the progress hears.
+    /// Calls `work` with each row on one of the threads and `take` with the results, in order, on this one; `stage` names the work
+    /// where its progress is reported.
     ///
     /// # Errors
     /// Those of `work` and `take`, for the first row in order that has one; [`DatasetError::Cancelled`].

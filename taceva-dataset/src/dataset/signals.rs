@@ -35,7 +35,7 @@ impl Dataset {
         }
     }
 
-    /// What the taxels say without contact: the mean over the rows that are known to be without; `None` if none is known, and of joined
+    /// The signals without contact: the mean over the rows that are known to be without contact; `None` if there is no such row, and of joined
     /// recordings, because each has its own.
     ///
     /// # Errors

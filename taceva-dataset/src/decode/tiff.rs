@@ -57,7 +57,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
         DecodingResult::U16(numbers) => numbers.into_iter().flat_map(u16::to_le_bytes).collect(),
         _ => {
             return Err(
-                "TIFF with signed numbers or such with a floating point is not read: expected unsigned ones of 8 or 16 bits".to_owned(),
+                "TIFF with signed or floating-point numbers is not read: expected unsigned ones of 8 or 16 bits".to_owned(),
             );
         }
     };
@@ -68,7 +68,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
         ));
     }
     if decoder.more_images() {
-        return Err("TIFF with several pictures: a frame is one; write a file each".to_owned());
+        return Err("TIFF with several pictures: write each into a file of its own".to_owned());
     }
     let pixels = match color {
         ColorType::RGBA(8) => without_alpha::<4, 1>(&pixels)?,

@@ -20,7 +20,7 @@ pub(super) fn is_clip(ending: &str) -> bool {
     matches!(ending, "avi" | "mp4" | "mkv" | "mov" | "webm")
 }
 
-/// The lines of `[frame]`, with what a comment says of them.
+/// The lines of `[frame]`, with their comments.
 #[derive(Debug, Default)]
 pub(super) struct FrameLines {
     pub(super) lines: Vec<String>,

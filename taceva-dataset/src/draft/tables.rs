@@ -44,7 +44,7 @@ pub(super) struct SeenColumn {
 }
 
 impl<'g> SeenTable<'g> {
-    /// The table that the first file of `group` is; `Ok(None)` of no table, what is wrong with one that cannot be read.
+    /// The table in the first file of `group`; `Ok(None)` if it is no table; the error says what is wrong with one that cannot be read.
     pub(super) fn read(
         folder: &SourceFolder,
         group: &'g FileGroup,

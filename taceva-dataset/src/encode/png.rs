@@ -1,7 +1,7 @@
 //! PNG files of noisy pictures: the five filters of the format, then Huffman codes alone.
 //!
 //! What is left of a camera's picture after a filter is mostly noise. In noise nothing repeats, so that looking for repeats (what costs time
-//! in deflate) finds only accidents and makes files larger: of pictures as the simulated cameras give them by a fifth. An even picture
+//! in deflate) finds only accidents and makes files larger: those of pictures of the simulated cameras by a fifth. An even picture
 //! takes an eighth of its bytes at best.
 
 use miniz_oxide::deflate::core::{
@@ -52,7 +52,7 @@ fn samples(frame: &Frame) -> Vec<u8> {
     }
 }
 
-/// Every row behind the number of its filter: of those there are, the one that leaves the least.
+/// Each row behind the number of its filter: of all filters, the one that leaves the smallest sum of magnitudes.
 fn filtered(samples: &[u8], row: usize, pixel: usize) -> Vec<u8> {
     let mut filtered = Vec::with_capacity(samples.len() + samples.len() / row.max(1) + 1);
     let nothing = vec![0; row];
@@ -115,7 +115,7 @@ fn paeth(left: u8, above: u8, corner: u8) -> u8 {
 fn zlib(bytes: &[u8]) -> Result<Vec<u8>, String> {
     /// Any level that compresses: it only says how far repeats are looked for.
     const LEVEL: i32 = 1;
-    /// That of every zlib stream with its header.
+    /// The largest window, and a stream with the header of zlib.
     const WINDOW_BITS: i32 = 15;
     let strategy = CompressionStrategy::HuffmanOnly as i32;
     let flags = create_comp_flags_from_zip_params(LEVEL, WINDOW_BITS, strategy);

@@ -1,4 +1,4 @@
-//! A table of text, and a file a picture.
+//! A table of text, and one file for each picture.
 
 use std::collections::BTreeSet;
 use std::fs::File;
@@ -16,7 +16,7 @@ use crate::staged::StagedFolder;
 
 /// The table, whose rows are as those of the dataset.
 const TABLE: &str = "labels.csv";
-/// Pictures written at a time by each job: most of it is waiting until the disk has them.
+/// Pictures written at a time by each job: most of the time is spent waiting until they are on the disk.
 const PICTURES_A_JOB: NonZeroUsize = NonZeroUsize::new(4).expect("four");
 
 pub(super) fn write(
@@ -63,7 +63,7 @@ pub(super) fn write(
     Ok((written, folders))
 }
 
-/// Writes a file a picture; returns their names, empty where a row has none.
+/// Writes one file for each picture; returns their names, empty where a row has none.
 fn write_pictures(
     exported: &Exported<'_>,
     staged: &StagedFolder,

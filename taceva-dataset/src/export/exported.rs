@@ -21,7 +21,7 @@ pub(super) struct Exported<'a> {
 }
 
 impl Exported<'_> {
-    /// What no map says.
+    /// What the dataset says and no map can say, in words.
     pub(super) fn left_out(&self) -> Vec<String> {
         let header = self.dataset.header();
         let table = self.dataset.table();
@@ -58,7 +58,7 @@ impl Exported<'_> {
         left.map(|(_, what)| what.to_owned()).collect()
     }
 
-    /// Whether a text has blanks around it, or is empty and there.
+    /// Whether a text has blanks around it, or is present and empty.
     fn has_blanks(&self) -> bool {
         let rows = self.dataset.table().rows();
         let texts = self.columns.iter().filter(|column| column.cells.is_text());

@@ -10,13 +10,13 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ExportForm {
-    /// `labels.csv`, a row a sample, and each picture in a file of its own.
+    /// `labels.csv`, one row for each sample, and each picture in a file of its own.
     Csv,
     /// Parquet whose column `image` holds the pictures, as the library `datasets` of Hugging Face reads it.
     HuggingFace,
-    /// `recording.h5`: an array a column, the pictures as one array of pixels.
+    /// `recording.h5`: one array for each column, the pictures as one array of pixels.
     Hdf5,
-    /// A folder of LeRobot, version 3.0: an episode a press.
+    /// A folder of LeRobot, version 3.0: one episode for each press.
     LeRobot,
 }
 

@@ -1,4 +1,4 @@
-//! A file of HDF5: an array a column, the pictures as one array of pixels, each in one piece.
+//! A file of HDF5: one array for each column, the pictures as one array of pixels; each array is in one piece.
 
 use taceva_arrays::{Hdf5Writer, WrittenElement};
 use taceva_core::PixelFormat;

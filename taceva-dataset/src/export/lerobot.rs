@@ -1,7 +1,7 @@
 //! A folder of LeRobot, version 3.0, with the pictures in its tables.
 //!
-//! An episode is a press: rows that follow one another and share sensor unit, scene, contact location and repeat. LeRobot takes the rows of an episode
-//! for frames that follow one another in time, which those of a contact location need not be: its repeats may lie hours apart, in between others. And
+//! An episode is a press: rows that follow one another and share sensor unit, scene, contact point and repeat. LeRobot takes the rows of an episode
+//! for frames that follow one another in time, which those of a contact point need not be: its repeats may lie hours apart, in between others. And
 //! since episodes are runs of rows, rows keep their order.
 
 use std::collections::BTreeMap;
@@ -23,7 +23,7 @@ use crate::table::{RESERVED, Table};
 const STATE: &str = "observation.state";
 const TAXELS: &str = "observation.tactile";
 const PICTURE: &str = "observation.images.gel";
-/// Pictures that say what all are like; LeRobot itself looks at about as many.
+/// How many pictures the statistics of all are computed from; LeRobot itself takes about as many.
 const LOOKED_AT: usize = 100;
 
 pub(super) fn write(

@@ -91,13 +91,13 @@ impl<'a> Pictures<'a> {
         Ok(bytes.map(Encoded::of))
     }
 
-    /// The decoded picture of a row, which the form asks of every one.
+    /// The decoded picture of a row, where the form needs one for each.
     pub(super) fn frame(&self, row: usize) -> Result<Frame, DatasetError> {
         let frame = self.dataset.frame(row)?;
         frame.ok_or_else(|| self.none(row))
     }
 
-    /// That a row has no picture, where the form asks one of each.
+    /// The error that a row has no picture, where the form needs one for each.
     pub(super) fn none(&self, row: usize) -> DatasetError {
         DatasetError::Sample {
             id: self.dataset.table().samples()[row].clone(),

@@ -347,7 +347,7 @@ fn rows_of(file: &ArrayFile, group: &str) -> Result<usize, String> {
     }
 }
 
-/// Those of the arrays of which chunks were never written, and how many.
+/// The arrays of which some chunks were never written, and how many these are.
 fn absent_chunks<'n>(
     file: &ArrayFile,
     names: impl Iterator<Item = &'n str>,

@@ -12,7 +12,7 @@ use crate::error::DatasetError;
 use crate::guard::guarded;
 use crate::header::FrameCodec;
 
-/// The frames of a clip in the order in which they are shown. The file is opened for each visit: a recording may have a clip a press.
+/// The frames of a clip in the order in which they are shown. The file is opened for each visit: a recording may have one clip for each press.
 #[derive(Debug)]
 pub(crate) struct ClipPictures {
     path: PathBuf,

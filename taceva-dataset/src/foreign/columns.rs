@@ -89,7 +89,7 @@ pub(crate) struct ColumnTable {
 }
 
 impl ColumnTable {
-    /// The table that `open` reads of the file at `path`; what goes wrong in it, a panic of a decoder too, is said of that file.
+    /// The table that `open` reads of the file at `path`; errors, and panics of a decoder, name that file.
     pub(super) fn open<S: ColumnSource + 'static>(
         path: &Path,
         open: impl FnOnce() -> Result<S, String>,

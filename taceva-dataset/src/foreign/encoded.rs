@@ -58,7 +58,7 @@ pub(super) trait ByteColumns: Sized + fmt::Debug + Send + Sync {
     }
 }
 
-/// The readers of both forms have the same methods, but for what they call the place of the table.
+/// The readers of both forms have the same methods, but for the name of the one that says where the table is.
 macro_rules! byte_columns {
     ($table:ty, $place:ident $(, $present:item)?) => {
         impl ByteColumns for $table {

@@ -20,7 +20,7 @@ pub(crate) const MEMBERS: u64 = 1 << 20;
 pub(crate) enum TarError {
     #[error("{0}")]
     Read(#[from] io::Error),
-    #[error("no tar: the sum of the header at byte {0} is not what it states")]
+    #[error("no tar: the checksum of the header at byte {0} is not what it states")]
     Sum(u64),
     #[error("cut short: it ends at byte {0}, without the two empty blocks of its end")]
     Cut(u64),

@@ -33,7 +33,7 @@ pub(super) struct Shard {
 #[derive(Debug, Default)]
 struct Sample {
     key: String,
-    /// By what stands behind the dot, where its bytes begin and how many they are.
+    /// For each part, by what stands behind the dot of its name: where its bytes begin and how many there are.
     parts: BTreeMap<Arc<str>, (u64, u64)>,
 }
 

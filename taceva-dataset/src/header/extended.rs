@@ -27,7 +27,7 @@ pub struct Extension {
 }
 
 impl Header {
-    /// Every digest that the recording had, with its samples then: those of before each extension, and the present one last.
+    /// Every digest that the recording had, with the number of its samples then: those before each extension, and the present one last.
     pub fn stages(&self) -> impl Iterator<Item = (Digest, u64)> + '_ {
         let before = self.extended.iter();
         let before = before.map(|extension| (extension.digest, extension.rows));

@@ -178,10 +178,10 @@ pub struct FramesInfo {
     pub info: FrameInfo,
     /// The order of the colours in the files.
     pub channel_order: ChannelOrder,
-    /// How the frames of clips, of several those of the first, were coded and decoded; absent of all others.
+    /// How the frames were coded and decoded, if they came as a clip; of several clips, how those of the first were.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub codec: Option<FrameCodec>,
-    /// How those of other clips were, each once, where that is not the same; absent before format 1.8.
+    /// How the frames of other clips were coded and decoded, where that differs, each way once; absent before format 1.8.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub other_codecs: Vec<FrameCodec>,
     /// The frame without contact; absent if the lab does not know one.

@@ -44,7 +44,7 @@ pub struct LeftOut {
     pub absent_chunks: BTreeMap<String, u64>,
 }
 
-/// Names that are kept of one kind.
+/// How many names of one kind are kept.
 const NAMED: usize = 64;
 /// What the others are counted under.
 const OTHERS: &str = "…";

@@ -13,9 +13,9 @@ use serde::{Deserialize, Serialize};
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct StreamFacts {
-    /// Whether the device or its link numbers frames, so that one which nobody took shows.
+    /// Whether the device or its link numbers frames, so that a frame which was not taken is noticed.
     pub numbered: bool,
-    /// Frames that came and found no room, and, of a device that numbers them, those that nobody took in time.
+    /// Frames for which there was no room when they came, and, of a device that numbers them, those that were not taken in time.
     pub dropped: u64,
     /// Frames that came damaged.
     pub damaged: u64,

@@ -11,7 +11,7 @@ use crate::file::open_regular;
 use crate::foreign::tar::{FileTape, Members, Tape, TarError};
 use crate::staged::{self, StagedFolder};
 
-/// How many times as large as its file a compressed archive may be, and how large beyond that, bytes.
+/// How many times as large as its file a compressed archive may be, and how many bytes more.
 const GROWTH: u64 = 128;
 const GROWTH_BYTES: u64 = 64 << 20;
 /// The first bytes of a gzip file.
@@ -19,8 +19,8 @@ const GZIP: [u8; 2] = [0x1f, 0x8b];
 
 /// A `.tar` or `.tar.gz` whose files are unpacked into a hidden folder, which is removed with it.
 ///
-/// Every reader of a recording opens files by their paths, seeks in them and maps of them name others: of an archive none of that is possible
-/// without holding it in memory. Shards of WebDataset are the exception, which are read where they lie.
+/// Every reader of a recording opens files by their paths and seeks in them, and maps name further files: in an archive none of that is possible
+/// without holding it in memory. Shards of WebDataset are the exception: they are read where they lie.
 ///
 /// ```no_run
 /// use taceva_dataset::{MapDraft, UnpackedArchive};
@@ -56,7 +56,7 @@ impl UnpackedArchive {
     ///
     /// # Errors
     /// [`DatasetError::Table`] naming the member if it is damaged or cut, if a name leaves the folder, of links, devices and sparse files, of a
-    /// size that is not there, above a million members, and of a compressed archive that grows to more than 128 times its size;
+    /// size that is not there, above a million members, and of a compressed archive that grows beyond 128 times its size and 64 MiB more;
     /// [`DatasetError::Io`] if the disk is full.
     pub fn open(archive: &Path, beside: &Path) -> Result<UnpackedArchive, DatasetError> {
         let name = archive.file_name().unwrap_or_default().to_string_lossy();

@@ -53,7 +53,7 @@ impl ImportPlan {
     ///
     /// Frames are kept as the bytes they came as; what came as numbers, of an array or a clip, becomes PNG. A JPEG is read to its end, so that what was cut, lost or
     /// changed in it is noticed unless every code is still one of its tables and the last one still ends where it did: a bit that was
-    /// flipped on the way to us may be another picture without any error. What happens from here on is always noticed.
+    /// flipped before the import may change the picture without any error. Damage after the import is always noticed, by the digests.
     ///
     /// # Errors
     /// [`DatasetError::Image`] naming the image and the row if a frame does not decode or is unlike the first;

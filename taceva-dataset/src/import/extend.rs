@@ -56,10 +56,11 @@ impl ImportPlan {
     /// keeps what it has opened; frames that are there are shared, not copied. The header says how many rows there were before, their digest, and
     /// what `added` says.
     ///
-    /// Rows that the map calls by no column are numbered on. Splits keep the part of every row that was there.
+    /// If the map names no column for the names of samples, they are numbered from the one behind the greatest number that is a name in the
+    /// dataset. Splits keep the part of every row that was there.
     ///
     /// # Errors
-    /// [`DatasetError::Request`] naming the key if the map differs from the dataset in what it is of, the row if one is in the dataset already,
+    /// [`DatasetError::Request`] naming the key if the map contradicts the header of the dataset, naming the row if it is in the dataset already,
     /// or if `target` is no imported dataset; [`DatasetError::NoDataset`]; else as [`run`](ImportPlan::run). After any of them `target` is what
     /// it was.
     ///
@@ -122,7 +123,7 @@ impl ImportPlan {
         })
     }
 
-    /// Refuses rows of something else than `before` is of; `frames` are those of the rows, where they are known.
+    /// Refuses rows whose header would contradict that of `before`; `frames` are those of the rows, where they are known.
     fn check_alike(
         &self,
         before: &Dataset,
@@ -190,7 +191,7 @@ impl ImportPlan {
 
 fn differs(key: &str, own: &str, other: &str) -> String {
     format!(
-        "`{key}` is {own} in the dataset and {other} in the map; rows are added to what they are of, others are a dataset of their own"
+        "`{key}` is {own} in the dataset and {other} in the map; rows are added only where both agree; import these as a dataset of their own"
     )
 }
 

@@ -7,7 +7,7 @@ use crate::error::DatasetError;
 /// The cells that name a frame.
 pub(super) enum FrameCells {
     Column(usize),
-    /// Texts and columns in turn.
+    /// A path made of texts and the cells of columns, in order.
     Pattern(Vec<PatternPart>),
     /// The column of the position in another file, or without one in that of the table.
     Within {

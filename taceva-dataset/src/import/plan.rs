@@ -28,7 +28,7 @@ use crate::text::shown;
 /// How many images that no row names are listed.
 const LISTED_IMAGES: usize = 20;
 
-/// A decided import: every label is read and converted, every frame is found; frames are verified when it is run.
+/// An import that can be made: every label is read and converted, every frame is found; frames are verified when it is run.
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, SourceUnit};
@@ -303,7 +303,7 @@ impl<'a> Reading<'a> {
         })
     }
 
-    /// That nothing is left to import, and why.
+    /// The error that nothing is left to import, and why.
     fn no_row(&self) -> DatasetError {
         let summary = &self.summary;
         let dropped = summary.dropped.iter();

@@ -296,7 +296,7 @@ impl<'a> MappedTable<'a> {
         })
     }
 
-    /// That another row has the name of this one.
+    /// The error that another row has the name of this one.
     pub(super) fn duplicate(&self, row: usize, name: &str) -> DatasetError {
         let column = self.sample.unwrap_or(usize::MAX);
         DatasetError::Table {

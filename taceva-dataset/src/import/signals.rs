@@ -92,7 +92,7 @@ impl<'a> FoundSignals<'a> {
         Ok(())
     }
 
-    /// That a row has no number for one of its signals.
+    /// The error that a row has no number for one of its signals.
     fn none_at(&self, rows: &MappedTable<'_>, row: usize, position: usize) -> DatasetError {
         let columns = self.map.columns();
         let length = self.map.spec.info.len();

@@ -1,4 +1,4 @@
-//! Finding tables and images in a stranger's folder, without leaving it.
+//! Finding tables and images in a foreign folder, without leaving it.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -51,7 +51,7 @@ pub(crate) fn matching_files(
     Ok(found)
 }
 
-/// That a pattern leads to no file twice, through a link: its rows would count twice.
+/// Checks that a pattern leads to no file twice, through a link: its rows would count twice.
 fn each_once(folder: &SourceFolder, pattern: &str, found: &[PathBuf]) -> Result<(), DatasetError> {
     let mut known: BTreeMap<PathBuf, &PathBuf> = BTreeMap::new();
     for path in found {

@@ -162,7 +162,7 @@ pub struct Conversion {
     pub from: SourceUnit,
     /// The unit that the dataset keeps them in.
     pub to: Unit,
-    /// Whether its sign is turned.
+    /// Whether its sign is inverted.
     pub is_negated: bool,
     /// What is subtracted from each cell first, in the unit of the cells.
     pub offset: Option<f64>,

@@ -13,7 +13,7 @@ pub(super) struct Bits<'a> {
     is_at_marker: bool,
 }
 
-/// What is said of data that ends before the last block.
+/// The message about data that ends before the last block.
 pub(super) const ENDS_EARLY: &str = "the entropy-coded data ends before the last block";
 
 impl<'a> Bits<'a> {

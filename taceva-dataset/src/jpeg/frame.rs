@@ -8,7 +8,7 @@ pub(super) struct Component {
     pub(super) id: u8,
     /// Blocks side by side, and one above the other, in a unit of an interleaved scan.
     pub(super) sampling: [usize; 2],
-    /// Its table of quantisation.
+    /// The number of its quantisation table.
     pub(super) quantiser: u8,
     /// Blocks side by side and one above the other, those that fill up the last unit too.
     pub(super) padded: [usize; 2],

@@ -4,12 +4,12 @@ use super::bits::Bits;
 use super::frame::{Component, Frame};
 use super::huffman::Huffman;
 
-/// What segments before a scan have left to it.
+/// The tables and settings that the segments before a scan have defined for it.
 #[derive(Debug, Default)]
 pub(super) struct Tables {
-    /// Those of first coefficients, then those of the others.
+    /// Those of DC coefficients, then those of AC coefficients.
     pub(super) huffman: [[Option<Huffman>; 4]; 2],
-    /// Of each table of quantisation, the divisor of the first coefficient.
+    /// Of each quantisation table, the divisor of the DC coefficient.
     pub(super) quantisers: [Option<usize>; 4],
     /// Units between restart markers; 0 without.
     pub(super) restart_interval: usize,
@@ -160,7 +160,7 @@ impl Scan {
                 place: *place,
                 first: table(0)?,
                 others: table(1)?,
-                quantiser: quantiser.ok_or("a scan before its table of quantisation")? as i64,
+                quantiser: quantiser.ok_or("a scan before its quantisation table")? as i64,
             })
         });
         coders.collect()
@@ -273,7 +273,7 @@ impl Scan {
 
 const OVERFLOW: &str = "the entropy-coded data has a run beyond the end of a block";
 
-/// With what the blocks of a component are read.
+/// What the blocks of a component are read with.
 struct Coder<'a> {
     place: usize,
     first: Option<&'a Huffman>,
@@ -284,14 +284,14 @@ struct Coder<'a> {
 /// What one block leaves to the next, between restart markers.
 #[derive(Default)]
 struct State {
-    /// By place in the frame, the last first coefficient.
+    /// By place in the frame, the last DC coefficient.
     previous: [i64; 4],
     /// Blocks that follow without a code of their own.
     empty_blocks: u32,
 }
 
 impl State {
-    /// The first coefficient of a block.
+    /// The DC coefficient of a block.
     #[inline]
     fn first(
         &mut self,
@@ -302,7 +302,7 @@ impl State {
     ) -> Result<(), String> {
         let size = u32::from(table.decode(bits)?);
         if size > 11 {
-            return Err("a first coefficient of more bits than a picture has".to_owned());
+            return Err("a DC coefficient of more bits than a picture has".to_owned());
         }
         let value = i64::from(bits.take(size)?);
         // The upper half of the numbers of a size is positive, the lower half negative.

@@ -5,7 +5,7 @@ use super::frame::Frame;
 use super::huffman::Huffman;
 use super::scan::{Scan, Tables};
 
-/// Goes through a file.
+/// Goes through the segments of a file.
 pub(super) struct Reader<'a> {
     bytes: &'a [u8],
     position: usize,
@@ -96,7 +96,7 @@ impl<'a> Reader<'a> {
             let (kind, number) = (usize::from(place >> 4), usize::from(place & 15));
             let of_kind = self.tables.huffman.get_mut(kind);
             let slot = of_kind.and_then(|tables| tables.get_mut(number));
-            *slot.ok_or("a Huffman table of no place")? = Some(Huffman::new(counts, symbols)?);
+            *slot.ok_or("a Huffman table of wrong number")? = Some(Huffman::new(counts, symbols)?);
             body = &rest[total..];
         }
         Ok(())
@@ -105,11 +105,11 @@ impl<'a> Reader<'a> {
     fn quantisers(&mut self) -> Result<(), String> {
         let mut body = self.body()?;
         while let [place, rest @ ..] = body {
-            let cut = "a table of quantisation that is cut";
+            let cut = "a quantisation table that is cut";
             let width = if place >> 4 == 0 { 1 } else { 2 };
             let table = rest.get(..64 * width).ok_or(cut)?;
             let slot = self.tables.quantisers.get_mut(usize::from(place & 15));
-            *slot.ok_or("a table of quantisation of no place")? = Some(big_endian(&table[..width]));
+            *slot.ok_or("a quantisation table above number 3")? = Some(big_endian(&table[..width]));
             body = &rest[64 * width..];
         }
         Ok(())

@@ -27,11 +27,11 @@ pub enum Preset {
     Bristol,
     /// `annotations/probe_data.csv`, `probe_images/` and `blank_images/`.
     Py3dcal,
-    /// Pictures in `image/`, wrenches in `wrench/`, a file each.
+    /// Pictures in `image/`, wrenches in `wrench/`, each in a file of its own.
     NineDTact,
-    /// A JSON a session below `GEL/LED/data/`, pictures below `GEL/LED/images/`.
+    /// One JSON file for each session below `GEL/LED/data/`, pictures below `GEL/LED/images/`.
     AllSight,
-    /// Pickles of encoded pictures and one of presses, a folder a batch.
+    /// Pickles of encoded pictures and one of presses, in one folder for each batch.
     SparshForce,
     /// `synced_data.npy` with a dictionary in it, and the pictures it names.
     YcbSlide,
@@ -39,9 +39,9 @@ pub enum Preset {
     Touchd,
     /// `contact_indoor.csv` and `data_indoor/`.
     Tacquad,
-    /// A folder a grasp with `gelsight/`, `f_t.csv` and `stages.csv`.
+    /// One folder for each grasp, with `gelsight/`, `f_t.csv` and `stages.csv`.
     PoseIt,
-    /// `tactile1/`, `tactile2/` and `force/` a trial.
+    /// `tactile1/`, `tactile2/` and `force/` for each trial.
     ToolForce,
     /// HDF5 with `/tactile/left_gsmini/` or `/tactile/left_tactile/`.
     UniVtac,

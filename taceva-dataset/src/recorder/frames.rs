@@ -1,4 +1,4 @@
-//! The frames of a recording: each is durable in its pack, with the name of that, before the journal names it.
+//! The frames of a recording: each frame, and the name of its pack, is durable before the journal names it.
 
 use taceva_core::{Frame, FrameError, Sample};
 use taceva_durable::parent_of;

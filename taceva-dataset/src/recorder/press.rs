@@ -1,4 +1,4 @@
-//! A press of a protocol: one record of the journal, so that after any interruption all of its samples are there or none.
+//! A press of a protocol: one record of the journal, so that after any interruption either all of its samples are there or none.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -1,15 +1,15 @@
-//! What a journal holds is taken again, record by record.
+//! Restoring a recording from its journal, record by record.
 
 use super::Recorder;
 use super::written::{WrittenFrame, WrittenPress, WrittenSample, WrittenStream};
 use crate::error::DatasetError;
 use crate::journal::{JournalRecord, RecordKind};
 
-/// Why a record of a journal cannot be taken again.
+/// Why a record of a journal cannot be restored.
 pub(super) enum ReplayError {
     /// What is wrong with it.
     Damaged(String),
-    /// What the disk said meanwhile.
+    /// An error of the operating system meanwhile.
     Io(DatasetError),
 }
 

@@ -1,4 +1,4 @@
-//! Frames of a stream: some are recorded at once, so that what is made durable is so for all of them.
+//! Frames of a stream: several are recorded together, so that the disk is waited for once for all of them.
 
 use taceva_core::{Frame, Sample};
 
@@ -23,7 +23,7 @@ use crate::journal::RecordKind;
 pub struct Streamed {
     /// What is known, with the frame.
     pub sample: Sample,
-    /// The PNG or JPEG file of which the frame was decoded: it is kept as it is, and not encoded again.
+    /// The PNG, JPEG or TIFF file of which the frame was decoded: it is kept as it is, and not encoded again.
     pub sent: Option<Vec<u8>>,
 }
 
@@ -36,7 +36,7 @@ impl Streamed {
     /// The same with the file that its frame was sent as.
     ///
     /// # Errors
-    /// What is wrong with the file, in words: neither PNG nor JPEG, cut, or damaged inside.
+    /// What is wrong with the file, in words: neither PNG nor JPEG nor TIFF, cut, or damaged inside.
     pub fn with_sent(self, sent: Vec<u8>) -> Result<Streamed, String> {
         let kind = kind_of_whole(&sent)?;
         check_to_the_end(&sent, kind)?;

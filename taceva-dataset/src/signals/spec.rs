@@ -152,9 +152,9 @@ impl SignalsSpec {
 pub struct SignalsInfo {
     /// The taxels.
     pub spec: SignalsSpec,
-    /// Of what the file says, however it is stored.
+    /// The digest of what the file says, however it is stored.
     pub digest: Digest,
-    /// Of the bytes of the file.
+    /// The SHA-256 of the bytes of the file.
     pub sha256: Digest,
 }
 

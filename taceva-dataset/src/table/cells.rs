@@ -5,7 +5,7 @@ use taceva_core::{Channel, Column, GratingKind, Limit, Nanometre, Phase, Unit};
 use super::FrameEntry;
 use crate::digest::PartsDigest;
 
-/// Names that columns beside the channels have on disk; no channel and no attribute may be called so.
+/// The names of the columns on disk that are no channels; no channel and no attribute may be called so.
 pub(crate) const RESERVED: [&str; 18] = [
     "sample",
     "point_id",
@@ -69,7 +69,7 @@ impl Cells<'_> {
         }
     }
 
-    /// Whether the cells are texts that anything may stand in.
+    /// Whether the cells are texts in which anything may stand.
     pub(crate) fn is_text(&self) -> bool {
         matches!(self, Cells::Name(_) | Cells::Text(_))
     }

@@ -5,7 +5,7 @@ use taceva_core::{Column, Field, Labels, Nanometre};
 use super::Table;
 
 impl Table {
-    /// The texts of `field` in `rows`, in their order: contact location, unit, scene, phase, kind of grating or digest of the
+    /// The texts of `field` in `rows`, in their order: contact point, unit, scene, phase, kind of grating or digest of the
     /// frame. `None` for fields that hold no text.
     ///
     /// # Panics

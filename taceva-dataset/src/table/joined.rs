@@ -48,7 +48,7 @@ impl Table {
         self.push(row);
     }
 
-    /// A digest a row of what it says, however it is called and wherever it came from: its labels, its time, and the digest of its frame.
+    /// For each row the digest of what it says, however it is called and wherever it came from: its labels, its time, and the digest of its frame.
     pub(crate) fn row_digests(&self) -> Vec<Digest> {
         const NAMES: [&str; 6] = [
             "sample",

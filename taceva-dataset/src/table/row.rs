@@ -23,7 +23,7 @@ pub struct FrameEntry {
     pub path: String,
     /// Which bytes of that file it is; all of them if absent.
     pub span: Option<Span>,
-    /// Of its bytes; of a difference with the digest of the frame that it is one to.
+    /// The digest of its bytes; of a difference, of these and of the digest of the frame that it is a difference to.
     pub digest: Digest,
 }
 
@@ -81,7 +81,7 @@ impl FrameEntry {
 pub struct Row {
     /// Its name, once in a table.
     pub sample: String,
-    /// The contact location: what repeats share.
+    /// The contact point: what repeats share.
     pub point_id: Option<String>,
     /// The sensor unit.
     pub unit_id: Option<String>,
@@ -111,9 +111,9 @@ pub struct Row {
     pub spacing: Option<Nanometre>,
     /// The mean luma of the full-size frame, in steps of an 8-bit camera.
     pub intensity: Option<f64>,
-    /// A value a channel of the table.
+    /// One value for each channel of the table.
     pub truth: Vec<Option<f64>>,
-    /// A text an attribute of the table.
+    /// One text for each attribute of the table.
     pub attributes: Vec<Option<String>>,
     /// The picture.
     pub frame: Option<FrameEntry>,

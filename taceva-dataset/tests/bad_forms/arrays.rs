@@ -75,7 +75,7 @@ fn signals_that_are_no_numbers_name_their_row() {
     refused(folder.path(), &map, &["taxels.npy", "row 1", "NaN"]);
 }
 
-/// The collection of files that broke other readers is nobody's to copy: it is read where somebody put it.
+/// The collection of files that broke other readers may not be copied into the repository: it is read from the folder of recordings.
 #[test]
 fn the_public_collection_of_hdf5_files_that_broke_readers_is_refused_or_read() {
     let folder = std::env::var_os("TACEVA_DATA").map(|data| Path::new(&data).join("cve_hdf5"));

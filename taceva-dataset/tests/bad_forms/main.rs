@@ -1,4 +1,4 @@
-//! Hostile input of every form through the door of an import: refused in words or read, in at most ten seconds and 512 MiB, nothing run and
+//! Hostile input of every form, given to an import: refused in words or read, in at most ten seconds and 512 MiB, nothing run and
 //! nothing left behind.
 
 mod arrays;
@@ -92,7 +92,7 @@ fn refused(folder: &Path, map: &str, words: &[&str]) {
     }
 }
 
-/// A file of the crates that read strangers' forms, or of the recordings of the workspace.
+/// A file of the crates that read foreign forms, or of the recordings of the workspace.
 fn workspace(path: &str) -> PathBuf {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join(path)
 }

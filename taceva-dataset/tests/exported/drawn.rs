@@ -1,4 +1,4 @@
-//! Datasets of which each holds what another does not.
+//! Datasets for the tests, each of which holds something that the others do not.
 
 use std::fmt::Write as _;
 use std::fs;

@@ -1,4 +1,4 @@
-//! Out and in again, by the map that the export wrote.
+//! Datasets that are exported, and imported again by the map that the export wrote.
 
 use std::fs;
 use std::num::NonZeroUsize;

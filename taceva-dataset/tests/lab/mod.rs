@@ -48,7 +48,7 @@ gel = "unknown"
 opaque = true
 "#;
 
-/// A folder with a good table, map and frames, for a test to spoil.
+/// A folder with a good table, map and frames, which a test then damages.
 pub(crate) struct Lab {
     pub(crate) folder: TempDir,
 }

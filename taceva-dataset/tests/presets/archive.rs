@@ -144,8 +144,8 @@ fn hostile_archives_are_refused_by_member_and_leave_nothing_behind() {
             file(b"a", 1 << 30, EntryType::GNULongName),
             "a name of 1073741824 bytes",
         ),
-        ("sum", wrong_sum, "the sum of the header at byte 0"),
-        ("binary sum", binary_sum, "the sum of the header at byte 0"),
+        ("sum", wrong_sum, "checksum of the header at byte 0"),
+        ("binary sum", binary_sum, "checksum of the header at byte 0"),
         ("twice", twice, "stands twice"),
         (
             "no text",

@@ -1,5 +1,5 @@
 //! Every file of the recordings in `tests/recordings`, cut short or with flipped bits: an import is refused in words or made, and whatever is
-//! refused leaves nothing behind. A panic of a decoder would be one of the words.
+//! refused leaves nothing behind. A caught panic of a foreign decoder counts as such a refusal.
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};

@@ -9,9 +9,9 @@ use taceva_dataset::{Dataset, Table};
 
 use crate::{folder, import};
 
-/// What check names of labels stand under other names in a dataset, or are read from elsewhere.
+/// Labels in `expected.json` that have other names in a dataset, or are read from elsewhere.
 const ELSEWHERE: [&str; 3] = ["frame", "t_s", "file"];
-/// Of these the digests are by the row of the main table.
+/// Recordings whose keys in `expected.json` are rows of the main table.
 const BY_SOURCE_ROW: [&str; 3] = ["join-time", "join-key", "taxels-csv"];
 
 /// What of the recording, imported by the map `text`, is not as its `expected.json` says.

@@ -1,4 +1,4 @@
-//! What goes in comes out, whichever way and on however many threads.
+//! What is imported is read back the same, in each way of reading and on any number of threads.
 
 mod gratings;
 mod import;

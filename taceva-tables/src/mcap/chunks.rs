@@ -94,11 +94,11 @@ impl<'a> Chunks<'a> {
                 .damaged(Place::byte(at).in_name("chunk"), problem)
         };
         let (head, begin) =
-            record::chunk(fields).ok_or_else(|| damaged("the head is cut short".to_owned()))?;
+            record::chunk(fields).ok_or_else(|| damaged("the header is cut short".to_owned()))?;
         let packed = fields.get(begin..).unwrap_or_default();
         if packed.len() as u64 != head.packed {
             return Err(damaged(format!(
-                "{} bytes, its head announces {}",
+                "{} bytes, its header announces {}",
                 packed.len(),
                 head.packed
             )));
@@ -133,7 +133,7 @@ impl<'a> Chunks<'a> {
         match head.crc == 0 || head.crc == formed {
             true => Ok(bytes),
             false => Err(damaged(format!(
-                "its sum is {formed:08x} instead of {:08x}: it was changed after it was written",
+                "its checksum is {formed:08x} instead of {:08x}: it was changed after it was written",
                 head.crc
             ))),
         }

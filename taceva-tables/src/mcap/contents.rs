@@ -104,7 +104,7 @@ fn check_data(source: &Source, chunks: &mut Chunks<'_>, data_end: u64) -> Result
         true => Ok(()),
         false => {
             let problem = format!(
-                "the sum of the data is {formed:08x} instead of {crc:08x}: it was changed after it was written"
+                "the checksum of the data is {formed:08x} instead of {crc:08x}: it was changed after it was written"
             );
             Err(source.damaged(Place::byte(at), problem))
         }
@@ -125,7 +125,7 @@ fn summary(
     let formed = crc32fast::hash(&all);
     if crc != 0 && crc != formed {
         let problem = format!(
-            "the sum of the summary is {formed:08x} instead of {crc:08x}: it was changed after it was written"
+            "the checksum of the summary is {formed:08x} instead of {crc:08x}: it was changed after it was written"
         );
         return Err(source.damaged(Place::byte(begin), problem));
     }

@@ -146,7 +146,7 @@ impl<R: BufRead> Thrift<'_, R> {
             step => fields
                 .last
                 .checked_add(i32::from(step))
-                .ok_or("a field beyond all numbers")?,
+                .ok_or("a field number that is too large")?,
         };
         fields.last = number;
         Ok(Some((number, Form::of(byte & 0x0f)?)))

@@ -179,7 +179,7 @@ impl Pages {
             None => Ok(()),
             Some(crc) => {
                 let problem = format!(
-                    "the sum of the page is {formed:08x} instead of {crc:08x}: it was changed after it was written"
+                    "the checksum of the page is {formed:08x} instead of {crc:08x}: it was changed after it was written"
                 );
                 Err(self.damaged(begin, problem))
             }

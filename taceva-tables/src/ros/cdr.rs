@@ -32,7 +32,7 @@ impl<'a> Cdr<'a> {
     pub(crate) fn new(message: &'a [u8]) -> Result<Cdr<'a>, String> {
         let Some((head, bytes)) = message.split_first_chunk::<4>() else {
             return Err(format!(
-                "a message of {} bytes has no head of CDR",
+                "a message of {} bytes has no CDR header",
                 message.len()
             ));
         };

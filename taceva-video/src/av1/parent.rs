@@ -198,7 +198,7 @@ impl<'a> Session<'a> {
                 Ok(Piece::Block(block)) if is_sent => {
                     let answer = Answer::parse(block);
                     return answer
-                        .ok_or_else(|| self.clip.failed("does not speak as the decoder of AV1"));
+                        .ok_or_else(|| self.clip.failed("does not answer as the decoder of AV1"));
                 }
                 Ok(Piece::Block(_)) => {}
                 Err(ended) => {

@@ -77,7 +77,7 @@ impl Greeting {
     #[cfg(feature = "av1")]
     pub(super) fn read(from: &mut impl Read) -> io::Result<Greeting> {
         if take::<8>(from)? != LETTERS {
-            return Err(wrong("another program speaks, or another version"));
+            return Err(wrong("the other end is another program or version"));
         }
         let (width, height) = (
             u32::from_le_bytes(take(from)?),
@@ -97,7 +97,7 @@ impl Greeting {
 impl Unit {
     pub(super) fn write(&self, to: &mut impl Write) -> io::Result<()> {
         let size =
-            u32::try_from(self.bytes.len()).map_err(|_| wrong("a packet beyond all limits"))?;
+            u32::try_from(self.bytes.len()).map_err(|_| wrong("a packet that is too large"))?;
         to.write_all(&size.to_le_bytes())?;
         to.write_all(&[u8::from(self.is_restart) | u8::from(self.is_wanted) << 1])?;
         to.write_all(&self.bytes)
@@ -114,7 +114,7 @@ impl Unit {
         let size = u32::from_le_bytes([first[0], b, c, d]);
         // A packet with the settings of its stream before it.
         if u64::from(size) > limits::PACKET_BYTES + limits::HEADER_BYTES {
-            return Err(wrong("a packet beyond all limits"));
+            return Err(wrong("a packet that is too large"));
         }
         let [flags] = take(from)?;
         let mut bytes = vec![0; size as usize];
@@ -180,7 +180,7 @@ impl Answer {
             b'P' => {
                 more(&mut answer, PICTURE_HEAD as u64)?;
                 let Some(head) = Yuv::head(&answer) else {
-                    return Err(wrong("a picture without a head"));
+                    return Err(wrong("a picture without a header"));
                 };
                 // One of another size is not read.
                 if (head.width, head.height) == (greeting.width, greeting.height) {

@@ -111,7 +111,7 @@ impl<'a> Chunks<'a> {
         self.window_at = self.at;
         in_window(self).ok_or_else(|| {
             self.source
-                .damaged(self.at, "the file ends within a chunk's head")
+                .damaged(self.at, "the file ends within a chunk's header")
         })
     }
 

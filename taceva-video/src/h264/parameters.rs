@@ -155,9 +155,9 @@ impl Sequence {
         } else if self.has_fields {
             Some("with fields")
         } else if self.is_cut_left_or_top {
-            Some("cut at its left or top")
+            Some("cropped at its left or top")
         } else if self.has_order_by_cycle {
-            Some("with its order by cycles")
+            Some("with picture order count type 1")
         } else {
             None
         }

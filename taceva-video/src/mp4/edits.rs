@@ -44,7 +44,7 @@ pub(super) fn read(source: &Source, edits: &BoxAt) -> Result<Option<Edit>, Video
         if from == -1 && edit.is_none() {
             delay = delay
                 .checked_add(duration)
-                .ok_or_else(|| source.damaged(at, "a delay beyond all numbers"))?;
+                .ok_or_else(|| source.damaged(at, "a delay that is too large"))?;
         } else if from >= 0 && edit.is_none() && speed == 1 << 16 {
             edit = Some(Edit {
                 delay,

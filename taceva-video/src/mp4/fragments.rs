@@ -143,7 +143,7 @@ impl Reader<'_> {
             _ => u64::from(fields.u32(source)?),
         };
         let Ok(mut time) = i64::try_from(time) else {
-            return Err(source.damaged(time_at, "times beyond all numbers"));
+            return Err(source.damaged(time_at, "times that are too large"));
         };
         let mut offset = base;
         let mut boxes = track.boxes(source, 0);
@@ -205,7 +205,7 @@ impl Reader<'_> {
             if self.samples.len() as u64 == limits::FRAMES {
                 return Err(too_many(source, limits::FRAMES + 1));
             }
-            let beyond = || source.damaged(at, "times beyond all numbers");
+            let beyond = || source.damaged(at, "times that are too large");
             self.samples.push(Sample {
                 offset: *offset,
                 size,

@@ -200,7 +200,7 @@ fn read_times(source: &Source, tables: &BoxAt, count: usize) -> Result<Vec<i64>,
             times.push(time);
             time = time
                 .checked_add(i64::from(step))
-                .ok_or_else(|| source.damaged(at, "times beyond all numbers"))?;
+                .ok_or_else(|| source.damaged(at, "times that are too large"))?;
         }
     }
     if times.len() != count {
@@ -234,7 +234,7 @@ fn add_delays(source: &Source, found: &BoxAt, times: &mut [i64]) -> Result<(), V
             };
             *time = time
                 .checked_add(i64::from(delay))
-                .ok_or_else(|| source.damaged(at, "times beyond all numbers"))?;
+                .ok_or_else(|| source.damaged(at, "times that are too large"))?;
         }
     }
     match rest.len() {

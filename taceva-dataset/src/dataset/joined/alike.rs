@@ -21,8 +21,8 @@ pub(crate) fn differences(one: &Header, other: &Header) -> impl Iterator<Item = 
         .map(|((key, own), (_, other))| Difference { key, own, other })
 }
 
-/// What differs beside that between a recording and rows that are to be added to it: they are of one unit of the sensor, on one clock, with the
-/// same text columns.
+/// What else differs between a recording and rows that are to be added to it, which must agree with it in serial number, gel, clock, text
+/// columns and the order of colours, too.
 pub(crate) fn differences_of_added(
     one: &Header,
     added: &Header,

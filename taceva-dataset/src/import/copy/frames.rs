@@ -17,8 +17,8 @@ use crate::parallel::ordered_map;
 use crate::staged::StagedFolder;
 use crate::table::Table;
 
-/// Frames copied at a time by each job: most of a copy is waiting until the disk has it, and disks like to be asked for
-/// several files at once.
+/// Frames copied at a time by each job: most of the time is spent waiting until they are on the disk, and disks write
+/// several files at once faster.
 const COPIES_A_JOB: NonZeroUsize = NonZeroUsize::new(4).expect("four");
 /// Pictures of other files that are held in memory while they are written, bytes.
 const HELD_BYTES: usize = 16 << 20;

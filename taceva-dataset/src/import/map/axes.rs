@@ -3,7 +3,7 @@
 use super::SignalsMap;
 
 impl SignalsMap {
-    /// That the numbers of a row, which lie in an array or in lists of lists of this shape, are in the order that the map states: places (rows,
+    /// Checks that the numbers of a row, which lie in an array or in lists of lists of this shape, are in the order that the map states: places (rows,
     /// columns) and then channels, or the other way around. Places may stand on one axis, all numbers on one, and axes of length 1 anywhere.
     ///
     /// # Errors

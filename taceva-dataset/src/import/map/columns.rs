@@ -21,7 +21,7 @@ pub struct ColumnMap {
     pub from: String,
     /// The unit of its numbers.
     pub unit: SourceUnit,
-    /// Whether its sign is turned.
+    /// Whether its sign is inverted.
     pub is_negated: bool,
     /// What is subtracted from each cell first, in the unit of the cells.
     pub offset: Option<f64>,
@@ -62,12 +62,12 @@ impl ColumnMap {
 pub struct IdMap {
     /// The name of a sample; absent: the number of its row, from 0.
     pub sample: Option<String>,
-    /// The contact location; several columns are joined with `:`.
+    /// The contact point; several columns are joined with `:`.
     #[serde(deserialize_with = "one_or_more")]
     pub point_id: Vec<String>,
     /// Which unit of the sensor it is, of several of one model.
     pub unit_id: Option<String>,
-    /// The scene of the light, or what else of the surroundings was varied.
+    /// The scene of the lighting, or whatever else of the surroundings was varied.
     pub scene: Option<String>,
     /// The level of depth within a press, a whole number from 0.
     pub depth_step: Option<String>,

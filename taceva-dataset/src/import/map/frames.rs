@@ -60,7 +60,7 @@ pub enum FrameNames {
     Pattern(String),
     /// Frames in one array.
     Array(ArrayFrames),
-    /// The column of the table that holds the bytes of a PNG or JPEG file.
+    /// The column of the table that holds the bytes of a PNG, JPEG or TIFF file.
     Bytes(String),
     /// Frames of a clip.
     Video(VideoFrames),
@@ -178,7 +178,7 @@ impl PixelRange {
 }
 
 impl ArrayFrames {
-    /// The frames in the `.npy` file `file`; the column `index` holds the position in the array.
+    /// The frames in `file`, which holds one array alone, such as a `.npy` file; the column `index` holds the position in the array.
     pub fn new(file: impl Into<String>, index: impl Into<String>) -> ArrayFrames {
         ArrayFrames {
             file: Some(file.into()),

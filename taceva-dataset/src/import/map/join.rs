@@ -37,7 +37,7 @@ pub(crate) struct TimeJoin {
     /// The time of the joined table.
     pub(crate) time: TimeMap,
     pub(crate) pick: Pick,
-    /// The greatest distance, s.
+    /// The greatest distance in time, s.
     pub(crate) tolerance_s: f64,
     /// How much later the clock of the joined table shows the same instant, s.
     pub(crate) lag_s: f64,

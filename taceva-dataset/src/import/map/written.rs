@@ -157,7 +157,7 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
 }
 
 impl Check<'_> {
-    /// Keys of version 2 in a map that says 1 would have meant nothing to whoever wrote it.
+    /// Refuses a version that is not known, and keys of version 2 in a map that states version 1.
     fn version(&self, written: &WrittenMap) -> Result<(), DatasetError> {
         let scaled = written.columns.values().find(|column| {
             let column = column.get_ref();

@@ -143,7 +143,7 @@ impl<'a> Joined<'a> {
         }
     }
 
-    /// That `unit`, which the map states of `column`, agrees with what the files say of it.
+    /// Checks that `unit`, which the map states of `column`, agrees with what the files say of it.
     pub(super) fn check_unit(&self, column: &str, unit: &SourceUnit) -> Result<(), DatasetError> {
         let mut tables = self.tables.iter();
         tables.try_for_each(|candidates| times::check(&candidates.table, column, unit))

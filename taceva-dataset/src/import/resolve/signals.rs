@@ -5,8 +5,8 @@ use crate::csv_table::number;
 use crate::error::DatasetError;
 use crate::import::map::SignalsMap;
 
-/// The numbers of every row, place first, in the unit that they are kept in. Where a cell holds none there is a NaN, of which somebody
-/// hears if the row is kept.
+/// The numbers of every row, place first, in the unit that they are kept in. Where a cell holds none there is a NaN, which is an
+/// error if the row is kept.
 pub(super) fn numbers(sources: &Sources<'_>, map: &SignalsMap) -> Result<Vec<f32>, DatasetError> {
     let (rows, length) = (sources.main.rows(), map.spec.info.len());
     let mut numbers = Vec::new();

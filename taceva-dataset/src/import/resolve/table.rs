@@ -26,7 +26,7 @@ pub(in crate::import) struct ResolvedTable {
     cells: Vec<Vec<String>>,
     /// Where each row stands.
     places: Vec<Place>,
-    /// For each row the join that has none to it, where that leaves the row out.
+    /// For each row the join in which no row belongs to it, where that leaves the row out.
     unmatched: Vec<Option<String>>,
 }
 

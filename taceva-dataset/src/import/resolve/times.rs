@@ -7,7 +7,7 @@ use super::columns::base_of;
 use crate::error::{DatasetError, Place};
 use crate::foreign::ForeignTable;
 
-/// That `unit`, which the map states of the column `name` of `table`, is seconds where the file itself says that it holds times.
+/// Checks that `unit`, which the map states of the column `name` of `table`, is seconds where the file itself says that it holds times.
 pub(super) fn check(
     table: &ForeignTable,
     name: &str,
@@ -32,7 +32,7 @@ pub(super) fn check(
 }
 
 impl Sources<'_> {
-    /// That every unit that the map states of a column agrees with what the file says of it.
+    /// Checks that every unit that the map states of a column agrees with what the file says of it.
     pub(super) fn check_units(&self) -> Result<(), DatasetError> {
         let columns = self.map.columns.iter();
         let columns = columns.map(|column| (column.from.as_str(), &column.unit));

@@ -2,7 +2,7 @@
 
 use super::Preset;
 
-/// A file or folder that a layout cannot be without.
+/// A file or folder without which a folder does not have the layout.
 pub(super) struct Need {
     /// Any of these, relative to the folder; `*` stands for any characters within a name.
     pub(super) any_of: &'static [&'static str],

@@ -6,7 +6,7 @@ use crate::foreign::packed;
 use crate::import::map::{Pick, TimeJoin, TimeMap};
 use crate::text::shown;
 
-/// What seconds since 1970 are rounded by, and more.
+/// Seconds since 1970 are rounded by less than this in binary64.
 const ROUNDING_S: f64 = 1e-6;
 
 /// Which row belongs to one of the main table.
@@ -14,7 +14,7 @@ const ROUNDING_S: f64 = 1e-6;
 pub(super) enum At {
     Nowhere,
     Row(usize),
-    /// Of two rows, so much of the second.
+    /// Between two rows; the weight of the second, from 0 to 1.
     Between([usize; 2], f64),
 }
 
