@@ -66,11 +66,27 @@ impl Lab {
     /// # Panics
     /// If it cannot be written, which ends the test.
     pub fn new(form: Form, order: &str, pictures: &[Vec<u8>]) -> Lab {
+        Lab::numbered(form, order, pictures, 0)
+    }
+
+    /// A folder with `count` drawn gray pictures of other numbers than those of `drawn`, from `first` on.
+    ///
+    /// # Panics
+    /// If it cannot be written, which ends the test.
+    pub fn drawn_from(form: Form, first: usize, count: usize) -> Lab {
+        let number = |number| u32::try_from(number).expect("a small number");
+        let pictures: Vec<Vec<u8>> = (first..first + count)
+            .map(|own| picture(form, number(own)))
+            .collect();
+        Lab::numbered(form, "gray", &pictures, first)
+    }
+
+    fn numbered(form: Form, order: &str, pictures: &[Vec<u8>], first: usize) -> Lab {
         let folder = scratch();
         let frames = folder.path().join("frames");
         std::fs::create_dir(&frames).expect("a new folder");
         let mut labels = String::from("file,depth_mm,force_N,point\n");
-        for (number, bytes) in pictures.iter().enumerate() {
+        for (number, bytes) in (first..).zip(pictures) {
             let name = format!("{number:03}.{}", form.extension());
             std::fs::write(frames.join(&name), bytes).expect("written");
             let (point, step) = (number / 2, number % 2 + 1);

@@ -223,10 +223,7 @@ fn an_import_that_replaces_a_dataset_can_be_killed_at_any_moment_and_loses_none(
 #[expect(clippy::print_stderr, reason = "the counts are the result")]
 fn rows_that_are_added_can_be_killed_at_any_moment_and_nothing_is_lost_or_doubled() {
     let first = Lab::drawn(Form::Png, 4);
-    let pictures: Vec<Vec<u8>> = (500..500 + PICTURES)
-        .map(|number| picture(Form::Png, number))
-        .collect();
-    let second = Lab::new(Form::Png, "gray", &pictures);
+    let second = Lab::drawn_from(Form::Png, 500, PICTURES as usize);
     let folder = scratch();
     let target = folder.path().join("set");
     let extend = || {

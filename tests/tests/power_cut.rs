@@ -149,8 +149,7 @@ fn extend(lab: &Lab, target: &Path) -> Command {
 #[test]
 fn rows_that_are_added_are_all_there_or_none_is_and_no_row_of_before_is_lost() {
     let first = Lab::drawn(Form::Png, 2);
-    let pictures: Vec<Vec<u8>> = (50..53).map(|number| picture(Form::Png, number)).collect();
-    let second = Lab::new(Form::Png, "gray", &pictures);
+    let second = Lab::drawn_from(Form::Png, 50, 3);
     let folder = scratch();
     let watched = folder.path();
     let target = watched.join("set");

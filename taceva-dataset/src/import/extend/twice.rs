@@ -32,7 +32,7 @@ pub(super) fn refuse_twice(
     for (row, name) in table.samples().iter().enumerate().skip(old) {
         if let Some(own) = known.get(name.as_str()) {
             return Err(refused(format!(
-                "sample `{}`, {}, is row {own} of the dataset already; the same rows are not added twice",
+                "sample `{}`, {}, is row {own} of the dataset already; the same rows are not added twice, and others of the same name need names of their own (`[ids] sample`)",
                 shown(name),
                 origin(table, row, old)
             )));
