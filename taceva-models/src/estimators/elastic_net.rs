@@ -1,4 +1,4 @@
-//! Least squares with a penalty that leaves most weights at nothing.
+//! Least squares with a penalty that leaves most weights at 0.
 
 mod descent;
 mod predictors;

@@ -5,7 +5,7 @@ use taceva_core::{ModelError, Progress};
 use super::predictors::{Predictors, Residual, Target};
 use crate::training::progress::interrupted;
 
-/// What weights cost.
+/// The penalty on weights.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Penalty<'a> {
     /// Ascending, relative to the least penalty at which every weight is 0.
@@ -17,7 +17,7 @@ pub(super) struct Penalty<'a> {
 /// Sweeps at one strength at most.
 const SWEEPS: usize = 1000;
 
-/// The largest change of a sweep, as a share of what labels vary by, at which the weights are taken as found: 1e-7 of their squares, as in
+/// The largest change of a sweep, as a share of what labels vary by, at which the weights count as found: 1e-7 of their squares, as in
 /// the reference.
 const ENOUGH: f64 = 3e-4;
 

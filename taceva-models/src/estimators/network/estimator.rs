@@ -17,7 +17,7 @@ pub struct NetworkEstimator {
     kind: Kind,
     pub(super) recipe: Recipe,
     pub(super) preprocessing: Preprocessing,
-    /// What takes the place of that where signals are learnt from.
+    /// What replaces this preprocessing where signals are learnt from.
     of_signals: OfSignals,
     /// How the GPU that trains is reached, where the processor does not.
     pub(super) gpu: Option<GpuKind>,
@@ -117,7 +117,7 @@ const SETTINGS: &[SettingInfo] = &[
     DEVICE,
 ];
 
-/// Places along a side of a grid over which five layers, each of half as many, have something to slide.
+/// The least number of places along a side of a grid: five layers, each of half as many places as the one before, need so many.
 const PLACES_LEAST: u32 = 8;
 
 /// What networks see where nothing else is asked for.

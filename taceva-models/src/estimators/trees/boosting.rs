@@ -89,7 +89,7 @@ impl GradientBoosting {
     /// What the registry says of it.
     pub const INFO: ModelInfo = ModelInfo {
         name: "gradient-boosting",
-        about: "trees that each mend what those before left",
+        about: "trees that are each fitted to the errors of those before",
         settings: &[
             TREES,
             MOST,

@@ -70,7 +70,7 @@ impl RandomForest {
     /// What the registry says of it.
     pub const INFO: ModelInfo = ModelInfo {
         name: "random-forest",
-        about: "the mean of many trees: no scale to choose, and hard to upset",
+        about: "the mean of many trees: the scale of features does not matter, and outliers change little",
         settings: &[TREES, SHARE, DEPTH, LEAF, SEED, SettingInfo::REFIT],
         features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(RandomForest::from_settings(settings)?)),
