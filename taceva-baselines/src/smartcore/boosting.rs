@@ -1,4 +1,4 @@
-//! `smartcore/gradient-boosting`: trees, each of which learns what those before it left over.
+//! `smartcore/gradient-boosting`: trees, each of which is fitted to the errors of those before it.
 
 use rayon::prelude::*;
 use serde_json::Value;
@@ -43,7 +43,7 @@ const RATE: Number = Number {
         key: "rate",
         accepts: "a number from 0.001 to 1",
         default: "0.15",
-        about: "the share of what a tree says that is added",
+        about: "the share of the prediction of each tree that is added",
     },
     range: [0.001, 1.0],
     is_whole: false,
