@@ -10,7 +10,7 @@ use crate::training::progress::interrupted;
 pub(super) struct Penalty<'a> {
     /// Ascending, relative to the least penalty at which every weight is 0.
     pub(super) strengths: &'a [f64],
-    /// The share of the penalty that is on sizes.
+    /// The share of the penalty that is on absolute values.
     pub(super) mix: f64,
 }
 
