@@ -27,7 +27,7 @@ pub(crate) struct Number {
     pub(crate) unset: Unset,
 }
 
-/// What holds of a number that is not set.
+/// The value of a number that is not set.
 #[derive(Clone, Copy)]
 pub(crate) enum Unset {
     /// This value.

@@ -13,7 +13,7 @@ thread_local! {
 
 /// What `call` of the library gives for the model called `name`.
 ///
-/// The panic hook of the process is wrapped once: it stays silent on a thread that is inside a guard.
+/// The panic hook of the process is wrapped once: it prints nothing on a thread that is inside a guard.
 ///
 /// # Errors
 /// [`ModelError`] of kind `InvalidArgument` if the library refuses, of kind `Panicked` if it panics; both name the model.

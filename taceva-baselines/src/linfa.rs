@@ -1,4 +1,4 @@
-//! Models of linfa: each hands a checked task to the library and keeps what it fitted as tensors.
+//! Models of linfa: each gives a checked task to the library and keeps what it fitted as tensors.
 
 mod elastic_net;
 mod linear;

@@ -1,4 +1,4 @@
-//! Models of smartcore: each hands a checked task to the library and keeps what it fitted as tensors.
+//! Models of smartcore: each gives a checked task to the library and keeps what it fitted as tensors.
 
 mod boosting;
 mod forest;

@@ -17,7 +17,7 @@ pub(crate) struct Span {
     pub(crate) rows: Vec<f64>,
 }
 
-/// What is left of a row beside those before it, relative to its length, that counts as nothing.
+/// A row of which less is left once those before it are projected out, relative to the longest row, adds no direction.
 const TOLERANCE: f64 = 1e-10;
 
 impl Span {

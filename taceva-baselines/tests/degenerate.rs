@@ -1,4 +1,4 @@
-//! Recordings that libraries panic on, or make no number of: every model fits them or refuses them by name.
+//! Recordings on which libraries panic or predict no finite number: every model fits them or refuses them by name.
 #![cfg(all(feature = "linfa", feature = "smartcore"))]
 
 use taceva_core::{

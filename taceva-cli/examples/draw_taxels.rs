@@ -12,7 +12,7 @@ use std::path::Path;
 
 /// Contact points.
 const POINTS: u32 = 60;
-/// Of each press at a point, mm; at 0 nothing is touched.
+/// The depth of each press at a point; at 0 nothing is touched.
 const DEPTHS_MM: [f64; 6] = [0.0, 0.25, 0.5, 0.75, 1.0, 1.25];
 /// Where five magnetometers lie, mm: one in the middle and four around it.
 const CHIPS_MM: [[f64; 2]; 5] = [[0.0, 0.0], [6.0, 0.0], [-6.0, 0.0], [0.0, 6.0], [0.0, -6.0]];

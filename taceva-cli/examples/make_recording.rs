@@ -5,7 +5,7 @@
 //! cargo run --release -- evaluate demo --model ridge
 //! ```
 //!
-//! Behind the folder, other numbers of contact points and another seed: `make_recording -- demo 5000` draws 20,000 pictures, `make_recording --
+//! After the folder may come the number of contact points and the seed: `make_recording -- demo 5000` draws 20,000 pictures, `make_recording --
 //! tuesday 40 2` others than `make_recording -- monday 40 1`.
 //!
 //! Nothing here was measured. The labels follow closed forms (below), the pictures are drawn from the labels, and the dataset says
@@ -21,7 +21,7 @@ use taceva_dataset::{Footprint, Recorder, RecordingFacts, RecordingSpec, SensorF
 
 const SIZE: u32 = 96;
 const DEPTHS: u32 = 4;
-/// Of the gel that is pressed, mm; the picture shows a little more.
+/// The radius of the gel that is pressed; the picture shows a little more.
 const RADIUS_MM: f64 = 5.0;
 const PIXELS_A_MM: f64 = 6.4;
 

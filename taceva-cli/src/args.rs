@@ -40,7 +40,7 @@ Start here:
   taceva evaluate DATASET --model ridge                how well does the sensor measure?
 
 Exit codes:
-  0 done   1 done, but a check failed   2 usage   3 bad input   4 a device failed
+  0 done   1 done, but a check or a limit failed   2 usage   3 bad input   4 a device failed
   5 stopped by a signal   70 an internal error";
 
 /// How well does a vision-based tactile sensor measure?

@@ -42,8 +42,8 @@ pub fn main_if_child() {
     av1_child::main_if_child();
 }
 
-/// Carries out the command that `arguments` say, of which the first is the name of the program; the exit code. SIGINT and SIGTERM of the
-/// process are handled from then on, so it is called once, by what ends with it.
+/// Carries out the command that `arguments` say, of which the first is the name of the program, and returns the exit code. SIGINT and SIGTERM
+/// of the process are handled from then on, so a program calls it once, and ends with its result.
 ///
 /// ```
 /// assert_eq!(taceva_cli::main_with(["taceva", "catalogue", "show", "TacTip", "--quiet"]), 0);

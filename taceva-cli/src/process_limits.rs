@@ -1,7 +1,7 @@
 //! Limits of the process that are handled before any work: a closed standard output, and the limit of file sizes.
 
 /// Whether standard output was closed when the program began (`>&-`): Rust opens `/dev/null` in its place before `main`, where every result
-/// would be lost silently.
+/// would be lost without a message.
 #[cfg(unix)]
 pub(crate) fn standard_output_is_closed() -> bool {
     before_main::WAS_CLOSED.load(std::sync::atomic::Ordering::Relaxed)

@@ -116,7 +116,7 @@ fn findings_of(report: &CheckReport, format: Format, out: &mut dyn Write) -> io:
     }
 }
 
-/// Writes a race of kernels in the form asked for.
+/// Writes a benchmark of kernels in the form asked for.
 pub(crate) fn kernel_bench(
     bench: &KernelBench,
     format: Format,
@@ -134,7 +134,7 @@ pub(crate) fn kernel_bench(
     }
 }
 
-/// Draws a race of kernels.
+/// Draws a benchmark of kernels.
 pub(crate) fn kernel_chart(bench: &KernelBench, out: &mut dyn Write) -> io::Result<()> {
     chart::write(bench, out)
 }

@@ -1,4 +1,4 @@
-//! Models are raced on a recording that the bench presses for it.
+//! Models are compared on a recording that the simulated bench makes for it.
 
 mod support;
 

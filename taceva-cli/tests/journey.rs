@@ -1,4 +1,4 @@
-//! From a lab's folder to scores, as the README tells it.
+//! From a lab's folder to scores, as the README describes it.
 
 mod support;
 

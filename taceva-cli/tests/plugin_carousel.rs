@@ -1,5 +1,5 @@
 //! The carousel in `examples/plugins/carousel`, a changer that is a plugin: refused, allowed, checked, and used in a run on an emulated bench, whose
-//! specimens it changes; and in the same run stuck, wrong, silent and gone.
+//! specimens it changes; and in the same run stuck, wrong, without an answer and gone.
 
 #![cfg(target_os = "linux")]
 
@@ -24,7 +24,7 @@ const ID: &str = "org.example.carousel";
 const FOLDER: &str = "--plugin-dir carousel";
 const HOLDS: &str = "sphere of radius 2 mm, line grating of 1 mm, line grating of 1.5 mm";
 
-/// What the carousel does when it is told to turn to its second place or its third.
+/// What the carousel does when it is asked to turn to its second place or its third.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Mood {
     Well,
@@ -34,7 +34,7 @@ enum Mood {
     Gone,
 }
 
-/// The places that it was told, and whether the arm stood above the gel at the beginning and at the end of each turn.
+/// The places that it was asked for, and whether the arm stood above the gel at the beginning and at the end of each turn.
 type Turns = Mutex<Vec<(usize, bool)>>;
 
 /// The carousel on the other side of its line.

@@ -92,7 +92,7 @@ fn the_example_is_allowed_checked_and_planned_with_and_says_what_is_wrong_with_i
         assert!(failed.out.contains(words), "{words}: {}", failed.out);
     }
 
-    // A device that falls silent is a reading that did not come in time, and no process that has to be ended.
+    // A device that stops sending is a reading that did not come in time, and no process that has to be ended.
     let port = device(|number| {
         if number > 3 {
             thread::sleep(Duration::from_secs(600));

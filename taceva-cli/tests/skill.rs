@@ -1,4 +1,4 @@
-//! A model without skill wins nothing, anywhere; and robustness is of the sensor, not of the bounds of a model.
+//! A model without skill gets no verdict in its favour, anywhere; and robustness is of the sensor, not of the bounds of a model.
 
 mod schema;
 mod support;

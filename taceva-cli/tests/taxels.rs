@@ -83,7 +83,7 @@ fn taxels_are_imported_checked_fitted_and_evaluated() {
     bench.refused(
         "evaluate data --model ridge --set size=8",
         3,
-        "`size=8` is of frames, and the recording has signals alone",
+        "`size=8` applies to frames, and the recording has signals alone",
     );
     bench.record("pictures", 64);
     bench.refused(

@@ -46,7 +46,7 @@ impl HostZero {
         match wrench.force.iter().find(|force| force.0.abs() >= most) {
             Some(beyond) => {
                 let why =
-                    format!("{beyond}, expected less than {most} N: a clipped force is no force");
+                    format!("{beyond}, expected less than {most} N: a clipped force is wrong");
                 Err(DriverError::new(ErrorKind::OutOfRange, &self.driver, READ).because(why))
             }
             None => Ok(()),

@@ -16,7 +16,7 @@ use crate::training::fit::{ModelEstimator, ModelFit};
 /// # Shapes
 /// `matrix`: samples × features; each sample is a flat list.
 /// # Errors
-/// [`ModelError`] if there are samples of no feature.
+/// [`ModelError`] if there are samples, but no features.
 ///
 /// ```
 /// use ndarray::array;

@@ -98,7 +98,7 @@ impl Model {
         &self.card
     }
 
-    /// The same, its card saying how its features were chosen.
+    /// This model, with a card that says how its features were chosen.
     #[must_use]
     pub fn with_features_chosen(mut self, how: FeatureChoice) -> Model {
         self.card.feature_choice = Some(how);

@@ -14,7 +14,7 @@ use crate::registry::{ALL, ModelInfo, UnknownModel, replaced};
 use crate::settings::{ModelSettings, SettingError};
 use crate::training::fit::ModelEstimator;
 
-/// The models that people can choose, by name. A value, as the drivers of a program are: nothing of it is global.
+/// The models that people can choose, by name. It is a value that a program makes and passes on, as its drivers are: nothing of it is global.
 ///
 /// ```
 /// use taceva_models::{Models, ModelSettings};

@@ -38,10 +38,10 @@ pub const ALL: &[ModelInfo] = &[
     Auto::INFO,
 ];
 
-/// Names of models that were ours, and the model of a library that each means now.
+/// Names of models that were built in, and the model of a library that each means now.
 const REPLACED: [(&str, &str); 1] = [("svr", "linfa/svr")];
 
-/// What `name` means now, where it was the name of a model of ours.
+/// What `name` means now, where it was the name of a built-in model.
 pub(crate) fn replaced(name: &str) -> &str {
     let mut known = REPLACED.iter();
     known

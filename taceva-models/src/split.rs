@@ -1,4 +1,4 @@
-//! Which samples are learnt from, chosen by, and tested on.
+//! Which samples a model learns from, which settings are chosen by, and which it is tested on.
 
 mod assign;
 mod error;

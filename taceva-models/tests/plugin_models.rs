@@ -1,4 +1,4 @@
-//! Models of a plugin: kept as its bytes, loaded by it alone, and believed in nothing.
+//! Models of a plugin: kept as its bytes, loaded by it alone, and all that they give is checked.
 
 use std::sync::Arc;
 
@@ -139,7 +139,7 @@ const SPEC: FeatureSpec = FeatureSpec {
     ..FeatureSpec::DEFAULT
 };
 
-/// A model of one channel, fitted by one whose way is `way` on six samples.
+/// A model of one channel, fitted on six samples by a maker that does `way` wrong.
 fn fit(way: Way, words: &[&str], features: FeatureSpec) -> Result<Model, ModelError> {
     let channels = Channels::new([Channel::FZ]).expect("one");
     let values = (0..12_u8).map(f32::from).collect();

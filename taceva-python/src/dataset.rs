@@ -163,7 +163,7 @@ impl Recording {
             .transpose()
     }
 
-    /// `[rows, taxels, axes]` of the signals of `rows`.
+    /// `[rows, values]` of the signals of `rows`, taxel by taxel.
     fn signals(&self, py: Python<'_>, rows: Vec<usize>) -> PyResult<Buffer> {
         let mut bytes = Vec::new();
         let mut width = 0;

@@ -1,4 +1,4 @@
-//! Models that Python holds: what they may learn, and their predictions by the rules of ours.
+//! Models that Python holds: what they may learn from, and the scores of their predictions, by the rules of the program.
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
@@ -64,7 +64,7 @@ impl Given {
         })
     }
 
-    /// Rows to learn.
+    /// Rows to learn from.
     fn train(&self) -> PyResult<Vec<usize>> {
         self.with(|rows| rows.train().to_vec())
     }
@@ -74,7 +74,7 @@ impl Given {
         self.with(|rows| rows.target().to_vec())
     }
 
-    /// `[rows, channels]` of the rows to learn.
+    /// `[rows, channels]` of the rows to learn from.
     fn labels(&self, recording: &Recording) -> PyResult<Buffer> {
         self.with(|rows| {
             let labels = rows.labels(&recording.dataset);

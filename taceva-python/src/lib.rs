@@ -39,7 +39,8 @@ mod _taceva {
     #[pymodule_export]
     use super::results::{check_seal, comparison, score_table};
 
-    /// Carries out the command that `arguments` say, the first being the name of the program; the exit code. Signals are its own from then on.
+    /// Carries out the command that `arguments` say, the first being the name of the program, and returns the exit code. The command handles
+    /// signals from then on.
     #[pyfunction]
     fn command(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
         py.detach(|| taceva_cli::main_with(arguments))

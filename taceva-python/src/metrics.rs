@@ -44,7 +44,7 @@ impl Sums {
 
 #[pymethods]
 impl Sums {
-    /// Of `channels` with their units, by metrics and groups, and their skill, without which no score claims anything; `is_independent` makes every sample a cluster of its own.
+    /// Sums of `channels` with their units, for metrics and groups, and for the skill, without which no score claims anything; `is_independent` makes every sample a cluster of its own.
     #[new]
     fn new(
         channels: Vec<(String, String)>,

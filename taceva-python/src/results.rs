@@ -34,7 +34,7 @@ pub(crate) fn score_table(texts: Vec<String>, form: &str) -> PyResult<String> {
     }
 }
 
-/// The comparison of two results and more: `json` besides the forms of `score_table`.
+/// The comparison of two or more results: `json` besides the forms of `score_table`.
 #[pyfunction]
 pub(crate) fn comparison(
     texts: Vec<String>,

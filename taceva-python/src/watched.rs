@@ -1,4 +1,4 @@
-//! Long work for a Python program: in a thread of its own, while the thread that asked for it hears Ctrl-C and moves the caller's bar.
+//! Long work for a Python program: in a thread of its own, while the thread that asked for it notices Ctrl-C and moves the caller's bar.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};

@@ -33,7 +33,7 @@ const COMPONENTS: Number = Number {
 /// From the most to the fewest: of equals the last is the plainest.
 const COUNTS: [f64; 9] = [30.0, 25.0, 20.0, 15.0, 10.0, 6.0, 4.0, 2.0, 1.0];
 
-/// Rows that the library predicts at a time where its weights are read off.
+/// How many rows the library predicts at a time, to find its weights from its predictions.
 const ROWS: usize = 256;
 
 /// Partial least squares by power iterations (NIPALS), for all targets at once; no more components than samples less one, or features.

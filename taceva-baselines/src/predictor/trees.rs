@@ -109,7 +109,7 @@ impl Trees {
     }
 }
 
-/// Refuses a tree that compares a feature which is not there, or that has no way to a leaf.
+/// Refuses a tree that compares a feature which does not exist, or in which some node leads to no leaf.
 fn checked(tree: Tree, features: usize) -> Result<Tree, ModelError> {
     let leads_on = |(place, node): (usize, &Node)| {
         let behind = |child: u32| (place + 1..tree.len()).contains(&(child as usize));

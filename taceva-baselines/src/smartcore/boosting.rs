@@ -1,4 +1,4 @@
-//! `smartcore/gradient-boosting`: trees, each of which learns what those before it left over.
+//! `smartcore/gradient-boosting`: trees, each of which is fitted to the errors of those before it.
 
 use rayon::prelude::*;
 use serde_json::Value;
@@ -32,7 +32,7 @@ const DEPTH: Number = Number {
         key: "depth",
         accepts: "a whole number from 1 to 16",
         default: "3",
-        about: "questions from the root of a tree to a leaf, at most",
+        about: "the greatest depth: comparisons on the way to a leaf",
     },
     range: [1.0, 16.0],
     is_whole: true,
@@ -43,7 +43,7 @@ const RATE: Number = Number {
         key: "rate",
         accepts: "a number from 0.001 to 1",
         default: "0.15",
-        about: "the share of what a tree says that is added",
+        about: "the share of the prediction of each tree that is added",
     },
     range: [0.001, 1.0],
     is_whole: false,
@@ -65,7 +65,7 @@ const SEED: Number = Number {
         key: "seed",
         accepts: "a whole number",
         default: "0",
-        about: "what samples are drawn from",
+        about: "the seed by which samples are drawn",
     },
     range: [0.0, u32::MAX as f64],
     is_whole: true,

@@ -36,7 +36,7 @@ const LEAF: Number = Number {
         key: "leaf",
         accepts: "a whole number from 1 to 1000",
         default: "1",
-        about: "samples that a leaf has at least",
+        about: "the least number of samples of a leaf",
     },
     range: [1.0, 1000.0],
     is_whole: true,
@@ -58,7 +58,7 @@ const SEED: Number = Number {
         key: "seed",
         accepts: "a whole number",
         default: "0",
-        about: "what trees are drawn from",
+        about: "the seed by which trees are drawn",
     },
     range: [0.0, u32::MAX as f64],
     is_whole: true,
@@ -117,7 +117,8 @@ pub(super) static EXTRA_TREES: Adapter = Adapter {
     fit: |set, task| fit(&EXTRA_TREES, extra_trees, set, task),
 };
 
-/// A hundred trees at four shares, each of which keeps every feature sorted at every depth.
+/// A hundred trees, grown four times: at each of three shares, and once more at the one that is chosen. Every tree keeps every feature sorted at
+/// every depth.
 fn work(sizes: LibrarySizes) -> Option<f64> {
     let LibrarySizes {
         samples,

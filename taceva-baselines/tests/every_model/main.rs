@@ -1,4 +1,4 @@
-//! Models of libraries are held to what every model promises.
+//! Models of libraries keep what every model promises.
 #![cfg(all(feature = "linfa", feature = "smartcore"))]
 
 #[path = "../../../taceva-models/tests/blobs/mod.rs"]
@@ -18,7 +18,7 @@ mod registered;
 
 use taceva_models::Models;
 
-/// The models that are held to this.
+/// The models that are tested here.
 fn models() -> Models {
     Models::builtin().with_libraries(taceva_baselines::all())
 }

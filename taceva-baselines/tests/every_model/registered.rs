@@ -6,7 +6,7 @@ use crate::blobs::recording;
 use crate::case::{CASES, case_of};
 use crate::models;
 
-/// Held to the same in `tests/narrow`, with fewer features than samples.
+/// Tested for the same in `tests/narrow`, with fewer features than samples.
 const NARROW: &str = "smartcore/svr";
 
 #[test]

@@ -1,4 +1,4 @@
-//! The model that needs samples, as the suite fits it.
+//! The model that needs at least as many samples as features, as the suite fits it.
 
 use crate::case::{Case, case};
 

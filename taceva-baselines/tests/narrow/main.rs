@@ -1,4 +1,4 @@
-//! A model that needs at least as many samples as features is held to what every model promises on pictures of few pixels.
+//! A model that needs at least as many samples as features keeps what every model promises, on pictures of few pixels.
 #![cfg(feature = "smartcore")]
 
 mod blobs;
@@ -17,7 +17,7 @@ mod wide;
 
 use taceva_models::Models;
 
-/// The models that are held to this.
+/// The models that are tested here.
 fn models() -> Models {
     Models::builtin().with_libraries(taceva_baselines::all())
 }

@@ -50,8 +50,8 @@ pub(crate) struct Import {
     pub(crate) ffmpeg: Option<PathBuf>,
 }
 
-/// Labels keep their last bit, taxels theirs, pictures their pixels, and where the form holds files of pictures, their bytes too; `map.toml` beside them brings
-/// it all back: `taceva import FOLDER --map FOLDER/map.toml --out DATASET`. What no map can say (settings of the camera, how presses ended) is named.
+/// Labels and signals are kept to the last bit, pictures to the last pixel, and their files byte for byte where the form holds files; `map.toml` beside
+/// them brings all of it back: `taceva import FOLDER --map FOLDER/map.toml --out DATASET`. What no map can say (settings of the camera, how presses ended) is named.
 ///
 /// Read by: huggingface: `datasets.load_dataset("FOLDER")`; lerobot: `LeRobotDataset("me/it", root="FOLDER")`; hdf5: `h5py.File("FOLDER/recording.h5")`;
 /// csv: anything.

@@ -17,7 +17,7 @@ pub(crate) struct RigCommand {
 pub(crate) enum RigSubject {
     /// Listen to its devices, and halt its robot once on its way up: rates, gaps, noise, and how soon it stops
     Check(RigCheckArgs),
-    /// Tap the gel, and learn how late each device says it: `latency_ms` is written into the rig file
+    /// Tap the gel to measure how late each device is: `latency_ms` is written into the rig file
     Tap(RigTapArgs),
     /// Learn where its robot stands: you jog it to three places, and `origin_mm` and `axes` are written into the rig file
     Teach(RigTeachArgs),
@@ -52,15 +52,15 @@ pub(crate) struct RigTeachArgs {
     pub(crate) rig: PathBuf,
 }
 
-/// The robot taps the middle of the gel 20 times, fast and slowly in turn, with what the first press is made with. Tip, force and picture change at
+/// The robot taps the middle of the gel 20 times, fast and slowly in turn, with the specimen of the first press. Tip, force and picture change at
 /// the same moment: what a device says later than the robot is its latency. A spread of more than half a frame from tap to tap is refused.
 ///
 /// The gel is touched under the same guard and with the same beginning as of a run: you let the robot move by typing its name, it passes through
 /// the air and touches gently, and what contradicts the rig file ends it. How deep and how hard the gel may be pressed must be stated by the driver
 /// of the sensor or under [limits] of the rig file: Pz_max_mm and Fz_max_N. Every tap stays below half of both.
 ///
-/// What was found is printed, and then written into the file; everything else in it stays as it is. Taps see differences alone: what all devices
-/// are late by together is not found.
+/// What was found is printed, and then written into the file; everything else in it stays as it is. Taps show differences alone: a latency that all
+/// devices share is not found.
 #[derive(Debug, Args)]
 pub(crate) struct RigTapArgs {
     /// The rig file, which is written anew

@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 
 /// The names of models, for the two options that take one.
 const MODEL_HELP: &str = "\
-The model to fit: baseline, ridge, pls, elastic-net, kernel-ridge, svr, gaussian-process, knn, lda, random-forest, \
+The model to fit: baseline, ridge, pls, elastic-net, kernel-ridge, gaussian-process, knn, lda, random-forest, \
 gradient-boosting, cnn, resnet10, resnet18, resnet34; auto: the one with the least error on groups left out; one of a library: \
 linfa/linear, linfa/pls, linfa/elastic-net, linfa/svr, linfa/logistic, smartcore/ridge, smartcore/lasso, smartcore/svr, \
 smartcore/knn, smartcore/random-forest, smartcore/extra-trees, smartcore/gradient-boosting, which can be stopped only between two \

@@ -11,7 +11,7 @@ use super::cache::amount::bytes;
 use crate::disk_space;
 use crate::progress::spoken;
 
-/// Work that takes less time is not announced, nor are fewer bytes.
+/// Work that takes less time is not announced, nor is work that writes fewer bytes.
 const LONG: Duration = Duration::from_secs(5);
 const MUCH: u64 = 50_000_000;
 /// The number of pictures that are read without an estimate of the time, and how many are read for an estimate.

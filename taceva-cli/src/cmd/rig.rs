@@ -23,7 +23,7 @@ pub(crate) fn run(args: &RigCommand, context: &Context) -> anyhow::Result<u8> {
     }
 }
 
-/// Puts `text` in the place of the rig file at `path`, whole or not at all.
+/// Replaces the rig file at `path` by `text`, whole or not at all.
 fn write_anew(path: &Path, text: &str) -> anyhow::Result<()> {
     let mut name = OsString::from(".");
     name.push(path.file_name().unwrap_or_default());

@@ -1,6 +1,6 @@
-//! The end of the pipe: whatever a name holds, no terminal obeys what is written through here.
+//! The last writer before a terminal or a file: whatever a name holds, no terminal obeys what is written through it.
 //!
-//! Names are shown by [`taceva_core::shown`] where a message is put together; this is the second look, at everything.
+//! Names are shown by [`taceva_core::shown`] where a message is put together; this is a second check, of everything.
 
 use std::io::{self, Write};
 

@@ -1,11 +1,11 @@
-//! A race of kernels as a figure.
+//! A benchmark of kernels as a figure.
 
 use std::io::{self, Write};
 
 use taceva_report::{Race, RacePoint, race};
 use taceva_study::bench::KernelBench;
 
-/// Draws the race for all three scores; the floor is a line.
+/// Draws the benchmark for all three scores; the floor is a line.
 pub(super) fn write(bench: &KernelBench, out: &mut dyn Write) -> io::Result<()> {
     let rows = bench.rows.iter().filter(|row| row.scores != "mae");
     let points = rows.map(|row| RacePoint {

@@ -132,7 +132,7 @@ struct Listed {
     isolation: String,
     needs: Vec<String>,
     allowed: Vec<String>,
-    /// The line that allows the rest of what it needs.
+    /// The command that allows the rest of what it needs.
     #[serde(skip_serializing_if = "Option::is_none")]
     remedy: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -184,7 +184,7 @@ impl Listed {
     }
 }
 
-/// The line that allows what `plugin` needs whatever it is opened with, if something of it is not.
+/// The command that allows what `plugin` needs whatever it is opened with, if some of it is not allowed.
 pub(crate) fn remedy(host: &PluginHost, plugin: &Plugin) -> Option<String> {
     let withheld = host.withheld(plugin);
     (!withheld.needs().is_empty()).then(|| withheld.to_string())

@@ -90,8 +90,8 @@ pub(super) fn write(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Re
     Ok(())
 }
 
-/// Sensors that tell gratings equally often: how fine both tell them is read from their samples, so it is asked for only where shares are
-/// the same.
+/// Sensors that classify gratings correctly equally often: how fine the gratings are that each distinguishes is read from their samples, so
+/// it is asked for only where shares are the same.
 fn ties(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Result<()> {
     let shares = |report: &EvaluationReport| -> Vec<(String, u64)> {
         let lines = lines(&report.evaluation).into_iter();

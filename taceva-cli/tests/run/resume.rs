@@ -37,7 +37,7 @@ impl Started {
     }
 }
 
-/// Kills a run each time so many bytes are recorded, goes on, and compares with the run that nobody killed.
+/// Kills a run each time so many bytes are recorded, goes on, and compares with a run that was not interrupted.
 fn survives(bench: &Bench, moments: &[u64]) {
     bench.ok("run small.toml --out whole -q");
     let whole = reports(&bench.path("whole"));

@@ -12,7 +12,7 @@ pub(crate) fn check(name: &str, found: &Value) {
     }
 }
 
-/// Keywords that are looked at, or that only tell.
+/// Keywords that are looked at, or that only describe.
 const KNOWN: [&str; 15] = [
     "$schema",
     "$id",

@@ -55,7 +55,7 @@ pub(super) enum Answer {
     Fault(String),
     /// It works on it.
     Busy,
-    /// A number that it was told to say.
+    /// A number that it was asked to repeat.
     Mark(u32),
     /// What it can do, as it says of itself.
     Can(String, bool),

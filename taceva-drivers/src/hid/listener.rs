@@ -48,7 +48,7 @@ impl Listener {
                         Err(error) => {
                             posting.end(Ending {
                                 kind: ErrorKind::Disconnected,
-                                why: format!("it was unplugged, or gave its place up: {error}"),
+                                why: format!("it was unplugged, or cannot be read: {error}"),
                             });
                             return;
                         }

@@ -10,7 +10,7 @@ pub(crate) const RENEWED: Duration = Duration::from_millis(50);
 pub(crate) const LINE: Duration = Duration::from_millis(100);
 /// A way that takes no longer is a line from its beginning: to change from one motion to the other takes time too.
 const WORTH: Duration = Duration::from_millis(300);
-/// Turned by less than this, in degrees, a tool is turned as it was told.
+/// Turned by less than this, in degrees, a tool counts as turned as it was asked to be.
 const TURNED_DEG: f64 = 0.01;
 
 /// A straight way without turning, in mm and mm/s of the base frame.

@@ -17,7 +17,7 @@ use crate::training::fit::{Chosen, ModelEstimator, ModelFit, estimator};
 use crate::training::problem::{Problem, invalid};
 use crate::training::progress::{ReportedStage, interrupted};
 
-/// Tries models, the cheapest first, as long as the budget lasts, and takes the one of least error.
+/// Tries models, the cheapest first, as long as the budget lasts, and chooses the one of least error.
 ///
 /// Each is fitted five times: one fold is scored, the next chooses its settings, the other three are learnt from; folds are whole groups of
 /// the training part, or runs of neighbouring samples. Its error is the root mean square over all folds, relative to the deviation of the
@@ -29,7 +29,7 @@ use crate::training::progress::{ReportedStage, interrupted};
 #[derive(Clone, Debug)]
 pub struct Auto {
     budget_s: f64,
-    /// Models of libraries that are tried beside ours.
+    /// Models of libraries that are tried beside those of this crate.
     libraries: Vec<&'static LibraryModel>,
     /// The signals that are learnt from, where they are no pictures.
     of_signals: Option<SignalInfo>,

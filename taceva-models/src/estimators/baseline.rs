@@ -1,4 +1,4 @@
-//! Predicts the mean of the training part: the line every model must beat.
+//! Predicts the mean of the training part: every other model should have a smaller error.
 
 use taceva_core::{ModelError, Progress, TrainingSet};
 
@@ -18,7 +18,7 @@ impl Baseline {
     /// What the registry says of it.
     pub const INFO: ModelInfo = ModelInfo {
         name: "baseline",
-        about: "predicts the mean of the training part: the line every model must beat",
+        about: "predicts the mean of the training part: every other model should have a smaller error",
         settings: &[],
         features: None,
         make: |settings| Ok(Box::new(Baseline::from_settings(settings)?)),

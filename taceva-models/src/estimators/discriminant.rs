@@ -24,7 +24,7 @@ use crate::training::progress::{ReportedStage, interrupted};
 /// Linear discriminants: a channel is predicted as one of the values that it takes in the training part, that whose mean picture is
 /// nearest once features are whitened by the scatter within values ([`Discriminant`]).
 ///
-/// For boards, kinds and levels; what varies freely is refused, having too many values. Nothing is chosen by error, so the validation
+/// For boards, kinds and levels; a channel that varies freely has too many values and is refused. Nothing is chosen by error, so the validation
 /// part is only scored.
 ///
 /// # Reference
@@ -37,7 +37,7 @@ pub struct LinearDiscriminant {
 /// Classes of a channel at most.
 const VALUES_MAX: usize = 256;
 
-/// Features that a covariance is kept of: 134 MB.
+/// The most features of which a covariance is kept: 134 MB.
 const FEATURES_MAX: usize = 4096;
 
 impl LinearDiscriminant {
@@ -62,7 +62,7 @@ impl LinearDiscriminant {
     }
 }
 
-/// The labels of one channel, as values and which of them each sample has.
+/// The labels of one channel: the values that occur, and which of them each sample has.
 struct Levels {
     /// Ascending.
     values: Vec<f64>,

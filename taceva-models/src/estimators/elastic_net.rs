@@ -1,4 +1,4 @@
-//! Least squares with a penalty that leaves most weights at nothing.
+//! Least squares with a penalty that leaves most weights at 0.
 
 mod descent;
 mod predictors;
@@ -44,7 +44,7 @@ const MIX: SettingInfo = SettingInfo {
     key: "mix",
     accepts: "a number from 0.01 to 1",
     default: "0.5",
-    about: "the share of the penalty that is on sizes rather than squares: 1 is the lasso",
+    about: "the share of the penalty that is on absolute values rather than squares: 1 is the lasso",
 };
 
 /// The weights of one channel, at each strength.

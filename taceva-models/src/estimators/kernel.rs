@@ -35,7 +35,7 @@ const LANDMARKS: SettingInfo = SettingInfo {
     key: "landmarks",
     accepts: "a number from 1 to 5000",
     default: "500",
-    about: "how many training samples stand for all of them at most",
+    about: "how many training samples are landmarks at most, with which all samples are compared",
 };
 
 /// The lengths that are tried, the plainest last.

@@ -1,4 +1,4 @@
-//! Models of other libraries: what such a model is, what it is handed, and how its fitted parameters are kept.
+//! Models of other libraries: what such a model is, what it is fitted on, and how its fitted parameters are kept.
 //!
 //! An adapter implements [`LibraryLearner`] and [`LibraryPredictor`] and registers a [`LibraryModel`]; checks, scaling of features and
 //! labels, the choice of settings and the model file are the same as for every other model.

@@ -1,4 +1,4 @@
-//! A prediction that is linear in the features, which is what every estimator here arrives at.
+//! A prediction that is linear in the features: what baseline, ridge, partial least squares and the elastic net are fitted to.
 
 use faer::Mat;
 use rayon::prelude::*;

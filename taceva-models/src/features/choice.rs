@@ -172,7 +172,7 @@ impl FeatureChoice {
         }
     }
 
-    /// The same, with features that no model could be fitted to, and why.
+    /// This choice, with features that no model could be fitted to, and why.
     #[must_use]
     pub fn with_failed(
         mut self,

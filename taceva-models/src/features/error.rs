@@ -82,7 +82,7 @@ pub enum FeatureError {
     )]
     NoRest,
     /// Frames are asked for and there are none.
-    #[error("`{asked}` is of frames, and the recording has {has}")]
+    #[error("`{asked}` applies to frames, and the recording has {has}")]
     NoFrames {
         /// The setting that asks for them.
         asked: String,

@@ -10,7 +10,7 @@ use super::spec::FeatureSpec;
 
 /// The share of full scale that a lamp is taken to reach everywhere: where it reaches less, noise would be taken for slope.
 const LIT: f32 = 1.0 / 16.0;
-/// Steps of 1 in which the numbers of a pixel are kept until they are averaged.
+/// How many steps make 1: the numbers of a pixel are kept in whole steps until they are averaged.
 const STEPS: f32 = 16_384.0;
 /// The step that stands for 0; 2 above and 2 below are the most that is kept.
 const ZERO: u16 = 32_768;
@@ -41,7 +41,7 @@ const ACROSS: f32 = 0.577_350_27;
 pub(super) struct Gradients {
     areas: AreaSums,
     reference: Vec<f32>,
-    /// 1 / brightness of the reference, where it is lit.
+    /// 1 / brightness of the reference, which counts as `LIT` of full scale at least.
     inverse: Vec<f32>,
 }
 

@@ -1,4 +1,4 @@
-//! What of a recording features are of: its frames, or its signals.
+//! What of a recording features are taken from: its frames, or its signals.
 
 use taceva_core::{FrameInfo, SignalInfo};
 
@@ -8,7 +8,7 @@ use super::spec::{COLOR, FeatureSpec, INPUT, KINDS, SIZE};
 use crate::settings::ModelSettings;
 
 impl FeatureSpec {
-    /// The same of what a recording has: of its signals where they are asked for, or are all there is. `settings` are those that were
+    /// These features, taken from what a recording has: from its signals where they are asked for, or are all there is. `settings` are those that were
     /// [asked for](FeatureSpec::changed_by).
     ///
     /// ```

@@ -1,4 +1,4 @@
-//! Numbers of taxels as features: they are what they are, less what they say without contact.
+//! Numbers of taxels as features: unchanged, or less the mean without contact.
 
 use taceva_core::{FeatureShape, Features, SignalInfo, Signals};
 
@@ -9,7 +9,7 @@ use super::spec::FeatureSpec;
 #[derive(Clone, Debug)]
 pub(super) struct Taxels {
     info: SignalInfo,
-    /// What they say without contact, where that is subtracted.
+    /// The mean without contact, where that is subtracted.
     rest: Option<Signals>,
 }
 

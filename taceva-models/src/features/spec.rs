@@ -183,7 +183,7 @@ impl FeatureSpec {
         })
     }
 
-    /// The same, of other `kinds`, on a grid as fine as they deserve where there are others than pixels.
+    /// The same, of other `kinds`, on the coarsest of their own grids where there are others than pixels.
     fn with_kinds(self, kinds: FeatureKinds) -> FeatureSpec {
         let others = kinds.iter().filter(|_| !kinds.are_pixels());
         let side = others.map(FeatureKind::side).min();
@@ -195,7 +195,7 @@ impl FeatureSpec {
         }
     }
 
-    /// The same of the signals of `info`: a cell a place, whatever grid was asked for.
+    /// These features, taken from the signals of `info`: a cell a place, whatever grid was asked for.
     #[must_use]
     pub fn of_signals(self, info: SignalInfo) -> FeatureSpec {
         FeatureSpec {

@@ -92,7 +92,7 @@ impl<'d, 'a> Spectrum<'d, 'a> {
         largest * self.eigenvalues.len() as f64 * f64::EPSILON
     }
 
-    /// Whether the [sample vectors](Spectrum::sample_vectors) span everything that samples can do.
+    /// Whether the [sample vectors](Spectrum::sample_vectors) span all vectors of a number for each sample.
     pub(crate) fn spans_samples(&self) -> bool {
         self.side == Side::Samples
     }

@@ -77,7 +77,7 @@ pub struct ModelCard {
 pub enum Form {
     /// A kernel of landmarks.
     Kernel {
-        /// How many training samples stand for all of them.
+        /// How many landmarks there are: training samples with which every sample is compared.
         landmarks: usize,
         /// How far the kernel reaches, in typical distances of a sample from the mean.
         length: f64,

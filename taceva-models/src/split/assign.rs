@@ -18,7 +18,7 @@ use taceva_core::random::SplitMix64;
 pub struct SplitInput<'a> {
     /// Number of samples.
     pub rows: usize,
-    /// The contact location of each sample.
+    /// The contact point of each sample.
     pub points: Option<&'a [String]>,
     /// The time of each sample in s.
     pub times_s: Option<&'a [f64]>,
@@ -58,7 +58,7 @@ impl Split {
         }
     }
 
-    /// The same of a recording of `all` rows of which these were `rows`, ascending: all others are left out.
+    /// This split as one of a recording of `all` rows, of which its own were `rows`, ascending: all others are left out.
     ///
     /// # Panics
     /// If the split has a row that `rows` has not.

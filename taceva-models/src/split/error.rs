@@ -105,7 +105,7 @@ pub enum SplitError {
     },
     /// A split that divides once for each recording, where one division is asked for.
     #[error(
-        "split leave-one-recording-out fits a model for each recording: `evaluate` does, and one model is fitted with by-recording=train:a,b;test:c"
+        "split leave-one-recording-out fits a model for each recording: `evaluate` does; one model is fitted with by-recording=train:a,b;test:c"
     )]
     ManyFolds,
     /// The recording declares no parts.

@@ -12,7 +12,7 @@ use crate::settings::Suggestion;
 /// How a recording is split into training, validation and test parts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SplitSpec {
-    /// By what.
+    /// What decides on the part of a sample.
     pub kind: SplitKind,
     /// How large the parts are; not used where the parts are named.
     pub fractions: Fractions,
@@ -25,7 +25,7 @@ pub enum SplitKind {
     Random,
     /// Time: the first samples are learnt from, the last ones tested on.
     Chronological,
-    /// Chance, contact location by contact location: repeats never straddle.
+    /// Chance, contact point by contact point: the presses of a point are all in one part.
     #[default]
     ByPoint,
     /// A column of the recording.

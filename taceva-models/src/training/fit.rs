@@ -150,7 +150,7 @@ pub enum ModelRegressor {
     Library(Box<LibraryRegressor>),
     /// Of a plugin, which answers.
     Plugin(PluginRegressor),
-    /// Any of them but the linear and the network, on principal components.
+    /// Any of them but the linear, the network and that of a plugin, on principal components.
     Projected(Box<ProjectedRegressor>),
 }
 

@@ -6,7 +6,7 @@ use taceva_core::Targets;
 /// The range of each channel over the training part.
 ///
 /// Models learn (label − minimum) / span; what they predict is always brought back to the unit of the channel. A label that
-/// never changes has the span 1, maps to 0, and is [named](LabelScaling::is_constant).
+/// never changes has the span 1, maps to 0, and is [marked as constant](LabelScaling::is_constant).
 #[derive(Clone, Debug, PartialEq)]
 pub struct LabelScaling {
     minimum: Vec<f64>,

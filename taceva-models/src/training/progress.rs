@@ -2,7 +2,7 @@
 
 use taceva_core::{ErrorKind, ModelError, Progress};
 
-/// A stage of long work; it ends when dropped, on every way out.
+/// A stage of long work; it ends when it is dropped, also where an error is returned.
 pub(crate) struct ReportedStage<'a> {
     progress: &'a dyn Progress,
 }

@@ -122,7 +122,7 @@ pub(crate) fn distance(found: &[f64], expected: &[f64]) -> f64 {
         / largest
 }
 
-/// Wide (fewer samples than features) and tall, because the two take different ways.
+/// Wide (fewer samples than features) and tall, because the two are computed differently.
 pub(crate) fn both_shapes(noise: f64) -> [Recording; 2] {
     [recording(60, 90, noise, 1), recording(300, 40, noise, 2)]
 }

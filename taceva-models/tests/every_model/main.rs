@@ -14,7 +14,7 @@ mod refusals;
 use case::CASES;
 use taceva_models::{ALL, Models};
 
-/// The models that are held to this.
+/// The models that are tested here.
 fn models() -> Models {
     Models::builtin()
 }

@@ -1,4 +1,4 @@
-//! What the signals of a rig are worth: how exact, how fresh, and how one that froze is told from one that rests.
+//! What the signals of a rig are worth: how exact, how fresh, and how one that froze is distinguished from one that rests.
 
 use taceva_core::{Descriptor, DriverSource, ForceFacts};
 

@@ -62,7 +62,7 @@ pub(super) struct Tip<'a> {
     pub(super) robot_failed: bool,
     /// Whether cancellation is ignored, because the tip is retracting already.
     pub(super) ignores_cancel: bool,
-    /// Whether the transducer was told its own zero, which is done once where the host finds the zero by itself.
+    /// Whether the transducer was asked to set its own zero, which is done once where the host finds the zero by itself.
     pub(super) is_box_zeroed: bool,
     /// Whether the zero is that of what the robot carries now.
     pub(super) is_zero_known: bool,

@@ -2,7 +2,7 @@
 
 use taceva_core::{Degree, Millimetre, Point, Pose, Rotation};
 
-/// Nearer than this, in degrees, a robot whose pose is noisy is turned as it was told: arms come back to hundredths.
+/// Nearer than this, in degrees, a robot whose pose is noisy counts as turned as it was asked to be: arms come back to hundredths.
 const TURN_SLACK_DEG: f64 = 0.1;
 
 /// A way that leads aside by no more than this part of itself leads straight on.

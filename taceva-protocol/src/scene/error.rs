@@ -211,7 +211,7 @@ pub enum SceneProblem {
     },
     /// A force transducer of which nobody could say that its signal froze.
     #[error(
-        "{who} reads in steps of {resolution_n} N, its noise is {noise_n} N and it numbers no readings: a signal that is frozen could not be told from one that rests; expected numbered readings, or steps below the noise"
+        "{who} reads in steps of {resolution_n} N, its noise is {noise_n} N and it numbers no readings: a signal that is frozen could not be distinguished from one that rests; expected numbered readings, or steps below the noise"
     )]
     FrozenUnseen {
         /// Which.

@@ -260,7 +260,7 @@ impl Oracle {
         std::mem::take(&mut self.overlooked)
     }
 
-    /// Somebody was told of an emergency stop and asked for `asked` all the same.
+    /// A call was refused because of an emergency stop, and `asked` was asked for all the same.
     pub(super) fn defied(&mut self, asked: &'static str) {
         self.violations.push(Violation::Defied(asked));
     }

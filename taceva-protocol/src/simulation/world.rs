@@ -53,7 +53,7 @@ pub(super) struct World {
     pub(super) halted: bool,
     /// Whether somebody pressed the emergency stop, which a person must acknowledge.
     pub(super) stopped: bool,
-    /// Whether whoever conducts the run was told.
+    /// Whether a call of the run was refused for it already.
     has_noted_stop: bool,
     pub(super) gel: Gel,
     pub(super) oracle: Oracle,
@@ -139,7 +139,7 @@ impl World {
         self.listening_s = None;
     }
 
-    /// Refuses what moves or releases the robot while the emergency stop holds. Who asks again after being told defies it.
+    /// Refuses what moves or releases the robot while the emergency stop holds. Whoever asks again after a refusal defies it.
     pub(super) fn obey(&mut self, asked: &'static str) -> Result<(), Fault> {
         if !self.is_stopped() {
             return Ok(());

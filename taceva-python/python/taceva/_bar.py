@@ -1,4 +1,4 @@
-"""Progress of long work: a bar of tqdm where tqdm is installed and somebody looks, else nothing."""
+"""Progress of long work: a bar of tqdm where tqdm is installed and a terminal or a notebook shows it, else nothing."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any, Protocol
 
 
 class Bar(Protocol):
-    """What hears of long work."""
+    """What is informed of the progress of long work."""
 
     def begin(self, stage: str, steps: int | None) -> None:
         """A stage begins, of so many steps where that is known."""
@@ -20,7 +20,7 @@ class Bar(Protocol):
 
 
 class _Tqdm:
-    """A bar a stage."""
+    """One bar for each stage."""
 
     def __init__(self, tqdm: Any) -> None:
         self._tqdm = tqdm

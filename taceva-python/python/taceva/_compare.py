@@ -1,4 +1,4 @@
-"""Which of two results and more is better, and whether that is shown."""
+"""Which of two or more results is better, and whether tests show it."""
 
 from __future__ import annotations
 
@@ -40,14 +40,14 @@ def compare(
     margins: Mapping[str, float] | None = None,
     seed: int = 0,
 ) -> Comparison:
-    """Compare two results or more, as ``taceva compare`` does.
+    """Compare two or more results, as ``taceva compare`` does.
 
     Parameters
     ----------
     metrics
         Metrics and groups by name; all that the results share, if empty.
     margins
-        By ``metric.channel`` or ``metric``, a difference below which it does not matter, in the unit of the metric.
+        By ``metric.channel`` or ``metric``: the largest difference that still counts as equal, in the unit of the metric.
 
     >>> import taceva
     >>> truth = [[0.0], [1.0], [2.0], [3.0], [4.0], [5.0]]

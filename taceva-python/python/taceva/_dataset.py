@@ -31,7 +31,7 @@ class Rows:
 class Dataset:
     """A recording: labels of every sample, and frames or signals.
 
-    It travels to other processes as its path, and refuses to arrive where the recording differs.
+    It is pickled as its path and its digest; unpickling raises `DatasetError` where the recording at that path is another.
     """
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
@@ -134,7 +134,7 @@ class Dataset:
     ) -> npt.NDArray[np.float32]:
         """Return ``[rows, values]``: what a model by name sees of frames, or of signals, 32×32 gray where nothing is asked for.
 
-        ``settings`` are those of ``--set``: ``{"size": "16x16", "color": "rgb", "difference": "reference"}``.
+        ``settings`` are those of ``--set``: ``{"size": "16x16", "color": "rgb", "difference": "true"}``.
         """
         words = [f"{name}={value}" for name, value in (settings or {}).items()]
         found, _, _ = _taceva.features(self._inner, words, self._rows(rows), jobs, bar())

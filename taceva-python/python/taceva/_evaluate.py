@@ -44,8 +44,8 @@ def evaluate(
           from 0 to 1;
         - any other callable: called with frames ``[rows, height, width, samples]``, uint8 or uint16.
 
-        Modules and callables are taken as they are and return ``[rows, channels]`` in the units of the channels. Name the ``split`` that they
-        have learnt by; without it every sample is scored, and a note says that it is not known what the model has learnt from.
+        Modules and callables are taken as they are and return ``[rows, channels]`` in the units of the channels. Name the ``split`` by which
+        they were fitted; without it every sample is scored, and a note says that it is not known what the model has learnt from.
     settings
         By name: of a named model and its features, ``{"size": "16x16"}``; of features alone for an object with ``fit``.
     channels

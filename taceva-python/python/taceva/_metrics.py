@@ -22,7 +22,7 @@ class TactileMetrics:
     """Streams pairs of truth and prediction into exact sums, and gives their scores at any time.
 
     The scores depend on the set of samples alone: not on their order, on how they were divided into updates, or on which of several merged
-    objects saw them. Only ``channels`` rows of numbers are held, never the samples.
+    objects saw them. Only sums are held, never the samples.
 
     Parameters
     ----------
@@ -106,7 +106,7 @@ class TactileMetrics:
         )
 
     def compute(self) -> Result:
-        """Return the scores of all samples so far; nothing is consumed."""
+        """Return the scores of all samples so far; more samples may follow."""
         return Result(self._sums.compute())
 
     def merge(self, other: TactileMetrics) -> None:

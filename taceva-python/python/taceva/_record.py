@@ -40,7 +40,7 @@ def from_arrays(
     Parameters
     ----------
     path
-        The folder, in which nothing was recorded yet. A recording that was interrupted is no recording: remove its folder.
+        The folder, in which nothing was recorded yet. A recording that was interrupted cannot be opened: remove its folder.
     labels
         ``[rows, channels]`` in the units of the channels; NaN where a label is absent.
     frames

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class Frames(torch.utils.data.Dataset):  # type: ignore[misc, unused-ignore]
-    """Frames with labels; a worker opens the recording anew, so any number of them may read."""
+    """Frames with labels; each worker opens the recording anew, so any number of workers may read."""
 
     def __init__(self, dataset: Dataset, rows: list[int]) -> None:
         self._dataset = dataset

@@ -174,7 +174,7 @@ fn what_is_of_frames_alone_is_refused_in_words() {
         let message = refused(&[word]);
         assert_eq!(
             message,
-            format!("`{word}` is of frames, and the recording has signals alone")
+            format!("`{word}` applies to frames, and the recording has signals alone")
         );
     }
     for words in [

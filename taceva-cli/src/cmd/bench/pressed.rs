@@ -35,7 +35,7 @@ points = POINTS
 indentations = 4
 "#;
 
-/// Contact points of a race, and of a quick one.
+/// Contact points of a benchmark, and of a quick one.
 const POINTS: [usize; 2] = [400, 60];
 
 /// A recording that is removed on drop.

@@ -36,7 +36,7 @@ pub(super) fn run(args: &PluginPack, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// Either of the two ways in which a file is not written.
+/// Why a file was not written: the disk, or a plugin that cannot be packed.
 struct Failed(anyhow::Error);
 
 impl From<std::io::Error> for Failed {

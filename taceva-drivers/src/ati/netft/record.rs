@@ -1,11 +1,11 @@
 //! Requests and records of the raw data transfer, in network order. Nothing here reads a socket.
 
-/// What the box can be told.
+/// What the box can be asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Request {
     /// To send no more.
     Stop,
-    /// To send until it is told to stop.
+    /// To send until it is asked to stop.
     Start,
 }
 

@@ -25,7 +25,7 @@ pub(super) struct Chunks {
 
 /// Chunks that are none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[error("its answer is said to come in chunks, and does not")]
+#[error("its answer announces chunks, and does not come in chunks")]
 pub(super) struct ChunkError;
 
 /// The length of a chunk is written in fewer letters.

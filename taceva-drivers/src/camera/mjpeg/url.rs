@@ -36,7 +36,7 @@ impl FromStr for Url {
             return Err(wrong("it holds a space or a control character"));
         }
         let rest = text.strip_prefix("http://").ok_or_else(|| {
-            wrong("it does not begin with `http://`, the only way that is spoken")
+            wrong("it does not begin with `http://`, the only scheme that is supported")
         })?;
         let (place, path) = match rest.find(['/', '?']) {
             Some(at) => rest.split_at(at),
@@ -51,7 +51,7 @@ impl FromStr for Url {
             Some(inner) => {
                 let (host, rest) = inner
                     .split_once(']')
-                    .ok_or_else(|| wrong("a bracket is open"))?;
+                    .ok_or_else(|| wrong("a bracket is not closed"))?;
                 (host, rest.strip_prefix(':'))
             }
             None => match place.rsplit_once(':') {

@@ -29,10 +29,10 @@ submit_builtin!(dyn Sensor, || Ok(Box::new(V4l2Factory::new()?)));
 ///   looks at one.
 /// - Exposure, gain, white balance and focus are **fixed**: what the camera sets by itself is switched off when it is opened and whenever it is
 ///   started, the values that are asked for are set and read back, the others stay as they are. What was read back is kept with a recording. A
-///   camera that does not let go is refused, or flagged with `automatic=keep`.
+///   camera that goes on setting one by itself is refused, or flagged with `automatic=keep`.
 /// - A frame is the newest that came, with the kernel's own time of it on the monotonic clock; what was missed is counted by the camera's numbers. One
 ///   that is damaged, short or of another size is an error of that frame. A camera that is unplugged is `Disconnected`; `start` opens it anew.
-/// - Two programs do not have one camera: the second is told that it is in use.
+/// - Two programs do not have one camera: the second gets an error that it is in use.
 /// - A light of the sensor stays as it is.
 ///
 /// # What confirmed it

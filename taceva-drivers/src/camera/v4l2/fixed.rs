@@ -44,13 +44,13 @@ impl Fixed {
         [
             ArgSpec::number("exposure_ms", 0.1, 100_000.0)
                 .optional()
-                .help("how long it looks for a picture, in ms, to a tenth; as it is, if it is not given"),
+                .help("the exposure time of a picture, in ms, in steps of 0.1; unchanged if it is not given"),
             whole("gain", "its gain, in its own steps"),
-            whole("white_balance_k", "the light that white is balanced for, in K"),
+            whole("white_balance_k", "the colour temperature for which white is balanced, in K"),
             whole("focus", "its focus, in its own steps"),
             ArgSpec::choice("automatic", ["refuse", "keep"])
                 .default(ArgValue::Text("refuse".to_owned()))
-                .help("whether a camera may go on to set exposure, gain, white balance or focus by itself, which recordings say then"),
+                .help("whether a camera may go on to set exposure, gain, white balance or focus by itself; recordings then say that it did"),
         ]
     }
 
@@ -168,7 +168,7 @@ impl Knob {
         Ok(())
     }
 
-    /// Whether the camera sets it by itself, after it was told not to.
+    /// Whether the camera sets it by itself, after it was asked not to.
     fn let_go(&self, camera: &mut Camera, keeps: bool) -> Result<bool, DriverError> {
         let (automatic, off) = self.automatic;
         if camera.control(automatic).map_err(refused(FIX))?.is_none() {
@@ -179,7 +179,7 @@ impl Knob {
         }
         let why = match camera.set(automatic, off) {
             Ok(value) if value == off => return Ok(false),
-            Ok(_) => "it does not let go".to_owned(),
+            Ok(_) => "also after it was asked not to".to_owned(),
             Err(error @ (V4l2Error::Gone { .. } | V4l2Error::Busy { .. })) => {
                 return Err(refused(FIX)(error));
             }

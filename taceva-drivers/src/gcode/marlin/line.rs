@@ -5,7 +5,7 @@ use crate::gcode::link::{Answer, Heard};
 /// Where the printer says that its tip is, or is going to be, in mm; not checked to be numbers.
 pub(super) type Place = [f64; 3];
 
-/// What a number begins with that the printer was told to say.
+/// What stands before a number that the printer was asked to repeat.
 pub(super) const MARK: &str = "taceva mark ";
 
 /// What a line says.

@@ -21,7 +21,7 @@ pub(super) struct Printer {
     pub(super) link: SerialLink<Place>,
     pub(super) stop: Arc<Stop>,
     options: SerialOptions,
-    /// The last number that it was told to say.
+    /// The last number that it was asked to repeat.
     mark: u32,
 }
 

@@ -21,7 +21,7 @@ use crate::{OpenError, Selector};
 /// - It must be named by `usb`, `serial` or `device`: what a pedal is no device says of itself, and a mouse that moves must not count as one.
 /// - It is held while one of its bits is set in its reports; whoever watches it halts the robot once it is released, unplugged or not
 ///   understood. Until its first report it counts as released: it is pressed after it was opened.
-/// - A pedal sends a report when it changes and is silent otherwise: one whose electronics died while it was held cannot be told from one
+/// - A pedal sends a report when it changes and is silent otherwise: one whose electronics died while it was held cannot be distinguished from one
 ///   that is held. **It is no safety function**; the switch of the robot's own safety circuit is.
 /// - Pedals that act as keyboards go on typing their letter into whatever window is in front.
 ///

@@ -33,7 +33,7 @@ impl Weight {
 pub(super) enum WeightError {
     #[error("the scale reports a fault")]
     Fault,
-    #[error("the scale is loaded beyond what it weighs: a clipped force is no force")]
+    #[error("the scale is loaded beyond its range: a clipped force is wrong")]
     Overloaded,
     #[error("the scale wants to be calibrated")]
     Uncalibrated,

@@ -2,7 +2,7 @@
 
 use super::frame::Check;
 
-/// What the box can be told.
+/// What the box can be asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Command {
     /// To send so many readings a second.

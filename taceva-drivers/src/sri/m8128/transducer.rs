@@ -133,7 +133,7 @@ impl Transducer {
                 lost_bytes,
                 ..
             }) if missing + lost_bytes > 0 => {
-                format!("; {missing} frames were missing and {lost_bytes} bytes were none before")
+                format!("; {missing} frames were missing and {lost_bytes} bytes were in no frame")
             }
             _ => String::new(),
         }

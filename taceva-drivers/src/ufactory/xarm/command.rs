@@ -3,7 +3,7 @@
 use super::firmware::Firmware;
 use super::frame::{Reply, Request};
 
-/// What the controller can be told to do, or to say.
+/// What the controller can be asked to do, or to say.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Command {
     /// Which controller it is.
@@ -35,7 +35,7 @@ pub(super) enum Mode {
     Velocity = 5,
 }
 
-/// The states that it can be told to take.
+/// The states that it can be asked to take.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum TargetState {
     /// Ready for motions.

@@ -36,7 +36,7 @@ pub(super) enum ExchangeError {
         command: &'static str,
         length: usize,
     },
-    #[error("the connection to {address} ended before")]
+    #[error("the connection to {address} has ended")]
     Over { address: SocketAddr },
 }
 

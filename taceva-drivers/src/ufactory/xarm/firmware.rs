@@ -41,7 +41,7 @@ impl Firmware {
         self >= Firmware::new(1, 11, 100)
     }
 
-    /// Whether a velocity expires: older controllers go on with it until they are told another. (Later than the vendor's client asks for, which
+    /// Whether a velocity expires: older controllers go on with it until they are given another. (Later than the vendor's client asks for, which
     /// knows the duration since 1.8.0: this is the oldest whose frames were recorded.)
     pub(super) fn takes_expiring_velocities(self) -> bool {
         self >= Firmware::new(1, 10, 0)

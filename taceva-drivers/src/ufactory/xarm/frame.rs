@@ -53,12 +53,12 @@ impl Status {
         self.0 & 0x40 != 0
     }
 
-    /// Whether it does not know what it was told, or not so.
+    /// Whether it does not know the command, or not with these parameters.
     pub(super) fn is_invalid(self) -> bool {
         self.0 & 0x08 != 0
     }
 
-    /// Whether it would not move if it were told to.
+    /// Whether it would not move if it were asked to.
     pub(super) fn is_not_ready(self) -> bool {
         self.0 & 0x10 != 0
     }

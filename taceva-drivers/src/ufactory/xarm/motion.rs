@@ -18,13 +18,13 @@ const NEAR_MM: f64 = 0.05;
 const BEGUN: Duration = Duration::from_millis(50);
 /// After this time a controller that stands by elsewhere will not begin any more.
 const NEVER_BEGUN: Duration = Duration::from_millis(1_000);
-/// How long an arm that was told to stop is looked at until it stands.
+/// How long an arm that was asked to stop is looked at until it stands.
 const STOPPING: Duration = Duration::from_millis(400);
 
 /// Why a motion did not end at its target.
 pub(super) struct BrokenOff {
     error: DriverError,
-    /// Whether the controller has been told to stop already, or has stopped by itself.
+    /// Whether the controller has been asked to stop already, or has stopped by itself.
     is_stopped: bool,
 }
 

@@ -22,7 +22,7 @@ const BEGUN: Duration = Duration::from_millis(100);
 const NEVER_BEGUN: Duration = Duration::from_millis(1_000);
 /// How long after its program an arm may still creep to its target.
 const SETTLED: Duration = Duration::from_millis(200);
-/// How long an arm that was told to stop is looked at until it stands.
+/// How long an arm that was asked to stop is looked at until it stands.
 const STOPPING: Duration = Duration::from_millis(400);
 pub(super) const M_A_MM: f64 = 1e-3;
 /// The state of a controller that runs no program.

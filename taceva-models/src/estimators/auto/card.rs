@@ -1,4 +1,4 @@
-//! What was tried, what came of it, and why one was taken.
+//! Which models were tried, with which error, and why one was chosen.
 
 use std::fmt;
 
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// How a model was chosen among others.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AutoCard {
-    /// Work that could be spent, in seconds of a core of a thousand million multiplications each.
+    /// The work that could be spent, in seconds of a core that does a thousand million multiplications each second.
     pub budget_s: f64,
     /// How many folds each model was tried on.
     pub folds: usize,

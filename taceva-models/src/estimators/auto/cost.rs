@@ -11,7 +11,7 @@ pub(super) struct Sizes {
     pub(super) is_picture: bool,
 }
 
-/// Multiplications of a second of the budget.
+/// How many multiplications a second of the budget stands for.
 const RATE: f64 = 1e9;
 
 /// The seconds of the budget that trying the model called `name` takes; `None` where it cannot be tried.

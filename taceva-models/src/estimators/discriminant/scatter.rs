@@ -115,7 +115,7 @@ impl Scatter {
     }
 }
 
-/// S*^(−½); of a scatter without any extent, no change.
+/// S*^(−½); the identity where the samples do not scatter at all.
 pub(super) fn whitening(scatter: &Mat<f64>) -> Result<Mat<f64>, ModelError> {
     let length = scatter.nrows();
     let (values, vectors) = symmetric_eigen(scatter.as_ref())?;

@@ -5,19 +5,19 @@ use taceva_core::{ModelError, Progress};
 use super::predictors::{Predictors, Residual, Target};
 use crate::training::progress::interrupted;
 
-/// What weights cost.
+/// The penalty on weights.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Penalty<'a> {
     /// Ascending, relative to the least penalty at which every weight is 0.
     pub(super) strengths: &'a [f64],
-    /// The share of the penalty that is on sizes.
+    /// The share of the penalty that is on absolute values.
     pub(super) mix: f64,
 }
 
 /// Sweeps at one strength at most.
 const SWEEPS: usize = 1000;
 
-/// The largest change of a sweep, as a share of what labels vary by, at which the weights are taken as found: 1e-7 of their squares, as in
+/// The largest change of a sweep, as a share of what labels vary by, at which the weights count as found: 1e-7 of their squares, as in
 /// the reference.
 const ENOUGH: f64 = 3e-4;
 

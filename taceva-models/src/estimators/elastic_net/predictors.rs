@@ -22,7 +22,7 @@ enum Layout {
     Columns(Mat<f64>),
 }
 
-/// Features that a Gram matrix is kept of: 134 MB.
+/// The most features of which a Gram matrix is kept: 134 MB.
 const FEATURES_MAX: usize = 4096;
 
 impl Predictors {
@@ -90,7 +90,7 @@ pub(super) struct Residual<'a> {
 }
 
 impl<'a> Residual<'a> {
-    /// Formed anew: roundings of the steps before do not add up.
+    /// The residual, computed anew, so that rounding errors of earlier steps do not add up.
     pub(super) fn new(
         predictors: &'a Predictors,
         target: Target<'_>,
@@ -116,7 +116,7 @@ impl<'a> Residual<'a> {
         }
     }
 
-    /// Takes in that the weight of `feature` grew by `step`.
+    /// Updates the residual after the weight of `feature` grew by `step`.
     pub(super) fn follow(&mut self, feature: usize, step: f64) {
         let (Layout::Gram(columns) | Layout::Columns(columns)) = &self.predictors.layout;
         let places = self.values.iter_mut().zip(columns.col_as_slice(feature));

@@ -1,4 +1,4 @@
-//! The training samples that stand for all of them.
+//! Landmarks: the training samples with which every sample is compared.
 
 use rayon::prelude::*;
 use taceva_core::{Features, ModelError, Progress};
@@ -11,7 +11,7 @@ use crate::training::progress::{ReportedStage, interrupted};
 /// The length of the kernel by which landmarks are chosen.
 const LENGTH: f64 = 1.0;
 
-/// The share of a sample that landmarks leave unexplained below which it is none: what rounding to single precision leaves.
+/// A sample of which landmarks leave a smaller share unexplained becomes no landmark: rounding to single precision leaves as much.
 pub(super) const EXPLAINED: f64 = 1e-5;
 
 /// Samples a thread takes at a time.
@@ -19,8 +19,8 @@ const CHUNK: usize = 64;
 
 /// Training samples that between them explain the others, and how far all are from them.
 ///
-/// Chosen by pivoted Cholesky: the sample nearest to the mean first, then always the one of which least is explained. No chance
-/// takes part, and the order of samples decides between equals only.
+/// Chosen by pivoted Cholesky: the sample nearest to the mean first, then always the one of which least is explained. Nothing is
+/// random, and the order of samples decides between equals only.
 ///
 /// # Reference
 /// S. Fine, K. Scheinberg, J. Mach. Learn. Res. 2 (2001) 243.

@@ -3,7 +3,7 @@
 /// Within so many standard deviations lie 95 % of normal errors: the quantile of 97.5 %.
 pub const NORMAL_95: f64 = 1.959_963_984_540_054;
 
-/// Errors of which 95 % can be counted.
+/// The least number of errors of which 95 % can be counted.
 const ENOUGH: usize = 19;
 
 /// What the deviations of a channel are multiplied by so that 95 % of samples that were not learnt from lie within 1.96 of them.

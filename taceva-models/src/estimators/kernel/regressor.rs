@@ -46,7 +46,7 @@ impl KernelRegressor {
         }
     }
 
-    /// How many training samples stand for all of them.
+    /// How many landmarks there are: training samples with which every sample is compared.
     pub fn landmarks(&self) -> usize {
         self.map.len()
     }

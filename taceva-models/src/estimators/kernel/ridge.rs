@@ -31,7 +31,7 @@ impl KernelRidge {
     /// What the registry says of it.
     pub const INFO: ModelInfo = ModelInfo {
         name: "kernel-ridge",
-        about: "ridge regression of a kernel: bends where pictures bend, as sure-footed as ridge",
+        about: "ridge regression of a kernel: follows labels that are no linear function of the picture",
         settings: Kernel::SETTINGS,
         features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(KernelRidge::from_settings(settings)?)),

@@ -1,4 +1,4 @@
-//! One fit of a library on some rows: what varies is handed over, what does not is known without it.
+//! One fit of a library on some rows: it gets the features and labels that vary; labels that do not vary need no fit.
 
 use faer::Mat;
 use taceva_core::{Features, ModelError, Progress};

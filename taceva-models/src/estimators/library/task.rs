@@ -1,4 +1,4 @@
-//! What a library is handed, and what it gives back.
+//! What a library gets, and what it gives back.
 
 use taceva_core::{ModelError, Progress};
 
@@ -15,7 +15,7 @@ pub struct LibrarySizes {
     pub targets: usize,
 }
 
-/// What a library is handed: features that all vary, labels that all vary, every number finite.
+/// What a library gets: features that all vary, labels that all vary, every number finite.
 #[derive(Clone, Copy)]
 pub struct LibraryTask<'a> {
     /// How many samples, features and targets.

@@ -9,9 +9,9 @@ use super::Preprocessing;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct NetworkCard {
-    /// The make of it.
+    /// Which layers it has, and of which sizes.
     pub architecture: Architecture,
-    /// What is done to pictures before.
+    /// What is done to pictures before the network sees them.
     pub preprocessing: Preprocessing,
     /// How outputs become labels.
     pub scale: LabelScale,

@@ -1,4 +1,4 @@
-//! Checkpoints of trainings on disk: a power cut costs what was learnt since the last one, and nothing of the result.
+//! Checkpoints of trainings on disk: after a power cut a training goes on from the last one, and its result is the same.
 
 mod bytes;
 mod error;
@@ -63,7 +63,7 @@ impl Checkpoints {
         Ok(())
     }
 
-    /// Where the file is written before it is renamed. One name for all times: what was torn is written over the next time.
+    /// Where the file is written before it is renamed. It is always the same name, so that a file that was left incomplete is overwritten.
     fn beside(&self) -> PathBuf {
         let name = self.path.file_name().unwrap_or_default();
         self.path

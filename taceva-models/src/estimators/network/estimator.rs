@@ -17,7 +17,7 @@ pub struct NetworkEstimator {
     kind: Kind,
     pub(super) recipe: Recipe,
     pub(super) preprocessing: Preprocessing,
-    /// What takes the place of that where signals are learnt from.
+    /// What replaces this preprocessing where signals are learnt from.
     of_signals: OfSignals,
     /// How the GPU that trains is reached, where the processor does not.
     pub(super) gpu: Option<GpuKind>,
@@ -43,31 +43,31 @@ const EPOCHS: SettingInfo = SettingInfo {
     key: "epochs",
     accepts: "a number from 1 to 100000",
     default: "200 for cnn, 60 for the residual ones",
-    about: "how often each training sample is seen",
+    about: "how many times the network is trained on each sample",
 };
 const BATCH: SettingInfo = SettingInfo {
     key: "batch",
     accepts: "a number from 2 to 4096",
     default: "32",
-    about: "samples of a step",
+    about: "how many samples a training step uses",
 };
 const RATE: SettingInfo = SettingInfo {
     key: "rate",
     accepts: "a number above 0 and at most 10",
     default: "0.003 for cnn, 0.001 for the residual ones",
-    about: "the highest rate of the cycle",
+    about: "the highest learning rate of its one cycle",
 };
 const DECAY: SettingInfo = SettingInfo {
     key: "weight_decay",
     accepts: "a number from 0 to 10",
     default: "0.1",
-    about: "the decay of weights",
+    about: "the weight decay of AdamW",
 };
 const SEED: SettingInfo = SettingInfo {
     key: "seed",
     accepts: "a whole number",
     default: "1",
-    about: "what first weights, order and augmentation are drawn from",
+    about: "the seed of the first weights, the order of samples and the augmentation",
 };
 const PATIENCE: SettingInfo = SettingInfo {
     key: "patience",
@@ -79,7 +79,7 @@ const JITTER: SettingInfo = SettingInfo {
     key: "jitter",
     accepts: "a number of pixels from 0 to 100",
     default: "3, 0 of signals",
-    about: "how far training pictures are shifted",
+    about: "how far training pictures are shifted at most",
 };
 const NOISE: SettingInfo = SettingInfo {
     key: "noise",
@@ -91,7 +91,7 @@ const BRIGHTNESS: SettingInfo = SettingInfo {
     key: "brightness",
     accepts: "a number from 0 to 1",
     default: "0",
-    about: "by which share training pictures are made brighter or darker at most, after preprocessing",
+    about: "the largest share by which training pictures are made brighter or darker, after preprocessing",
 };
 const LOCAL_MEAN: SettingInfo = SettingInfo {
     key: "local_mean",
@@ -109,7 +109,7 @@ const DEVICE: SettingInfo = SettingInfo {
     key: "device",
     accepts: "cpu, cuda or wgpu",
     default: "cpu",
-    about: "what trains; a GPU needs a program built with the feature of that name, and gives other last digits each time",
+    about: "the device that trains; a GPU needs a program built with the feature of that name, and gives other last digits each time",
 };
 
 const SETTINGS: &[SettingInfo] = &[
@@ -117,7 +117,7 @@ const SETTINGS: &[SettingInfo] = &[
     DEVICE,
 ];
 
-/// Places along a side of a grid over which five layers, each of half as many, have something to slide.
+/// The least number of places along a side of a grid: five layers, each of half as many places as the one before, need so many.
 const PLACES_LEAST: u32 = 8;
 
 /// What networks see where nothing else is asked for.

@@ -14,7 +14,7 @@ pub struct NetworkRegressor {
     channels: Channels,
     card: NetworkCard,
     network: Network,
-    /// Predictors that nobody uses right now: each call takes one, or makes one.
+    /// Predictors that are not in use: each call takes one, or makes one.
     spare: Mutex<Vec<Predictor>>,
 }
 

@@ -57,7 +57,7 @@ impl Binned {
     }
 }
 
-/// What separates values that differ, near the quantiles.
+/// Edges between values that differ, near the quantiles.
 fn edges(values: &[f32]) -> Vec<f32> {
     let mut sorted = values.to_vec();
     sorted.sort_unstable_by(f32::total_cmp);

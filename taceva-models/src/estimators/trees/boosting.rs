@@ -70,26 +70,26 @@ const DEPTH: SettingInfo = SettingInfo {
     key: "depth",
     accepts: "a number from 1 to 30",
     default: "5",
-    about: "questions on the way to a leaf at most",
+    about: "the greatest depth: comparisons on the way to a leaf",
 };
 const LEAF: SettingInfo = SettingInfo {
     key: "leaf",
     accepts: "a number from 1 to 10000",
     default: "5",
-    about: "samples of a leaf at least",
+    about: "the least number of samples of a leaf",
 };
 const SEED: SettingInfo = SettingInfo {
     key: "seed",
     accepts: "a whole number",
     default: "1",
-    about: "what features are drawn from",
+    about: "the seed by which features are drawn",
 };
 
 impl GradientBoosting {
     /// What the registry says of it.
     pub const INFO: ModelInfo = ModelInfo {
         name: "gradient-boosting",
-        about: "trees that each mend what those before left",
+        about: "trees that are each fitted to the errors of those before",
         settings: &[
             TREES,
             MOST,

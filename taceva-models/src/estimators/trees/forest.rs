@@ -51,26 +51,26 @@ const DEPTH: SettingInfo = SettingInfo {
     key: "depth",
     accepts: "a number from 1 to 60",
     default: "30",
-    about: "questions on the way to a leaf at most",
+    about: "the greatest depth: comparisons on the way to a leaf",
 };
 const LEAF: SettingInfo = SettingInfo {
     key: "leaf",
     accepts: "a number from 1 to 10000",
     default: "2",
-    about: "samples of a leaf at least",
+    about: "the least number of samples of a leaf",
 };
 const SEED: SettingInfo = SettingInfo {
     key: "seed",
     accepts: "a whole number",
     default: "1",
-    about: "what samples and features are drawn from",
+    about: "the seed by which samples and features are drawn",
 };
 
 impl RandomForest {
     /// What the registry says of it.
     pub const INFO: ModelInfo = ModelInfo {
         name: "random-forest",
-        about: "the mean of many trees: no scale to choose, and hard to upset",
+        about: "the mean of many trees: the scale of features does not matter, and outliers change little",
         settings: &[TREES, SHARE, DEPTH, LEAF, SEED, SettingInfo::REFIT],
         features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(RandomForest::from_settings(settings)?)),

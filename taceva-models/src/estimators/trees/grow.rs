@@ -23,7 +23,7 @@ pub(super) struct Growth {
 pub(super) struct Tree {
     /// The feature that a node compares.
     pub(super) feature: Vec<u32>,
-    /// At most this: to the left.
+    /// A sample whose feature is at most this goes to the left child.
     pub(super) threshold: Vec<f32>,
     /// The left child, the right one beside it; 0 for a leaf.
     pub(super) left: Vec<u32>,

@@ -9,7 +9,7 @@ pub(super) struct Histogram {
     pub(super) counts: Vec<u32>,
     pub(super) sums: Vec<f64>,
     pub(super) outputs: usize,
-    /// The bins that hold any, ascending.
+    /// The bins that hold any row, ascending.
     pub(super) held: Vec<u8>,
 }
 
@@ -49,7 +49,7 @@ impl Histogram {
         }
     }
 
-    /// Empties it: of few samples few bins hold any, which are all that is touched.
+    /// Empties it: only the bins that hold a row are written.
     pub(super) fn clear(&mut self) {
         for bin in self.held.drain(..) {
             let bin = usize::from(bin);

@@ -10,9 +10,9 @@ use crate::features::FeatureError;
 use crate::features::cell_features::CellFeatures;
 use crate::features::spec::FeatureSpec;
 
-/// Markers that speak for a cell.
+/// How many markers a cell is interpolated from.
 const SPEAKERS: usize = 12;
-/// Markers near a cell whose absence counts.
+/// How many of the nearest markers of a cell are counted as seen or not.
 const NEAREST: usize = 4;
 /// How far from the nearest marker a cell may be to be interpolated, in spacings.
 const REACH: f64 = 1.5;

@@ -24,13 +24,13 @@ const UNEVEN: f64 = 0.3;
 /// The markers of an untouched gel.
 #[derive(Clone, Debug)]
 pub(super) struct Lattice {
-    /// At which they are found, here and in other frames alike.
+    /// The scale at which they are found, here and in other frames alike.
     pub(super) scale: Scale,
     /// The typical distance of a marker from the next.
     pub(super) spacing_px: f64,
     /// How much a spot stands out by at least.
     pub(super) least: f32,
-    /// From the most outstanding on.
+    /// The markers, the most outstanding first.
     pub(super) markers: Vec<Marker>,
     /// Distances of each marker and its neighbours from the next.
     pub(super) spacings_px: Vec<f64>,

@@ -7,7 +7,8 @@ pub(super) type Moved = ([f64; 2], [f64; 2]);
 
 /// How near, in spacings, two places count as one.
 const NEAR: f64 = 0.3;
-/// How strongly gradients are held down, against places one spacing apart: where all neighbours lie on one side or on a line, nothing else does.
+/// What is added to the diagonal of the normal equations, where a place one spacing away adds about 1: nothing else bounds gradients where all
+/// neighbours lie on a line.
 const STIFF: f64 = 0.05;
 
 /// How far `place` has moved if displacements around it are a linear function of place, by least squares weighted by 1 / distance²;

@@ -18,7 +18,7 @@ pub enum Enabling {
 
 impl Supervisor {
     /// Learns what the enabling switch says now; a motion that goes on while it is not held is halted before this returns. A supervisor that
-    /// is told nothing is that of a rig without one.
+    /// gets no such call is that of a rig without a switch.
     pub fn enabling(&mut self, enabling: Enabling) {
         self.enabling = enabling;
         if let Some(trip) = self.withheld()

@@ -13,7 +13,7 @@ const EDGE: f64 = 0.5;
 const AT_REST: f64 = 0.75;
 /// Poses so near both ends of the way are left out, in mm: there the arm speeds up or slows down.
 const END_MM: f64 = 0.05;
-/// Fast taps are at least so many times as fast as slow ones, or a way and a latency cannot be told apart.
+/// Fast taps are at least so many times as fast as slow ones, or a way and a latency cannot be distinguished.
 const LEAST_RATIO: f64 = 1.5;
 /// Standard deviations of one tap within which 95 of 100 lie.
 const WITHIN: f64 = 2.0;
@@ -82,7 +82,7 @@ pub enum TapError {
     },
     /// A robot that does not go at the speeds that it is sent with.
     #[error(
-        "the fast taps are {ratio:.2} times as fast as the slow ones, expected 3: a way cannot be told from a latency; see whether the controller limits its speed"
+        "the fast taps are {ratio:.2} times as fast as the slow ones, expected 3: a way cannot be distinguished from a latency; see whether the controller limits its speed"
     )]
     OneSpeed {
         /// The greatest speed divided by the least.

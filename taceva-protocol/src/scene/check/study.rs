@@ -64,7 +64,7 @@ impl Check<'_> {
         self.distinct("scenes of light", scenes)?;
         if lighting.is_some_and(|lighting| lighting.driver.is_none()) && scenes.is_none() {
             let problem = format!(
-                "`{}` has a light that nobody knows: expected [lighting] with `driver`, or with `scenes` that are set by hand",
+                "`{}` has a light that is declared nowhere: expected [lighting] with `driver`, or with `scenes` that are set by hand",
                 study.name.value
             );
             return self.refuse(study.name.at(), SceneProblem::Incomplete(problem));

@@ -1,11 +1,11 @@
-//! By what a training is known again.
+//! What identifies a training.
 
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use taceva_gpu::GpuKind;
 use taceva_network::{Architecture, Isa, Labels, Recipe, Samples, Summary};
 
-/// By what a training is known again: everything that its result depends on.
+/// What identifies a training: everything that its result depends on.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::estimators::network) struct Identity {
     architecture: Architecture,

@@ -12,7 +12,7 @@ use crate::linalg::multiply;
 use crate::training::choice::Errors;
 use crate::training::progress::{ReportedStage, interrupted};
 
-/// What the rows of one group know, whatever the penalty.
+/// What is computed once for the rows of one group, whatever the penalty.
 struct Group {
     /// Its rows of U.
     vectors: Mat<f64>,

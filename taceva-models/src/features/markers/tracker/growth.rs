@@ -26,7 +26,7 @@ impl<'a> Growth<'a> {
         }
     }
 
-    /// Matches `seed` with `spot`, and then whoever has most neighbours that are matched.
+    /// Matches `seed` with `spot`, and then always the marker with most neighbours that are matched.
     pub(super) fn grow_from(&mut self, seed: usize, spot: usize) {
         let count = self.spot_of.len();
         let mut is_asked = vec![false; count];
