@@ -154,7 +154,7 @@ impl Batch {
         &self.prediction[position]
     }
 
-    /// The contact location of each sample, if samples name one.
+    /// The contact point of each sample, if samples name one.
     pub fn points(&self) -> Option<&Labels> {
         self.points.as_ref()
     }

@@ -19,7 +19,7 @@ pub enum Field {
     Truth,
     /// The predictions of a model.
     Prediction,
-    /// The contact location: the cluster of every interval.
+    /// The contact point: the cluster of every interval.
     Point,
     /// The depth level within a point.
     DepthStep,

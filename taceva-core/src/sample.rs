@@ -34,7 +34,7 @@ pub struct Sample {
     pub unit_id: Option<String>,
     /// The lighting scene or the like.
     pub scene_id: Option<String>,
-    /// The contact location: what repeats share, and the cluster of every interval.
+    /// The contact point: what repeats share, and the cluster of every interval.
     pub point_id: Option<String>,
     /// The depth level within the point.
     pub depth_step: Option<u32>,

@@ -26,7 +26,7 @@ pub enum MetricError {
     },
     /// Columns of different length in one batch.
     Rows {
-        /// What has another length: a channel, or the contact locations.
+        /// What has another length: a channel, or the contact points.
         what: String,
         /// Rows of the first channel.
         expected: usize,

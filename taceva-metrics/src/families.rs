@@ -1,7 +1,7 @@
 //! Families of metrics, one folder or file each: what is kept of the samples, and the formulas that are finished from it.
 //!
 //! [`family`] says what every family implements, [`channelwise`] what those that keep the same of each channel share, [`cells`] what those
-//! that compare presses of one contact location and depth keep.
+//! that compare presses of one contact point and depth keep.
 
 pub(crate) mod accuracy;
 pub(crate) mod bias_level;

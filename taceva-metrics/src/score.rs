@@ -50,7 +50,7 @@ pub struct Score {
     pub n: u64,
     /// Samples left out because a value was no usable number; of two channels the larger number.
     pub n_invalid: u64,
-    /// Where the value would lie with other clusters (contact locations), at 95 %.
+    /// Where the value would lie with other clusters (contact points), at 95 %.
     pub interval: Interval,
     /// Which definition was computed: `mae/1`.
     pub definition: &'static str,
@@ -106,7 +106,7 @@ pub struct Variant {
     pub unit: Unit,
     /// Which values it can have.
     pub range: Range,
-    /// Where the value would lie with other clusters (contact locations), at 95 %; `None` where the question makes no sense, as for maps.
+    /// Where the value would lie with other clusters (contact points), at 95 %; `None` where the question makes no sense, as for maps.
     pub interval: Option<Interval>,
 }
 

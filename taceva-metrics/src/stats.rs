@@ -1,4 +1,4 @@
-//! Pure statistics: how far a score would move with other contact locations, and whether two scores differ.
+//! Pure statistics: how far a score would move with other contact points, and whether two scores differ.
 
 mod bootstrap;
 mod by_intervals;

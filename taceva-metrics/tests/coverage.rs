@@ -1,4 +1,4 @@
-//! Intervals by contact location hold the expected score as often as they say; intervals by sample do not. On simulated
+//! Intervals by contact point hold the expected score as often as they say; intervals by sample do not. On simulated
 //! presses; `examples/coverage.rs` does the same at length.
 
 #[path = "support/simulated.rs"]

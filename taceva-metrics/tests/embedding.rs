@@ -165,7 +165,7 @@ fn rows_that_do_not_fit_are_refused_and_nothing_is_taken_in() {
         [
             "1 estimates beside 2 references, expected as many",
             "2 rows of `Fz`, expected 1 as of the first channel",
-            "2 rows of contact locations, expected 1 as of the first channel",
+            "2 rows of contact points, expected 1 as of the first channel",
             "channels Px [mm], expected Fx [N], Fz [N]",
             "channels Fz [N] twice, expected Fx [N], Fz [N]",
         ]

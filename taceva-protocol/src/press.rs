@@ -80,7 +80,7 @@ impl Press {
         .finish()
     }
 
-    /// The contact location that its samples share with all others there: the board of a grating, else the place in mm.
+    /// The contact point that its samples share with all others there: the board of a grating, else the place in mm.
     pub fn point_id(&self) -> String {
         match self.specimen {
             Specimen::Grating { kind, spacing } => format!("{kind} {}", spacing.to_millimetres()),

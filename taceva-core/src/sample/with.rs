@@ -39,7 +39,7 @@ impl Sample {
         self
     }
 
-    /// The same sample with the contact location.
+    /// The same sample with the contact point.
     #[must_use]
     pub fn with_point_id(mut self, point_id: impl Into<Option<String>>) -> Sample {
         self.point_id = point_id.into();

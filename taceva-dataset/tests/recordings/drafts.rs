@@ -15,7 +15,7 @@ fn bare(name: &str) -> tempfile::TempDir {
     target
 }
 
-/// The draft of a map for the recording, its units, signs, offsets and scales filled in from the map of its lab.
+/// The draft of a map for the recording, its units, signs, offsets, scales and sensor filled in from the map of its lab.
 fn finished_draft(name: &str) -> Result<String, String> {
     let draft = MapDraft::of(bare(name).path()).map_err(|error| error.to_string())?;
     let own: toml::Table = own_map(name).parse().expect("TOML");
@@ -28,6 +28,10 @@ fn finished_draft(name: &str) -> Result<String, String> {
                 .and_then(|facts| facts.get(key))
                 .map(|fact| format!(", {key} = {fact}"))
         };
+        if line == "model = \"?\"" {
+            finished += "model = \"a sensor of the lab\"\n";
+            continue;
+        }
         if line == "unit = \"?\"" {
             let unit = own.get("signals").and_then(|signals| signals.get("unit"));
             finished += &format!("unit = {}\n", unit.expect("a unit"));

@@ -20,7 +20,7 @@ use crate::score::ClusteredBy;
 use crate::stats::IntervalMethod;
 use crate::stats::clusters::{Clustering, Clusters};
 
-/// Keeps what the metrics of one family are finished from, apart by contact location.
+/// Keeps what the metrics of one family are finished from, apart by contact point.
 ///
 /// # Laws
 /// Any order, split and merge of the same samples gives equal states and, bit for bit, equal scores; the state of nothing

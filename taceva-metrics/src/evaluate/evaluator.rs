@@ -52,7 +52,7 @@ impl Evaluator {
         }
     }
 
-    /// An evaluator of every metric that truth and prediction of `channels` and contact locations allow.
+    /// An evaluator of every metric that truth and prediction of `channels` and contact points allow.
     ///
     /// # Errors
     /// [`ChannelError::Twice`] if a channel comes twice.
@@ -108,7 +108,7 @@ impl Evaluator {
     }
 
     /// Takes in `truth` and `prediction` of one channel, one number per sample, in the unit of the channel: slices, vectors, arrays, iterators or
-    /// views of `f32` or `f64`. Other channels have no value in these samples. Several channels, and contact locations: [`Rows`].
+    /// views of `f32` or `f64`. Other channels have no value in these samples. Several channels, and contact points: [`Rows`].
     ///
     /// # Errors
     /// [`MetricError::Lengths`] if there are not as many of both, [`MetricError::Channels`] if the plan has no such channel; nothing is taken in

@@ -51,7 +51,7 @@ impl MetricPlan {
         Ok(MetricPlan { settings, ..self })
     }
 
-    /// The same plan with another seed of the hash that assigns contact locations to clusters.
+    /// The same plan with another seed of the hash that assigns contact points to clusters.
     #[must_use]
     pub fn with_seed(self, seed: u64) -> MetricPlan {
         MetricPlan { seed, ..self }
@@ -78,7 +78,7 @@ impl MetricPlan {
 
     /// The same plan for samples that do not depend on each other: every sample is a cluster of its own in the intervals of errors, R², skill,
     /// planes, linearity, cross-talk, bias by level and tolerance, and each of these intervals says `samples taken as independent`. Metrics that
-    /// ask which samples belong together keep their contact locations.
+    /// ask which samples belong together keep their contact points.
     ///
     /// Presses at one location are not independent: such intervals would hold the truth too seldom (`docs/coverage.md`). Samples that are equal
     /// in every channel share a cluster, and more than [`NAMED_CLUSTERS`](crate::NAMED_CLUSTERS) are assigned by hash to
@@ -107,7 +107,7 @@ impl MetricPlan {
     /// The same plan for samples of several recordings, each of which is a cluster: intervals of errors, R², skill, planes, linearity, cross-talk,
     /// bias by level and tolerance say how these vary from recording to recording, and name the method `by recording`. Batches say which
     /// recording each sample is of ([`Batch::with_recordings`](taceva_core::Batch::with_recordings)); without it there are no such intervals.
-    /// Metrics that ask which samples belong together keep their contact locations.
+    /// Metrics that ask which samples belong together keep their contact points.
     ///
     /// ```
     /// use taceva_metrics::{Batch, Channel, Channels, Column, Evaluator, FieldSet, Labels, MetricPlan, catalogue};
@@ -186,7 +186,7 @@ impl MetricPlan {
         self.fields
     }
 
-    /// The seed of the hash that assigns contact locations to clusters.
+    /// The seed of the hash that assigns contact points to clusters.
     pub fn seed(&self) -> u64 {
         self.seed
     }

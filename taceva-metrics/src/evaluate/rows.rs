@@ -6,7 +6,7 @@ use crate::error::MetricError;
 use crate::evaluate::number::Number;
 use crate::evaluate::state::{describe, written};
 
-/// Some samples, given channel by channel: truth, prediction, and perhaps the contact location of each.
+/// Some samples, given channel by channel: truth, prediction, and perhaps the contact point of each.
 ///
 /// # Shapes
 /// Every column and the locations have one length, the number of samples. It is checked when the rows are taken in.
@@ -63,7 +63,7 @@ impl Rows {
         self
     }
 
-    /// These rows with the contact location of each, by name: samples at one location are one cluster of the intervals.
+    /// These rows with the contact point of each, by name: samples at one location are one cluster of the intervals.
     ///
     /// ```
     /// use taceva_metrics::{Channel, Rows};
@@ -126,11 +126,7 @@ impl Rows {
             }
         }
         if let Some(points) = &self.points {
-            same_length(
-                || "contact locations".to_owned(),
-                rows,
-                points.index().len(),
-            )?;
+            same_length(|| "contact points".to_owned(), rows, points.index().len())?;
         }
         let columns = truths.into_iter().zip(predictions);
         let columns = columns.map(|(truth, prediction)| match truth {

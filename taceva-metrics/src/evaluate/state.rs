@@ -46,7 +46,7 @@ impl State {
         &self.channels
     }
 
-    /// What is kept, apart by contact location: one record per channel or plane.
+    /// What is kept, apart by contact point: one record per channel or plane.
     pub fn clusters(&self) -> &Clusters<Vec<Record>> {
         &self.clusters
     }

@@ -1,4 +1,4 @@
-//! Summaries by contact location and depth, for scores that compare presses at one place.
+//! Summaries by contact point and depth, for scores that compare presses at one place.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::evaluate::state::Record;
 use crate::exact::merge::{Merge, keyed};
 
-/// Where presses belong together: a contact location, and a depth step within it where that matters.
+/// Where presses belong together: a contact point, and a depth step within it where that matters.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct CellKey {
     point: Option<Arc<str>>,

@@ -18,7 +18,7 @@ use crate::score::value::UndefinedReason;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ClusteredBy {
-    /// Contact locations.
+    /// Contact points.
     #[default]
     Point,
     /// Single samples, taken as independent because the caller said that they are.

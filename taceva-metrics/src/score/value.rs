@@ -163,7 +163,7 @@ pub enum UndefinedReason {
         /// How many there are.
         drawn: usize,
     },
-    /// Some sample names no contact location, so that it is not known which belong together.
+    /// Some sample names no contact point, so that it is not known which belong together.
     NoClusters,
 }
 

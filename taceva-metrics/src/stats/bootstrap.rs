@@ -1,4 +1,4 @@
-//! How far a score would move with other contact locations: the Poisson bootstrap.
+//! How far a score would move with other contact points: the Poisson bootstrap.
 
 use super::ends::{Ends, Estimated, Moved};
 use super::least::{LEAST_CLUSTERS, LEAST_REPLICATES};

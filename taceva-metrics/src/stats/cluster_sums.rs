@@ -27,7 +27,7 @@ pub struct ClusterSum {
 
 /// One exact sum per cluster, however many clusters there are.
 ///
-/// A cluster is what may be exchanged as a whole: a contact location, or a board of a grating test. Like every state it
+/// A cluster is what may be exchanged as a whole: a contact point, or a board of a grating test. Like every state it
 /// depends on the set of samples alone, and merges.
 ///
 /// ```
@@ -64,12 +64,12 @@ impl ClusterSums {
         Ok(())
     }
 
-    /// Adds |d| of each pair of the channel at `position`, by contact location.
+    /// Adds |d| of each pair of the channel at `position`, by contact point.
     ///
     /// Rows without a value are passed over; pairs that are no numbers are counted in [`n_invalid`](ClusterSums::n_invalid).
     ///
     /// # Errors
-    /// [`ComparisonError::NoClusters`] if the batch has no contact locations; nothing is added then.
+    /// [`ComparisonError::NoClusters`] if the batch has no contact points; nothing is added then.
     ///
     /// # Panics
     /// If the batch has no channel at `position`.

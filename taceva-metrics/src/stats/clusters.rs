@@ -1,4 +1,4 @@
-//! Samples kept apart by contact location, so that intervals know which of them belong together.
+//! Samples kept apart by contact point, so that intervals know which of them belong together.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! How far a score would move with other contact locations: the delete-one-cluster jackknife.
+//! How far a score would move with other contact points: the delete-one-cluster jackknife.
 
 use super::ends::{Ends, Estimated, Moved};
 use super::least::LEAST_CLUSTERS;

@@ -2,7 +2,7 @@
 
 use super::bootstrap::PoissonBootstrap;
 
-/// How the interval of a score is found. Either way clusters vary: contact locations, or samples where the caller takes them as independent.
+/// How the interval of a score is found. Either way clusters vary: contact points, or samples where the caller takes them as independent.
 ///
 /// ```
 /// use taceva_metrics::{IntervalMethod, PoissonBootstrap};

@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from taceva import _taceva
 from taceva._bar import bar
+from taceva._settings import setting_words
 
 IntArray = npt.NDArray[np.intp]
 
@@ -136,7 +137,7 @@ class Dataset:
 
         ``settings`` are those of ``--set``: ``{"size": "16x16", "color": "rgb", "difference": "true"}``.
         """
-        words = [f"{name}={value}" for name, value in (settings or {}).items()]
+        words = setting_words(settings)
         found, _, _ = _taceva.features(self._inner, words, self._rows(rows), jobs, bar())
         return np.asarray(found)
 

@@ -14,6 +14,7 @@ from taceva._arrays import numbers
 from taceva._bar import bar
 from taceva._dataset import Dataset
 from taceva._result import Result
+from taceva._settings import setting_words
 
 
 def evaluate(
@@ -72,7 +73,7 @@ def evaluate(
     """
     recording = dataset if isinstance(dataset, Dataset) else Dataset(dataset)
     wanted = [metrics] if isinstance(metrics, str) else list(metrics)
-    words = [f"{name}={_written(value)}" for name, value in (settings or {}).items()]
+    words = setting_words(settings)
     if isinstance(model, str | os.PathLike):
         text = _taceva.evaluate_named(
             recording._inner, os.fspath(model), words, list(channels), split, seed, part, wanted, jobs, bar()
@@ -181,7 +182,3 @@ def _settings_of(model: Any) -> dict[str, str]:
     if not callable(getattr(model, "get_params", None)):
         return {}
     return {str(name): repr(value) for name, value in model.get_params(deep=False).items()}
-
-
-def _written(value: Any) -> str:
-    return str(value).lower() if isinstance(value, bool) else str(value)

@@ -157,7 +157,7 @@ impl FitPlan<'_> {
     }
 }
 
-/// A number a row for its contact location, if every row has one.
+/// A number a row for its contact point, if every row has one.
 pub(super) fn groups(dataset: &Dataset, rows: &[usize]) -> Option<Vec<u32>> {
     let points = dataset.table().point_id();
     let mut numbers: BTreeMap<&str, u32> = BTreeMap::new();

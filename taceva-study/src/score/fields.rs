@@ -1,4 +1,4 @@
-//! What a table says of its rows beside the channels: contact location, scene, repeat and the like.
+//! What a table says of its rows beside the channels: contact point, scene, repeat and the like.
 
 use taceva_core::{Column, Field, FieldSet, GratingKind, Labels, Nanometre, Phase};
 use taceva_dataset::CsvTable;

@@ -82,6 +82,17 @@ fn positive() -> i64 {
     1
 }
 
+/// The first line, from 1, with a value that a draft left open.
+fn first_open(text: &str) -> Option<u64> {
+    let is_open = |line: &str| {
+        let said = line.split('#').next().unwrap_or_default();
+        said.contains("\"?\"")
+    };
+    (1..)
+        .zip(text.lines())
+        .find_map(|(number, line)| is_open(line).then_some(number))
+}
+
 /// The map that `text` says, checked.
 pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError> {
     let written: WrittenMap = parse_toml(path, text)?;
@@ -118,6 +129,13 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
         && let Some(problem) = footprint.get_ref().problem()
     {
         return Err(check.at(footprint.span().start, &problem));
+    }
+    if let Some(line) = first_open(text) {
+        return Err(toml_error(
+            path,
+            Some(line),
+            "`\"?\"` stands where a draft knew nothing: write what only you know, or \"unknown\" where that is accepted",
+        ));
     }
     Ok(ImportMap {
         frame: written

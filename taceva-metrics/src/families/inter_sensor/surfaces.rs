@@ -10,7 +10,7 @@ use crate::exact::{Dyadic, ExactSum};
 use crate::families::cells::{Cells, add_times};
 use crate::geometry::Point;
 
-/// Places by contact location and unit.
+/// Places by contact point and unit.
 ///
 /// They are sets: a surface that is met at one place in several samples is met there once.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -1,4 +1,4 @@
-//! How far a robustness would move with other contact locations: the delta method on the errors it is made of.
+//! How far a robustness would move with other contact points: the delta method on the errors it is made of.
 
 use super::change::Change;
 use super::robustness::{changes, variant_of};
