@@ -47,6 +47,7 @@ fn a_draft_is_refused_by_the_line_of_its_first_open_unit_and_imports_once_they_a
             "\"N\""
         };
         line.replace("unit = \"?\"", &format!("unit = {unit}"))
+            .replace("model = \"?\"", "model = \"my gel\"")
     });
     let filled: Vec<String> = units.collect();
     bench.write("filled.toml", &filled.join("\n"));

@@ -1,4 +1,4 @@
-//! Drafts of maps: of which recordings they leave nothing open but units and signs.
+//! Drafts of maps: of which recordings they leave nothing open but units, signs and the name of the sensor.
 
 use taceva_dataset::MapDraft;
 
