@@ -60,6 +60,8 @@ pub struct ExportReport {
     pub encoded_anew: u64,
     /// What the dataset says and the map of the export cannot, in words.
     pub left_out: Vec<String>,
+    /// Whether the map beside it imports it again: not where some samples have a picture and others none.
+    pub is_importable: bool,
     /// The map that brings the export back.
     pub map: PathBuf,
 }
@@ -160,6 +162,7 @@ impl<'a> ExportPlan<'a> {
             pictures: pictures.map_or(0, |pictures| pictures.count()),
             encoded_anew: pictures.map_or(0, |pictures| pictures.encoded_anew()),
             left_out: exported.left_out(),
+            is_importable: !exported.is_partly(),
             map: target.join(MAP),
         })
     }

@@ -20,7 +20,7 @@ use crate::held::HeldFolder;
 use crate::layout;
 use crate::limits;
 use crate::signals::{SignalsInfo, WrittenSignals};
-use crate::store::{dataset_digest, digest_with_signals};
+use crate::store::{dataset_digest, digest_with};
 use crate::toml_file::{parse_toml, toml_error, utf8};
 use crate::version::Version;
 use taceva_seal::{Edit, Opened, SealError};
@@ -191,8 +191,8 @@ impl Header {
             presses: written.presses,
             stream: written.stream,
             table: written.table,
+            digest: digest_with(written.digest, signals.as_ref(), &written.extended),
             extended: written.extended,
-            digest: digest_with_signals(written.digest, signals.as_ref()),
             signals,
             seal,
         })
@@ -211,10 +211,10 @@ impl Header {
             clock: self.clock,
             attributes: self.attributes.clone(),
             unmentioned_columns: self.unmentioned_columns.clone(),
-            digest: match self.signals {
-                None => self.digest,
-                // Without them: a reader of before 1.7 knows nothing of signals.
-                Some(_) => dataset_digest(self.table.digest, self.frames.as_ref()),
+            digest: match (&self.signals, self.extended.as_slice()) {
+                (None, []) => self.digest,
+                // Without them: a reader of before 1.7 knows nothing of signals, one of before 1.8 nothing of rows that were added.
+                _ => dataset_digest(self.table.digest, self.frames.as_ref()),
             },
             sensor: self.sensor.clone(),
             footprint: self.footprint,

@@ -126,9 +126,10 @@ pub(crate) fn write_table_and_header(
         attributes: table.attribute_names().to_vec(),
         unmentioned_columns: beside.unmentioned_columns,
         left_out: beside.left_out,
-        digest: digest_with_signals(
+        digest: digest_with(
             dataset_digest(table_digest, frames.as_ref()),
             beside.signals.as_ref(),
+            &beside.extended,
         ),
         frames,
         presses: beside.presses,
@@ -172,14 +173,32 @@ pub(crate) fn dataset_digest(table: Digest, frames: Option<&FramesInfo>) -> Dige
     digest.finish()
 }
 
-/// The digest of a dataset with its signals, where it has any; `others` is the digest without them, which its header states.
-pub(crate) fn digest_with_signals(others: Digest, signals: Option<&SignalsInfo>) -> Digest {
-    let Some(signals) = signals else {
-        return others;
+/// The digest of a dataset with its signals, where it has any, and with what it was before rows were added, which decides its parts; `others` is
+/// the digest without them, which its header states.
+pub(crate) fn digest_with(
+    others: Digest,
+    signals: Option<&SignalsInfo>,
+    extended: &[Extension],
+) -> Digest {
+    let with_signals = match signals {
+        None => others,
+        Some(signals) => {
+            let mut digest = PartsDigest::default();
+            digest.part(b"taceva.dataset/1 with signals");
+            digest.fixed(others.as_bytes());
+            digest.fixed(signals.digest.as_bytes());
+            digest.finish()
+        }
     };
+    if extended.is_empty() {
+        return with_signals;
+    }
     let mut digest = PartsDigest::default();
-    digest.part(b"taceva.dataset/1 with signals");
-    digest.fixed(others.as_bytes());
-    digest.fixed(signals.digest.as_bytes());
+    digest.part(b"taceva.dataset/1 extended");
+    digest.fixed(with_signals.as_bytes());
+    for before in extended {
+        digest.part(&before.rows.to_le_bytes());
+        digest.fixed(before.digest.as_bytes());
+    }
     digest.finish()
 }

@@ -128,3 +128,18 @@ fn what_differs_is_named_with_both_recordings() {
         "{error}"
     );
 }
+
+#[test]
+fn recordings_that_share_a_sample_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let paths = [("a", 10), ("b", 12)]
+        .map(|(name, first)| record(folder.path(), name, first, Clock::Unknown));
+    let open = paths.iter().map(|path| Dataset::open(path).expect("opens"));
+    let error = Dataset::joined(open.collect()).expect_err("one sample is in both");
+    assert!(
+        error
+            .to_string()
+            .contains("sample `12` of the first is sample `12` of the second"),
+        "{error}"
+    );
+}

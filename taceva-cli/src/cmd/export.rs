@@ -24,12 +24,18 @@ pub(crate) fn run(args: &Export, context: &Context) -> anyhow::Result<u8> {
             };
             writeln!(out, "pictures {}, {anew}", report.pictures)?;
         }
-        writeln!(
-            out,
-            "again    taceva import {0} --map {1} --out DATASET",
-            shown(&args.out),
-            shown(&report.map)
-        )
+        match report.is_importable {
+            true => writeln!(
+                out,
+                "again    taceva import {0} --map {1} --out DATASET",
+                shown(&args.out),
+                shown(&report.map)
+            ),
+            false => writeln!(
+                out,
+                "again    not by an import, which wants a picture of each sample"
+            ),
+        }
     })?;
     Ok(exit::DONE)
 }

@@ -1,6 +1,6 @@
 //! Several recordings of one kind of sensor, read as one: their labels stand in one table, their frames and signals where they are.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Mutex;
@@ -8,11 +8,12 @@ use std::sync::Mutex;
 use taceva_core::{Channels, Clock};
 
 use super::Dataset;
-use crate::digest::PartsDigest;
+use crate::digest::{Digest, PartsDigest};
 use crate::error::DatasetError;
 use crate::header::Header;
 use crate::scaled::DecodeScale;
 use crate::table::{FrameEntry, RowNames, Table};
+use crate::text::shown;
 
 mod alike;
 
@@ -155,6 +156,35 @@ fn check_distinct(recordings: &[Dataset]) -> Result<(), DatasetError> {
                 None => continue,
             };
             return Err(unlike(one, other, format!("{problem}; name it once")));
+        }
+    }
+    check_no_overlap(recordings)
+}
+
+/// Refuses recordings that share a sample: the bytes of a frame and all of its labels. One would be learnt and the other tested.
+fn check_no_overlap(recordings: &[Dataset]) -> Result<(), DatasetError> {
+    let mut known: HashMap<(Digest, Vec<Option<u64>>), (usize, usize)> = HashMap::new();
+    for (at, recording) in recordings.iter().enumerate() {
+        let table = &recording.table;
+        let mut channels: Vec<usize> = (0..table.channels().len()).collect();
+        channels.sort_by_key(|channel| table.channels().as_slice()[*channel].name());
+        for (row, frame) in table.frames().iter().enumerate() {
+            let Some(frame) = frame else { continue };
+            let labels = channels.iter().map(|channel| {
+                let label = table.truth(*channel).get(row);
+                label.map(f64::to_bits)
+            });
+            let place = *known
+                .entry((frame.digest, labels.collect()))
+                .or_insert((at, row));
+            if place.0 != at {
+                let problem = format!(
+                    "sample `{}` of the first is sample `{}` of the second, frame and labels: one would be learnt and the other tested",
+                    shown(&recordings[place.0].table.samples()[place.1]),
+                    shown(&table.samples()[row])
+                );
+                return Err(unlike(&recordings[place.0], recording, problem));
+            }
         }
     }
     Ok(())

@@ -12,7 +12,7 @@ use crate::held::HeldFolder;
 use crate::layout;
 use crate::limits;
 use crate::samples::from_parquet;
-use crate::store::{dataset_digest, digest_with_signals};
+use crate::store::{dataset_digest, digest_with};
 use crate::table::Table;
 
 impl Dataset {
@@ -55,9 +55,10 @@ impl Dataset {
                 found: digest,
             });
         }
-        let digest = digest_with_signals(
+        let digest = digest_with(
             dataset_digest(digest, self.header.frames.as_ref()),
             self.header.signals.as_ref(),
+            &self.header.extended,
         );
         if digest != self.header.digest {
             return Err(DatasetError::Digest {

@@ -21,12 +21,18 @@ pub(super) struct Exported<'a> {
 }
 
 impl Exported<'_> {
+    /// Whether some samples have a picture and others none.
+    pub(super) fn is_partly(&self) -> bool {
+        let table = self.dataset.table();
+        let pictures = table.frames().iter().flatten().count();
+        pictures > 0 && pictures < table.rows()
+    }
+
     /// What the dataset says and no map can say, in words.
     pub(super) fn left_out(&self) -> Vec<String> {
         let header = self.dataset.header();
         let table = self.dataset.table();
         let pictures = table.frames().iter().flatten().count();
-        let is_partly = pictures > 0 && pictures < table.rows();
         let parts = [
             (!header.settings.is_empty(), "the settings of the camera"),
             (
@@ -34,6 +40,15 @@ impl Exported<'_> {
                 "how many presses ended in which way",
             ),
             (header.stream.is_some(), "what was lost of the stream"),
+            (
+                !header.extended.is_empty(),
+                "which rows were added later: its import is another recording, whose parts are drawn anew, so no model of this one is tested on it",
+            ),
+            (!header.left_out.is_empty(), "what its own import left out"),
+            (
+                !header.unmentioned_columns.is_empty(),
+                "the names of columns that its own import left behind",
+            ),
             (
                 header
                     .frames
@@ -50,7 +65,7 @@ impl Exported<'_> {
                 "blanks around texts, which an import takes off",
             ),
             (
-                is_partly,
+                self.is_partly(),
                 "that samples have no picture, which an import refuses",
             ),
         ];

@@ -12,7 +12,7 @@ use taceva_arrays::{ArrayError, ArrayFile, ArrayFormat, ArrayInfo};
 
 use super::columns::{ColumnSource, PictureColumn};
 use super::pictures::Pictures;
-use crate::import::FrameNames;
+use crate::import::{FrameNames, OWN_ROW};
 use crate::limits;
 use crate::text::listed;
 use cells::Texts;
@@ -250,7 +250,7 @@ impl ColumnSource for ArrayRows {
     fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, String> {
         if let FrameNames::Array(array) = names
             && self.groups.len() > 1
-            && array.index != "row"
+            && !["row", OWN_ROW].contains(&array.index.as_str())
         {
             return Err(format!(
                 "`index = \"{}\"` counts in which of the {} groups? A row of a group has the picture of its own place: leave `index` out",

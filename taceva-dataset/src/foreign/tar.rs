@@ -111,6 +111,11 @@ impl<T: Tape> Members<T> {
         }
     }
 
+    /// The tape, wherever it stands.
+    pub(crate) fn into_tape(self) -> T {
+        self.tape
+    }
+
     /// The next file; folders are passed over.
     pub(crate) fn next(&mut self) -> Result<Option<Member>, TarError> {
         let mut long_name = None;

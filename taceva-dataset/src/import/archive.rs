@@ -109,6 +109,8 @@ fn unpack(tape: impl Tape, into: &Path) -> Result<(), TarError> {
         };
         members.copy(&member, &mut file)?;
     }
+    // The checksum of what is packed stands behind its end.
+    io::copy(&mut members.into_tape(), &mut io::sink())?;
     Ok(())
 }
 

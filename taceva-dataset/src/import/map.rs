@@ -26,7 +26,7 @@ use crate::foreign::TableForm;
 use crate::store::RecordingFacts;
 use crate::toml_file::read_toml_text;
 
-pub(crate) use frames::REFERENCE_ATTRIBUTE;
+pub(crate) use frames::{OWN_ROW, REFERENCE_ATTRIBUTE};
 pub(crate) use join::{JoinBy, JoinMap, Pick, TimeJoin, Unmatched};
 pub(crate) use matrix::{MatrixMap, MatrixRows};
 pub(crate) use path_pattern::PathPattern;

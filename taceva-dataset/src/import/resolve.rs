@@ -10,7 +10,7 @@ mod times;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::map::{FrameNames, ImportMap};
+use super::map::{FrameNames, ImportMap, OWN_ROW};
 use crate::error::{DatasetError, Place};
 use crate::file::SourceFolder;
 use crate::foreign::{ForeignTable, packed};
@@ -155,6 +155,8 @@ impl Sources<'_> {
             return joined.cell(row, column);
         }
         match name {
+            // Also where the table has a column called `row`.
+            OWN_ROW => return Ok(row.to_string()),
             _ if self.main.has(name) => {}
             "row" => return Ok(row.to_string()),
             "file" => return Ok(self.relative.clone()),

@@ -85,7 +85,10 @@ fn a_number_outside_of_the_range_and_one_that_is_none_name_their_frame() {
             &frames,
             "array = { file = \"frames.npy\" }\nrange = [0, 1]\nbits = 8",
         );
-        assert!(problem.contains("ft.npy, row 1, column `row`"), "{problem}");
+        assert!(
+            problem.contains("ft.npy, row 1, column `the row of its table`"),
+            "{problem}"
+        );
         assert!(problem.contains("frame 1: "), "{problem}");
         assert!(
             problem.contains(named) && problem.contains("outside of `range = [0, 1]`"),
@@ -219,4 +222,34 @@ fn a_table_of_arrays_has_the_rows_that_most_of_them_have() {
         problem.contains("no column `force`") && problem.contains("the columns are value"),
         "{problem}"
     );
+}
+
+#[test]
+fn a_column_called_row_does_not_say_which_picture_a_row_has() {
+    let folder = lab(&npy("|u1", "(2, 1, 1)", &[10, 20]));
+    std::fs::write(folder.path().join("l.csv"), "Fz,row\n1,1\n2,0\n").expect("written");
+    let map = |index: &str| {
+        format!(
+            "table = \"l.csv\"\n[frame]\narray = {{ file = \"frames.npy\" }}\n{index}channel_order = \"gray\"\nreference = \"unknown\"\n[columns]\nFz = {{ from = \"Fz\", unit = \"N\" }}\n{NO_TIME}"
+        )
+    };
+    for (name, index, expected) in [
+        ("own", "", [10, 20]),
+        ("named", "index = \"row\"\n", [20, 10]),
+    ] {
+        let target = folder.path().join(name);
+        let plan = planned(folder.path(), &map(index)).expect("planned");
+        plan.run(
+            &target,
+            std::num::NonZeroUsize::MIN,
+            &taceva_core::SilentProgress,
+        )
+        .expect("imported");
+        let dataset = Dataset::open(&target).expect("opens");
+        let pixels = [0, 1].map(|row| {
+            let frame = dataset.frame(row).expect("read").expect("a frame");
+            frame.bytes()[0]
+        });
+        assert_eq!(pixels, expected, "{name}");
+    }
 }

@@ -195,6 +195,14 @@ fn compressed_bombs_and_cut_ones_are_refused() {
     let bytes = std::fs::read(&gzip).expect("there");
     std::fs::write(&gzip, &bytes[..bytes.len() / 2]).expect("written");
     assert!(refused(&gzip).contains("b.tar.gz"));
+    // The checksum of the whole stands behind everything else.
+    let mut wrong_sum = bytes.clone();
+    let sum = wrong_sum.len() - 8;
+    wrong_sum[sum] ^= 1;
+    std::fs::write(&gzip, wrong_sum).expect("written");
+    assert!(refused(&gzip).contains("b.tar.gz"));
+    std::fs::write(&gzip, &bytes[..bytes.len() - 4]).expect("written");
+    assert!(refused(&gzip).contains("b.tar.gz"));
 }
 
 #[test]

@@ -22,6 +22,8 @@ const JUMP_S: f64 = 1.0;
 const TWO_CLOCKS_S: f64 = 1e6;
 /// Seconds since 1970 at which Unix times of recordings begin (1990), and beyond which no machine has been running (32 years).
 const UNIX_FROM_S: f64 = 631_152_000.0;
+/// Seconds since 1970 at which they end (2100).
+const UNIX_TO_S: f64 = 4_102_444_800.0;
 const RUNNING_S: f64 = 1e9;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
@@ -85,6 +87,9 @@ fn contradicted(evidence: &Evidence<'_>, known: &[(usize, f64)]) -> Option<Found
     let message = match evidence.header.clock {
         Clock::Unix if last < UNIX_FROM_S => format!(
             "the clock is said to be `unix`, and the last stamp, {last} s, is before 1990: is its unit right?"
+        ),
+        Clock::Unix if last > UNIX_TO_S => format!(
+            "the clock is said to be `unix`, and the last stamp, {last} s, is after 2100: is its unit right?"
         ),
         Clock::Monotonic if last > RUNNING_S => format!(
             "the clock is said to be `monotonic`, and the last stamp is {last} s: no machine has been running for so long"

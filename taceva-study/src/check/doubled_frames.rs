@@ -21,8 +21,13 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let digest = |row: usize| frames[row].as_ref().map(|frame| frame.digest);
     let (mut doubled, mut shared) = (Vec::new(), Vec::new());
     let (mut run, mut longest) = (1, 1);
+    let mut last = None;
     for step in &stream.steps {
         let (before, row) = (step.to - 1, step.to);
+        // Between presses the stream pauses, and a run ends.
+        if last.replace(row) != Some(before) {
+            run = 1;
+        }
         if digest(row).is_none() || digest(row) != digest(before) {
             run = 1;
         } else if sources[row].is_some() && sources[row] == sources[before] {
@@ -38,7 +43,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     };
     let steps = stream.steps.len();
     let repeats = format!(
-        "{} of {steps} frames are the one before them once more, up to {longest} in a row: the stamps say {:.4} Hz, new pictures come at {:.4} Hz",
+        "{} of {steps} steps from a frame to the next bring the same frame once more, up to {longest} in a row: the stamps say {:.4} Hz, new pictures come at {:.4} Hz",
         doubled.len(),
         1.0 / stream.usual_s,
         rate(steps - doubled.len(), steps) / stream.usual_s

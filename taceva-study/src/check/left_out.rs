@@ -47,12 +47,12 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         (
             Severity::Note,
             &by_rule,
-            "rows were left out by a rule of the map",
+            "times a rule of the map left a row out, one row by several perhaps",
         ),
         (
             Severity::Note,
             &left_out.joined_rows,
-            "rows of joined tables belong to no row of the recording",
+            "rows of joined tables belong to no row of the tables",
         ),
         (
             Severity::Note,

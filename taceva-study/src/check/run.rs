@@ -7,6 +7,7 @@ use taceva_core::{Field, Progress, SkipReason, Skipped};
 use taceva_dataset::{Dataset, Pass};
 
 use super::ALL;
+use super::blank;
 use super::damaged_frames;
 use super::evidence::{Evidence, FrameFacts};
 use super::finding::{Check, CheckReport, Finding};
@@ -48,11 +49,11 @@ pub fn check_plan(dataset: &Dataset, request: &CheckRequest) -> Result<Plan, Stu
             shown(&dataset.path())
         ),
     );
-    if reads(&wanted, Field::Signals) {
+    if reads(dataset, &wanted, Field::Signals) {
         let rows = dataset.table().rows();
         plan.step("read", format!("the signals of {rows} rows"));
     }
-    if reads(&wanted, Field::Frame) {
+    if reads(dataset, &wanted, Field::Frame) {
         plan.step(
             "decode",
             format!(
@@ -98,7 +99,7 @@ pub fn check(
         }
         divided => Some(divided?),
     };
-    let (frames, reference) = if reads(&wanted, Field::Frame) {
+    let (frames, reference) = if reads(dataset, &wanted, Field::Frame) {
         look(dataset, request.jobs, progress)?
     } else {
         Default::default()
@@ -110,7 +111,7 @@ pub fn check(
         true => damaged(dataset, request.jobs, progress)?,
         false => Vec::new(),
     };
-    let signals = match reads(&wanted, Field::Signals) {
+    let signals = match reads(dataset, &wanted, Field::Signals) {
         true => SignalFacts::of(dataset, progress)?,
         false => None,
     };
@@ -146,9 +147,12 @@ pub fn check(
     })
 }
 
-/// Whether one of `wanted` reads `field` of every sample.
-fn reads(wanted: &[&Check], field: Field) -> bool {
-    wanted.iter().any(|check| check.reads == Some(field))
+/// Whether one of `wanted` reads `field` of every sample of `dataset`, which has it.
+fn reads(dataset: &Dataset, wanted: &[&Check], field: Field) -> bool {
+    let of_all = |check: &&&Check| check.code == blank::CHECK.code;
+    let mut checks = wanted.iter();
+    dataset.fields().contains(field)
+        && checks.any(|check| check.reads == Some(field) || of_all(&check))
 }
 
 type Wanted = (Vec<&'static Check>, Vec<Skipped>);

@@ -63,7 +63,7 @@ fn frames_that_are_the_one_before_once_more_are_counted_with_the_true_rate() {
     });
     assert_eq!(
         message(&report, "TAC022"),
-        "100 of 199 frames are the one before them once more, up to 2 in a row: the stamps say 32.2581 Hz, new pictures come at 16.0480 Hz"
+        "100 of 199 steps from a frame to the next bring the same frame once more, up to 2 in a row: the stamps say 32.2581 Hz, new pictures come at 16.0480 Hz"
     );
     // A copy elsewhere is a copy, and no stream that stands still.
     let report = stamped(regular, |recording| {
@@ -142,6 +142,15 @@ fn frames_of_one_colour_are_blank() {
     );
 }
 
+#[test]
+fn frames_of_one_colour_are_found_by_a_check_that_is_asked_for_alone() {
+    let report = imported_and_checked(blank_lab().path(), BLANK_MAP, &["TAC025"]);
+    assert_eq!(
+        message(&report, "TAC025"),
+        "2 of 2 frames are one colour from edge to edge"
+    );
+}
+
 /// What the checks of these codes say of an import.
 fn imported(files: &[(&str, &str)], map: &str, only: &[&str]) -> CheckReport {
     let folder = tempfile::tempdir().expect("a folder");
@@ -213,4 +222,18 @@ fn frames_in_jpeg_are_said_to_depend_on_their_decoder() {
     let text = "map_version = 1\ntable = \"labels.csv\"\n[frame]\ncolumn = \"file\"\nchannel_order = \"gray\"\nreference = \"unknown\"\n[columns]\nFz = { from = \"Fz\", unit = \"N\" }\n[time]\nclock = \"unknown\"\n[sensor]\nmodel = \"m\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = true\n";
     let report = imported_and_checked(folder.path(), text, &["lossy-frames"]);
     assert!(message(&report, "TAC026").starts_with("1 frames are JPEG"));
+}
+
+const BLANK_MAP: &str = "map_version = 2\ntable = \"l.csv\"\n[frame]\narray = { file = \"f.npy\" }\nchannel_order = \"gray\"\nreference = \"unknown\"\n[columns]\nFz = { from = \"Fz\", unit = \"N\" }\n[time]\nclock = \"unknown\"\n[sensor]\nmodel = \"m\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = true\n";
+
+/// Two frames of one colour.
+fn blank_lab() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    let header = "{'descr': '|u1', 'fortran_order': False, 'shape': (2, 2, 2), }";
+    let length = u16::try_from(header.len()).expect("short");
+    let head = [b"\x93NUMPY\x01\x00", &length.to_le_bytes()[..]].concat();
+    let frames = [&head[..], header.as_bytes(), &[7; 8]].concat();
+    std::fs::write(folder.path().join("f.npy"), frames).expect("written");
+    std::fs::write(folder.path().join("l.csv"), "Fz\n1\n2\n").expect("written");
+    folder
 }

@@ -5,6 +5,9 @@ use crate::decode::ChannelOrder;
 /// The attribute that says which frame without contact a row names, where rows name different ones.
 pub(crate) const REFERENCE_ATTRIBUTE: &str = "reference";
 
+/// The position of a picture where a map names no column for it: the row in its own table, whatever columns that has.
+pub(crate) const OWN_ROW: &str = "the row of its table";
+
 /// Where the frames are.
 ///
 /// ```

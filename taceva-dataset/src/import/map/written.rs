@@ -134,7 +134,7 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
         return Err(toml_error(
             path,
             Some(line),
-            "`\"?\"` stands where a draft knew nothing: write what only you know, or \"unknown\" where that is accepted",
+            "`\"?\"` is what a draft leaves open, since only the lab knows it: write it, or \"unknown\" where that is accepted",
         ));
     }
     Ok(ImportMap {

@@ -4,7 +4,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::check::{Check, ColumnName};
-use super::{ArrayFrames, ArrayLayout, FrameMap, FrameNames, PixelRange, VideoFrames};
+use super::{ArrayFrames, ArrayLayout, FrameMap, FrameNames, OWN_ROW, PixelRange, VideoFrames};
 use crate::decode::ChannelOrder;
 use crate::error::DatasetError;
 
@@ -95,7 +95,7 @@ impl Check<'_> {
         let has_index = written.index.is_some();
         let index = written
             .index
-            .map_or_else(|| "row".to_owned(), ColumnName::into_name);
+            .map_or_else(|| OWN_ROW.to_owned(), ColumnName::into_name);
         if written.array.is_none() && (written.layout.is_some() || range.is_some()) {
             return Err(self.at(offset, "`layout`, `range` and `bits` are for an `array`"));
         }
