@@ -26,7 +26,7 @@ const SHARE: usize = 4;
 const CLEAR: f64 = 0.6;
 const BETTER: f64 = 1.5;
 
-/// Of the square of its mean, the variance above which a series varies.
+/// A series varies if its variance is above this share of the square of its mean.
 const VARIES: f64 = 1e-20;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
