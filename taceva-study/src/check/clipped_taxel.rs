@@ -17,7 +17,7 @@ pub(super) static CHECK: Check = Check {
 
 /// Samples with the number at the end.
 const LEAST: u64 = 5;
-/// One in so many samples has it.
+/// At least one in so many samples has it.
 const SHARE: u64 = 100;
 /// How many times as often as the next number it is met.
 const TIMES: u64 = 3;
