@@ -82,7 +82,7 @@ struct Lag {
 }
 
 impl Lag {
-    /// Of times, how pictures are and forces; `None` of what is no stream.
+    /// The lag of a series of a time in s, a number of the picture and a force each; `None` if it is no stream.
     fn of(series: &[(f64, f64, f64)]) -> Option<Lag> {
         let mut steps: Vec<f64> = series
             .windows(2)
