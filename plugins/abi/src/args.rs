@@ -18,9 +18,9 @@ pub struct Arg {
     pub key: Text,
     /// Its value as text, whatever its type.
     pub text: Text,
-    /// Of a whole number; 0 or 1 for a flag.
+    /// The value of a whole number; 0 or 1 for a flag.
     pub whole: i64,
-    /// Of a number, in the unit that the manifest declares.
+    /// The value of a number, in the unit that the manifest declares.
     pub number: f64,
     /// [`Arg::TEXT`], [`Arg::WHOLE`], [`Arg::NUMBER`] or [`Arg::FLAG`].
     pub kind: u32,

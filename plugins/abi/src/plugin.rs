@@ -10,9 +10,9 @@ use crate::text::Text;
 
 /// "TAE1", little-endian: a wrong file is noticed before any call.
 pub const MAGIC: u32 = 0x3145_4154;
-/// Equal on both sides, or the library is refused.
+/// The major version of the interface: equal on both sides, or the library is refused.
 pub const ABI_MAJOR: u32 = 1;
-/// May differ either way.
+/// The minor version of the interface: may differ either way.
 pub const ABI_MINOR: u32 = 2;
 /// The name of the one exported symbol.
 pub const ENTRY_SYMBOL: &CStr = c"taceva_plugin_v1";

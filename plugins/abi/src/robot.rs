@@ -18,11 +18,11 @@ use crate::status::Status;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct Pose {
-    /// m.
+    /// Along x, in m.
     pub x: f64,
-    /// m.
+    /// Along y, in m.
     pub y: f64,
-    /// m, into the gel.
+    /// Along z, into the gel, in m.
     pub z: f64,
     /// The real part of the unit quaternion.
     pub qw: f64,

@@ -45,7 +45,7 @@ impl Text {
     /// The text that is borrowed; NULL is empty.
     ///
     /// # Errors
-    /// [`Utf8Error`] if it is none.
+    /// [`Utf8Error`] if it is not UTF-8.
     /// # Safety
     /// Unless it is NULL, `data` points to `length` bytes that nobody changes during `'a`.
     pub unsafe fn to_str<'a>(self) -> Result<&'a str, Utf8Error> {

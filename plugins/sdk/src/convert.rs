@@ -1,4 +1,4 @@
-//! Between the numbers of the boundary, SI, and those of core, mm and degrees; what is not finite goes neither way.
+//! Between the numbers of the boundary, SI, and those of core, mm and degrees; a number that is not finite is refused in both directions.
 
 use std::time::Duration;
 

@@ -8,7 +8,7 @@ use taceva_abi::{TakeText, Text};
 
 use crate::failure::Failure;
 
-/// What `pointer` points to; NULL and a crooked address are refused.
+/// What `pointer` points to; NULL and a misaligned address are refused.
 ///
 /// # Safety
 /// Otherwise it points to a `T` that nobody changes during `'a`.
@@ -21,7 +21,7 @@ pub(crate) unsafe fn given<'a, T>(name: &str, pointer: *const T) -> Result<&'a T
 /// The place that `pointer` names, to be written.
 ///
 /// # Safety
-/// Unless it is NULL or crooked, it points to a `T` that is the callee's during `'a`.
+/// Unless it is NULL or misaligned, it points to a `T` that is the callee's during `'a`.
 pub(crate) unsafe fn place<'a, T>(name: &str, pointer: *mut T) -> Result<&'a mut T, Failure> {
     straight(name, pointer)?;
     // SAFETY: promised by the caller; NULL and misalignment were refused.
@@ -31,7 +31,7 @@ pub(crate) unsafe fn place<'a, T>(name: &str, pointer: *mut T) -> Result<&'a mut
 /// A struct that begins with its own size, read only if it is as long as it is known here.
 ///
 /// # Safety
-/// Unless it is NULL or crooked, `pointer` points to as many bytes as the `u32` that it begins with says.
+/// Unless it is NULL or misaligned, `pointer` points to as many bytes as the `u32` that it begins with says.
 pub(crate) unsafe fn sized<'a, T>(name: &str, pointer: *const T) -> Result<&'a T, Failure> {
     straight(name, pointer)?;
     // SAFETY: promised by the caller.
@@ -79,7 +79,7 @@ fn long_enough<T>(name: &str, size: u32) -> Result<(), Failure> {
 /// `length` things from `first` on.
 ///
 /// # Safety
-/// Unless `first` is NULL or crooked, `length` things begin there that nobody changes during `'a`.
+/// Unless `first` is NULL or misaligned, `length` things begin there that nobody changes during `'a`.
 pub(crate) unsafe fn list<'a, T>(
     name: &str,
     first: *const T,

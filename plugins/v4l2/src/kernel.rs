@@ -1,4 +1,4 @@
-//! What the kernel is told and says: structures and numbers of `linux/videodev2.h`, and the calls that exchange them.
+//! What is exchanged with the kernel: structures and numbers of `linux/videodev2.h`, and the calls that exchange them.
 #![expect(
     unsafe_code,
     reason = "an ioctl is a pointer for the kernel to read and write"

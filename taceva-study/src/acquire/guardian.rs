@@ -103,7 +103,7 @@ impl Drop for Over<'_> {
     }
 }
 
-/// Looks at the robot, and listens for silence and for wishes.
+/// Looks at the robot, and notices readings that stay away and wishes to stop.
 struct Watcher<'a> {
     supervisor: &'a SharedSupervisor,
     watch: Option<Arc<dyn RobotWatch>>,

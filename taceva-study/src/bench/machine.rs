@@ -1,4 +1,4 @@
-//! On what a benchmark ran: figures without it mean nothing.
+//! On what a benchmark ran: its figures cannot be compared without it.
 
 use serde::Serialize;
 

@@ -10,7 +10,7 @@ use taceva_protocol::wrench_between;
 const KEPT_S: f64 = 5.0;
 /// Between readings farther apart than so many periods nobody knows the force.
 const PERIODS: f64 = 3.0;
-/// What clocks and rates err by, of a period.
+/// The factor by which errors of clocks and rates may lengthen a period.
 const TOLERANCE: f64 = 1.01;
 
 /// Readings by their time.

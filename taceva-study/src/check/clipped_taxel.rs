@@ -15,11 +15,11 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Samples with the number at the end.
+/// The fewest samples with the number at the end of the range.
 const LEAST: u64 = 5;
-/// One in so many samples has it.
+/// At least one in so many samples has it.
 const SHARE: u64 = 100;
-/// How many times as often as the next number it is met.
+/// It is met more than so many times as often as the next number.
 const TIMES: u64 = 3;
 /// Taxels named in a message; the rest are counted.
 const NAMED: usize = 5;

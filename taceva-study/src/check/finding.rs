@@ -46,7 +46,7 @@ pub struct Check {
     pub(crate) find: fn(&Evidence<'_>) -> Vec<Found>,
 }
 
-/// What one check found, before it is signed with the check's code.
+/// What one check found, before the code of the check is added.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Found {
     pub(crate) severity: Severity,

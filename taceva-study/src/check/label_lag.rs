@@ -26,7 +26,7 @@ const SHARE: usize = 4;
 const CLEAR: f64 = 0.6;
 const BETTER: f64 = 1.5;
 
-/// Of the square of its mean, the variance above which a series varies.
+/// A series varies if its variance is above this share of the square of its mean.
 const VARIES: f64 = 1e-20;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
@@ -82,7 +82,7 @@ struct Lag {
 }
 
 impl Lag {
-    /// Of times, how pictures are and forces; `None` of what is no stream.
+    /// The lag of a series of a time in s, a number of the picture and a force each; `None` if it is no stream.
     fn of(series: &[(f64, f64, f64)]) -> Option<Lag> {
         let mut steps: Vec<f64> = series
             .windows(2)

@@ -16,7 +16,7 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Of the greatest load, above which a row is pressed.
+/// The share of the greatest load above which a row counts as pressed.
 const SHARE: f64 = 0.1;
 /// Samples below which a rank correlation says nothing.
 const LEAST: usize = 10;

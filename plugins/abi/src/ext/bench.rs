@@ -1,4 +1,4 @@
-//! A draft: a rig that is a simulated bench.
+//! An extension that may still change: a rig that is a simulated bench.
 
 use core::ffi::c_void;
 

@@ -26,7 +26,7 @@ pub struct ExpiringMotionCalls {
     pub size: u32,
     /// Reserved, 0.
     pub reserved: u32,
-    /// `[owner & open]` Moves; without its process the robot stands 200 ms later at most, and the way in which it brakes.
+    /// `[owner & open]` Moves; where its process ends, the robot begins to brake 200 ms later at most.
     pub move_expiring: Option<
         unsafe extern "C" fn(
             *mut c_void,

@@ -70,7 +70,7 @@ impl Bell {
         self.changed.notify_all();
     }
 
-    /// Whether it rang within `wait`; it is silent again afterwards.
+    /// Whether it rang within `wait`; it is quiet again afterwards.
     fn wait(&self, wait: Duration) -> bool {
         let rung = self.rung.lock().expect("whole");
         let (mut rung, _) = self

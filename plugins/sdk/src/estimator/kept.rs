@@ -70,7 +70,7 @@ pub(super) fn read<R>(
     load(&Saved::new(rest.0, &channels, shape))
 }
 
-/// The channel of that name: what its unit is, only those that are known everywhere say.
+/// The channel of that name: one of the six that TacEva knows with its unit, any other with the unit 1.
 pub(super) fn channel(name: &str) -> Result<Channel, Failure> {
     let known = Channel::SIX
         .into_iter()

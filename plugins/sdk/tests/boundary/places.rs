@@ -24,7 +24,7 @@ pub(crate) fn frame(buffer: &mut [u8]) -> Frame {
     }
 }
 
-/// A slow motion to `z` m above the gel.
+/// A slow motion to `z` m, positive into the gel.
 pub(crate) fn motion(z: f64) -> Motion {
     Motion {
         size: u32::try_from(size_of::<Motion>()).expect("small"),

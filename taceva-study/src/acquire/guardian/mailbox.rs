@@ -250,7 +250,7 @@ mod tests {
 
     const KEY: DriverKey = DriverKey::fixed("test/force");
 
-    /// Says what it is told to, one thing a reading, and nothing more after that.
+    /// Gives what the script says, one entry a reading, and nothing more after that.
     struct Script(Vec<Result<f64, ErrorKind>>);
 
     impl ForceTransducer for Script {
