@@ -14,7 +14,7 @@ typedef struct taceva_expiring_motion_calls {
   uint32_t size;
   uint32_t reserved;
   /* [owner & open] Moves as `move_to` and `wait` do, by commands that the controller drops by itself: where the process of the plugin ends in the
-   * middle of it, the robot stands 200 ms later at most, and the way in which it brakes. */
+   * middle of it, the robot begins to brake 200 ms later at most. */
   taceva_status (*move_expiring)(void *handle, const taceva_motion *motion, taceva_stamp *stamp, uint64_t timeout_ns, taceva_error *error);
 } taceva_expiring_motion_calls;
 
