@@ -161,9 +161,12 @@ fn check_distinct(recordings: &[Dataset]) -> Result<(), DatasetError> {
     check_no_overlap(recordings)
 }
 
+/// The digest of a frame, and its labels by the names of their channels, bit for bit.
+type Shared = (Digest, Vec<Option<u64>>);
+
 /// Refuses recordings that share a sample: the bytes of a frame and all of its labels. One would be learnt and the other tested.
 fn check_no_overlap(recordings: &[Dataset]) -> Result<(), DatasetError> {
-    let mut known: HashMap<(Digest, Vec<Option<u64>>), (usize, usize)> = HashMap::new();
+    let mut known: HashMap<Shared, (usize, usize)> = HashMap::new();
     for (at, recording) in recordings.iter().enumerate() {
         let table = &recording.table;
         let mut channels: Vec<usize> = (0..table.channels().len()).collect();
