@@ -6,7 +6,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use taceva_tests::recorded::{Recorded, open_whole};
-use taceva_tests::{Form, Lab, Random, picture, scratch, taceva};
+use taceva_tests::{Form, Lab, Random, scratch, taceva};
 
 const SEED: u64 = 20_261_121;
 const KILLS_OF_RECORDINGS: usize = 100;

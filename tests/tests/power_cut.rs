@@ -8,7 +8,7 @@ use taceva_dataset::{Digest, Recorder};
 use taceva_needs::{Need, skip};
 use taceva_tests::power_cut::{Counted, Disk, State, Trace, TraceError, write_tree};
 use taceva_tests::recorded::{Recorded, open_whole, reference};
-use taceva_tests::{Form, Lab, example, picture, scratch, taceva};
+use taceva_tests::{Form, Lab, example, scratch, taceva};
 
 /// States of a first cut from which a second recorder is traced; each takes a tenth of a second.
 const MOST_RESUMED: usize = 80;
