@@ -147,7 +147,8 @@ fn run(bench: &Bench) -> Ran {
         let once = bench.run(&format!(
             "run scene.toml --rig lab.toml --out r {FOLDER}{resume}"
         ));
-        let is_late = once.err.contains("ms old") || once.err.contains("halted");
+        let signs = ["ms old", "halted", "frames come late"];
+        let is_late = signs.iter().any(|sign| once.err.contains(sign));
         ran = Some(once);
         if !is_late {
             break;
