@@ -14,8 +14,8 @@ const FIVE: [&str; 5] = ["monday", "tuesday", "wednesday", "thursday", "friday"]
 /// Five recordings of one sensor, ten points each, called alike in all of them.
 fn week() -> (Bench, String) {
     let bench = Bench::new();
-    for name in FIVE {
-        bench.record(name, 24);
+    for (name, noise) in FIVE.into_iter().zip(0..) {
+        bench.record_with_noise(name, 24, noise);
     }
     (bench, FIVE.join(" "))
 }

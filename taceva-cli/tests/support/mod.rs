@@ -175,6 +175,11 @@ impl Bench {
 
     /// A recording of pictures of `side` pixels at `name`.
     pub(crate) fn record(&self, name: &str, side: u32) -> PathBuf {
+        self.record_with_noise(name, side, 0)
+    }
+
+    /// The same with noise of its own, so that it shares no frame with those of another `noise` below 7.
+    pub(crate) fn record_with_noise(&self, name: &str, side: u32, noise: u32) -> PathBuf {
         let path = self.path(name);
         let mut recorder = Recorder::create(&path, &spec()).expect("a new recording");
         for number in 0..SAMPLES {
@@ -183,7 +188,7 @@ impl Bench {
                 .append(
                     &Sample::new(format!("{name}-{number:02}"))
                         .with_point_id(format!("p{}", number / 6))
-                        .with_frame(draw(number, side))
+                        .with_frame(draw((number, noise), side))
                         .with_truth(Readings::from_values([place, force])),
                 )
                 .expect("recorded");
@@ -262,7 +267,7 @@ fn label(number: u32) -> (f64, f64) {
 }
 
 /// A blob at the place, as bright as the force.
-fn draw(number: u32, side: u32) -> Frame {
+fn draw((number, noise): (u32, u32), side: u32) -> Frame {
     let (place, force) = label(number);
     let middle = f64::from(side) / 2.0 + place * f64::from(side) / 12.0;
     let mut bytes = Vec::new();
@@ -271,7 +276,7 @@ fn draw(number: u32, side: u32) -> Frame {
             let (from_x, from_y) = (f64::from(x) - middle, f64::from(y) - f64::from(side) / 2.0);
             let light = 20.0
                 + 110.0 * force * (-(from_x * from_x + from_y * from_y) / f64::from(side)).exp();
-            let noise = f64::from((x * 7919 + y * 104_729 + number * 1_299_709) % 7);
+            let noise = f64::from((x * 7919 + y * 104_729 + number * 1_299_709 + noise) % 7);
             #[expect(
                 clippy::cast_possible_truncation,
                 clippy::cast_sign_loss,
