@@ -22,6 +22,7 @@ mod journal;
 mod jpeg;
 mod layout;
 mod limits;
+mod lock;
 mod pack;
 mod parallel;
 mod preset;

@@ -16,9 +16,9 @@ use crate::file::make_names_durable;
 use crate::header::{ReferenceInfo, StreamFacts};
 use crate::journal::{Journal, RecordKind};
 use crate::layout;
+use crate::lock::lock_folder;
 use crate::pack::{PackEnd, PackWriter, cut_behind};
 use crate::signals::{SignalsSpec, SignalsWriter};
-use crate::staged::lock_folder;
 use crate::store::RecordingFacts;
 use crate::table::{FrameEntry, Row, Table};
 

@@ -1,9 +1,8 @@
 //! A folder that appears whole or not at all.
 
-use std::fs::{self, File, TryLockError};
+use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 use taceva_durable::parent_of;
 
@@ -11,6 +10,7 @@ use crate::error::DatasetError;
 use crate::file::make_names_durable;
 use crate::held::is_same;
 use crate::layout;
+use crate::lock::lock_folder;
 use crate::replaced;
 use crate::text::shown;
 
@@ -237,28 +237,6 @@ fn remove_leftover(path: &Path, target: &Path) -> Result<(), DatasetError> {
 fn is_read(path: &Path) -> bool {
     replaced::is_dataset(path)
         && File::open(path).is_ok_and(|folder| folder.try_lock_shared().is_ok())
-}
-
-/// How often a folder that is held is asked for, and how long after each time: a process that was just forked holds what its parent held
-/// until its own program begins.
-const ATTEMPTS: u32 = 20;
-const PAUSE: Duration = Duration::from_millis(5);
-
-/// Locks a folder for this process; the system releases the lock when the process ends, however it ends.
-pub(crate) fn lock_folder(path: &Path) -> Result<File, DatasetError> {
-    let folder = File::open(path).map_err(DatasetError::io("open", path))?;
-    for _ in 0..ATTEMPTS {
-        match folder.try_lock() {
-            Ok(()) => return Ok(folder),
-            Err(TryLockError::WouldBlock) => std::thread::sleep(PAUSE),
-            Err(TryLockError::Error(source)) => {
-                return Err(DatasetError::io("lock", path)(source));
-            }
-        }
-    }
-    Err(DatasetError::Busy {
-        path: path.to_owned(),
-    })
 }
 
 #[cfg(test)]

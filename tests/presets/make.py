@@ -91,7 +91,7 @@ def nine_dtact(to):
 
 def allsight(to):
     session = "2023_01_29-01:51:55".replace(":", "-")
-    root = "/home/osher/catkin_ws/src/allsight/dataset/markers/rrrgggbbb/images/sphere3"
+    root = "/data/allsight/dataset/markers/rrrgggbbb/images/sphere3"
     members = {}
     for n in range(SAMPLES):
         draw(to / f"markers/rrrgggbbb/images/sphere3/img_{session}/image{n}.jpg", n)

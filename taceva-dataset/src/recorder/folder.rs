@@ -7,7 +7,7 @@ use crate::error::DatasetError;
 use crate::file::make_names_durable;
 use crate::journal::Journal;
 use crate::layout;
-use crate::staged::lock_folder;
+use crate::lock::lock_folder;
 
 /// A locked folder in which nothing was recorded: a new one, or one whose creation was interrupted.
 pub(super) fn empty_folder(path: &Path) -> Result<File, DatasetError> {

@@ -190,11 +190,8 @@ mod tests {
         assert_eq!(found.expect("it follows"), ["two_words", "12"]);
         assert_eq!(captured("{a}.png", "b/c.png"), None);
         let pattern = "{before:folders}{gel}/images/{name}";
-        let found = captured(pattern, "/home/me/set/clear/images/1.png");
-        assert_eq!(
-            found.expect("it follows"),
-            ["/home/me/set/", "clear", "1.png"]
-        );
+        let found = captured(pattern, "/data/set/clear/images/1.png");
+        assert_eq!(found.expect("it follows"), ["/data/set/", "clear", "1.png"]);
         let found = captured(pattern, "clear/images/1.png");
         assert_eq!(found.expect("it follows"), ["", "clear", "1.png"]);
         let found = captured("{a}/{b}", "Größe/世界");

@@ -1,0 +1,29 @@
+//! A folder that one process at a time writes in.
+
+use std::fs::{File, TryLockError};
+use std::path::Path;
+use std::time::Duration;
+
+use crate::error::DatasetError;
+
+/// How often a folder that is held is asked for, and how long after each time: a process that was just forked holds what its parent held
+/// until its own program begins.
+const ATTEMPTS: u32 = 20;
+const PAUSE: Duration = Duration::from_millis(5);
+
+/// Locks a folder for this process; the system releases the lock when the process ends, however it ends.
+pub(crate) fn lock_folder(path: &Path) -> Result<File, DatasetError> {
+    let folder = File::open(path).map_err(DatasetError::io("open", path))?;
+    for _ in 0..ATTEMPTS {
+        match folder.try_lock() {
+            Ok(()) => return Ok(folder),
+            Err(TryLockError::WouldBlock) => std::thread::sleep(PAUSE),
+            Err(TryLockError::Error(source)) => {
+                return Err(DatasetError::io("lock", path)(source));
+            }
+        }
+    }
+    Err(DatasetError::Busy {
+        path: path.to_owned(),
+    })
+}
