@@ -115,6 +115,22 @@ fn what_is_not_read_is_refused_by_its_name() {
 }
 
 #[test]
+fn a_packing_that_is_not_read_is_refused_with_those_that_are() {
+    let mut bytes = std::fs::read(fixture("gray8")).expect("there");
+    // The tag of the packing: 259, a short, one of them, 1 for none. 50,000 is Zstandard.
+    let plain = [3, 1, 3, 0, 1, 0, 0, 0, 1, 0];
+    let at = bytes.windows(plain.len()).position(|part| part == plain);
+    let at = at.expect("it is plain") + 8;
+    bytes[at..at + 2].copy_from_slice(&50_000_u16.to_le_bytes());
+    let error = import(&bytes, "gray").expect_err("packed by Zstandard");
+    let said = error.to_string();
+    assert!(
+        said.contains("LZW, Deflate or PackBits, or as PNG"),
+        "{said}"
+    );
+}
+
+#[test]
 fn a_tiff_cut_anywhere_is_refused() {
     for name in [
         "gray8",

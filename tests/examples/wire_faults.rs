@@ -1,4 +1,5 @@
-//! Plays every fault of the wire bench TIMES times, 100 by default: `wire_faults [TIMES] [NAME]`; a name plays the cases that begin with it.
+//! Plays every fault of the wire bench TIMES times, 100 by default, on so many benches at once: `wire_faults [TIMES] [NAME] [BENCHES]`; a name plays
+//! the cases that begin with it, `all` plays every one.
 //!
 //! `wire_faults TIMES kill` kills one study that many times instead.
 //!
@@ -7,15 +8,19 @@
 
 use std::error::Error;
 use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::thread;
 
-use taceva_tests::wire::faults::{CASES, Outcome, play, play_kills};
+use taceva_tests::wire::faults::{CASES, Case, Outcome, play, play_kills};
 
 const SEED: u64 = 20_261_123;
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
     let times = arguments.next().map_or(Ok(100), |times| times.parse())?;
-    let name = arguments.next().unwrap_or_default();
+    let name = arguments.next().filter(|name| name != "all");
+    let name = name.unwrap_or_default();
+    let benches: usize = arguments.next().map_or(Ok(1), |benches| benches.parse())?;
     if name == "kill" {
         let presses = play_kills(times, SEED)?;
         println!("killed {times} times: {presses} presses, each recorded once");
@@ -23,30 +28,48 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     }
     println!("| fault | times | studies | ended | in motion, median | most | allowed |");
     println!("|---|---|---|---|---|---|---|");
-    let mut is_well = true;
-    for case in CASES.iter().filter(|case| case.name.starts_with(&name)) {
-        let result = play(case, times, SEED);
-        let allowed = match case.outcome {
-            Outcome::Stopped(most_ms) | Outcome::MayEnd(Some(most_ms)) => format!("{most_ms} ms"),
-            Outcome::Unharmed | Outcome::MayEnd(None) => "–".to_owned(),
-            Outcome::Left => "0 mm after".to_owned(),
-        };
-        println!(
-            "| {} | {} | {} | {} | {:.1} ms | {:.1} ms | {allowed} |",
-            case.name,
-            result.times,
-            result.studies,
-            result.ended,
-            result.median_ms(),
-            result.most_ms()
-        );
-        for broken in &result.broken {
-            println!("{broken}");
+    let cases: Vec<&Case> = CASES
+        .iter()
+        .filter(|case| case.name.starts_with(&name))
+        .collect();
+    let (next, is_well) = (AtomicUsize::new(0), AtomicBool::new(true));
+    // Each bench has a gel, devices and a program of its own: studies wait for motion most of the time.
+    thread::scope(|scope| {
+        for _ in 0..benches {
+            scope.spawn(|| {
+                while let Some(case) = cases.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    if !played(case, times) {
+                        is_well.store(false, Ordering::Relaxed);
+                    }
+                }
+            });
         }
-        is_well &= result.broken.is_empty();
-    }
-    Ok(match is_well {
+    });
+    Ok(match is_well.into_inner() {
         true => ExitCode::SUCCESS,
         false => ExitCode::FAILURE,
     })
+}
+
+/// Plays one case and prints its row; whether nothing came of it that must not.
+fn played(case: &Case, times: usize) -> bool {
+    let result = play(case, times, SEED);
+    let allowed = match case.outcome {
+        Outcome::Stopped(most_ms) | Outcome::MayEnd(Some(most_ms)) => format!("{most_ms} ms"),
+        Outcome::Unharmed | Outcome::MayEnd(None) => "–".to_owned(),
+        Outcome::Left => "0 mm after".to_owned(),
+    };
+    println!(
+        "| {} | {} | {} | {} | {:.1} ms | {:.1} ms | {allowed} |",
+        case.name,
+        result.times,
+        result.studies,
+        result.ended,
+        result.median_ms(),
+        result.most_ms()
+    );
+    for broken in &result.broken {
+        println!("{broken}");
+    }
+    result.broken.is_empty()
 }

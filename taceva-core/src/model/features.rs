@@ -1,5 +1,8 @@
 //! The features of samples: the numbers that a model takes.
 
+use std::ops::Range;
+use std::sync::Arc;
+
 use super::ModelError;
 use crate::error::ErrorKind;
 
@@ -41,7 +44,7 @@ impl FeatureShape {
     }
 }
 
-/// The features of some samples, sample by sample.
+/// The features of some samples, sample by sample. Samples that follow each other are a part of the same memory, which a copy shares.
 ///
 /// # Shapes
 /// `[samples, height, width, depth]`, contiguous.
@@ -52,10 +55,18 @@ impl FeatureShape {
 /// assert_eq!((features.samples(), features.sample(1)), (2, &[0.3, 0.4][..]));
 /// # Ok::<(), taceva_core::ModelError>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Features {
     shape: FeatureShape,
-    values: Vec<f32>,
+    memory: Arc<Vec<f32>>,
+    /// Where in the memory the values are.
+    place: Range<usize>,
+}
+
+impl PartialEq for Features {
+    fn eq(&self, other: &Features) -> bool {
+        self.shape == other.shape && self.values() == other.values()
+    }
 }
 
 impl Features {
@@ -76,7 +87,15 @@ impl Features {
             );
             return Err(ModelError::new(ErrorKind::InvalidArgument, message));
         }
-        Ok(Features { shape, values })
+        Ok(Features::of(shape, values))
+    }
+
+    fn of(shape: FeatureShape, values: Vec<f32>) -> Features {
+        Features {
+            shape,
+            place: 0..values.len(),
+            memory: Arc::new(values),
+        }
     }
 
     /// The shape of one sample.
@@ -88,32 +107,77 @@ impl Features {
     pub fn samples(&self) -> usize {
         match self.shape.len() {
             0 => 0,
-            length => self.values.len() / length,
+            length => self.place.len() / length,
         }
     }
 
     /// All values.
     pub fn values(&self) -> &[f32] {
-        &self.values
+        &self.memory[self.place.clone()]
     }
 
     /// The values of one sample.
     pub fn sample(&self, position: usize) -> &[f32] {
         let length = self.shape.len();
-        &self.values[position * length..(position + 1) * length]
+        &self.values()[position * length..(position + 1) * length]
     }
 
-    /// The samples at `positions`, in that order.
+    /// The samples at `positions`, in that order; those that follow each other are not copied.
+    ///
+    /// # Panics
+    /// If there is no sample at one of them.
     pub fn select(&self, positions: &[usize]) -> Features {
+        let follow = |pair: &[usize]| pair[1] == pair[0] + 1;
+        if let (Some(first), Some(last)) = (positions.first(), positions.last())
+            && positions.windows(2).all(follow)
+        {
+            assert!(*last < self.samples(), "a sample that is there");
+            let length = self.shape.len();
+            let begin = self.place.start;
+            return Features {
+                shape: self.shape,
+                memory: Arc::clone(&self.memory),
+                place: begin + first * length..begin + (last + 1) * length,
+            };
+        }
         let values = positions
             .iter()
             .flat_map(|&position| self.sample(position))
-            .copied()
-            .collect();
-        Features {
-            shape: self.shape,
-            values,
+            .copied();
+        Features::of(self.shape, values.collect())
+    }
+
+    /// These samples and then those of `other`; where these lie before those in the same memory, nothing is copied.
+    ///
+    /// ```
+    /// use taceva_core::{FeatureShape, Features};
+    /// let all = Features::new(FeatureShape::flat(1), vec![0.1, 0.2, 0.3])?;
+    /// let (train, validation) = (all.select(&[0, 1]), all.select(&[2]));
+    /// assert_eq!(train.followed_by(&validation)?, all);
+    /// # Ok::<(), taceva_core::ModelError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ModelError`] if the samples of `other` have another shape.
+    pub fn followed_by(&self, other: &Features) -> Result<Features, ModelError> {
+        if self.shape != other.shape {
+            let message = format!(
+                "samples of {} features after samples of {}",
+                other.shape.len(),
+                self.shape.len()
+            );
+            return Err(ModelError::new(ErrorKind::InvalidArgument, message));
         }
+        let is_next =
+            Arc::ptr_eq(&self.memory, &other.memory) && self.place.end == other.place.start;
+        Ok(match is_next {
+            true => Features {
+                shape: self.shape,
+                memory: Arc::clone(&self.memory),
+                place: self.place.start..other.place.end,
+            },
+            false => Features::of(self.shape, [self.values(), other.values()].concat()),
+        })
     }
 }
 
@@ -133,5 +197,22 @@ mod tests {
         let error =
             Features::new(FeatureShape::flat(2), vec![0.0; 3]).expect_err("one and a half samples");
         assert_eq!(error.kind(), ErrorKind::InvalidArgument);
+    }
+
+    #[test]
+    fn samples_that_follow_each_other_are_shared_and_others_copied() {
+        let values: Vec<f32> = (0..12).map(|value: u8| value.into()).collect();
+        let all = Features::new(FeatureShape::flat(2), values).expect("six samples");
+        let (first, second) = (all.select(&[1, 2]), all.select(&[3, 4]));
+        assert_eq!(first.values().as_ptr(), all.sample(1).as_ptr());
+        assert_eq!(second.select(&[1]).values(), [8.0, 9.0]);
+        let both = first.followed_by(&second).expect("one shape");
+        assert_eq!((both.samples(), both.values()), (4, &all.values()[2..10]));
+        assert_eq!(both.values().as_ptr(), first.values().as_ptr());
+        let turned = second.followed_by(&first).expect("one shape");
+        assert_eq!(turned, all.select(&[3, 4, 1, 2]));
+        assert_eq!(all.select(&[]).samples(), 0);
+        let other = Features::new(FeatureShape::flat(3), vec![0.0; 3]).expect("one sample");
+        assert!(first.followed_by(&other).is_err());
     }
 }

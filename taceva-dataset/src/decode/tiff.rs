@@ -3,9 +3,9 @@
 use std::io::Cursor;
 
 use taceva_core::{FrameInfo, PixelFormat};
-use tiff::ColorType;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
+use tiff::{ColorType, TiffError};
 
 use super::{checked_length, without_alpha};
 use crate::limits;
@@ -19,7 +19,6 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     let most = usize::try_from(limits::DECODED_BYTES).unwrap_or(usize::MAX);
     allowed.decoding_buffer_size = most;
     allowed.intermediate_buffer_size = most;
-    let text = |error: tiff::TiffError| error.to_string();
     let mut decoder = Decoder::new(Cursor::new(bytes))
         .map_err(text)?
         .with_limits(allowed);
@@ -40,7 +39,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
         ColorType::RGBA(16) => (PixelFormat::Rgb16, 4),
         other => {
             return Err(format!(
-                "TIFF with pixels of type {other:?} is not read: expected 8 or 16 bits, gray or RGB"
+                "TIFF with pixels of type {other:?} is not read: expected 8 or 16 bits, gray or RGB; write it anew so, or as PNG"
             ));
         }
     };
@@ -78,9 +77,18 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     Ok((info, pixels))
 }
 
+/// What the decoder says; what it does not read, with what would be read.
+fn text(error: TiffError) -> String {
+    match error {
+        TiffError::UnsupportedError(what) => format!(
+            "TIFF is not read: {what}; write it anew plain or packed by LZW, Deflate or PackBits, or as PNG"
+        ),
+        other => other.to_string(),
+    }
+}
+
 /// Whether every strip or tile lies within the file: a decoder of Deflate has enough before the last bytes.
 fn check_pieces(decoder: &mut Decoder<Cursor<&[u8]>>, length: u64) -> Result<(), String> {
-    let text = |error: tiff::TiffError| error.to_string();
     for (offsets, lengths) in [
         (Tag::StripOffsets, Tag::StripByteCounts),
         (Tag::TileOffsets, Tag::TileByteCounts),

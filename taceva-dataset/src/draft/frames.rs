@@ -6,8 +6,10 @@ use super::path_parts::PathParts;
 use super::roles::Role;
 use super::survey::FileGroup;
 use super::tables::{SeenColumn, SeenTable};
-use crate::file::SourceFolder;
+use crate::decode::{ChannelOrder, decode};
+use crate::file::{SourceFolder, read_capped};
 use crate::foreign::{PictureColumn, PictureKind};
+use crate::limits;
 
 /// How many cells of a column are looked up as files.
 const LOOKED_UP: usize = 20;
@@ -69,9 +71,15 @@ pub(super) fn of(
         if is_below_source && main.group.first().contains('/') {
             lines.push("folder = \".\"".to_owned());
         }
+        let base = match is_below_source {
+            true => folder.path().to_owned(),
+            false => taceva_durable::parent_of(&folder.path().join(main.group.first())).to_owned(),
+        };
+        let first = column.cells.iter().find(|cell| !cell.is_empty());
         return Some(FrameLines {
             lines,
-            ..FrameLines::default()
+            is_gray: first.is_some_and(|cell| is_gray(&base.join(cell))),
+            path: None,
         });
     }
     if let Some(picture) = main.pictures.first() {
@@ -112,6 +120,12 @@ pub(super) fn of(
         is_gray: false,
         path: Some(parts.clone()),
     })
+}
+
+/// Whether a file holds a picture without colours. What cannot be read is named by the import.
+fn is_gray(path: &Path) -> bool {
+    let bytes = read_capped(path, limits::IMAGE_BYTES);
+    bytes.is_ok_and(|bytes| decode(&bytes, ChannelOrder::Gray).is_ok())
 }
 
 fn in_array(picture: &PictureColumn, file: Option<&str>, others: &[PictureColumn]) -> FrameLines {

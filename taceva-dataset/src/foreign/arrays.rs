@@ -128,7 +128,7 @@ impl ArrayRows {
         if let Some(text) = self.attribute(group, name) {
             return Ok(vec![text; group.rows]);
         }
-        if name == "group" {
+        if name == "group" && !group.path.is_empty() {
             let between = if group.path.contains('/') { '/' } else { '.' };
             let last = group.path.rsplit(between).next().unwrap_or_default();
             return Ok(vec![last.to_owned(); group.rows]);
@@ -200,7 +200,7 @@ impl ColumnSource for ArrayRows {
             self.info(group, name).is_some() || self.attribute(group, name).is_some()
         };
         match name {
-            "group" => self.groups.iter().any(|group| !group.path.is_empty()),
+            "group" if self.groups.iter().any(|group| !group.path.is_empty()) => true,
             _ => self.groups.first().is_some_and(of),
         }
     }

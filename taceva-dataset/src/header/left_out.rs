@@ -30,7 +30,7 @@ pub struct LeftOut {
     /// Rows of the tables, by the rule that left them out; one row may be left out by several.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub rows: BTreeMap<String, u64>,
-    /// Rows of joined tables that belong to no row, by the name of the join.
+    /// Rows of joined tables that belong to no row of the table, be it kept or left out, by the name of the join.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub joined_rows: BTreeMap<String, u64>,
     /// Rows of joined tables that `skip` says are no candidates, by the name of the join.

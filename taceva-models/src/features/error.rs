@@ -10,7 +10,11 @@ use super::spec::FeatureSpec;
 #[non_exhaustive]
 pub enum FeatureError {
     /// The frame has fewer pixels than the features.
-    #[error("frames of {info} are smaller than the features asked for, {spec}")]
+    #[error(
+        "frames of {info} are smaller than the features asked for, {spec}; `size={}x{}` would be accepted",
+        info.width.min(spec.width),
+        info.height.min(spec.height)
+    )]
     Small {
         /// The frame.
         info: FrameInfo,

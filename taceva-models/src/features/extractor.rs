@@ -287,7 +287,7 @@ mod tests {
         let error = Extractor::new(FeatureSpec::default(), gray.info(), None).expect_err("small");
         assert_eq!(
             error.to_string(),
-            "frames of 20×20 gray8 are smaller than the features asked for, 32×32 gray"
+            "frames of 20×20 gray8 are smaller than the features asked for, 32×32 gray; `size=20x20` would be accepted"
         );
         let error =
             Extractor::new(spec(4, 4, Color::Rgb), gray.info(), None).expect_err("no colour");

@@ -118,10 +118,9 @@ pub(crate) fn stacked(upper: &Mat<f64>, lower: &Mat<f64>) -> Mat<f64> {
     whole
 }
 
-/// The samples of one part after those of another of the same shape.
+/// The samples of one part after those of another, which was checked to have the same shape.
 pub(crate) fn joined(first: &Features, second: &Features) -> Features {
-    let values = [first.values(), second.values()].concat();
-    Features::new(first.shape(), values).expect("whole samples of one shape, twice")
+    first.followed_by(second).expect("samples of one shape")
 }
 
 fn check(part: &TrainingSet<'_>, name: &str) -> Result<(), ModelError> {

@@ -1,7 +1,7 @@
 //! Features of frames and signals that are kept for the next model; beyond a total size the oldest are removed.
 
 use std::fs::{self, File};
-use std::io;
+use std::io::{self, Cursor, Read};
 use std::path::Path;
 use std::time::SystemTime;
 
@@ -93,35 +93,86 @@ fn trim(folder: &Path, most: u64) -> io::Result<()> {
     Ok(())
 }
 
-/// Height, width and depth as 32-bit numbers, then the features as they are in memory, all with the least byte first.
+/// Height, width and depth as 32-bit numbers, then the features as they are in memory, all with the least byte first. They are read and written a
+/// piece at a time, so that the matrix is in memory once.
 impl Kept for Features {
-    fn to_kept(&self) -> Option<Vec<u8>> {
+    fn to_kept(&self) -> Option<impl Read> {
         let FeatureShape {
             height,
             width,
             depth,
         } = self.shape();
-        let mut bytes = Vec::with_capacity(12 + 4 * self.values().len());
-        for side in [height, width, depth] {
-            bytes.extend(u32::try_from(side).ok()?.to_le_bytes());
+        let mut head = [0; 12];
+        for (place, side) in head
+            .as_chunks_mut::<4>()
+            .0
+            .iter_mut()
+            .zip([height, width, depth])
+        {
+            *place = u32::try_from(side).ok()?.to_le_bytes();
         }
-        bytes.extend(self.values().iter().flat_map(|value| value.to_le_bytes()));
-        Some(bytes)
+        let values = Bytes {
+            values: self.values(),
+            block: Vec::with_capacity(BLOCK),
+            read: 0,
+        };
+        Some(Cursor::new(head).chain(values))
     }
 
-    fn from_kept(bytes: &[u8]) -> Option<Features> {
-        let (words, []) = bytes.as_chunks::<4>() else {
-            return None;
+    fn from_kept(mut bytes: impl Read, length: usize) -> Option<Features> {
+        let mut head = [0; 12];
+        bytes.read_exact(&mut head).ok()?;
+        let side = |place: usize| {
+            let bytes = head.as_chunks::<4>().0[place];
+            usize::try_from(u32::from_le_bytes(bytes)).ok()
         };
-        let ([height, width, depth], values) = words.split_first_chunk()?;
-        let side = |bytes: &[u8; 4]| usize::try_from(u32::from_le_bytes(*bytes)).ok();
         let shape = FeatureShape {
-            height: side(height)?,
-            width: side(width)?,
-            depth: side(depth)?,
+            height: side(0)?,
+            width: side(1)?,
+            depth: side(2)?,
         };
-        let values = values.iter().map(|bytes| f32::from_le_bytes(*bytes));
-        Features::new(shape, values.collect()).ok()
+        let length = length.checked_sub(head.len())?;
+        if length % 4 != 0 {
+            return None;
+        }
+        let mut values = Vec::with_capacity(length / 4);
+        let mut block = vec![0; BLOCK];
+        while values.len() < length / 4 {
+            let wanted = BLOCK.min(length - 4 * values.len());
+            bytes.read_exact(&mut block[..wanted]).ok()?;
+            let words = block[..wanted].as_chunks::<4>().0.iter();
+            values.extend(words.map(|word| f32::from_le_bytes(*word)));
+        }
+        Features::new(shape, values).ok()
+    }
+}
+
+/// Bytes that are read at once.
+const BLOCK: usize = 1 << 16;
+
+/// Numbers as bytes, a block of them at a time.
+struct Bytes<'a> {
+    /// Those behind the block.
+    values: &'a [f32],
+    block: Vec<u8>,
+    /// How much of the block was read.
+    read: usize,
+}
+
+impl Read for Bytes<'_> {
+    fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
+        if self.read == self.block.len() {
+            let count = self.values.len().min(BLOCK / 4);
+            let (now, later) = self.values.split_at(count);
+            self.block.clear();
+            self.block
+                .extend(now.iter().flat_map(|value| value.to_le_bytes()));
+            (self.values, self.read) = (later, 0);
+        }
+        let mut rest = &self.block[self.read..];
+        let count = rest.read(into)?;
+        self.read += count;
+        Ok(count)
     }
 }
 
@@ -140,10 +191,14 @@ mod tests {
         };
         let values = vec![0.1, -0.0, 1e-30, 3.0, f32::MIN_POSITIVE, -7.5];
         let features = Features::new(shape, values).expect("one sample");
-        let kept = features.to_kept().expect("small");
-        assert_eq!(Features::from_kept(&kept), Some(features));
-        assert_eq!(Features::from_kept(&kept[..kept.len() - 4]), None);
-        assert_eq!(Features::from_kept(&kept[..8]), None);
+        let mut kept = Vec::new();
+        let read = features.to_kept().expect("small").read_to_end(&mut kept);
+        read.expect("it is in memory");
+        let found = |bytes: &[u8]| Features::from_kept(bytes, bytes.len());
+        assert_eq!(found(&kept), Some(features));
+        for length in 0..kept.len() {
+            assert_eq!(found(&kept[..length]), None, "{length} bytes");
+        }
     }
 
     #[test]

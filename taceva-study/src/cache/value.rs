@@ -1,7 +1,7 @@
 //! Small results that are kept: one file each, whose first line is the digest of the rest.
 
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io::{self, BufReader, Cursor, Read, Seek, SeekFrom, Write};
 
 use taceva_core::Column;
 use taceva_dataset::Digest;
@@ -11,28 +11,29 @@ use super::{Cache, Key};
 
 /// A result that is kept in a file.
 pub(crate) trait Kept: Sized {
-    /// What is kept; `None` where it cannot be written down.
-    fn to_kept(&self) -> Option<Vec<u8>>;
+    /// What is kept, as often as it is asked for; `None` where it cannot be written down.
+    fn to_kept(&self) -> Option<impl Read>;
 
-    /// What was kept; `None` if these are not the bytes of such a result.
-    fn from_kept(bytes: &[u8]) -> Option<Self>;
+    /// What was kept in so many bytes; `None` if these are not the bytes of such a result.
+    fn from_kept(bytes: impl Read, length: usize) -> Option<Self>;
 }
 
 /// The model of a plugin is not kept: nobody but its plugin can load it.
 impl Kept for Model {
-    fn to_kept(&self) -> Option<Vec<u8>> {
+    fn to_kept(&self) -> Option<impl Read> {
         let is_of_plugin = self.card().plugin.is_some();
-        self.to_bytes().ok().filter(|_| !is_of_plugin)
+        let bytes = self.to_bytes().ok().filter(|_| !is_of_plugin);
+        bytes.map(Cursor::new)
     }
 
-    fn from_kept(bytes: &[u8]) -> Option<Model> {
-        Model::from_bytes(bytes).ok()
+    fn from_kept(bytes: impl Read, length: usize) -> Option<Model> {
+        Model::from_bytes(&all_of(bytes, length)?).ok()
     }
 }
 
 /// A byte that says whether there is a value, and the bits of the value, a row.
 impl Kept for Column {
-    fn to_kept(&self) -> Option<Vec<u8>> {
+    fn to_kept(&self) -> Option<impl Read> {
         let rows = (0..self.len()).map(|row| self.get(row));
         let bytes = rows.flat_map(|value| {
             let mut bytes = [0; 9];
@@ -40,10 +41,11 @@ impl Kept for Column {
             bytes[1..].copy_from_slice(&value.unwrap_or(0.0).to_le_bytes());
             bytes
         });
-        Some(bytes.collect())
+        Some(Cursor::new(bytes.collect::<Vec<u8>>()))
     }
 
-    fn from_kept(bytes: &[u8]) -> Option<Column> {
+    fn from_kept(bytes: impl Read, length: usize) -> Option<Column> {
+        let bytes = all_of(bytes, length)?;
         let (rows, []) = bytes.as_chunks::<9>() else {
             return None;
         };
@@ -55,12 +57,21 @@ impl Kept for Column {
     }
 }
 
+fn all_of(mut bytes: impl Read, length: usize) -> Option<Vec<u8>> {
+    let mut all = Vec::with_capacity(length);
+    bytes.read_to_end(&mut all).ok()?;
+    Some(all)
+}
+
+/// The bytes of the first line: the digest, and the end of the line.
+const FIRST_LINE: usize = 72;
+
 impl Cache {
     /// The result kept under `key`; `None` if there is none or it is not what was written.
     pub(super) fn take_value<T: Kept>(&self, key: &Key) -> Option<T> {
         let entry = self.entry(key);
-        let bytes = match fs::read(&entry) {
-            Ok(bytes) => bytes,
+        let file = match File::open(&entry) {
+            Ok(file) => file,
             Err(error) => {
                 if !is_absent(&error) {
                     self.note_unreadable(&entry, &error);
@@ -68,34 +79,44 @@ impl Cache {
                 return None;
             }
         };
-        let value = content(&bytes).and_then(T::from_kept);
-        if value.is_none() {
-            self.discard(key, "it is not what was written there");
+        match taken(&file) {
+            Ok(Some(value)) => return Some(value),
+            Ok(None) => self.discard(key, "it is not what was written there"),
+            Err(error) => self.note_unreadable(&entry, &error),
         }
-        value
+        None
     }
 
     /// Keeps `value` under `key`.
     pub(super) fn keep_value(&self, key: &Key, value: &impl Kept) {
-        let Some(content) = value.to_kept() else {
+        let (Some(mut digested), Some(mut written)) = (value.to_kept(), value.to_kept()) else {
             return;
         };
         self.put(key, |beside| {
             let mut file = File::create_new(beside)?;
-            writeln!(file, "{}", Digest::of(&content))?;
-            file.write_all(&content)?;
+            writeln!(file, "{}", Digest::of_reader(&mut digested)?)?;
+            io::copy(&mut written, &mut file)?;
             // A name that outlives a power cut must not stand for an empty file.
             file.sync_all()
         });
     }
 }
 
-/// What follows the first line of a file, if it has the digest that stands there.
-fn content(bytes: &[u8]) -> Option<&[u8]> {
-    let end = bytes.iter().position(|byte| *byte == b'\n')?;
-    let (line, content) = (str::from_utf8(&bytes[..end]).ok()?, &bytes[end + 1..]);
-    let digest: Digest = line.parse().ok()?;
-    (Digest::of(content) == digest).then_some(content)
+/// The value in a file, if what follows the first line has the digest that stands there.
+fn taken<T: Kept>(mut file: &File) -> io::Result<Option<T>> {
+    let length = usize::try_from(file.metadata()?.len()).unwrap_or(usize::MAX);
+    let Some(length) = length.checked_sub(FIRST_LINE) else {
+        return Ok(None);
+    };
+    let mut line = [0; FIRST_LINE];
+    file.read_exact(&mut line)?;
+    let line = str::from_utf8(&line).ok();
+    let digest = line.and_then(|line| line.strip_suffix('\n')?.parse::<Digest>().ok());
+    if digest != Some(Digest::of_reader(&mut file)?) {
+        return Ok(None);
+    }
+    file.seek(SeekFrom::Start(FIRST_LINE as u64))?;
+    Ok(T::from_kept(BufReader::new(file), length))
 }
 
 /// Whether nothing is there, or nothing can be because no folder is.

@@ -57,8 +57,9 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
             false => ("earlier", -lag.steps),
         };
         format!(
-            "{name} comes about {:.0} ms ({steps} steps) {later} than the pictures: their correlation is {:.2} there and {:.2} as they stand, n {}",
+            "{name} comes about {:.0} ms ({steps} {}) {later} than the pictures: their correlation is {:.2} there and {:.2} as they stand, n {}",
             1e3 * lag.seconds.abs(),
+            if steps == 1 { "step" } else { "steps" },
             lag.best,
             lag.standing,
             series.len()

@@ -10,6 +10,7 @@ use taceva_protocol::{Answer, Cancel, Left, Operator, Question, StopCause};
 use taceva_study::StudyError;
 
 use crate::devices::CAROUSEL;
+use crate::operator::LIGHTS;
 use crate::record_on;
 use crate::session::{UPRIGHT, rig_file, scene};
 use crate::world::{Misfortune, World};
@@ -141,6 +142,26 @@ fn changers_bring_units_and_specimens_while_the_robot_stands_halted_and_nobody_i
             "{changes:?}"
         );
     }
+}
+
+#[test]
+fn a_light_of_the_rig_file_stands_in_the_place_of_hands_and_is_set_above_the_gel() {
+    let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));
+    let rig = rig(folder.path(), "light = \"wall/lamp\"");
+    let run = folder.path().join("run");
+    let whole = record_on(&world, &run, &SilentProgress, (LIGHTS, Some(&rig), None));
+    let whole = whole.expect("nobody is needed");
+    let lights = world.state().lights.clone();
+    let mut names: Vec<&str> = lights.iter().map(|(name, _)| name.as_str()).collect();
+    names.dedup();
+    assert_eq!(names, ["dark", "lamp"]);
+    assert!(
+        lights.iter().all(|(_, height_mm)| *height_mm <= 0.0),
+        "{lights:?}"
+    );
+    let scenes = whole.table().as_text("scene").expect("kept");
+    let under = |name: &str| scenes.iter().any(|scene| scene.as_deref() == Some(name));
+    assert!(under("dark") && under("lamp"), "{scenes:?}");
 }
 
 #[test]

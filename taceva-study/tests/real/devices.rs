@@ -7,8 +7,8 @@ use taceva_core::{
     ArgSpec, Args, Axes, Changer, ChangerFacts, Deadline, Descriptor, DescriptorError,
     DescriptorSpec, DriverError, DriverKey, DriverSource, EnablingSwitch, ErrorKind, Factory,
     Facts, Fault, Footprint, ForceFacts, ForceTransducer, FrameInfo, FrameMut, Halt, Hertz,
-    Millimetre, Newton, PixelFormat, Pose, Registry, Rig, Robot, RobotFacts, RobotWatch, Sensor,
-    SensorFacts, Speed, Stamp, Wrench,
+    Lighting, LightingFacts, Millimetre, Newton, PixelFormat, Pose, Registry, Rig, Robot,
+    RobotFacts, RobotWatch, Sensor, SensorFacts, Speed, Stamp, Wrench,
 };
 use taceva_drivers::{Drivers, MonotonicClock, OpenError, Switches};
 
@@ -20,6 +20,7 @@ const FORCE: DriverKey = DriverKey::fixed("wall/force");
 const SWITCH: DriverKey = DriverKey::fixed("wall/pedal");
 pub(crate) const CAROUSEL: DriverKey = DriverKey::fixed("wall/carousel");
 const REVOLVER: DriverKey = DriverKey::fixed("wall/revolver");
+const LAMP: DriverKey = DriverKey::fixed("wall/lamp");
 const SENSOR: DriverKey = DriverKey::fixed("wall/gel");
 /// From one reading to the next.
 const READING_S: f64 = 0.005;
@@ -61,6 +62,9 @@ pub(crate) fn drivers(world: &World) -> Drivers {
         changer.descriptor = spec.check().expect("no contradiction");
         drivers.changers.add(Box::new(changer)).expect("one");
     }
+    let facts = LightingFacts::default().with_scenes(scenes());
+    let lamp = OnWall::new(LAMP, Facts::Lighting(facts), world);
+    drivers.lightings.add(Box::new(lamp)).expect("one");
     let held = world.clone();
     drivers.switches.add(SWITCH, Vec::new(), move |_| {
         match held.state().is_unplugged {
@@ -111,7 +115,7 @@ impl OnWall {
 
 /// Makes the factory one of devices of a kind.
 macro_rules! opens {
-    ($kind:ty, $device:ident) => {
+    ($kind:ty, $device:path) => {
         impl Factory<$kind> for OnWall {
             fn descriptor(&self) -> &Descriptor {
                 &self.descriptor
@@ -148,6 +152,40 @@ fn held(args: &Args) -> Vec<String> {
 opens!(dyn Robot, Arm);
 opens!(dyn ForceTransducer, Transducer);
 opens!(dyn Sensor, Gel);
+opens!(dyn Lighting, Lamp::over);
+
+/// The scenes of the lamp.
+fn scenes() -> Vec<String> {
+    ["dark", "lamp"].map(str::to_owned).to_vec()
+}
+
+struct Lamp {
+    world: World,
+    scenes: Vec<String>,
+}
+
+impl Lamp {
+    fn over(world: World) -> Lamp {
+        Lamp {
+            world,
+            scenes: scenes(),
+        }
+    }
+}
+
+impl Lighting for Lamp {
+    fn scenes(&self) -> &[String] {
+        &self.scenes
+    }
+
+    fn set(&mut self, scene: &str, _: Deadline) -> Result<(), DriverError> {
+        let now_s = MonotonicClock.now_s();
+        let mut state = self.world.state();
+        let height_mm = state.tip(now_s)[2];
+        state.lights.push((scene.to_owned(), height_mm));
+        Ok(())
+    }
+}
 
 struct Arm(World);
 

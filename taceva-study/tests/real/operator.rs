@@ -136,7 +136,7 @@ fn a_tip_that_stands_in_the_gel_is_raised_and_halted_before_a_unit_is_asked_for(
 }
 
 /// One unit under two lights, which no device sets.
-const LIGHTS: &str = r#"
+pub(crate) const LIGHTS: &str = r#"
 scene_version = 1
 name = "wall"
 robot = { driver = "wall/robot" }

@@ -44,6 +44,8 @@ pub(crate) struct State {
     /// stood meanwhile.
     pub(crate) changer: Misfortune,
     pub(crate) changes: Vec<(String, f64, bool, bool)>,
+    /// Of every light that was set, its name and the height of the tip.
+    pub(crate) lights: Vec<(String, f64)>,
 }
 
 /// What goes wrong with a changer.
@@ -77,6 +79,7 @@ impl World {
             is_unplugged: false,
             changer: Misfortune::None,
             changes: Vec::new(),
+            lights: Vec::new(),
         })))
     }
 

@@ -2,47 +2,98 @@
 
 use taceva_core::Frame;
 
-/// Parts along each side of a picture whose mean brightness is compared: small enough for a gentle touch, large enough to average noise.
-const PARTS: usize = 8;
+/// Parts along each side of a picture whose mean brightness is compared. Large ones average noise out of a gentle touch of a ball; in small
+/// ones the light and dark sides of the grooves of a board do not cancel.
+const SIDES: [usize; 3] = [8, 32, 128];
+/// A touch changes some part by so much of the numbers of a pixel, of 255, for each of [`SIDES`].
+const LEAST: [f64; SIDES.len()] = [0.25, 0.5, 2.0];
 /// Frames whose mean is one picture: a gentle touch changes little, and small cameras hiss.
 pub(super) const FRAMES: u32 = 4;
-/// A touch changes some part by so many times what changes in the air.
+/// And by so many times what changes in the air.
 const CHANGES: f64 = 2.0;
-/// And by so much of the numbers of a pixel, of 255.
-const LEAST: f64 = 0.25;
 
-/// The mean brightness of every part over a few frames, row by row, in steps of a pixel of 8 bits.
-pub(super) struct Picture(Vec<f64>);
+/// The mean brightness of every part over a few frames, in steps of a pixel of 8 bits: for each of [`SIDES`], row by row.
+pub(super) struct Picture([Vec<f64>; SIDES.len()]);
 
 impl Picture {
     /// Of `frames`, which come from one sensor.
     pub(super) fn of(frames: &[Frame]) -> Picture {
-        let mut sums = vec![0.0; PARTS * PARTS];
-        let mut count = 0.0_f64;
-        for frame in frames {
-            count += 1.0;
-            for (sum, mean) in sums.iter_mut().zip(means(frame)) {
-                *sum += mean;
+        let count = frames.len().max(1) as f64;
+        Picture(SIDES.map(|side| {
+            let mut sums = vec![0.0; side * side];
+            for frame in frames {
+                for (sum, mean) in sums.iter_mut().zip(means(frame, side)) {
+                    *sum += mean / count;
+                }
             }
+            sums
+        }))
+    }
+
+    /// The greatest change of a part between this picture and `other`, for each of [`SIDES`].
+    pub(super) fn change(&self, other: &Picture) -> Change {
+        let mut changes = [0.0; SIDES.len()];
+        for (change, (one, other)) in changes.iter_mut().zip(self.0.iter().zip(&other.0)) {
+            let parts = one
+                .iter()
+                .zip(other)
+                .map(|(one, other)| (one - other).abs());
+            *change = parts.fold(0.0, f64::max);
         }
-        Picture(sums.into_iter().map(|sum| sum / count.max(1.0)).collect())
+        Change(changes)
     }
 }
 
-/// The greatest change of a part between two pictures.
-pub(super) fn change(one: &Picture, other: &Picture) -> f64 {
-    let changes = one.0.iter().zip(&other.0);
-    let changes = changes.map(|(one, other)| (one - other).abs());
-    changes.fold(0.0, f64::max)
+/// The greatest change of a part between two pictures, in steps of a pixel of 8 bits, for each of [`SIDES`].
+#[derive(Clone, Copy)]
+pub(super) struct Change([f64; SIDES.len()]);
+
+impl Change {
+    /// Where this change, in contact, stands out most of the one that is there in the air.
+    pub(super) fn against(&self, in_air: &Change) -> Seen {
+        let stands_out = |place: &usize| self.0[*place] / threshold(in_air, *place);
+        let places = 0..SIDES.len();
+        let place = places.max_by(|one, other| stands_out(one).total_cmp(&stands_out(other)));
+        let place = place.unwrap_or_default();
+        Seen {
+            place,
+            in_contact: self.0[place],
+            in_air: in_air.0[place],
+        }
+    }
 }
 
-/// Whether a change in contact stands out of the one that is there in the air.
-pub(super) fn shows(in_contact: f64, in_air: f64) -> bool {
-    in_contact > (CHANGES * in_air).max(LEAST)
+/// What a part of the size at `place` of [`SIDES`] changes by at least where there is a touch.
+fn threshold(in_air: &Change, place: usize) -> f64 {
+    (CHANGES * in_air.0[place]).max(LEAST[place])
 }
 
-/// The mean brightness of every part of `frame`, row by row, in steps of a pixel of 8 bits.
-pub(in crate::run) fn means(frame: &Frame) -> Vec<f64> {
+/// What a touch changes and what changes in the air, in parts of one size.
+#[derive(Clone, Copy)]
+pub(super) struct Seen {
+    place: usize,
+    /// The greatest change in contact, in steps of a pixel of 8 bits.
+    pub(super) in_contact: f64,
+    /// And in the air.
+    pub(super) in_air: f64,
+}
+
+impl Seen {
+    /// Whether the change in contact stands out of the one in the air.
+    pub(super) fn shows(&self) -> bool {
+        self.in_contact > (CHANGES * self.in_air).max(LEAST[self.place])
+    }
+
+    /// How much of it is there `after` the tip has left, where that is more than half of what stood out of the air: gels come back slowly, and
+    /// never quite.
+    pub(super) fn stays(&self, after: &Change) -> Option<f64> {
+        let after = after.0[self.place];
+        (2.0 * after > self.in_contact + self.in_air).then_some(after)
+    }
+}
+
+/// The mean brightness of every part of `frame`, so many along each `side`, row by row, in steps of a pixel of 8 bits.
+pub(in crate::run) fn means(frame: &Frame, side: usize) -> Vec<f64> {
     let info = frame.info();
     let (width, height) = (info.width as usize, info.height as usize);
     let samples = info.format.samples();
@@ -50,11 +101,11 @@ pub(in crate::run) fn means(frame: &Frame) -> Vec<f64> {
         1 => 1.0,
         _ => 257.0,
     };
-    let mut sums = vec![(0.0, 0_u32); PARTS * PARTS];
+    let mut sums = vec![(0.0, 0_u32); side * side];
     for (place, sample) in frame.samples().enumerate() {
         let pixel = place / samples;
         let (row, column) = (pixel / width, pixel % width);
-        let part = (row * PARTS / height) * PARTS + column * PARTS / width;
+        let part = (row * side / height) * side + column * side / width;
         sums[part].0 += f64::from(sample) / scale;
         sums[part].1 += 1;
     }
@@ -77,6 +128,14 @@ mod tests {
 
     /// A picture of 40 by 32 pixels whose pixels hiss, with a bright spot of so many steps.
     fn picture(seed: u32, spot: u8) -> Picture {
+        drawn(seed, |x, y| {
+            let is_spot = (18..23).contains(&x) && (14..18).contains(&y);
+            if is_spot { spot } else { 0 }
+        })
+    }
+
+    /// One whose pixels at x and y are brighter by so many steps.
+    fn drawn(seed: u32, brighter: impl Fn(u32, u32) -> u8) -> Picture {
         let info = FrameInfo {
             width: 40,
             height: 32,
@@ -88,20 +147,33 @@ mod tests {
         };
         let bytes = (0..40 * 32).map(|place: u32| {
             let (x, y) = (place % 40, place / 40);
-            let is_spot = (18..23).contains(&x) && (14..18).contains(&y);
-            100 + hiss(place) + if is_spot { spot } else { 0 }
+            100 + hiss(place) + brighter(x, y)
         });
         Picture::of(&[Frame::new(info, bytes.collect()).expect("its size")])
     }
 
     #[test]
     fn a_small_spot_stands_out_of_noise_and_noise_does_not() {
-        let in_air = change(&picture(3, 0), &picture(8, 0));
-        let again = change(&picture(3, 0), &picture(11, 0));
-        let touched = change(&picture(3, 0), &picture(15, 40));
-        assert!(in_air > 0.0 && !shows(again, in_air), "{in_air} {again}");
-        assert!(shows(touched, in_air), "{in_air} {touched}");
+        let air = picture(3, 0);
+        let in_air = air.change(&picture(8, 0));
+        let again = air.change(&picture(11, 0));
+        assert!(!again.against(&in_air).shows());
+        let seen = air.change(&picture(15, 40)).against(&in_air);
+        assert!(seen.shows());
+        assert_eq!(seen.stays(&again), None);
+        assert!(seen.stays(&air.change(&picture(19, 38))).is_some());
         // Nothing changes in the pictures of a camera that froze.
-        assert!(!shows(change(&picture(3, 0), &picture(3, 0)), 0.0));
+        let frozen = air.change(&picture(3, 0));
+        assert!(!frozen.against(&frozen).shows());
+    }
+
+    #[test]
+    fn the_grooves_of_a_board_stand_out_though_their_light_and_dark_cancel_in_large_parts() {
+        let flat = drawn(3, |_, _| 6);
+        let in_air = flat.change(&drawn(8, |_, _| 6));
+        let grooves = |x: u32, _| if x % 2 == 0 { 12 } else { 0 };
+        let touched = flat.change(&drawn(11, grooves));
+        assert!(touched.0[0] < 2.0 * in_air.0[0], "parts of 5 by 4 pixels");
+        assert!(touched.against(&in_air).shows());
     }
 }

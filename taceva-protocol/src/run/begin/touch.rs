@@ -3,7 +3,7 @@
 use taceva_core::{Axis, Degree};
 
 use super::Reaction;
-use super::picture::{FRAMES, Picture, change, shows};
+use super::picture::{FRAMES, Picture, Seen};
 use super::signs::Felt;
 use crate::plan::PlannedPress;
 use crate::run::align::Look;
@@ -72,12 +72,11 @@ impl Run<'_> {
         if left_n >= pace.air_n {
             return Err(StopCause::Touch(TouchFault::Clings { force_n: left_n }));
         }
-        if let ([Some(before), _], Some(in_contact)) = (&in_air, picture)
+        if let ([Some(before), _], Some(seen)) = (&in_air, picture)
             && let Some(later) = self.picture()?
         {
-            let after = change(before, &later);
-            // Gels come back slowly, and never quite: half of the change is gone.
-            if 2.0 * after > in_contact {
+            if let Some(after) = seen.stays(&before.change(&later)) {
+                let in_contact = seen.in_contact;
                 return Err(StopCause::Touch(TouchFault::Stays { in_contact, after }));
             }
         }
@@ -161,23 +160,26 @@ impl Run<'_> {
     }
 
     /// Presses on until the picture shows it; the change that it shows, or `None` where no picture is taken.
-    fn show_touch(&mut self, height_mm: f64, in_air: &[Option<Picture>; 2]) -> Step<Option<f64>> {
+    fn show_touch(&mut self, height_mm: f64, in_air: &[Option<Picture>; 2]) -> Step<Option<Seen>> {
         let [Some(one), Some(other)] = in_air else {
             return Ok(None);
         };
-        let in_air = change(one, other);
+        let in_air = one.change(other);
         let deepest_mm = self.deepest_mm(height_mm);
         let greatest_n = FORCE_PART * self.tip.pace.normal_max_n;
         loop {
             let Some(frame) = self.picture()? else {
                 return Ok(None);
             };
-            let in_contact = change(one, &frame);
-            if shows(in_contact, in_air) {
-                return Ok(Some(in_contact));
+            let seen = one.change(&frame).against(&in_air);
+            if seen.shows() {
+                return Ok(Some(seen));
             }
             let is_deep = self.tip.target.position.z.0 >= deepest_mm;
             if is_deep || self.tip.feel()?.magnitude_n() >= greatest_n {
+                let Seen {
+                    in_contact, in_air, ..
+                } = seen;
                 return Err(StopCause::Touch(TouchFault::Unseen { in_contact, in_air }));
             }
             self.tip.deepen(deepest_mm)?;

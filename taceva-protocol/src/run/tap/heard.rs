@@ -4,6 +4,9 @@ use taceva_core::{Frame, Pose, Stamp, Wrench};
 
 use crate::run::begin::picture::means;
 
+/// Parts along each side of a picture whose mean brightness is heard.
+const PARTS: usize = 8;
+
 /// What was heard of every device from before a tap to the rest after it, each with the time at which it was true by its stamp.
 ///
 /// ```
@@ -44,7 +47,7 @@ impl TapHeard {
 
     /// What the sensor showed.
     pub fn frame(&mut self, frame: &Frame, stamp: &Stamp) {
-        add(&mut self.frames, means(frame), stamp);
+        add(&mut self.frames, means(frame, PARTS), stamp);
     }
 }
 
