@@ -23,8 +23,6 @@ use super::{Controls, Devices, Mode, RunSpec};
 use crate::content_id::ContentId;
 use crate::plan::Plan;
 
-/// Taps, in turn at the speed of contact and at a part of it.
-const TAPS: u32 = 20;
 /// The slow ones go at this part of the speed of contact.
 const SLOW_PART: f64 = 1.0 / 3.0;
 /// So far above the gel a tap begins, in mm: far enough for a few frames in the air.
@@ -108,7 +106,7 @@ impl Run<'_> {
         let fast = self.tip.pace.contact;
         let slow = Speed::try_new(fast.mm_per_s() * SLOW_PART).unwrap_or(fast);
         let mut tapped = Tapped::new(way.contact_mm, way.reference_mm);
-        for number in 0..TAPS {
+        for number in 0..Tapped::TAPS {
             let speed = if number.is_multiple_of(2) { fast } else { slow };
             tapped.add(self.tap_patiently(&way, speed, listener)?);
         }

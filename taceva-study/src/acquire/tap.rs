@@ -98,6 +98,10 @@ impl OpenRig {
             robot: to_be_enabled(&rig_file, false),
             touched: &[],
         };
+        let taps = u64::from(Tapped::TAPS);
+        workshop
+            .progress
+            .begin("touch the gel, then tap it", Some(taps));
         let is_over = AtomicBool::new(false);
         let (tapped, heard) = std::thread::scope(|scope| {
             let poses = scope.spawn(|| hear_poses(&*watch, &ears, &is_over));
@@ -130,6 +134,7 @@ impl OpenRig {
             let ended = ended.map(|ended| ended.expect("a thread that listens does not panic"));
             (tapped, ended.into_iter().collect::<Result<(), _>>())
         });
+        workshop.progress.end();
         // A device that fails ends the taps by what they lack: why is what it said.
         heard?;
         sensor.stop()?;

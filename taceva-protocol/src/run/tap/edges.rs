@@ -111,6 +111,9 @@ struct Passage {
 }
 
 impl Tapped {
+    /// How often the gel is tapped, in turn at the speed of contact and at a part of it.
+    pub const TAPS: u32 = 20;
+
     /// Taps that have not been made yet, on a gel that begins at `contact_mm`; the moment of each is that at which the tip passes `reference_mm`.
     pub(super) fn new(contact_mm: f64, reference_mm: f64) -> Tapped {
         Tapped {
