@@ -1,6 +1,6 @@
 //! Small results that are kept: one file each, whose first line is the digest of the rest.
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{self, BufReader, Cursor, Read, Seek, SeekFrom, Write};
 
 use taceva_core::Column;
@@ -89,13 +89,14 @@ impl Cache {
 
     /// Keeps `value` under `key`.
     pub(super) fn keep_value(&self, key: &Key, value: &impl Kept) {
-        let (Some(mut digested), Some(mut written)) = (value.to_kept(), value.to_kept()) else {
+        if value.to_kept().is_none() {
             return;
-        };
+        }
+        let kept = || value.to_kept().ok_or(io::ErrorKind::Unsupported);
         self.put(key, |beside| {
             let mut file = File::create_new(beside)?;
-            writeln!(file, "{}", Digest::of_reader(&mut digested)?)?;
-            io::copy(&mut written, &mut file)?;
+            writeln!(file, "{}", Digest::of_reader(&mut kept()?)?)?;
+            io::copy(&mut kept()?, &mut file)?;
             // A name that outlives a power cut must not stand for an empty file.
             file.sync_all()
         });
@@ -129,6 +130,8 @@ fn is_absent(error: &io::Error) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::super::CachedStage;
     use super::*;
 
