@@ -200,3 +200,29 @@ fn the_same_rows_and_rows_of_something_else_are_refused_and_change_nothing() {
         Vec::<String>::new()
     );
 }
+
+#[test]
+fn what_is_exported_of_it_and_read_again_is_other_data_to_a_model_and_that_is_said() {
+    let bench = halves();
+    bench.ok("import second --map map.toml --extend data -q");
+    bench.ok("fit data --model ridge --set size=8 --out m.model -q");
+    bench.ok("export data --format csv --out exported -q");
+    bench.ok("import exported --map exported/map.toml --out again -q");
+    let read = |name: &str| taceva_dataset::Dataset::open(&bench.path(name)).expect("a dataset");
+    let (extended, again) = (read("data"), read("again"));
+    assert_eq!(again.table().digest(), extended.table().digest());
+    // Which rows were there first is not in an export, and decides the parts.
+    assert_ne!(again.digest(), extended.digest());
+    let scored = |name: &str| {
+        bench.json(&format!("evaluate {name} --with m.model --metrics mae"))["provenance"].clone()
+    };
+    let notes = scored("again")["notes"].to_string();
+    let fitted_on = extended.digest().to_string();
+    assert!(
+        notes.contains("every sample is scored") && notes.contains(&fitted_on),
+        "{notes}"
+    );
+    let own = scored("data");
+    assert_eq!(own["part"], "test");
+    assert!(!own["notes"].to_string().contains("every sample"), "{own}");
+}

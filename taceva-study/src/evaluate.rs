@@ -263,6 +263,7 @@ pub(crate) fn score(
         true => None,
         false => few_points_note(points.as_deref()),
     };
+    let elsewhere = elsewhere_note(target, &behind.model);
     let mut provenance = Provenance {
         model: Some(behind.model),
         split: divided.map(|divided| divided.spec.to_string()),
@@ -276,6 +277,7 @@ pub(crate) fn score(
             .chain(few_points)
             .chain(recordings::extended_notes(dataset))
             .chain(seen_note(target))
+            .chain(elsewhere)
             .chain(left_out_note(target.part.name(), predicted.left_out))
             .chain(predicted.bounded_note())
             .chain(calibration_note(
@@ -358,6 +360,17 @@ fn seen_note(target: &Target) -> Option<String> {
         format!(
             "scored on the part `{}`, which the model has seen: this is no test",
             target.part.name()
+        )
+    })
+}
+
+/// A note that a model was fitted on other data, of which nobody can say whether it held these samples too.
+fn elsewhere_note(target: &Target, model: &ModelProvenance) -> Option<String> {
+    let is_known = target.divided.is_some() || model.origin.is_some();
+    (!is_known).then(|| {
+        format!(
+            "every sample is scored, because the model was fitted on other data, {}; samples that both hold, as an export or a second import of one recording does, are not told apart",
+            model.fitted_on
         )
     })
 }
