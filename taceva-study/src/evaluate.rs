@@ -369,7 +369,7 @@ fn elsewhere_note(target: &Target, model: &ModelProvenance) -> Option<String> {
     let is_known = target.divided.is_some() || model.origin.is_some();
     (!is_known).then(|| {
         format!(
-            "every sample is scored, because the model was fitted on other data, {}; samples that both hold, as an export or a second import of one recording does, are not told apart",
+            "every sample is scored, because the model was fitted on other data, {}; samples that both hold, as an export or a second import of one recording does, are not distinguished",
             model.fitted_on
         )
     })
