@@ -1,7 +1,7 @@
 //! Stopping the arm from any thread: a latch on this side, and a connection of its own to the controller that is kept alive.
 
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, TryLockError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
@@ -29,6 +29,8 @@ pub(super) struct Stop {
     /// Whether the connection answered when it was tried last.
     is_alive: AtomicBool,
     line: Mutex<Exchange>,
+    /// What writes on that connection while somebody waits for an answer on it.
+    writer: Mutex<Writer>,
     /// The connection by which the arm is moved, for the case that the other one fails.
     spare: Writer,
     place: Place,
@@ -59,21 +61,26 @@ impl Stop {
         self.is_alive.load(Ordering::Acquire)
     }
 
-    /// Tells the controller to stop and to forget what waits, by whichever connection carries it.
+    /// Sends the controller the command to stop and to forget what waits, by whichever connection carries it.
     pub(super) fn stop(&self) -> Result<(), ExchangeError> {
         let command = Command::SetState(TargetState::Stopped);
-        match self.line().ask(command, CONFIRMATION) {
+        let unanswered = |writer: &Writer| writer.send(command, self.place.firmware, UNANSWERED);
+        let line = match self.line.try_lock() {
+            Ok(line) => Some(line),
+            Err(TryLockError::Poisoned(poisoned)) => Some(poisoned.into_inner()),
+            Err(TryLockError::WouldBlock) => None,
+        };
+        // Twice stopped is once stopped, and an answer is not waited for by a second way.
+        let Some(mut line) = line else {
+            // The connection is being tried, and its answer may not come: a stop waits for nobody.
+            let direct = unanswered(&lock(&self.writer));
+            let spare = unanswered(&self.spare);
+            return Ok(direct.or(spare)?);
+        };
+        match line.ask(command, CONFIRMATION) {
             Ok(_) => Ok(()),
-            Err(error) => {
-                // Twice stopped is once stopped; the answer is not waited for.
-                let spare = self.spare.send(command, self.place.firmware, UNANSWERED);
-                spare.map_err(|_| error)
-            }
+            Err(error) => unanswered(&self.spare).map_err(|_| error),
         }
-    }
-
-    fn line(&self) -> MutexGuard<'_, Exchange> {
-        self.line.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Tries the connection, and makes it anew if it does not answer.
@@ -108,10 +115,15 @@ impl Stop {
             if anew.ask(Command::GetState, 5 * TRIAL_PATIENCE).is_err() {
                 return;
             }
-            *self.line() = anew;
+            *lock(&self.writer) = anew.writer();
+            *lock(&self.line) = anew;
         }
         self.is_alive.store(true, Ordering::Release);
     }
+}
+
+fn lock<T>(held: &Mutex<T>) -> MutexGuard<'_, T> {
+    held.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl Halt for Stop {
@@ -140,6 +152,7 @@ impl Keeper {
             is_halted: AtomicBool::new(false),
             is_gone: AtomicBool::new(false),
             is_alive: AtomicBool::new(true),
+            writer: Mutex::new(line.writer()),
             line: Mutex::new(line),
             spare,
             place,

@@ -83,6 +83,48 @@ fn a_silence_that_is_over_keeps_an_arm_at_rest_no_longer_than_a_moment() {
 }
 
 #[test]
+fn a_stop_waits_for_no_answer_that_somebody_else_waits_for() {
+    let setup = setup(Ports::ANY);
+    let mut arm = setup.open();
+    let halt = arm.halt_handle();
+    let (home, _) = arm.pose(PATIENCE).expect("a pose");
+    // The connection by which it is stopped is tried twice a second, and a silent controller keeps such a trial waiting for 120 ms: the stops come
+    // at every phase of that.
+    for phase in 0..16_u64 {
+        let stood_after = || {
+            while !setup.bench.truth().is_moving {
+                std::thread::yield_now();
+            }
+            inject(&setup.bench, Device::Robot, FaultKind::Silent, 300);
+            std::thread::sleep(Duration::from_millis(50 + 13 * phase));
+            let began = Instant::now();
+            std::thread::scope(|scope| {
+                let halting = scope.spawn(|| halt.halt());
+                while setup.bench.truth().is_moving {
+                    std::thread::yield_now();
+                }
+                let stood = began.elapsed();
+                // Whether it was confirmed is another question.
+                drop(halting.join().expect("no panic"));
+                stood
+            })
+        };
+        let stood = std::thread::scope(|scope| {
+            let stood = scope.spawn(stood_after);
+            drop(arm.move_to(lower(home, 15.0), speed(2.0), PATIENCE));
+            stood.join().expect("it stands")
+        });
+        assert!(
+            stood < Duration::from_millis(40),
+            "phase {phase}: {stood:?}"
+        );
+        std::thread::sleep(Duration::from_millis(500));
+        arm.clear_halt(PATIENCE).expect("it answers again");
+        arm.move_to(home, speed(50.0), PATIENCE).expect("back");
+    }
+}
+
+#[test]
 fn a_pose_that_is_no_number_is_a_fault_and_ends_no_motion_as_arrived() {
     let setup = setup(Ports::ANY);
     let mut arm = setup.open();
