@@ -110,6 +110,9 @@ fn no_row_changes_its_part_and_a_model_of_before_is_scored_on_what_it_has_not_se
         // The model of before is scored on the test part of now: it holds nothing that was learnt from.
         let scored = bench.json(&format!("evaluate data --with {was}.model --metrics mae"));
         assert_eq!(scored["provenance"]["part"], "test");
+        let notes = scored["provenance"]["notes"].to_string();
+        let said = "the model was fitted when the dataset had 42 of its 60 samples";
+        assert!(notes.contains(said), "{notes}");
         let n = after["test"].as_array().expect("ids").len();
         assert_eq!(scored["metrics"]["mae"]["Fz"]["n"], n, "{split}");
     }
@@ -143,6 +146,17 @@ fn the_same_rows_and_rows_of_something_else_are_refused_and_change_nothing() {
         "import first --map map.toml --extend data",
         3,
         "42 of 42 rows are in it already",
+    );
+    // And under other labels, as a second look at the same recording gives them.
+    let relabelled = format!(
+        "{head}\n{}",
+        rows.replace(",p", "1,p").replace(",s", ",again")
+    );
+    bench.write("first/labels.csv", &relabelled);
+    bench.refused(
+        "import first --map map.toml --extend data",
+        3,
+        "so have 42 different pictures in all: a recording is not added twice",
     );
     let map = fs::read_to_string(bench.path("map.toml")).expect("a map");
     for (key, from, to) in [

@@ -259,8 +259,17 @@ fn as_text(path: &Path, mut bytes: Vec<u8>) -> Result<String, DatasetError> {
         problem: problem.to_owned(),
     };
     let start = &bytes[..bytes.len().min(4_096)];
-    if start.starts_with(b"\xff\xfe") || start.starts_with(b"\xfe\xff") || start.contains(&0) {
-        return Err(refused(1, "UTF-16 or binary; save the table as UTF-8"));
+    let is_utf16 = start.starts_with(b"\xff\xfe") || start.starts_with(b"\xfe\xff");
+    let nothing = start.iter().position(|byte| *byte == 0);
+    match (is_utf16, nothing) {
+        (true, _) => return Err(refused(1, "UTF-16 or binary; save the table as UTF-8")),
+        (false, Some(at)) => {
+            return Err(refused(
+                line_at(&bytes, at),
+                "a byte of value 0: UTF-16 or binary; save the table as UTF-8, without it",
+            ));
+        }
+        (false, None) => {}
     }
     if start.starts_with(b"\xef\xbb\xbf") {
         bytes.drain(..3);

@@ -19,7 +19,7 @@ use tables::SeenTable;
 /// The most tables that are read for a draft.
 const TABLES: usize = 64;
 
-/// A map of version 2 with gaps to fill in: every unit but that of times is `"?"`, which an import refuses, naming the line.
+/// A map of version 2 with gaps to fill in: every unit is `"?"`, but that of times whose size or step says it; an import refuses it, naming the line.
 ///
 /// ```
 /// # let folder = tempfile::tempdir()?;
@@ -118,6 +118,7 @@ fn main_table<'t, 'g>(
             (
                 has_pictures,
                 !table.is_single_array && table.own_taxels().is_some(),
+                table.measured(),
                 table.channels(),
                 table.group.paths.len(),
                 table.rows,

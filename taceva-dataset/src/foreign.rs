@@ -180,6 +180,15 @@ impl ForeignTable {
         }
     }
 
+    /// Whether the file says that a column holds integers, or lists of them.
+    pub(crate) fn holds_integers(&self, name: &str) -> bool {
+        match self {
+            ForeignTable::Columns(table) => table.holds_integers(name),
+            ForeignTable::Json(table) => table.holds_integers(name),
+            ForeignTable::Delimited(_) | ForeignTable::Files(_) => false,
+        }
+    }
+
     /// The name of a row, where rows have names: the member of a JSON object.
     pub(crate) fn key(&self, row: usize) -> Option<&str> {
         match self {

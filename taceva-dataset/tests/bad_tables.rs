@@ -83,6 +83,8 @@ fn tables_in_other_encodings_are_refused_in_words() {
     lab.is_refused_with(&["labels.csv, line 1: UTF-16 or binary"]);
     lab.write("source/labels.csv", b"file,name\na,\xe9\n");
     lab.is_refused_with(&["labels.csv, line 2: not UTF-8"]);
+    lab.write("source/labels.csv", b"file,name\na,b\0c\n");
+    lab.is_refused_with(&["labels.csv, line 2: a byte of value 0", "as UTF-8"]);
     lab.write("source/labels.csv", b"");
     lab.is_refused_with(&["line 1: empty, expected a header"]);
     lab.write("source/labels.csv", b"a,\"b\nc,d\n");

@@ -13,6 +13,11 @@ use taceva_dataset::{
 
 /// A recording of three samples with frames and signals whose numbers begin at `first`; the first row is without contact.
 fn record(folder: &Path, name: &str, first: u8, clock: Clock) -> PathBuf {
+    record_with(folder, name, (first, 0.0), clock)
+}
+
+/// The same with labels that are so much larger.
+fn record_with(folder: &Path, name: &str, (first, more): (u8, f64), clock: Clock) -> PathBuf {
     let path = folder.join(name);
     let facts = RecordingFacts::new(Source::Synthetic, clock, SensorFacts::new("drawn"));
     let taxels = SignalInfo::new(1, 2, 1, Unit::Count).expect("two taxels");
@@ -35,7 +40,7 @@ fn record(folder: &Path, name: &str, first: u8, clock: Clock) -> PathBuf {
                     .with_point_id("p1".to_owned())
                     .with_frame(Frame::new(info, vec![number, 90]).expect("whole"))
                     .with_signals(Signals::new(taxels, values).expect("finite"))
-                    .with_truth(Readings::from_values([f64::from(number)])),
+                    .with_truth(Readings::from_values([f64::from(number) + more])),
             )
             .expect("recorded");
     }
@@ -142,4 +147,28 @@ fn recordings_that_share_a_sample_are_refused() {
             .contains("sample `12` of the first is sample `12` of the second"),
         "{error}"
     );
+}
+
+#[test]
+fn recordings_that_share_pictures_under_other_labels_are_two_imports_of_one_and_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let joined = |name: &str, first: u8| {
+        let one = folder.path().join("one");
+        let one = match one.exists() {
+            true => one,
+            false => record(folder.path(), "one", 10, Clock::Unknown),
+        };
+        let other = record_with(folder.path(), name, (first, 1e-5), Clock::Unknown);
+        let open = [one, other].map(|path| Dataset::open(&path).expect("opens"));
+        Dataset::joined(open.into())
+    };
+    let error = joined("again", 10)
+        .expect_err("the same pictures")
+        .to_string();
+    assert!(
+        error.contains("sample `12` of the first is sample `12` of the second, the same picture under other labels"),
+        "{error}"
+    );
+    // A dark picture or two may be the same anywhere.
+    joined("beside", 11).expect("two pictures");
 }

@@ -264,6 +264,7 @@ pub(crate) fn score(
         false => few_points_note(points.as_deref()),
     };
     let elsewhere = elsewhere_note(target, &behind.model);
+    let fitted_on = behind.model.fitted_on.clone();
     let mut provenance = Provenance {
         model: Some(behind.model),
         split: divided.map(|divided| divided.spec.to_string()),
@@ -278,6 +279,8 @@ pub(crate) fn score(
             .chain(recordings::extended_notes(dataset))
             .chain(seen_note(target))
             .chain(elsewhere)
+            .chain(copies_note(dataset, target))
+            .chain(stage_note(dataset, &fitted_on))
             .chain(left_out_note(target.part.name(), predicted.left_out))
             .chain(predicted.bounded_note())
             .chain(calibration_note(
@@ -361,6 +364,36 @@ fn seen_note(target: &Target) -> Option<String> {
             "scored on the part `{}`, which the model has seen: this is no test",
             target.part.name()
         )
+    })
+}
+
+/// A note that pictures of the test part are, byte for byte, among those that the model was fitted on.
+fn copies_note(dataset: &Dataset, target: &Target) -> Option<String> {
+    let divided = target.divided.as_ref()?;
+    if target.part != DataPart::Test {
+        return None;
+    }
+    let frames = dataset.table().frames();
+    let digest = |row: &usize| Some(frames[*row].as_ref()?.digest);
+    let parts = [DataPart::Train, DataPart::Validation].map(|part| divided.rows(part));
+    let seen: BTreeSet<_> = parts.iter().flatten().filter_map(digest).collect();
+    let tested = target.rows.iter().filter_map(digest);
+    let copies = tested.filter(|digest| seen.contains(digest)).count();
+    (copies > 0).then(|| {
+        format!(
+            "{copies} of {} pictures of the test part are, byte for byte, also fitted on: the scores flatter (taceva check, TAC002 and TAC007)",
+            target.rows.len()
+        )
+    })
+}
+
+/// A note that the model was fitted before rows were added, so that the parts named here are larger than those it was fitted on.
+fn stage_note(dataset: &Dataset, fitted_on: &str) -> Option<String> {
+    let mut stages = dataset.header().stages();
+    let (_, rows) = stages.find(|(digest, _)| digest.to_string() == fitted_on)?;
+    let now = dataset.header().table.rows;
+    (rows < now).then(|| {
+        format!("the model was fitted when the dataset had {rows} of its {now} samples; the parts are those of now")
     })
 }
 

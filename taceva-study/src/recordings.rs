@@ -234,8 +234,8 @@ impl Clusters {
         let Clusters { recordings, points } = self;
         if !self.are_recordings() {
             return format!(
-                "scored on {points} contact points of {recordings} recordings; intervals are by contact point within these recordings, and do not \
-                 say how scores vary from recording to recording, which takes {CLUSTERS_LEAST} recordings with scored samples"
+                "scored on {points} contact points of {recordings} recordings; an interval by contact point within these recordings does not say \
+                 how scores vary from recording to recording, which takes {CLUSTERS_LEAST} recordings with scored samples"
             );
         }
         let few = match recordings < CLUSTERS_MANY {

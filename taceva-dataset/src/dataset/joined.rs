@@ -1,6 +1,6 @@
 //! Several recordings of one kind of sensor, read as one: their labels stand in one table, their frames and signals where they are.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Mutex;
@@ -164,9 +164,15 @@ fn check_distinct(recordings: &[Dataset]) -> Result<(), DatasetError> {
 /// The digest of a frame, and its labels by the names of their channels, bit for bit.
 type Shared = (Digest, Vec<Option<u64>>);
 
-/// Refuses recordings that share a sample: the bytes of a frame and all of its labels. One would be learnt and the other tested.
+/// So many different pictures that two recordings share under other labels are no chance: no camera takes a picture twice.
+const SAME_PICTURES: usize = 3;
+
+/// Refuses recordings that share a sample: the bytes of a frame and all of its labels; or some pictures under other labels, as two imports of one
+/// recording do. One would be learnt and the other tested.
 fn check_no_overlap(recordings: &[Dataset]) -> Result<(), DatasetError> {
     let mut known: HashMap<Shared, (usize, usize)> = HashMap::new();
+    let mut pictures: HashMap<Digest, (usize, usize)> = HashMap::new();
+    let mut shared: BTreeMap<(usize, usize), BTreeSet<Digest>> = BTreeMap::new();
     for (at, recording) in recordings.iter().enumerate() {
         let table = &recording.table;
         let mut channels: Vec<usize> = (0..table.channels().len()).collect();
@@ -180,13 +186,27 @@ fn check_no_overlap(recordings: &[Dataset]) -> Result<(), DatasetError> {
             let place = *known
                 .entry((frame.digest, labels.collect()))
                 .or_insert((at, row));
-            if place.0 != at {
+            let same = |place: (usize, usize), problem: &str| {
                 let problem = format!(
-                    "sample `{}` of the first is sample `{}` of the second, frame and labels: one would be learnt and the other tested",
+                    "sample `{}` of the first is sample `{}` of the second, {problem}: one would be learnt and the other tested",
                     shown(&recordings[place.0].table.samples()[place.1]),
                     shown(&table.samples()[row])
                 );
-                return Err(unlike(&recordings[place.0], recording, problem));
+                unlike(&recordings[place.0], recording, problem)
+            };
+            if place.0 != at {
+                return Err(same(place, "frame and labels"));
+            }
+            let place = *pictures.entry(frame.digest).or_insert((at, row));
+            if place.0 != at {
+                let shared = shared.entry((place.0, at)).or_default();
+                shared.insert(frame.digest);
+                if shared.len() == SAME_PICTURES {
+                    return Err(same(
+                        place,
+                        "the same picture under other labels, and so are others, as in two imports of one recording",
+                    ));
+                }
             }
         }
     }

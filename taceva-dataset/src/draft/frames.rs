@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use super::path_parts::PathParts;
 use super::roles::Role;
 use super::survey::FileGroup;
 use super::tables::{SeenColumn, SeenTable};
@@ -27,8 +26,6 @@ pub(super) fn is_clip(ending: &str) -> bool {
 pub(super) struct FrameLines {
     pub(super) lines: Vec<String>,
     pub(super) is_gray: bool,
-    /// Of clips beside tables of several files: what their names share with those of the tables.
-    pub(super) path: Option<PathParts>,
 }
 
 /// The column whose cells name pictures, and whether they are relative to the folder itself and not to that of the table.
@@ -79,7 +76,6 @@ pub(super) fn of(
         return Some(FrameLines {
             lines,
             is_gray: first.is_some_and(|cell| is_gray(&base.join(cell))),
-            path: None,
         });
     }
     if let Some(picture) = main.pictures.first() {
@@ -88,38 +84,90 @@ pub(super) fn of(
     let with_pictures =
         |table: &&SeenTable<'_>| table.is_single_array && !table.pictures.is_empty();
     if let Some(table) = tables.iter().find(with_pictures) {
-        return Some(in_array(&table.pictures[0], Some(table.group.first()), &[]));
+        let beside = Beside::of(main.group, table.group);
+        return Some(in_array(&table.pictures[0], Some(beside), &[]));
     }
     let clips = groups.iter().find(|group| is_clip(&group.ending))?;
     let index = main
         .columns
         .iter()
         .find(|column| column.role == Role::Index);
-    let index = format!(
-        "index = {:?}",
-        index.map_or("row", |column| column.name.as_str())
-    );
-    if let [only] = clips.paths.as_slice() {
-        return Some(FrameLines {
-            lines: vec![format!("video = {only:?}"), index],
-            ..FrameLines::default()
-        });
-    }
-    // A clip a table: what varies in the names of both is the same.
-    let parts = &main.group.parts;
-    let are_pairs = clips.parts.names == parts.names && clips.paths.len() == main.group.paths.len();
-    let plain = |pattern: &str| pattern.replace(":digits}", "}").replace(":number}", "}");
-    are_pairs.then(|| FrameLines {
-        lines: vec![
-            format!(
-                "video = {:?}",
-                plain(&clips.parts.pattern).replace('{', "{path.")
-            ),
-            index,
-        ],
+    let index = index.map_or("row", |column| column.name.as_str());
+    let (file, index) = match clips.paths.as_slice() {
+        [only] if main.group.paths.len() == 1 => (only.clone(), format!("index = {index:?}")),
+        [only] => (only.clone(), counted_through(main.group)),
+        // A clip a table.
+        _ if are_pairs(main.group, clips) => (clips.parts.of_table(), format!("index = {index:?}")),
+        _ => return None,
+    };
+    Some(FrameLines {
+        lines: vec![format!("video = {file:?}"), index],
         is_gray: false,
-        path: Some(parts.clone()),
     })
+}
+
+/// Whether there is one of `files` for each of `tables`: what varies in the names of both is the same.
+fn are_pairs(tables: &FileGroup, files: &FileGroup) -> bool {
+    tables.paths.len() > 1
+        && files.paths.len() == tables.paths.len()
+        && files.parts.names == tables.parts.names
+}
+
+/// The line of pictures in one file for several tables: each of these would begin with the first picture again.
+fn counted_through(tables: &FileGroup) -> String {
+    format!(
+        "index = \"?\"   # {} tables share it: the column that counts through its pictures",
+        tables.paths.len()
+    )
+}
+
+/// Pictures in files of their own.
+struct Beside {
+    /// The file, as a map names it for each table.
+    file: String,
+    /// What is to be said before it.
+    comment: Option<String>,
+    /// The line that says which picture a row has, where that is not the one of its own number.
+    index: Option<String>,
+}
+
+impl Beside {
+    /// The pictures in `files` for the rows of `tables`.
+    fn of(tables: &FileGroup, files: &FileGroup) -> Beside {
+        let named = |file: &str, comment: Option<String>| Beside {
+            file: file.to_owned(),
+            comment,
+            index: None,
+        };
+        let count = files.paths.len();
+        // Only then names that are sorted are in the order of their numbers.
+        let is_counted = files.parts.words.is_empty()
+            && files
+                .paths
+                .iter()
+                .all(|path| path.len() == files.first().len());
+        match (files.paths.as_slice(), tables.paths.len()) {
+            ([only], 1) => named(only, None),
+            ([only], _) => Beside {
+                index: Some(counted_through(tables)),
+                ..named(only, None)
+            },
+            _ if are_pairs(tables, files) => named(&files.parts.of_table(), None),
+            (_, 1) if is_counted => {
+                let comment = format!(
+                    "# A guess: the rows count through the pictures of all {count} files, in the order of their names."
+                );
+                named(files.pattern(), Some(comment))
+            }
+            _ => {
+                let comment = format!(
+                    "# Pictures are in {count} files, {}: which of them those of a row are in, their names do not say.",
+                    files.pattern()
+                );
+                named("?", Some(comment))
+            }
+        }
+    }
 }
 
 /// Whether a file holds a picture without colours. What cannot be read is named by the import.
@@ -128,7 +176,11 @@ fn is_gray(path: &Path) -> bool {
     bytes.is_ok_and(|bytes| decode(&bytes, ChannelOrder::Gray).is_ok())
 }
 
-fn in_array(picture: &PictureColumn, file: Option<&str>, others: &[PictureColumn]) -> FrameLines {
+fn in_array(
+    picture: &PictureColumn,
+    beside: Option<Beside>,
+    others: &[PictureColumn],
+) -> FrameLines {
     let name = &picture.name;
     let mut lines: Vec<String> = match others {
         [] => Vec::new(),
@@ -138,12 +190,14 @@ fn in_array(picture: &PictureColumn, file: Option<&str>, others: &[PictureColumn
         }
     };
     let mut is_gray = false;
-    match (&picture.kind, file) {
+    match (&picture.kind, beside) {
         (PictureKind::Clip, _) => lines.push(format!("video = {name:?}")),
         (PictureKind::Encoded, _) => lines.push(format!("bytes = {name:?}")),
         (PictureKind::Array { .. }, None) => lines.push(format!("array = {name:?}")),
-        (PictureKind::Array { .. }, Some(file)) => {
-            lines.push(format!("array = {{ file = {file:?} }}"))
+        (PictureKind::Array { .. }, Some(beside)) => {
+            lines.extend(beside.comment);
+            lines.push(format!("array = {{ file = {:?} }}", beside.file));
+            lines.extend(beside.index);
         }
     }
     if let PictureKind::Array {
@@ -163,11 +217,7 @@ fn in_array(picture: &PictureColumn, file: Option<&str>, others: &[PictureColumn
             lines.push("bits = 8".to_owned());
         }
     }
-    FrameLines {
-        lines,
-        is_gray,
-        path: None,
-    }
+    FrameLines { lines, is_gray }
 }
 
 /// The range that pictures of such numbers mostly have: 0 to 1, −1 to 1 or 0 to 255.
@@ -190,5 +240,52 @@ mod tests {
         assert_eq!(guessed_range(-0.5, 0.9), (-1.0, 1.0));
         assert_eq!(guessed_range(3.0, 250.0), (0.0, 255.0));
         assert_eq!(guessed_range(-2048.0, 2032.0), (-2048.0, 2032.0));
+    }
+
+    fn group(paths: &[&str]) -> FileGroup {
+        FileGroup {
+            paths: paths.iter().map(|path| (*path).to_owned()).collect(),
+            ending: "npy".to_owned(),
+            parts: super::super::path_parts::varying(paths).expect("of one depth"),
+        }
+    }
+
+    #[test]
+    fn each_of_several_tables_has_the_array_beside_it_and_of_one_array_the_index_is_open() {
+        let of = |tables: &[&str], files: &[&str]| {
+            let found = Beside::of(&group(tables), &group(files));
+            (found.file, found.comment.is_some(), found.index.is_some())
+        };
+        let sessions = ["s0/force.npy", "s1/force.npy", "s12/force.npy"];
+        assert_eq!(
+            of(
+                &sessions,
+                &["s0/frames.npy", "s1/frames.npy", "s12/frames.npy"]
+            ),
+            ("s{path.s}/frames.npy".to_owned(), false, false)
+        );
+        assert_eq!(
+            of(&sessions, &["frames.npy"]),
+            ("frames.npy".to_owned(), false, true)
+        );
+        // Which of two belongs to which of three?
+        assert_eq!(
+            of(&sessions, &["s0/frames.npy", "s1/frames.npy"]),
+            ("?".to_owned(), true, false)
+        );
+        let one = ["force.npy"];
+        assert_eq!(
+            of(&one, &["frames.npy"]),
+            ("frames.npy".to_owned(), false, false)
+        );
+        assert_eq!(
+            of(&one, &["frames_00.npy", "frames_01.npy"]),
+            ("frames_*.npy".to_owned(), true, false)
+        );
+        // Sorted, 10 stands before 2.
+        assert_eq!(
+            of(&one, &["frames_10.npy", "frames_2.npy"]),
+            ("?".to_owned(), true, false)
+        );
     }
 }

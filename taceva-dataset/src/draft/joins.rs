@@ -67,13 +67,7 @@ fn beside(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<(String, Vec<St
         && other.group.parts.names == main.group.parts.names
         && other.rows == 1;
     are_pairs.then(|| {
-        let pattern = other
-            .group
-            .parts
-            .pattern
-            .replace(":digits}", "}")
-            .replace(":number}", "}");
-        let written = format!("{:?}", pattern.replace('{', "{path."));
+        let written = format!("{:?}", other.group.parts.of_table());
         (
             written,
             vec!["on = \"all\"   # its only row, for every row".to_owned()],
@@ -92,9 +86,10 @@ fn by_key(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
             column.role,
             Role::Attribute | Role::Index | Role::Number | Role::Other
         );
-        let is_named = !column
+        // A column without a name is the index of pandas: the number of the row.
+        let is_named = column
             .name
-            .starts_with(|letter: char| letter.is_ascii_digit());
+            .starts_with(|letter: char| !letter.is_ascii_digit());
         is_key
             && is_named
             && known.len() == there.cells.len()
@@ -108,8 +103,9 @@ fn by_key(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
 
 /// By time: the times of both tables overlap.
 fn by_time(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
-    let (own, own_unit, _) = main.time()?;
-    let (there, unit, _) = other.time()?;
+    let (own_time, time) = (main.time()?, other.time()?);
+    let (own, own_unit) = (own_time.column, own_time.unit);
+    let (there, unit) = (time.column, time.unit);
     let seconds = |cells: &[String], unit: &str| -> Option<(f64, f64)> {
         let factor = match unit {
             "ns" => 1e-9,
@@ -135,7 +131,11 @@ fn by_time(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
     }
     let spacing_ms = 1e3 * (last - first) / (there.cells.len().max(2) - 1) as f64;
     Some(vec![
-        format!("time = {{ column = {:?}, unit = {unit:?} }}", there.name),
+        format!(
+            "time = {{ column = {:?}, unit = {unit:?} }}{}",
+            there.name,
+            time.mark()
+        ),
         "pick = \"nearest\"".to_owned(),
         format!(
             "tolerance_ms = {:.3}   # the time between two of its rows",
@@ -149,6 +149,7 @@ fn by_time(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
 
 /// Row by row: both tables have as many rows, and nothing else relates them.
 fn by_row(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
-    let is_alike = main.rows == other.rows && main.channels() == 0;
+    // Of several tables each would begin with the first row of the other.
+    let is_alike = main.rows == other.rows && main.measured() == 0 && main.group.paths.len() == 1;
     is_alike.then(|| vec!["on = \"row\"   # both have as many rows".to_owned()])
 }

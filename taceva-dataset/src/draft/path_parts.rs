@@ -59,6 +59,12 @@ pub(super) fn varying(paths: &[&str]) -> Option<PathParts> {
 }
 
 impl PathParts {
+    /// The paths as a map names them where what varies is that of the path of a table: `s{path.s}/frames.npy`.
+    pub(super) fn of_table(&self) -> String {
+        let plain = self.pattern.replace(":digits}", "}");
+        plain.replace(":number}", "}").replace('{', "{path.")
+    }
+
     /// Adds the folder or file that is called `names` in the paths.
     fn add_level(&mut self, names: &[&str]) {
         let rows: Vec<Vec<Token<'_>>> = names.iter().map(|name| tokens(name)).collect();
@@ -222,6 +228,12 @@ mod tests {
             )
         );
         assert_eq!(of(&["a.csv"]), ("a.csv".to_owned(), "a.csv".to_owned()));
+    }
+
+    #[test]
+    fn what_varies_is_named_as_a_part_of_the_path_of_a_table() {
+        let parts = varying(&["ball/u1_x-0.5.npy", "cube/u2_x0.5.npy"]).expect("of one depth");
+        assert_eq!(parts.of_table(), "{path.object}/u{path.u}_x{path.x}.npy");
     }
 
     #[test]

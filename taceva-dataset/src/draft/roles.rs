@@ -1,17 +1,26 @@
 //! What the columns of a table seem to be, by their names and their first cells.
 
+mod doubts;
+mod times;
+
 use crate::csv_table::number;
 use crate::foreign::packed;
+use doubts::doubt_of;
+use times::time;
+
+pub(super) use doubts::doubt;
 
 /// What a column seems to be.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Role {
     /// Channels, each with where it is in the cell: nothing behind the name, or `[2]`.
     Channels(Vec<(&'static str, String)>),
-    /// A time in such a unit, since 1970 or not.
+    /// A time in such a unit, since 1970 or not; `"?"` where nothing says which.
     Time {
         unit: &'static str,
         is_unix: bool,
+        /// Why the unit may be another.
+        guess: Option<&'static str>,
     },
     /// A text with few values: what was touched, a session.
     Attribute,
@@ -26,16 +35,17 @@ const FORCES: [&str; 3] = ["Fx", "Fy", "Fz"];
 const TORQUES: [&str; 3] = ["Tx", "Ty", "Tz"];
 const PLACES: [&str; 3] = ["Px", "Py", "Pz"];
 
-/// Times above this, in seconds, count from 1970: it is a day in 2001.
-const UNIX_S: f64 = 1e9;
+/// What says what a column is: its name, or that of its file where columns are called `value`.
+fn explained<'n>(name: &'n str, about: &'n str) -> &'n str {
+    match name {
+        "value" => about,
+        name => name,
+    }
+}
 
 /// What the column called `name` is; `about` is what its file is called, which explains columns called `value`.
 pub(super) fn role(name: &str, about: &str, cells: &[String]) -> Role {
-    let explained = match name {
-        "value" => about,
-        name => name,
-    };
-    let words = words(explained);
+    let words = words(explained(name, about));
     let filled: Vec<&str> = cells
         .iter()
         .map(String::as_str)
@@ -46,6 +56,8 @@ pub(super) fn role(name: &str, about: &str, cells: &[String]) -> Role {
         .map(|cell| number::number(cell).ok().flatten())
         .collect();
     match numbers.filter(|numbers| !numbers.is_empty()) {
+        // The index of pandas, which has no name.
+        Some(numbers) if name.is_empty() && are_counts(&numbers) => Role::Other,
         Some(numbers) => of_numbers(&words, &numbers),
         None => match width(&filled) {
             Some(width) => match several(&words, width) {
@@ -57,7 +69,8 @@ pub(super) fn role(name: &str, about: &str, cells: &[String]) -> Role {
     }
 }
 
-/// What a column is whose numbers have names of their own: the channels that those names are, each once; an action is commanded, not measured.
+/// What a column is whose numbers have names of their own: the channels that those names are, each once; an action is commanded, not measured,
+/// and names that say as much are none.
 pub(super) fn of_named(column: &str, names: &[String]) -> Option<Role> {
     let is_known = !names.is_empty() && names.iter().any(|name| !name.is_empty());
     if !is_known || column.starts_with("action") {
@@ -65,7 +78,9 @@ pub(super) fn of_named(column: &str, names: &[String]) -> Option<Role> {
     }
     let mut found: Vec<(&'static str, String)> = Vec::new();
     for (at, name) in names.iter().enumerate() {
-        if let Some(channel) = channel(&words(name))
+        let words = words(name);
+        if let Some(channel) = channel(&words)
+            && doubt_of(&words).is_none()
             && found.iter().all(|(known, _)| *known != channel)
         {
             found.push((channel, format!("[{at}]")));
@@ -113,32 +128,6 @@ fn of_texts(cells: &[&str]) -> Role {
     match is_short && !known.is_empty() && known.len() * 2 <= cells.len().max(2) {
         true => Role::Attribute,
         false => Role::Other,
-    }
-}
-
-/// The unit of a time by the last word of its name, or by its size.
-fn time(words: &[String], numbers: &[f64]) -> Role {
-    let named = words.last().map(String::as_str);
-    let greatest = numbers.iter().copied().fold(0.0_f64, f64::max);
-    let unit = match named {
-        Some("ns") => "ns",
-        Some("us") => "us",
-        Some("ms") => "ms",
-        Some("s" | "sec" | "seconds") => "s",
-        _ if greatest > UNIX_S * 1e8 => "ns",
-        _ if greatest > UNIX_S * 1e5 => "us",
-        _ if greatest > UNIX_S * 1e2 => "ms",
-        _ => "s",
-    };
-    let second = match unit {
-        "ns" => 1e9,
-        "us" => 1e6,
-        "ms" => 1e3,
-        _ => 1.0,
-    };
-    Role::Time {
-        unit,
-        is_unix: greatest / second > UNIX_S,
     }
 }
 
@@ -286,14 +275,16 @@ mod tests {
             of("stamp", &["1700000000000000000", "1700000000100000000"]),
             Role::Time {
                 unit: "ns",
-                is_unix: true
+                is_unix: true,
+                guess: None
             }
         );
         assert_eq!(
             of("t_ms", &["0", "33"]),
             Role::Time {
                 unit: "ms",
-                is_unix: false
+                is_unix: false,
+                guess: None
             }
         );
         assert_eq!(
@@ -304,5 +295,10 @@ mod tests {
         assert_eq!(of("frame", &["3", "1"]), Role::Index);
         assert_eq!(of("gain", &["3", "1"]), Role::Number);
         assert_eq!(of("pose", &["[[1, 2], [3, 4]]"]), Role::Other);
+    }
+
+    #[test]
+    fn a_column_without_a_name_that_counts_is_the_index_of_pandas() {
+        assert_eq!(role("", "labels", &cells(&["0", "1", "2"])), Role::Other);
     }
 }

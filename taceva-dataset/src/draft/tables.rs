@@ -1,14 +1,17 @@
 //! The tables of a folder, and what their columns seem to be.
 
+mod form;
+
 use std::path::Path;
 
 use taceva_arrays::ArrayFormat;
 
-use super::roles::{Role, of_named, role};
+use super::roles::{Role, doubt, of_named, role};
 use super::survey::FileGroup;
 use crate::csv_table::number;
 use crate::file::SourceFolder;
 use crate::foreign::{ForeignTable, PictureColumn, TableForm, packed, topics};
+use form::{NUMBERED_HEADER, form_of};
 
 /// How many rows of a table are looked at.
 const SAMPLED: usize = 200;
@@ -26,6 +29,8 @@ pub(super) struct SeenTable<'g> {
     pub(super) is_single_array: bool,
     /// Whether channels are guessed by their number alone.
     pub(super) has_guessed_channels: bool,
+    /// What is guessed of its header.
+    pub(super) header_guess: Option<String>,
     pub(super) rows: usize,
     pub(super) columns: Vec<SeenColumn>,
     pub(super) pictures: Vec<PictureColumn>,
@@ -39,8 +44,27 @@ pub(super) struct SeenTable<'g> {
 pub(super) struct SeenColumn {
     pub(super) name: String,
     pub(super) role: Role,
+    /// Why its numbers may not be what was measured, by its name.
+    pub(super) doubt: Option<String>,
     /// Its first cells.
     pub(super) cells: Vec<String>,
+}
+
+/// The column of the time of a table.
+#[derive(Debug)]
+pub(super) struct SeenTime<'t> {
+    pub(super) column: &'t SeenColumn,
+    pub(super) unit: &'static str,
+    pub(super) is_unix: bool,
+    guess: Option<&'static str>,
+}
+
+impl SeenTime<'_> {
+    /// The comment behind its unit.
+    pub(super) fn mark(&self) -> String {
+        let guess = self.guess.map(|guess| format!("   # {guess}"));
+        guess.unwrap_or_default()
+    }
 }
 
 impl<'g> SeenTable<'g> {
@@ -117,18 +141,37 @@ impl<'g> SeenTable<'g> {
             let cells = 0..rows.min(SAMPLED);
             let cells = cells.map(|row| table.cell(row, &name).unwrap_or_default());
             let cells: Vec<String> = cells.map(|cell| packed::plain(&cell).to_owned()).collect();
+            let mut role = of_named(&name, &table.element_names(&name))
+                .unwrap_or_else(|| role(&name, about, &cells));
+            // Times that the file says to be times are read in seconds.
+            if table.time_unit(&name).is_some()
+                && let Role::Time { unit, guess, .. } = &mut role
+            {
+                (*unit, *guess) = ("s", None);
+            }
             SeenColumn {
-                role: of_named(&name, &table.element_names(&name))
-                    .unwrap_or_else(|| role(&name, about, &cells)),
+                role,
+                doubt: doubt(&name, about),
                 name,
                 cells,
             }
         });
         let mut columns: Vec<SeenColumn> = columns.collect();
-        let has_guessed_channels = extra == "header = false" && guess_channels(&mut columns);
+        let is_nameless = matches!(extra.as_str(), "header = false" | NUMBERED_HEADER);
+        let has_guessed_channels = is_nameless && guess_channels(&mut columns);
+        let header_guess = (extra == NUMBERED_HEADER).then(|| {
+            let names = columns.iter().map(|column| column.name.as_str());
+            let names: Vec<&str> = names.take(4).collect();
+            let more = if columns.len() > names.len() { ",…" } else { "" };
+            format!(
+                "# A guess: the first line, {}{more}, is a header as pandas writes it; `header = false` if it is data.",
+                names.join(",")
+            )
+        });
         Ok(SeenTable {
             columns,
             has_guessed_channels,
+            header_guess,
             written: match extra.as_str() {
                 "" => format!("{pattern:?}"),
                 extra => format!("{{ file = {pattern:?}, {extra} }}"),
@@ -209,15 +252,18 @@ impl<'g> SeenTable<'g> {
 
     /// How many channels its columns hold.
     pub(super) fn channels(&self) -> usize {
-        let of = |column: &SeenColumn| match &column.role {
-            Role::Channels(channels) => channels.len(),
-            _ => 0,
-        };
-        self.columns.iter().map(of).sum()
+        self.columns.iter().map(SeenColumn::channels).sum()
+    }
+
+    /// How many of them are what was measured, as far as names say.
+    pub(super) fn measured(&self) -> usize {
+        let columns = self.columns.iter();
+        let sure = columns.filter(|column| column.doubt.is_none());
+        sure.map(SeenColumn::channels).sum()
     }
 
     /// The column of the time: when it was taken rather than when it was logged.
-    pub(super) fn time(&self) -> Option<(&SeenColumn, &'static str, bool)> {
+    pub(super) fn time(&self) -> Option<SeenTime<'_>> {
         let is_logged = |column: &&SeenColumn| {
             ["log_time", "publish_time"]
                 .iter()
@@ -228,9 +274,27 @@ impl<'g> SeenTable<'g> {
             .into_iter()
             .chain(logged)
             .find_map(|column| match &column.role {
-                Role::Time { unit, is_unix } => Some((column, *unit, *is_unix)),
+                Role::Time {
+                    unit,
+                    is_unix,
+                    guess,
+                } => Some(SeenTime {
+                    column,
+                    unit: *unit,
+                    is_unix: *is_unix,
+                    guess: *guess,
+                }),
                 _ => None,
             })
+    }
+}
+
+impl SeenColumn {
+    fn channels(&self) -> usize {
+        match &self.role {
+            Role::Channels(channels) => channels.len(),
+            _ => 0,
+        }
     }
 }
 
@@ -248,110 +312,4 @@ fn guess_channels(columns: &mut [SeenColumn]) -> bool {
         }
     }
     is_so_many
-}
-
-/// The form of a table, and what a map has to say of it beside its path.
-fn form_of(path: &Path, group: &FileGroup) -> Option<(TableForm, String)> {
-    let plain = |form| Some((form, String::new()));
-    match group.ending.as_str() {
-        "csv" | "tsv" => {
-            let header = ForeignTable::read(path, &TableForm::Delimited { has_header: true });
-            match header.is_ok_and(|table| !is_of_numbers(&table.names())) {
-                true => plain(TableForm::Delimited { has_header: true }),
-                false => Some((
-                    TableForm::Delimited { has_header: false },
-                    "header = false".to_owned(),
-                )),
-            }
-        }
-        "json" => {
-            // An object whose members are objects is a table of them.
-            let members = TableForm::Json {
-                rows: Some("/*".to_owned()),
-            };
-            let table = ForeignTable::read(path, &TableForm::Json { rows: None }).ok()?;
-            let is_list = table.rows() != 1;
-            let are_rows = !is_list
-                && ForeignTable::read(path, &members)
-                    .is_ok_and(|table| table.rows() > 1 && !table.names().is_empty());
-            match are_rows {
-                true => Some((members, "rows = \"/*\"".to_owned())),
-                false => plain(TableForm::Json { rows: None }),
-            }
-        }
-        "jsonl" | "ndjson" => plain(TableForm::JsonLines),
-        "parquet" => plain(TableForm::Parquet),
-        "tar" => plain(TableForm::WebDataset),
-        _ => {
-            let format = ArrayFormat::of(path)?;
-            let of = |rows| TableForm::Arrays {
-                format,
-                rows,
-                is_whole: false,
-            };
-            let whole = of(None);
-            let table = ForeignTable::read(path, &whole).ok()?;
-            let names = table.names();
-            let found = match format {
-                ArrayFormat::Pickle | ArrayFormat::Npy => rows_of_dictionaries(&names),
-                _ => rows_within(&names),
-            };
-            let Some(rows) = found else {
-                return plain(whole);
-            };
-            let extra = format!("rows = {rows:?}");
-            Some((of(Some(rows)), extra))
-        }
-    }
-}
-
-/// Whether what would be names of columns are numbers: the file has no header.
-fn is_of_numbers(names: &[String]) -> bool {
-    let is_number =
-        |name: &&String| number::number(packed::plain(name)).is_ok_and(|found| found.is_some());
-    names.iter().filter(is_number).count() * 2 > names.len()
-}
-
-/// Where the rows of dictionaries within dictionaries are: `trajectories.*`, or in the fields of one record.
-fn rows_of_dictionaries(names: &[String]) -> Option<String> {
-    let first = |name: &String| name.split_once('.').map(|(first, _)| first.to_owned());
-    if let Some(deep) = names.iter().find(|name| name.matches('.').count() > 1) {
-        return Some(format!("{}.*", first(deep)?));
-    }
-    let own = first(names.first()?)?;
-    let is_one = names.iter().all(|name| first(name).as_ref() == Some(&own));
-    is_one.then(|| format!("/{own}"))
-}
-
-/// Where the rows of a file of arrays are: in a table with fields, or in groups that are called alike.
-fn rows_within(names: &[String]) -> Option<String> {
-    let mut fields = names
-        .iter()
-        .filter_map(|name| Some(name.rsplit_once('.')?.0));
-    if let Some(table) = fields.next() {
-        return Some(format!("/{table}"));
-    }
-    // data/demo_0/ft, data/demo_1/ft: /data/*
-    let split: Vec<Vec<&str>> = names.iter().map(|name| name.split('/').collect()).collect();
-    let first = split.first()?;
-    let counted = first
-        .iter()
-        .position(|part| part.ends_with(|letter: char| letter.is_ascii_digit()))?;
-    let bare = |part: &str| {
-        part.trim_end_matches(|letter: char| letter.is_ascii_digit())
-            .to_owned()
-    };
-    let are_alike = split.iter().all(|parts| {
-        parts.len() > counted + 1
-            && parts[..counted] == first[..counted]
-            && bare(parts[counted]) == bare(first[counted])
-    });
-    let is_several = split.iter().any(|parts| parts[counted] != first[counted]);
-    (are_alike && is_several).then(|| {
-        let before: String = first[..counted]
-            .iter()
-            .map(|part| format!("/{part}"))
-            .collect();
-        format!("{before}/*")
-    })
 }

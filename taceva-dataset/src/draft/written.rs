@@ -7,7 +7,7 @@ use super::joins::{self, SeenJoin};
 use super::path_parts::PathParts;
 use super::roles::{Role, channel, words};
 use super::survey::FileGroup;
-use super::tables::SeenTable;
+use super::tables::{SeenColumn, SeenTable};
 use crate::file::SourceFolder;
 use crate::import::converter;
 use crate::table::is_attribute_name;
@@ -45,6 +45,9 @@ pub(super) fn of_table(
         &mut text,
         &format!("table = {}   # {} rows", main.written, main.rows),
     );
+    if let Some(guess) = &main.header_guess {
+        line(&mut text, guess);
+    }
     if !main.others.is_empty() {
         let others = main.others.join(", ");
         line(&mut text, &format!("# Other pictures in it: {others}"));
@@ -57,13 +60,7 @@ pub(super) fn of_table(
     if !others.is_empty() {
         line(&mut text, &format!("# Other tables: {}", others.join(", ")));
     }
-    let parts = match &frame {
-        Some(FrameLines {
-            path: Some(parts), ..
-        }) => Some(parts),
-        _ if main.group.paths.len() > 1 => Some(&main.group.parts),
-        _ => None,
-    };
+    let parts = (main.group.paths.len() > 1).then_some(&main.group.parts);
     if let Some(parts) = parts {
         add_path(&mut text, parts);
     }
@@ -71,14 +68,12 @@ pub(super) fn of_table(
     let columns = table_columns(main, &joins);
     let mut channels = Lines::default();
     let mut attributes = Lines::default();
-    for (name, role) in &columns {
+    for NamedColumn { name, role, doubt } in &columns {
         match role {
-            Role::Channels(found) => {
-                for (channel, index) in found {
-                    let unit = "unit = \"?\"";
-                    channels.add(channel, &format!("{{ from = \"{name}{index}\", {unit} }}"));
-                }
+            Role::Channels(found) if doubt.is_none() => {
+                add_channels(&mut channels, name, found, "")
             }
+            Role::Channels(_) => {}
             _ if main.classes.iter().any(|(column, _)| column == name) => {}
             Role::Attribute => attributes.add(&attribute_name(name), &format!("{name:?}")),
             Role::Time { .. } | Role::Index | Role::Number | Role::Other => {}
@@ -95,18 +90,24 @@ pub(super) fn of_table(
             ids.add("repeat", &format!("\"path.{name}\"   # a guess"));
         }
     }
+    // What was commanded or predicted stands behind whatever was measured.
+    for NamedColumn { name, role, doubt } in &columns {
+        if let (Role::Channels(found), Some(doubt)) = (role, doubt) {
+            add_channels(&mut channels, name, found, &format!("   # {doubt}"));
+        }
+    }
     if main.has_groups() {
         attributes.add("group", "\"group\"");
     }
     let own_taxels = main.own_taxels();
     let numbers: Vec<&str> = columns
         .iter()
-        .filter(|(name, role)| {
+        .filter(|NamedColumn { name, role, .. }| {
             let is_taxel =
                 own_taxels.is_some() && main.columns.iter().any(|column| column.name == *name);
             *role == Role::Number && !is_taxel
         })
-        .map(|(name, _)| name.as_str())
+        .map(|column| column.name.as_str())
         .collect();
     let mut joined = joins.iter().map(|join| join.table.has_guessed_channels);
     if main.has_guessed_channels || joined.any(|is_guessed| is_guessed) {
@@ -124,18 +125,22 @@ pub(super) fn of_table(
     };
     add_section(&mut text, "columns", &format!("{numbers}{}", channels.0));
     match main.time() {
-        Some((column, unit, is_unix)) => {
-            let clock = if is_unix { "unix" } else { "monotonic" };
+        Some(time) => {
+            let clock = if time.is_unix { "unix" } else { "monotonic" };
             let lines = format!(
-                "clock = {clock:?}   # a guess by the size of the times\ncolumn = {:?}\nunit = {unit:?}\n",
-                column.name
+                "clock = {clock:?}   # a guess by the size of the times\ncolumn = {:?}\nunit = {:?}{}\n",
+                time.column.name,
+                time.unit,
+                time.mark()
             );
             add_section(&mut text, "time", &lines);
         }
         None => add_section(&mut text, "time", "clock = \"unknown\"\n"),
     }
     for join in &joins {
-        let lines: String = join.lines.iter().map(|line| format!("{line}\n")).collect();
+        let guess = join.table.header_guess.iter();
+        let lines = guess.chain(&join.lines);
+        let lines: String = lines.map(|line| format!("{line}\n")).collect();
         add_section(
             &mut text,
             "[join]",
@@ -229,22 +234,39 @@ pub(super) fn of_files(group: &FileGroup, notes: &[String]) -> String {
     ended(text)
 }
 
-/// The columns of the main table and of those that are joined, as a map names them.
-fn table_columns(main: &SeenTable<'_>, joins: &[SeenJoin<'_, '_>]) -> Vec<(String, Role)> {
-    let own = main
+/// A column as a map names it.
+struct NamedColumn {
+    name: String,
+    role: Role,
+    doubt: Option<String>,
+}
+
+/// The columns of the main table and of those that are joined.
+fn table_columns(main: &SeenTable<'_>, joins: &[SeenJoin<'_, '_>]) -> Vec<NamedColumn> {
+    let named = |name: String, column: &SeenColumn| NamedColumn {
+        name,
+        role: column.role.clone(),
+        doubt: column.doubt.clone(),
+    };
+    let mut columns: Vec<NamedColumn> = main
         .columns
         .iter()
-        .map(|column| (column.name.clone(), column.role.clone()));
-    let others = joins.iter().flat_map(|join| {
-        let columns = join.table.columns.iter();
-        columns.map(|column| {
-            (
-                format!("{}.{}", join.name, column.name),
-                column.role.clone(),
-            )
-        })
-    });
-    own.chain(others).collect()
+        .map(|column| named(column.name.clone(), column))
+        .collect();
+    for join in joins {
+        let others = join.table.columns.iter();
+        columns
+            .extend(others.map(|column| named(format!("{}.{}", join.name, column.name), column)));
+    }
+    columns
+}
+
+/// A line for each channel that the column called `name` holds.
+fn add_channels(lines: &mut Lines, name: &str, found: &[(&'static str, String)], mark: &str) {
+    for (channel, index) in found {
+        let value = format!("{{ from = \"{name}{index}\", unit = \"?\" }}{mark}");
+        lines.add(channel, &value);
+    }
 }
 
 /// What the parts of a path seem to be: channels by their names, a unit, texts.

@@ -42,7 +42,7 @@ impl Exported<'_> {
             (header.stream.is_some(), "what was lost of the stream"),
             (
                 !header.extended.is_empty(),
-                "which rows were added later: its import is another recording, whose parts are drawn anew, so no model of this one is tested on it",
+                "which rows were added later: its import is another recording, whose parts are drawn anew; a model of this one has seen samples of it, so test none on it",
             ),
             (!header.left_out.is_empty(), "what its own import left out"),
             (

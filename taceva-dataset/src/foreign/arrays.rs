@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use taceva_arrays::{ArrayError, ArrayFile, ArrayFormat, ArrayInfo};
+use taceva_arrays::{ArrayError, ArrayFile, ArrayFormat, ArrayInfo, Element};
 
 use super::columns::{ColumnSource, PictureColumn};
 use super::pictures::Pictures;
@@ -220,6 +220,19 @@ impl ColumnSource for ArrayRows {
             [only] => Ok(vec![of(only)?]),
             several => several.iter().map(named).collect(),
         }
+    }
+
+    fn holds_integers(&self, name: &str) -> bool {
+        self.groups.iter().all(|group| {
+            // An attribute of this name comes first, and is a text.
+            let array = match self.attribute(group, name) {
+                Some(_) => None,
+                None => self.info(group, name),
+            };
+            array.is_some_and(|(_, info)| {
+                matches!(info.element, Element::Unsigned(_) | Element::Signed(_))
+            })
+        })
     }
 
     fn absent_chunks(&self, names: &[&str]) -> Result<Vec<(String, u64)>, String> {

@@ -29,6 +29,11 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
         None
     }
 
+    /// Whether the file says that a column holds integers, or lists of them.
+    fn holds_integers(&self, _name: &str) -> bool {
+        false
+    }
+
     /// The arrays behind these columns of which chunks were never written, and how many.
     fn absent_chunks(&self, _names: &[&str]) -> Result<Vec<(String, u64)>, String> {
         Ok(Vec::new())
@@ -168,6 +173,10 @@ impl ColumnTable {
 
     pub(super) fn time_unit(&self, name: &str) -> Option<&'static str> {
         guarded(|| self.source.time_unit(name)).unwrap_or_default()
+    }
+
+    pub(super) fn holds_integers(&self, name: &str) -> bool {
+        guarded(|| self.source.holds_integers(name)).unwrap_or_default()
     }
 
     pub(super) fn absent_chunks(&self, names: &[&str]) -> Result<Vec<(String, u64)>, DatasetError> {

@@ -27,13 +27,18 @@ pub(super) trait ByteColumns: Sized + fmt::Debug + Send + Sync {
         each: VisitBytes<'_>,
     ) -> Result<(), Ended<TableError>>;
 
-    /// The unit of the times in a column, or in its lists.
-    fn unit_of_times(&self, name: &str) -> Option<&'static str> {
+    /// What a column, or the lists in it, hold.
+    fn kind_within(&self, name: &str) -> Option<ColumnKind> {
         let mut kind = self.kind_of(name).ok()?;
         while let ColumnKind::List(element) = kind {
             kind = *element;
         }
-        match kind {
+        Some(kind)
+    }
+
+    /// The unit of the times in a column, or in its lists.
+    fn unit_of_times(&self, name: &str) -> Option<&'static str> {
+        match self.kind_within(name)? {
             ColumnKind::Time(unit) => Some(unit),
             _ => None,
         }

@@ -41,7 +41,7 @@ impl JsonRows {
     pub(super) fn read(path: &Path, rows: Option<&str>) -> Result<JsonRows, DatasetError> {
         let whole = text(path)?;
         let value: Value =
-            serde_json::from_str(&whole).map_err(|error| no_json(path, &error, 0))?;
+            serde_json::from_str(&whole).map_err(|error| no_json(path, &whole, &error, 0))?;
         let pointer = rows.unwrap_or(if value.is_array() { "/*" } else { "" });
         let wrong = |problem: String| DatasetError::Table {
             place: Place::file(path),
@@ -107,7 +107,7 @@ impl JsonRows {
                 let value = serde_json::from_str(line);
                 Ok(JsonRow {
                     key: None,
-                    value: value.map_err(|error| no_json(path, &error, number - 1))?,
+                    value: value.map_err(|error| no_json(path, line, &error, number - 1))?,
                     line: Some(number),
                 })
             })
@@ -143,6 +143,13 @@ impl JsonRows {
             Some(Value::String(text)) => Cow::Borrowed(text.trim()),
             Some(value) => Cow::Owned(value.to_string()),
         }
+    }
+
+    /// Whether an integer is at the pointer `name` in every row that has something there.
+    pub(super) fn holds_integers(&self, name: &str) -> bool {
+        let found = self.rows.iter().filter_map(|row| row.value.pointer(name));
+        let mut found = found.filter(|value| !value.is_null()).peekable();
+        found.peek().is_some() && found.all(|value| value.is_i64() || value.is_u64())
     }
 
     pub(super) fn place(&self, row: usize) -> Place {
@@ -243,8 +250,13 @@ fn members((key, value): Named) -> Option<Vec<Named>> {
     }
 }
 
+/// The text of a file, without a mark of the order of bytes.
 fn text(path: &Path) -> Result<String, DatasetError> {
-    utf8(path, read_capped(path, limits::JSON_BYTES)?)
+    let mut bytes = read_capped(path, limits::JSON_BYTES)?;
+    if bytes.starts_with(b"\xef\xbb\xbf") {
+        bytes.drain(..3);
+    }
+    utf8(path, bytes)
 }
 
 /// What `pointer` leads to, taken out of `value`.
@@ -252,12 +264,48 @@ fn taken(mut value: Value, pointer: &str) -> Option<Value> {
     value.pointer_mut(pointer).map(Value::take)
 }
 
-fn no_json(path: &Path, error: &serde_json::Error, lines_before: u64) -> DatasetError {
+/// The error that `text`, which begins after so many lines of the file, is no JSON.
+fn no_json(path: &Path, text: &str, error: &serde_json::Error, lines_before: u64) -> DatasetError {
     let line = u64::try_from(error.line()).unwrap_or(1).max(1);
     DatasetError::Table {
         place: Place::line(path, lines_before + line),
-        problem: format!("no JSON: {error}"),
+        problem: format!("no JSON: {}", json_problem(text, error)),
     }
+}
+
+/// What is wrong with `text`, without the line, and what to do about numbers that JSON does not have.
+pub(super) fn json_problem(text: &str, error: &serde_json::Error) -> String {
+    let (line, column) = (error.line(), error.column());
+    let said = error.to_string();
+    let place = format!(" at line {line} column {column}");
+    let said = said.strip_suffix(place.as_str()).unwrap_or(&said);
+    let written = text.lines().nth(line.saturating_sub(1)).unwrap_or_default();
+    match word_at(written, column) {
+        Some(word) => format!(
+            "`{word}` in column {column}: JSON has no such number, write `null` where there is none"
+        ),
+        None if column == 0 => said.to_owned(),
+        None => format!("{said} in column {column}"),
+    }
+}
+
+/// The word for a number that is none, or an infinite one, in which the byte `column`, from 1, of a line is.
+fn word_at(line: &str, column: usize) -> Option<&str> {
+    let bytes = line.as_bytes();
+    let at = column.checked_sub(1)?.min(bytes.len().checked_sub(1)?);
+    let is_of_word = |byte: u8| byte.is_ascii_alphabetic() || byte == b'-';
+    let before = bytes[..at]
+        .iter()
+        .rev()
+        .take_while(|byte| is_of_word(**byte));
+    let behind = bytes[at..].iter().take_while(|byte| is_of_word(**byte));
+    let (begin, end) = (at - before.count(), at + behind.count());
+    // Bytes beside one of ASCII are boundaries of characters.
+    let word = line.get(begin..end)?;
+    let bare = word.trim_start_matches('-').to_ascii_lowercase();
+    ["nan", "inf", "infinity"]
+        .contains(&bare.as_str())
+        .then_some(word)
 }
 
 #[cfg(test)]
@@ -314,5 +362,37 @@ mod tests {
         let nowhere = file("{}");
         let error = JsonRows::read(nowhere.path(), Some("/data/*")).expect_err("nothing");
         assert!(error.to_string().contains("nothing at `/data`"), "{error}");
+    }
+
+    #[test]
+    fn a_number_that_json_does_not_have_names_its_line_once_and_the_remedy() {
+        for (word, column) in [("NaN", 6), ("Infinity", 6), ("-Infinity", 7)] {
+            let row = format!("{{\"a\":{word}}}");
+            let lines = file(&format!("{{\"a\":1}}\n{row}\n"));
+            let error = JsonRows::read_lines(lines.path()).expect_err("no JSON");
+            let error = error.to_string();
+            let expected = format!("line 2: no JSON: `{word}` in column {column}: ");
+            assert!(error.contains(&expected), "{error}");
+            assert!(error.contains("write `null`"), "{error}");
+            assert!(!error.contains("line 1"), "{error}");
+            let whole = file(&format!("[{{\"a\":1}},\n{row}]"));
+            let error = JsonRows::read(whole.path(), None).expect_err("no JSON");
+            assert!(error.to_string().contains(&expected), "{error}");
+        }
+        let cut = file("{\"a\":1}\n{\"a\":\n");
+        let error = JsonRows::read_lines(cut.path()).expect_err("cut");
+        let error = error.to_string();
+        assert!(error.contains("line 2: no JSON: EOF"), "{error}");
+        assert!(!error.contains("line 1"), "{error}");
+    }
+
+    #[test]
+    fn a_mark_of_the_order_of_bytes_is_skipped() {
+        let lines = file("\u{feff}{\"a\": 1}\n{\"a\": 2}\n");
+        let table = JsonRows::read_lines(lines.path()).expect("rows");
+        assert_eq!((table.rows(), &*table.cell(0, "/a")), (2, "1"));
+        let whole = file("\u{feff}[{\"a\": 3}]");
+        let table = JsonRows::read(whole.path(), None).expect("rows");
+        assert_eq!(table.cell(0, "/a"), "3");
     }
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use taceva_tables::LeRobot;
+use taceva_tables::{ColumnKind, LeRobot};
 
 use super::columns::{ColumnSource, PictureColumn, PictureKind};
 use super::encoded::{ByteColumns, EncodedPictures};
@@ -45,6 +45,10 @@ impl ColumnSource for LeRobotRows {
 
     fn time_unit(&self, name: &str) -> Option<&'static str> {
         self.dataset.unit_of_times(name)
+    }
+
+    fn holds_integers(&self, name: &str) -> bool {
+        self.dataset.kind_within(name) == Some(ColumnKind::Integer)
     }
 
     fn picture_columns(&self) -> Vec<PictureColumn> {

@@ -1,7 +1,53 @@
-//! Several values in one cell: `[0.1, 0.2]`, `1 2 3`, `1;2;3`, lists in lists; and numbers as NumPy prints them.
+//! Several values in one cell: `[0.1, 0.2]`, `1 2 3`, `1;2;3`, `["a", "b, c"]`, lists in lists; and numbers as NumPy prints them.
+
+use std::borrow::Cow;
 
 /// The most levels of lists within lists.
 const DEEPEST: usize = 16;
+
+/// A value of a cell that holds several.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) struct Value<'a> {
+    /// What it is, without the quotes around it.
+    pub(crate) text: Cow<'a, str>,
+    is_quoted: bool,
+}
+
+impl Value<'_> {
+    /// Whether it stands for nothing, as JSON writes that.
+    pub(crate) fn is_null(&self) -> bool {
+        !self.is_quoted && self.text == "null"
+    }
+}
+
+/// As [`item`], a text in quotes as it is without them.
+pub(crate) fn value<'a>(cell: &'a str, index: &[usize]) -> Result<Value<'a>, String> {
+    let found = item(cell, index)?;
+    Ok(match unquoted(found) {
+        Some(text) => Value {
+            text,
+            is_quoted: true,
+        },
+        None => Value {
+            text: Cow::Borrowed(found),
+            is_quoted: false,
+        },
+    })
+}
+
+/// A text as a member of a list: in quotes where it could be taken for several, or for something else.
+pub(crate) fn member(text: String) -> String {
+    let is_special = |letter: char| letter.is_whitespace() || "[](),;\"'\\".contains(letter);
+    match text.as_str() {
+        "" | "null" | "..." => quoted(&text),
+        other if other.contains(is_special) => quoted(&text),
+        _ => text,
+    }
+}
+
+fn quoted(text: &str) -> String {
+    serde_json::Value::from(text).to_string()
+}
 
 /// The value at `index` in `cell`, a position for each level from the outermost list inwards; the error says why there is none.
 pub(crate) fn item<'a>(cell: &'a str, index: &[usize]) -> Result<&'a str, String> {
@@ -43,6 +89,65 @@ pub(crate) fn plain(cell: &str) -> &str {
     }
 }
 
+/// The text between quotes, if `value` is one.
+fn unquoted(value: &str) -> Option<Cow<'_, str>> {
+    if quoted_bytes(value)? != value.len() {
+        return None;
+    }
+    let inside = &value[1..value.len() - 1];
+    if !inside.contains('\\') {
+        return Some(Cow::Borrowed(inside));
+    }
+    let json = match value.starts_with('"') {
+        true => serde_json::from_str(value).ok(),
+        false => None,
+    };
+    Some(Cow::Owned(json.unwrap_or_else(|| unescaped(inside))))
+}
+
+/// A text as Python prints it, without its backslashes.
+fn unescaped(text: &str) -> String {
+    let mut plain = String::with_capacity(text.len());
+    let mut letters = text.chars();
+    while let Some(letter) = letters.next() {
+        if letter != '\\' {
+            plain.push(letter);
+            continue;
+        }
+        match letters.next() {
+            Some('n') => plain.push('\n'),
+            Some('r') => plain.push('\r'),
+            Some('t') => plain.push('\t'),
+            Some(same @ ('\\' | '\'' | '"')) => plain.push(same),
+            Some(other) => plain.extend(['\\', other]),
+            None => plain.push('\\'),
+        }
+    }
+    plain
+}
+
+/// How many bytes the text in quotes has that `text` begins with, with both quotes; `None` if it begins with none, or goes on right behind it.
+fn quoted_bytes(text: &str) -> Option<usize> {
+    let mut letters = text.char_indices();
+    let (_, quote) = letters
+        .next()
+        .filter(|(_, letter)| matches!(letter, '"' | '\''))?;
+    let mut is_escaped = false;
+    for (at, letter) in letters {
+        if is_escaped {
+            is_escaped = false;
+        } else if letter == '\\' {
+            is_escaped = true;
+        } else if letter == quote {
+            let end = at + 1;
+            let next = text[end..].chars().next();
+            let is_end = next.is_none_or(|next| next.is_whitespace() || "[](),;".contains(next));
+            return is_end.then_some(end);
+        }
+    }
+    None
+}
+
 /// The values of the outermost list, or of a cell without brackets.
 fn parts(cell: &str) -> Result<Vec<&str>, String> {
     let inside = ["[]", "()"].iter().find_map(|pair| {
@@ -59,7 +164,8 @@ fn parts(cell: &str) -> Result<Vec<&str>, String> {
         true => ends(inside, |letter| letter == ',')?,
         false => semicolons,
     };
-    let separators = match separators.is_empty() {
+    let is_blank_apart = separators.is_empty();
+    let separators = match is_blank_apart {
         false => separators,
         true => ends(inside, char::is_whitespace)?,
     };
@@ -71,16 +177,29 @@ fn parts(cell: &str) -> Result<Vec<&str>, String> {
     }
     parts.push(inside[begins..].trim());
     // Several blanks are one separator.
-    let is_blank_apart = !inside.contains([',', ';']);
     parts.retain(|part| !(is_blank_apart && part.is_empty()));
     Ok(parts)
 }
 
-/// Where separators stand outside of every bracket, and how many bytes they have.
+/// Where separators stand outside of every bracket and of texts in quotes, and how many bytes they have.
 fn ends(text: &str, is_separator: impl Fn(char) -> bool) -> Result<Vec<(usize, usize)>, String> {
     let mut depth = 0_usize;
     let mut found = Vec::new();
+    // Whether a value may begin here, and up to where one in quotes lies: an apostrophe within a word opens none.
+    let mut is_begin = true;
+    let mut quoted_until = 0;
     for (at, letter) in text.char_indices() {
+        if at < quoted_until {
+            continue;
+        }
+        if is_begin && let Some(length) = quoted_bytes(&text[at..]) {
+            quoted_until = at + length;
+            continue;
+        }
+        is_begin = match letter {
+            '[' | '(' | ',' | ';' => true,
+            _ => is_begin && letter.is_whitespace(),
+        };
         match letter {
             '[' | '(' => depth += 1,
             ']' | ')' => {
@@ -121,6 +240,61 @@ mod tests {
         ] {
             assert_eq!(item(cell, index).as_deref(), Ok(expected), "{cell}");
         }
+    }
+
+    #[test]
+    fn a_text_in_quotes_is_one_value_whatever_it_holds() {
+        for (cell, index, expected) in [
+            (r#"["soft", "cube, red"]"#, &[1][..], "cube, red"),
+            (r#"["a;b","c"]"#, &[0], "a;b"),
+            (r#"["a]b", "(c"]"#, &[1], "(c"),
+            (r#"[["a, b", "c"], ["d"]]"#, &[0, 0], "a, b"),
+            (r#"["a\"b\\", "\u00e9"]"#, &[0], "a\"b\\"),
+            (r#"["a\"b\\", "\u00e9"]"#, &[1], "é"),
+            (r#"["soft cube"]"#, &[0], "soft cube"),
+            (r#"[""]"#, &[0], ""),
+            (r#"["null", null]"#, &[0], "null"),
+            ("['1,5','2']", &[0], "1,5"),
+            ("['it\\'s', 'b']", &[0], "it's"),
+            ("['soft' 'cube, red']", &[1], "cube, red"),
+            ("it's, 'n' b, don't", &[2], "don't"),
+            ("'tis don't, so", &[0], "'tis don't"),
+            ("\"1\",\"2\"", &[1], "2"),
+        ] {
+            let found = value(cell, index).map(|found| found.text);
+            assert_eq!(found.as_deref(), Ok(expected), "{cell}");
+        }
+        let is_null = |cell| value(cell, &[0]).map(|found| found.is_null());
+        assert_eq!(is_null("[null]"), Ok(true));
+        assert_eq!(is_null(r#"["null"]"#), Ok(false));
+    }
+
+    #[test]
+    fn a_member_of_a_list_reads_back_as_the_text_that_it_was() {
+        for text in [
+            "soft",
+            "cube, red",
+            "a;b",
+            "",
+            "null",
+            "...",
+            "it's",
+            "a\"b\\c",
+            "[1]",
+            "a b",
+            "1,5",
+            "np.float64(1)",
+            "é\n",
+        ] {
+            for other in ["x", "y z"] {
+                let [one, two] = [text, other].map(|text| member(text.to_owned()));
+                let cell = format!("[{one}, {two}]");
+                let found = value(&cell, &[0]).map(|found| found.text);
+                assert_eq!(found.as_deref(), Ok(text), "{cell}");
+            }
+        }
+        assert_eq!(member("soft".to_owned()), "soft");
+        assert_eq!(member("1.5".to_owned()), "1.5");
     }
 
     #[test]

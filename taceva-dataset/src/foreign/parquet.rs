@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use serde_json::Value;
-use taceva_tables::{ParquetTable, TableError};
+use taceva_tables::{ColumnKind, ParquetTable, TableError};
 
 use super::columns::{ColumnSource, PictureColumn, PictureKind};
 use super::encoded::{ByteColumns, EncodedPictures};
@@ -47,6 +47,10 @@ impl ColumnSource for ParquetRows {
 
     fn time_unit(&self, name: &str) -> Option<&'static str> {
         self.table.unit_of_times(name)
+    }
+
+    fn holds_integers(&self, name: &str) -> bool {
+        self.table.kind_within(name) == Some(ColumnKind::Integer)
     }
 
     fn picture_columns(&self) -> Vec<PictureColumn> {

@@ -40,6 +40,11 @@ pub(crate) trait Pictures: fmt::Debug + Send + Sync {
         (self.path(), index)
     }
 
+    /// The files that they are in, each with how many are in it.
+    fn files(&self) -> Vec<(&Path, u64)> {
+        vec![(self.path(), self.count())]
+    }
+
     /// The arrays that they lie in of which chunks were never written, and how many.
     ///
     /// # Errors

@@ -42,6 +42,11 @@ impl Pictures for SeveralPictures {
         self.count
     }
 
+    fn files(&self) -> Vec<(&Path, u64)> {
+        let files = self.files.iter();
+        files.flat_map(|(_, pictures)| pictures.files()).collect()
+    }
+
     fn codec(&self) -> Option<FrameCodec> {
         self.files.iter().find_map(|(_, pictures)| pictures.codec())
     }

@@ -9,6 +9,7 @@ use std::sync::Arc;
 use serde_json::Value;
 
 use super::columns::{ColumnSource, PictureColumn, PictureKind};
+use super::json::json_problem;
 use super::pictures::{Picture, Pictures, Visit, damaged};
 use super::tar::{FileTape, Members, TarError};
 use crate::decode::{ChannelOrder, ImageKind};
@@ -68,8 +69,14 @@ impl Shard {
 
     fn json(&self, sample: &Sample) -> Result<Option<Value>, String> {
         let text = self.text(sample, "json")?;
-        let value = text.map(|text| serde_json::from_str(&text)).transpose();
-        value.map_err(|error| format!("`{}.json`: no JSON: {error}", sample.key))
+        let Some(text) = text else {
+            return Ok(None);
+        };
+        let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+        serde_json::from_str(text).map(Some).map_err(|error| {
+            let (line, problem) = (error.line(), json_problem(text, &error));
+            format!("`{}.json`, line {line}: no JSON: {problem}", sample.key)
+        })
     }
 
     fn has_json(&self, pointer: &str) -> bool {

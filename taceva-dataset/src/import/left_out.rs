@@ -1,6 +1,7 @@
 //! What an import does not take of files that it reads, counted once every row is known.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use super::map::{FrameMap, FrameNames};
 use super::planned_frames::{PlannedFrames, within};
@@ -20,11 +21,21 @@ pub(super) fn count(
     if let Some((map, planned)) = frames {
         for (pictures, mut rows) in within(planned) {
             rows.dedup_by_key(|(index, _)| *index);
-            let unused = pictures.count().saturating_sub(rows.len() as u64);
+            let mut used: BTreeMap<&Path, u64> = BTreeMap::new();
+            for (index, _) in &rows {
+                *used.entry(pictures.origin(*index).0).or_default() += 1;
+            }
             // A picture that is a cell of the table is left out with its row.
             if !matches!(map.names, FrameNames::Bytes(_)) {
-                let file = folder.inside(pictures.path(), "");
-                add_left_out(&mut summary.unused_frames, &file, unused);
+                for (path, count) in pictures.files() {
+                    let used = used.get(path).copied().unwrap_or_default();
+                    let file = folder.inside(path, "");
+                    add_left_out(
+                        &mut summary.unused_frames,
+                        &file,
+                        count.saturating_sub(used),
+                    );
+                }
             }
             for (array, absent) in pictures.absent_chunks()? {
                 absent_chunks.insert(folder.inside(pictures.path(), &array), absent);

@@ -101,8 +101,25 @@ pub struct ImportMap {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct ClassMap {
     pub(crate) from: String,
-    /// Numbers in the column are positions in it, from 0.
+    /// Numbers in the column are positions in it, from 0, unless they are names of it.
     pub(crate) names: Vec<String>,
+}
+
+impl ClassMap {
+    /// The position that a cell holds, if it holds one of the list.
+    pub(crate) fn position(&self, cell: &str) -> Option<usize> {
+        let position = cell.parse::<usize>().ok();
+        position.filter(|position| *position < self.names.len())
+    }
+
+    /// The first name that is also the position of another one, and that position.
+    pub(crate) fn ambiguous(&self) -> Option<(&str, usize)> {
+        let mut names = self.names.iter().enumerate();
+        names.find_map(|(at, name)| {
+            let position = self.position(name)?;
+            (position != at).then_some((name.as_str(), position))
+        })
+    }
 }
 
 impl ImportMap {

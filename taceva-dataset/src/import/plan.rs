@@ -1,6 +1,7 @@
 //! What an import would read, convert and leave out, before anything is written.
 
 mod channels;
+mod pictures;
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::path::{Path, PathBuf};
@@ -20,7 +21,7 @@ use super::source::{matching_files, unnamed_images};
 use super::summary::ImportSummary;
 use crate::error::{DatasetError, Place};
 use crate::file::SourceFolder;
-use crate::foreign::{ArrayPictures, ClipPictures, Pictures, SeveralPictures, TableForm};
+use crate::foreign::{Pictures, TableForm};
 use crate::store::RecordingFacts;
 use crate::table::Table;
 use crate::text::shown;
@@ -94,6 +95,7 @@ impl ImportPlan {
         let folder = SourceFolder::open(source)?;
         let tables = matching_files(&folder, &map.table)?;
         let mut reading = Reading::new(&folder, map, decoders);
+        reading.count = tables.len();
         let signals = map.signals.as_ref();
         let signals = signals.map(|signals| FoundSignals::new(signals, &folder));
         reading.signals = signals.transpose()?;
@@ -139,9 +141,15 @@ struct Reading<'a> {
     folder: &'a SourceFolder,
     map: &'a ImportMap,
     decoders: &'a Decoders,
+    /// How many tables there are.
+    count: usize,
+    /// The table that is being read.
+    current: PathBuf,
     table: Table,
     /// The files with pictures in them that rows named.
     opened: BTreeMap<PathBuf, Arc<dyn Pictures>>,
+    /// Those of which a row has the picture of its own number, as the map names them, each with the table of these rows.
+    counted: BTreeMap<String, PathBuf>,
     frames: Vec<PlannedFrame>,
     signals: Option<FoundSignals<'a>>,
     references: References,
@@ -164,7 +172,10 @@ impl<'a> Reading<'a> {
             folder,
             map,
             decoders,
+            count: 0,
+            current: PathBuf::new(),
             opened: BTreeMap::new(),
+            counted: BTreeMap::new(),
             table: Table::new(map.channels.clone(), attributes),
             frames: Vec::new(),
             signals: None,
@@ -180,11 +191,16 @@ impl<'a> Reading<'a> {
 
     fn read(&mut self, path: &Path) -> Result<(), DatasetError> {
         let mut rows = MappedTable::open(self.map, self.folder, path)?;
+        path.clone_into(&mut self.current);
         self.summary.unmentioned_columns.extend(rows.unmentioned());
         for join in std::mem::take(&mut rows.joins) {
             let mut joins = self.joins.iter_mut();
             match joins.find(|known| known.name() == join.name()) {
-                Some(known) => known.add(join),
+                Some(known) => {
+                    let are_files = self.map.form == TableForm::Files;
+                    known.check_counted_once(&join, path, (self.count, are_files))?;
+                    known.add(join);
+                }
                 None => self.joins.push(join),
             }
         }
@@ -256,7 +272,11 @@ impl<'a> Reading<'a> {
                 self.named.insert(path.clone());
                 return Ok(FrameSource::File(path));
             }
-            (FrameName::Within(Some(file), index), _) => (self.pictures(&file)?, index),
+            (FrameName::Within(Some(file), index), _) => {
+                let pictures = self.pictures(&file)?;
+                self.check_counted_once(&file)?;
+                (pictures, index)
+            }
             (FrameName::Within(None, index), Some(pictures)) => (Arc::clone(pictures), index),
             (FrameName::Within(None, index), None) => {
                 return Err(DatasetError::Path {
@@ -268,39 +288,6 @@ impl<'a> Reading<'a> {
         };
         pictures.check_index(index)?;
         Ok(FrameSource::Within(pictures, index))
-    }
-
-    /// The pictures in the file at `relative`, which is opened once; with `*` in it, those of all such files, counted through.
-    fn pictures(&mut self, relative: &str) -> Result<Arc<dyn Pictures>, DatasetError> {
-        let path = self.folder.path().join(relative);
-        if let Some(known) = self.opened.get(&path) {
-            return Ok(Arc::clone(known));
-        }
-        let found = matching_files(self.folder, relative)?.into_iter();
-        let files = found.map(|file| self.open(&file, relative));
-        let mut files = files.collect::<Result<Vec<_>, _>>()?;
-        let pictures = match files.len() {
-            1 => files.remove(0),
-            _ => Arc::new(SeveralPictures::new(files)),
-        };
-        self.opened.insert(path, Arc::clone(&pictures));
-        Ok(pictures)
-    }
-
-    fn open(&self, path: &Path, relative: &str) -> Result<Arc<dyn Pictures>, DatasetError> {
-        Ok(match self.map.frame.as_ref().map(|frame| &frame.names) {
-            Some(names @ FrameNames::Array(array)) => {
-                Arc::new(ArrayPictures::open(path, names, array)?)
-            }
-            Some(FrameNames::Video(_)) => Arc::new(ClipPictures::open(path, self.decoders)?),
-            _ => {
-                return Err(DatasetError::Path {
-                    place: None,
-                    written: relative.to_owned(),
-                    problem: "neither an array nor a clip".to_owned(),
-                });
-            }
-        })
     }
 
     /// The error that nothing is left to import, and why.

@@ -1,5 +1,6 @@
 //! The columns that a map of version 2 names, which may stand in a cell of others, in the path of a file or in another table, as one table.
 
+mod classes;
 mod columns;
 mod join;
 mod matrix;
@@ -17,6 +18,7 @@ use crate::foreign::{ForeignTable, packed};
 use columns::{base_of, mentioned};
 use join::Joined;
 
+pub(super) use classes::ClassCells;
 pub(super) use join::JoinMatches;
 pub(super) use signals::place_first;
 pub(super) use table::RowTable;
@@ -33,6 +35,8 @@ pub(super) struct Resolved {
     pub(super) main: ForeignTable,
     /// The numbers of taxels of every row, where they are in columns.
     pub(super) signals: Option<Vec<f32>>,
+    /// What the cells of each class are.
+    pub(super) class_cells: Vec<ClassCells>,
 }
 
 /// What the cells of a row are taken from.
@@ -78,6 +82,7 @@ pub(super) fn resolve(
         sources.joined.push(joined);
     }
     sources.check_units()?;
+    let class_cells = classes::of(&sources)?;
     let rows = sources.main.rows();
     let mut cells = Vec::with_capacity(names.len());
     for name in &names {
@@ -103,6 +108,7 @@ pub(super) fn resolve(
     let signals = in_columns.map(|map| signals::numbers(&sources, map));
     Ok(Resolved {
         signals: signals.transpose()?,
+        class_cells,
         absent_chunks,
         unmentioned: sources.unmentioned(&table),
         joins: sources.joined.iter().map(Joined::matched).collect(),
@@ -253,11 +259,11 @@ fn cell_of(table: &ForeignTable, row: usize, name: &str) -> Result<String, Datas
     if cell.is_empty() {
         return Ok(String::new());
     }
-    let found = packed::item(&cell, &index);
+    let found = packed::value(&cell, &index);
     found
-        .map(|found| match (table, found) {
-            (ForeignTable::Columns(_), "null") => String::new(),
-            _ => found.to_owned(),
+        .map(|found| match table {
+            ForeignTable::Columns(_) | ForeignTable::Json(_) if found.is_null() => String::new(),
+            _ => found.text.into_owned(),
         })
         .map_err(|problem| DatasetError::Table {
             place: table.place(row, base),

@@ -1,6 +1,7 @@
 //! The rows of one table, read by a map.
 
 mod labels;
+mod point;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -8,7 +9,7 @@ use std::sync::Arc;
 
 use super::frame_cells::{FrameCells, FrameName, columns_of, filled};
 use super::map::{FrameNames, ImportMap};
-use super::resolve::{JoinMatches, RowTable, resolve};
+use super::resolve::{ClassCells, JoinMatches, RowTable, resolve};
 use crate::csv_table::CsvTable;
 use crate::error::{DatasetError, Place};
 use crate::file::SourceFolder;
@@ -39,6 +40,8 @@ pub(super) struct MappedTable<'a> {
     spacing: Option<usize>,
     attributes: Vec<usize>,
     classes: Vec<usize>,
+    /// What the cells of each class are.
+    class_cells: Vec<ClassCells>,
     time: Option<usize>,
     /// The columns of the table, the row and the picture that rows first came from.
     origin: [Option<usize>; 3],
@@ -60,6 +63,7 @@ impl<'a> MappedTable<'a> {
     ) -> Result<MappedTable<'a>, DatasetError> {
         let mut clips = None;
         let mut absent_chunks = BTreeMap::new();
+        let mut class_cells = Vec::new();
         let (table, unmentioned, joins, pictures, signals) = match map.is_extended {
             false => (
                 RowTable::AsItLies(CsvTable::read(path)?),
@@ -71,6 +75,7 @@ impl<'a> MappedTable<'a> {
             true => {
                 let found = resolve(map, folder, path)?;
                 absent_chunks = found.absent_chunks;
+                class_cells = found.class_cells;
                 let names = map.frame.as_ref().map(|frame| &frame.names);
                 if let (TableForm::LeRobot, Some(FrameNames::Video(video))) = (&map.form, names) {
                     clips = Some(found.main.clips(&video.file)?);
@@ -152,6 +157,7 @@ impl<'a> MappedTable<'a> {
             unmentioned,
             joins,
             absent_chunks,
+            class_cells,
             table,
         })
     }
@@ -351,16 +357,6 @@ impl<'a> MappedTable<'a> {
     pub(super) fn reference_name(&self, row: usize) -> Option<(&str, Place)> {
         let column = self.reference?;
         Some((self.table.cell(row, column), self.table.place(row, column)))
-    }
-
-    fn point_id(&self, row: usize) -> Option<String> {
-        let cells: Vec<&str> = self
-            .point_id
-            .iter()
-            .map(|column| self.table.cell(row, *column))
-            .collect();
-        let is_named = !cells.is_empty() && cells.iter().all(|cell| !cell.is_empty());
-        is_named.then(|| cells.join(":"))
     }
 
     /// A count, also where a spreadsheet made `3.0` of it.

@@ -253,3 +253,73 @@ fn a_column_called_row_does_not_say_which_picture_a_row_has() {
         assert_eq!(pixels, expected, "{name}");
     }
 }
+
+/// Three recordings of two rows, each with its own array, and one of all six pictures; the pictures of recording 2 are 20 and 21.
+fn recordings() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut all = Vec::new();
+    for run in 0..3_u8 {
+        let at = folder.path().join(format!("s{run}"));
+        std::fs::create_dir(&at).expect("made");
+        let first = 2 * run;
+        let labels = format!("Fz,k\n{run},{first}\n{run},{}\n", first + 1);
+        std::fs::write(at.join("labels.csv"), labels).expect("written");
+        let pixels = [10 * run, 10 * run + 1];
+        std::fs::write(at.join("frames.npy"), npy("|u1", "(2, 1, 1)", &pixels)).expect("written");
+        all.extend(pixels);
+    }
+    let all = npy("|u1", "(6, 1, 1)", &all);
+    std::fs::write(folder.path().join("all.npy"), all).expect("written");
+    folder
+}
+
+fn map_of_recordings(array: &str) -> String {
+    format!(
+        "table = \"s*/labels.csv\"\n[path]\npattern = \"s{{s:digits}}/labels.csv\"\n[frame]\narray = {{ file = \"{array}\" }}\nchannel_order = \"gray\"\nreference = \"unknown\"\n[columns]\nFz = {{ from = \"Fz\", unit = \"N\" }}\n{NO_TIME}"
+    )
+}
+
+#[test]
+fn an_array_that_several_tables_share_without_an_index_is_refused_and_not_begun_anew() {
+    let folder = recordings();
+    for array in ["all.npy", "s*/frames.npy"] {
+        let problem = planned(folder.path(), &map_of_recordings(array)).expect_err(array);
+        for expected in [
+            "s1/labels.csv, line 2",
+            array,
+            "`array`",
+            "s0/labels.csv already",
+            "each of the 3 tables would begin with the first picture again",
+            "`index = \"COLUMN\"`",
+            "`{path.NAME}`",
+        ] {
+            assert!(problem.contains(expected), "{expected}: {problem}");
+        }
+    }
+}
+
+#[test]
+fn each_of_several_tables_has_the_array_beside_it_or_counts_through_one_of_all() {
+    let folder = recordings();
+    let own = map_of_recordings("s{path.s}/frames.npy");
+    let counted =
+        map_of_recordings("all.npy").replace("channel_order", "index = \"k\"\nchannel_order");
+    let through =
+        map_of_recordings("s*/frames.npy").replace("channel_order", "index = \"k\"\nchannel_order");
+    for (name, map) in [("own", own), ("counted", counted), ("through", through)] {
+        let target = folder.path().join(name);
+        let plan = planned(folder.path(), &map).expect(name);
+        plan.run(
+            &target,
+            std::num::NonZeroUsize::MIN,
+            &taceva_core::SilentProgress,
+        )
+        .expect("imported");
+        let dataset = Dataset::open(&target).expect("opens");
+        let pixels = [0, 1, 2, 3, 4, 5].map(|row| {
+            let frame = dataset.frame(row).expect("read").expect("a frame");
+            frame.bytes()[0]
+        });
+        assert_eq!(pixels, [0, 1, 10, 11, 20, 21], "{name}");
+    }
+}

@@ -131,3 +131,22 @@ fn rows_left_out_by_rules_and_images_that_no_row_names_are_remembered() {
     assert_eq!(remembered.rows["placeholders"], 1);
     assert_eq!(remembered.rows["frame ``"], 1);
 }
+
+#[test]
+fn frames_that_no_row_uses_are_counted_in_the_file_that_they_are_in() {
+    let folder = lab(&[("labels.csv", "k,Fz\n0,1\n4,2\n5,3\n")]);
+    for session in ["s0", "s1", "s2"] {
+        let at = folder.path().join(session);
+        fs::create_dir(&at).expect("made");
+        let frames = npy("|u1", "(3, 8, 8)", &[7; 3 * 64]);
+        fs::write(at.join("frames.npy"), frames).expect("written");
+    }
+    let map = format!(
+        "table = \"labels.csv\"\n[frame]\narray = {{ file = \"s*/frames.npy\" }}\nindex = \"k\"\nchannel_order = \"gray\"\nreference = \"unknown\"\n[columns]\nFz = {{ from = \"Fz\", unit = \"N\" }}\n{NO_TIME}"
+    );
+    let (_, remembered) = left_out(folder.path(), &map);
+    let found =
+        ["s0", "s1", "s2"].map(|session| remembered.frames[&format!("{session}/frames.npy")]);
+    assert_eq!(found, [2, 1, 3]);
+    assert_eq!(remembered.frames.len(), 3);
+}

@@ -1,10 +1,13 @@
 //! Maps of version 2: labels in paths and cells, tables of other forms, joins, matrices, classes; and what of them is refused.
 
 mod arrays;
+mod classes;
 mod codecs;
+mod joins;
 mod left_out;
 mod references;
 mod signals;
+mod texts;
 mod times;
 
 use std::num::NonZeroUsize;

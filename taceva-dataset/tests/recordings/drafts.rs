@@ -97,3 +97,123 @@ fn a_draft_needs_nothing_but_units_of_most_recordings() {
         names.len()
     );
 }
+
+/// The draft of a map for a folder with these files.
+fn draft_of(files: &[(&str, Vec<u8>)]) -> String {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (path, bytes) in files {
+        let path = folder.path().join(path);
+        std::fs::create_dir_all(path.parent().expect("inside")).expect("made");
+        std::fs::write(path, bytes).expect("written");
+    }
+    let draft = MapDraft::of(folder.path()).expect("a draft");
+    draft.text().to_owned()
+}
+
+/// A NumPy file of bytes.
+fn npy(shape: &str, data: &[u8]) -> Vec<u8> {
+    let header = format!("{{'descr': '|u1', 'fortran_order': False, 'shape': {shape}, }}");
+    let length = u16::try_from(header.len()).expect("short");
+    [
+        b"\x93NUMPY\x01\x00",
+        &length.to_le_bytes()[..],
+        header.as_bytes(),
+        data,
+    ]
+    .concat()
+}
+
+#[test]
+fn a_draft_of_several_sessions_gives_each_its_own_array() {
+    let frames = npy("(2, 16, 16, 3)", &[9; 2 * 16 * 16 * 3]);
+    for (table, rows) in [
+        ("force.npy", npy("(2, 3)", &[1, 2, 3, 4, 5, 6])),
+        ("labels.csv", b"Fz\n0.5\n1.5\n".to_vec()),
+    ] {
+        let mut files = Vec::new();
+        let names: Vec<[String; 2]> = (0..3)
+            .map(|session| {
+                [
+                    format!("s{session}/{table}"),
+                    format!("s{session}/frames.npy"),
+                ]
+            })
+            .collect();
+        for [table, array] in &names {
+            files.push((table.as_str(), rows.clone()));
+            files.push((array.as_str(), frames.clone()));
+        }
+        let draft = draft_of(&files);
+        assert!(
+            draft.contains("array = { file = \"s{path.s}/frames.npy\" }"),
+            "{draft}"
+        );
+        let pattern = format!("pattern = \"s{{s:digits}}/{table}\"");
+        assert!(draft.contains(&pattern), "{draft}");
+    }
+}
+
+#[test]
+fn a_draft_of_several_tables_over_one_array_leaves_the_index_open() {
+    let draft = draft_of(&[
+        ("t0.csv", b"Fz\n0.5\n1.5\n".to_vec()),
+        ("t1.csv", b"Fz\n2.5\n3.5\n".to_vec()),
+        ("frames.npy", npy("(4, 16, 16, 3)", &[9; 4 * 16 * 16 * 3])),
+    ]);
+    assert!(
+        draft.contains("array = { file = \"frames.npy\" }\nindex = \"?\""),
+        "{draft}"
+    );
+}
+
+#[test]
+fn a_draft_takes_a_header_of_positions_for_one_and_says_that_it_is_a_guess() {
+    for text in [
+        "0,1,2\n0.5,1.5,2.5\n3.5,4.5,5.5\n",
+        ",0,1,2\n0,0.5,1.5,2.5\n1,3.5,4.5,5.5\n",
+    ] {
+        let draft = draft_of(&[("labels.csv", text.as_bytes().to_vec())]);
+        assert!(
+            draft.contains("{ file = \"labels.csv\", header = true }   # 2 rows"),
+            "{draft}"
+        );
+        assert!(draft.contains("# A guess: the first line"), "{draft}");
+        assert!(!draft.contains("from = \"\""), "{draft}");
+    }
+    let draft = draft_of(&[("labels.csv", b"0.0,1.0,2.0\n0.5,1.5,2.5\n".to_vec())]);
+    assert!(draft.contains("header = false"), "{draft}");
+}
+
+#[test]
+fn a_draft_prefers_what_was_measured_to_commands_predictions_and_deviations() {
+    let text = "fz_cmd,fz_meas,fx_std,fx,fy_pred,z_target\n1.5,2.5,3.5,4.5,5.5,6.5\n2.5,1.5,4.5,3.5,6.5,5.5\n";
+    let draft = draft_of(&[("labels.csv", text.as_bytes().to_vec())]);
+    let line = |start: &str| {
+        let mut lines = draft.lines();
+        let found = lines.find(|line| line.starts_with(start));
+        found.unwrap_or_default().to_owned()
+    };
+    assert_eq!(line("Fz = "), "Fz = { from = \"fz_meas\", unit = \"?\" }");
+    assert_eq!(line("Fx = "), "Fx = { from = \"fx\", unit = \"?\" }");
+    for (channel, word) in [("Fy = ", "`pred`"), ("Pz = ", "`target`")] {
+        let line = line(channel);
+        assert!(
+            line.contains("# a guess: ") && line.contains(word),
+            "{line}"
+        );
+    }
+    assert!(line("# or: Fz = ").contains("fz_cmd"), "{draft}");
+}
+
+#[test]
+fn a_draft_marks_the_unit_of_times_that_it_guesses_by_their_step() {
+    let times = |step: usize| {
+        let rows = (0..30).map(|row| format!("{},{}.5\n", row * step, row % 7));
+        let text = format!("timestamp,fz\n{}", rows.collect::<String>());
+        draft_of(&[("labels.csv", text.into_bytes())])
+    };
+    assert!(times(33).contains("\nunit = \"ms\"   # a guess: "));
+    assert!(times(33_333).contains("\nunit = \"us\"   # a guess: "));
+    assert!(times(33_333_333).contains("\nunit = \"ns\"   # a guess: "));
+    assert!(times(1).contains("\nunit = \"?\"   # "));
+}

@@ -108,8 +108,10 @@ pub enum SplitError {
         "split leave-one-recording-out fits a model for each recording: `evaluate` does; one model is fitted with by-recording=train:a,b;test:c"
     )]
     ManyFolds,
-    /// The recording declares no parts.
-    #[error("split declared: the recording declares no parts")]
+    /// Some samples have no declared part, or none has.
+    #[error(
+        "split declared: not every sample has a part; fill each cell of the column that `part` of `[ids]` names, or use another split"
+    )]
     NoParts,
     /// A declared part that is none.
     #[error("row {row}: part `{found}`, expected train, val, validation or test", found = taceva_core::shown(found))]

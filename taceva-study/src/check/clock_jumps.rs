@@ -4,12 +4,12 @@ use taceva_core::Clock;
 
 use super::evidence::Evidence;
 use super::finding::{Check, Found, Severity};
-use super::stream::Stream;
+use super::stream::{Step, Stream};
 
 pub(super) static CHECK: Check = Check {
     code: "TAC024",
     name: "clock-jumps",
-    looks_for: "a clock that was set within a contact, stamps of two clocks in one column, and times that the stated clock cannot show",
+    looks_for: "a clock that was set within a contact or, without contact points, within a stream that is regular otherwise, stamps of two clocks in one column, and times that the stated clock cannot show",
     hint: "stamp with a clock that nobody sets (monotonic), and import what two clocks stamped as two tables joined with their lag",
     reads: None,
     find,
@@ -18,6 +18,10 @@ pub(super) static CHECK: Check = Check {
 /// So many usual steps within one contact, and at least so many seconds, are a jump.
 const JUMP_STEPS: f64 = 100.0;
 const JUMP_S: f64 = 1.0;
+/// Without contact points a pause between presses looks the same: one step in so many, or a single one, is a jump, and more are pauses,
+const SELDOM: usize = 100;
+/// where nine in ten steps are at most so many usual ones.
+const REGULAR_STEPS: f64 = 3.0;
 /// No recording goes on for so long between two rows, s: twelve days. Seconds since 1970 and since a start are 54 years apart.
 const TWO_CLOCKS_S: f64 = 1e6;
 /// Seconds since 1970 at which Unix times of recordings begin (1990), and beyond which no machine has been running (32 years).
@@ -57,21 +61,51 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found
 }
 
-/// Stamps that jump ahead within one contact, by less than two clocks are apart.
-fn set_within(evidence: &Evidence<'_>) -> Option<Found> {
-    let stream = Stream::of(evidence)?;
-    let jumps = stream.steps.iter().filter(|step| {
+/// Stamps that jump ahead within one contact, or between rows without any, by less than two clocks are apart.
+fn set_within(evidence: &Evidence<'_>) -> Vec<Found> {
+    let Some(stream) = Stream::of(evidence) else {
+        return Vec::new();
+    };
+    let table = evidence.table;
+    let jumps = stream.steps.iter().copied().filter(|step| {
         step.seconds > JUMP_S
             && step.seconds > JUMP_STEPS * stream.usual_s
             && step.seconds <= TWO_CLOCKS_S
     });
-    // Without contact points a pause between presses looks the same.
-    let jumps = jumps.filter(|step| evidence.table.point_id()[step.to].is_some());
-    let longest = jumps.clone().map(|step| step.seconds).reduce(f64::max)?;
-    let rows: Vec<usize> = jumps.map(|step| step.to).collect();
+    let (within, mut without): (Vec<Step>, Vec<Step>) =
+        jumps.partition(|step| table.point_id()[step.to].is_some());
+    // Recording stops where the scene or the repeat changes.
+    without.retain(|step| {
+        table.scene()[step.to] == table.scene()[step.from]
+            && table.repeat()[step.to] == table.repeat()[step.from]
+    });
+    let steps = stream.steps.len();
+    let regular = stream.steps.iter();
+    let regular = regular
+        .filter(|step| step.seconds <= REGULAR_STEPS * stream.usual_s)
+        .count();
+    if without.len() > (steps / SELDOM).max(1) || regular < steps - steps / 10 {
+        without.clear();
+    }
+    let found = [
+        (within, "within a contact"),
+        (without, "between samples without contact points"),
+    ];
+    found
+        .into_iter()
+        .filter_map(|(jumps, place)| jumped(evidence, &stream, &jumps, place))
+        .collect()
+}
+
+fn jumped(evidence: &Evidence<'_>, stream: &Stream, jumps: &[Step], place: &str) -> Option<Found> {
+    let longest = jumps.iter().map(|step| step.seconds).reduce(f64::max)?;
+    let rows: Vec<usize> = jumps.iter().map(|step| step.to).collect();
+    let (steps_are, the_longest) = match rows.len() {
+        1 => (format!("1 step {place} is"), ""),
+        many => (format!("{many} steps {place} are"), "the longest "),
+    };
     let message = format!(
-        "{} steps within a contact are over {JUMP_STEPS} times the usual one of {:.4} s, the longest {longest:.3} s: the clock was set, or recording stopped",
-        rows.len(),
+        "{steps_are} over {JUMP_STEPS} times the usual one of {:.4} s, {the_longest}{longest:.3} s: the clock was set, or recording stopped",
         stream.usual_s
     );
     Some(Found::about(

@@ -20,24 +20,25 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let (frames, sources) = (evidence.table.frames(), evidence.table.source_frame());
     let digest = |row: usize| frames[row].as_ref().map(|frame| frame.digest);
     let (mut doubled, mut shared) = (Vec::new(), Vec::new());
-    let (mut run, mut longest) = (1, 1);
-    let mut last = None;
-    for step in &stream.steps {
-        let (before, row) = (step.to - 1, step.to);
-        // Between presses the stream pauses, and a run ends.
-        if last.replace(row) != Some(before) {
-            run = 1;
-        }
-        if digest(row).is_none() || digest(row) != digest(before) {
-            run = 1;
-        } else if sources[row].is_some() && sources[row] == sources[before] {
-            shared.push(row);
-        } else {
-            run += 1;
-            longest = longest.max(run);
-            doubled.push(row);
+    let mut longest = 1;
+    // Between presses the stream pauses, and a run ends.
+    for run in stream.runs() {
+        let mut alike = 1;
+        for step in run {
+            let (before, row) = (step.from, step.to);
+            if digest(row).is_none() || digest(row) != digest(before) {
+                alike = 1;
+            } else if sources[row].is_some() && sources[row] == sources[before] {
+                shared.push(row);
+            } else {
+                alike += 1;
+                longest = longest.max(alike);
+                doubled.push(row);
+            }
         }
     }
+    doubled.sort_unstable();
+    shared.sort_unstable();
     let of = |rows: &[usize], severity, message: String| {
         (!rows.is_empty()).then(|| Found::about(severity, message, evidence.names(rows)))
     };

@@ -1,6 +1,8 @@
 //! Every check: a recording that triggers it, and one that must not.
 
+mod forces;
 mod lag;
+mod stamps;
 mod streams;
 
 use std::num::NonZeroUsize;

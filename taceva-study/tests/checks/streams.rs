@@ -10,7 +10,10 @@ use taceva_study::{CheckReport, CheckRequest, Severity, check};
 use super::{Recording, SAMPLES, codes};
 
 /// What a check says of a recording whose stamps, in s, are these.
-fn stamped(time: impl Fn(u32) -> f64, change: impl FnOnce(&mut Recording)) -> CheckReport {
+pub(super) fn stamped(
+    time: impl Fn(u32) -> f64,
+    change: impl FnOnce(&mut Recording),
+) -> CheckReport {
     let mut recording = Recording::sound();
     for (number, sample) in (0..SAMPLES).zip(&mut recording.samples) {
         sample.stamp = Some(Stamp {
@@ -24,12 +27,12 @@ fn stamped(time: impl Fn(u32) -> f64, change: impl FnOnce(&mut Recording)) -> Ch
     recording.check("random")
 }
 
-fn regular(number: u32) -> f64 {
+pub(super) fn regular(number: u32) -> f64 {
     0.031 * f64::from(number) + 0.007
 }
 
 #[track_caller]
-fn message<'r>(report: &'r CheckReport, code: &str) -> &'r str {
+pub(super) fn message<'r>(report: &'r CheckReport, code: &str) -> &'r str {
     let finding = report.findings.iter().find(|finding| finding.code == code);
     &finding
         .unwrap_or_else(|| panic!("{:?}", codes(report)))
@@ -37,7 +40,7 @@ fn message<'r>(report: &'r CheckReport, code: &str) -> &'r str {
 }
 
 #[track_caller]
-fn says_nothing(report: &CheckReport, code: &str) {
+pub(super) fn says_nothing(report: &CheckReport, code: &str) {
     assert!(
         report.findings.iter().all(|finding| finding.code != code),
         "{:#?}",
@@ -117,7 +120,7 @@ fn stamps_of_two_clocks_a_clock_that_was_set_and_one_that_is_not_the_stated_are_
         |_| {},
     );
     assert!(
-        message(&set, "TAC024").starts_with("1 steps within a contact are over 100 times"),
+        message(&set, "TAC024").starts_with("1 step within a contact is over 100 times"),
         "{}",
         message(&set, "TAC024")
     );

@@ -136,7 +136,7 @@ fn presses_of(times: usize) -> usize {
     times.clamp(3, 12)
 }
 
-/// A study that is gone on with so often makes no progress.
+/// A study that is gone on with so often beyond the faults that may end it makes no progress.
 const MOST_ENDS: usize = 60;
 /// How long an arm that must not move is looked at.
 const LOOKED_AT: Duration = Duration::from_millis(300);
@@ -207,7 +207,7 @@ impl Played {
             }
             ends += 1;
             self.ended += 1;
-            if !matches!(case.outcome, Outcome::MayEnd(_)) || ends == MOST_ENDS {
+            if !matches!(case.outcome, Outcome::MayEnd(_)) || ends == times + MOST_ENDS {
                 self.broken.push(format!("{}: {said}", case.name));
                 return;
             }

@@ -2,18 +2,31 @@
 
 use taceva_arrays::ArrayValues;
 
+use crate::foreign::packed;
+
 /// Values of an array as the cells of a table.
 pub(super) struct Texts<'a>(pub(super) &'a ArrayValues);
 
 impl Texts<'_> {
-    /// The values from `first` on that have this shape, as lists in lists.
+    /// The values from `first` on that have this shape, as lists in lists; texts in lists stand in quotes where they could be taken for several.
     pub(super) fn packed(&self, first: usize, shape: &[usize]) -> String {
+        match shape {
+            [] => self.one(first),
+            _ => self.list(first, shape),
+        }
+    }
+
+    fn list(&self, first: usize, shape: &[usize]) -> String {
         let Some((count, rest)) = shape.split_first() else {
-            return self.one(first);
+            let one = self.one(first);
+            return match self.0 {
+                ArrayValues::Text(_) => packed::member(one),
+                _ => one,
+            };
         };
         let width: usize = rest.iter().product();
         let parts: Vec<String> = (0..*count)
-            .map(|at| self.packed(first + at * width, rest))
+            .map(|at| self.list(first + at * width, rest))
             .collect();
         format!("[{}]", parts.join(", "))
     }

@@ -12,6 +12,9 @@ use crate::signals::{SignalsInfo, SignalsReader};
 use crate::table::Table;
 use crate::text::shown;
 
+/// So many different pictures that come again are no chance: no camera takes a picture twice.
+const SAME_PICTURES: usize = 3;
+
 /// Refuses rows of `table` behind those of `before` that are among these: by the name of the sample, or because labels, time, frame and signals
 /// are the same.
 ///
@@ -70,7 +73,7 @@ pub(super) fn refuse_twice(
         false => twice.iter().find(|pair| is_sure(pair)),
     };
     match first {
-        None => Ok(()),
+        None => refuse_same_pictures(table, old, refused),
         Some((row, before)) => Err(refused(format!(
             "{} says what row {before} of the dataset says, sample `{}`; {} of {} rows are in it already, and the same rows are not added twice",
             origin(table, *row, old),
@@ -79,6 +82,39 @@ pub(super) fn refuse_twice(
             table.rows() - old
         ))),
     }
+}
+
+/// Refuses new rows with pictures of old ones under other labels or times, as a second import of the same recording has them.
+fn refuse_same_pictures(
+    table: &Table,
+    old: usize,
+    refused: impl Fn(String) -> DatasetError,
+) -> Result<(), DatasetError> {
+    let frames = || table.frames().iter().enumerate();
+    let known = frames().take(old);
+    let known: HashMap<Digest, usize> = known
+        .filter_map(|(row, frame)| Some((frame.as_ref()?.digest, row)))
+        .collect();
+    let mut again: BTreeMap<Digest, (usize, usize)> = BTreeMap::new();
+    for (row, frame) in frames().skip(old) {
+        if let Some(frame) = frame
+            && let Some(before) = known.get(&frame.digest)
+        {
+            again.entry(frame.digest).or_insert((row, *before));
+        }
+    }
+    let Some((row, before)) = again.values().min() else {
+        return Ok(());
+    };
+    if again.len() < SAME_PICTURES {
+        return Ok(());
+    }
+    Err(refused(format!(
+        "{} has the picture of row {before} of the dataset, sample `{}`, under other labels or another time, and so have {} different pictures in all: a recording is not added twice",
+        origin(table, *row, old),
+        shown(&table.samples()[*before]),
+        again.len()
+    )))
 }
 
 /// Where a new row comes from, as far as its table says.

@@ -62,7 +62,7 @@ impl ColumnMap {
 pub struct IdMap {
     /// The name of a sample; absent: the number of its row, from 0.
     pub sample: Option<String>,
-    /// The contact point; several columns are joined with `:`.
+    /// The contact point; several columns are joined with `:`, where a `:` or `\` within a cell stands behind a `\`.
     #[serde(deserialize_with = "one_or_more")]
     pub point_id: Vec<String>,
     /// Which unit of the sensor it is, of several of one model.

@@ -87,6 +87,17 @@ impl PathPattern {
         })
     }
 
+    /// Whether the part called `name` is any text.
+    pub(crate) fn is_text(&self, name: &str) -> bool {
+        let is_so = |piece: &Piece| match piece {
+            Piece::Named { name: known, kind } => {
+                known == name && matches!(kind, Kind::Free | Kind::Folders)
+            }
+            Piece::Text(_) => false,
+        };
+        self.pieces.iter().any(is_so)
+    }
+
     /// What the named parts of `path` are, in the order of [`names`](PathPattern::names); `None` if the path does not follow the pattern.
     pub(crate) fn captures<'p>(&self, path: &'p str) -> Option<Vec<&'p str>> {
         let mut found = Vec::new();

@@ -184,6 +184,11 @@ impl<'a> Joined<'a> {
         });
         JoinMatches {
             name: self.map.name.clone(),
+            counted_by: match &self.map.by {
+                JoinBy::Row => Some("`on = \"row\"`"),
+                JoinBy::Until(_) => Some("`until`"),
+                JoinBy::Columns(_) | JoinBy::All | JoinBy::Time(_) => None,
+            },
             matched: matched as u64,
             unmatched: (self.matches.len() - matched) as u64,
             greatest_gap_s: self.greatest_gap_s,

@@ -5,6 +5,7 @@ use taceva_core::{GratingKind, Limit, Nanometre, Phase, is_scorable};
 use super::MappedTable;
 use crate::error::DatasetError;
 use crate::import::map::{ClassMap, ColumnMap};
+use crate::import::resolve::ClassCells;
 
 impl MappedTable<'_> {
     pub(super) fn truth(&self, row: usize) -> Result<Vec<Option<f64>>, DatasetError> {
@@ -111,10 +112,11 @@ impl MappedTable<'_> {
             (!cell.is_empty()).then(|| cell.to_owned())
         };
         let mut texts: Vec<Option<String>> = self.attributes.iter().map(text).collect();
-        for (column, class) in self.classes.iter().zip(self.map.classes.values()) {
+        let classes = self.map.classes.values().zip(&self.class_cells);
+        for (column, (class, cells)) in self.classes.iter().zip(classes) {
             texts.push(match self.table.cell(row, *column) {
                 "" => None,
-                cell => Some(self.class(row, (*column, cell), class)?),
+                cell => Some(self.class(row, (*column, cell), (class, *cells))?),
             });
         }
         Ok(texts)
@@ -125,13 +127,18 @@ impl MappedTable<'_> {
         &self,
         row: usize,
         (column, cell): (usize, &str),
-        class: &ClassMap,
+        (class, cells): (&ClassMap, ClassCells),
     ) -> Result<String, DatasetError> {
-        let by_position = || class.names.get(cell.parse::<usize>().ok()?);
-        let named = class.names.iter().find(|name| *name == cell);
-        named.or_else(by_position).cloned().ok_or_else(|| {
+        let by_position = || class.names.get(class.position(cell)?);
+        let by_name = || class.names.iter().find(|name| *name == cell);
+        let (found, what) = match cells {
+            ClassCells::Positions => (by_position(), "position in the list"),
+            ClassCells::Names => (by_name(), "class of the list"),
+            ClassCells::Either => (by_name().or_else(by_position), "class of the list"),
+        };
+        found.cloned().ok_or_else(|| {
             let known = class.names.join(", ");
-            self.wrong(row, column, &format!("no class of the list: {known}"))
+            self.wrong(row, column, &format!("no {what}: {known}"))
         })
     }
 }

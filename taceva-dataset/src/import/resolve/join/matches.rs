@@ -1,13 +1,17 @@
 //! What joins matched, and which rows of joined tables belong to no row of any main table.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use crate::error::{DatasetError, Place};
 use crate::import::summary::JoinSummary;
+use crate::text::shown_path;
 
 /// What one main table found in a joined one.
 pub(in crate::import) struct JoinMatches {
     pub(super) name: String,
+    /// The key of the map by which rows belong to those of the same number in each main table, if they do.
+    pub(super) counted_by: Option<&'static str>,
     pub(super) matched: u64,
     pub(super) unmatched: u64,
     pub(super) greatest_gap_s: Option<f64>,
@@ -35,6 +39,43 @@ impl JoinMatches {
                 None => drop(self.tables.insert(path, uses)),
             }
         }
+    }
+
+    /// Checks that no table whose rows are counted is joined to two main ones: each would begin with its first row again. `main` is the table
+    /// that found `other`, one of `tables`; `are_files` where each of them is a file that is one row.
+    pub(in crate::import) fn check_counted_once(
+        &self,
+        other: &JoinMatches,
+        main: &Path,
+        (tables, are_files): (usize, bool),
+    ) -> Result<(), DatasetError> {
+        let shared = other
+            .tables
+            .keys()
+            .find(|path| self.tables.contains_key(*path));
+        let (Some(key), Some(shared)) = (self.counted_by, shared) else {
+            return Ok(());
+        };
+        let (each, remedy) = match are_files {
+            true => (
+                format!(
+                    "{tables} files, of which each is a table of one row, and their order is no promise"
+                ),
+                "join by a number in the name, `on = { \"path.NAME\" = \"COLUMN\" }` with a part of [path] and a column of that table",
+            ),
+            false => (
+                format!("{tables} tables"),
+                "join by a column of both, `on = { COLUMN = \"COLUMN\" }`, or by time, or name a table for each with `{path.NAME}`",
+            ),
+        };
+        Err(DatasetError::Table {
+            place: Place::file(main),
+            problem: format!(
+                "join `{}`: with {key} the first row of {} would belong to the first row of each of the {each}: {remedy}",
+                self.name,
+                shown_path(shared)
+            ),
+        })
     }
 
     pub(in crate::import) fn name(&self) -> &str {

@@ -1,0 +1,112 @@
+//! The unit of a time that stands nowhere.
+
+use super::{Role, are_counts};
+
+/// Times above this, in seconds, count from 1970: it is a day in 2001.
+const UNIX_S: f64 = 1e9;
+/// Times of now lie below this, in seconds from 1970: it is a day in 2039.
+const UNIX_END_S: f64 = 2.2e9;
+/// From one row to the next, seconds from 1970 differ by less.
+const UNIX_STEP_S: f64 = 3_600.0;
+
+/// The units of times and how many of each are a second.
+const UNITS: [(&str, f64); 4] = [("ns", 1e9), ("us", 1e6), ("ms", 1e3), ("s", 1.0)];
+
+/// The unit of a time by the last word of its name, by its size where that is of now, or by the time from one row to the next.
+pub(super) fn time(words: &[String], numbers: &[f64]) -> Role {
+    let greatest = numbers.iter().copied().fold(0.0_f64, f64::max);
+    let named = match words.last().map(String::as_str) {
+        Some("ns" | "nsec" | "nanoseconds") => Some("ns"),
+        Some("us" | "usec" | "microseconds") => Some("us"),
+        Some("ms" | "msec" | "milliseconds") => Some("ms"),
+        Some("s" | "sec" | "secs" | "seconds") => Some("s"),
+        _ => None,
+    };
+    let (unit, guess) = match named {
+        Some(unit) => (unit, None),
+        None => guessed_unit(numbers, greatest),
+    };
+    let second = UNITS.iter().find(|(known, _)| *known == unit);
+    let second = second.map_or(1.0, |(_, second)| *second);
+    Role::Time {
+        unit,
+        is_unix: greatest / second > UNIX_S,
+        guess,
+    }
+}
+
+/// The unit of times whose name says none, and why it may be another.
+fn guessed_unit(numbers: &[f64], greatest: f64) -> (&'static str, Option<&'static str>) {
+    let step = median_step(numbers);
+    let of_now = UNITS.iter().find(|(_, second)| {
+        (UNIX_S..UNIX_END_S).contains(&(greatest / second))
+            && step.is_none_or(|step| step / second <= UNIX_STEP_S)
+    });
+    if let Some((unit, _)) = of_now {
+        return (*unit, None);
+    }
+    match step {
+        Some(step) if step >= 1e6 => ("ns", Some("a guess: the times are millions apart")),
+        Some(step) if step > 2_000.0 => ("us", Some("a guess: the times are thousands apart")),
+        Some(step) if step >= 2.0 => (
+            "ms",
+            Some(
+                "a guess: the times are 2 to 2000 apart, and from one row to the next it is rarely as many seconds",
+            ),
+        ),
+        Some(_) if are_counts(numbers) => (
+            "?",
+            Some("whole numbers that are 1 apart: seconds, or no times but counts?"),
+        ),
+        Some(_) => ("s", None),
+        None => ("s", Some("a guess: one time alone does not say its unit")),
+    }
+}
+
+/// The median of what lies between each number and the next greater one.
+fn median_step(numbers: &[f64]) -> Option<f64> {
+    let mut sorted = numbers.to_vec();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let steps = sorted.windows(2).map(|pair| pair[1] - pair[0]);
+    let mut steps: Vec<f64> = steps.filter(|step| *step > 0.0).collect();
+    steps.sort_unstable_by(f64::total_cmp);
+    steps.get(steps.len() / 2).copied()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::draft::roles::role;
+
+    #[test]
+    fn the_unit_of_times_without_one_is_guessed_by_the_median_step() {
+        let unit = |first: f64, step: f64| {
+            let times: Vec<String> = (0..30)
+                .map(|row| format!("{}", first + step * f64::from(row)))
+                .collect();
+            match role("timestamp", "", &times) {
+                Role::Time {
+                    unit,
+                    is_unix,
+                    guess,
+                } => (unit, is_unix, guess.is_some()),
+                other => panic!("{other:?} for a step of {step}"),
+            }
+        };
+        assert_eq!(unit(0.0, 33.0), ("ms", false, true));
+        assert_eq!(unit(0.0, 4.0), ("ms", false, true));
+        assert_eq!(unit(0.0, 33_333.0), ("us", false, true));
+        assert_eq!(unit(0.0, 33_333_333.0), ("ns", false, true));
+        assert_eq!(unit(0.0, 0.03125), ("s", false, false));
+        // Seconds from 1970 in each unit.
+        assert_eq!(unit(1.7e9, 0.03125), ("s", true, false));
+        assert_eq!(unit(1.7e9, 30.0), ("s", true, false));
+        assert_eq!(unit(1.7e12, 33.0), ("ms", true, false));
+        assert_eq!(unit(1.7e15, 33_333.0), ("us", true, false));
+        assert_eq!(unit(1.7e18, 33_333_504.0), ("ns", true, false));
+        // Seconds or counts: nothing says which.
+        assert_eq!(unit(0.0, 1.0).0, "?");
+        assert_eq!(median_step(&[3.0, 1.0, 1.0, 2.0]), Some(1.0));
+        assert_eq!(median_step(&[1.0]), None);
+    }
+}

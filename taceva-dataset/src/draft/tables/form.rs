@@ -1,0 +1,150 @@
+//! How a table is written, by its name and what it holds.
+
+use std::path::Path;
+
+use taceva_arrays::ArrayFormat;
+
+use crate::csv_table::number;
+use crate::draft::survey::FileGroup;
+use crate::foreign::{ForeignTable, TableForm, packed};
+
+/// What a map says of a table whose header is numbers.
+pub(super) const NUMBERED_HEADER: &str = "header = true";
+
+/// The form of a table, and what a map has to say of it beside its path.
+pub(super) fn form_of(path: &Path, group: &FileGroup) -> Option<(TableForm, String)> {
+    let plain = |form| Some((form, String::new()));
+    match group.ending.as_str() {
+        "csv" | "tsv" => {
+            let with_header = TableForm::Delimited { has_header: true };
+            match ForeignTable::read(path, &with_header).map(|table| table.names()) {
+                Ok(names) if is_numbered(&names) => Some((with_header, NUMBERED_HEADER.to_owned())),
+                Ok(names) if !is_of_numbers(&names) => plain(with_header),
+                _ => Some((
+                    TableForm::Delimited { has_header: false },
+                    "header = false".to_owned(),
+                )),
+            }
+        }
+        "json" => {
+            // An object whose members are objects is a table of them.
+            let members = TableForm::Json {
+                rows: Some("/*".to_owned()),
+            };
+            let table = ForeignTable::read(path, &TableForm::Json { rows: None }).ok()?;
+            let is_list = table.rows() != 1;
+            let are_rows = !is_list
+                && ForeignTable::read(path, &members)
+                    .is_ok_and(|table| table.rows() > 1 && !table.names().is_empty());
+            match are_rows {
+                true => Some((members, "rows = \"/*\"".to_owned())),
+                false => plain(TableForm::Json { rows: None }),
+            }
+        }
+        "jsonl" | "ndjson" => plain(TableForm::JsonLines),
+        "parquet" => plain(TableForm::Parquet),
+        "tar" => plain(TableForm::WebDataset),
+        _ => {
+            let format = ArrayFormat::of(path)?;
+            let of = |rows| TableForm::Arrays {
+                format,
+                rows,
+                is_whole: false,
+            };
+            let whole = of(None);
+            let table = ForeignTable::read(path, &whole).ok()?;
+            let names = table.names();
+            let found = match format {
+                ArrayFormat::Pickle | ArrayFormat::Npy => rows_of_dictionaries(&names),
+                _ => rows_within(&names),
+            };
+            let Some(rows) = found else {
+                return plain(whole);
+            };
+            let extra = format!("rows = {rows:?}");
+            Some((of(Some(rows)), extra))
+        }
+    }
+}
+
+/// Whether what would be names of columns are numbers: the file has no header.
+fn is_of_numbers(names: &[String]) -> bool {
+    let is_number =
+        |name: &&String| number::number(packed::plain(name)).is_ok_and(|found| found.is_some());
+    names.iter().filter(is_number).count() * 2 > names.len()
+}
+
+/// Whether the names are the positions of the columns, as pandas writes them of an array without names; its index stands before them without one.
+fn is_numbered(names: &[String]) -> bool {
+    let names = match names {
+        [index, rest @ ..] if index.is_empty() => rest,
+        names => names,
+    };
+    let mut numbered = names.iter().enumerate();
+    !names.is_empty() && numbered.all(|(position, name)| *name == position.to_string())
+}
+
+/// Where the rows of dictionaries within dictionaries are: `trajectories.*`, or in the fields of one record.
+fn rows_of_dictionaries(names: &[String]) -> Option<String> {
+    let first = |name: &String| name.split_once('.').map(|(first, _)| first.to_owned());
+    if let Some(deep) = names.iter().find(|name| name.matches('.').count() > 1) {
+        return Some(format!("{}.*", first(deep)?));
+    }
+    let own = first(names.first()?)?;
+    let is_one = names.iter().all(|name| first(name).as_ref() == Some(&own));
+    is_one.then(|| format!("/{own}"))
+}
+
+/// Where the rows of a file of arrays are: in a table with fields, or in groups that are called alike.
+fn rows_within(names: &[String]) -> Option<String> {
+    let mut fields = names
+        .iter()
+        .filter_map(|name| Some(name.rsplit_once('.')?.0));
+    if let Some(table) = fields.next() {
+        return Some(format!("/{table}"));
+    }
+    // data/demo_0/ft, data/demo_1/ft: /data/*
+    let split: Vec<Vec<&str>> = names.iter().map(|name| name.split('/').collect()).collect();
+    let first = split.first()?;
+    let counted = first
+        .iter()
+        .position(|part| part.ends_with(|letter: char| letter.is_ascii_digit()))?;
+    let bare = |part: &str| {
+        part.trim_end_matches(|letter: char| letter.is_ascii_digit())
+            .to_owned()
+    };
+    let are_alike = split.iter().all(|parts| {
+        parts.len() > counted + 1
+            && parts[..counted] == first[..counted]
+            && bare(parts[counted]) == bare(first[counted])
+    });
+    let is_several = split.iter().any(|parts| parts[counted] != first[counted]);
+    (are_alike && is_several).then(|| {
+        let before: String = first[..counted]
+            .iter()
+            .map(|part| format!("/{part}"))
+            .collect();
+        format!("{before}/*")
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn are_numbered(names: &[&str]) -> bool {
+        let names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
+        is_numbered(&names)
+    }
+
+    #[test]
+    fn a_header_as_pandas_writes_it_of_an_array_is_its_positions_behind_the_index() {
+        assert!(are_numbered(&["0", "1", "2"]));
+        assert!(are_numbered(&["", "0", "1"]));
+        assert!(!are_numbered(&["0", "2", "1"]));
+        assert!(!are_numbered(&["1", "2", "3"]));
+        assert!(!are_numbered(&["0.0", "1.0"]));
+        assert!(!are_numbered(&["", "Fx"]));
+        assert!(!are_numbered(&[""]));
+    }
+}

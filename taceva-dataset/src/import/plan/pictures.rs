@@ -1,0 +1,80 @@
+//! The files with pictures in them that rows name.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::Reading;
+use crate::error::DatasetError;
+use crate::foreign::{ArrayPictures, ClipPictures, Pictures, SeveralPictures, TableForm};
+use crate::import::map::{FrameNames, OWN_ROW};
+use crate::import::source::matching_files;
+use crate::text::shown;
+
+impl Reading<'_> {
+    /// Checks that no two tables have the pictures in `file` by the number of the row, where no column says which picture a row has: each table
+    /// would begin with the first one again.
+    pub(super) fn check_counted_once(&mut self, file: &str) -> Result<(), DatasetError> {
+        let (key, index) = match self.map.frame.as_ref().map(|frame| &frame.names) {
+            Some(FrameNames::Array(array)) => ("array", &array.index),
+            Some(FrameNames::Video(video)) => ("video", &video.index),
+            _ => return Ok(()),
+        };
+        if index != OWN_ROW {
+            return Ok(());
+        }
+        let first = match self.counted.get(file) {
+            Some(first) if *first == self.current => return Ok(()),
+            Some(first) => first,
+            None => {
+                self.counted.insert(file.to_owned(), self.current.clone());
+                return Ok(());
+            }
+        };
+        let each = match self.map.form {
+            TableForm::Files => format!("{} files, of which each is a row,", self.count),
+            _ => format!("{} tables", self.count),
+        };
+        Err(DatasetError::Path {
+            place: None,
+            written: file.to_owned(),
+            problem: format!(
+                "the pictures of `{key}` belong to the rows of {} already, and each of the {each} would begin with the first picture again: \
+                 `index = \"COLUMN\"` names a column that counts through the pictures of all of them, and `{{path.NAME}}` in `{key}` a file for each",
+                shown(&self.folder.inside(first, ""))
+            ),
+        })
+    }
+
+    /// The pictures in the file at `relative`, which is opened once; with `*` in it, those of all such files, counted through.
+    pub(super) fn pictures(&mut self, relative: &str) -> Result<Arc<dyn Pictures>, DatasetError> {
+        let path = self.folder.path().join(relative);
+        if let Some(known) = self.opened.get(&path) {
+            return Ok(Arc::clone(known));
+        }
+        let found = matching_files(self.folder, relative)?.into_iter();
+        let files = found.map(|file| self.open(&file, relative));
+        let mut files = files.collect::<Result<Vec<_>, _>>()?;
+        let pictures = match files.len() {
+            1 => files.remove(0),
+            _ => Arc::new(SeveralPictures::new(files)),
+        };
+        self.opened.insert(path, Arc::clone(&pictures));
+        Ok(pictures)
+    }
+
+    fn open(&self, path: &Path, relative: &str) -> Result<Arc<dyn Pictures>, DatasetError> {
+        Ok(match self.map.frame.as_ref().map(|frame| &frame.names) {
+            Some(names @ FrameNames::Array(array)) => {
+                Arc::new(ArrayPictures::open(path, names, array)?)
+            }
+            Some(FrameNames::Video(_)) => Arc::new(ClipPictures::open(path, self.decoders)?),
+            _ => {
+                return Err(DatasetError::Path {
+                    place: None,
+                    written: relative.to_owned(),
+                    problem: "neither an array nor a clip".to_owned(),
+                });
+            }
+        })
+    }
+}

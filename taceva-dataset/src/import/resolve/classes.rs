@@ -1,0 +1,72 @@
+//! Whether the cells of a class are positions in its list, or names of it.
+
+use super::Sources;
+use super::columns::base_of;
+use crate::error::{DatasetError, Place};
+use crate::import::map::ClassMap;
+use crate::text::shown;
+
+/// What the cells of a class are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::import) enum ClassCells {
+    /// Positions in the list, also where a name is the same number.
+    Positions,
+    /// Names of the list.
+    Names,
+    /// Either, of a list in which no name is the position of another.
+    Either,
+}
+
+/// What the cells of each class of the map are, in its order.
+///
+/// # Errors
+/// [`DatasetError::Table`] if a name is also the position of another one, and nothing says which of both a cell is.
+pub(super) fn of(sources: &Sources<'_>) -> Result<Vec<ClassCells>, DatasetError> {
+    let classes = sources.map.classes.iter();
+    classes
+        .map(|(key, class)| sources.class_cells(key, class))
+        .collect()
+}
+
+impl Sources<'_> {
+    fn class_cells(&self, key: &str, class: &ClassMap) -> Result<ClassCells, DatasetError> {
+        let Some((name, position)) = class.ambiguous() else {
+            return Ok(ClassCells::Either);
+        };
+        if let Some(part) = class.from.strip_prefix("path.") {
+            let mut patterns = self.map.path.iter();
+            if patterns.any(|pattern| pattern.is_text(part)) {
+                return Ok(ClassCells::Names);
+            }
+        } else if self.holds_integers(&class.from) {
+            return Ok(ClassCells::Positions);
+        }
+        let other = class.names.get(position).map_or("", String::as_str);
+        Err(DatasetError::Table {
+            place: Place {
+                column: Some(class.from.clone()),
+                ..Place::file(self.main.path())
+            },
+            problem: format!(
+                "[classes] {key}: `names` has \"{}\", which is also the position of \"{}\", and nothing says whether a cell `{position}` is a name or a \
+                 position. If cells are positions, write the names so that none is one, such as \"class {}\"; if they are names, `[attributes]` keeps \
+                 them as they are, without `names`",
+                shown(name),
+                shown(other),
+                shown(name)
+            ),
+        })
+    }
+
+    /// Whether the file says that a column holds integers; of a joined table it is not asked.
+    fn holds_integers(&self, name: &str) -> bool {
+        if self.joined_column(name).is_some() {
+            return false;
+        }
+        let column = match self.main.has(name) {
+            true => name,
+            false => base_of(name),
+        };
+        self.main.has(column) && self.main.holds_integers(column)
+    }
+}

@@ -1,0 +1,49 @@
+//! The contact point of a row.
+
+use super::MappedTable;
+
+impl MappedTable<'_> {
+    pub(super) fn point_id(&self, row: usize) -> Option<String> {
+        let cells: Vec<&str> = self
+            .point_id
+            .iter()
+            .map(|column| self.table.cell(row, *column))
+            .collect();
+        let is_named = !cells.is_empty() && cells.iter().all(|cell| !cell.is_empty());
+        is_named.then(|| match cells[..] {
+            [only] => only.to_owned(),
+            _ => joined(&cells),
+        })
+    }
+}
+
+/// Cells joined with `:`, so that other cells never make the same text: a `:` within one, and a `\`, stands behind a `\`.
+fn joined(cells: &[&str]) -> String {
+    let mut joined = String::new();
+    for (at, cell) in cells.iter().enumerate() {
+        if at > 0 {
+            joined.push(':');
+        }
+        for letter in cell.chars() {
+            if matches!(letter, ':' | '\\') {
+                joined.push('\\');
+            }
+            joined.push(letter);
+        }
+    }
+    joined
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn other_cells_never_make_the_same_id() {
+        assert_eq!(joined(&["1.5", "b-2"]), "1.5:b-2");
+        assert_eq!(joined(&["a:b", "c"]), "a\\:b:c");
+        assert_eq!(joined(&["a", "b:c"]), "a:b\\:c");
+        assert_eq!(joined(&["a\\", "b"]), "a\\\\:b");
+        assert_eq!(joined(&["a\\:b"]), "a\\\\\\:b");
+    }
+}
