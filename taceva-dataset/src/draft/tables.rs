@@ -280,7 +280,7 @@ impl<'g> SeenTable<'g> {
                     guess,
                 } => Some(SeenTime {
                     column,
-                    unit: *unit,
+                    unit,
                     is_unix: *is_unix,
                     guess: *guess,
                 }),

@@ -74,11 +74,10 @@ impl Run<'_> {
         }
         if let ([Some(before), _], Some(seen)) = (&in_air, picture)
             && let Some(later) = self.picture()?
+            && let Some(after) = seen.stays(&before.change(&later))
         {
-            if let Some(after) = seen.stays(&before.change(&later)) {
-                let in_contact = seen.in_contact;
-                return Err(StopCause::Touch(TouchFault::Stays { in_contact, after }));
-            }
+            let in_contact = seen.in_contact;
+            return Err(StopCause::Touch(TouchFault::Stays { in_contact, after }));
         }
         Ok(SessionRecord {
             touch: ReferenceTouch {
