@@ -150,7 +150,7 @@ fn the_same_rows_and_rows_of_something_else_are_refused_and_change_nothing() {
     // And under other labels, as a second look at the same recording gives them.
     let relabelled = format!(
         "{head}\n{}",
-        rows.replace(",p", "1,p").replace(",s", ",again")
+        rows.replace(",p", "e1,p").replace(",s", ",again")
     );
     bench.write("first/labels.csv", &relabelled);
     bench.refused(
