@@ -64,10 +64,11 @@ fn texts_in_arrays_of_two_axes_are_whole() {
 
 #[test]
 fn a_null_in_a_list_of_json_is_an_absent_value() {
-    let lines = "{\"f\": [1, null], \"tags\": [null, \"b\"]}\n";
+    let lines =
+        "{\"f\": [1, null], \"tags\": [null, \"b\"]}\n{\"f\": [2, 3], \"tags\": [\"c\", null]}\n";
     let map = map("\"t.jsonl\"", &labels("/f[0]", "/tags"));
     let (_, found) = imported(&[("t.jsonl", lines)], &map, &["a", "b"]);
-    assert_eq!(found, [[""], ["b"]]);
+    assert_eq!(found, [["", "c"], ["b", ""]]);
 }
 
 #[test]
