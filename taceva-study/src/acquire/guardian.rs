@@ -128,12 +128,15 @@ impl Watcher<'_> {
 
     /// A wish to stop ends the motion that goes on, once: the retreat after it is another. One that was repeated ends that too.
     fn obey(&mut self) {
-        let is_first = self.progress.is_cancelled() && !self.was_cancelled;
+        // Asked for first: who insists between both questions wishes to stop.
+        let is_insisted = self.progress.is_insisted();
+        let is_cancelled = is_insisted || self.progress.is_cancelled();
+        let is_first = is_cancelled && !self.was_cancelled;
         if is_first {
             self.was_cancelled = true;
             self.cancel.cancel();
         }
-        if is_first || self.progress.is_insisted() {
+        if is_first || is_insisted {
             self.supervisor.lock().halt();
         }
     }

@@ -37,7 +37,7 @@ const DOUBTS: [(&[&str], &str); 4] = [
 ];
 
 /// Why the column called `name` may not hold what was measured; `about` is what its file is called.
-pub(in crate::draft) fn doubt(name: &str, about: &str) -> Option<String> {
+pub(crate) fn doubt(name: &str, about: &str) -> Option<String> {
     doubt_of(&words(explained(name, about)))
 }
 
