@@ -1,6 +1,6 @@
 //! How far a study over sockets is from the same study on the bench that is simulated in the program.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::Value;
 use taceva_dataset::Dataset;
@@ -20,6 +20,8 @@ pub struct Compared {
     pub shade: u8,
     /// Scores of both.
     pub scores: usize,
+    /// Scores of one of them alone: of two labels that differ by what links round R² is defined, of two equal ones it is not.
+    pub of_one_alone: BTreeSet<String>,
     /// Of the errors `mae` and `smape`, as a part of them.
     pub error_part: f64,
     /// Of the errors that `r2` and `skill` stand for, √(1 − score), as a part of them. What is left unexplained, 1 − the score, is a ratio of squares:
@@ -95,13 +97,14 @@ impl Compared {
     }
 
     fn scores(&mut self, [one, other]: &[BTreeMap<String, f64>; 2]) {
-        let names = [one, other].map(|scores| scores.keys().collect::<Vec<_>>());
-        assert_eq!(names[0], names[1], "they are of one study");
-        self.scores = one.len();
-        for (name, score) in one {
-            let other = other[name];
+        let names = [one, other].map(|scores| scores.keys().cloned().collect::<BTreeSet<_>>());
+        self.of_one_alone = &names[0] ^ &names[1];
+        let both = &names[0] & &names[1];
+        self.scores = both.len();
+        for name in &both {
+            let [score, other] = [one[name], other[name]];
             let is_share = name.starts_with("r2") || name.starts_with("skill");
-            let [error, other] = [*score, other].map(|score| match is_share {
+            let [error, other] = [score, other].map(|score| match is_share {
                 true => (1.0 - score).sqrt(),
                 false => score,
             });
