@@ -8,7 +8,7 @@ use super::align::Look;
 use super::bearing::Felt;
 use super::error::StopCause;
 use super::supervisor::Observation;
-use super::tip::{DEADLINE, Step, Tip};
+use super::tip::{DEADLINE, Step, Tip, is_silent};
 use super::trip::Trip;
 
 /// A transducer that says nothing for so long is asked again, until the supervisor calls it silent.
@@ -26,7 +26,7 @@ impl Tip<'_> {
         let (pose, stamp) = match self.robot.pose(DEADLINE) {
             Ok(read) => read,
             // A robot that says nothing is silent, as a transducer is.
-            Err(error) if error.kind() == ErrorKind::Timeout && error.fault().is_none() => {
+            Err(error) if is_silent(&error) => {
                 let age_s = self.clock.now_s() - asked_s;
                 return Err(self.halt_for(Trip::StalePose { age_s }));
             }

@@ -45,6 +45,8 @@ pub(super) struct State {
     pub(super) halted: bool,
     /// Whether the robot says it moved and stays where it is.
     pub(super) stuck: bool,
+    /// How often it does not answer when a halt is to end.
+    pub(super) unheard: u32,
     /// Below this height, in mm, a thread that looks on feels something hard, once, and shows it to this supervisor.
     pub(super) obstacle: Option<(f64, SharedSupervisor)>,
     questions: u32,
@@ -65,6 +67,7 @@ impl Rig {
             height_mm,
             halted: true,
             stuck: false,
+            unheard: 0,
             obstacle: None,
             questions: 0,
             force: Box::new(force),
@@ -156,7 +159,12 @@ impl Robot for Rig {
     }
 
     fn clear_halt(&mut self, _: Deadline) -> Result<(), DriverError> {
-        self.state().halted = false;
+        let mut state = self.state();
+        if state.unheard > 0 {
+            state.unheard -= 1;
+            return Err(error(ErrorKind::Timeout, "end the halt"));
+        }
+        state.halted = false;
         Ok(())
     }
 }

@@ -115,17 +115,23 @@ impl Supervisor {
         }
     }
 
-    /// Begins to watch `stage` at `now_s`; until then the tip rested, and silence meant nothing. A halt is forgotten.
+    /// Begins to watch `stage` at `now_s`; until then the tip rested, and silence meant nothing. What it halted for stays: the robot is halted
+    /// until somebody ends that.
     pub fn watch(&mut self, stage: MotionStage, now_s: f64) {
         self.stage = stage;
         self.heard_s = now_s;
-        self.tripped = None;
         // In the air the zero of the transducer may have moved; from the search on a frozen signal must not slip through.
         if let MotionStage::Travel { .. } | MotionStage::Zeroing = stage {
             self.last = None;
             self.number = None;
             self.equal = 0;
         }
+    }
+
+    /// The same, once the halt of the robot was ended: what it was halted for is over.
+    pub fn release(&mut self, stage: MotionStage, now_s: f64) {
+        self.tripped = None;
+        self.watch(stage, now_s);
     }
 
     /// Learns that the tip rests, wherever it is.
@@ -225,7 +231,7 @@ impl Supervisor {
     /// Takes a reading; if it must not go on, the robot is halted before this returns.
     ///
     /// # Errors
-    /// The [`Trip`], which holds until the next [`watch`](Supervisor::watch).
+    /// The [`Trip`], which holds until the next [`release`](Supervisor::release).
     pub fn observe(&mut self, observation: &Observation, now_s: f64) -> Result<(), Trip> {
         let trip = self.tripped.or_else(|| match observation {
             Observation::Force(wrench, stamp) => self.force(wrench, stamp, None, now_s),

@@ -39,8 +39,10 @@ const TRIES: u32 = 3;
 pub trait TapListener {
     /// A tap begins, with the tip at rest above the gel.
     fn begins(&mut self);
-    /// The tap is over: what was heard since it began.
+    /// The tap is over, or was broken off: what was heard since it began.
     fn ends(&mut self) -> TapHeard;
+    /// The tap was made to its end, and is not made again.
+    fn counts(&mut self);
 }
 
 /// Taps the gel at its middle, and says by how much later each device says it than the robot says where the tip is.
@@ -109,6 +111,7 @@ impl Run<'_> {
         for number in 0..Tapped::TAPS {
             let speed = if number.is_multiple_of(2) { fast } else { slow };
             tapped.add(self.tap_patiently(&way, speed, listener)?);
+            listener.counts();
         }
         Ok(tapped)
     }

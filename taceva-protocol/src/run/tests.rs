@@ -64,11 +64,11 @@ impl PressLog for Nowhere {
     }
 }
 
-#[test]
-fn light_is_set_where_it_changes_and_the_transducer_is_stopped_at_the_end() {
+/// A plan of three presses of one sphere at one place, at rest, under lights; nothing is photographed.
+fn at_rest(lights: [&str; 3]) -> Plan {
     let mut plan = plan();
     plan.presses.truncate(3);
-    for (planned, light) in plan.presses.iter_mut().zip(["S1", "S1", "S2"]) {
+    for (planned, light) in plan.presses.iter_mut().zip(lights) {
         planned.frames = false;
         planned.press.unit = "a".to_owned();
         planned.press.place = [Nanometre(0); 2];
@@ -78,6 +78,12 @@ fn light_is_set_where_it_changes_and_the_transducer_is_stopped_at_the_end() {
         planned.press.light = Some(light.to_owned());
         planned.press.motion = Motion::Rest { frames: 1 };
     }
+    plan
+}
+
+#[test]
+fn light_is_set_where_it_changes_and_the_transducer_is_stopped_at_the_end() {
+    let plan = at_rest(["S1", "S1", "S2"]);
     let spec = RunSpec {
         plan: &plan,
         unit: "a",
@@ -103,4 +109,46 @@ fn light_is_set_where_it_changes_and_the_transducer_is_stopped_at_the_end() {
     assert_eq!((report.made, report.samples), (3, 3));
     let asked = asked.lock().expect("whole");
     assert_eq!(*asked, ["start", "S1", "S2", "stop"]);
+}
+
+#[test]
+fn a_press_before_which_a_thread_halted_for_silence_is_made_again_and_the_run_goes_on() {
+    let plan = at_rest(["S1"; 3]);
+    let spec = RunSpec {
+        plan: &plan,
+        unit: "a",
+        mode: Mode::Acquire,
+    };
+    let (asked, mut rig) = (Asked::default(), Rig::new(-3.0, nothing));
+    let (mut force, mut clock) = (rig.clone(), rig.clone());
+    let limits = plan.limits.clone().expect("it moves");
+    let supervisor = Supervisor::new(limits, Arc::new(rig.clone()));
+    let supervisor = SharedSupervisor::new(supervisor);
+    let mut lamps = Lamps(asked);
+    let seen = rig.clone();
+    let devices = Devices {
+        robot: &mut rig,
+        force: &mut force,
+        sensor: None,
+        lighting: Some(&mut lamps),
+        specimens: None,
+    };
+    // Before the second press the thread that looks on hears nothing for 60 ms.
+    let mut halted = 0;
+    let controls = Controls {
+        clock: &mut clock,
+        cancel: &Cancel::new(),
+        events: &mut |event| {
+            if matches!(event, Event::Approaching { number: 2, .. }) && halted == 0 {
+                halted += 1;
+                let late_s = seen.now_s() + 0.06;
+                let heard = supervisor.lock().observe(&Observation::Silence, late_s);
+                assert!(heard.is_err());
+            }
+        },
+        operator: None,
+    };
+    let made = run_guarded(&spec, devices, &mut Nowhere, (controls, supervisor.clone()));
+    let report = made.expect("silence ends no run");
+    assert_eq!((report.made, report.redone, halted), (3, 1, 1));
 }

@@ -116,6 +116,11 @@ impl Pace {
     }
 }
 
+/// Whether a robot says nothing, and no more is wrong.
+pub(super) fn is_silent(error: &DriverError) -> bool {
+    error.kind() == ErrorKind::Timeout && error.fault().is_none()
+}
+
 impl<'a> Tip<'a> {
     pub(super) fn new(
         (robot, force): (&'a mut dyn Robot, &'a mut dyn ForceTransducer),
@@ -244,7 +249,7 @@ impl<'a> Tip<'a> {
         Err(self.halt_for(Trip::Frozen { readings }))
     }
 
-    /// Begins to watch `stage`, which forgets a halt of the supervisor; that of the robot stays.
+    /// Begins to watch `stage`. What a thread that looks on halted for a moment ago stays, as the halt of the robot does.
     pub(super) fn watch(&mut self, stage: MotionStage) {
         self.stage = stage;
         let now_s = self.clock.now_s();
@@ -256,9 +261,17 @@ impl<'a> Tip<'a> {
         let supervisor = self.supervisor.clone();
         // Threads that look on wait meanwhile: what they see next belongs to the new stage.
         let mut held = supervisor.lock();
-        self.clear_halt()?;
+        let asked_s = self.clock.now_s();
+        match self.clear_halt() {
+            // A robot that says nothing is silent, as a transducer is: it stays halted.
+            Err(StopCause::Device(error)) if is_silent(&error) => {
+                let age_s = self.clock.now_s() - asked_s;
+                return Err(StopCause::Tripped(held.trip(Trip::StalePose { age_s })));
+            }
+            cleared => cleared?,
+        }
         self.stage = ANY_FORCE;
-        held.watch(ANY_FORCE, self.clock.now_s());
+        held.release(ANY_FORCE, self.clock.now_s());
         Ok(())
     }
 
@@ -269,7 +282,7 @@ impl<'a> Tip<'a> {
     fn clear_halt(&mut self) -> Step<()> {
         self.robot.clear_halt(DEADLINE).map_err(|error| {
             // One that says nothing may yet; everything else is a matter for a person.
-            self.robot_failed |= error.kind() != ErrorKind::Timeout || error.fault().is_some();
+            self.robot_failed |= !is_silent(&error);
             StopCause::Device(error)
         })
     }
@@ -332,6 +345,7 @@ impl<'a> Tip<'a> {
 mod tests {
     use super::*;
     use crate::run::rig::{Rig, SEGMENT_MM, nothing, with_tip};
+    use crate::run::supervisor::Observation;
 
     #[test]
     fn a_robot_that_does_not_move_is_stuck_after_twice_the_segments_of_its_way_and_eight() {
@@ -351,6 +365,40 @@ mod tests {
             assert_eq!((motion.from_mm, motion.to_mm), (1.0, 1.0 - SEGMENT_MM));
         }
         assert!(rig.state().halted);
+    }
+
+    #[test]
+    fn what_a_thread_halts_for_before_another_stage_is_watched_stands_until_the_halt_is_ended() {
+        let rig = Rig::new(-2.0, nothing);
+        let cause = with_tip(&rig, |tip| {
+            tip.release()?;
+            tip.find_pose()?;
+            tip.look()?;
+            // It reads nothing for 60 ms, just before the next stage is watched.
+            let late_s = tip.clock.now_s() + 0.06;
+            let seen = tip.supervisor.lock().observe(&Observation::Silence, late_s);
+            assert!(seen.is_err());
+            tip.watch(ANY_FORCE);
+            tip.approach([0.0, 0.0, -1.5])
+        });
+        let cause = cause.expect_err("it is halted");
+        assert!(cause.is_silence(), "{cause}");
+        assert_eq!(rig.motions(), []);
+        assert!(rig.state().halted);
+    }
+
+    #[test]
+    fn a_robot_that_does_not_answer_when_its_halt_is_to_end_is_silent_and_stays_halted() {
+        let rig = Rig::new(-2.0, nothing);
+        rig.state().unheard = 1;
+        let (first, second) = with_tip(&rig, |tip| {
+            let first = tip.release();
+            assert!(!tip.robot_failed);
+            (first, tip.release())
+        });
+        let cause = first.expect_err("it says nothing");
+        assert!(cause.is_silence(), "{cause}");
+        second.expect("it answers again");
     }
 
     #[test]

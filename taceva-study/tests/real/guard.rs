@@ -41,7 +41,7 @@ fn looked_on(
     record(world, folder, &Looking(world, look))
 }
 
-fn stopped(done: Result<Dataset, StudyError>) -> RunError {
+pub(crate) fn stopped(done: Result<Dataset, StudyError>) -> RunError {
     match done {
         Err(StudyError::Acquisition { source, .. }) => *source,
         Err(other) => panic!("{other}"),
@@ -49,13 +49,13 @@ fn stopped(done: Result<Dataset, StudyError>) -> RunError {
     }
 }
 
-fn depth_mm(world: &World) -> f64 {
+pub(crate) fn depth_mm(world: &World) -> f64 {
     let state = world.state();
     state.tip(taceva_drivers::MonotonicClock.now_s())[2]
 }
 
 /// Every press of the scene once, with both of its samples.
-fn assert_whole(dataset: &Dataset) {
+pub(crate) fn assert_whole(dataset: &Dataset) {
     let mut names: Vec<&String> = dataset.table().samples().iter().collect();
     assert_eq!(names.len(), 6);
     names.sort();

@@ -1,5 +1,7 @@
 //! Studies on devices that work in the time of the machine.
 
+mod air;
+mod camera;
 mod changer;
 mod devices;
 mod guard;
@@ -58,8 +60,26 @@ fn record_on(
     world: &World,
     folder: &Path,
     progress: &dyn Progress,
-    (scene, rig, operator): (&str, Option<&Path>, Option<&Mutex<dyn Operator + Send>>),
+    on: (&str, Option<&Path>, Option<&Mutex<dyn Operator + Send>>),
 ) -> Result<Dataset, StudyError> {
+    with_workshop(world, progress, on, |planned, workshop| {
+        let existing = match folder.join("plans.json").exists() {
+            true => Existing::Resume,
+            false => Existing::Refuse,
+        };
+        let run = RunFolder::open(folder, planned, existing)?;
+        run_scene(planned, &run, workshop, NonZeroUsize::MIN)?;
+        Ok(Dataset::open(&run.recording(0, "wall"))?)
+    })
+}
+
+/// What `act` makes of a scene that is planned on `world`.
+fn with_workshop<T>(
+    world: &World,
+    progress: &dyn Progress,
+    (scene, rig, operator): (&str, Option<&Path>, Option<&Mutex<dyn Operator + Send>>),
+    act: impl FnOnce(&PlannedScene, Workshop<'_>) -> Result<T, StudyError>,
+) -> Result<T, StudyError> {
     let drivers = drivers(world);
     let text = SceneText {
         name: "wall".to_owned(),
@@ -71,11 +91,6 @@ fn record_on(
         ..Instead::default()
     };
     let planned = PlannedScene::with(text, &drivers, &instead)?;
-    let existing = match folder.join("plans.json").exists() {
-        true => Existing::Resume,
-        false => Existing::Refuse,
-    };
-    let run = RunFolder::open(folder, &planned, existing)?;
     let workshop = Workshop {
         drivers: &drivers,
         models: &Models::builtin(),
@@ -87,8 +102,7 @@ fn record_on(
         operator,
         viewer: None,
     };
-    run_scene(&planned, &run, workshop, NonZeroUsize::MIN)?;
-    Ok(Dataset::open(&run.recording(0, "wall"))?)
+    act(&planned, workshop)
 }
 
 #[test]

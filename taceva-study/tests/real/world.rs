@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::Duration;
 
-use taceva_core::{Millimetre, Point, Pose};
+use taceva_core::{ErrorKind, Millimetre, Point, Pose};
 use taceva_drivers::MonotonicClock;
 
 /// The gel, in N/mm from a height of 0.
@@ -40,6 +40,9 @@ pub(crate) struct State {
     /// Whether the enabling switch is there and held.
     pub(crate) is_held: bool,
     pub(crate) is_unplugged: bool,
+    /// What the camera says instead of giving a picture, and how many it gave.
+    pub(crate) camera: Option<ErrorKind>,
+    pub(crate) pictures: u32,
     /// What goes wrong with a changer, and of every change what was asked for, the height of the tip, whether it was halted, and whether it
     /// stood meanwhile.
     pub(crate) changer: Misfortune,
@@ -77,6 +80,8 @@ impl World {
             told: false,
             is_held: true,
             is_unplugged: false,
+            camera: None,
+            pictures: 0,
             changer: Misfortune::None,
             changes: Vec::new(),
             lights: Vec::new(),

@@ -74,6 +74,9 @@ impl Arm {
         if let Some(fault) = error_now(&mut self.exchange).map_err(unanswered(doing))? {
             return Err(fault.met(doing));
         }
+        self.stopping()
+            .is_obeyed(ANSWER)
+            .map_err(unanswered(doing))?;
         self.take(Mode::Position, doing)
     }
 

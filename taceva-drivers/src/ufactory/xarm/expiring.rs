@@ -22,7 +22,7 @@ impl ExpiringMotion for Arm {
     ) -> Result<Stamp, DriverError> {
         self.admit(&target, speed)?;
         let until = monotonic().saturating_add(deadline.remaining());
-        self.check_ready()?;
+        self.check_ready(deadline)?;
         let first = self.observer.observe(&mut self.exchange, None, ANSWER)?;
         if let Some(course) = Course::of(&pose_of(first.pose), &target, speed) {
             let cruised = self.cruise(&course, until);

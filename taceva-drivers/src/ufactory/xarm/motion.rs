@@ -20,6 +20,8 @@ const BEGUN: Duration = Duration::from_millis(50);
 const NEVER_BEGUN: Duration = Duration::from_millis(1_000);
 /// How long an arm that was asked to stop is looked at until it stands.
 const STOPPING: Duration = Duration::from_millis(400);
+/// How long a motion waits for the connection by which it would be stopped: one that fell silent is made anew in less.
+const STOPPABLE: Duration = Duration::from_secs(2);
 
 /// Why a motion did not end at its target.
 pub(super) struct BrokenOff {
@@ -56,7 +58,7 @@ impl Arm {
         deadline: Deadline,
     ) -> Result<Stamp, DriverError> {
         let began = monotonic();
-        self.check_ready()?;
+        self.check_ready(deadline)?;
         if deadline.has_passed() {
             return Err(failed(ErrorKind::Timeout, DOING, "no time to move at all"));
         }
@@ -85,11 +87,13 @@ impl Arm {
     }
 
     /// Refuses to begin where the arm could not be stopped, is halted or is not ready.
-    pub(super) fn check_ready(&mut self) -> Result<(), DriverError> {
+    pub(super) fn check_ready(&mut self, deadline: Deadline) -> Result<(), DriverError> {
+        let patience = STOPPABLE.min(deadline.remaining());
+        let is_alive = self.stopping().is_alive_within(patience);
         if self.stopping().is_halted() {
             return Err(halted());
         }
-        if !self.stopping().is_alive() {
+        if !is_alive {
             // It is tried until it does: what the arm would be stopped by is silent, and not yet gone.
             let why = "the connection by which it would be stopped does not answer";
             return Err(failed(ErrorKind::Timeout, DOING, why));

@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, TryLockError};
 use std::thread::JoinHandle;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use taceva_core::{DriverError, ErrorKind, Halt};
 
@@ -19,6 +19,10 @@ const TRIAL_EVERY: Duration = Duration::from_millis(500);
 /// How often one that does not answer is tried: until it does, the arm is not moved.
 const RETRIAL_EVERY: Duration = Duration::from_millis(50);
 const TRIAL_PATIENCE: Duration = Duration::from_millis(20);
+/// So long after a connection was given up, what was sent on it and not answered counts as lost. A run asks for the end of a halt for longer.
+const LOST_AFTER: Duration = Duration::from_secs(2);
+/// How often it is looked whether the connection answers again.
+const GLANCE: Duration = Duration::from_millis(5);
 
 /// The means to stop one arm, shared by the robot, its handles and the thread that keeps the connection alive.
 #[derive(Debug)]
@@ -29,6 +33,8 @@ pub(super) struct Stop {
     /// Whether the connection answered when it was tried last.
     is_alive: AtomicBool,
     line: Mutex<Exchange>,
+    /// Connections that were given up: a stop may still be under way on them.
+    given_up: Mutex<Vec<GivenUp>>,
     /// What writes on that connection while somebody waits for an answer on it.
     writer: Mutex<Writer>,
     /// The connection by which the arm is moved, for the case that the other one fails.
@@ -36,6 +42,13 @@ pub(super) struct Stop {
     place: Place,
     /// Wakes the thread that keeps the connection alive, so that it ends.
     bell: (Mutex<()>, Condvar),
+}
+
+/// A connection that did not answer, in the place of which there is another.
+#[derive(Debug)]
+struct GivenUp {
+    line: Exchange,
+    since: Instant,
 }
 
 /// Where the controller is.
@@ -57,8 +70,39 @@ impl Stop {
     }
 
     /// Whether the arm can be stopped by the connection that is there for it.
-    pub(super) fn is_alive(&self) -> bool {
+    fn is_alive(&self) -> bool {
         self.is_alive.load(Ordering::Acquire)
+    }
+
+    /// The same, where one that does not answer is given so long to do so; an arm that is halted meanwhile is not waited for.
+    pub(super) fn is_alive_within(&self, patience: Duration) -> bool {
+        let began = Instant::now();
+        while !self.is_alive() && !self.is_halted() && began.elapsed() < patience {
+            std::thread::sleep(GLANCE);
+        }
+        self.is_alive()
+    }
+
+    /// Waits until the controller has obeyed every stop that was sent to it. It answers each connection in order and none before another: a stop
+    /// that is late on one would end what is begun on another after the halt.
+    ///
+    /// # Errors
+    /// [`ExchangeError::Silent`] if it does not say so within `patience`: then nothing may begin.
+    pub(super) fn is_obeyed(&self, patience: Duration) -> Result<(), ExchangeError> {
+        // One that is gone carries nothing any more; that the arm is not moved without it is seen to elsewhere.
+        let answered = |line: &mut Exchange| match line.ask(Command::GetState, patience) {
+            Err(error @ ExchangeError::Silent { .. }) => Err(error),
+            _ => Ok(()),
+        };
+        answered(&mut lock(&self.line))?;
+        let mut given_up = lock(&self.given_up);
+        while let Some(GivenUp { line, since }) = given_up.last_mut() {
+            match answered(line) {
+                Err(error) if since.elapsed() < LOST_AFTER => return Err(error),
+                _ => drop(given_up.pop()),
+            }
+        }
+        Ok(())
     }
 
     /// Sends the controller the command to stop and to forget what waits, by whichever connection carries it.
@@ -116,7 +160,11 @@ impl Stop {
                 return;
             }
             *lock(&self.writer) = anew.writer();
-            *lock(&self.line) = anew;
+            let line = std::mem::replace(&mut *lock(&self.line), anew);
+            let since = Instant::now();
+            let mut given_up = lock(&self.given_up);
+            given_up.retain(|earlier| earlier.since.elapsed() < LOST_AFTER);
+            given_up.push(GivenUp { line, since });
         }
         self.is_alive.store(true, Ordering::Release);
     }
@@ -154,6 +202,7 @@ impl Keeper {
             is_alive: AtomicBool::new(true),
             writer: Mutex::new(line.writer()),
             line: Mutex::new(line),
+            given_up: Mutex::default(),
             spare,
             place,
             bell: Default::default(),

@@ -1,4 +1,5 @@
 mod bench;
+mod taps;
 
 use bench::{Bench, MOUNTED, Memory, SURFACE_MM, Sees, Session, State, begun, rig_file};
 

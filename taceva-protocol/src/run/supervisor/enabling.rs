@@ -40,9 +40,9 @@ impl Supervisor {
     /// Learns that the tip is sent along a straight way, before it is.
     ///
     /// # Errors
-    /// [`Supervisor::withheld`]: then it must not be sent.
+    /// [`Supervisor::withheld`], or what it halted for since the last halt was ended: then it must not be sent.
     pub fn sent(&mut self, from: Pose, to: Pose) -> Result<(), Trip> {
-        if let Some(trip) = self.withheld() {
+        if let Some(trip) = self.withheld().or(self.tripped) {
             return Err(self.trip(trip));
         }
         self.way = Some([from, to]);

@@ -198,7 +198,7 @@ fn equal_readings_are_a_frozen_signal_only_if_the_tip_moved() {
 }
 
 #[test]
-fn a_halt_holds_until_another_stage_is_watched() {
+fn a_halt_holds_through_every_stage_and_lets_no_motion_begin_until_it_is_ended() {
     let (mut supervisor, halts) = watching(PRESS);
     let healthy = Observation::Force(force(0.1), at(10.0));
     assert!(
@@ -208,6 +208,14 @@ fn a_halt_holds_until_another_stage_is_watched() {
     );
     assert!(supervisor.observe(&healthy, 10.0).is_err());
     assert_eq!(halts.0.load(Ordering::SeqCst), 2);
-    supervisor.watch(MotionStage::Retreat { force_n: 9.0 }, 10.0);
+    let back = MotionStage::Retreat { force_n: 9.0 };
+    let [from, to] = [0.3, -1.0].map(at_height);
+    supervisor.watch(back, 10.0);
+    let held = supervisor.tripped();
+    assert!(matches!(held, Some(Trip::NormalForce { .. })), "{held:?}");
+    assert_eq!(supervisor.sent(from, to).err(), held);
+    assert!(!supervisor.is_under_way());
+    supervisor.release(back, 10.0);
     assert_eq!(supervisor.observe(&healthy, 10.0), Ok(()));
+    assert_eq!(supervisor.sent(from, to), Ok(()));
 }

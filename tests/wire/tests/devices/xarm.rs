@@ -3,4 +3,5 @@
 mod contract;
 mod expiring;
 mod faults;
+mod late;
 mod setup;

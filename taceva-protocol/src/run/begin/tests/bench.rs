@@ -16,7 +16,7 @@ use crate::run::rig::plan;
 use crate::run::{
     Answer, Cancel, Controls, Devices, Mode, Observation, Operator, PressLog, PressRecord,
     Question, ReferenceTouch, RunError, RunSpec, SessionRecord, SessionSpec, SharedSupervisor,
-    Supervisor, Timekeeper, run_session,
+    Supervisor, TapListener, Tapped, Timekeeper, run_session, tap,
 };
 
 /// How the transducer of the bench is mounted.
@@ -46,7 +46,7 @@ pub(super) struct State {
     readings: u32,
     pub(super) motions: u32,
     is_halted: bool,
-    supervisor: Option<SharedSupervisor>,
+    pub(super) supervisor: Option<SharedSupervisor>,
     // What may be wrong with it.
     pub(super) surface_mm: f64,
     pub(super) stiffness: f64,
@@ -297,6 +297,36 @@ pub(super) struct Session<'a> {
     pub(super) answer: Option<Answer>,
 }
 
+/// Taps of a rig that its file describes, with `listener`.
+pub(super) fn tapped(bench: &Bench, listener: &mut dyn TapListener) -> Result<Tapped, RunError> {
+    let mut plan = one_press();
+    plan.presses[0].frames = false;
+    let supervisor = supervised(bench, &plan);
+    let (mut robot, mut clock) = (bench.clone(), bench.clone());
+    let controls = Controls {
+        clock: &mut clock,
+        cancel: &Cancel::new(),
+        events: &mut |_| {},
+        operator: None,
+    };
+    let session = SessionSpec {
+        rig: &rig_file(MOUNTED),
+        robot: None,
+        touched: &[],
+    };
+    let devices: (&mut dyn Robot, &mut dyn ForceTransducer) =
+        (&mut robot, &mut Transducer(bench.clone()));
+    tap(&plan, devices, (controls, supervisor, session), listener)
+}
+
+/// A supervisor of the bench, which its transducer shows every reading to.
+fn supervised(bench: &Bench, plan: &Plan) -> SharedSupervisor {
+    let limits = plan.limits.clone().expect("it moves");
+    let supervisor = SharedSupervisor::new(Supervisor::new(limits, Arc::new(bench.clone())));
+    bench.state().supervisor = Some(supervisor.clone());
+    supervisor
+}
+
 /// One touch of the surface, with a picture.
 fn one_press() -> Plan {
     let mut plan = plan();
@@ -318,10 +348,7 @@ pub(super) fn begun(bench: &Bench, session: Session<'_>) -> (Result<(), RunError
         answer: session.answer.unwrap_or(Answer::Done),
         asked: Vec::new(),
     };
-    let limits = plan.limits.clone().expect("it moves");
-    let supervisor = Supervisor::new(limits, Arc::new(bench.clone()));
-    let supervisor = SharedSupervisor::new(supervisor);
-    bench.state().supervisor = Some(supervisor.clone());
+    let supervisor = supervised(bench, &plan);
     let (mut robot, mut clock) = (bench.clone(), bench.clone());
     let (mut force, mut camera) = (Transducer(bench.clone()), Camera(bench.clone()));
     let devices = Devices {

@@ -206,7 +206,7 @@ fn silence_counts_from_when_the_last_force_was_true_and_from_the_watch_before_on
     assert_eq!(supervisor.observe(&silence, valid_s + 0.049), Ok(()));
     let late = supervisor.observe(&silence, valid_s + 0.051);
     assert!(matches!(late, Err(Trip::StaleForce { .. })));
-    supervisor.watch(TOUCHING, 1.0);
+    supervisor.release(TOUCHING, 1.0);
     assert_eq!(supervisor.observe(&silence, 1.049), Ok(()));
 }
 

@@ -15,13 +15,13 @@ fn a_switch_that_is_let_go_halts_a_motion_and_lets_none_begin_until_it_is_held_a
         assert_eq!(supervisor.sent(way[0], way[1]), Ok(()));
         supervisor.enabling(enabling);
         assert_eq!((supervisor.tripped(), halted()), (Some(trip), 1));
-        // It rests, and another stage forgets the halt; the switch is not held for that.
+        // It rests, and the halt is ended; the switch is not held for that.
         supervisor.rests();
-        supervisor.watch(PRESS, 11.0);
+        supervisor.release(PRESS, 11.0);
         assert_eq!(supervisor.withheld(), Some(trip));
         assert_eq!(supervisor.sent(way[0], way[1]), Err(trip));
         assert!(!supervisor.is_under_way());
-        supervisor.watch(PRESS, 12.0);
+        supervisor.release(PRESS, 12.0);
         supervisor.enabling(Enabling::Held);
         assert_eq!(supervisor.sent(way[0], way[1]), Ok(()));
     }

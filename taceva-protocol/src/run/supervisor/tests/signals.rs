@@ -110,7 +110,7 @@ fn the_first_reason_of_a_halt_is_kept_whatever_comes_after_it() {
     assert_eq!(supervisor.trip(Trip::NotFinite), first);
     assert_eq!(supervisor.tripped(), Some(first));
     assert_eq!(halts.0.load(Ordering::SeqCst), 3);
-    supervisor.watch(PRESS, 20.0);
+    supervisor.release(PRESS, 20.0);
     assert_eq!(supervisor.tripped(), None);
 }
 

@@ -1,0 +1,47 @@
+//! Taps that are broken off.
+
+use super::bench::{Bench, MOUNTED, tapped};
+use crate::run::{Observation, TapHeard, TapListener, Tapped, Timekeeper as _};
+
+/// Counts taps; during one of them the threads that look on hear nothing for a while.
+struct Counting {
+    bench: Bench,
+    broken_off: u32,
+    begun: u32,
+    counted: u32,
+}
+
+impl TapListener for Counting {
+    fn begins(&mut self) {
+        self.begun += 1;
+        if self.begun == self.broken_off {
+            let late_s = self.bench.now_s() + 0.06;
+            let supervisor = self.bench.state().supervisor.clone();
+            let supervisor = supervisor.expect("it is guarded");
+            let heard = supervisor.lock().observe(&Observation::Silence, late_s);
+            assert!(heard.is_err());
+        }
+    }
+
+    fn ends(&mut self) -> TapHeard {
+        TapHeard::default()
+    }
+
+    fn counts(&mut self) {
+        self.counted += 1;
+    }
+}
+
+#[test]
+fn a_tap_that_silence_breaks_off_is_made_again_and_counts_once() {
+    let bench = Bench::new(MOUNTED);
+    let mut counting = Counting {
+        bench: bench.clone(),
+        broken_off: 3,
+        begun: 0,
+        counted: 0,
+    };
+    tapped(&bench, &mut counting).expect("silence ends no taps");
+    let counts = (counting.begun, counting.counted);
+    assert_eq!(counts, (Tapped::TAPS + 1, Tapped::TAPS));
+}

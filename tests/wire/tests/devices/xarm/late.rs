@@ -1,0 +1,160 @@
+//! Stops that are late, and a connection for stops that falls silent.
+
+use std::io::{Read, Write};
+use std::net::{SocketAddr, TcpListener, TcpStream};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Condvar, Mutex};
+use std::time::{Duration, Instant};
+
+use taceva_core::{ErrorKind, Robot};
+use taceva_wire::xarm::{Emulator, Port, Ports};
+
+use super::setup::setup;
+use crate::setup::Setup;
+use crate::support::{PATIENCE, lower, speed};
+
+/// Stands between a driver and the port of commands of an arm: what the driver says on some of its connections waits while it is shut.
+struct Gate {
+    is_shut: Mutex<bool>,
+    opened: Condvar,
+    /// Connections that were made.
+    count: AtomicUsize,
+}
+
+impl Gate {
+    /// A gate that stands open before `address`, and the port where it is; it `holds` connections by their numbers, of which the first is 0.
+    fn before(address: SocketAddr, holds: fn(usize) -> bool) -> (Arc<Gate>, u16) {
+        let gate = Arc::new(Gate {
+            is_shut: Mutex::new(false),
+            opened: Condvar::new(),
+            count: AtomicUsize::new(0),
+        });
+        let listener = TcpListener::bind("127.0.0.1:0").expect("a port");
+        let port = listener.local_addr().expect("bound").port();
+        let passing = Arc::clone(&gate);
+        std::thread::spawn(move || {
+            for (number, driver) in listener.incoming().flatten().enumerate() {
+                let arm = TcpStream::connect(address).expect("it listens");
+                let back = [&arm, &driver].map(|side| side.try_clone().expect("a socket"));
+                let gate = Arc::clone(&passing);
+                std::thread::spawn(move || pass(driver, arm, || gate.wait(holds(number))));
+                let [arm, driver] = back;
+                std::thread::spawn(move || pass(arm, driver, || {}));
+                passing.count.fetch_add(1, Ordering::SeqCst);
+            }
+        });
+        (gate, port)
+    }
+
+    fn shut(&self, is_shut: bool) {
+        *self.is_shut.lock().expect("whole") = is_shut;
+        self.opened.notify_all();
+    }
+
+    fn wait(&self, is_held: bool) {
+        let is_shut = self.is_shut.lock().expect("whole");
+        let waited = self.opened.wait_while(is_shut, |shut| *shut && is_held);
+        drop(waited.expect("whole"));
+    }
+
+    /// Waits until the driver has made so many connections.
+    fn wait_for(&self, count: usize) {
+        while self.count.load(Ordering::SeqCst) < count {
+            std::thread::sleep(Duration::from_millis(2));
+        }
+    }
+}
+
+/// Hands on what `from` says, each part once `may` returns, until it says no more.
+fn pass(mut from: TcpStream, mut to: TcpStream, may: impl Fn()) {
+    let mut bytes = [0; 1024];
+    while let Ok(count @ 1..) = from.read(&mut bytes) {
+        may();
+        if to.write_all(&bytes[..count]).is_err() {
+            return;
+        }
+    }
+    // The other side may be gone already.
+    let _ = to.shutdown(std::net::Shutdown::Write);
+}
+
+/// An arm, the gate before it, and the driver behind that.
+fn behind_a_gate(holds: fn(usize) -> bool) -> (Setup<Emulator>, Arc<Gate>, Box<dyn Robot>) {
+    let setup = setup(Ports::ANY);
+    let address = setup.emulator.address(Port::Command);
+    let (gate, port) = Gate::before(address, holds);
+    let direct = format!(";port={};", address.port());
+    let gated = setup
+        .arguments()
+        .replace(&direct, &format!(";port={port};"));
+    assert_ne!(gated, setup.arguments());
+    let arm = setup.opened(&gated).expect("a robot");
+    (setup, gate, arm)
+}
+
+/// What is sent counts as lost after so long: a machine that stood still for that long shows nothing.
+const LOST_AFTER: Duration = Duration::from_secs(2);
+const TRIES: u32 = 5;
+
+#[test]
+fn a_halt_does_not_end_before_every_stop_was_obeyed_so_that_none_ends_the_motion_after_it() {
+    // The second connection is that for stops.
+    for _ in 0..TRIES {
+        let (setup, gate, mut arm) = behind_a_gate(|number| number == 1);
+        let (home, _) = arm.pose(PATIENCE).expect("a pose");
+        let handle = arm.halt_handle();
+        let (shut, moved) = std::thread::scope(|scope| {
+            let halting = scope.spawn(|| {
+                while !setup.bench.truth().is_moving {
+                    std::thread::yield_now();
+                }
+                let shut = Instant::now();
+                gate.shut(true);
+                handle.halt().expect("it is sent by the other connection");
+                shut
+            });
+            let moved = arm.move_to(lower(home, 15.0), speed(2.0), PATIENCE);
+            (halting.join().expect("no panic"), moved)
+        });
+        assert_eq!(moved.expect_err("halted").kind(), ErrorKind::Interrupted);
+        // The connection for stops is given up meanwhile, and another stands in its place: the stop is still under way on the first.
+        gate.wait_for(3);
+        match arm.clear_halt(PATIENCE) {
+            Err(error) => assert_eq!(error.kind(), ErrorKind::Timeout, "{error}"),
+            Ok(()) => {
+                assert!(shut.elapsed() > LOST_AFTER, "a stop is under way");
+                continue;
+            }
+        }
+        gate.shut(false);
+        let ended = (0..100).find(|_| arm.clear_halt(PATIENCE).is_ok());
+        assert!(ended.is_some(), "it answers again");
+        let moved = arm.move_to(home, speed(50.0), PATIENCE);
+        moved.expect("no stop comes any more");
+        return;
+    }
+    panic!("this machine stands still for seconds");
+}
+
+#[test]
+fn a_motion_waits_for_the_connection_by_which_it_would_be_stopped() {
+    let (setup, gate, mut arm) = behind_a_gate(|number| number > 0);
+    let (home, _) = arm.pose(PATIENCE).expect("a pose");
+    gate.shut(true);
+    // It was tried, and is made anew: until that answers nothing moves.
+    gate.wait_for(3);
+    let way_mm = setup.bench.truth().way_mm;
+    let refused = arm.move_to(lower(home, 1.0), speed(20.0), PATIENCE);
+    assert_eq!(
+        refused.expect_err("no stop would reach it").kind(),
+        ErrorKind::Timeout
+    );
+    assert!(setup.bench.truth().way_mm <= way_mm);
+    let opening = std::thread::spawn(move || {
+        std::thread::sleep(Duration::from_millis(100));
+        gate.shut(false);
+    });
+    let moved = arm.move_to(lower(home, 1.0), speed(20.0), PATIENCE);
+    moved.expect("it answers while that is waited for");
+    opening.join().expect("no panic");
+}
