@@ -306,6 +306,14 @@ impl ForeignTable {
 
     /// The error that there is no column called `name`; it lists those there are.
     pub(crate) fn no_column(&self, name: &str) -> DatasetError {
+        if let ForeignTable::Columns(table) = self
+            && let Some(problem) = table.why_absent(name)
+        {
+            return DatasetError::Table {
+                place: self.place(0, name).without_row(),
+                problem,
+            };
+        }
         let names = self.names();
         let guess = nearest(name, names.iter().map(String::as_str));
         let guess = guess.map_or_else(String::new, |guess| {

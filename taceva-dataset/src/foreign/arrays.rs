@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use taceva_arrays::{ArrayError, ArrayFile, ArrayFormat, ArrayInfo, Element};
+use taceva_arrays::{ArrayError, ArrayFile, ArrayFormat, ArrayInfo, Element, Problem};
 
 use super::columns::{ColumnSource, PictureColumn};
 use super::pictures::Pictures;
@@ -235,6 +235,14 @@ impl ColumnSource for ArrayRows {
         })
     }
 
+    fn why_absent(&self, name: &str) -> Option<String> {
+        let group = self.groups.first()?;
+        let paths = candidates(&group.path, name).into_iter();
+        let mut found = paths.filter_map(|path| self.file.find(&path).err());
+        let error = found.find(|error| !matches!(error.problem, Problem::Absent { .. }))?;
+        Some(problem(error))
+    }
+
     fn absent_chunks(&self, names: &[&str]) -> Result<Vec<(String, u64)>, String> {
         let mut arrays: Vec<String> = self
             .groups
@@ -290,14 +298,14 @@ impl ColumnSource for ArrayRows {
                     ));
                 }
                 found.map(|(path, _)| path).ok_or_else(|| {
-                    format!(
+                    self.why_absent(name).unwrap_or_else(|| format!(
                         "there is no array `{name}` for the frames in {}; there are {}",
                         match group.path.as_str() {
                             "" => "it",
                             path => path,
                         },
                         listed(&self.names())
-                    )
+                    ))
                 })
             })
             .collect();

@@ -34,6 +34,11 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
         false
     }
 
+    /// Why a column is not among them although the file has something of this name: a link, or a form that is not read.
+    fn why_absent(&self, _name: &str) -> Option<String> {
+        None
+    }
+
     /// The arrays behind these columns of which chunks were never written, and how many.
     fn absent_chunks(&self, _names: &[&str]) -> Result<Vec<(String, u64)>, String> {
         Ok(Vec::new())
@@ -177,6 +182,10 @@ impl ColumnTable {
 
     pub(super) fn holds_integers(&self, name: &str) -> bool {
         guarded(|| self.source.holds_integers(name)).unwrap_or_default()
+    }
+
+    pub(super) fn why_absent(&self, name: &str) -> Option<String> {
+        guarded(|| self.source.why_absent(name)).unwrap_or_default()
     }
 
     pub(super) fn absent_chunks(&self, names: &[&str]) -> Result<Vec<(String, u64)>, DatasetError> {

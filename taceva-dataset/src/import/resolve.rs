@@ -4,6 +4,7 @@ mod classes;
 mod columns;
 mod join;
 mod matrix;
+mod named_by;
 mod signals;
 mod table;
 mod times;
@@ -20,6 +21,8 @@ use join::Joined;
 
 pub(super) use classes::ClassCells;
 pub(super) use join::JoinMatches;
+pub(super) use matrix::matrix_rows;
+pub(super) use named_by::NamedBy;
 pub(super) use signals::place_first;
 pub(super) use table::RowTable;
 
@@ -37,6 +40,8 @@ pub(super) struct Resolved {
     pub(super) signals: Option<Vec<f32>>,
     /// What the cells of each class are.
     pub(super) class_cells: Vec<ClassCells>,
+    /// The folders of joined tables that name files.
+    pub(super) named_by: NamedBy,
 }
 
 /// What the cells of a row are taken from.
@@ -111,7 +116,12 @@ pub(super) fn resolve(
         class_cells,
         absent_chunks,
         unmentioned: sources.unmentioned(&table),
-        joins: sources.joined.iter().map(Joined::matched).collect(),
+        joins: sources
+            .joined
+            .iter()
+            .map(|joined| joined.matched(&sources.main))
+            .collect(),
+        named_by: NamedBy::of(&sources),
         main: sources.main,
         table,
     })

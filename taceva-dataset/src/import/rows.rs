@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use super::frame_cells::{FrameCells, FrameName, columns_of, filled};
 use super::map::{FrameNames, ImportMap};
-use super::resolve::{ClassCells, JoinMatches, RowTable, resolve};
+use super::resolve::{ClassCells, JoinMatches, NamedBy, RowTable, resolve};
 use crate::csv_table::CsvTable;
 use crate::error::{DatasetError, Place};
 use crate::file::SourceFolder;
@@ -53,6 +53,10 @@ pub(super) struct MappedTable<'a> {
     pub(super) pictures: Option<Arc<dyn Pictures>>,
     /// The numbers of taxels of every row, where they are in columns.
     signals: Option<Vec<f32>>,
+    /// The folders of joined tables that name files.
+    pub(super) named_by: NamedBy,
+    /// Whether the table has a column called `row`, so that the word is not the number of the row.
+    pub(super) has_row_column: bool,
 }
 
 impl<'a> MappedTable<'a> {
@@ -64,6 +68,7 @@ impl<'a> MappedTable<'a> {
         let mut clips = None;
         let mut absent_chunks = BTreeMap::new();
         let mut class_cells = Vec::new();
+        let (mut named_by, mut has_row_column) = (NamedBy::default(), false);
         let (table, unmentioned, joins, pictures, signals) = match map.is_extended {
             false => (
                 RowTable::AsItLies(CsvTable::read(path)?),
@@ -76,6 +81,8 @@ impl<'a> MappedTable<'a> {
                 let found = resolve(map, folder, path)?;
                 absent_chunks = found.absent_chunks;
                 class_cells = found.class_cells;
+                named_by = found.named_by;
+                has_row_column = found.main.has("row");
                 let names = map.frame.as_ref().map(|frame| &frame.names);
                 if let (TableForm::LeRobot, Some(FrameNames::Video(video))) = (&map.form, names) {
                     clips = Some(found.main.clips(&video.file)?);
@@ -158,6 +165,8 @@ impl<'a> MappedTable<'a> {
             joins,
             absent_chunks,
             class_cells,
+            named_by,
+            has_row_column,
             table,
         })
     }

@@ -7,19 +7,25 @@ use super::Reading;
 use crate::error::DatasetError;
 use crate::foreign::{ArrayPictures, ClipPictures, Pictures, SeveralPictures, TableForm};
 use crate::import::map::{FrameNames, OWN_ROW};
+use crate::import::rows::MappedTable;
 use crate::import::source::matching_files;
 use crate::text::shown;
 
 impl Reading<'_> {
     /// Checks that no two tables have the pictures in `file` by the number of the row, where no column says which picture a row has: each table
     /// would begin with the first one again.
-    pub(super) fn check_counted_once(&mut self, file: &str) -> Result<(), DatasetError> {
+    pub(super) fn check_counted_once(
+        &mut self,
+        file: &str,
+        rows: &MappedTable<'_>,
+    ) -> Result<(), DatasetError> {
         let (key, index) = match self.map.frame.as_ref().map(|frame| &frame.names) {
             Some(FrameNames::Array(array)) => ("array", &array.index),
             Some(FrameNames::Video(video)) => ("video", &video.index),
             _ => return Ok(()),
         };
-        if index != OWN_ROW {
+        let is_own_row = index == OWN_ROW || index == "row" && !rows.has_row_column;
+        if !is_own_row {
             return Ok(());
         }
         let first = match self.counted.get(file) {
@@ -43,6 +49,37 @@ impl Reading<'_> {
                 shown(&self.folder.inside(first, ""))
             ),
         })
+    }
+
+    /// Checks that no two tables name the picture at `path` by the number of their rows.
+    pub(super) fn check_named_once(
+        &mut self,
+        path: &Path,
+        rows: &MappedTable<'_>,
+    ) -> Result<(), DatasetError> {
+        let names = self.map.frame.as_ref().map(|frame| &frame.names);
+        let is_by_row = matches!(names, Some(FrameNames::Pattern(pattern)) if pattern.contains("{row}"));
+        if !is_by_row || rows.has_row_column || self.count < 2 {
+            return Ok(());
+        }
+        let inside = self.folder.inside(path, "");
+        match self.counted.get(&inside) {
+            Some(first) if *first != self.current => Err(DatasetError::Path {
+                place: None,
+                problem: format!(
+                    "the picture of a row of {} already: `{{row}}` in `pattern` begins with 0 in each of the {} tables; \
+                     a column that counts through the pictures of all of them in its place, or `{{path.NAME}}` before it, tells them apart",
+                    shown(&self.folder.inside(first, "")),
+                    self.count
+                ),
+                written: inside,
+            }),
+            Some(_) => Ok(()),
+            None => {
+                self.counted.insert(inside, self.current.clone());
+                Ok(())
+            }
+        }
     }
 
     /// The pictures in the file at `relative`, which is opened once; with `*` in it, those of all such files, counted through.
