@@ -32,7 +32,7 @@ use crate::text::{listed, nearest, shown};
 
 pub(crate) use arrays::ArrayPictures;
 pub(crate) use clips::ClipPictures;
-pub(crate) use columns::{ColumnTable, PictureColumn, PictureKind};
+pub(crate) use columns::{ColumnTable, PictureColumn, PictureKind, Stated};
 pub(crate) use files::FileRows;
 pub(crate) use json::JsonRows;
 pub(crate) use messages::topics;
@@ -177,6 +177,14 @@ impl ForeignTable {
         match self {
             ForeignTable::Columns(table) => table.time_unit(name),
             _ => None,
+        }
+    }
+
+    /// What the file says of the numbers in a column.
+    pub(crate) fn stated(&self, name: &str) -> Stated {
+        match self {
+            ForeignTable::Columns(table) => table.stated(name),
+            _ => Stated::default(),
         }
     }
 

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use taceva_arrays::{ArrayError, ArrayFile, ArrayFormat, ArrayInfo, Element, Problem};
 
-use super::columns::{ColumnSource, PictureColumn};
+use super::columns::{ColumnSource, PictureColumn, Stated};
 use super::pictures::Pictures;
 use crate::import::{FrameNames, OWN_ROW};
 use crate::limits;
@@ -235,6 +235,23 @@ impl ColumnSource for ArrayRows {
         })
     }
 
+    fn stated(&self, name: &str) -> Stated {
+        let paths = self.groups.iter().filter_map(|group| self.info(group, name));
+        let paths: Vec<String> = paths.map(|(path, _)| path).collect();
+        let first = |attribute: &str| {
+            let mut found = paths.iter();
+            found.find_map(|path| self.file.attribute(path, attribute))
+        };
+        let number = |attribute: &str| first(attribute)?.trim_matches(['[', ']']).parse().ok();
+        let packed = [number("scale_factor"), number("add_offset")];
+        let is_packed = packed.iter().any(Option::is_some);
+        let packed = [packed[0].unwrap_or(1.0), packed[1].unwrap_or(0.0)];
+        Stated {
+            unit: first("unit").or_else(|| first("units")),
+            packed: (is_packed && packed != UNPACKED).then_some(packed),
+        }
+    }
+
     fn why_absent(&self, name: &str) -> Option<String> {
         let group = self.groups.first()?;
         let paths = candidates(&group.path, name).into_iter();
@@ -313,6 +330,9 @@ impl ColumnSource for ArrayRows {
         Ok(Arc::new(pictures))
     }
 }
+
+/// What packed numbers are multiplied by and what is added, where they are not packed.
+const UNPACKED: [f64; 2] = [1.0, 0.0];
 
 /// The arrays that `name` may mean in a group: one of the group, a field of the table, one named from the root.
 fn candidates(group: &str, name: &str) -> Vec<String> {

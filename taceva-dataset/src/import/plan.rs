@@ -293,9 +293,13 @@ impl<'a> Reading<'a> {
             (FrameName::Within(Some(file), index), _) => {
                 let pictures = self.pictures(&file)?;
                 self.check_counted_once(&file, rows)?;
+                self.check_as_many(&pictures, rows)?;
                 (pictures, index)
             }
-            (FrameName::Within(None, index), Some(pictures)) => (Arc::clone(pictures), index),
+            (FrameName::Within(None, index), Some(pictures)) => {
+                self.check_as_many(pictures, rows)?;
+                (Arc::clone(pictures), index)
+            }
             (FrameName::Within(None, index), None) => {
                 return Err(DatasetError::Path {
                     place: None,

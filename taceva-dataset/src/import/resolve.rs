@@ -6,6 +6,7 @@ mod join;
 mod matrix;
 mod named_by;
 mod signals;
+mod stated;
 mod table;
 mod times;
 
@@ -24,6 +25,7 @@ pub(super) use join::JoinMatches;
 pub(super) use matrix::matrix_rows;
 pub(super) use named_by::NamedBy;
 pub(super) use signals::place_first;
+pub(super) use stated::problem_of_name;
 pub(super) use table::RowTable;
 
 /// A table in which every column that the map names is found by that name.

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use super::frame_cells::{FrameCells, FrameName, columns_of, filled};
 use super::map::{FrameNames, ImportMap};
-use super::resolve::{ClassCells, JoinMatches, NamedBy, RowTable, resolve};
+use super::resolve::{ClassCells, JoinMatches, NamedBy, RowTable, problem_of_name, resolve};
 use crate::csv_table::CsvTable;
 use crate::error::{DatasetError, Place};
 use crate::file::SourceFolder;
@@ -59,6 +59,26 @@ pub(super) struct MappedTable<'a> {
     pub(super) has_row_column: bool,
 }
 
+/// The table, unless the name of a column says another unit than the map.
+fn checked(map: &ImportMap, table: CsvTable) -> Result<CsvTable, DatasetError> {
+    let columns = map.columns.iter();
+    let columns = columns.map(|column| (column.from.as_str(), &column.unit));
+    let times = map.time.iter();
+    let times = times.map(|time| (time.column.as_str(), &time.unit));
+    let mut wrong = columns.chain(times).filter(|(name, _)| table.position(name).is_ok());
+    let wrong = wrong.find_map(|(name, unit)| Some((name, problem_of_name(name, unit)?)));
+    match wrong {
+        None => Ok(table),
+        Some((name, problem)) => Err(DatasetError::Table {
+            place: Place {
+                column: Some(name.to_owned()),
+                ..Place::line(table.path(), 1)
+            },
+            problem,
+        }),
+    }
+}
+
 impl<'a> MappedTable<'a> {
     pub(super) fn open(
         map: &'a ImportMap,
@@ -71,7 +91,7 @@ impl<'a> MappedTable<'a> {
         let (mut named_by, mut has_row_column) = (NamedBy::default(), false);
         let (table, unmentioned, joins, pictures, signals) = match map.is_extended {
             false => (
-                RowTable::AsItLies(CsvTable::read(path)?),
+                RowTable::AsItLies(checked(map, CsvTable::read(path)?)?),
                 None,
                 Vec::new(),
                 None,

@@ -6,10 +6,9 @@ mod matching;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::Path;
 
-use taceva_core::SourceUnit;
-
 use super::classes::holds_integers;
 use super::columns::{base_of, mentioned};
+use super::stated::{self, Reading};
 use super::{Sources, cell_of, times};
 use crate::csv_table::number;
 use crate::error::{DatasetError, Place};
@@ -156,10 +155,10 @@ impl<'a> Joined<'a> {
         }
     }
 
-    /// Checks that `unit`, which the map states of `column`, agrees with what the files say of it.
-    pub(super) fn check_unit(&self, column: &str, unit: &SourceUnit) -> Result<(), DatasetError> {
+    /// Checks that what the map says of `column` agrees with what the files say of it.
+    pub(super) fn check(&self, column: &str, reading: Reading<'_>) -> Result<(), DatasetError> {
         let mut tables = self.tables.iter();
-        tables.try_for_each(|candidates| times::check(&candidates.table, column, unit))
+        tables.try_for_each(|candidates| stated::check(&candidates.table, column, reading))
     }
 
     /// Counts the chunks that were never written of the arrays that are read.
