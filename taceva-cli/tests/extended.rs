@@ -229,13 +229,18 @@ fn a_column_that_another_map_reads_otherwise_is_refused_by_its_key() {
     for (key, other) in [
         (
             "columns.Fz.unit",
-            line.replace(&format!("unit = \"{unit}\""), &format!("unit = \"{other_unit}\"")),
+            line.replace(
+                &format!("unit = \"{unit}\""),
+                &format!("unit = \"{other_unit}\""),
+            ),
         ),
         ("columns.Fz.sign", line.replace(" }", ", sign = -1 }")),
         ("columns.Fz.scale", line.replace(" }", ", scale = 2.0 }")),
         ("columns.Fz.offset", line.replace(" }", ", offset = 0.5 }")),
     ] {
-        let text = map.replacen(line, &other, 1).replace("map_version = 1", "map_version = 2");
+        let text = map
+            .replacen(line, &other, 1)
+            .replace("map_version = 1", "map_version = 2");
         bench.write("other.toml", &text);
         let refused = bench.run("import second --map other.toml --extend data -q");
         assert_eq!(refused.code, 3, "{key}: {}", refused.err);
@@ -253,7 +258,10 @@ fn a_column_that_another_map_reads_otherwise_is_refused_by_its_key() {
         &labels.replacen(column, "force_of_the_new_transducer", 1),
     );
     let renamed = map.replace(&format!("\"{column}\""), "\"force_of_the_new_transducer\"");
-    let renamed = renamed.replace(&format!("unit = \"{unit}\""), &format!("unit = \"{other_unit}\""));
+    let renamed = renamed.replace(
+        &format!("unit = \"{unit}\""),
+        &format!("unit = \"{other_unit}\""),
+    );
     bench.write("renamed.toml", &renamed);
     bench.ok("import second --map renamed.toml --extend data -q");
     let dataset = taceva_dataset::Dataset::open(&bench.path("data")).expect("a dataset");

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use taceva_core::shown;
 use taceva_dataset::{
-    Addition, DatasetError, Decoders, ImportMap, ImportPlan, MapDraft, Preset, UnpackedArchive, settle,
+    Addition, DatasetError, Decoders, ImportMap, ImportPlan, MapDraft, Preset, UnpackedArchive,
+    settle,
 };
 use taceva_durable::parent_of;
 

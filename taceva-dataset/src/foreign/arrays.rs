@@ -236,7 +236,10 @@ impl ColumnSource for ArrayRows {
     }
 
     fn stated(&self, name: &str) -> Stated {
-        let paths = self.groups.iter().filter_map(|group| self.info(group, name));
+        let paths = self
+            .groups
+            .iter()
+            .filter_map(|group| self.info(group, name));
         let paths: Vec<String> = paths.map(|(path, _)| path).collect();
         let first = |attribute: &str| {
             let mut found = paths.iter();
@@ -315,14 +318,16 @@ impl ColumnSource for ArrayRows {
                     ));
                 }
                 found.map(|(path, _)| path).ok_or_else(|| {
-                    self.why_absent(name).unwrap_or_else(|| format!(
-                        "there is no array `{name}` for the frames in {}; there are {}",
-                        match group.path.as_str() {
-                            "" => "it",
-                            path => path,
-                        },
-                        listed(&self.names())
-                    ))
+                    self.why_absent(name).unwrap_or_else(|| {
+                        format!(
+                            "there is no array `{name}` for the frames in {}; there are {}",
+                            match group.path.as_str() {
+                                "" => "it",
+                                path => path,
+                            },
+                            listed(&self.names())
+                        )
+                    })
                 })
             })
             .collect();

@@ -160,7 +160,8 @@ impl ImportPlan {
             (None, Some(_)) => return Err(refused(differs("signals", "absent", "there"))),
             (own, None) => *own = None,
         }
-        if let Some(Difference { key, own, other }) = differences_of_added(header, &planned).next() {
+        if let Some(Difference { key, own, other }) = differences_of_added(header, &planned).next()
+        {
             return Err(refused(differs(key, &own, &other)));
         }
         match misread(&header.columns, &self.columns) {

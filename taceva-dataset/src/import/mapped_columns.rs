@@ -4,8 +4,8 @@ use std::borrow::Cow;
 
 use super::map::{ImportMap, SignalsFrom};
 use super::resolve::matrix_rows;
-use crate::error::DatasetError;
 use crate::digest::Digest;
+use crate::error::DatasetError;
 use crate::file::SourceFolder;
 use crate::header::MappedColumn;
 
@@ -94,7 +94,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn many_columns_and_long_names_stay_short_and_are_told_apart() {
+    fn many_columns_and_long_names_stay_short_and_differ_where_they_did() {
         let names = |last: &str| -> Vec<String> {
             let names = (0..5000).map(|number| format!("taxel {number}"));
             names.chain([last.repeat(9999)]).collect()

@@ -234,7 +234,11 @@ impl<'a> Reading<'a> {
         self.summary.rows_read += 1;
         let reasons = rows.drop_reasons(row);
         // What a table names lies beside it, unless the map says a folder.
-        let says_folder = self.map.frame.as_ref().and_then(|frame| frame.folder.as_ref());
+        let says_folder = self
+            .map
+            .frame
+            .as_ref()
+            .and_then(|frame| frame.folder.as_ref());
         let beside = |named_by: Option<&'_ Path>| match says_folder {
             None => named_by.unwrap_or(base).to_owned(),
             Some(_) => base.to_owned(),

@@ -65,7 +65,9 @@ fn checked(map: &ImportMap, table: CsvTable) -> Result<CsvTable, DatasetError> {
     let columns = columns.map(|column| (column.from.as_str(), &column.unit));
     let times = map.time.iter();
     let times = times.map(|time| (time.column.as_str(), &time.unit));
-    let mut wrong = columns.chain(times).filter(|(name, _)| table.position(name).is_ok());
+    let mut wrong = columns
+        .chain(times)
+        .filter(|(name, _)| table.position(name).is_ok());
     let wrong = wrong.find_map(|(name, unit)| Some((name, problem_of_name(name, unit)?)));
     match wrong {
         None => Ok(table),

@@ -47,7 +47,10 @@ fn integers_of_joined_tables_of_messages_and_of_shards_are_positions_too() {
     let names = "names = [\"1\", \"10\", \"2\"]";
     let files = [
         ("t.csv", "k,Fz\n0,1\n1,2\n2,3\n"),
-        ("j.jsonl", "{\"k\": 0, \"label\": 1}\n{\"k\": 1, \"label\": 0}\n{\"k\": 2, \"label\": 2}\n"),
+        (
+            "j.jsonl",
+            "{\"k\": 0, \"label\": 1}\n{\"k\": 1, \"label\": 0}\n{\"k\": 2, \"label\": 2}\n",
+        ),
         ("j.csv", "k,label\n0,1\n1,0\n2,2\n"),
     ];
     let joined = |table: &str, key: &str, label: &str| {
@@ -76,7 +79,12 @@ fn integers_of_joined_tables_of_messages_and_of_shards_are_positions_too() {
     let bytes = shard.into_inner().expect("written");
     std::fs::write(folder.path().join("s.tar"), bytes).expect("written");
     let of_shard = |label: &str| {
-        map("", "json/Fz", &format!("{{ from = \"json/{label}\", {names} }}")).replace(
+        map(
+            "",
+            "json/Fz",
+            &format!("{{ from = \"json/{label}\", {names} }}"),
+        )
+        .replace(
             "table = \"\"",
             "table = { file = \"s.tar\", format = \"webdataset\" }",
         )
@@ -92,7 +100,9 @@ fn integers_of_joined_tables_of_messages_and_of_shards_are_positions_too() {
     let of = |field: &str| {
         // As many as the picture has rows and more, the last two exchanged.
         let names: Vec<String> = (0..400).map(|at| format!("\"{}\"", 399 - at)).collect();
-        let map = map.replace("FIELD", field).replace("NAMES", &names.join(", "));
+        let map = map
+            .replace("FIELD", field)
+            .replace("NAMES", &names.join(", "));
         planned(recordings.as_ref(), &map)
     };
     of("height").expect("an integer by its schema");

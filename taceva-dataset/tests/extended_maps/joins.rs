@@ -73,7 +73,10 @@ fn a_frame_that_a_joined_table_names_lies_beside_that_table_unless_the_map_says_
     };
     let folder = lab(&[
         ("labels/l.csv", "press,Fz\n1,1\n0,2\n"),
-        ("camera/c.csv", "press,file,still\n0,0.png,r.png\n1,1.png,r.png\n"),
+        (
+            "camera/c.csv",
+            "press,file,still\n0,0.png,r.png\n1,1.png,r.png\n",
+        ),
     ]);
     // Pictures of the same names lie beside the main table.
     for (name, level) in [
@@ -111,5 +114,8 @@ fn a_frame_that_a_joined_table_names_lies_beside_that_table_unless_the_map_says_
     }
     std::fs::remove_file(folder.path().join("camera/1.png")).expect("removed");
     let problem = planned(folder.path(), &map("")).expect_err("not there");
-    assert!(problem.contains("`1.png`") && problem.contains("no such file"), "{problem}");
+    assert!(
+        problem.contains("`1.png`") && problem.contains("no such file"),
+        "{problem}"
+    );
 }

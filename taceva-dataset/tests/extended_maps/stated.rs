@@ -27,19 +27,26 @@ fn map(column: &str) -> String {
 fn a_unit_that_the_file_states_is_not_overruled_by_the_map_without_a_word() {
     let folder = forces(&[("unit", "mN")]);
     let problem = planned(folder.path(), &map("unit = \"N\"")).expect_err("ten times a hundred");
-    for word in ["run.h5, column `force`", "its unit is `mN`", "the map says `N`"] {
+    for word in [
+        "run.h5, column `force`",
+        "its unit is `mN`",
+        "the map says `N`",
+    ] {
         assert!(problem.contains(word), "{word}: {problem}");
     }
-    for (column, expected) in [("unit = \"mN\"", "0.1"), ("unit = \"N\", scale = 1", "100")] {
+    for (column, expected) in [
+        ("unit = \"mN\"", "0.1"),
+        ("unit = \"N\", scale = 1", "100.0"),
+    ] {
         let (_, found) = imported_from(folder.path(), &map(column), &["Fz"]);
         assert_eq!(found[0][0], expected, "{column}");
     }
     // Of a table that is joined, too.
     std::fs::write(folder.path().join("t.csv"), "k\n0\n1\n").expect("written");
-    let joined = map("unit = \"N\"").replace("\"run.h5\"", "\"t.csv\"").replace(
-        "from = \"force\"",
-        "from = \"j.force\"",
-    ) + "[[join]]\nname = \"j\"\ntable = \"run.h5\"\non = \"row\"\n";
+    let joined = map("unit = \"N\"")
+        .replace("\"run.h5\"", "\"t.csv\"")
+        .replace("from = \"force\"", "from = \"j.force\"")
+        + "[[join]]\nname = \"j\"\ntable = \"run.h5\"\non = \"row\"\n";
     let problem = planned(folder.path(), &joined).expect_err("the same");
     assert!(problem.contains("its unit is `mN`"), "{problem}");
 }
@@ -55,7 +62,7 @@ fn packed_numbers_are_not_read_as_they_lie_unless_the_map_unpacks_them() {
         &map(&format!("unit = \"N\", {remedy}")),
         &["Fz"],
     );
-    assert_eq!(found[0], ["6", "7"]);
+    assert_eq!(found[0], ["6.0", "7.0"]);
     let unpacked = forces(&[("scale_factor", "1.0"), ("add_offset", "0")]);
     planned(unpacked.path(), &map("unit = \"N\"")).expect("as they lie");
 }
@@ -123,12 +130,17 @@ fn files_that_are_counted_through_are_refused_where_10_stands_before_2() {
         write(format!("frames_{number}.npy"), number);
     }
     let problem = planned(folder.path(), &map).expect_err("which order?");
-    for word in ["`frames_*.npy`", "frames_11.npy stands before frames_2.npy", "as many digits"] {
+    for word in [
+        "`frames_*.npy`",
+        "frames_11.npy stands before frames_2.npy",
+        "as many digits",
+    ] {
         assert!(problem.contains(word), "{word}: {problem}");
     }
     for number in 0..12_u8 {
         let old = folder.path().join(format!("frames_{number}.npy"));
-        std::fs::rename(old, folder.path().join(format!("frames_{number:02}.npy"))).expect("renamed");
+        std::fs::rename(old, folder.path().join(format!("frames_{number:02}.npy")))
+            .expect("renamed");
     }
     planned(folder.path(), &map).expect("padded");
 }

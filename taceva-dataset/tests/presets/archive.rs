@@ -87,7 +87,10 @@ fn an_error_names_the_archive_and_its_member_and_not_where_it_was_unpacked() {
         "{wrong_cell}"
     );
     let absent = said(ImportPlan::new(archive.folder(), &map("no*.csv")).expect_err("no table"));
-    assert!(absent.contains(&plain.join("run").display().to_string()), "{absent}");
+    assert!(
+        absent.contains(&plain.join("run").display().to_string()),
+        "{absent}"
+    );
     std::fs::write(archive.folder().join("labels.csv"), "file,Fz\n1.png,1\n").expect("written");
     let plan = ImportPlan::new(archive.folder(), &map("labels.csv")).expect("a plan");
     let no_picture = plan

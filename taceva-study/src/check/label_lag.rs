@@ -151,7 +151,9 @@ impl Lag {
         };
         // As far as three quarters of the samples have a partner.
         let furthest = (1..=FURTHEST).take_while(|shift| {
-            let partners = streams.iter().map(|stream| stream.len().saturating_sub(*shift));
+            let partners = streams
+                .iter()
+                .map(|stream| stream.len().saturating_sub(*shift));
             (count - partners.sum::<usize>()) * SHARE <= count
         });
         let furthest = i64::try_from(furthest.count()).ok()?;

@@ -87,7 +87,7 @@ fn of_presses(rest: u32, read: impl Fn(f64) -> f64) -> CheckReport {
 }
 
 #[test]
-fn a_force_that_is_zero_below_a_threshold_is_told_from_rest_by_its_pictures() {
+fn a_force_that_is_zero_below_a_threshold_differs_from_rest_by_its_pictures() {
     let below = |force: f64| if force < 0.6 { 0.0 } else { force };
     let report = of_presses(0, below);
     let found = message(&report, "TAC027");

@@ -109,7 +109,8 @@ impl Reading<'_> {
         rows: &MappedTable<'_>,
     ) -> Result<(), DatasetError> {
         let names = self.map.frame.as_ref().map(|frame| &frame.names);
-        let is_by_row = matches!(names, Some(FrameNames::Pattern(pattern)) if pattern.contains("{row}"));
+        let is_by_row =
+            matches!(names, Some(FrameNames::Pattern(pattern)) if pattern.contains("{row}"));
         if !is_by_row || rows.has_row_column || self.count < 2 {
             return Ok(());
         }
