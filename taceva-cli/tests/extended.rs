@@ -216,6 +216,67 @@ fn the_same_rows_and_rows_of_something_else_are_refused_and_change_nothing() {
 }
 
 #[test]
+fn a_column_that_another_map_reads_otherwise_is_refused_by_its_key() {
+    let bench = halves();
+    let before = fs::read(bench.path("data/dataset.toml")).expect("a header");
+    let map = fs::read_to_string(bench.path("map.toml")).expect("a map");
+    let line = map
+        .lines()
+        .find(|line| line.starts_with("Fz = "))
+        .expect("a force");
+    let unit = line.split('"').nth(3).expect("a unit");
+    let other_unit = if unit == "N" { "mN" } else { "N" };
+    for (key, other) in [
+        (
+            "columns.Fz.unit",
+            line.replace(
+                &format!("unit = \"{unit}\""),
+                &format!("unit = \"{other_unit}\""),
+            ),
+        ),
+        ("columns.Fz.sign", line.replace(" }", ", sign = -1 }")),
+        ("columns.Fz.scale", line.replace(" }", ", scale = 2.0 }")),
+        ("columns.Fz.offset", line.replace(" }", ", offset = 0.5 }")),
+    ] {
+        let text = map
+            .replacen(line, &other, 1)
+            .replace("map_version = 1", "map_version = 2");
+        bench.write("other.toml", &text);
+        let refused = bench.run("import second --map other.toml --extend data -q");
+        assert_eq!(refused.code, 3, "{key}: {}", refused.err);
+        for word in [&format!("`{key}` is "), "rename it in the table"] {
+            assert!(refused.err.contains(word), "{key}: {}", refused.err);
+        }
+    }
+    let after = fs::read(bench.path("data/dataset.toml")).expect("a header");
+    assert_eq!(after, before);
+    // A table whose column has another name may well be in another unit.
+    let labels = fs::read_to_string(bench.path("second/labels.csv")).expect("drawn");
+    let column = line.split('"').nth(1).expect("a column");
+    bench.write(
+        "second/labels.csv",
+        &labels.replacen(column, "force_of_the_new_transducer", 1),
+    );
+    let renamed = map.replace(&format!("\"{column}\""), "\"force_of_the_new_transducer\"");
+    let renamed = renamed.replace(
+        &format!("unit = \"{unit}\""),
+        &format!("unit = \"{other_unit}\""),
+    );
+    bench.write("renamed.toml", &renamed);
+    bench.ok("import second --map renamed.toml --extend data -q");
+    let dataset = taceva_dataset::Dataset::open(&bench.path("data")).expect("a dataset");
+    let ways = dataset.header().columns.iter();
+    let ways: Vec<(&str, &str)> = ways
+        .filter(|way| way.label == "Fz")
+        .map(|way| (way.from[0].as_str(), way.unit.as_str()))
+        .collect();
+    assert_eq!(
+        ways,
+        [(column, unit), ("force_of_the_new_transducer", other_unit)]
+    );
+}
+
+#[test]
 fn what_is_exported_of_it_and_read_again_is_other_data_to_a_model_and_that_is_said() {
     let bench = halves();
     bench.ok("import second --map map.toml --extend data -q");

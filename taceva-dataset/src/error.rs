@@ -236,6 +236,41 @@ impl DatasetError {
         }
     }
 
+    /// The same error with other paths: `path` makes one of each, `text` of what is said of them.
+    pub(crate) fn with_paths(
+        mut self,
+        path: &dyn Fn(&Path) -> PathBuf,
+        text: &dyn Fn(&str) -> String,
+    ) -> DatasetError {
+        let of_place = |place: &mut Place| place.path = path(&place.path);
+        match &mut self {
+            DatasetError::Toml { place, problem } | DatasetError::Table { place, problem } => {
+                of_place(place);
+                *problem = text(problem);
+            }
+            DatasetError::Path { place, problem, .. } => {
+                place.as_deref_mut().into_iter().for_each(of_place);
+                *problem = text(problem);
+            }
+            DatasetError::Image {
+                place,
+                path: image,
+                problem,
+            } => {
+                place.as_deref_mut().into_iter().for_each(of_place);
+                *image = path(image);
+                *problem = text(problem);
+            }
+            DatasetError::Io { path: own, .. }
+            | DatasetError::TargetExists { path: own }
+            | DatasetError::Busy { path: own }
+            | DatasetError::NoDataset { path: own, .. }
+            | DatasetError::Damaged { path: own, .. } => *own = path(own),
+            _ => {}
+        }
+        self
+    }
+
     /// The same error, saying where the image or path is named.
     pub(crate) fn named_at(mut self, at: Place) -> DatasetError {
         if let DatasetError::Path { place, .. } | DatasetError::Image { place, .. } = &mut self {
@@ -278,6 +313,11 @@ impl Place {
             path: path.to_owned(),
             ..Place::default()
         }
+    }
+
+    /// The same column of all rows.
+    pub(crate) fn without_row(self) -> Place {
+        Place { row: None, ..self }
     }
 
     /// A line of the file at `path`.

@@ -32,7 +32,7 @@ use crate::text::{listed, nearest, shown};
 
 pub(crate) use arrays::ArrayPictures;
 pub(crate) use clips::ClipPictures;
-pub(crate) use columns::{ColumnTable, PictureColumn, PictureKind};
+pub(crate) use columns::{ColumnTable, PictureColumn, PictureKind, Stated};
 pub(crate) use files::FileRows;
 pub(crate) use json::JsonRows;
 pub(crate) use messages::topics;
@@ -180,6 +180,14 @@ impl ForeignTable {
         }
     }
 
+    /// What the file says of the numbers in a column.
+    pub(crate) fn stated(&self, name: &str) -> Stated {
+        match self {
+            ForeignTable::Columns(table) => table.stated(name),
+            _ => Stated::default(),
+        }
+    }
+
     /// Whether the file says that a column holds integers, or lists of them.
     pub(crate) fn holds_integers(&self, name: &str) -> bool {
         match self {
@@ -306,6 +314,14 @@ impl ForeignTable {
 
     /// The error that there is no column called `name`; it lists those there are.
     pub(crate) fn no_column(&self, name: &str) -> DatasetError {
+        if let ForeignTable::Columns(table) = self
+            && let Some(problem) = table.why_absent(name)
+        {
+            return DatasetError::Table {
+                place: self.place(0, name).without_row(),
+                problem,
+            };
+        }
         let names = self.names();
         let guess = nearest(name, names.iter().map(String::as_str));
         let guess = guess.map_or_else(String::new, |guess| {

@@ -4,6 +4,7 @@ mod extended;
 mod facts;
 mod footprint;
 mod left_out;
+mod mapped_column;
 mod stream;
 #[cfg(test)]
 mod tests;
@@ -30,6 +31,8 @@ pub use facts::{FrameCodec, FramesInfo, Known, ReferenceInfo, SensorFacts, Sourc
 pub use footprint::{Footprint, Shape};
 pub use left_out::LeftOut;
 pub(crate) use left_out::add as add_left_out;
+pub use mapped_column::MappedColumn;
+pub(crate) use mapped_column::{Misread, misread, united};
 pub use stream::StreamFacts;
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -78,6 +81,8 @@ pub struct Header {
     pub attributes: Vec<String>,
     /// Columns of the imported table that no key of its map names; empty of a recording, and before format 1.4.
     pub unmentioned_columns: Vec<String>,
+    /// How each label was read, by every map that rows came by; empty of a recording, and before format 1.9.
+    pub columns: Vec<MappedColumn>,
     /// What an import left out; empty of a recording, and before format 1.8.
     pub left_out: LeftOut,
     /// What all frames share; `None` if there is none.
@@ -128,6 +133,8 @@ struct Written {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     extended: Vec<Extension>,
     channels: Vec<ChannelInfo>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    columns: Vec<MappedColumn>,
     /// Edits that were accepted before rows were added; read by whoever reads the seal.
     #[serde(default, skip_deserializing, skip_serializing_if = "Vec::is_empty")]
     history: Vec<Edit>,
@@ -186,6 +193,7 @@ impl Header {
             channels,
             attributes: written.attributes,
             unmentioned_columns: written.unmentioned_columns,
+            columns: written.columns,
             left_out: written.left_out,
             frames: written.frames,
             presses: written.presses,
@@ -234,6 +242,7 @@ impl Header {
                     unit: channel.unit(),
                 })
                 .collect(),
+            columns: self.columns.clone(),
             history: self.seal.history.clone(),
         };
         toml::to_string(&written).expect("text, numbers and tables of them can be written as TOML")

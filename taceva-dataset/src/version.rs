@@ -12,7 +12,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 /// ```
 /// use taceva_dataset::Version;
 ///
-/// let newer: Version = "1.9".parse()?;
+/// let newer: Version = "1.10".parse()?;
 /// assert!(newer > Version::CURRENT && newer.is_readable());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -27,7 +27,10 @@ pub struct Version {
 
 impl Version {
     /// The newest that this crate writes.
-    pub const CURRENT: Version = Version { major: 1, minor: 8 };
+    pub const CURRENT: Version = Version { major: 1, minor: 9 };
+
+    /// The version of a header that does not say how labels were read, so that it is what it was before 1.9.
+    pub(crate) const WITHOUT_COLUMNS: Version = Version { major: 1, minor: 8 };
 
     /// The version of a header of a recording to which no rows were added and of which nothing was left out, so that it is what it was before 1.8.
     pub(crate) const NEVER_EXTENDED: Version = Version { major: 1, minor: 7 };
@@ -91,7 +94,7 @@ mod tests {
     fn another_minor_is_readable_and_another_major_is_not() {
         let readable = |text: &str| text.parse::<Version>().map(Version::is_readable);
         assert_eq!(readable("1.0"), Ok(true));
-        assert_eq!(readable("1.8"), Ok(true));
+        assert_eq!(readable("1.9"), Ok(true));
         assert_eq!(readable("2.0"), Ok(false));
         assert_eq!(readable("0.9"), Ok(false));
         assert!(readable("1").is_err() && readable("one.two").is_err());

@@ -8,6 +8,7 @@ mod clipped_taxel;
 mod clock_jumps;
 mod clusters;
 mod damaged_frames;
+mod dead_zone;
 mod doubled_frames;
 mod dropped_frames;
 mod duplicate_frames;
@@ -40,7 +41,7 @@ pub use run::{CheckRequest, check, check_plan};
 pub use signal_facts::{SignalFacts, TaxelFacts};
 
 /// Every check, in the order of its code.
-pub static ALL: [&Check; 26] = [
+pub static ALL: [&Check; 27] = [
     &units::CHECK,
     &duplicate_frames::CHECK,
     &channel_order::CHECK,
@@ -67,4 +68,5 @@ pub static ALL: [&Check; 26] = [
     &clock_jumps::CHECK,
     &blank::CHECK,
     &lossy_frames::CHECK,
+    &dead_zone::CHECK,
 ];

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use taceva_core::shown;
 use taceva_dataset::{
-    Addition, Decoders, ImportMap, ImportPlan, MapDraft, Preset, UnpackedArchive, settle,
+    Addition, DatasetError, Decoders, ImportMap, ImportPlan, MapDraft, Preset, UnpackedArchive,
+    settle,
 };
 use taceva_durable::parent_of;
 
@@ -29,13 +30,13 @@ pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
     }
     let source = Source::open(args, target)?;
     if args.draft {
-        let draft = MapDraft::of(source.folder())?;
+        let draft = source.named(MapDraft::of(source.folder()))?;
         return map_written(draft.text(), args, target, context);
     }
     if args.print {
         let text = preset(args)?.map(|preset| preset.text(source.folder()));
         return map_written(
-            &text.transpose()?.unwrap_or_default(),
+            &source.named(text.transpose())?.unwrap_or_default(),
             args,
             target,
             context,
@@ -49,13 +50,14 @@ pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
             false => output::check_free(target, args.force)?,
         }
     }
-    let plan = ImportPlan::with_decoders(
+    let plan = source.named(ImportPlan::with_decoders(
         source.folder(),
-        &map(args, source.folder())?,
+        &map(args, &source)?,
         &decoders(args)?,
-    )?;
+    ))?;
     let Some(target) = target.filter(|_| !args.explain.is_wanted) else {
-        output::write(None, |out| write!(out, "{}", plan.summary()))?;
+        let summary = source.said(plan.summary());
+        output::write(None, |out| write!(out, "{summary}"))?;
         return Ok(exit::DONE);
     };
     let bytes = plan.frame_bytes();
@@ -75,13 +77,15 @@ pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
         }
         (false, true) => plan.replace(target, jobs, progress),
         (false, false) => plan.run(target, jobs, progress),
-    }?;
+    };
+    let report = source.named(report)?;
+    let summary = source.said(&report.summary);
     let done = match args.extend.is_some() {
         true => "extended",
         false => "wrote   ",
     };
     output::write(None, |out| {
-        write!(out, "{}", report.summary)?;
+        write!(out, "{summary}")?;
         writeln!(out, "{done} {}", shown(&report.path))?;
         writeln!(out, "digest   {}", report.digest)
     })?;
@@ -124,6 +128,22 @@ impl Source {
         match self {
             Source::Folder(path) => path,
             Source::Archive(archive) => archive.folder(),
+        }
+    }
+
+    /// What came of it; an error names the member of an archive, and not where that was unpacked.
+    fn named<T>(&self, outcome: Result<T, DatasetError>) -> Result<T, DatasetError> {
+        outcome.map_err(|error| match self {
+            Source::Folder(_) => error,
+            Source::Archive(archive) => archive.named(error),
+        })
+    }
+
+    /// What is said of it, likewise.
+    fn said(&self, what: &impl std::fmt::Display) -> String {
+        match self {
+            Source::Folder(_) => what.to_string(),
+            Source::Archive(archive) => archive.text_named(&what.to_string()),
         }
     }
 }
@@ -190,9 +210,9 @@ fn on_path(name: &Path) -> Option<PathBuf> {
     programs.find(|program| program.is_file())
 }
 
-fn map(args: &Import, folder: &Path) -> anyhow::Result<ImportMap> {
+fn map(args: &Import, source: &Source) -> anyhow::Result<ImportMap> {
     if let Some(preset) = preset(args)? {
-        return Ok(preset.map(folder)?);
+        return Ok(source.named(preset.map(source.folder()))?);
     }
     let path = args
         .map

@@ -8,9 +8,9 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use taceva_arrays::{ArrayError, ArrayFile, ArrayFormat, ArrayInfo, Element};
+use taceva_arrays::{ArrayError, ArrayFile, ArrayFormat, ArrayInfo, Element, Problem};
 
-use super::columns::{ColumnSource, PictureColumn};
+use super::columns::{ColumnSource, PictureColumn, Stated};
 use super::pictures::Pictures;
 use crate::import::{FrameNames, OWN_ROW};
 use crate::limits;
@@ -235,6 +235,34 @@ impl ColumnSource for ArrayRows {
         })
     }
 
+    fn stated(&self, name: &str) -> Stated {
+        let paths = self
+            .groups
+            .iter()
+            .filter_map(|group| self.info(group, name));
+        let paths: Vec<String> = paths.map(|(path, _)| path).collect();
+        let first = |attribute: &str| {
+            let mut found = paths.iter();
+            found.find_map(|path| self.file.attribute(path, attribute))
+        };
+        let number = |attribute: &str| first(attribute)?.trim_matches(['[', ']']).parse().ok();
+        let packed = [number("scale_factor"), number("add_offset")];
+        let is_packed = packed.iter().any(Option::is_some);
+        let packed = [packed[0].unwrap_or(1.0), packed[1].unwrap_or(0.0)];
+        Stated {
+            unit: first("unit").or_else(|| first("units")),
+            packed: (is_packed && packed != UNPACKED).then_some(packed),
+        }
+    }
+
+    fn why_absent(&self, name: &str) -> Option<String> {
+        let group = self.groups.first()?;
+        let paths = candidates(&group.path, name).into_iter();
+        let mut found = paths.filter_map(|path| self.file.find(&path).err());
+        let error = found.find(|error| !matches!(error.problem, Problem::Absent { .. }))?;
+        Some(problem(error))
+    }
+
     fn absent_chunks(&self, names: &[&str]) -> Result<Vec<(String, u64)>, String> {
         let mut arrays: Vec<String> = self
             .groups
@@ -290,14 +318,16 @@ impl ColumnSource for ArrayRows {
                     ));
                 }
                 found.map(|(path, _)| path).ok_or_else(|| {
-                    format!(
-                        "there is no array `{name}` for the frames in {}; there are {}",
-                        match group.path.as_str() {
-                            "" => "it",
-                            path => path,
-                        },
-                        listed(&self.names())
-                    )
+                    self.why_absent(name).unwrap_or_else(|| {
+                        format!(
+                            "there is no array `{name}` for the frames in {}; there are {}",
+                            match group.path.as_str() {
+                                "" => "it",
+                                path => path,
+                            },
+                            listed(&self.names())
+                        )
+                    })
                 })
             })
             .collect();
@@ -305,6 +335,9 @@ impl ColumnSource for ArrayRows {
         Ok(Arc::new(pictures))
     }
 }
+
+/// What packed numbers are multiplied by and what is added, where they are not packed.
+const UNPACKED: [f64; 2] = [1.0, 0.0];
 
 /// The arrays that `name` may mean in a group: one of the group, a field of the table, one named from the root.
 fn candidates(group: &str, name: &str) -> Vec<String> {

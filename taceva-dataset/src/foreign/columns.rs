@@ -10,6 +10,16 @@ use crate::error::{DatasetError, Place};
 use crate::guard::guarded;
 use crate::import::FrameNames;
 
+/// What a file says of the numbers in a column, in attributes of its array.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Stated {
+    /// The unit, by `unit` or `units`.
+    pub(crate) unit: Option<String>,
+    /// What the numbers are multiplied by and what is then added, by `scale_factor` and `add_offset` (the convention of netCDF), where that is
+    /// not nothing.
+    pub(crate) packed: Option<[f64; 2]>,
+}
+
 /// What a table of columns is read from.
 pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
     fn rows(&self) -> usize;
@@ -32,6 +42,16 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
     /// Whether the file says that a column holds integers, or lists of them.
     fn holds_integers(&self, _name: &str) -> bool {
         false
+    }
+
+    /// What the file itself says of the numbers in a column.
+    fn stated(&self, _name: &str) -> Stated {
+        Stated::default()
+    }
+
+    /// Why a column is not among them although the file has something of this name: a link, or a form that is not read.
+    fn why_absent(&self, _name: &str) -> Option<String> {
+        None
     }
 
     /// The arrays behind these columns of which chunks were never written, and how many.
@@ -177,6 +197,14 @@ impl ColumnTable {
 
     pub(super) fn holds_integers(&self, name: &str) -> bool {
         guarded(|| self.source.holds_integers(name)).unwrap_or_default()
+    }
+
+    pub(super) fn stated(&self, name: &str) -> Stated {
+        guarded(|| self.source.stated(name)).unwrap_or_default()
+    }
+
+    pub(super) fn why_absent(&self, name: &str) -> Option<String> {
+        guarded(|| self.source.why_absent(name)).unwrap_or_default()
     }
 
     pub(super) fn absent_chunks(&self, names: &[&str]) -> Result<Vec<(String, u64)>, DatasetError> {

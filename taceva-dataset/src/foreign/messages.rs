@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use taceva_core::{Frame, FrameInfo, PixelFormat};
-use taceva_tables::{Mcap, McapTable, SampleForm};
+use taceva_tables::{Cell, Mcap, McapTable, SampleForm};
 
 use super::columns::{ColumnSource, PictureColumn, PictureKind};
 use super::pictures::{Ended, Picture, Pictures, Visit, damaged, guarded_visit};
@@ -91,6 +91,12 @@ impl ColumnSource for MessageRows {
         Ok(texts.collect())
     }
 
+    /// By the type that the schema in the file gives the field.
+    fn holds_integers(&self, name: &str) -> bool {
+        let columns = self.table.columns(&[name]);
+        columns.is_ok_and(|columns| columns.iter().flatten().all(is_integer))
+    }
+
     fn picture_columns(&self) -> Vec<PictureColumn> {
         let is_picture = PICTURES.contains(&self.table.topic().schema.as_str());
         let data = is_picture.then(|| PictureColumn {
@@ -144,6 +150,15 @@ impl Pictures for MessagePictures {
                     each(row, picture).map_err(Ended::Picture)
                 })
         })
+    }
+}
+
+/// Whether a cell is an integer, or a list of them.
+fn is_integer(cell: &Cell) -> bool {
+    match cell {
+        Cell::Integer(_) | Cell::Null => true,
+        Cell::List(cells) => cells.iter().all(is_integer),
+        _ => false,
     }
 }
 

@@ -219,6 +219,24 @@ impl ColumnSource for Shard {
         names.iter().map(column).collect()
     }
 
+    /// Of numbers in JSON; a text says nothing of what it means.
+    fn holds_integers(&self, name: &str) -> bool {
+        let Some(pointer) = name.strip_prefix("json") else {
+            return false;
+        };
+        let mut found = 0;
+        self.samples.iter().all(|sample| {
+            let value = self.json(sample).ok().flatten();
+            match value.as_ref().and_then(|value| value.pointer(pointer)) {
+                None | Some(Value::Null) => true,
+                Some(value) => {
+                    found += 1;
+                    value.is_i64() || value.is_u64()
+                }
+            }
+        }) && found > 0
+    }
+
     fn picture_columns(&self) -> Vec<PictureColumn> {
         let parts = self
             .samples

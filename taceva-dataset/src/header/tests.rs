@@ -24,6 +24,11 @@ fn header() -> Header {
         settings: BTreeMap::from([("exposure_ms".to_owned(), "15.7".to_owned())]),
         channels: Channels::new([Channel::FZ, Channel::PZ]).expect("distinct"),
         attributes: vec!["video".to_owned()],
+        columns: vec![MappedColumn {
+            sign: -1,
+            offset: vec![0.1],
+            ..MappedColumn::new("Fz", vec!["force [z]".to_owned()], "mN")
+        }],
         left_out: LeftOut::default(),
         unmentioned_columns: vec!["quality_flags".to_owned()],
         frames: Some(FramesInfo {

@@ -10,6 +10,7 @@ use crate::error::{DatasetError, Place};
 use crate::file::open_regular;
 use crate::foreign::tar::{FileTape, Members, Tape, TarError};
 use crate::staged::{self, StagedFolder};
+use crate::text::shown_path;
 
 /// How many times as large as its file a compressed archive may be, and how many bytes more.
 const GROWTH: u64 = 128;
@@ -32,7 +33,8 @@ const GZIP: [u8; 2] = [0x1f, 0x8b];
 #[derive(Debug)]
 pub struct UnpackedArchive {
     folder: PathBuf,
-    _staged: StagedFolder,
+    archive: PathBuf,
+    staged: StagedFolder,
 }
 
 impl UnpackedArchive {
@@ -83,8 +85,42 @@ impl UnpackedArchive {
         })?;
         Ok(UnpackedArchive {
             folder: innermost(staged.path())?,
-            _staged: staged,
+            archive: archive.to_owned(),
+            staged,
         })
+    }
+
+    /// The same error, in whose paths the archive and its member stand and not where they were unpacked: `run.tar/run/labels.csv`.
+    ///
+    /// ```no_run
+    /// # use taceva_dataset::{MapDraft, UnpackedArchive};
+    /// # let archive = UnpackedArchive::open("run.tar".as_ref(), "/tmp".as_ref())?;
+    /// let draft = MapDraft::of(archive.folder()).map_err(|error| archive.named(error))?;
+    /// # Ok::<(), taceva_dataset::DatasetError>(())
+    /// ```
+    #[must_use]
+    pub fn named(&self, error: DatasetError) -> DatasetError {
+        let unpacked = self.staged.path();
+        error.with_paths(
+            &|path| {
+                path.strip_prefix(unpacked)
+                    .map_or_else(|_| path.to_owned(), |member| self.archive.join(member))
+            },
+            &|text| self.text_named(text),
+        )
+    }
+
+    /// The same text, in which the archive stands and not where it was unpacked.
+    ///
+    /// ```no_run
+    /// # let archive = taceva_dataset::UnpackedArchive::open("run.tar".as_ref(), "/tmp".as_ref())?;
+    /// let said = format!("{} holds 3 tables", archive.folder().display());
+    /// assert!(archive.text_named(&said).starts_with("run.tar"));
+    /// # Ok::<(), taceva_dataset::DatasetError>(())
+    /// ```
+    pub fn text_named(&self, text: &str) -> String {
+        let [unpacked, archive] = [self.staged.path(), &self.archive].map(shown_path);
+        text.replace(&unpacked, &archive)
     }
 
     /// Where its files lie.

@@ -17,7 +17,7 @@ use crate::dataset::{Dataset, Difference, differences_of_added};
 use crate::digest::Digest;
 use crate::error::DatasetError;
 use crate::file::read_capped;
-use crate::header::{Extension, FramesInfo, Header};
+use crate::header::{Extension, FramesInfo, Header, Misread, misread, united};
 use crate::layout;
 use crate::limits;
 use crate::signals::{SignalsInfo, SignalsWriter};
@@ -160,9 +160,16 @@ impl ImportPlan {
             (None, Some(_)) => return Err(refused(differs("signals", "absent", "there"))),
             (own, None) => *own = None,
         }
-        match differences_of_added(header, &planned).next() {
+        if let Some(Difference { key, own, other }) = differences_of_added(header, &planned).next()
+        {
+            return Err(refused(differs(key, &own, &other)));
+        }
+        match misread(&header.columns, &self.columns) {
             None => Ok(()),
-            Some(Difference { key, own, other }) => Err(refused(differs(key, &own, &other))),
+            Some(Misread { key, own, other }) => Err(refused(format!(
+                "{}; if the column was recorded otherwise this time, rename it in the table",
+                differs(&key, &own, &other)
+            ))),
         }
     }
 
@@ -307,6 +314,7 @@ fn write_header(
             unmentioned_columns: unmentioned,
             signals,
             extended,
+            columns: united(&header.columns, &plan.columns),
             left_out: header.left_out.clone().and(plan.summary.left_out()),
             history: header.seal.history.clone(),
             ..Beside::default()

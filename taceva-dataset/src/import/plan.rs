@@ -12,6 +12,7 @@ use taceva_video::Decoders;
 use super::frame_cells::FrameName;
 use super::left_out;
 use super::map::{FrameMap, FrameNames, ImportMap};
+use super::mapped_columns::mapped_columns;
 use super::planned_frames::{FrameSource, PlannedFrame, PlannedFrames};
 use super::references::{References, Settled};
 use super::resolve::JoinMatches;
@@ -22,6 +23,7 @@ use super::summary::ImportSummary;
 use crate::error::{DatasetError, Place};
 use crate::file::SourceFolder;
 use crate::foreign::{Pictures, TableForm};
+use crate::header::MappedColumn;
 use crate::store::RecordingFacts;
 use crate::table::Table;
 use crate::text::shown;
@@ -52,6 +54,8 @@ pub struct ImportPlan {
     pub(super) table: Table,
     pub(super) frames: Option<PlannedFrames>,
     pub(super) signals: Option<PlannedSignals>,
+    /// How the map reads each label.
+    pub(super) columns: Vec<MappedColumn>,
     /// Whether samples are called by the number of their row, because the map names no column for it.
     pub(super) is_numbered: bool,
 }
@@ -214,7 +218,9 @@ impl<'a> Reading<'a> {
         for row in 0..rows.rows() {
             self.read_row(&rows, row, &base)?;
         }
-        self.bases.insert(base);
+        if rows.rows() == 0 || rows.named_by.frame(0).is_none() {
+            self.bases.insert(base);
+        }
         Ok(())
     }
 
@@ -227,9 +233,20 @@ impl<'a> Reading<'a> {
         let number = self.summary.rows_read;
         self.summary.rows_read += 1;
         let reasons = rows.drop_reasons(row);
+        // What a table names lies beside it, unless the map says a folder.
+        let says_folder = self
+            .map
+            .frame
+            .as_ref()
+            .and_then(|frame| frame.folder.as_ref());
+        let beside = |named_by: Option<&'_ Path>| match says_folder {
+            None => named_by.unwrap_or(base).to_owned(),
+            Some(_) => base.to_owned(),
+        };
+        let base_of_frame = beside(rows.named_by.frame(row));
         if !reasons.is_empty() {
             if let Ok(Some((FrameName::File(name), _))) = rows.frame_name(row) {
-                self.named.insert(base.join(name));
+                self.named.insert(base_of_frame.join(name));
             }
             for reason in reasons {
                 *self.summary.dropped.entry(reason).or_default() += 1;
@@ -242,7 +259,7 @@ impl<'a> Reading<'a> {
         }
         if let Some((name, named_at)) = rows.frame_name(row)? {
             let from = self
-                .frame_source(rows, base, name)
+                .frame_source(rows, &base_of_frame, name)
                 .map_err(|error| error.named_at(named_at.clone()))?;
             if self.map.origin.is_none() && labels.source_table.is_some() {
                 labels.source_frame = Some(from.origin(self.folder.path()));
@@ -250,7 +267,8 @@ impl<'a> Reading<'a> {
             self.frames.push(PlannedFrame { from, named_at });
         }
         if let Some(named) = rows.reference_name(row) {
-            self.references.take(self.folder, base, named)?;
+            let base = beside(rows.named_by.reference(row));
+            self.references.take(self.folder, &base, named)?;
         }
         if let Some(signals) = &mut self.signals {
             signals.take(rows, row, number)?;
@@ -269,15 +287,23 @@ impl<'a> Reading<'a> {
         let (pictures, index) = match (name, &rows.pictures) {
             (FrameName::File(name), _) => {
                 let path = self.folder.file(base, &name)?;
+                self.check_named_once(&path, rows)?;
+                if !self.bases.contains(base) {
+                    self.bases.insert(base.to_owned());
+                }
                 self.named.insert(path.clone());
                 return Ok(FrameSource::File(path));
             }
             (FrameName::Within(Some(file), index), _) => {
                 let pictures = self.pictures(&file)?;
-                self.check_counted_once(&file)?;
+                self.check_counted_once(&file, rows)?;
+                self.check_as_many(&pictures, rows)?;
                 (pictures, index)
             }
-            (FrameName::Within(None, index), Some(pictures)) => (Arc::clone(pictures), index),
+            (FrameName::Within(None, index), Some(pictures)) => {
+                self.check_as_many(pictures, rows)?;
+                (Arc::clone(pictures), index)
+            }
             (FrameName::Within(None, index), None) => {
                 return Err(DatasetError::Path {
                     place: None,
@@ -340,6 +366,7 @@ impl<'a> Reading<'a> {
             summary: self.summary,
             facts: self.map.facts.clone(),
             is_numbered: self.map.ids.sample.is_none(),
+            columns: mapped_columns(self.map, self.folder)?,
             table: self.table,
             frames,
         })

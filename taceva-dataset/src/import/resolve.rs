@@ -4,7 +4,9 @@ mod classes;
 mod columns;
 mod join;
 mod matrix;
+mod named_by;
 mod signals;
+mod stated;
 mod table;
 mod times;
 
@@ -20,7 +22,10 @@ use join::Joined;
 
 pub(super) use classes::ClassCells;
 pub(super) use join::JoinMatches;
+pub(super) use matrix::matrix_rows;
+pub(super) use named_by::NamedBy;
 pub(super) use signals::place_first;
+pub(super) use stated::problem_of_name;
 pub(super) use table::RowTable;
 
 /// A table in which every column that the map names is found by that name.
@@ -37,6 +42,8 @@ pub(super) struct Resolved {
     pub(super) signals: Option<Vec<f32>>,
     /// What the cells of each class are.
     pub(super) class_cells: Vec<ClassCells>,
+    /// The folders of joined tables that name files.
+    pub(super) named_by: NamedBy,
 }
 
 /// What the cells of a row are taken from.
@@ -111,7 +118,12 @@ pub(super) fn resolve(
         class_cells,
         absent_chunks,
         unmentioned: sources.unmentioned(&table),
-        joins: sources.joined.iter().map(Joined::matched).collect(),
+        joins: sources
+            .joined
+            .iter()
+            .map(|joined| joined.matched(&sources.main))
+            .collect(),
+        named_by: NamedBy::of(&sources),
         main: sources.main,
         table,
     })

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use super::frame_cells::{FrameCells, FrameName, columns_of, filled};
 use super::map::{FrameNames, ImportMap};
-use super::resolve::{ClassCells, JoinMatches, RowTable, resolve};
+use super::resolve::{ClassCells, JoinMatches, NamedBy, RowTable, problem_of_name, resolve};
 use crate::csv_table::CsvTable;
 use crate::error::{DatasetError, Place};
 use crate::file::SourceFolder;
@@ -53,6 +53,32 @@ pub(super) struct MappedTable<'a> {
     pub(super) pictures: Option<Arc<dyn Pictures>>,
     /// The numbers of taxels of every row, where they are in columns.
     signals: Option<Vec<f32>>,
+    /// The folders of joined tables that name files.
+    pub(super) named_by: NamedBy,
+    /// Whether the table has a column called `row`, so that the word is not the number of the row.
+    pub(super) has_row_column: bool,
+}
+
+/// The table, unless the name of a column says another unit than the map.
+fn checked(map: &ImportMap, table: CsvTable) -> Result<CsvTable, DatasetError> {
+    let columns = map.columns.iter();
+    let columns = columns.map(|column| (column.from.as_str(), &column.unit));
+    let times = map.time.iter();
+    let times = times.map(|time| (time.column.as_str(), &time.unit));
+    let mut wrong = columns
+        .chain(times)
+        .filter(|(name, _)| table.position(name).is_ok());
+    let wrong = wrong.find_map(|(name, unit)| Some((name, problem_of_name(name, unit)?)));
+    match wrong {
+        None => Ok(table),
+        Some((name, problem)) => Err(DatasetError::Table {
+            place: Place {
+                column: Some(name.to_owned()),
+                ..Place::line(table.path(), 1)
+            },
+            problem,
+        }),
+    }
 }
 
 impl<'a> MappedTable<'a> {
@@ -64,9 +90,10 @@ impl<'a> MappedTable<'a> {
         let mut clips = None;
         let mut absent_chunks = BTreeMap::new();
         let mut class_cells = Vec::new();
+        let (mut named_by, mut has_row_column) = (NamedBy::default(), false);
         let (table, unmentioned, joins, pictures, signals) = match map.is_extended {
             false => (
-                RowTable::AsItLies(CsvTable::read(path)?),
+                RowTable::AsItLies(checked(map, CsvTable::read(path)?)?),
                 None,
                 Vec::new(),
                 None,
@@ -76,6 +103,8 @@ impl<'a> MappedTable<'a> {
                 let found = resolve(map, folder, path)?;
                 absent_chunks = found.absent_chunks;
                 class_cells = found.class_cells;
+                named_by = found.named_by;
+                has_row_column = found.main.has("row");
                 let names = map.frame.as_ref().map(|frame| &frame.names);
                 if let (TableForm::LeRobot, Some(FrameNames::Video(video))) = (&map.form, names) {
                     clips = Some(found.main.clips(&video.file)?);
@@ -158,6 +187,8 @@ impl<'a> MappedTable<'a> {
             joins,
             absent_chunks,
             class_cells,
+            named_by,
+            has_row_column,
             table,
         })
     }

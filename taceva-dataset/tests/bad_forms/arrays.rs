@@ -45,6 +45,63 @@ fn cyclic_and_external_links_of_hdf5_end_or_are_named() {
 }
 
 #[test]
+fn links_of_new_groups_and_filters_of_zarr_are_refused_with_the_name_of_the_array() {
+    let types = tempfile::tempdir().expect("a folder");
+    let path = workspace("taceva-arrays/tests/data/hdf5/types.h5");
+    fs::copy(path, types.path().join("run.h5")).expect("copied");
+    let column = |table: &str, array: &str| {
+        format!(
+            "table = \"{table}\"\n[columns]\nFz = {{ from = \"{array}\", unit = \"N\" }}\n{NO_TIME}"
+        )
+    };
+    let frames = |table: &str, array: &str| {
+        format!(
+            "table = \"{table}\"\n[frame]\narray = \"{array}\"\nchannel_order = \"gray\"\nreference = \"unknown\"\n{NO_TIME}"
+        )
+    };
+    for (array, words) in [
+        ("/soft", "a soft link to `/record`"),
+        ("/outside", "a link to `/x` of another file, `other.h5`"),
+    ] {
+        for map in [column("run.h5", array), frames("run.h5", array)] {
+            refused(types.path(), &map, &["run.h5", array, words]);
+        }
+    }
+    let described = |filters: &str| {
+        format!(
+            "{{\"zarr_format\": 2, \"shape\": [2], \"chunks\": [2], \"dtype\": \"<f8\", \"order\": \"C\", \"compressor\": null, \"fill_value\": 0, \"filters\": {filters}}}"
+        )
+    };
+    let numbers: Vec<u8> = [1.0_f64, 2.0]
+        .iter()
+        .flat_map(|number| number.to_le_bytes())
+        .collect();
+    let store = lab(&[
+        ("run.zarr/.zgroup", b"{\"zarr_format\": 2}"),
+        ("run.zarr/plain/.zarray", described("null").as_bytes()),
+        ("run.zarr/plain/0", &numbers),
+        (
+            "run.zarr/force/.zarray",
+            described("[{\"id\": \"delta\", \"dtype\": \"<f8\"}]").as_bytes(),
+        ),
+        ("run.zarr/force/0", &numbers),
+    ]);
+    let plain = imported(store.path(), &column("run.zarr", "/plain"));
+    assert!(plain.is_ok(), "{:?}", plain.err());
+    for map in [
+        column("run.zarr", "/force"),
+        column("run.zarr", "force"),
+        frames("run.zarr", "/force"),
+    ] {
+        refused(
+            store.path(),
+            &map,
+            &["run.zarr", "force", "a filter `delta`", "without filters"],
+        );
+    }
+}
+
+#[test]
 fn object_arrays_and_pickles_run_nothing() {
     let proof = std::env::temp_dir().join(format!("taceva-was-run-{}", std::process::id()));
     let code = format!("cos\nsystem\n(S'touch {}'\ntR.", proof.display());

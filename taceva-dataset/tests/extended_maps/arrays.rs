@@ -282,8 +282,14 @@ fn map_of_recordings(array: &str) -> String {
 #[test]
 fn an_array_that_several_tables_share_without_an_index_is_refused_and_not_begun_anew() {
     let folder = recordings();
-    for array in ["all.npy", "s*/frames.npy"] {
-        let problem = planned(folder.path(), &map_of_recordings(array)).expect_err(array);
+    let by_row = |map: String| map.replace("channel_order", "index = \"row\"\nchannel_order");
+    for (array, map) in [
+        ("all.npy", map_of_recordings("all.npy")),
+        ("s*/frames.npy", map_of_recordings("s*/frames.npy")),
+        // The number of the row, in words.
+        ("all.npy", by_row(map_of_recordings("all.npy"))),
+    ] {
+        let problem = planned(folder.path(), &map).expect_err(array);
         for expected in [
             "s1/labels.csv, line 2",
             array,
@@ -296,6 +302,34 @@ fn an_array_that_several_tables_share_without_an_index_is_refused_and_not_begun_
             assert!(problem.contains(expected), "{expected}: {problem}");
         }
     }
+}
+
+#[test]
+fn pictures_that_are_called_by_the_row_belong_to_one_table_alone() {
+    let folder = recordings();
+    std::fs::create_dir(folder.path().join("images")).expect("made");
+    for number in 0..6_u8 {
+        image::GrayImage::from_pixel(2, 2, image::Luma([number]))
+            .save(folder.path().join(format!("images/{number}.png")))
+            .expect("saved");
+    }
+    let map = |pattern: &str| {
+        map_of_recordings("all.npy").replace(
+            "array = { file = \"all.npy\" }",
+            &format!("pattern = \"{pattern}\"\nfolder = \"images\""),
+        )
+    };
+    let problem = planned(folder.path(), &map("{row}.png")).expect_err("refused");
+    for expected in [
+        "s1/labels.csv, line 2",
+        "`images/0.png`",
+        "s0/labels.csv already",
+        "`{row}` in `pattern` begins with 0 in each of the 3 tables",
+    ] {
+        assert!(problem.contains(expected), "{expected}: {problem}");
+    }
+    // A column counts through all of them.
+    planned(folder.path(), &map("{k}.png")).expect("planned");
 }
 
 #[test]

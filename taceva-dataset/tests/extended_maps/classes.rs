@@ -1,7 +1,7 @@
 //! Classes whose names are whole numbers: which cells are positions in the list, and which lists are refused.
 
 use super::arrays::npy;
-use super::{NO_TIME, imported, imported_from, refused};
+use super::{NO_TIME, imported, imported_from, planned, refused};
 use taceva_tables::{Cell, ParquetWriter, WrittenColumn, WrittenKind};
 
 fn map(table: &str, force: &str, class: &str) -> String {
@@ -40,6 +40,74 @@ fn integers_by_type_are_positions_also_where_a_name_is_the_same_number() {
         let (_, found) = imported_from(folder.path(), &map(table, force, &class), &["c"]);
         assert_eq!(found[0], ["10", "1", "2"], "{table}");
     }
+}
+
+#[test]
+fn integers_of_joined_tables_of_messages_and_of_shards_are_positions_too() {
+    let names = "names = [\"1\", \"10\", \"2\"]";
+    let files = [
+        ("t.csv", "k,Fz\n0,1\n1,2\n2,3\n"),
+        (
+            "j.jsonl",
+            "{\"k\": 0, \"label\": 1}\n{\"k\": 1, \"label\": 0}\n{\"k\": 2, \"label\": 2}\n",
+        ),
+        ("j.csv", "k,label\n0,1\n1,0\n2,2\n"),
+    ];
+    let joined = |table: &str, key: &str, label: &str| {
+        let class = format!("{{ from = \"j.{label}\", {names} }}");
+        let map = map("t.csv", "Fz", &class);
+        format!("{map}[[join]]\nname = \"j\"\ntable = \"{table}\"\non = {{ k = \"{key}\" }}\n")
+    };
+    let (_, found) = imported(&files, &joined("j.jsonl", "/k", "/label"), &["c"]);
+    assert_eq!(found[0], ["10", "1", "2"]);
+    // A CSV file says nothing of the types of its cells.
+    let message = refused(&files, &joined("j.csv", "k", "label"));
+    assert!(message.contains("which is also the position"), "{message}");
+
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut shard = tar::Builder::new(Vec::new());
+    for (key, label) in [("a", "1"), ("b", "0"), ("c", "2")] {
+        let json = format!("{{\"Fz\": 1.5, \"label\": {label}, \"text\": \"{label}\"}}");
+        let mut header = tar::Header::new_ustar();
+        header.set_size(json.len() as u64);
+        header.set_mode(0o644);
+        let path = format!("{key}.json");
+        shard
+            .append_data(&mut header, path, json.as_bytes())
+            .expect("packed");
+    }
+    let bytes = shard.into_inner().expect("written");
+    std::fs::write(folder.path().join("s.tar"), bytes).expect("written");
+    let of_shard = |label: &str| {
+        map(
+            "",
+            "json/Fz",
+            &format!("{{ from = \"json/{label}\", {names} }}"),
+        )
+        .replace(
+            "table = \"\"",
+            "table = { file = \"s.tar\", format = \"webdataset\" }",
+        )
+    };
+    let (_, found) = imported_from(folder.path(), &of_shard("label"), &["c"]);
+    assert_eq!(found[0], ["10", "1", "2"]);
+    let problem = planned(folder.path(), &of_shard("text")).expect_err("texts");
+    assert!(problem.contains("which is also the position"), "{problem}");
+
+    // `header.seq` would be one of ROS 1; the size of a picture is an integer by its schema, too.
+    let recordings = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/recordings/mcap-none");
+    let map = "table = { file = \"run.mcap\", rows = \"/tactile/image_raw\" }\n[columns]\nPz = { from = \"width\", unit = \"mm\" }\n[classes]\nc = { from = \"FIELD\", names = [NAMES] }\n[time]\nclock = \"unknown\"\n";
+    let of = |field: &str| {
+        // As many as the picture has rows and more, the last two exchanged.
+        let names: Vec<String> = (0..400).map(|at| format!("\"{}\"", 399 - at)).collect();
+        let map = map
+            .replace("FIELD", field)
+            .replace("NAMES", &names.join(", "));
+        planned(recordings.as_ref(), &map)
+    };
+    of("height").expect("an integer by its schema");
+    let problem = of("encoding").expect_err("a text");
+    assert!(problem.contains("which is also the position"), "{problem}");
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Joins whose rows are counted: of several tables each would begin with the first row again.
 
 use super::{NO_TIME, lab, planned};
+use taceva_dataset::Dataset;
 
 #[test]
 fn a_joined_table_whose_rows_are_counted_belongs_to_one_table_alone() {
@@ -30,6 +31,15 @@ fn a_joined_table_whose_rows_are_counted_belongs_to_one_table_alone() {
             ["`until`", "each of the 2 tables", "{path.NAME}"],
         ),
         (
+            "\"t*.csv\"",
+            "on = { row = \"end\" }",
+            [
+                "`on = { row = … }`",
+                "each of the 2 tables",
+                "a column of both",
+            ],
+        ),
+        (
             "{ files = \"t*.csv\" }",
             "on = \"row\"",
             [
@@ -49,4 +59,63 @@ fn a_joined_table_whose_rows_are_counted_belongs_to_one_table_alone() {
     // Of one table the rows are counted.
     of("\"t0.csv\"", "on = \"row\"").expect("one table");
     of("\"t1.csv\"", "until = \"end\"").expect("one table");
+    of("\"t1.csv\"", "on = { row = \"end\" }").expect("one table");
+}
+
+#[test]
+fn a_frame_that_a_joined_table_names_lies_beside_that_table_unless_the_map_says_a_folder() {
+    let picture = |level: u8| {
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        image::GrayImage::from_pixel(2, 2, image::Luma([level]))
+            .write_to(&mut bytes, image::ImageFormat::Png)
+            .expect("encoded");
+        bytes.into_inner()
+    };
+    let folder = lab(&[
+        ("labels/l.csv", "press,Fz\n1,1\n0,2\n"),
+        (
+            "camera/c.csv",
+            "press,file,still\n0,0.png,r.png\n1,1.png,r.png\n",
+        ),
+    ]);
+    // Pictures of the same names lie beside the main table.
+    for (name, level) in [
+        ("camera/0.png", 10),
+        ("camera/1.png", 11),
+        ("camera/r.png", 12),
+        ("camera/2.png", 13),
+        ("labels/0.png", 20),
+        ("labels/1.png", 21),
+        ("labels/r.png", 22),
+    ] {
+        std::fs::write(folder.path().join(name), picture(level)).expect("written");
+    }
+    let map = |folder: &str| {
+        format!(
+            "table = \"labels/l.csv\"\n[[join]]\nname = \"c\"\ntable = \"camera/c.csv\"\non = {{ press = \"press\" }}\n[frame]\ncolumn = \"c.file\"\n{folder}channel_order = \"gray\"\nreference = {{ column = \"c.still\" }}\n[columns]\nFz = {{ from = \"Fz\", unit = \"N\" }}\n{NO_TIME}"
+        )
+    };
+    for (name, key, expected, reference, images) in [
+        ("own", "", [11, 10], 12, 1),
+        ("said", "folder = \"labels\"\n", [21, 20], 22, 0),
+    ] {
+        let target = folder.path().join(name);
+        let plan = planned(folder.path(), &map(key)).expect("planned");
+        assert_eq!(plan.summary().unnamed_images, images, "{name}");
+        let jobs = std::num::NonZeroUsize::MIN;
+        plan.run(&target, jobs, &taceva_core::SilentProgress)
+            .expect("imported");
+        let dataset = Dataset::open(&target).expect("opens");
+        let level = |frame: taceva_core::Frame| frame.bytes()[0];
+        let levels = [0, 1].map(|row| level(dataset.frame(row).expect("read").expect("a frame")));
+        assert_eq!(levels, expected, "{name}");
+        let still = dataset.reference().expect("read").expect("one");
+        assert_eq!(level(still), reference, "{name}");
+    }
+    std::fs::remove_file(folder.path().join("camera/1.png")).expect("removed");
+    let problem = planned(folder.path(), &map("")).expect_err("not there");
+    assert!(
+        problem.contains("`1.png`") && problem.contains("no such file"),
+        "{problem}"
+    );
 }

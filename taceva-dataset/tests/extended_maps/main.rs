@@ -7,6 +7,7 @@ mod joins;
 mod left_out;
 mod references;
 mod signals;
+mod stated;
 mod texts;
 mod times;
 

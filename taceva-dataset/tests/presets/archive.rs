@@ -54,6 +54,59 @@ fn written(folder: &Path, parts: &[&[u8]]) -> PathBuf {
 const END: [u8; 1024] = [0; 1024];
 
 #[test]
+fn an_error_names_the_archive_and_its_member_and_not_where_it_was_unpacked() {
+    let lab = tempfile::tempdir().expect("a folder");
+    let folder = lab.path().join("folder");
+    std::fs::create_dir(&folder).expect("made");
+    std::fs::write(folder.join("labels.csv"), "file,Fz\n1.png,much\n").expect("written");
+    std::fs::write(folder.join("1.png"), "no picture").expect("written");
+    let plain = lab.path().join("lab.tar");
+    packed(&folder, &plain);
+    let map = |table: &str| {
+        ImportMap::parse(
+            "map.toml".as_ref(),
+            &format!(
+                "map_version = 2\ntable = \"{table}\"\n[frame]\ncolumn = \"file\"\nchannel_order = \"gray\"\nreference = \"unknown\"\n[columns]\nFz = {{ from = \"Fz\", unit = \"N\" }}\n[time]\nclock = \"unknown\"\n[sensor]\nmodel = \"drawn\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = \"unknown\"\n"
+            ),
+        )
+        .expect("a map")
+    };
+    let beside = lab.path().join("beside");
+    std::fs::create_dir(&beside).expect("made");
+    let archive = UnpackedArchive::open(&plain, &beside).expect("unpacked");
+    let member = |name: &str| plain.join("run").join(name).display().to_string();
+    let said = |error| {
+        let said = archive.named(error).to_string();
+        assert!(!said.contains(".unpacked"), "{said}");
+        said
+    };
+    let wrong_cell = ImportPlan::new(archive.folder(), &map("labels.csv")).expect_err("a text");
+    let wrong_cell = said(wrong_cell);
+    assert!(
+        wrong_cell.starts_with(&format!("{}, line 2", member("labels.csv"))),
+        "{wrong_cell}"
+    );
+    let absent = said(ImportPlan::new(archive.folder(), &map("no*.csv")).expect_err("no table"));
+    assert!(
+        absent.contains(&plain.join("run").display().to_string()),
+        "{absent}"
+    );
+    std::fs::write(archive.folder().join("labels.csv"), "file,Fz\n1.png,1\n").expect("written");
+    let plan = ImportPlan::new(archive.folder(), &map("labels.csv")).expect("a plan");
+    let no_picture = plan
+        .run(
+            &lab.path().join("dataset"),
+            std::num::NonZeroUsize::MIN,
+            &taceva_core::SilentProgress,
+        )
+        .expect_err("no picture");
+    let no_picture = said(no_picture);
+    assert!(no_picture.contains(&member("1.png")), "{no_picture}");
+    let text = archive.text_named(&format!("in {}/x", archive.folder().display()));
+    assert_eq!(text, format!("in {}", member("x")));
+}
+
+#[test]
 fn an_archive_gives_the_dataset_of_the_folder_packed_or_compressed() {
     let lab = tempfile::tempdir().expect("a folder");
     let plain = lab.path().join("run.tar");

@@ -64,7 +64,8 @@ impl FromStr for SplitSpec {
     type Err = SplitError;
 
     /// Reads `random`, `chronological`, `by-point`, `by-column:NAME`, `by-column:NAME=train:1,2;val:3;test:4`, `by-recording`,
-    /// `by-recording=train:a,b;test:c`, `leave-one-recording-out`, `declared` or `all`, and after a blank the shares: `random 70/20/10`. What a split is displayed as reads back as the same split.
+    /// `by-recording=train:a,b;test:c`, `leave-one-recording-out`, `declared` or `all`, and after a blank the shares: `random 70/20/10`. A `\` takes the
+    /// `,`, `;` or `\` behind it for a letter of the value. What a split is displayed as reads back as the same split.
     fn from_str(text: &str) -> Result<SplitSpec, SplitError> {
         let shares = text
             .rsplit_once(' ')
@@ -133,17 +134,16 @@ fn named_parts(text: &str, assignment: &str) -> Result<BTreeMap<String, Part>, S
         found: found.to_owned(),
     };
     let mut parts = BTreeMap::new();
-    for section in assignment.split(';') {
+    for section in pieces(assignment, ';') {
         let (name, values) = section.split_once(':').ok_or_else(|| malformed(section))?;
         let part = Part::from_name(name).ok_or_else(|| malformed(section))?;
-        for value in values.split(',') {
+        for value in pieces(values, ',') {
             if value.is_empty() {
                 return Err(malformed(section));
             }
-            if parts.insert(value.to_owned(), part).is_some() {
-                return Err(SplitError::Twice {
-                    value: value.to_owned(),
-                });
+            let value = letters(value);
+            if parts.insert(value.clone(), part).is_some() {
+                return Err(SplitError::Twice { value });
             }
         }
     }
@@ -152,6 +152,46 @@ fn named_parts(text: &str, assignment: &str) -> Result<BTreeMap<String, Part>, S
         true => Ok(parts),
         false => Err(malformed(text)),
     }
+}
+
+/// The pieces of `text` between separators; one behind a `\` is a letter.
+fn pieces(text: &str, separator: char) -> Vec<&str> {
+    let (mut pieces, mut begin, mut is_letter) = (Vec::new(), 0, false);
+    for (at, letter) in text.char_indices() {
+        if letter == separator && !is_letter {
+            pieces.push(&text[begin..at]);
+            begin = at + letter.len_utf8();
+        }
+        is_letter = letter == '\\' && !is_letter;
+    }
+    pieces.push(&text[begin..]);
+    pieces
+}
+
+/// What marks a value from the next, or takes such a mark for a letter.
+const MARKS: [char; 3] = [',', ';', '\\'];
+
+/// The value that is written as `text`.
+fn letters(text: &str) -> String {
+    let mut value = String::with_capacity(text.len());
+    let mut rest = text.chars().peekable();
+    while let Some(letter) = rest.next() {
+        let next = rest.next_if(|next| letter == '\\' && MARKS.contains(next));
+        value.push(next.unwrap_or(letter));
+    }
+    value
+}
+
+/// How a value is written.
+fn written(value: &str) -> String {
+    let mut text = String::with_capacity(value.len());
+    for letter in value.chars() {
+        if MARKS.contains(&letter) {
+            text.push('\\');
+        }
+        text.push(letter);
+    }
+    text
 }
 
 impl fmt::Display for SplitSpec {
@@ -183,10 +223,10 @@ impl fmt::Display for SplitSpec {
 fn write_parts(parts: &BTreeMap<String, Part>, f: &mut fmt::Formatter<'_>) -> fmt::Result {
     let mut separator = '=';
     for part in Part::ALL {
-        let values: Vec<&str> = parts
+        let values: Vec<String> = parts
             .iter()
             .filter(|(_, own)| **own == part)
-            .map(|(value, _)| value.as_str())
+            .map(|(value, _)| written(value))
             .collect();
         if !values.is_empty() {
             write!(f, "{separator}{}:{}", part.short_name(), values.join(","))?;
@@ -233,6 +273,25 @@ mod tests {
         }
         let other: SplitSpec = "random 80/10/10".parse().expect("shares");
         assert_eq!(other.to_string(), "random 80/10/10");
+    }
+
+    #[test]
+    fn a_value_with_the_marks_of_a_split_in_it_stands_behind_backslashes() {
+        let text = r"by-recording=train:run\;1,a\,b;test:c\\";
+        let spec: SplitSpec = text.parse().expect("a split");
+        let SplitKind::ByRecording(parts) = &spec.kind else {
+            panic!("{spec:?}");
+        };
+        let names: Vec<&str> = parts.keys().map(String::as_str).collect();
+        assert_eq!(names, ["a,b", "c\\", "run;1"]);
+        assert_eq!(spec.to_string().parse(), Ok(spec));
+        // Before any other letter it is one itself.
+        let plain: SplitSpec = r"by-column:path=train:a\b;test:c".parse().expect("a split");
+        let SplitKind::ByColumn(split) = &plain.kind else {
+            panic!("{plain:?}");
+        };
+        assert!(split.parts.contains_key(r"a\b"), "{split:?}");
+        assert_eq!(plain.to_string().parse(), Ok(plain));
     }
 
     #[test]

@@ -1,10 +1,13 @@
 //! TAC024: clocks that jump, and stamps of two clocks in one column.
 
+use std::collections::BTreeMap;
+
 use taceva_core::Clock;
+use taceva_dataset::Table;
 
 use super::evidence::Evidence;
 use super::finding::{Check, Found, Severity};
-use super::stream::{Step, Stream};
+use super::stream::{Step, Stream, by_clock};
 
 pub(super) static CHECK: Check = Check {
     code: "TAC024",
@@ -31,34 +34,59 @@ const UNIX_TO_S: f64 = 4_102_444_800.0;
 const RUNNING_S: f64 = 1e9;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
-    let times = evidence.table.t_s();
-    let rows = times.iter().enumerate();
-    let known: Vec<(usize, f64)> = rows
-        .filter_map(|(row, time)| Some((row, (*time)?)))
-        .collect();
-    let others: Vec<usize> = known
-        .windows(2)
-        .filter(|pair| (pair[1].1 - pair[0].1).abs() > TWO_CLOCKS_S)
-        .map(|pair| pair[1].0)
-        .collect();
+    let table = evidence.table;
+    let times = table.t_s();
+    let timed = (0..table.rows()).filter(|row| times[*row].is_some());
+    // Another unit of the sensor, or another table, may well be of another month.
+    let seconds = |row: usize| times[row].unwrap_or_default();
+    let mut others = by_clock(table, timed);
+    others.retain(|(before, row)| (seconds(*row) - seconds(*before)).abs() > TWO_CLOCKS_S);
     let mut found = Vec::new();
-    if let Some(row) = others.first() {
-        let before = known.iter().rfind(|(known, _)| known < row);
+    if let Some((before, row)) = others.first() {
         let message = format!(
             "two clocks stamped these samples: {} times the next stamp is more than 12 days away, first from {} s to {} s",
             others.len(),
-            before.map_or(0.0, |(_, time)| *time),
-            times[*row].unwrap_or_default()
+            seconds(*before),
+            seconds(*row)
         );
+        let rows: Vec<usize> = others.iter().map(|(_, row)| *row).collect();
         found.push(Found::about(
             Severity::Warning,
             message,
-            evidence.names(&others),
+            evidence.names(&rows),
         ));
     }
     found.extend(set_within(evidence));
-    found.extend(contradicted(evidence, &known));
+    let last = last_stamps(table);
+    found.extend(of_two_kinds(&last).filter(|_| others.is_empty()));
+    found.extend(contradicted(evidence, &last));
     found
+}
+
+/// The last stamp of each clock, s.
+fn last_stamps(table: &Table) -> Vec<f64> {
+    let mut last: BTreeMap<(Option<&str>, Option<&str>), f64> = BTreeMap::new();
+    for (row, time) in table.t_s().iter().enumerate() {
+        let Some(time) = *time else { continue };
+        let clock = (
+            table.unit_id()[row].as_deref(),
+            table.source_table()[row].as_deref(),
+        );
+        let known = last.entry(clock).or_insert(time);
+        *known = known.max(time);
+    }
+    last.into_values().collect()
+}
+
+/// Clocks that count since 1970 beside others that count since a start.
+fn of_two_kinds(last: &[f64]) -> Option<Found> {
+    let least = last.iter().copied().reduce(f64::min)?;
+    let most = last.iter().copied().reduce(f64::max)?;
+    let message = format!(
+        "the stamps of some tables or units are of a clock since 1970, as {most} s, and those of others, as {least} s, are not: two clocks in one column"
+    );
+    (least < RUNNING_S.min(UNIX_FROM_S) && most > RUNNING_S)
+        .then(|| Found::overall(Severity::Warning, message))
 }
 
 /// Stamps that jump ahead within one contact, or between rows without any, by less than two clocks are apart.
@@ -115,18 +143,19 @@ fn jumped(evidence: &Evidence<'_>, stream: &Stream, jumps: &[Step], place: &str)
     ))
 }
 
-/// What is stated of the clock, where the stamps cannot be its.
-fn contradicted(evidence: &Evidence<'_>, known: &[(usize, f64)]) -> Option<Found> {
-    let last = known.iter().map(|(_, time)| *time).reduce(f64::max)?;
+/// What is stated of the clock, where the last stamps of clocks cannot be its.
+fn contradicted(evidence: &Evidence<'_>, last: &[f64]) -> Option<Found> {
+    let least = last.iter().copied().reduce(f64::min)?;
+    let most = last.iter().copied().reduce(f64::max)?;
     let message = match evidence.header.clock {
-        Clock::Unix if last < UNIX_FROM_S => format!(
-            "the clock is said to be `unix`, and the last stamp, {last} s, is before 1990: is its unit right?"
+        Clock::Unix if least < UNIX_FROM_S => format!(
+            "the clock is said to be `unix`, and the last stamp, {least} s, is before 1990: is its unit right?"
         ),
-        Clock::Unix if last > UNIX_TO_S => format!(
-            "the clock is said to be `unix`, and the last stamp, {last} s, is after 2100: is its unit right?"
+        Clock::Unix if most > UNIX_TO_S => format!(
+            "the clock is said to be `unix`, and the last stamp, {most} s, is after 2100: is its unit right?"
         ),
-        Clock::Monotonic if last > RUNNING_S => format!(
-            "the clock is said to be `monotonic`, and the last stamp is {last} s: no machine has been running for so long"
+        Clock::Monotonic if most > RUNNING_S => format!(
+            "the clock is said to be `monotonic`, and the last stamp is {most} s: no machine has been running for so long"
         ),
         _ => return None,
     };

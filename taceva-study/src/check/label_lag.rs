@@ -1,5 +1,7 @@
 //! TAC019: labels that come later or earlier than their pictures, as by two clocks.
 
+use std::collections::BTreeMap;
+
 use taceva_core::Field;
 
 use super::evidence::Evidence;
@@ -34,18 +36,25 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let Some(load) = evidence.load() else {
         return Vec::new();
     };
-    let rows = evidence.frames.iter().enumerate();
-    let series: Vec<(f64, f64, f64)> = rows
-        .filter_map(|(row, facts)| {
-            let facts = facts.as_ref()?;
+    // Another unit of the sensor, or another table, is another clock: what follows it in the recording does not follow it in time.
+    let mut streams: BTreeMap<(Option<&str>, Option<&str>), Vec<Instant>> = BTreeMap::new();
+    for (row, facts) in evidence.frames.iter().enumerate() {
+        let instant = facts.as_ref().and_then(|facts| {
             let light = facts
                 .distance
                 .unwrap_or(facts.mean.iter().sum::<f64>() / 3.0);
             Some((table.t_s()[row]?, light, table.truth(load).get(row)?.abs()))
-        })
-        .collect();
+        });
+        let clock = (
+            table.unit_id()[row].as_deref(),
+            table.source_table()[row].as_deref(),
+        );
+        streams.entry(clock).or_default().extend(instant);
+    }
+    let count: usize = streams.values().map(Vec::len).sum();
+    let streams = alike(streams);
     let name = table.channels().as_slice()[load].name();
-    let lag = Lag::of(&series);
+    let lag = Lag::of(&streams);
     let found = lag.filter(|lag| {
         lag.steps != 0
             && lag.best >= CLEAR
@@ -62,7 +71,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
             if steps == 1 { "step" } else { "steps" },
             lag.best,
             lag.standing,
-            series.len()
+            count
         )
     });
     message
@@ -82,33 +91,72 @@ struct Lag {
     standing: f64,
 }
 
+/// A time in s, a number of the picture, and a force.
+type Instant = (f64, f64, f64);
+
+/// The streams of each unit of the sensor, each less the means of its unit: one may be brighter than another.
+fn alike(streams: BTreeMap<(Option<&str>, Option<&str>), Vec<Instant>>) -> Vec<Vec<Instant>> {
+    let mut sums: BTreeMap<Option<&str>, [f64; 3]> = BTreeMap::new();
+    for ((unit, _), stream) in &streams {
+        let sum = sums.entry(*unit).or_default();
+        for (_, light, force) in stream {
+            *sum = [sum[0] + 1.0, sum[1] + light, sum[2] + force];
+        }
+    }
+    // Of one unit the numbers stay what they are, to the last bit.
+    let is_one = sums.len() == 1;
+    let less = |unit: Option<&str>| match sums.get(&unit) {
+        Some([count, light, force]) if !is_one => [light / count, force / count],
+        _ => [0.0; 2],
+    };
+    let streams = streams.into_iter().map(|((unit, _), stream)| {
+        let [light_mean, force_mean] = less(unit);
+        let stream = stream.into_iter();
+        stream
+            .map(|(time, light, force)| (time, light - light_mean, force - force_mean))
+            .collect()
+    });
+    streams.collect()
+}
+
 impl Lag {
-    /// The lag of a series of a time in s, a number of the picture and a force each; `None` if it is no stream.
-    fn of(series: &[(f64, f64, f64)]) -> Option<Lag> {
-        let mut steps: Vec<f64> = series
-            .windows(2)
-            .map(|pair| pair[1].0 - pair[0].0)
-            .collect();
+    /// The lag of streams, which is one for all of them; `None` if they are none.
+    fn of(streams: &[Vec<Instant>]) -> Option<Lag> {
+        let pairs = streams.iter().flat_map(|stream| stream.windows(2));
+        let mut steps: Vec<f64> = pairs.map(|pair| pair[1].0 - pair[0].0).collect();
         steps.retain(|step| *step > 0.0);
         steps.sort_by(f64::total_cmp);
         let step = *steps.get(steps.len() / 2)?;
-        if series.len() < LEAST || step > STREAM_S {
+        let count: usize = streams.iter().map(Vec::len).sum();
+        if count < LEAST || step > STREAM_S {
             return None;
         }
-        let furthest = FURTHEST.min(series.len() / SHARE);
-        let at = |later: i64| -> f64 {
+        let shifted = |later: i64| {
             let shift = usize::try_from(later.unsigned_abs()).unwrap_or(usize::MAX);
-            let (pictures, forces) = match later >= 0 {
-                true => (&series[..series.len() - shift], &series[shift..]),
-                false => (&series[shift..], &series[..series.len() - shift]),
-            };
+            streams.iter().flat_map(move |stream| {
+                let behind = stream.get(shift..).unwrap_or(&[]);
+                let before = &stream[..behind.len()];
+                match later >= 0 {
+                    true => before.iter().zip(behind),
+                    false => behind.iter().zip(before),
+                }
+            })
+        };
+        let at = |later: i64| -> f64 {
             correlation(
-                pictures.iter().map(|(_, light, _)| *light),
-                forces.iter().map(|(_, _, force)| *force),
+                shifted(later).map(|((_, light, _), _)| *light),
+                shifted(later).map(|(_, (_, _, force))| *force),
             )
             .abs()
         };
-        let furthest = i64::try_from(furthest).ok()?;
+        // As far as three quarters of the samples have a partner.
+        let furthest = (1..=FURTHEST).take_while(|shift| {
+            let partners = streams
+                .iter()
+                .map(|stream| stream.len().saturating_sub(*shift));
+            (count - partners.sum::<usize>()) * SHARE <= count
+        });
+        let furthest = i64::try_from(furthest.count()).ok()?;
         // Of lags that are as good the nearest.
         let mut lags: Vec<i64> = (-furthest..=furthest).collect();
         lags.sort_by_key(|lag| lag.abs());
@@ -131,7 +179,7 @@ impl Lag {
 }
 
 /// Pearson's correlation; 0 where one of them does not vary.
-fn correlation(
+pub(super) fn correlation(
     first: impl Iterator<Item = f64> + Clone,
     second: impl Iterator<Item = f64> + Clone,
 ) -> f64 {
@@ -181,7 +229,7 @@ mod tests {
     #[test]
     fn the_lag_of_a_clock_is_found_in_steps_with_its_sign() {
         for later in [0, 1, 5, 12] {
-            let lag = Lag::of(&presses(later)).expect("a stream");
+            let lag = Lag::of(&[presses(later)]).expect("a stream");
             assert_eq!(lag.steps, later as i64);
             assert!(lag.best > 0.99, "{lag:?}");
         }
@@ -191,21 +239,30 @@ mod tests {
             .enumerate()
             .map(|(number, (_, light, force))| (number as f64 / 30.0, light, force))
             .collect();
-        assert_eq!(Lag::of(&earlier).expect("a stream").steps, -5);
+        assert_eq!(Lag::of(&[earlier]).expect("a stream").steps, -5);
+    }
+
+    #[test]
+    fn a_lag_of_short_streams_is_found_in_all_of_them_together() {
+        let all = presses(5);
+        let streams: Vec<Vec<Instant>> = all.chunks(45).map(<[_]>::to_vec).collect();
+        let lag = Lag::of(&streams).expect("streams");
+        assert_eq!(lag.steps, 5);
+        assert!(lag.best > 0.99, "{lag:?}");
     }
 
     #[test]
     fn what_is_no_stream_or_does_not_vary_has_no_lag() {
-        assert!(Lag::of(&presses(5)[..40]).is_none());
+        assert!(Lag::of(&[presses(5)[..40].to_vec()]).is_none());
         let slow: Vec<_> = presses(5)
             .into_iter()
             .map(|(time, light, force)| (60.0 * time, light, force))
             .collect();
-        assert!(Lag::of(&slow).is_none());
+        assert!(Lag::of(&[slow]).is_none());
         let still: Vec<_> = presses(5)
             .into_iter()
             .map(|(time, _, force)| (time, 0.1, force))
             .collect();
-        assert_eq!(Lag::of(&still).expect("a stream").steps, 0);
+        assert_eq!(Lag::of(&[still]).expect("a stream").steps, 0);
     }
 }

@@ -3,7 +3,7 @@
 use taceva_study::CheckReport;
 
 use super::streams::{message, says_nothing};
-use super::{Recording, readings};
+use super::{Recording, picture, readings};
 
 /// What a check says of a recording with these normal forces.
 fn with_forces(force: impl Fn(u32) -> f64, change: impl FnOnce(&mut Recording)) -> CheckReport {
@@ -68,4 +68,37 @@ fn a_force_that_is_cut_in_a_third_of_the_samples_is_stuck_at_its_limit() {
         &with_forces(|number| forces(number).max(1.505), |_| {}),
         "TAC009",
     );
+}
+
+/// What a check says of presses from 0 to 1.5 N and back, whose forces are seen through `read`, after a rest of `rest` samples.
+fn of_presses(rest: u32, read: impl Fn(f64) -> f64) -> CheckReport {
+    let press = |number: u32| match number < rest {
+        true => 0.0,
+        false => 1.5 * (1.0 - (f64::from(number % 40) / 20.0 - 1.0).abs()),
+    };
+    with_forces(
+        |number| read(press(number)),
+        |recording| {
+            for (number, sample) in (0..).zip(&mut recording.samples) {
+                sample.frame = Some(picture(number, press(number)));
+            }
+        },
+    )
+}
+
+#[test]
+fn a_force_that_is_zero_below_a_threshold_differs_from_rest_by_its_pictures() {
+    let below = |force: f64| if force < 0.6 { 0.0 } else { force };
+    let report = of_presses(0, below);
+    let found = message(&report, "TAC027");
+    assert!(
+        found.starts_with("Fz is exactly 0 in 80 samples, of whose pictures "),
+        "{found}"
+    );
+    // So is one that is clipped at zero behind an offset.
+    let clipped = |force: f64| (force - 0.7).max(0.0);
+    message(&of_presses(0, clipped), "TAC027");
+    // A rest, and the ends of presses.
+    says_nothing(&of_presses(80, |force| force), "TAC027");
+    says_nothing(&of_presses(0, |force| force), "TAC027");
 }

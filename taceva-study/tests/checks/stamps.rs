@@ -1,5 +1,6 @@
 //! Frames that are missing, clocks of several units, and clocks that jump.
 
+use taceva_core::Clock;
 use taceva_study::{CheckReport, Severity};
 
 use super::streams::{message, regular, says_nothing, stamped};
@@ -134,6 +135,41 @@ fn two_units_in_turn_have_a_clock_each() {
         regular(number / 2 + u32::from(misses))
     });
     starts(&report, "TAC023", "1 frame seems to be missing");
+}
+
+#[test]
+fn units_of_different_months_have_one_kind_of_clock_and_units_since_1970_and_since_a_start_two() {
+    let in_turn = |clock: Clock, of_second: f64| {
+        stamped(
+            |number| {
+                let begin = [1.6e9, of_second][usize::from(number % 2 == 1)];
+                begin + regular(number / 2)
+            },
+            |recording| {
+                recording.clock = clock;
+                for (number, sample) in (0_u32..).zip(&mut recording.samples) {
+                    sample.unit_id = Some(format!("u{}", number % 2));
+                }
+            },
+        )
+    };
+    says_nothing(&in_turn(Clock::Unix, 1.65e9), "TAC024");
+    let two = in_turn(Clock::Unknown, 20.0);
+    starts(
+        &two,
+        "TAC024",
+        "the stamps of some tables or units are of a clock since 1970",
+    );
+    // What one of them shows is no time since 1970, however late the other one is.
+    let stated = in_turn(Clock::Unix, 20.0);
+    assert!(
+        stated
+            .findings
+            .iter()
+            .any(|finding| finding.message.contains("is before 1990")),
+        "{:#?}",
+        stated.findings
+    );
 }
 
 #[test]

@@ -1,25 +1,56 @@
 //! The files with pictures in them that rows name.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::Reading;
 use crate::error::DatasetError;
 use crate::foreign::{ArrayPictures, ClipPictures, Pictures, SeveralPictures, TableForm};
 use crate::import::map::{FrameNames, OWN_ROW};
+use crate::import::rows::MappedTable;
 use crate::import::source::matching_files;
 use crate::text::shown;
+
+/// The first two of `files`, which are in the order of their names, that stand otherwise in the order of the numbers in them: 10 before 2.
+fn counted_otherwise(files: &[PathBuf]) -> Option<[&Path; 2]> {
+    let mut pairs = files.windows(2);
+    let pair = pairs.find(|pair| by_numbers(&pair[0]) > by_numbers(&pair[1]))?;
+    Some([&pair[0], &pair[1]])
+}
+
+/// The texts of a path and the numbers between them.
+fn by_numbers(path: &Path) -> Vec<(String, u128)> {
+    let text = path.to_string_lossy();
+    let mut parts: Vec<(String, String)> = vec![Default::default()];
+    for letter in text.chars() {
+        let last = parts.last_mut();
+        match last {
+            Some((_, digits)) if letter.is_ascii_digit() => digits.push(letter),
+            Some((text, digits)) if digits.is_empty() => text.push(letter),
+            _ => parts.push((letter.to_string(), String::new())),
+        }
+    }
+    let parts = parts.into_iter();
+    parts
+        .map(|(text, digits)| (text, digits.parse().unwrap_or_default()))
+        .collect()
+}
 
 impl Reading<'_> {
     /// Checks that no two tables have the pictures in `file` by the number of the row, where no column says which picture a row has: each table
     /// would begin with the first one again.
-    pub(super) fn check_counted_once(&mut self, file: &str) -> Result<(), DatasetError> {
+    pub(super) fn check_counted_once(
+        &mut self,
+        file: &str,
+        rows: &MappedTable<'_>,
+    ) -> Result<(), DatasetError> {
         let (key, index) = match self.map.frame.as_ref().map(|frame| &frame.names) {
             Some(FrameNames::Array(array)) => ("array", &array.index),
             Some(FrameNames::Video(video)) => ("video", &video.index),
             _ => return Ok(()),
         };
-        if index != OWN_ROW {
+        let is_own_row = index == OWN_ROW || index == "row" && !rows.has_row_column;
+        if !is_own_row {
             return Ok(());
         }
         let first = match self.counted.get(file) {
@@ -45,13 +76,84 @@ impl Reading<'_> {
         })
     }
 
+    /// Checks that there are as many pictures as rows where nothing in the map says which picture a row has.
+    pub(super) fn check_as_many(
+        &self,
+        pictures: &Arc<dyn Pictures>,
+        rows: &MappedTable<'_>,
+    ) -> Result<(), DatasetError> {
+        let index = match self.map.frame.as_ref().map(|frame| &frame.names) {
+            Some(FrameNames::Array(array)) => &array.index,
+            Some(FrameNames::Video(video)) => &video.index,
+            _ => return Ok(()),
+        };
+        let (count, rows) = (pictures.count(), rows.rows() as u64);
+        if index != OWN_ROW || count == rows {
+            return Ok(());
+        }
+        Err(DatasetError::Image {
+            place: None,
+            path: pictures.path().to_owned(),
+            problem: format!(
+                "{count} pictures for {rows} rows, and no `index` says which of them a row has: name the column that does, or write \
+                 `index = \"row\"` if the first {} belong to each other; the axes may be others, too (`layout`)",
+                count.min(rows)
+            ),
+        })
+    }
+
+    /// Checks that no two tables name the picture at `path` by the number of their rows.
+    pub(super) fn check_named_once(
+        &mut self,
+        path: &Path,
+        rows: &MappedTable<'_>,
+    ) -> Result<(), DatasetError> {
+        let names = self.map.frame.as_ref().map(|frame| &frame.names);
+        let is_by_row =
+            matches!(names, Some(FrameNames::Pattern(pattern)) if pattern.contains("{row}"));
+        if !is_by_row || rows.has_row_column || self.count < 2 {
+            return Ok(());
+        }
+        let inside = self.folder.inside(path, "");
+        match self.counted.get(&inside) {
+            Some(first) if *first != self.current => Err(DatasetError::Path {
+                place: None,
+                problem: format!(
+                    "the picture of a row of {} already: `{{row}}` in `pattern` begins with 0 in each of the {} tables; \
+                     a column that counts through the pictures of all of them in its place, or `{{path.NAME}}` before it, tells them apart",
+                    shown(&self.folder.inside(first, "")),
+                    self.count
+                ),
+                written: inside,
+            }),
+            Some(_) => Ok(()),
+            None => {
+                self.counted.insert(inside, self.current.clone());
+                Ok(())
+            }
+        }
+    }
+
     /// The pictures in the file at `relative`, which is opened once; with `*` in it, those of all such files, counted through.
     pub(super) fn pictures(&mut self, relative: &str) -> Result<Arc<dyn Pictures>, DatasetError> {
         let path = self.folder.path().join(relative);
         if let Some(known) = self.opened.get(&path) {
             return Ok(Arc::clone(known));
         }
-        let found = matching_files(self.folder, relative)?.into_iter();
+        let found = matching_files(self.folder, relative)?;
+        if let Some([first, second]) = counted_otherwise(&found) {
+            return Err(DatasetError::Path {
+                place: None,
+                written: relative.to_owned(),
+                problem: format!(
+                    "counts through these files by their names, in which {} stands before {}: nobody can say which order is meant; give their \
+                     numbers as many digits each, or name a file for each table with `{{path.NAME}}`",
+                    shown(&self.folder.inside(first, "")),
+                    shown(&self.folder.inside(second, ""))
+                ),
+            });
+        }
+        let found = found.into_iter();
         let files = found.map(|file| self.open(&file, relative));
         let mut files = files.collect::<Result<Vec<_>, _>>()?;
         let pictures = match files.len() {

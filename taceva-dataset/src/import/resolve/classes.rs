@@ -3,6 +3,7 @@
 use super::Sources;
 use super::columns::base_of;
 use crate::error::{DatasetError, Place};
+use crate::foreign::ForeignTable;
 use crate::import::map::ClassMap;
 use crate::text::shown;
 
@@ -58,15 +59,20 @@ impl Sources<'_> {
         })
     }
 
-    /// Whether the file says that a column holds integers; of a joined table it is not asked.
+    /// Whether the file says that a column holds integers.
     fn holds_integers(&self, name: &str) -> bool {
-        if self.joined_column(name).is_some() {
-            return false;
+        match self.joined_column(name) {
+            Some((joined, column)) => joined.holds_integers(column),
+            None => holds_integers(&self.main, name),
         }
-        let column = match self.main.has(name) {
-            true => name,
-            false => base_of(name),
-        };
-        self.main.has(column) && self.main.holds_integers(column)
     }
+}
+
+/// Whether the file of `table` says that the column `name`, or the one that it leads into, holds integers.
+pub(super) fn holds_integers(table: &ForeignTable, name: &str) -> bool {
+    let column = match table.has(name) {
+        true => name,
+        false => base_of(name),
+    };
+    table.has(column) && table.holds_integers(column)
 }

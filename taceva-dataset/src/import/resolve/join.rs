@@ -4,10 +4,11 @@ mod matches;
 mod matching;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::path::Path;
 
-use taceva_core::SourceUnit;
-
+use super::classes::holds_integers;
 use super::columns::{base_of, mentioned};
+use super::stated::{self, Reading};
 use super::{Sources, cell_of, times};
 use crate::csv_table::number;
 use crate::error::{DatasetError, Place};
@@ -100,6 +101,17 @@ impl<'a> Joined<'a> {
         self.matches[row].at != At::Nowhere
     }
 
+    /// The folder of the table that `row` is matched with.
+    pub(super) fn folder(&self, row: usize) -> &Path {
+        taceva_durable::parent_of(self.tables[self.matches[row].table].table.path())
+    }
+
+    /// Whether every file says that it holds integers in `column`.
+    pub(super) fn holds_integers(&self, column: &str) -> bool {
+        let mut tables = self.tables.iter();
+        !self.tables.is_empty() && tables.all(|joined| holds_integers(&joined.table, column))
+    }
+
     /// The columns of the main table that it is matched by.
     pub(super) fn own_columns(&self) -> impl Iterator<Item = &str> {
         let columns = match &self.map.by {
@@ -143,10 +155,10 @@ impl<'a> Joined<'a> {
         }
     }
 
-    /// Checks that `unit`, which the map states of `column`, agrees with what the files say of it.
-    pub(super) fn check_unit(&self, column: &str, unit: &SourceUnit) -> Result<(), DatasetError> {
+    /// Checks that what the map says of `column` agrees with what the files say of it.
+    pub(super) fn check(&self, column: &str, reading: Reading<'_>) -> Result<(), DatasetError> {
         let mut tables = self.tables.iter();
-        tables.try_for_each(|candidates| times::check(&candidates.table, column, unit))
+        tables.try_for_each(|candidates| stated::check(&candidates.table, column, reading))
     }
 
     /// Counts the chunks that were never written of the arrays that are read.
@@ -161,8 +173,8 @@ impl<'a> Joined<'a> {
         tables.try_for_each(|candidates| candidates.table.count_absent_chunks(folder, &own, into))
     }
 
-    /// What was matched, of the rows of one main table.
-    pub(super) fn matched(&self) -> JoinMatches {
+    /// What was matched, of the rows of `main`.
+    pub(super) fn matched(&self, main: &ForeignTable) -> JoinMatches {
         let mut used: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); self.tables.len()];
         for Match { table, at } in &self.matches {
             match at {
@@ -187,7 +199,12 @@ impl<'a> Joined<'a> {
             counted_by: match &self.map.by {
                 JoinBy::Row => Some("`on = \"row\"`"),
                 JoinBy::Until(_) => Some("`until`"),
-                JoinBy::Columns(_) | JoinBy::All | JoinBy::Time(_) => None,
+                JoinBy::Columns(columns) => {
+                    let mut own = columns.iter();
+                    own.all(|(own, _)| own == "row" && !main.has(own))
+                        .then_some("`on = { row = … }`")
+                }
+                JoinBy::All | JoinBy::Time(_) => None,
             },
             matched: matched as u64,
             unmatched: (self.matches.len() - matched) as u64,

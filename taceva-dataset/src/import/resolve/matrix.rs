@@ -12,10 +12,7 @@ pub(super) fn apply(
     folder: &SourceFolder,
     table: &mut ResolvedTable,
 ) -> Result<(), DatasetError> {
-    let rows = match &map.by {
-        MatrixRows::Written(rows) => rows.clone(),
-        MatrixRows::File(file) => of_file(map, folder, file)?,
-    };
+    let rows = matrix_rows(map, folder)?;
     let columns: Vec<usize> = map
         .from
         .iter()
@@ -40,6 +37,17 @@ pub(super) fn apply(
         table.push(map.column(position), cells);
     }
     Ok(())
+}
+
+/// The numbers of the matrix, a row a channel.
+pub(in crate::import) fn matrix_rows(
+    map: &MatrixMap,
+    folder: &SourceFolder,
+) -> Result<Vec<Vec<f64>>, DatasetError> {
+    match &map.by {
+        MatrixRows::Written(rows) => Ok(rows.clone()),
+        MatrixRows::File(file) => of_file(map, folder, file),
+    }
 }
 
 fn times(factors: &[f64], numbers: &[f64], offset: &[f64]) -> f64 {

@@ -2,7 +2,6 @@
 
 use taceva_core::SourceUnit;
 
-use super::Sources;
 use super::columns::base_of;
 use crate::error::{DatasetError, Place};
 use crate::foreign::ForeignTable;
@@ -28,26 +27,5 @@ pub(super) fn check(
                  write `unit = \"s\"`"
             ),
         }),
-    }
-}
-
-impl Sources<'_> {
-    /// Checks that every unit that the map states of a column agrees with what the file says of it.
-    pub(super) fn check_units(&self) -> Result<(), DatasetError> {
-        let columns = self.map.columns.iter();
-        let columns = columns.map(|column| (column.from.as_str(), &column.unit));
-        let times = self.map.time.iter();
-        let times = times.map(|time| (time.column.as_str(), &time.unit));
-        let signals = self.map.signals.iter().flat_map(|signals| {
-            let names = signals.columns().iter();
-            names.map(|name| (name.as_str(), &signals.unit))
-        });
-        for (name, unit) in columns.chain(times).chain(signals) {
-            match self.joined_column(name) {
-                None => check(&self.main, name, unit)?,
-                Some((joined, column)) => joined.check_unit(column, unit)?,
-            }
-        }
-        Ok(())
     }
 }

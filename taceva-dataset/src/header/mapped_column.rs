@@ -1,0 +1,255 @@
+//! Which column of a lab's table each label was read from, and in which unit and sign.
+
+use serde::{Deserialize, Serialize};
+
+/// How the map of an import read a label: what a dataset must know before rows by another map are added to it, since a column of the same name in
+/// another unit, with another sign or through another matrix gives numbers that nothing tells from the others.
+///
+/// ```
+/// let text = "label = \"Fz\"\nfrom = [\"force_z\"]\nunit = \"mN\"\nsign = -1\n";
+/// let column: taceva_dataset::MappedColumn = toml::from_str(text)?;
+/// assert_eq!((column.from[0].as_str(), column.sign), ("force_z", -1));
+/// # Ok::<(), toml::de::Error>(())
+/// ```
+#[non_exhaustive]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MappedColumn {
+    /// The channel; `t_s` of the time, and `signals` of the numbers of taxels.
+    pub label: String,
+    /// The column; those that a matrix is multiplied with, or that hold the numbers of taxels, in order.
+    pub from: Vec<String>,
+    /// The unit of the cells, or of what a matrix gives.
+    pub unit: String,
+    /// 1, or -1 of a column whose sign is inverted.
+    #[serde(default = "one", skip_serializing_if = "is_one")]
+    pub sign: i8,
+    /// What is subtracted from the cells of each column first, in their unit; empty where nothing is.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub offset: Vec<f64>,
+    /// What the differences are then multiplied by, one a column and the sum taken; empty where they are not.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub factors: Vec<f64>,
+    /// `place-first` or `channel-first`, of taxels.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub order: Option<String>,
+}
+
+/// A key of a map that reads a column otherwise than it was read before.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Misread {
+    pub(crate) key: String,
+    pub(crate) own: String,
+    pub(crate) other: String,
+}
+
+impl MappedColumn {
+    /// `label`, read from `from` in `unit`, as the cells are.
+    pub(crate) fn new(label: &str, from: Vec<String>, unit: &str) -> MappedColumn {
+        MappedColumn {
+            label: label.to_owned(),
+            from,
+            unit: unit.to_owned(),
+            sign: 1,
+            offset: Vec::new(),
+            factors: Vec::new(),
+            order: None,
+        }
+    }
+
+    /// The key of a map that says what differs.
+    fn key(&self, word: &str) -> String {
+        let is_matrix = self.from.len() > 1 && !self.factors.is_empty();
+        match (self.label.as_str(), word) {
+            ("t_s", _) => format!("time.{word}"),
+            ("signals", _) => format!("signals.{word}"),
+            (label, "unit") if is_matrix => format!("matrix.gives.{label}"),
+            (_, "factors") if is_matrix => "matrix.by".to_owned(),
+            (_, _) if is_matrix => format!("matrix.{word}"),
+            (label, "factors") => format!("columns.{label}.scale"),
+            (label, _) => format!("columns.{label}.{word}"),
+        }
+    }
+
+    fn shares_a_column(&self, other: &MappedColumn) -> bool {
+        other.from.iter().any(|column| self.from.contains(column))
+    }
+
+    /// What of `self`, of a new map, is otherwise than in `known`, which read the same column for the same label.
+    fn differs_from(&self, known: &MappedColumn) -> Option<Misread> {
+        let facts = |column: &MappedColumn| {
+            [
+                ("from", words(&column.from)),
+                ("unit", column.unit.clone()),
+                ("sign", column.sign.to_string()),
+                ("offset", numbers(&column.offset)),
+                ("factors", numbers(&column.factors)),
+                ("order", column.order.clone().unwrap_or_default()),
+            ]
+        };
+        let pairs = facts(known).into_iter().zip(facts(self));
+        let mut differing = pairs.filter(|((_, own), (_, other))| own != other);
+        let ((word, own), (_, other)) = differing.next()?;
+        Some(Misread {
+            key: self.key(word),
+            own,
+            other,
+        })
+    }
+}
+
+/// The first of `new`, the columns of another map, that reads a column of `known` otherwise. A column of another name says nothing.
+pub(crate) fn misread(known: &[MappedColumn], new: &[MappedColumn]) -> Option<Misread> {
+    new.iter().find_map(|column| {
+        let same_label = known.iter().filter(|known| known.label == column.label);
+        let mut shared = same_label.filter(|known| known.shares_a_column(column));
+        if shared.clone().any(|known| known == column) {
+            return None;
+        }
+        if let Some(known) = shared.next() {
+            return column.differs_from(known);
+        }
+        // Of a matrix every column gives a part of several labels.
+        let of_one = |column: &MappedColumn| column.from.len() == 1;
+        let other = known.iter().filter(|known| of_one(known)).find(|known| {
+            of_one(column) && known.label != column.label && known.from == column.from
+        })?;
+        Some(Misread {
+            key: column.key("from"),
+            own: format!(
+                "another column, since {} is `{}`",
+                words(&other.from),
+                other.label
+            ),
+            other: words(&column.from),
+        })
+    })
+}
+
+/// Those of `known` and behind them those of `new` that are not among them.
+pub(crate) fn united(known: &[MappedColumn], new: &[MappedColumn]) -> Vec<MappedColumn> {
+    let mut all = known.to_vec();
+    for column in new {
+        if !all.contains(column) {
+            all.push(column.clone());
+        }
+    }
+    all
+}
+
+fn words(columns: &[String]) -> String {
+    let quoted: Vec<String> = columns.iter().map(|name| format!("`{name}`")).collect();
+    quoted.join(", ")
+}
+
+fn numbers(numbers: &[f64]) -> String {
+    match numbers {
+        [] => "none".to_owned(),
+        [one] => one.to_string(),
+        several => format!("{several:?}"),
+    }
+}
+
+fn one() -> i8 {
+    1
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
+fn is_one(sign: &i8) -> bool {
+    *sign == 1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn column(label: &str, from: &[&str]) -> MappedColumn {
+        let from = from.iter().map(|name| (*name).to_owned()).collect();
+        MappedColumn::new(label, from, "N")
+    }
+
+    #[test]
+    fn a_column_that_is_read_otherwise_is_named_by_the_key_of_the_map() {
+        let known = [column("Fx", &["f0"]), column("t_s", &["t"])];
+        let plain = || column("Fx", &["f0"]);
+        for (new, key) in [
+            (plain(), None),
+            // A table with other columns may have other units.
+            (
+                MappedColumn {
+                    unit: "mN".into(),
+                    ..column("Fx", &["g0"])
+                },
+                None,
+            ),
+            (
+                MappedColumn {
+                    unit: "mN".into(),
+                    ..plain()
+                },
+                Some("columns.Fx.unit"),
+            ),
+            (
+                MappedColumn {
+                    sign: -1,
+                    ..plain()
+                },
+                Some("columns.Fx.sign"),
+            ),
+            (
+                MappedColumn {
+                    offset: vec![0.5],
+                    ..plain()
+                },
+                Some("columns.Fx.offset"),
+            ),
+            (
+                MappedColumn {
+                    factors: vec![2.0],
+                    ..plain()
+                },
+                Some("columns.Fx.scale"),
+            ),
+            (
+                MappedColumn {
+                    unit: "ms".into(),
+                    ..column("t_s", &["t"])
+                },
+                Some("time.unit"),
+            ),
+            // Axes that were exchanged.
+            (column("Fy", &["f0"]), Some("columns.Fy.from")),
+            (
+                MappedColumn {
+                    factors: vec![0.0, 1.0],
+                    ..column("Fx", &["f0", "f1"])
+                },
+                Some("matrix.from"),
+            ),
+        ] {
+            let found = misread(&known, std::slice::from_ref(&new));
+            assert_eq!(
+                found.as_ref().map(|found| found.key.as_str()),
+                key,
+                "{new:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn two_labels_of_one_column_are_no_exchange_and_a_third_way_is_compared_with_every_one() {
+        let known = [column("Fx", &["f0"]), column("Fy", &["f0"])];
+        assert_eq!(misread(&known, &known), None);
+        let inverted = MappedColumn {
+            sign: -1,
+            ..column("Fx", &["g0"])
+        };
+        let both = united(&known, std::slice::from_ref(&inverted));
+        assert_eq!(both.len(), 3);
+        assert_eq!(misread(&both, &[inverted]), None);
+        let plain = column("Fx", &["g0"]);
+        assert_eq!(
+            misread(&both, &[plain]).map(|found| found.key),
+            Some("columns.Fx.sign".to_owned())
+        );
+    }
+}

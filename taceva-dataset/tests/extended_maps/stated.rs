@@ -1,0 +1,146 @@
+//! What files say of their own numbers, held against what a map says of them; and how many pictures there are for how many rows.
+
+use super::arrays::{bytes_of, npy};
+use super::{NO_TIME, imported_from, planned};
+use taceva_arrays::{Hdf5Writer, WrittenElement};
+
+/// A file of HDF5 with two forces, of which the file says this.
+fn forces(attributes: &[(&str, &str)]) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("run.h5");
+    let mut writer = Hdf5Writer::create(&path).expect("made");
+    writer
+        .begin("force", WrittenElement::F64, &[2], attributes)
+        .expect("begun");
+    for force in [100.0_f64, 200.0] {
+        writer.write(&force.to_le_bytes()).expect("written");
+    }
+    writer.finish(&[]).expect("written");
+    folder
+}
+
+fn map(column: &str) -> String {
+    format!("table = \"run.h5\"\n[columns]\nFz = {{ from = \"force\", {column} }}\n{NO_TIME}")
+}
+
+#[test]
+fn a_unit_that_the_file_states_is_not_overruled_by_the_map_without_a_word() {
+    let folder = forces(&[("unit", "mN")]);
+    let problem = planned(folder.path(), &map("unit = \"N\"")).expect_err("ten times a hundred");
+    for word in [
+        "run.h5, column `force`",
+        "its unit is `mN`",
+        "the map says `N`",
+    ] {
+        assert!(problem.contains(word), "{word}: {problem}");
+    }
+    for (column, expected) in [
+        ("unit = \"mN\"", "0.1"),
+        ("unit = \"N\", scale = 1", "100.0"),
+    ] {
+        let (_, found) = imported_from(folder.path(), &map(column), &["Fz"]);
+        assert_eq!(found[0][0], expected, "{column}");
+    }
+    // Of a table that is joined, too.
+    std::fs::write(folder.path().join("t.csv"), "k\n0\n1\n").expect("written");
+    let joined = map("unit = \"N\"")
+        .replace("\"run.h5\"", "\"t.csv\"")
+        .replace("from = \"force\"", "from = \"j.force\"")
+        + "[[join]]\nname = \"j\"\ntable = \"run.h5\"\non = \"row\"\n";
+    let problem = planned(folder.path(), &joined).expect_err("the same");
+    assert!(problem.contains("its unit is `mN`"), "{problem}");
+}
+
+#[test]
+fn packed_numbers_are_not_read_as_they_lie_unless_the_map_unpacks_them() {
+    let folder = forces(&[("scale_factor", "0.01"), ("add_offset", "5.0")]);
+    let problem = planned(folder.path(), &map("unit = \"N\"")).expect_err("packed");
+    let remedy = "scale = 0.01, offset = -500.0";
+    assert!(problem.contains(remedy), "{problem}");
+    let (_, found) = imported_from(
+        folder.path(),
+        &map(&format!("unit = \"N\", {remedy}")),
+        &["Fz"],
+    );
+    assert_eq!(found[0], ["6.0", "7.0"]);
+    let unpacked = forces(&[("scale_factor", "1.0"), ("add_offset", "0")]);
+    planned(unpacked.path(), &map("unit = \"N\"")).expect("as they lie");
+}
+
+#[test]
+fn more_pictures_than_rows_belong_to_nobody_knows_which_unless_the_map_says_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let forces = npy("<f4", "(3,)", &bytes_of(&[1.0, 2.0, 3.0]));
+    std::fs::write(folder.path().join("ft.npy"), forces).expect("written");
+    // Height, width and number: four pictures of 2 × 3 to whoever takes the first axis for the number.
+    let frames = npy("|u1", "(4, 2, 3)", &[7; 24]);
+    std::fs::write(folder.path().join("frames.npy"), frames).expect("written");
+    let map = |index: &str| {
+        format!(
+            "table = \"ft.npy\"\n[frame]\narray = {{ file = \"frames.npy\" }}\n{index}channel_order = \"gray\"\nreference = \"unknown\"\n[columns]\nFz = {{ from = \"value\", unit = \"N\" }}\n{NO_TIME}"
+        )
+    };
+    let problem = planned(folder.path(), &map("")).expect_err("which?");
+    for word in [
+        "frames.npy: 4 pictures for 3 rows",
+        "`index = \"row\"` if the first 3",
+        "`layout`",
+    ] {
+        assert!(problem.contains(word), "{word}: {problem}");
+    }
+    let plan = planned(folder.path(), &map("index = \"row\"\n")).expect("said");
+    assert_eq!(plan.summary().unused_frames["frames.npy"], 1);
+}
+
+#[test]
+fn a_unit_in_the_name_of_a_column_is_held_against_the_map_of_either_version() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("t.csv"), "Fz [mN],n\n1500,0\n").expect("written");
+    let map = |unit: &str| {
+        format!(
+            "table = \"t.csv\"\n[columns]\nFz = {{ from = \"Fz [mN]\", unit = \"{unit}\" }}\n{NO_TIME}"
+        )
+    };
+    let problem = planned(folder.path(), &map("N")).expect_err("a thousand times too much");
+    assert!(problem.contains("says `mN`, the map says `N`"), "{problem}");
+    planned(folder.path(), &map("mN")).expect("as it says");
+    let old = format!("map_version = 1\n{}\n{}", map("N"), super::FACTS);
+    let old = taceva_dataset::ImportMap::parse("map.toml".as_ref(), &old).expect("a map");
+    let problem = taceva_dataset::ImportPlan::new(folder.path(), &old).expect_err("the same");
+    let problem = problem.to_string();
+    assert!(
+        problem.contains("t.csv, line 1, column `Fz [mN]`: the name of the column says `mN`"),
+        "{problem}"
+    );
+}
+
+#[test]
+fn files_that_are_counted_through_are_refused_where_10_stands_before_2() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let forces = npy("<f4", "(12,)", &bytes_of(&[1.0; 12]));
+    std::fs::write(folder.path().join("ft.npy"), forces).expect("written");
+    let map = format!(
+        "table = \"ft.npy\"\n[frame]\narray = {{ file = \"frames_*.npy\" }}\nchannel_order = \"gray\"\nreference = \"unknown\"\n[columns]\nFz = {{ from = \"value\", unit = \"N\" }}\n{NO_TIME}"
+    );
+    let write = |name: String, level: u8| {
+        let frame = npy("|u1", "(1, 1, 2)", &[level; 2]);
+        std::fs::write(folder.path().join(name), frame).expect("written");
+    };
+    for number in 0..12_u8 {
+        write(format!("frames_{number}.npy"), number);
+    }
+    let problem = planned(folder.path(), &map).expect_err("which order?");
+    for word in [
+        "`frames_*.npy`",
+        "frames_11.npy stands before frames_2.npy",
+        "as many digits",
+    ] {
+        assert!(problem.contains(word), "{word}: {problem}");
+    }
+    for number in 0..12_u8 {
+        let old = folder.path().join(format!("frames_{number}.npy"));
+        std::fs::rename(old, folder.path().join(format!("frames_{number:02}.npy")))
+            .expect("renamed");
+    }
+    planned(folder.path(), &map).expect("padded");
+}
