@@ -37,7 +37,10 @@ fn a_study_over_sockets_is_the_one_that_is_simulated_in_the_program() {
     // A small study is tested on one or two presses, by a model of a few samples: its scores move by more than what links round, and R² of a depth
     // that both presses share is undefined where the depths are equal to the last digit.
     let is_of_equal_labels = |name: &String| presses < WHOLE && name.starts_with("r2 ");
-    assert!(compared.of_one_alone.iter().all(is_of_equal_labels), "{compared:?}");
+    assert!(
+        compared.of_one_alone.iter().all(is_of_equal_labels),
+        "{compared:?}"
+    );
     if presses >= WHOLE {
         assert!(compared.error_part <= SCORES_APART, "{compared:?}");
         assert!(compared.share_part <= SCORES_APART, "{compared:?}");

@@ -1,13 +1,29 @@
 //! A camera that goes wrong amid presses.
 
+use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use taceva_core::{ErrorKind, Progress, SilentProgress};
 use taceva_protocol::{Left, StopCause};
 
-use crate::guard::{assert_whole, depth_mm, stopped};
-use crate::record;
+use crate::guard::{depth_mm, stopped};
+use crate::record_by_hand;
 use crate::world::World;
+
+/// Pictures of six places.
+const SEEN: &str = r#"
+scene_version = 1
+name = "wall"
+sensor = { driver = "wall/gel" }
+robot = { driver = "wall/robot" }
+force = { driver = "wall/force" }
+model = { name = "baseline" }
+[metrics]
+want = ["accuracy"]
+[protocol]
+contact = { clearance_mm = 0.3, search_mm = 0.5, speed_mm_s = 5.0, travel_mm_s = 50.0, settle_s = 0.01 }
+calibration = { points = 6, indentations = 2, shear_mm = 0.0 }
+"#;
 
 /// Spoils the camera once the tip is in the gel.
 struct Spoils<'a>(&'a World, ErrorKind, AtomicBool);
@@ -30,7 +46,7 @@ fn a_camera_that_is_unplugged_or_changes_its_size_ends_a_run_above_the_gel_which
         let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));
         let folder = folder.path().join("run");
         let spoils = Spoils(&world, kind, AtomicBool::new(false));
-        let error = stopped(record(&world, &folder, &spoils));
+        let error = stopped(record_by_hand(&world, &folder, &spoils, (SEEN, None)));
         match &error.cause {
             StopCause::Device(device) => {
                 assert_eq!((device.kind(), kind), (kind, ErrorKind::Disconnected));
@@ -44,8 +60,10 @@ fn a_camera_that_is_unplugged_or_changes_its_size_ends_a_run_above_the_gel_which
         assert!(depth_mm(&world) < -0.29);
         world.state().camera = None;
         let pictures = world.state().pictures;
-        let dataset = record(&world, &folder, &SilentProgress);
-        assert_whole(&dataset.expect("it goes on"));
+        let dataset = record_by_hand(&world, &folder, &SilentProgress, (SEEN, None));
+        let dataset = dataset.expect("it goes on");
+        let samples: BTreeSet<&String> = dataset.table().samples().iter().collect();
+        assert_eq!((samples.len(), dataset.table().samples().len()), (12, 12));
         assert!(world.state().pictures > pictures);
     }
 }

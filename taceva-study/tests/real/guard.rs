@@ -55,7 +55,7 @@ pub(crate) fn depth_mm(world: &World) -> f64 {
 }
 
 /// Every press of the scene once, with both of its samples.
-pub(crate) fn assert_whole(dataset: &Dataset) {
+fn assert_whole(dataset: &Dataset) {
     let mut names: Vec<&String> = dataset.table().samples().iter().collect();
     assert_eq!(names.len(), 6);
     names.sort();
