@@ -156,6 +156,8 @@ struct Reading<'a> {
     counted: BTreeMap<String, PathBuf>,
     frames: Vec<PlannedFrame>,
     signals: Option<FoundSignals<'a>>,
+    /// That there are more or fewer pictures than rows, and nothing says which is whose.
+    unequal: Option<DatasetError>,
     references: References,
     joins: Vec<JoinMatches>,
     /// Chunks that were never written, by file and array.
@@ -183,6 +185,7 @@ impl<'a> Reading<'a> {
             table: Table::new(map.channels.clone(), attributes),
             frames: Vec::new(),
             signals: None,
+            unequal: None,
             references: References::default(),
             joins: Vec::new(),
             absent_chunks: BTreeMap::new(),
@@ -297,11 +300,11 @@ impl<'a> Reading<'a> {
             (FrameName::Within(Some(file), index), _) => {
                 let pictures = self.pictures(&file)?;
                 self.check_counted_once(&file, rows)?;
-                self.check_as_many(&pictures, rows)?;
+                self.note_unequal(&pictures, rows);
                 (pictures, index)
             }
             (FrameName::Within(None, index), Some(pictures)) => {
-                self.check_as_many(pictures, rows)?;
+                self.note_unequal(pictures, rows);
                 (Arc::clone(pictures), index)
             }
             (FrameName::Within(None, index), None) => {
@@ -342,6 +345,9 @@ impl<'a> Reading<'a> {
     }
 
     fn into_plan(mut self) -> Result<ImportPlan, DatasetError> {
+        if let Some(unequal) = self.unequal.take() {
+            return Err(unequal);
+        }
         let frames = match &self.map.frame {
             Some(frame) => Some(self.planned_frames(frame)?),
             None => None,

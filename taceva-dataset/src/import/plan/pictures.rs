@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::Reading;
-use crate::error::DatasetError;
+use crate::error::{DatasetError, Place};
 use crate::foreign::{ArrayPictures, ClipPictures, Pictures, SeveralPictures, TableForm};
 use crate::import::map::{FrameNames, OWN_ROW};
 use crate::import::rows::MappedTable;
@@ -76,30 +76,27 @@ impl Reading<'_> {
         })
     }
 
-    /// Checks that there are as many pictures as rows where nothing in the map says which picture a row has.
-    pub(super) fn check_as_many(
-        &self,
-        pictures: &Arc<dyn Pictures>,
-        rows: &MappedTable<'_>,
-    ) -> Result<(), DatasetError> {
+    /// Remembers that there are more or fewer pictures than rows where nothing in the map says which picture a row has. It is refused once all
+    /// tables were read, since what is wrong with one of them says more.
+    pub(super) fn note_unequal(&mut self, pictures: &Arc<dyn Pictures>, rows: &MappedTable<'_>) {
         let index = match self.map.frame.as_ref().map(|frame| &frame.names) {
             Some(FrameNames::Array(array)) => &array.index,
             Some(FrameNames::Video(video)) => &video.index,
-            _ => return Ok(()),
+            _ => return,
         };
         let (count, rows) = (pictures.count(), rows.rows() as u64);
-        if index != OWN_ROW || count == rows {
-            return Ok(());
+        if index != OWN_ROW || count == rows || self.unequal.is_some() {
+            return;
         }
-        Err(DatasetError::Image {
-            place: None,
+        self.unequal = Some(DatasetError::Image {
+            place: Some(Box::new(Place::file(&self.current))),
             path: pictures.path().to_owned(),
             problem: format!(
                 "{count} pictures for {rows} rows, and no `index` says which of them a row has: name the column that does, or write \
                  `index = \"row\"` if the first {} belong to each other; the axes may be others, too (`layout`)",
                 count.min(rows)
             ),
-        })
+        });
     }
 
     /// Checks that no two tables name the picture at `path` by the number of their rows.
