@@ -1,6 +1,7 @@
 //! What an import would read, convert and leave out, before anything is written.
 
 mod channels;
+mod name_order;
 mod pictures;
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
