@@ -1,6 +1,7 @@
 //! What an import would read, convert and leave out, before anything is written.
 
 mod channels;
+mod name_order;
 mod pictures;
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
@@ -156,6 +157,8 @@ struct Reading<'a> {
     counted: BTreeMap<String, PathBuf>,
     frames: Vec<PlannedFrame>,
     signals: Option<FoundSignals<'a>>,
+    /// That there are more or fewer pictures than rows, and nothing says which is whose.
+    unequal: Option<DatasetError>,
     references: References,
     joins: Vec<JoinMatches>,
     /// Chunks that were never written, by file and array.
@@ -183,6 +186,7 @@ impl<'a> Reading<'a> {
             table: Table::new(map.channels.clone(), attributes),
             frames: Vec::new(),
             signals: None,
+            unequal: None,
             references: References::default(),
             joins: Vec::new(),
             absent_chunks: BTreeMap::new(),
@@ -297,11 +301,11 @@ impl<'a> Reading<'a> {
             (FrameName::Within(Some(file), index), _) => {
                 let pictures = self.pictures(&file)?;
                 self.check_counted_once(&file, rows)?;
-                self.check_as_many(&pictures, rows)?;
+                self.note_unequal(&pictures, rows);
                 (pictures, index)
             }
             (FrameName::Within(None, index), Some(pictures)) => {
-                self.check_as_many(pictures, rows)?;
+                self.note_unequal(pictures, rows);
                 (Arc::clone(pictures), index)
             }
             (FrameName::Within(None, index), None) => {
@@ -342,6 +346,9 @@ impl<'a> Reading<'a> {
     }
 
     fn into_plan(mut self) -> Result<ImportPlan, DatasetError> {
+        if let Some(unequal) = self.unequal.take() {
+            return Err(unequal);
+        }
         let frames = match &self.map.frame {
             Some(frame) => Some(self.planned_frames(frame)?),
             None => None,

@@ -1,40 +1,16 @@
 //! The files with pictures in them that rows name.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use super::Reading;
-use crate::error::DatasetError;
+use super::name_order::counted_otherwise;
+use crate::error::{DatasetError, Place};
 use crate::foreign::{ArrayPictures, ClipPictures, Pictures, SeveralPictures, TableForm};
 use crate::import::map::{FrameNames, OWN_ROW};
 use crate::import::rows::MappedTable;
 use crate::import::source::matching_files;
 use crate::text::shown;
-
-/// The first two of `files`, which are in the order of their names, that stand otherwise in the order of the numbers in them: 10 before 2.
-fn counted_otherwise(files: &[PathBuf]) -> Option<[&Path; 2]> {
-    let mut pairs = files.windows(2);
-    let pair = pairs.find(|pair| by_numbers(&pair[0]) > by_numbers(&pair[1]))?;
-    Some([&pair[0], &pair[1]])
-}
-
-/// The texts of a path and the numbers between them.
-fn by_numbers(path: &Path) -> Vec<(String, u128)> {
-    let text = path.to_string_lossy();
-    let mut parts: Vec<(String, String)> = vec![Default::default()];
-    for letter in text.chars() {
-        let last = parts.last_mut();
-        match last {
-            Some((_, digits)) if letter.is_ascii_digit() => digits.push(letter),
-            Some((text, digits)) if digits.is_empty() => text.push(letter),
-            _ => parts.push((letter.to_string(), String::new())),
-        }
-    }
-    let parts = parts.into_iter();
-    parts
-        .map(|(text, digits)| (text, digits.parse().unwrap_or_default()))
-        .collect()
-}
 
 impl Reading<'_> {
     /// Checks that no two tables have the pictures in `file` by the number of the row, where no column says which picture a row has: each table
@@ -76,30 +52,32 @@ impl Reading<'_> {
         })
     }
 
-    /// Checks that there are as many pictures as rows where nothing in the map says which picture a row has.
-    pub(super) fn check_as_many(
-        &self,
-        pictures: &Arc<dyn Pictures>,
-        rows: &MappedTable<'_>,
-    ) -> Result<(), DatasetError> {
+    /// Remembers that there are more or fewer pictures than rows where nothing in the map says which picture a row has. It is refused once all
+    /// tables were read, since what is wrong with one of them says more.
+    pub(super) fn note_unequal(&mut self, pictures: &Arc<dyn Pictures>, rows: &MappedTable<'_>) {
         let index = match self.map.frame.as_ref().map(|frame| &frame.names) {
             Some(FrameNames::Array(array)) => &array.index,
             Some(FrameNames::Video(video)) => &video.index,
-            _ => return Ok(()),
+            _ => return,
         };
         let (count, rows) = (pictures.count(), rows.rows() as u64);
-        if index != OWN_ROW || count == rows {
-            return Ok(());
+        // A table of LeRobot says itself which frame of which clip a row has.
+        if index != OWN_ROW
+            || self.map.form == TableForm::LeRobot
+            || count == rows
+            || self.unequal.is_some()
+        {
+            return;
         }
-        Err(DatasetError::Image {
-            place: None,
+        self.unequal = Some(DatasetError::Image {
+            place: Some(Box::new(Place::file(&self.current))),
             path: pictures.path().to_owned(),
             problem: format!(
                 "{count} pictures for {rows} rows, and no `index` says which of them a row has: name the column that does, or write \
                  `index = \"row\"` if the first {} belong to each other; the axes may be others, too (`layout`)",
                 count.min(rows)
             ),
-        })
+        });
     }
 
     /// Checks that no two tables name the picture at `path` by the number of their rows.
