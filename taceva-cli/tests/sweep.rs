@@ -246,7 +246,7 @@ fn units_are_held_to_limits_one_by_one() {
         fs::rename(bench.path(name), bench.path("units").join(name)).expect("moved");
     }
     bench.write("limits.toml", "limits_version = 1\nname = \"line 3\"\n[[limit]]\nmetric = \"mae\"\nchannel = \"Fz\"\nunit = \"N\"\nmost = 100.0\n");
-    let units = "sweep_version = 1\ndatasets = \"units/*\"\nmodels = [\"ridge\"]\nlimits = \"limits.toml\"\nmetrics = [\"accuracy\"]\nsplits = [\"by-point 50/10/40\"]\n[vary]\nsize = [\"8x8\"]\n";
+    let units = "sweep_version = 1\ndatasets = \"units/*\"\nmodels = [\"ridge\"]\nlimits = \"limits.toml\"\nmetrics = [\"accuracy\"]\nsplits = [\"by-point 40/10/50\"]\n[vary]\nsize = [\"8x8\"]\n";
     bench.write("units.toml", units);
     let out = bench.ok("sweep units.toml -q");
     assert_eq!(out.matches("pass").count(), 2, "{out}");
@@ -303,9 +303,8 @@ fn a_grid_of_ten_million_tasks_is_refused_with_the_count() {
     bench.refused(
         "sweep which.toml",
         3,
-        "a grid of 10000000 tasks (1 datasets, 4 models",
+        "a grid of 10000000 tasks (1 datasets × 4 models × 1250 seeds",
     );
-    bench.refused("sweep which.toml", 3, "1250 seeds");
 }
 
 #[test]

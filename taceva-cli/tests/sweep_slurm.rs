@@ -282,16 +282,23 @@ fn two_nodes_one_of_them_killed_and_a_controller_that_is_started_anew_give_the_s
     cluster.ok(&bench, "sweep which.toml --on slurm");
     cluster.ok(&bench, "sweep cancel which.toml");
     cluster.ok(&bench, "sweep which.toml --on slurm");
-    // A controller that is killed and started anew while jobs run.
+    // A controller that is ended and started anew while jobs wait and run.
     let controller = cluster.pid("slurmctld.pid");
     Command::new("kill")
-        .args(["-9", &controller])
+        .arg(&controller)
         .status()
         .expect("sent");
+    let began = Instant::now();
+    while Path::new(&format!("/proc/{controller}")).exists() {
+        assert!(began.elapsed() < PATIENCE, "the controller did not end");
+        std::thread::sleep(Duration::from_millis(50));
+    }
     let configuration = cluster.configuration();
     let started = Command::new("slurmctld")
         .arg("-f")
         .arg(&configuration)
+        .env("SLURM_CONF", &configuration)
+        .stdin(Stdio::null())
         .stdout(Stdio::null())
         .stderr(Stdio::null())
         .status();
@@ -299,7 +306,11 @@ fn two_nodes_one_of_them_killed_and_a_controller_that_is_started_anew_give_the_s
     // A node that is lost with its jobs.
     let began = Instant::now();
     while fs::read_dir(bench.path("which.sweep/results")).map_or(0, Iterator::count) == 0 {
-        assert!(began.elapsed() < PATIENCE, "nothing was scored");
+        assert!(
+            began.elapsed() < PATIENCE,
+            "nothing was scored\n{}",
+            cluster.logs(&bench)
+        );
         std::thread::sleep(Duration::from_millis(50));
     }
     cut_power(&cluster, "two");

@@ -86,8 +86,9 @@ fn unit(folder: &SweepFolder, one: &Loaded<'_>, limits: &LimitsFile) -> Result<U
                     .value
                     .map_or_else(|| "no value".to_owned(), |value| format!("{value}"));
                 let limit = &finding.limit;
+                let why = finding.reason.as_deref().unwrap_or("not kept");
                 unit.broken.push(format!(
-                    "{} {}: {value} {}",
+                    "{} {}: {value} {}, {why}",
                     limit.metric, limit.channel, limit.unit
                 ));
             }

@@ -1,6 +1,6 @@
 //! Jobs of a scheduler.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use taceva_core::shown;
 use taceva_sweep::{
@@ -9,7 +9,7 @@ use taceva_sweep::{
 };
 
 use super::super::{Context, Usage};
-use super::run::absolute;
+use super::summary::{folder_of, print};
 use crate::args::SweepRun;
 use crate::{exit, output};
 
@@ -23,7 +23,7 @@ pub(super) fn submit(
     let left = list.without_result(folder, wanted, args.retry_failed)?;
     if left.is_empty() {
         let collected = collect(folder, list, false)?;
-        super::print(folder, &collected)?;
+        print(folder, &collected)?;
         return Ok(match collected.failed {
             0 => exit::DONE,
             _ => exit::CHECK_FAILED,
@@ -74,7 +74,7 @@ fn options(args: &SweepRun, context: &Context) -> String {
 }
 
 pub(super) fn status(named: &Path) -> anyhow::Result<u8> {
-    let folder = super::folder_of(named);
+    let folder = folder_of(named);
     let list = TaskList::latest(&folder)?;
     let counts = list.counts(&folder)?;
     let submitted = Submitted::read(&folder)?;
@@ -100,7 +100,7 @@ pub(super) fn status(named: &Path) -> anyhow::Result<u8> {
 }
 
 pub(super) fn cancel(named: &Path, context: &Context) -> anyhow::Result<u8> {
-    let folder = super::folder_of(named);
+    let folder = folder_of(named);
     let submitted = Submitted::read(&folder)?
         .ok_or_else(|| Usage::error(format!("{}: no jobs were submitted", shown(folder.path()))))?;
     submitted.cancel()?;
@@ -108,4 +108,9 @@ pub(super) fn cancel(named: &Path, context: &Context) -> anyhow::Result<u8> {
         "cancelled; results stay, and the sweep may be submitted again at once"
     ));
     Ok(exit::DONE)
+}
+
+/// The absolute form of a path that a job is given.
+fn absolute(path: &Path) -> PathBuf {
+    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
 }

@@ -1,6 +1,6 @@
 //! Tasks carried out here, or handed to a scheduler.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use taceva_core::shown;
 use taceva_study::Cache;
@@ -10,6 +10,7 @@ use taceva_sweep::{
 
 use super::super::{Context, Usage, cache};
 use super::jobs;
+use super::summary::{all_pass, print};
 use crate::args::{CacheArgs, SweepEngine, SweepRun, SweepTask};
 use crate::cmd::cache::amount::bytes;
 use crate::progress::spoken;
@@ -59,13 +60,8 @@ pub(super) fn run(args: &SweepRun, context: &Context) -> anyhow::Result<u8> {
     let ran = runner.run(&wanted)?;
     cache::note(cache.as_ref(), context);
     let collected = collect(&folder, &list, ran.scored > 0)?;
-    super::print(&folder, &collected)?;
-    Ok(ended(
-        &ran,
-        (&folder, &list),
-        super::all_pass(&collected),
-        context,
-    ))
+    print(&folder, &collected)?;
+    Ok(ended(&ran, (&folder, &list), all_pass(&collected), context))
 }
 
 /// Prints how the tasks at `left` are carried out by an engine that is none of ours.
@@ -170,9 +166,4 @@ fn planned(estimate: &Estimate, skipped: usize, context: &Context) -> anyhow::Re
         writeln!(out, "disk     {disk}")
     })?;
     Ok(exit::DONE)
-}
-
-/// The absolute form of a path that a job is given.
-pub(super) fn absolute(path: &Path) -> PathBuf {
-    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
 }
