@@ -14,7 +14,7 @@ use crate::table::Table;
 /// table.push(["<b>"]);
 /// let page = TablesPage {
 ///     title: "Which network?".to_owned(),
-///     is_simulated: true,
+///     badge: Some("Nothing here was measured.".to_owned()),
 ///     lead: vec!["Two models.".to_owned()],
 ///     sections: vec![PageSection { id: "tasks", title: "Tasks", parts: vec![PagePart::Table(table)] }],
 /// };
@@ -24,8 +24,8 @@ use crate::table::Table;
 pub struct TablesPage {
     /// The title.
     pub title: String,
-    /// Whether some of the samples are simulated or synthetic.
-    pub is_simulated: bool,
+    /// What must be seen first, as that nothing was measured.
+    pub badge: Option<String>,
     /// Sentences below the title.
     pub lead: Vec<String>,
     /// The sections.
@@ -61,9 +61,7 @@ impl TablesPage {
     pub fn html(self) -> String {
         let lead = html! {
             @for sentence in &self.lead { p.lead { (sentence) } "\n" }
-            @if self.is_simulated {
-                p.badge { "Not everything here was measured: samples are simulated or synthetic." } "\n"
-            }
+            @if let Some(badge) = &self.badge { p.badge { (badge) } "\n" }
         };
         let mut document = Document::new(&self.title, lead);
         for section in self.sections {

@@ -63,7 +63,7 @@ pub(crate) fn results(list: &TaskList, loaded: &[Loaded<'_>], collected: &Collec
     );
     TablesPage {
         title: title(list),
-        is_simulated: is_simulated(loaded),
+        badge: badge(loaded),
         lead: vec![
             lead,
             format!("The table has the digest {}.", collected.digest),
@@ -80,9 +80,19 @@ fn title(list: &TaskList) -> String {
     }
 }
 
-fn is_simulated(loaded: &[Loaded<'_>]) -> bool {
-    let mut results = loaded.iter().filter_map(Loaded::result);
-    results.any(|result| matches!(result.source.as_str(), "simulated" | "synthetic"))
+/// That nothing, or not everything, was measured.
+fn badge(loaded: &[Loaded<'_>]) -> Option<String> {
+    let results = loaded.iter().filter_map(Loaded::result);
+    let drawn = results.map(|result| matches!(result.source.as_str(), "simulated" | "synthetic"));
+    let drawn: Vec<bool> = drawn.collect();
+    let words = match drawn.iter().filter(|is_drawn| **is_drawn).count() {
+        0 => return None,
+        count if count == drawn.len() => {
+            "Nothing here was measured: the samples are simulated or synthetic."
+        }
+        _ => "Not everything here was measured: some of the samples are simulated or synthetic.",
+    };
+    Some(words.to_owned())
 }
 
 /// The tasks without a result.
@@ -154,7 +164,7 @@ pub(crate) fn times(folder: &SweepFolder, list: &TaskList, loaded: &[Loaded<'_>]
     }
     TablesPage {
         title: format!("{}: times", title(list)),
-        is_simulated: is_simulated(loaded),
+        badge: badge(loaded),
         lead: vec!["Run times stand apart from results: times.csv has a row a task.".to_owned()],
         sections: vec![PageSection {
             id: "times",
