@@ -12,7 +12,7 @@ use taceva_study::{
 
 use crate::error::SweepError;
 use crate::folder::SweepFolder;
-use crate::result::{TaskResult, ValidationError};
+use crate::result::{PointErrors, TaskResult, ValidationError};
 use crate::task::Task;
 
 /// What came of a task.
@@ -128,9 +128,7 @@ fn validation(model: &Model) -> (String, Vec<ValidationError>) {
 }
 
 /// The absolute errors of each channel, summed by contact point, or sample by sample where no contact point is known.
-fn errors(
-    report: &EvaluationReport,
-) -> Result<BTreeMap<String, Vec<(String, u64, f64)>>, csv::Error> {
+fn errors(report: &EvaluationReport) -> Result<PointErrors, csv::Error> {
     let Some(samples) = &report.samples else {
         return Ok(BTreeMap::new());
     };

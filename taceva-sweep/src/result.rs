@@ -15,6 +15,9 @@ use crate::key::TaskKey;
 /// The schema of a result.
 const SCHEMA: &str = "taceva.sweep-result/1.0";
 
+/// Of each channel: contact point, samples of it, and the sum of their absolute errors.
+pub(crate) type PointErrors = BTreeMap<String, Vec<(String, u64, f64)>>;
+
 /// What a task found.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct TaskResult {
@@ -36,8 +39,8 @@ pub(crate) struct TaskResult {
     pub(crate) validation: Vec<ValidationError>,
     /// The scores on the test part.
     pub(crate) scores: Vec<SweepScore>,
-    /// Of each channel: contact point, samples of it, and the sum of their absolute errors.
-    pub(crate) errors: BTreeMap<String, Vec<(String, u64, f64)>>,
+    /// The errors on the test part, by contact point.
+    pub(crate) errors: PointErrors,
 }
 
 /// The error of a channel on the part that settings were chosen on.
