@@ -11,6 +11,7 @@ mod results;
 mod rig;
 mod shared;
 mod study;
+mod sweep;
 
 use clap::{Args, Parser, Subcommand};
 
@@ -32,6 +33,9 @@ pub(crate) use self::shared::{
     PartArg, PartArgs, ScoringArgs, SeedArgs, SettingArgs, SplitArgs, SplitOutArgs,
 };
 pub(crate) use self::study::{PlanArgs, Run, SceneArgs};
+pub(crate) use self::sweep::{
+    Sweep, SweepCollect, SweepEngine, SweepRun, SweepShow, SweepSubject, SweepTask,
+};
 
 const AFTER_HELP: &str = "\
 Start here:
@@ -101,6 +105,8 @@ pub(crate) enum Command {
     Cache(CacheCommand),
     /// Benchmarks: run time against error, with the Pareto front marked
     Bench(Bench),
+    /// Evaluate many combinations of recordings, models, settings, splits and seeds, here or on a cluster
+    Sweep(Sweep),
     /// Record a sensor without a robot: frames, and the force of presses by hand
     Capture(Capture),
     /// Look at a sensor in a browser: live frames, force, focus and saturation; nothing is recorded

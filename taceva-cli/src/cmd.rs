@@ -33,6 +33,7 @@ pub(crate) mod rig;
 pub(crate) mod run;
 mod scene;
 pub(crate) mod score;
+pub(crate) mod sweep;
 
 use std::path::{Path, PathBuf};
 

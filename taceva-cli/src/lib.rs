@@ -25,6 +25,7 @@ use clap::Parser;
 use taceva_core::{ErrorKind, ModelError};
 use taceva_dataset::DatasetError;
 use taceva_study::StudyError;
+use taceva_sweep::SweepError;
 
 use args::{Cli, Command};
 use cmd::Context;
@@ -86,6 +87,7 @@ fn run(command: &Command, context: &Context) -> anyhow::Result<u8> {
         Command::Catalogue(args) => cmd::catalogue::run(args, context),
         Command::Cache(args) => cmd::cache::run(args, context),
         Command::Bench(args) => cmd::bench::run(args, context),
+        Command::Sweep(args) => cmd::sweep::run(args, context),
         Command::Capture(args) => cmd::capture::run(args, context),
         Command::Preview(args) => cmd::preview::run(args, context),
         Command::Run(args) => cmd::run::run(args, context),
@@ -133,6 +135,11 @@ fn code_of(error: &Error) -> u8 {
     for cause in error.chain() {
         if let Some(usage) = cause.downcast_ref::<cmd::Usage>() {
             return usage.code();
+        }
+        if let Some(sweep) = cause.downcast_ref::<SweepError>()
+            && sweep.is_usage()
+        {
+            return exit::USAGE;
         }
         if let Some(study) = cause.downcast_ref::<StudyError>() {
             return if study.is_usage() {

@@ -22,7 +22,7 @@ mod themes;
 mod triple;
 
 pub(crate) use document::Document;
-pub(crate) use figures::radars;
+pub(crate) use figures::{one as drawn, radars};
 pub(crate) use fold::{counted, fold};
 pub(crate) use glossary::{folded_glossary, glossary, metric_link, score_link};
 pub use picks::{Pick, picks};

@@ -18,6 +18,7 @@ mod scores;
 mod short_digests;
 mod spread;
 mod table;
+mod tables_page;
 mod tie;
 
 pub use accept::{
@@ -50,3 +51,4 @@ pub use short_digests::short_digests;
 pub use table::{
     Align, Cell, Column, Direction, Estimate, Layout, Row, Table, Words, latex_number, latex_symbol,
 };
+pub use tables_page::{PagePart, PageSection, TablesPage};

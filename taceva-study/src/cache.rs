@@ -53,6 +53,8 @@ const ABANDONED: Duration = Duration::from_secs(24 * 60 * 60);
 pub struct Cache {
     folder: PathBuf,
     models: String,
+    /// Whether many tasks at once take features of the same recordings.
+    is_of_many: bool,
     written: AtomicU64,
     notes: Mutex<BTreeSet<String>>,
     records: Mutex<Vec<(usize, StageRecord)>>,
@@ -67,10 +69,26 @@ impl Cache {
         Cache {
             folder,
             models,
+            is_of_many: false,
             written: AtomicU64::new(0),
             notes: Mutex::default(),
             records: Mutex::default(),
         }
+    }
+
+    /// The same for many tasks at once, in this process and in others that share the folder: features are made of whole recordings, whichever rows
+    /// a task learns from, and by one of the tasks that need them, while the others wait for it. Each frame is decoded once for each kind of
+    /// features then, if what it takes is kept at all.
+    #[must_use]
+    pub fn of_many(self) -> Cache {
+        Cache {
+            is_of_many: true,
+            ..self
+        }
+    }
+
+    pub(crate) fn is_of_many(&self) -> bool {
+        self.is_of_many
     }
 
     /// The folder.

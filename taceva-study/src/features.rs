@@ -5,10 +5,11 @@ mod table;
 
 use std::num::NonZeroUsize;
 
-use taceva_core::{FeatureShape, Features, Input, InputInfo};
+use taceva_core::{ErrorKind, FeatureShape, Features, Input, InputInfo};
 use taceva_dataset::{Dataset, DatasetError, Pass};
 use taceva_models::{Extractor, FeatureSpec};
 
+use crate::cache::{Cache, ONE_MAX};
 use crate::error::StudyError;
 use crate::recordings;
 use crate::work::Work;
@@ -64,8 +65,44 @@ fn of_recording(
 ) -> Result<Features, StudyError> {
     let make = || make(recording, extractor, rows, work);
     match work.cache {
+        Some(cache) if cache.is_of_many() => of_whole((recording, extractor, rows), cache, work),
         Some(cache) => cache.features((recording, extractor, rows), make),
         None => make(),
+    }
+}
+
+/// The same from those of the whole recording, which other tasks need too; where these cannot be kept, or a frame that nobody asked for cannot
+/// be read, those of `rows` alone.
+fn of_whole(
+    (recording, extractor, rows): (&Dataset, &Extractor, &[usize]),
+    cache: &Cache,
+    work: Work<'_>,
+) -> Result<Features, StudyError> {
+    let table = recording.table();
+    let all: Vec<usize> = match extractor.input() {
+        InputInfo::Signals(_) => recording.all_rows(),
+        _ => (0..table.rows())
+            .filter(|row| table.frames()[*row].is_some())
+            .collect(),
+    };
+    let positions = rows.iter().map(|row| all.binary_search(row).ok());
+    let positions: Option<Vec<usize>> = positions.collect();
+    let own = || {
+        cache.features((recording, extractor, rows), || {
+            make(recording, extractor, rows, work)
+        })
+    };
+    let bytes = all.len() as u64 * extractor.shape().len() as u64 * 4;
+    let Some(positions) = positions.filter(|_| bytes <= ONE_MAX) else {
+        return own();
+    };
+    let whole = cache.features((recording, extractor, &all), || {
+        make(recording, extractor, &all, work)
+    });
+    match whole {
+        Ok(whole) => Ok(whole.select(&positions)),
+        Err(error) if error.kind() == ErrorKind::Interrupted => Err(error),
+        Err(_) => own(),
     }
 }
 

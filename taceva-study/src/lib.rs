@@ -8,6 +8,7 @@ mod cache;
 mod calibration;
 mod capture;
 pub mod check;
+mod claim;
 mod classifier;
 mod effort;
 mod error;
@@ -48,6 +49,7 @@ pub use capture::{
     close_capture, preview,
 };
 pub use check::{CheckReport, CheckRequest, Finding, Severity, check, check_plan};
+pub use claim::{Claim, Watch, unique_name};
 pub use effort::Effort;
 pub use error::StudyError;
 pub use evaluate::{

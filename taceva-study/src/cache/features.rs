@@ -3,7 +3,7 @@
 use std::fs::{self, File};
 use std::io::{self, Cursor, Read};
 use std::path::Path;
-use std::time::SystemTime;
+use std::time::{Duration, SystemTime};
 
 use taceva_core::{FeatureShape, Features};
 use taceva_dataset::Dataset;
@@ -11,10 +11,13 @@ use taceva_models::{Extractor, FeatureSpec};
 
 use super::value::Kept;
 use super::{ABANDONED, Cache, CachedStage, Key, remove};
+use crate::claim::{Claim, Watch};
 use crate::error::StudyError;
 
 /// What is kept of features altogether, in bytes.
 const ALL_MAX: u64 = 2 << 30;
+/// How often it is looked whether somebody else is done.
+const LOOK_EVERY: Duration = Duration::from_millis(50);
 /// What is kept of one set of them.
 pub(crate) const ONE_MAX: u64 = ALL_MAX / 4;
 
@@ -48,8 +51,15 @@ impl Cache {
             drop(entry.and_then(|entry| entry.set_modified(SystemTime::now())));
             return Ok(found);
         }
+        let turn = self.is_of_many().then(|| self.turn(&key));
+        if turn.is_some()
+            && let Some(found) = self.take_value(&key)
+        {
+            return Ok(found);
+        }
         let made = make()?;
         self.keep_value(&key, &made);
+        drop(turn);
         if let Some(folder) = self.entry(&key).parent() {
             // What cannot be dropped now is when the next is kept.
             drop(trim(folder, ALL_MAX));
@@ -60,6 +70,24 @@ impl Cache {
 }
 
 impl Cache {
+    /// Waits until nobody else makes what `key` names. Without a claim, as in a folder that cannot be written, the work is done twice at worst.
+    fn turn(&self, key: &Key) -> Option<Claim> {
+        let partial = self.partial();
+        fs::create_dir_all(&partial).ok()?;
+        let path = partial.join(format!("{}.claim", key.digits()));
+        let mut watch = Watch::new(&path);
+        loop {
+            match Claim::take(&path) {
+                Ok(Some(claim)) => return Some(claim),
+                Ok(None) => {}
+                Err(_) => return None,
+            }
+            if !watch.clear().ok()? {
+                std::thread::sleep(LOOK_EVERY);
+            }
+        }
+    }
+
     /// Removes what was being written by runs that were stopped long ago.
     fn sweep(&self) -> io::Result<()> {
         for entry in fs::read_dir(self.partial())? {
@@ -178,8 +206,6 @@ impl Read for Bytes<'_> {
 
 #[cfg(test)]
 mod tests {
-    use std::time::Duration;
-
     use super::*;
 
     #[test]

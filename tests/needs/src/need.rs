@@ -50,6 +50,8 @@ pub enum Need {
     Lerobot,
     /// The right to make device files, which stand for cameras and scales that are not there.
     DeviceFiles,
+    /// `slurmctld`, `slurmd`, `munged` and the right to start them: a cluster of two virtual nodes on loopback.
+    Slurm,
     /// A machine without other load, on which bounds of milliseconds hold. No test can find that out: it is named in `TACEVA_REQUIRE`.
     QuietMachine,
     /// An example that is built where a whole package is tested, and not by a single test of it.
@@ -65,7 +67,7 @@ pub struct UnknownNeed(
 
 impl Need {
     /// Every need.
-    pub const ALL: [Need; 23] = [
+    pub const ALL: [Need; 24] = [
         Need::Browser,
         Need::Axe,
         Need::Latex,
@@ -87,6 +89,7 @@ impl Need {
         Need::Libraries,
         Need::Lerobot,
         Need::DeviceFiles,
+        Need::Slurm,
         Need::QuietMachine,
         Need::Example,
     ];
@@ -115,6 +118,7 @@ impl Need {
             Need::Libraries => "libraries",
             Need::Lerobot => "lerobot",
             Need::DeviceFiles => "device-files",
+            Need::Slurm => "slurm",
             Need::QuietMachine => "quiet-machine",
             Need::Example => "example",
         }

@@ -1,0 +1,143 @@
+//! Arguments of `taceva sweep`.
+
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand, ValueEnum};
+
+use super::{CacheArgs, Output};
+
+/// An example of the file.
+const FILE_HELP: &str = "\
+The file:
+  sweep_version = 1
+  name = \"which network, which size\"
+  datasets = [\"monday\", \"units/*\"]         # folders, relative to the file
+  models = [\"ridge\", { name = \"cnn\", set = { epochs = 60 } }]
+  seeds = \"1-5\"                            # or [1, 2, 3]
+  splits = [\"by-point\"]
+  [vary]
+  size = [\"32x32\", \"64x64\"]                # any setting
+  [skip]
+  where = [\"model = ridge and size = 64x64\"]
+  [slurm]
+  partition = \"main\"
+  time = \"00:30:00\"
+  memory = \"4G\"
+  tasks_a_job = 8
+  setup = [\"module load taceva\"]
+
+The same command again goes on where it was stopped. `taceva sweep show FILE --by model,size` prints results.";
+
+/// Every combination of recordings, models, settings, splits and seeds is a task; its result is a file named after all that decides it. The
+/// table, its digest and the page depend neither on the number of workers nor on where tasks ran. The exit code is 1 if a task failed.
+#[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true, after_help = FILE_HELP)]
+pub(crate) struct Sweep {
+    #[command(subcommand)]
+    pub(crate) subject: Option<SweepSubject>,
+    #[command(flatten)]
+    pub(crate) run: SweepRun,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SweepRun {
+    /// The file of the sweep
+    #[arg(required = true, value_name = "FILE.toml")]
+    pub(crate) file: Option<PathBuf>,
+    /// The folder of results [default: FILE.sweep, beside the file]
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) out: Option<PathBuf>,
+    /// Print how many tasks there are, what is found already, and what the rest would take by what was measured so far; carry nothing out
+    #[arg(long)]
+    pub(crate) dry_run: bool,
+    /// Try tasks again that failed before
+    #[arg(long)]
+    pub(crate) retry_failed: bool,
+    /// Only tasks of which this holds: a key or how it begins, or terms such as "model = ridge and seed != 3"
+    #[arg(long, value_name = "KEY|WHERE")]
+    pub(crate) only: Option<String>,
+    /// Where tasks run
+    #[arg(long, value_enum, value_name = "ENGINE", default_value_t = SweepEngine::Here)]
+    pub(crate) on: SweepEngine,
+    #[command(flatten)]
+    pub(crate) cache: CacheArgs,
+}
+
+/// Where tasks run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SweepEngine {
+    /// In workers of this process, as many as --jobs says
+    Here,
+    /// As jobs of Slurm; the command returns once they are submitted
+    Slurm,
+    /// By another engine: the list of tasks is written, and how one of them is carried out is printed
+    List,
+}
+
+/// What to do with a sweep.
+#[derive(Debug, Subcommand)]
+pub(crate) enum SweepSubject {
+    /// Print means over tasks, by whatever varies
+    Show(SweepShow),
+    /// Print how many tasks are done, and the jobs that the scheduler has
+    Status(SweepFolderArgs),
+    /// Cancel the jobs of a sweep; results stay
+    Cancel(SweepFolderArgs),
+    /// Make the table and the pages of the results that are there; the exit code is 1 if some are missing
+    Collect(SweepCollect),
+    /// Carry out some tasks of a list, as a job of a scheduler does
+    Task(SweepTask),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SweepFolderArgs {
+    /// The file of the sweep, or the folder of its results
+    #[arg(value_name = "FILE|FOLDER")]
+    pub(crate) sweep: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SweepShow {
+    #[command(flatten)]
+    pub(crate) of: SweepFolderArgs,
+    /// Words that rows differ by, separated by commas: model, dataset, split, seed, or a setting
+    #[arg(
+        long,
+        value_name = "WORDS",
+        value_delimiter = ',',
+        default_value = "model"
+    )]
+    pub(crate) by: Vec<String>,
+    /// The metric
+    #[arg(long, value_name = "METRIC", default_value = "mae")]
+    pub(crate) metric: String,
+    #[command(flatten)]
+    pub(crate) output: Output,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SweepCollect {
+    #[command(flatten)]
+    pub(crate) of: SweepFolderArgs,
+    /// The list of tasks [default: that of the last call]
+    #[arg(long, value_name = "TASKS.json")]
+    pub(crate) tasks: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SweepTask {
+    /// The folder of results
+    #[arg(value_name = "FOLDER")]
+    pub(crate) folder: PathBuf,
+    /// The list of tasks
+    #[arg(long, value_name = "TASKS.json")]
+    pub(crate) tasks: PathBuf,
+    /// Positions in the list, from 0, separated by commas
+    #[arg(long, value_name = "N,…", value_delimiter = ',', required = true)]
+    pub(crate) at: Vec<usize>,
+    /// Try tasks again that failed before
+    #[arg(long)]
+    pub(crate) retry_failed: bool,
+    #[command(flatten)]
+    pub(crate) cache: CacheArgs,
+}

@@ -1,0 +1,55 @@
+//! What a sweep has found, in a few lines.
+
+use std::path::Path;
+
+use taceva_report::{Cell, Column, Table};
+use taceva_sweep::{Collected, SweepFolder};
+
+use crate::output;
+
+/// The folder of results: the one that is named, or the one beside the file that is named.
+pub(super) fn folder_of(named: &Path) -> SweepFolder {
+    match named.is_dir() {
+        true => SweepFolder::new(named.to_owned()),
+        false => SweepFolder::beside(named),
+    }
+}
+
+/// Whether every unit keeps to its limits, where there are limits.
+pub(super) fn all_pass(collected: &Collected) -> bool {
+    collected.units.iter().all(|unit| unit.is_passed)
+}
+
+/// What there is now, and where.
+pub(super) fn print(folder: &SweepFolder, collected: &Collected) -> anyhow::Result<()> {
+    let path = taceva_core::shown(folder.path()).to_string();
+    output::write(None, |out| {
+        writeln!(
+            out,
+            "tasks    {} scored, {} failed, {} missing",
+            collected.scored, collected.failed, collected.missing
+        )?;
+        writeln!(out, "table    {path}/table.csv")?;
+        writeln!(out, "digest   {}", collected.digest)?;
+        writeln!(out, "page     {path}/page.html")?;
+        if !collected.units.is_empty() {
+            write!(out, "\n{}", units(collected).text())?;
+        }
+        Ok(())
+    })
+}
+
+fn units(collected: &Collected) -> Table {
+    let columns = ["recording", "serial", "model", "verdict", "limits not kept"];
+    let mut table = Table::new("", columns.map(Column::new));
+    for unit in &collected.units {
+        table.push([
+            Cell::text(unit.dataset.as_str()),
+            Cell::text(unit.serial.as_str()),
+            Cell::text(unit.task.as_str()),
+            Cell::Verdict(unit.is_passed),
+            Cell::text(unit.broken.join("; ")),
+        ]);
+    }
+    table
+}

@@ -1,0 +1,84 @@
+//! A page of paragraphs, tables and figures that somebody else put together.
+
+use maud::{Markup, html};
+
+use crate::figure::Figure;
+use crate::html::{Document, fold};
+use crate::table::Table;
+
+/// A page of paragraphs, tables and figures.
+///
+/// ```
+/// use taceva_report::{PagePart, PageSection, Table, TablesPage};
+/// let mut table = Table::new("Tasks", ["model"]);
+/// table.push(["<b>"]);
+/// let page = TablesPage {
+///     title: "Which network?".to_owned(),
+///     badge: Some("Nothing here was measured.".to_owned()),
+///     lead: vec!["Two models.".to_owned()],
+///     sections: vec![PageSection { id: "tasks", title: "Tasks", parts: vec![PagePart::Table(table)] }],
+/// };
+/// assert!(page.html().contains("&lt;b&gt;"));
+/// ```
+#[derive(Clone, Debug)]
+pub struct TablesPage {
+    /// The title.
+    pub title: String,
+    /// What must be seen first, as that nothing was measured.
+    pub badge: Option<String>,
+    /// Sentences below the title.
+    pub lead: Vec<String>,
+    /// The sections.
+    pub sections: Vec<PageSection>,
+}
+
+/// A section of a page.
+#[derive(Clone, Debug)]
+pub struct PageSection {
+    /// A word for links.
+    pub id: &'static str,
+    /// The title.
+    pub title: &'static str,
+    /// What stands in it.
+    pub parts: Vec<PagePart>,
+}
+
+/// What stands in a section.
+#[derive(Clone, Debug)]
+pub enum PagePart {
+    /// A paragraph.
+    Words(String),
+    /// A table.
+    Table(Table),
+    /// A table behind a line that opens it: a word for links, and how much it holds.
+    Folded(&'static str, String, Table),
+    /// A figure with its caption.
+    Figure(Box<Figure>),
+}
+
+impl TablesPage {
+    /// As one HTML file that needs no network.
+    pub fn html(self) -> String {
+        let lead = html! {
+            @for sentence in &self.lead { p.lead { (sentence) } "\n" }
+            @if let Some(badge) = &self.badge { p.badge { (badge) } "\n" }
+        };
+        let mut document = Document::new(&self.title, lead);
+        for section in self.sections {
+            let body = html! { @for part in &section.parts { (part.html()) } };
+            document.section(section.id, section.title, body);
+        }
+        document.finish()
+    }
+}
+
+impl PagePart {
+    fn html(&self) -> Markup {
+        match self {
+            PagePart::Words(words) => html! { p { (words) } "\n" },
+            PagePart::Table(table) => table.html(),
+            PagePart::Folded(id, holds, table) => fold(id, &table.caption, holds, &table.html()),
+            PagePart::Figure(figure) => crate::html::drawn(figure),
+        }
+    }
+}

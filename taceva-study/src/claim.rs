@@ -1,0 +1,302 @@
+//! Who is at a piece of work that several processes may come to, on one machine or on several that share a folder.
+//!
+//! A claim is a file that is made exclusively. It works where a file system has neither `flock` nor `fcntl` locks, as network file systems
+//! may: only exclusive creation and renaming are asked of it. Its owner counts in it for as long as it lives; whoever waits sees by a clock
+//! of its own whether that number still changes, so that no two clocks are ever compared. An owner that ended on the same machine is known
+//! by its process. A claim that is lost to another costs work done twice and nothing else: the work gives the same bytes whoever does it.
+
+use std::fs::{self, File};
+use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+/// How often an owner counts.
+const COUNTS_EVERY: Duration = Duration::from_secs(2);
+/// After that long without a count an owner is taken for dead.
+const DEAD_AFTER: Duration = Duration::from_secs(30);
+
+/// A claim that is held; it is given back when it is dropped.
+#[derive(Debug)]
+pub struct Claim {
+    path: PathBuf,
+    owner: String,
+    stop: Option<Sender<()>>,
+    counting: Option<JoinHandle<()>>,
+}
+
+/// What is seen of somebody else's claim, from the first look on.
+#[derive(Debug)]
+pub struct Watch {
+    path: PathBuf,
+    seen: String,
+    since: Instant,
+}
+
+/// A name that no other thread, process or machine gives at any time.
+pub fn unique_name() -> String {
+    static NEXT: AtomicU64 = AtomicU64::new(0);
+    let number = NEXT.fetch_add(1, Ordering::Relaxed);
+    format!("{}-{number}", process_name())
+}
+
+impl Claim {
+    /// The claim at `path`, unless somebody has it.
+    ///
+    /// # Errors
+    /// Those of the file system.
+    pub fn take(path: &Path) -> io::Result<Option<Claim>> {
+        let mut file = match File::options().write(true).create_new(true).open(path) {
+            Ok(file) => file,
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => return Ok(None),
+            Err(error) => return Err(error),
+        };
+        let owner = unique_name();
+        file.write_all(line(&owner, 0).as_bytes())?;
+        let (stop, stopped) = channel();
+        let own = owner.clone();
+        // By the open file and not by its name, which somebody else may have by now.
+        let counting = std::thread::Builder::new().spawn(move || {
+            let mut count = 0;
+            while stopped.recv_timeout(COUNTS_EVERY) == Err(RecvTimeoutError::Timeout) {
+                count += 1;
+                let counted = file.seek(SeekFrom::Start(0));
+                let counted = counted.and_then(|_| file.write_all(line(&own, count).as_bytes()));
+                if counted.and_then(|()| file.sync_data()).is_err() {
+                    return;
+                }
+            }
+        })?;
+        Ok(Some(Claim {
+            path: path.to_owned(),
+            owner,
+            stop: Some(stop),
+            counting: Some(counting),
+        }))
+    }
+}
+
+impl Drop for Claim {
+    fn drop(&mut self) {
+        drop(self.stop.take());
+        if let Some(counting) = self.counting.take() {
+            // A panic of that thread says no more than that the claim was not renewed.
+            drop(counting.join());
+        }
+        if read(&self.path).is_ok_and(|text| owner_of(&text) == self.owner) {
+            // A claim that stays behind is known to be dead.
+            drop(fs::remove_file(&self.path));
+        }
+    }
+}
+
+impl Watch {
+    /// Begins to look at the claim at `path`.
+    pub fn new(path: &Path) -> Watch {
+        Watch {
+            path: path.to_owned(),
+            seen: read(path).unwrap_or_default(),
+            since: Instant::now(),
+        }
+    }
+
+    /// Whether the owner is dead: it ended on this machine, or has not counted for long. The claim is out of the way then, once, whoever asks.
+    ///
+    /// # Errors
+    /// Those of the file system.
+    pub fn clear(&mut self) -> io::Result<bool> {
+        self.clear_after(DEAD_AFTER)
+    }
+
+    fn clear_after(&mut self, dead_after: Duration) -> io::Result<bool> {
+        let now = match read(&self.path) {
+            Ok(text) => text,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(true),
+            Err(error) => return Err(error),
+        };
+        if now != self.seen {
+            self.seen = now;
+            self.since = Instant::now();
+        }
+        let owner = owner_of(&self.seen).to_owned();
+        if !ended_here(&owner) && self.since.elapsed() < dead_after {
+            return Ok(false);
+        }
+        // Of those who see it dead one alone moves it, or each would move the claim of the one before.
+        let mark = self.path.with_file_name(format!(
+            ".{}.{}.dead",
+            self.path.file_name().unwrap_or_default().to_string_lossy(),
+            match owner.as_str() {
+                "" => "nobody",
+                owner => owner,
+            }
+        ));
+        let marked = File::options().write(true).create_new(true).open(&mark);
+        match marked {
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
+                // Who marked it may have ended before it moved it.
+                if self.since.elapsed() >= 3 * dead_after {
+                    drop(fs::remove_file(&mark));
+                }
+                return Ok(false);
+            }
+            Err(error) => return Err(error),
+            Ok(_) => {}
+        }
+        let is_same = read(&self.path).is_ok_and(|text| text == self.seen);
+        if is_same {
+            fs::rename(&self.path, &mark)?;
+        }
+        fs::remove_file(&mark)?;
+        Ok(is_same)
+    }
+}
+
+/// A line of constant length, so that it is written over in place.
+fn line(owner: &str, count: u64) -> String {
+    format!("{owner} {count:020}\n")
+}
+
+fn owner_of(text: &str) -> &str {
+    text.split(' ').next().unwrap_or_default()
+}
+
+fn read(path: &Path) -> io::Result<String> {
+    let mut text = String::new();
+    File::open(path)?.take(4096).read_to_string(&mut text)?;
+    Ok(text)
+}
+
+/// `BOOT-NAMESPACE-PROCESS-START`, where the system says so much.
+fn process_name() -> String {
+    static NAME: std::sync::OnceLock<String> = std::sync::OnceLock::new();
+    let name = NAME.get_or_init(|| {
+        let process = std::process::id();
+        let start = start_of(process).unwrap_or_else(|| {
+            let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);
+            now.map_or_else(|_| String::new(), |now| now.as_nanos().to_string())
+        });
+        format!("{}-{process}-{start}", machine())
+    });
+    name.clone()
+}
+
+/// This machine since it was started, and the namespace of its processes, in digits and letters.
+fn machine() -> String {
+    let boot = fs::read_to_string("/proc/sys/kernel/random/boot_id").unwrap_or_default();
+    let space = fs::read_link("/proc/self/ns/pid").unwrap_or_default();
+    let words = format!("{}{}", boot.trim(), space.to_string_lossy());
+    words.chars().filter(char::is_ascii_alphanumeric).collect()
+}
+
+/// When a process was started, in ticks since the machine was.
+fn start_of(process: u32) -> Option<String> {
+    let text = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
+    // The name, which may hold anything, ends with the last bracket; the start is the twentieth word behind it.
+    let (_, rest) = text.rsplit_once(')')?;
+    rest.split_whitespace().nth(19).map(str::to_owned)
+}
+
+/// Whether `owner` was a process of this machine that is no more.
+fn ended_here(owner: &str) -> bool {
+    let mut parts = owner.split('-');
+    let (Some(of), Some(process), Some(start)) = (parts.next(), parts.next(), parts.next()) else {
+        return false;
+    };
+    if of.is_empty() || of != machine() {
+        return false;
+    }
+    let Ok(process) = process.parse() else {
+        return false;
+    };
+    start_of(std::process::id()).is_some() && start_of(process).as_deref() != Some(start)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_claim_is_had_once_and_free_when_it_is_given_back() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("work");
+        let held = Claim::take(&path).expect("writable").expect("free");
+        assert!(Claim::take(&path).expect("readable").is_none());
+        assert!(
+            !Watch::new(&path).clear().expect("readable"),
+            "its owner lives"
+        );
+        drop(held);
+        assert!(Claim::take(&path).expect("writable").is_some());
+    }
+
+    #[test]
+    fn the_claim_of_a_process_that_ended_here_is_dead_at_once() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("work");
+        let mut child = std::process::Command::new("true")
+            .spawn()
+            .expect("a program");
+        let process = child.id();
+        child.wait().expect("ended");
+        let owner = format!("{}-{process}-1-0", machine());
+        fs::write(&path, line(&owner, 7)).expect("written");
+        assert!(Watch::new(&path).clear().expect("readable"));
+        assert!(Claim::take(&path).expect("writable").is_some());
+    }
+
+    #[test]
+    fn the_claim_of_another_machine_is_dead_once_its_number_stands_still_whatever_the_clocks_say() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("work");
+        let owner = "elsewhere-1-1-0";
+        fs::write(&path, line(owner, 0)).expect("written");
+        // An hour ahead, as a clock of another machine may be.
+        let ahead = std::time::SystemTime::now() + Duration::from_secs(3600);
+        let file = File::options().append(true).open(&path).expect("there");
+        file.set_modified(ahead).expect("dated");
+        let short = Duration::from_millis(80);
+        let mut watch = Watch::new(&path);
+        for count in 1..6 {
+            std::thread::sleep(short / 4);
+            fs::write(&path, line(owner, count)).expect("counted");
+            assert!(
+                !watch.clear_after(short * 100).expect("readable"),
+                "{count}"
+            );
+        }
+        std::thread::sleep(short * 2);
+        assert!(watch.clear_after(short).expect("readable"));
+        assert!(!path.exists());
+    }
+
+    #[test]
+    fn of_many_who_see_a_dead_claim_one_alone_has_it_next() {
+        for _ in 0..20 {
+            let folder = tempfile::tempdir().expect("a folder");
+            let path = folder.path().join("work");
+            fs::write(&path, line(&format!("{}-999999999-1-0", machine()), 3)).expect("written");
+            let had: usize = std::thread::scope(|scope| {
+                let all: Vec<_> = (0..6)
+                    .map(|_| {
+                        scope.spawn(|| {
+                            let mut watch = Watch::new(&path);
+                            watch.clear().expect("readable");
+                            let claim = Claim::take(&path).expect("writable");
+                            std::thread::sleep(Duration::from_millis(20));
+                            claim
+                        })
+                    })
+                    .collect();
+                let claims: Vec<_> = all
+                    .into_iter()
+                    .map(|one| one.join().expect("no panic"))
+                    .collect();
+                claims.iter().flatten().count()
+            });
+            assert_eq!(had, 1);
+        }
+    }
+}

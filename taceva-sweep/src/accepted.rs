@@ -1,0 +1,117 @@
+//! Units held to limits: one line a unit.
+
+use std::fs;
+
+use serde::{Deserialize, Serialize};
+use taceva_core::shown;
+use taceva_report::{Cell, Column, LimitsFile, Study, Table, accept};
+
+use crate::analysis::{Found, Loaded};
+use crate::error::SweepError;
+use crate::folder::SweepFolder;
+use crate::task_list::TaskList;
+
+/// A unit that was held to limits.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Unit {
+    /// The recording.
+    pub dataset: String,
+    /// The serial number of the unit.
+    pub serial: String,
+    /// The model with its settings, the split and the seed.
+    pub task: String,
+    /// Whether every limit is kept.
+    pub is_passed: bool,
+    /// The limits that are not kept, each with what was found; or why there is no result.
+    pub broken: Vec<String>,
+}
+
+/// Every task held to the limits of the sweep; none where there are no limits.
+pub(crate) fn units(
+    folder: &SweepFolder,
+    list: &TaskList,
+    loaded: &[Loaded<'_>],
+) -> Result<Vec<Unit>, SweepError> {
+    let Some(path) = &list.limits else {
+        return Ok(Vec::new());
+    };
+    let text = fs::read_to_string(path).map_err(SweepError::io("read", path))?;
+    let limits = LimitsFile::read(&text).map_err(|error| SweepError::Kept {
+        path: path.clone(),
+        problem: error.to_string(),
+    })?;
+    loaded
+        .iter()
+        .map(|one| unit(folder, one, &limits))
+        .collect()
+}
+
+fn unit(folder: &SweepFolder, one: &Loaded<'_>, limits: &LimitsFile) -> Result<Unit, SweepError> {
+    let task = one.task;
+    let mut unit = Unit {
+        dataset: task.dataset.clone(),
+        serial: String::new(),
+        task: format!(
+            "{}, {}, seed {}",
+            task.configuration(),
+            task.split.as_deref().unwrap_or("split as recorded"),
+            task.seed
+        ),
+        is_passed: false,
+        broken: Vec::new(),
+    };
+    match &one.found {
+        Found::Missing => unit.broken.push("no result yet".to_owned()),
+        Found::Failed(reason) => unit.broken.push(reason.clone()),
+        Found::Result(result) => {
+            unit.serial.clone_from(&result.serial);
+            let path = folder.evaluation(&task.key);
+            let text = fs::read_to_string(&path).map_err(SweepError::io("read", &path))?;
+            let wrong = |problem: String| SweepError::Kept {
+                path: path.clone(),
+                problem: format!(
+                    "{problem}; remove it and the file of the same name in `results`, and the task is carried out again"
+                ),
+            };
+            let studies = Study::read(&text).map_err(|error| wrong(error.to_string()))?;
+            let study = studies
+                .first()
+                .ok_or_else(|| wrong("no study".to_owned()))?;
+            for finding in accept(study, limits)
+                .iter()
+                .filter(|finding| !finding.is_kept)
+            {
+                let value = finding
+                    .value
+                    .map_or_else(|| "no value".to_owned(), |value| format!("{value}"));
+                let limit = &finding.limit;
+                let why = finding.reason.as_deref().unwrap_or("not kept");
+                unit.broken.push(format!(
+                    "{} {}: {value} {}, {why}",
+                    limit.metric, limit.channel, limit.unit
+                ));
+            }
+            unit.is_passed = unit.broken.is_empty();
+        }
+    }
+    Ok(unit)
+}
+
+/// A row a unit.
+pub(crate) fn table(units: &[Unit]) -> Table {
+    let columns = ["recording", "serial", "model", "verdict", "limits not kept"];
+    let mut table = Table::new("Units", columns.map(Column::new));
+    for unit in units {
+        table.push([
+            Cell::text(unit.dataset.as_str()),
+            Cell::text(unit.serial.as_str()),
+            Cell::text(unit.task.as_str()),
+            Cell::Verdict(unit.is_passed),
+            Cell::text(shown(&unit.broken.join("; ")).to_string()),
+        ]);
+    }
+    let passed = units.iter().filter(|unit| unit.is_passed).count();
+    table.note(format!("{passed} of {} keep every limit.", units.len()));
+    table
+}

@@ -1,0 +1,132 @@
+//! The tasks of a sweep with what came of each, and those that differ in their seed alone side by side.
+
+use std::collections::BTreeMap;
+
+use crate::error::SweepError;
+use crate::failure::Failure;
+use crate::folder::SweepFolder;
+use crate::result::TaskResult;
+use crate::task::Task;
+use crate::task_list::TaskList;
+
+/// A task with what came of it.
+#[derive(Clone, Debug)]
+pub(crate) struct Loaded<'a> {
+    pub(crate) task: &'a Task,
+    pub(crate) found: Found,
+}
+
+/// What came of a task.
+#[derive(Clone, Debug)]
+pub(crate) enum Found {
+    Result(Box<TaskResult>),
+    Failed(String),
+    Missing,
+}
+
+impl Loaded<'_> {
+    pub(crate) fn result(&self) -> Option<&TaskResult> {
+        match &self.found {
+            Found::Result(result) => Some(result),
+            Found::Failed(_) | Found::Missing => None,
+        }
+    }
+}
+
+/// Reads what came of every task of `list`.
+pub(crate) fn load<'a>(
+    folder: &SweepFolder,
+    list: &'a TaskList,
+) -> Result<Vec<Loaded<'a>>, SweepError> {
+    let load = |task: &'a Task| {
+        let found = match TaskResult::read(folder, &task.key)? {
+            Some(result) => Found::Result(Box::new(result)),
+            None => Failure::read(folder, &task.key)?
+                .map_or(Found::Missing, |failure| Found::Failed(failure.reason)),
+        };
+        Ok(Loaded { task, found })
+    };
+    list.tasks.iter().map(load).collect()
+}
+
+/// Tasks that differ in their seed alone.
+#[derive(Clone, Debug)]
+pub(crate) struct Group<'a> {
+    pub(crate) dataset: &'a str,
+    pub(crate) split: Option<&'a str>,
+    pub(crate) configuration: String,
+    /// The results, in the order of seeds, each with its seed.
+    pub(crate) results: Vec<(u64, &'a TaskResult)>,
+    /// Whether every seed has a result.
+    pub(crate) is_whole: bool,
+}
+
+impl Group<'_> {
+    /// The mean over seeds of the error that settings are chosen by, with its unit.
+    pub(crate) fn validation(&self, channel: &str) -> Option<(f64, &str)> {
+        let mut sum = 0.0;
+        let mut unit = None;
+        for (_, result) in &self.results {
+            let mut errors = result.validation.iter();
+            let error = errors.find(|error| error.channel == channel)?;
+            sum += error.rmse;
+            unit = Some(error.unit.as_str());
+        }
+        Some((sum / self.results.len() as f64, unit?))
+    }
+
+    /// The scores of each seed.
+    pub(crate) fn values(&self, metric: &str, channel: &str) -> Vec<f64> {
+        let results = self.results.iter();
+        let scores = results.filter_map(|(_, result)| result.score(metric, channel)?.value);
+        scores.collect()
+    }
+
+    /// Where it is of, and what it is.
+    pub(crate) fn place(&self) -> (&str, Option<&str>) {
+        (self.dataset, self.split)
+    }
+}
+
+/// The tasks by recording, split and configuration, in the order of the table.
+pub(crate) fn groups<'a>(loaded: &'a [Loaded<'a>]) -> Vec<Group<'a>> {
+    let mut positions: BTreeMap<(&str, Option<&str>, String), usize> = BTreeMap::new();
+    let mut groups: Vec<Group<'a>> = Vec::new();
+    for one in loaded {
+        let task = one.task;
+        let configuration = task.configuration();
+        let key = (
+            task.dataset.as_str(),
+            task.split.as_deref(),
+            configuration.clone(),
+        );
+        let at = *positions.entry(key).or_insert_with(|| {
+            groups.push(Group {
+                dataset: &task.dataset,
+                split: task.split.as_deref(),
+                configuration,
+                results: Vec::new(),
+                is_whole: true,
+            });
+            groups.len() - 1
+        });
+        match one.result() {
+            Some(result) => groups[at].results.push((task.seed, result)),
+            None => groups[at].is_whole = false,
+        }
+    }
+    groups
+}
+
+/// The channels that errors are known of, in the order of the first result.
+pub(crate) fn channels(loaded: &[Loaded<'_>]) -> Vec<String> {
+    let mut channels: Vec<String> = Vec::new();
+    for result in loaded.iter().filter_map(Loaded::result) {
+        for score in result.scores.iter().filter(|score| score.metric == "mae") {
+            if !channels.contains(&score.channel) {
+                channels.push(score.channel.clone());
+            }
+        }
+    }
+    channels
+}

@@ -1,0 +1,140 @@
+//! The best configuration for each question: chosen on validation parts, scored on test parts.
+
+use taceva_metrics::Repeats;
+use taceva_report::{Cell, Column, FormattedValue, Table};
+
+use crate::analysis::Group;
+
+/// The configuration that is chosen for a channel of a recording.
+#[derive(Clone, Debug)]
+pub(crate) struct Choice {
+    pub(crate) channel: String,
+    /// Positions among the groups: the chosen one, and those it was chosen among.
+    pub(crate) chosen: usize,
+    pub(crate) others: Vec<usize>,
+    rmse: f64,
+    unit: String,
+}
+
+/// The choice for each recording, split and channel. Configurations without a result for every seed take no part.
+pub(crate) fn choices(groups: &[Group<'_>], channels: &[String]) -> Vec<Choice> {
+    let mut places: Vec<(&str, Option<&str>)> = Vec::new();
+    for group in groups {
+        if !places.contains(&group.place()) {
+            places.push(group.place());
+        }
+    }
+    let mut choices = Vec::new();
+    for place in places {
+        for channel in channels {
+            let of_place = groups.iter().enumerate();
+            let known: Vec<(usize, f64, &str)> = of_place
+                .filter(|(_, group)| group.place() == place && group.is_whole)
+                .filter_map(|(at, group)| {
+                    let (rmse, unit) = group.validation(channel)?;
+                    Some((at, rmse, unit))
+                })
+                .collect();
+            // Of equals the first of the file.
+            let best = known
+                .iter()
+                .min_by(|left, right| left.1.total_cmp(&right.1));
+            if let Some(&(chosen, rmse, unit)) = best {
+                let others = known.iter().map(|(at, ..)| *at);
+                choices.push(Choice {
+                    channel: channel.clone(),
+                    chosen,
+                    others: others.filter(|at| *at != chosen).collect(),
+                    rmse,
+                    unit: unit.to_owned(),
+                });
+            }
+        }
+    }
+    choices
+}
+
+/// What a channel answers.
+fn question(channel: &str) -> &'static str {
+    match channel {
+        "Pz" => "depth",
+        "Px" | "Py" => "position in the plane",
+        "Fz" => "normal force",
+        "Fx" | "Fy" => "shear force",
+        _ => "",
+    }
+}
+
+/// A row a choice: what was chosen by which error, and what it scores where nothing was chosen.
+pub(crate) fn table(groups: &[Group<'_>], choices: &[Choice]) -> Table {
+    let columns = [
+        "recording",
+        "split",
+        "question",
+        "channel",
+        "chosen",
+        "among",
+        "validation RMSE",
+        "test MAE",
+        "95 % over contact points",
+        "95 % over seeds",
+        "seeds",
+        "unit",
+    ];
+    let mut table = Table::new("The best of each question", columns.map(Column::new));
+    for choice in choices {
+        let group = &groups[choice.chosen];
+        let values = group.values("mae", &choice.channel);
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        let over_seeds =
+            Repeats::of(&values).map(|repeats| repeats.within([0.0, f64::MAX]).interval);
+        let (first_seed, first) = match group.results.first() {
+            Some((seed, result)) => (*seed, result.score("mae", &choice.channel)),
+            None => (0, None),
+        };
+        let over_points = first.and_then(|score| {
+            let interval = score.interval?;
+            Some(match group.results.len() {
+                1 => ends(score.value?, interval),
+                _ => format!("{} (seed {first_seed})", ends(score.value?, interval)),
+            })
+        });
+        table.push([
+            Cell::text(group.dataset),
+            Cell::text(group.split.unwrap_or("as recorded")),
+            Cell::text(question(&choice.channel)),
+            Cell::text(choice.channel.as_str()),
+            Cell::text(group.configuration.as_str()),
+            Cell::Number((choice.others.len() + 1).to_string()),
+            number(choice.rmse),
+            if values.is_empty() {
+                Cell::text("none")
+            } else {
+                number(mean)
+            },
+            Cell::text(over_points.unwrap_or_else(|| "none: too few contact points".to_owned())),
+            Cell::text(over_seeds.map_or_else(
+                || "none: one seed".to_owned(),
+                |interval| ends(mean, interval),
+            )),
+            Cell::Number(values.len().to_string()),
+            Cell::text(choice.unit.as_str()),
+        ]);
+    }
+    table.note("Chosen by the least root mean square error on validation parts (of models without one, on groups of training parts that were left out), the mean over seeds. Test parts took no part in any choice: the test error is that of what was chosen.");
+    table.note("The interval over contact points says how far the score would move with other presses and the same training; the one over seeds how far with other divisions and random numbers, on the same recording. They are not to be added.");
+    table
+}
+
+/// A number with three digits or so.
+pub(crate) fn number(value: f64) -> Cell {
+    Cell::Number(FormattedValue::number(value, None).value)
+}
+
+/// Both ends of an interval of `value`.
+pub(crate) fn ends(value: f64, interval: [f64; 2]) -> String {
+    match FormattedValue::number(value, Some(interval)).interval {
+        Some([low, high]) => format!("{low} … {high}"),
+        None => String::new(),
+    }
+}

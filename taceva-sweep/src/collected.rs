@@ -1,0 +1,147 @@
+//! What is made of all results: the table, its digest, and the pages.
+
+use std::fs;
+use std::path::PathBuf;
+
+use serde::{Deserialize, Serialize};
+use taceva_core::shown;
+use taceva_dataset::Digest;
+
+use crate::accepted::{self, Unit};
+use crate::analysis::{self, Found, Loaded};
+use crate::error::SweepError;
+use crate::folder::{SweepFolder, beside};
+use crate::page;
+use crate::table::TidyTable;
+use crate::task_list::TaskList;
+use crate::times;
+
+/// What was made of all results.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Collected {
+    /// Tasks with a result, tasks that failed, and tasks without either.
+    pub scored: usize,
+    /// Tasks that failed.
+    pub failed: usize,
+    /// Tasks that were not carried out yet.
+    pub missing: usize,
+    /// The digest of the table.
+    pub digest: String,
+    /// Units that were held to limits, where the file names limits.
+    pub units: Vec<Unit>,
+    /// What it was made of.
+    made_of: String,
+}
+
+impl Collected {
+    /// Whether every task has a result.
+    pub fn is_whole(&self) -> bool {
+        self.failed == 0 && self.missing == 0
+    }
+}
+
+/// Makes the table and the pages of all results in `folder`; what is there already and made of the same results stays, unless `anew`.
+///
+/// # Errors
+/// [`SweepError`] for a result that is not what was written, or of another version, and if the folder cannot be written.
+pub fn collect(folder: &SweepFolder, list: &TaskList, anew: bool) -> Result<Collected, SweepError> {
+    let made_of = made_of(folder, list)?;
+    if !anew && let Some(before) = kept(folder, &made_of) {
+        return Ok(before);
+    }
+    let loaded = analysis::load(folder, list)?;
+    let csv = TidyTable::of(&loaded).csv();
+    let mut collected = Collected {
+        digest: Digest::of(&csv).to_string(),
+        made_of,
+        units: accepted::units(folder, list, &loaded)?,
+        ..Collected::default()
+    };
+    for one in &loaded {
+        match one.found {
+            Found::Result(_) => collected.scored += 1,
+            Found::Failed(_) => collected.failed += 1,
+            Found::Missing => collected.missing += 1,
+        }
+    }
+    write_all(folder, list, &loaded, &collected, &csv)?;
+    Ok(collected)
+}
+
+fn write_all(
+    folder: &SweepFolder,
+    list: &TaskList,
+    loaded: &[Loaded<'_>],
+    collected: &Collected,
+    csv: &[u8],
+) -> Result<(), SweepError> {
+    let at = |name: &str| folder.path().join(name);
+    folder.write(&at("table.csv"), csv)?;
+    let parquet = at("table.parquet");
+    let hidden = beside(&parquet);
+    let table = TidyTable::of(loaded);
+    taceva_durable::replace(&parquet, &hidden, |hidden| {
+        table.write_parquet(hidden).map_err(std::io::Error::other)
+    })
+    .map_err(SweepError::io("write", &parquet))?;
+    folder.write(&at("times.csv"), &times::csv(folder, &list.tasks)?)?;
+    folder.write(
+        &at("page.html"),
+        page::results(list, loaded, collected).as_bytes(),
+    )?;
+    folder.write(
+        &at("times.html"),
+        page::times(folder, list, loaded).as_bytes(),
+    )?;
+    if !collected.units.is_empty() {
+        let table = accepted::table(&collected.units);
+        folder.write(&at("units.csv"), table.csv().as_bytes())?;
+    }
+    let path = mark(folder);
+    let text = serde_json::to_string(collected).map_err(|error| SweepError::Kept {
+        path: path.clone(),
+        problem: format!("{}", shown(&error.to_string())),
+    })?;
+    // The last, so that it speaks of files that are there.
+    folder.write(&path, text.as_bytes())
+}
+
+fn mark(folder: &SweepFolder) -> PathBuf {
+    folder.path().join("collected.json")
+}
+
+/// What was made of the same results before.
+fn kept(folder: &SweepFolder, made_of: &str) -> Option<Collected> {
+    let text = fs::read_to_string(mark(folder)).ok()?;
+    let before: Collected = serde_json::from_str(&text).ok()?;
+    let names = [
+        "table.csv",
+        "table.parquet",
+        "times.csv",
+        "page.html",
+        "times.html",
+    ];
+    let is_there = names.iter().all(|name| folder.path().join(name).is_file());
+    let table = fs::read(folder.path().join("table.csv")).ok()?;
+    let is_same = Digest::of(&table).to_string() == before.digest;
+    (before.made_of == made_of && is_there && is_same).then_some(before)
+}
+
+/// The digest of the list of tasks, the limits, and which of the tasks have a result or failed.
+fn made_of(folder: &SweepFolder, list: &TaskList) -> Result<String, SweepError> {
+    let (results, failures) = (folder.results()?, folder.failures()?);
+    let mut text = serde_json::to_string(list).unwrap_or_default();
+    if let Some(limits) = &list.limits {
+        text.push_str(&fs::read_to_string(limits).map_err(SweepError::io("read", limits))?);
+    }
+    for task in &list.tasks {
+        let key = task.key.as_str();
+        text.push(match (results.contains(key), failures.contains(key)) {
+            (true, _) => 's',
+            (false, true) => 'f',
+            (false, false) => 'm',
+        });
+    }
+    Ok(Digest::of(text.as_bytes()).to_string())
+}

@@ -1,0 +1,82 @@
+//! What a sweep would take, from what was measured so far.
+
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+use crate::error::SweepError;
+use crate::folder::SweepFolder;
+use crate::task_list::TaskList;
+use crate::times::TaskTime;
+
+/// What a sweep has, and what the rest would take.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct Estimate {
+    /// Tasks that are wanted.
+    pub tasks: usize,
+    /// Results that are there.
+    pub found: usize,
+    /// Tasks that failed before.
+    pub failed: usize,
+    /// The time that the others take on one worker; `None` where nothing was measured yet.
+    pub time: Option<Duration>,
+    /// Bytes that they write; `None` where nothing was measured yet.
+    pub bytes: Option<u64>,
+}
+
+impl Estimate {
+    /// Of the tasks at `wanted`: times of the same configuration where there are some, else the mean of all that were measured.
+    ///
+    /// # Errors
+    /// [`SweepError`] if the folder cannot be read.
+    pub fn of(
+        folder: &SweepFolder,
+        list: &TaskList,
+        wanted: &[usize],
+        retry_failed: bool,
+    ) -> Result<Estimate, SweepError> {
+        let (results, failures) = (folder.results()?, folder.failures()?);
+        let mut known: BTreeMap<String, (f64, u64)> = BTreeMap::new();
+        let (mut all, mut bytes) = ((0.0, 0_u64), (0_u64, 0_u64));
+        for task in &list.tasks {
+            if !results.contains(task.key.as_str()) {
+                continue;
+            }
+            if let Some(time) = TaskTime::read(folder, &task.key) {
+                let of = known.entry(task.configuration()).or_default();
+                for sum in [of, &mut all] {
+                    sum.0 += time.seconds;
+                    sum.1 += 1;
+                }
+                bytes.0 += time.bytes;
+                bytes.1 += 1;
+            }
+        }
+        let mean = |(seconds, count): (f64, u64)| seconds / count as f64;
+        let mut estimate = Estimate {
+            tasks: wanted.len(),
+            ..Estimate::default()
+        };
+        let (mut seconds, mut left) = (0.0, 0_u64);
+        for &at in wanted {
+            let task = &list.tasks[at];
+            if results.contains(task.key.as_str()) {
+                estimate.found += 1;
+                continue;
+            }
+            if failures.contains(task.key.as_str()) {
+                estimate.failed += 1;
+                if !retry_failed {
+                    continue;
+                }
+            }
+            left += 1;
+            seconds += mean(known.get(&task.configuration()).copied().unwrap_or(all));
+        }
+        if all.1 > 0 || left == 0 {
+            estimate.time = Duration::try_from_secs_f64(seconds).ok();
+            estimate.bytes = Some(bytes.0.checked_div(bytes.1).unwrap_or(0) * left);
+        }
+        Ok(estimate)
+    }
+}

@@ -1,0 +1,53 @@
+//! Why a task has no scores.
+
+use std::fs;
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::SweepError;
+use crate::folder::SweepFolder;
+use crate::key::TaskKey;
+
+/// Why a task has no scores.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Failure {
+    pub(crate) key: TaskKey,
+    pub(crate) reason: String,
+}
+
+impl Failure {
+    pub(crate) fn write(&self, folder: &SweepFolder) -> Result<(), SweepError> {
+        let path = folder.failure(&self.key);
+        let text = serde_json::to_string(self).map_err(|error| SweepError::Kept {
+            path: path.clone(),
+            problem: error.to_string(),
+        })?;
+        folder.write(&path, text.as_bytes())
+    }
+
+    /// Why `key` failed; `None` if it did not.
+    pub(crate) fn read(folder: &SweepFolder, key: &TaskKey) -> Result<Option<Failure>, SweepError> {
+        let path = folder.failure(key);
+        match fs::read_to_string(&path) {
+            Ok(text) => serde_json::from_str(&text)
+                .map(Some)
+                .map_err(|error| SweepError::Kept {
+                    path,
+                    problem: format!("{error}; remove the file, and the task is carried out again"),
+                }),
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
+            Err(error) => Err(SweepError::io("read", &path)(error)),
+        }
+    }
+
+    /// Takes the failure of `key` away, if there is one.
+    pub(crate) fn forget(folder: &SweepFolder, key: &TaskKey) -> Result<(), SweepError> {
+        let path = folder.failure(key);
+        match fs::remove_file(&path) {
+            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                Err(SweepError::io("remove", &path)(error))
+            }
+            _ => Ok(()),
+        }
+    }
+}

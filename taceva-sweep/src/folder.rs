@@ -1,0 +1,146 @@
+//! The folder of a sweep: results by key, and what is written beside.
+//!
+//! ```text
+//! FOLDER/results/KEY.json       scores of a task: absent or whole
+//!       /evaluations/KEY.json   the whole evaluation, as `taceva evaluate` writes it
+//!       /failed/KEY.json        why a task has no scores
+//!       /logs/KEY.log           what it did, stage by stage
+//!       /times/KEY.json         how long it took, and where
+//!       /claims/KEY             who is at it
+//!       /cache/                 what tasks have in common
+//!       /slurm/                 scripts, lists of tasks, words of jobs
+//!       table.csv, table.parquet, times.csv, page.html, times.html
+//! ```
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use crate::error::SweepError;
+use crate::key::TaskKey;
+
+/// The folder of a sweep.
+#[derive(Clone, Debug)]
+pub struct SweepFolder {
+    path: PathBuf,
+}
+
+impl SweepFolder {
+    /// The folder at `path`, which may not be there yet.
+    pub fn new(path: PathBuf) -> SweepFolder {
+        SweepFolder { path }
+    }
+
+    /// The folder beside the file of a sweep that takes its results unless another is named: `which.sweep` of `which.toml`.
+    pub fn beside(file: &Path) -> SweepFolder {
+        SweepFolder::new(file.with_extension("sweep"))
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Where tasks find what they have in common.
+    pub fn cache(&self) -> PathBuf {
+        self.path.join("cache")
+    }
+
+    /// Makes the folder and those in it.
+    ///
+    /// # Errors
+    /// [`SweepError::Io`].
+    pub fn make(&self) -> Result<(), SweepError> {
+        for name in [
+            "results",
+            "evaluations",
+            "failed",
+            "logs",
+            "times",
+            "claims",
+        ] {
+            let folder = self.path.join(name);
+            fs::create_dir_all(&folder).map_err(SweepError::io("make", &folder))?;
+        }
+        Ok(())
+    }
+
+    pub(crate) fn result(&self, key: &TaskKey) -> PathBuf {
+        self.path.join(format!("results/{key}.json"))
+    }
+
+    pub(crate) fn evaluation(&self, key: &TaskKey) -> PathBuf {
+        self.path.join(format!("evaluations/{key}.json"))
+    }
+
+    pub(crate) fn failure(&self, key: &TaskKey) -> PathBuf {
+        self.path.join(format!("failed/{key}.json"))
+    }
+
+    /// What a task did, stage by stage.
+    pub fn log(&self, key: &TaskKey) -> PathBuf {
+        self.path.join(format!("logs/{key}.log"))
+    }
+
+    pub(crate) fn times(&self, key: &TaskKey) -> PathBuf {
+        self.path.join(format!("times/{key}.json"))
+    }
+
+    pub(crate) fn claim(&self, key: &TaskKey) -> PathBuf {
+        self.path.join(format!("claims/{key}"))
+    }
+
+    /// Scripts of the scheduler.
+    pub fn slurm(&self) -> PathBuf {
+        self.path.join("slurm")
+    }
+
+    /// The keys of results that are there, found by their names alone.
+    pub(crate) fn results(&self) -> Result<BTreeSet<String>, SweepError> {
+        self.keys("results")
+    }
+
+    /// The keys of tasks that failed.
+    pub(crate) fn failures(&self) -> Result<BTreeSet<String>, SweepError> {
+        self.keys("failed")
+    }
+
+    fn keys(&self, name: &str) -> Result<BTreeSet<String>, SweepError> {
+        let folder = self.path.join(name);
+        let entries = match fs::read_dir(&folder) {
+            Ok(entries) => entries,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+                return Ok(BTreeSet::new());
+            }
+            Err(error) => return Err(SweepError::io("list", &folder)(error)),
+        };
+        let mut keys = BTreeSet::new();
+        for entry in entries {
+            let entry = entry.map_err(SweepError::io("list", &folder))?;
+            let name = entry.file_name();
+            let key = name.to_str().and_then(|name| name.strip_suffix(".json"));
+            keys.extend(key.filter(|key| TaskKey::is_one(key)).map(str::to_owned));
+        }
+        Ok(keys)
+    }
+
+    /// Writes a file that is absent or whole at any moment; two that write one file write the same.
+    ///
+    /// # Errors
+    /// [`SweepError::Io`].
+    pub fn write(&self, path: &Path, bytes: &[u8]) -> Result<(), SweepError> {
+        let beside = beside(path);
+        taceva_durable::replace(path, &beside, |beside| {
+            let mut file = fs::File::create(beside)?;
+            file.write_all(bytes)
+        })
+        .map_err(SweepError::io("write", path))
+    }
+}
+
+/// A name in the same folder that no other thread, process or machine uses.
+pub(crate) fn beside(path: &Path) -> PathBuf {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!(".{name}.{}.partial", taceva_study::unique_name()))
+}

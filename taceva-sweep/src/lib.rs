@@ -1,0 +1,48 @@
+#![doc = include_str!("../README.md")]
+
+mod accepted;
+mod analysis;
+mod chosen;
+mod collected;
+mod condition;
+mod decided;
+mod effects;
+mod error;
+mod estimate;
+mod failure;
+mod file;
+mod folder;
+mod glob;
+mod grid;
+mod key;
+mod limits;
+mod local;
+mod outcome;
+mod page;
+mod result;
+mod show;
+mod slurm;
+mod slurm_spec;
+mod table;
+mod task;
+mod task_list;
+mod times;
+mod written;
+
+pub use accepted::Unit;
+pub use collected::{Collected, collect};
+pub use condition::Condition;
+pub use error::SweepError;
+pub use estimate::Estimate;
+pub use file::{ModelEntry, SweepFile};
+pub use folder::SweepFolder;
+pub use grid::Grid;
+pub use key::TaskKey;
+pub use limits::MOST_TASKS;
+pub use local::{Ran, Runner};
+pub use outcome::Outcome;
+pub use show::show;
+pub use slurm::{JobState, Submission, Submitted, queue_of, scripts, submit};
+pub use slurm_spec::SlurmSpec;
+pub use task::Task;
+pub use task_list::{Counts, TaskList};

@@ -1,0 +1,196 @@
+//! The table of a sweep: a row a task, metric and channel.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use taceva_report::escape_csv;
+use taceva_tables::{Cell, ParquetWriter, WrittenColumn, WrittenKind};
+
+use crate::analysis::{Found, Loaded};
+use crate::error::SweepError;
+use crate::result::SweepScore;
+use crate::task::Task;
+
+/// A table with typed columns; the same tasks and results give the same bytes.
+pub(crate) struct TidyTable {
+    columns: Vec<(String, WrittenKind)>,
+    rows: Vec<Vec<Cell>>,
+}
+
+impl TidyTable {
+    /// Of all tasks, in their order.
+    pub(crate) fn of(loaded: &[Loaded<'_>]) -> TidyTable {
+        let settings: BTreeSet<&str> = loaded
+            .iter()
+            .flat_map(|one| one.task.settings.keys().map(String::as_str))
+            .collect();
+        let text = |name: &str| (name.to_owned(), WrittenKind::Text);
+        let mut columns: Vec<_> = [
+            "key",
+            "dataset",
+            "dataset_digest",
+            "source",
+            "sensor",
+            "serial",
+            "model",
+        ]
+        .map(text)
+        .into();
+        // So that a setting called like a column is none.
+        columns.extend(settings.iter().map(|name| text(&format!("set.{name}"))));
+        columns.push(text("split"));
+        columns.push(("seed".to_owned(), WrittenKind::Integer));
+        columns.extend(["status", "part", "metric", "channel", "unit", "better"].map(text));
+        columns.extend(["value", "low", "high"].map(|name| (name.to_owned(), WrittenKind::Number)));
+        columns.push(("n".to_owned(), WrittenKind::Integer));
+        columns.extend(["by", "reason"].map(text));
+        let mut table = TidyTable {
+            columns,
+            rows: Vec::new(),
+        };
+        for one in loaded {
+            table.push_task(one, &settings);
+        }
+        table
+    }
+
+    fn push_task(&mut self, one: &Loaded<'_>, settings: &BTreeSet<&str>) {
+        let result = match &one.found {
+            Found::Result(result) => result,
+            Found::Failed(reason) => {
+                let head = head(one.task, settings, ["", "", ""]);
+                self.rows.push(without_scores(head, "failed", reason));
+                return;
+            }
+            Found::Missing => {
+                let head = head(one.task, settings, ["", "", ""]);
+                self.rows
+                    .push(without_scores(head, "missing", "no result yet"));
+                return;
+            }
+        };
+        let head = head(
+            one.task,
+            settings,
+            [&result.source, &result.sensor, &result.serial],
+        );
+        for error in &result.validation {
+            let row = SweepScore {
+                metric: "rmse".to_owned(),
+                channel: error.channel.clone(),
+                unit: error.unit.clone(),
+                better: "lower".to_owned(),
+                value: Some(error.rmse),
+                reason: None,
+                interval: None,
+                n: 0,
+            };
+            self.rows
+                .push(scored(head.clone(), "validation", &row, &result.chosen_by));
+        }
+        for score in &result.scores {
+            self.rows.push(scored(head.clone(), "test", score, ""));
+        }
+    }
+
+    /// As CSV: numbers in shortest round-trip form.
+    pub(crate) fn csv(&self) -> Vec<u8> {
+        let mut out = Vec::new();
+        let line = |out: &mut Vec<u8>, cells: Vec<String>| {
+            out.extend(cells.join(",").into_bytes());
+            out.push(b'\n');
+        };
+        line(
+            &mut out,
+            self.columns.iter().map(|(name, _)| field(name)).collect(),
+        );
+        for row in &self.rows {
+            let cells = row.iter().map(|cell| match cell {
+                Cell::Text(text) => field(text),
+                Cell::Number(number) => format!("{number:?}"),
+                Cell::Integer(number) => number.to_string(),
+                _ => String::new(),
+            });
+            line(&mut out, cells.collect());
+        }
+        out
+    }
+
+    /// As Parquet, into the new file at `path`.
+    pub(crate) fn write_parquet(&self, path: &Path) -> Result<(), SweepError> {
+        let columns = self.columns.iter();
+        let columns = columns.map(|(name, kind)| WrittenColumn::new(name.as_str(), kind.clone()));
+        let columns: Vec<WrittenColumn> = columns.collect();
+        let mut writer = ParquetWriter::create(path, &columns, &[])?;
+        for row in &self.rows {
+            writer.push(row.clone())?;
+        }
+        Ok(writer.finish()?)
+    }
+}
+
+/// Words of a cell, quoted where they must be, and such that no spreadsheet takes them for a formula.
+fn field(text: &str) -> String {
+    let text = escape_csv(text);
+    match text.contains([',', '"', '\n', '\r']) {
+        true => format!("\"{}\"", text.replace('"', "\"\"")),
+        false => text,
+    }
+}
+
+fn text(text: &str) -> Cell {
+    match text {
+        "" => Cell::Null,
+        text => Cell::Text(text.to_owned()),
+    }
+}
+
+fn head(task: &Task, settings: &BTreeSet<&str>, of_result: [&str; 3]) -> Vec<Cell> {
+    let mut cells = vec![
+        text(task.key.as_str()),
+        text(&task.dataset),
+        text(&task.digest),
+    ];
+    cells.extend(of_result.map(text));
+    cells.push(text(&task.model));
+    cells.extend(settings.iter().map(|name| {
+        task.settings
+            .get(*name)
+            .map_or(Cell::Null, |value| text(value))
+    }));
+    cells.push(text(task.split.as_deref().unwrap_or_default()));
+    cells.push(Cell::Integer(i128::from(task.seed)));
+    cells
+}
+
+fn without_scores(mut cells: Vec<Cell>, status: &str, reason: &str) -> Vec<Cell> {
+    cells.push(text(status));
+    cells.extend(std::iter::repeat_n(Cell::Null, 10));
+    cells.push(text(reason));
+    cells
+}
+
+fn scored(mut cells: Vec<Cell>, part: &str, score: &SweepScore, by: &str) -> Vec<Cell> {
+    let number = |value: Option<f64>| value.map_or(Cell::Null, Cell::Number);
+    cells.extend(
+        [
+            "scored",
+            part,
+            &score.metric,
+            &score.channel,
+            &score.unit,
+            &score.better,
+        ]
+        .map(text),
+    );
+    cells.push(number(score.value));
+    cells.push(number(score.interval.map(|[low, _]| low)));
+    cells.push(number(score.interval.map(|[_, high]| high)));
+    cells.push(match score.n {
+        0 => Cell::Null,
+        n => Cell::Integer(i128::from(n)),
+    });
+    cells.push(text(by));
+    cells.push(text(score.reason.as_deref().unwrap_or_default()));
+    cells
+}

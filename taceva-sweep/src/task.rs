@@ -1,0 +1,79 @@
+//! One evaluation of a sweep.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use serde::{Deserialize, Serialize};
+use taceva_models::{ModelSettings, Models};
+use taceva_study::{FitRequest, StudyError};
+
+use crate::key::TaskKey;
+
+/// One evaluation of a sweep: a model with its settings, fitted on and scored on one recording, divided by one split and seed.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Task {
+    /// The name of its result.
+    pub key: TaskKey,
+    /// The recording as the file of the sweep names it.
+    pub dataset: String,
+    /// Where the recording is.
+    pub path: PathBuf,
+    /// The digest of the recording when the sweep was planned.
+    pub digest: String,
+    /// The model.
+    pub model: String,
+    /// Every setting that the file of the sweep gives it.
+    pub settings: BTreeMap<String, String>,
+    /// The split; that of the recording if it is absent.
+    pub split: Option<String>,
+    /// The seed of the division and of whatever the model draws.
+    pub seed: u64,
+}
+
+impl Task {
+    /// What `name` is of this task: a setting, or `dataset`, `model`, `split`, `seed`.
+    pub fn word(&self, name: &str) -> Option<String> {
+        match name {
+            "dataset" => Some(self.dataset.clone()),
+            "model" => Some(self.model.clone()),
+            "split" => self.split.clone(),
+            "seed" => Some(self.seed.to_string()),
+            _ => self.settings.get(name).cloned(),
+        }
+    }
+
+    /// The model with its settings, without the recording, the split and the seed: `ridge size=32x32`.
+    pub fn configuration(&self) -> String {
+        let settings = self.settings.iter();
+        let settings = settings.map(|(key, value)| format!(" {key}={value}"));
+        format!("{}{}", self.model, settings.collect::<String>())
+    }
+
+    /// Whether it asks for a device other than the processor.
+    pub fn asks_for_device(&self) -> bool {
+        let device = self.settings.get("device");
+        device.is_some_and(|device| device != "cpu")
+    }
+
+    /// What is to be fitted.
+    ///
+    /// # Errors
+    /// [`StudyError`] for a model that does not exist or a setting that it does not have.
+    pub(crate) fn request(&self, models: &Models) -> Result<FitRequest, StudyError> {
+        const SEED: &str = "seed";
+        let model = models.find(&self.model)?;
+        let settings = self.settings.iter();
+        let settings = settings.map(|(key, value)| format!("{key}={value}"));
+        // A model that draws nothing has no such setting.
+        let draws = model.setting_keys().contains(&SEED) && !self.settings.contains_key(SEED);
+        let seed = draws.then(|| format!("{SEED}={}", self.seed));
+        let words: Vec<String> = settings.chain(seed).collect();
+        Ok(FitRequest {
+            model,
+            settings: ModelSettings::parse(words.iter().map(String::as_str))?,
+            channels: Vec::new(),
+            split: self.split.clone(),
+            seed: self.seed,
+        })
+    }
+}
