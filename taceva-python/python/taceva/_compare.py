@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from taceva import _taceva
+from taceva._figure import Figure, figures_of
 from taceva._result import Result
 
 
@@ -26,6 +27,10 @@ class Comparison:
     def to_latex(self) -> str:
         """Return a table for a paper."""
         return self._form("tex")
+
+    def figures(self) -> list[Figure]:
+        """Return every figure in which the results can be drawn beside each other."""
+        return figures_of(self._asked[0])
 
     def __str__(self) -> str:
         return self._form("text")

@@ -9,6 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from taceva import _taceva
+from taceva._figure import Figure, figures_of
+from taceva._pickles import PICKLE_VERSION, require_version
 
 
 @dataclass(frozen=True)
@@ -122,6 +124,10 @@ class Result:
         """Return a table for a paper, in the symbols of the field; it needs ``booktabs``."""
         return _taceva.score_table([self._text], "tex")
 
+    def figures(self) -> list[Figure]:
+        """Return every figure that the scores give something to draw of, as the report of the command has them."""
+        return figures_of([self._text])
+
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the JSON to ``path``, which must not exist: the same bytes as ``taceva … --format json --out``."""
         with Path(path).open("x", encoding="utf-8", newline="\n") as file:
@@ -134,7 +140,7 @@ class Result:
         return f"<taceva.Result of {len(self.scores())} scores, {self.source}>"
 
     def _repr_html_(self) -> str:
-        return _taceva.score_table([self._text], "html")
+        return _taceva.score_table([self._text], "html") + "".join(figure._repr_html_() for figure in self.figures())
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Result) and other._text == self._text
@@ -142,13 +148,18 @@ class Result:
     def __hash__(self) -> int:
         return hash(self._text)
 
-    def __reduce__(self) -> tuple[type[Result], tuple[str]]:
-        return Result, (self._text,)
+    def __reduce__(self) -> tuple[Any, tuple[int, str]]:
+        return _arrived, (PICKLE_VERSION, self._text)
 
 
 def load(path: str | os.PathLike[str]) -> Result:
     """Read the JSON of one evaluation that ``save`` or the command wrote; one that was changed since is refused."""
     return Result(Path(path).read_text(encoding="utf-8"))
+
+
+def _arrived(version: object, text: str = "") -> Result:
+    require_version(version)
+    return Result(text)
 
 
 def _score(metric: str, channel: str, found: dict[str, Any]) -> Score:
