@@ -30,7 +30,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 /// Numbers from 0 to 1, each a function of its place.
 fn drawn(seed: u64, rows: u64) -> Column {
-    let bits = |row| u32::try_from(mix(seed << 40 | row) >> 32).unwrap_or(0);
+    let bits = |row| u32::try_from(mix((seed << 40) | row) >> 32).unwrap_or(0);
     let number = |row| f64::from(bits(row)) / 4_294_967_296.0;
     Column::full((0..rows).map(number).collect())
 }
