@@ -152,7 +152,9 @@ fn lints_are_never_switched_off_and_unsafe_code_stands_where_the_architecture_sa
                 "taceva-metrics" | "taceva-network" | "taceva-sim" => is_simd,
                 "taceva-v4l2" => source.ends_with("kernel.rs") || source.ends_with("mapped.rs"),
                 "taceva-video" => source.ends_with("av1/rav1d.rs"),
-                "taceva-python" => source.ends_with("buffer.rs") || source.ends_with("arrow/structs.rs"),
+                "taceva-python" => {
+                    source.ends_with("buffer.rs") || source.ends_with("arrow/structs.rs")
+                }
                 _ => false,
             };
             assert!(
