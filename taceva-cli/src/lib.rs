@@ -19,6 +19,7 @@ mod stderr;
 use taceva_sim as _;
 
 use std::ffi::OsString;
+use std::path::PathBuf;
 
 use anyhow::Error;
 use clap::Parser;
@@ -41,6 +42,11 @@ pub fn main_if_child() {
     taceva_host::main_if_child();
     #[cfg(feature = "av1")]
     av1_child::main_if_child();
+}
+
+/// Makes `program`, whose `main` begins with [`main_if_child`], what plugins in libraries run in, for a process that is no program of ours.
+pub fn plugins_run_in(program: PathBuf) {
+    cmd::plugins::run_in(program);
 }
 
 /// Carries out the command that `arguments` say, of which the first is the name of the program, and returns the exit code. SIGINT and SIGTERM

@@ -76,8 +76,7 @@ impl Table {
 fn gather<T: Copy + Into<f64>>(rows: Vec<T>, columns: &mut [Vec<f64>]) {
     let width = columns.len();
     for (at, column) in columns.iter_mut().enumerate() {
-        let own = rows.iter().skip(at).step_by(width);
-        column.extend(own.map(|value| (*value).into()));
+        column.extend(rows.chunks_exact(width).map(|row| row[at].into()));
     }
 }
 

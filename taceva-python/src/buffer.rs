@@ -1,4 +1,4 @@
-//! The buffer protocol, in both directions: the one file that holds `unsafe`.
+//! The buffer protocol, in both directions. `unsafe` stands here and in `arrow/structs.rs` alone.
 
 use std::ffi::{CStr, c_int, c_void};
 use std::ops::Range;

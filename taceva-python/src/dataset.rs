@@ -4,14 +4,14 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use pyo3::types::PyBytes;
+use pyo3::types::{PyBytes, PyCapsule};
 use taceva_core::FrameInfo;
-use taceva_dataset::{Dataset, Pass};
+use taceva_dataset::{Dataset, ExportForm, ExportPlan, Pass};
 use taceva_models::Models;
 use taceva_study::{CheckRequest, Divided, Subject};
 
 use crate::buffer::{Buffer, Number};
-use crate::errors::{dataset_error, study_error, value_error};
+use crate::errors::{dataset_error, dataset_error_at, dataset_error_of, study_error, value_error};
 use crate::watched;
 
 /// A recording on disk. Its rows are samples: labels, and perhaps a frame or signals.
@@ -23,12 +23,9 @@ pub(crate) struct Recording {
 impl Recording {
     fn frames_info(&self) -> PyResult<FrameInfo> {
         let frames = self.dataset.header().frames.as_ref();
-        frames.map(|frames| frames.info).ok_or_else(|| {
-            dataset_error(format_args!(
-                "{}: the recording has no frames",
-                taceva_core::shown(self.dataset.path())
-            ))
-        })
+        frames
+            .map(|frames| frames.info)
+            .ok_or_else(|| dataset_error_of(self.dataset.path(), "the recording has no frames"))
     }
 
     fn buffer_of(&self, rows: usize, bytes: Vec<u8>) -> PyResult<Buffer> {
@@ -64,7 +61,7 @@ impl Recording {
         let opened = py.detach(|| Dataset::open(&path));
         opened
             .map(|dataset| Recording { dataset })
-            .map_err(dataset_error)
+            .map_err(|error| dataset_error(&error))
     }
 
     fn rows(&self) -> usize {
@@ -120,6 +117,11 @@ impl Recording {
         self.dataset.table().attribute_names().to_vec()
     }
 
+    /// The table as a stream of Arrow, in a capsule.
+    fn arrow_stream<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyCapsule>> {
+        crate::columns::stream(py, &self.dataset)
+    }
+
     /// `(height, width, samples a pixel)`.
     fn frame_shape(&self) -> Option<(u32, u32, usize)> {
         let info = self.dataset.header().frames.as_ref()?.info;
@@ -135,9 +137,9 @@ impl Recording {
         jobs: usize,
         bar: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Buffer> {
-        let length = self.frames_info()?.byte_len().unwrap_or(usize::MAX);
+        let frame = self.frames_info()?.byte_len().unwrap_or(usize::MAX);
         let mut bytes = Vec::new();
-        let length = length
+        let length = frame
             .checked_mul(rows.len())
             .ok_or_else(|| value_error("an array larger than memory"))?;
         bytes.try_reserve_exact(length).map_err(value_error)?;
@@ -149,7 +151,9 @@ impl Recording {
             };
             self.dataset.map_frames(pass, |_, frame| frame, take)
         })?;
-        decoded.map_err(dataset_error)?;
+        // Frames are taken in the order of the rows, so the first that is missing was at fault.
+        let taken = bytes.len().checked_div(frame).unwrap_or(0);
+        decoded.map_err(|error| dataset_error_at(&error, rows.get(taken).copied()))?;
         self.buffer_of(rows.len(), bytes)
     }
 
@@ -157,7 +161,7 @@ impl Recording {
     fn reference(&self, py: Python<'_>) -> PyResult<Option<Buffer>> {
         let reference = py
             .detach(|| self.dataset.reference())
-            .map_err(dataset_error)?;
+            .map_err(|error| dataset_error(&error))?;
         reference
             .map(|frame| self.buffer_of(1, frame.into_bytes()))
             .transpose()
@@ -165,18 +169,23 @@ impl Recording {
 
     /// `[rows, values]` of the signals of `rows`, taxel by taxel.
     fn signals(&self, py: Python<'_>, rows: Vec<usize>) -> PyResult<Buffer> {
+        let Some(header) = &self.dataset.header().signals else {
+            return Err(dataset_error_of(
+                self.dataset.path(),
+                "the recording has no signals",
+            ));
+        };
+        let width = header.spec.info.len();
         let mut bytes = Vec::new();
-        let mut width = 0;
         py.detach(|| {
             for row in &rows {
                 let signals = self.dataset.signals(*row)?;
                 let values = signals.as_ref().map_or(&[][..], |signals| signals.values());
-                width = values.len();
                 bytes.extend(values.iter().flat_map(|value| value.to_ne_bytes()));
             }
             Ok(())
         })
-        .map_err(|error: taceva_dataset::DatasetError| dataset_error(error))?;
+        .map_err(|error: taceva_dataset::DatasetError| dataset_error(&error))?;
         Buffer::new(bytes, Number::F32, &[rows.len(), width])
     }
 
@@ -188,6 +197,32 @@ impl Recording {
             Divided::of(&self.dataset, split, seed).map_err(|error| study_error(&error))?;
         let parts = [Train, Validation, Test].map(|part| divided.rows(part));
         Ok((parts, divided.spec.to_string()))
+    }
+
+    /// Writes the folder `out` in a form that other programs read, as `taceva export` does, and returns what the form cannot say.
+    #[pyo3(signature = (form, out, jobs, bar = None))]
+    fn export(
+        &self,
+        py: Python<'_>,
+        form: &str,
+        out: PathBuf,
+        jobs: usize,
+        bar: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Vec<String>> {
+        let known = ExportForm::ALL.into_iter();
+        let known = known
+            .clone()
+            .find(|known| known.name() == form)
+            .ok_or_else(|| {
+                let names: Vec<&str> = known.map(ExportForm::name).collect();
+                value_error(format_args!("form {form:?}: expected {}", names.join(", ")))
+            })?;
+        let exported = watched::run(py, bar, |progress| {
+            ExportPlan::new(&self.dataset, known)?.run(&out, jobs_of(jobs), progress)
+        })?;
+        exported
+            .map(|report| report.left_out)
+            .map_err(|error| dataset_error(&error))
     }
 
     /// What `taceva check` finds, as the JSON it writes.

@@ -1,5 +1,7 @@
 //! What goes wrong, as exceptions of Python.
 
+use std::path::{Path, PathBuf};
+
 use pyo3::create_exception;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
@@ -10,7 +12,7 @@ create_exception!(
     taceva,
     DatasetError,
     PyValueError,
-    "A recording that cannot be read; the message names the file, and the row where one is at fault."
+    "A recording that cannot be read or written; `path` is the file at fault, `row` the row of the recording, from 0, and `line` the line of a table, where one of them is known."
 );
 create_exception!(
     taceva,
@@ -25,8 +27,52 @@ pub(crate) fn value_error(error: impl std::fmt::Display) -> PyErr {
 }
 
 /// `error` of a recording as a `DatasetError`.
-pub(crate) fn dataset_error(error: impl std::fmt::Display) -> PyErr {
-    DatasetError::new_err(error.to_string())
+pub(crate) fn dataset_error(error: &taceva_dataset::DatasetError) -> PyErr {
+    dataset_error_at(error, None)
+}
+
+/// `error` of the recording at `path` as a `DatasetError`, in words.
+pub(crate) fn dataset_error_of(path: &Path, problem: &str) -> PyErr {
+    let message = format!("{}: {problem}", taceva_core::shown(path));
+    placed(message, Some(path.to_owned()), None, None)
+}
+
+/// The same, where it is known which row of the recording was at fault.
+pub(crate) fn dataset_error_at(error: &taceva_dataset::DatasetError, row: Option<usize>) -> PyErr {
+    use taceva_dataset::DatasetError as Of;
+    let row = row.and_then(|row| u64::try_from(row).ok());
+    let (path, row, line) = match error {
+        Of::Toml { place, .. } | Of::Table { place, .. } => {
+            (Some(&place.path), place.row.or(row), place.line)
+        }
+        Of::Io { path, .. }
+        | Of::Image { path, .. }
+        | Of::TargetExists { path }
+        | Of::Busy { path }
+        | Of::NoDataset { path, .. }
+        | Of::Version { path, .. }
+        | Of::Digest { path, .. }
+        | Of::Seal { path, .. }
+        | Of::Damaged { path, .. }
+        | Of::Journal { path, .. }
+        | Of::Request { path, .. } => (Some(path), row, None),
+        _ => (None, row, None),
+    };
+    placed(error.to_string(), path.cloned(), row, line)
+}
+
+fn placed(message: String, path: Option<PathBuf>, row: Option<u64>, line: Option<u64>) -> PyErr {
+    let raised = DatasetError::new_err(message);
+    let set = Python::attach(|py| {
+        let value = raised.value(py);
+        value.setattr("path", path)?;
+        value.setattr("row", row)?;
+        value.setattr("line", line)
+    });
+    match set {
+        Ok(()) => raised,
+        Err(error) => error,
+    }
 }
 
 /// `error` of a study as what a Python program catches; what stopped because Ctrl-C was pressed is a `KeyboardInterrupt`.

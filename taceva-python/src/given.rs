@@ -33,7 +33,7 @@ impl Given {
 #[pymethods]
 impl Given {
     #[new]
-    #[pyo3(signature = (recording, channels, learns, split, seed, part, reads_frames))]
+    #[expect(clippy::too_many_arguments, reason = "the Python side names them")]
     fn new(
         recording: &Recording,
         channels: Vec<String>,
@@ -42,6 +42,7 @@ impl Given {
         seed: u64,
         part: Option<&str>,
         reads_frames: bool,
+        is_unbounded: bool,
     ) -> PyResult<Given> {
         let request = GivenRequest {
             channels,
@@ -50,6 +51,7 @@ impl Given {
             seed,
             part: part.map(part_of).transpose()?,
             reads_frames,
+            is_unbounded,
         };
         let rows = GivenRows::new(&recording.dataset, &request);
         Ok(Given {
@@ -104,8 +106,10 @@ impl Given {
             .take();
         let rows = rows.ok_or_else(|| value_error("scored before"))?;
         let model = GivenModel { name, settings };
-        let scored =
-            py.detach(|| rows.score(&recording.dataset, model, numbers, metrics, jobs_of(jobs)));
+        // Watched: Ctrl-C is heard at once, and the few moments until the scores are there are waited for.
+        let scored = watched::run(py, None, |_| {
+            rows.score(&recording.dataset, model, numbers, metrics, jobs_of(jobs))
+        })?;
         results::sealed(&scored.map_err(|error| study_error(&error))?.report)
     }
 }

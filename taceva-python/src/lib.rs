@@ -4,7 +4,9 @@
 //! that numpy sees without a copy. The lock of the interpreter is released while numbers are summed, frames decoded and models fitted.
 
 mod arrays;
+mod arrow;
 mod buffer;
+mod columns;
 mod dataset;
 mod errors;
 mod evaluate;
@@ -19,6 +21,7 @@ use pyo3::prelude::*;
 #[pymodule(gil_used = false)]
 mod _taceva {
     use std::ffi::OsString;
+    use std::path::PathBuf;
 
     use pyo3::prelude::*;
 
@@ -37,12 +40,24 @@ mod _taceva {
     #[pymodule_export]
     use super::record::{import_recording, record};
     #[pymodule_export]
-    use super::results::{check_seal, comparison, score_table};
+    use super::results::{check_seal, comparison, figure_pdf, figures, score_table};
+
+    /// What an error says of its place is `None` where nobody knows it.
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        let error = module.py().get_type::<super::errors::DatasetError>();
+        ["path", "row", "line"]
+            .into_iter()
+            .try_for_each(|name| error.setattr(name, module.py().None()))
+    }
 
     /// Carries out the command that `arguments` say, the first being the name of the program, and returns the exit code. The command handles
-    /// signals from then on.
+    /// signals from then on. Plugins in libraries run in `child`, if there is one.
     #[pyfunction]
-    fn command(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
+    fn command(py: Python<'_>, arguments: Vec<OsString>, child: Option<PathBuf>) -> u8 {
+        if let Some(child) = child {
+            taceva_cli::plugins_run_in(child);
+        }
         py.detach(|| taceva_cli::main_with(arguments))
     }
 

@@ -1,5 +1,6 @@
 //! Exact sums over arrays.
 
+use std::ops::Range;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use pyo3::prelude::*;
@@ -23,6 +24,62 @@ pub(crate) fn unit_of(channel: &str) -> Option<&'static str> {
     known.map(|channel| channel.unit().symbol())
 }
 
+/// What a row may say beside its numbers and its contact point.
+const FIELDS: [Field; 7] = [
+    Field::Scene,
+    Field::UnitId,
+    Field::Phase,
+    Field::DepthStep,
+    Field::Repeat,
+    Field::Stamp,
+    Field::Intensity,
+];
+
+/// A field of some rows.
+enum Said {
+    Texts(Points),
+    Numbers(Table),
+}
+
+impl Said {
+    fn of(field: Field, column: &Bound<'_, PyAny>) -> PyResult<Said> {
+        Ok(match field {
+            Field::Scene | Field::UnitId | Field::Phase => Said::Texts(Points::of(column)?),
+            _ => Said::Numbers(Table::of(column, field.name(), 1)?),
+        })
+    }
+
+    fn rows(&self) -> usize {
+        match self {
+            Said::Texts(names) => names.rows(),
+            Said::Numbers(table) => table.rows(),
+        }
+    }
+
+    fn put_into(&self, py: Python<'_>, batch: Batch, field: Field, rows: Range<usize>) -> Batch {
+        match self {
+            Said::Texts(names) => batch.with_labels(field, names.read(py, rows)),
+            Said::Numbers(table) => {
+                let mut column = [Vec::with_capacity(rows.len())];
+                table.read(py, rows, &mut column);
+                let [column] = column;
+                batch.with_numbers(field, Column::full(column))
+            }
+        }
+    }
+}
+
+/// The field called `name`, of those that arrays may carry.
+fn field_of(name: &str) -> PyResult<Field> {
+    FIELDS
+        .into_iter()
+        .find(|field| field.name() == name)
+        .ok_or_else(|| {
+            let known = FIELDS.map(Field::name).join(", ");
+            value_error(format_args!("no field {name:?}: expected one of {known}"))
+        })
+}
+
 /// Streams pairs of truth and prediction into sums that do not depend on their order.
 #[pyclass(module = "taceva._taceva", frozen)]
 pub(crate) struct Sums {
@@ -44,20 +101,22 @@ impl Sums {
 
 #[pymethods]
 impl Sums {
-    /// Sums of `channels` with their units, for metrics and groups, and for the skill, without which no score claims anything; `is_independent` makes every sample a cluster of its own.
+    /// Sums of `channels` with their units, for metrics and groups, and for the skill, without which no score claims anything; `is_independent` makes every sample a cluster of its own,
+    /// and every row will carry `fields`.
     #[new]
     fn new(
         channels: Vec<(String, String)>,
         metrics: Vec<String>,
         is_independent: bool,
+        fields: Vec<String>,
     ) -> PyResult<Sums> {
         let channels = channels_of(&channels)?;
         let wanted = catalogue::select(metrics.iter().map(String::as_str)).map_err(value_error)?;
-        let plan = MetricPlan::new(
-            &with_skill(wanted),
-            channels,
-            FieldSet::PAIRS.with(Field::Point),
-        );
+        let mut available = FieldSet::PAIRS.with(Field::Point);
+        for name in &fields {
+            available = available.with(field_of(name)?);
+        }
+        let plan = MetricPlan::new(&with_skill(wanted), channels, available);
         let plan = match is_independent {
             true => plan.independent_samples(),
             false => plan,
@@ -75,16 +134,27 @@ impl Sums {
         truth: &Bound<'_, PyAny>,
         prediction: &Bound<'_, PyAny>,
         points: Option<&Bound<'_, PyAny>>,
+        fields: Vec<(String, Bound<'_, PyAny>)>,
     ) -> PyResult<usize> {
         let width = self.plan.channels().len();
         let truth = Table::of(truth, "truth", width)?;
         let prediction = Table::of(prediction, "prediction", width)?;
         let points = points.map(Points::of).transpose()?;
+        let said = fields.iter().map(|(name, column)| {
+            let field = field_of(name)?;
+            Ok((field, Said::of(field, column)?))
+        });
+        let said: Vec<(Field, Said)> = said.collect::<PyResult<_>>()?;
         let rows = truth.rows();
-        for (name, found) in [
+        let lengths = [
             ("prediction", Some(prediction.rows())),
             ("points", points.as_ref().map(Points::rows)),
-        ] {
+        ];
+        let lengths = lengths.into_iter().chain(
+            said.iter()
+                .map(|(field, said)| (field.name(), Some(said.rows()))),
+        );
+        for (name, found) in lengths {
             if let Some(found) = found.filter(|found| *found != rows) {
                 return Err(value_error(format_args!(
                     "{name} has {found} rows, truth has {rows}"
@@ -98,13 +168,14 @@ impl Sums {
             let (mut truths, mut predictions) = (columns(), columns());
             truth.read(py, block.clone(), &mut truths);
             prediction.read(py, block.clone(), &mut predictions);
-            let labels = points.as_ref().map(|points| points.read(py, block));
+            let labels = points.as_ref().map(|points| points.read(py, block.clone()));
             let full = |columns: Vec<Vec<f64>>| columns.into_iter().map(Column::full).collect();
             let channels = self.plan.channels().clone();
-            let done = py.detach(|| {
-                let batch = Batch::from_columns(channels, full(truths), full(predictions), labels);
-                self.evaluator().update(&batch)
-            });
+            let mut batch = Batch::from_columns(channels, full(truths), full(predictions), labels);
+            for (field, said) in &said {
+                batch = said.put_into(py, batch, *field, block.clone());
+            }
+            let done = py.detach(|| self.evaluator().update(&batch));
             done.map_err(value_error)?;
         }
         Ok(rows)

@@ -120,17 +120,17 @@ pub(crate) fn record(
         Frame::new(info, bytes).map(Some).map_err(value_error)
     };
     watched::run(py, bar, |progress| -> PyResult<()> {
-        let mut recorder = Recorder::create(&path, &spec).map_err(dataset_error)?;
+        let mut recorder = Recorder::create(&path, &spec).map_err(|error| dataset_error(&error))?;
         let done = (|| {
             if let Some(reference) = &reference {
                 recorder
                     .append_reference(reference)
-                    .map_err(dataset_error)?;
+                    .map_err(|error| dataset_error(&error))?;
             }
             progress.begin("record", Some(rows as u64));
             for row in 0..rows {
                 if progress.is_cancelled() {
-                    return Err(dataset_error(DatasetError::Cancelled));
+                    return Err(dataset_error(&DatasetError::Cancelled));
                 }
                 let truth = values
                     .iter()
@@ -150,14 +150,19 @@ pub(crate) fn record(
                     .with_scene_id(columns.get("scene").map(|scenes| scenes[row].clone()))
                     .with_unit_id(columns.get("unit_id").map(|units| units[row].clone()))
                     .with_frame(read(row)?);
-                recorder.append(&sample).map_err(dataset_error)?;
+                recorder
+                    .append(&sample)
+                    .map_err(|error| dataset_error(&error))?;
                 progress.advance(1);
             }
             progress.end();
             Ok(())
         })();
         match done {
-            Ok(()) => recorder.close().map(drop).map_err(dataset_error),
+            Ok(()) => recorder
+                .close()
+                .map(drop)
+                .map_err(|error| dataset_error(&error)),
             Err(error) => Err(error),
         }
     })?
@@ -209,5 +214,5 @@ pub(crate) fn import_recording(
             false => plan.run(&out, jobs_of(jobs), progress),
         }
     })?;
-    imported.map(drop).map_err(dataset_error)
+    imported.map(drop).map_err(|error| dataset_error(&error))
 }

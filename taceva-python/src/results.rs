@@ -34,6 +34,39 @@ pub(crate) fn score_table(texts: Vec<String>, form: &str) -> PyResult<String> {
     }
 }
 
+/// A figure as a file of SVG, with what a reader must know.
+#[derive(IntoPyObject)]
+pub(crate) struct Drawn {
+    name: String,
+    title: String,
+    caption: String,
+    description: String,
+    svg: String,
+}
+
+/// Every figure that `texts` of results files have something to draw of, in the order of reports.
+#[pyfunction]
+pub(crate) fn figures(texts: Vec<String>) -> PyResult<Vec<Drawn>> {
+    let figures = taceva_report::figures(&studies(&texts)?).into_iter();
+    let drawn = figures.map(|figure| Drawn {
+        svg: figure.svg(),
+        name: figure.id,
+        title: figure.title,
+        caption: figure.caption,
+        description: figure.description,
+    });
+    Ok(drawn.collect())
+}
+
+/// The figure called `name` as a file of PDF.
+#[pyfunction]
+pub(crate) fn figure_pdf(texts: Vec<String>, name: &str) -> PyResult<Vec<u8>> {
+    let figures = taceva_report::figures(&studies(&texts)?);
+    let figure = figures.iter().find(|figure| figure.id == name);
+    let figure = figure.ok_or_else(|| value_error(format_args!("no figure {name:?}")))?;
+    Ok(figure.pdf())
+}
+
 /// The comparison of two or more results: `json` besides the forms of `score_table`.
 #[pyfunction]
 pub(crate) fn comparison(

@@ -58,11 +58,38 @@ def test_a_folder_that_is_no_recording_is_refused(tmp_path: Path) -> None:
         taceva.open(tmp_path)
 
 
+def test_an_error_names_the_file_and_the_row_that_are_at_fault(tmp_path: Path) -> None:
+    labels, frames, points = drawn()
+    made = {"sensor": "my gel", "source": "synthetic", "channels": ["Pz", "Fz"]}
+    dataset = taceva.from_arrays(tmp_path / "recording", labels, frames, points=points, **made)
+    with pytest.raises(taceva.DatasetError) as nothing_there:
+        taceva.open(tmp_path / "nothing")
+    assert nothing_there.value.path == tmp_path / "nothing"
+    assert (nothing_there.value.row, nothing_there.value.line) == (None, None)
+    with pytest.raises(taceva.DatasetError) as no_signals:
+        dataset.signals()
+    assert no_signals.value.path == tmp_path / "recording"
+    (pack,) = [path for path in (tmp_path / "recording").rglob("*") if path.is_file() and path.stat().st_size > 5_000]
+    content = bytearray(pack.read_bytes())
+    content[len(content) // 2] ^= 1
+    pack.chmod(0o644)
+    pack.write_bytes(content)
+    with pytest.raises(taceva.DatasetError) as damaged:
+        taceva.open(tmp_path / "recording").frames(jobs=2)
+    assert damaged.value.path == pack
+    row = damaged.value.row
+    assert row is not None and 0 < row < len(labels)
+    assert np.array_equal(taceva.open(tmp_path / "recording").frames(range(row)), frames[:row])
+    with pytest.raises(taceva.DatasetError):
+        taceva.open(tmp_path / "recording").frame(row)
+    assert taceva.DatasetError("words alone").path is None
+
+
 def test_a_recording_travels_and_refuses_to_arrive_as_another(recording: Path) -> None:
     dataset = taceva.open(recording)
     assert pickle.loads(pickle.dumps(dataset)).digest == dataset.digest
     with pytest.raises(taceva.DatasetError, match="another recording"):
-        taceva._dataset._arrived(str(recording), "sha256:0")
+        taceva._dataset._arrived(1, str(recording), "sha256:0")
     with multiprocessing.get_context("fork").Pool(2) as pool:
         assert pool.map(len, [dataset, dataset]) == [len(dataset)] * 2
 
@@ -191,11 +218,3 @@ def test_an_imported_folder_is_what_the_command_imports(recording: Path, tmp_pat
         taceva.import_recording(source, source / "map.toml", tmp_path / "out")
     again = taceva.import_recording(source, source / "map.toml", tmp_path / "out", replace=True)
     assert again.digest == dataset.digest
-
-
-def test_a_recording_is_a_frame_of_pandas_with_units(recording: Path) -> None:
-    pytest.importorskip("pandas")
-    dataset = taceva.open(recording)
-    frame = dataset.to_frame()
-    assert len(frame) == len(dataset)
-    assert frame.attrs["units"] == dataset.units

@@ -201,6 +201,21 @@ def test_a_result_is_a_frame_a_table_and_a_page(tmp_path: Path) -> None:
     assert frame.attrs["source"] == "unknown"
 
 
+def test_whatever_is_shown_of_samples_that_nobody_measured_says_so(tmp_path: Path) -> None:
+    labels = np.random.default_rng(1).uniform(size=(40, 1))
+    frames = (200 * labels[:, :, None] + np.arange(8)).astype(np.uint8).repeat(6, axis=1)
+    made = taceva.from_arrays(tmp_path / "made", labels, frames, sensor="gel", source="synthetic", channels=["Fz"])
+    drawn = taceva.evaluate(made, lambda seen: np.zeros((len(seen), 1)))
+    of_arrays = taceva.score(labels, labels + 0.1, channels=["Fz"])
+    said = "Nothing here was measured: the samples are synthetic."
+    together = taceva.compare(drawn, drawn)
+    for shown in (str(drawn), drawn.to_latex(), drawn._repr_html_(), str(together), together.to_latex(), together._repr_html_()):
+        assert said in shown
+    assert "is not known" in str(drawn) and "is not known" in drawn._repr_html_()
+    assert "Not all of this was measured: some of the samples are synthetic." in str(taceva.compare(drawn, of_arrays))
+    assert "measured" not in str(of_arrays)
+
+
 def test_a_comparison_says_which_is_better() -> None:
     truth, prediction, points = arrays()
     near = taceva.score(truth, truth + 0.1 * (prediction - truth), points=points)

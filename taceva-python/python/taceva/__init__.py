@@ -14,7 +14,9 @@ from taceva._bar import progress
 from taceva._compare import Comparison, compare
 from taceva._dataset import Dataset, Rows, open
 from taceva._evaluate import evaluate
+from taceva._figure import Figure
 from taceva._metrics import SIX, TactileMetrics, score, score_tables
+from taceva._onnx import OnnxModel, onnx
 from taceva._record import from_arrays, import_recording
 from taceva._result import Interval, Result, Score, load
 from taceva._taceva import DatasetError, ModelError
@@ -27,8 +29,10 @@ __all__ = [
     "Comparison",
     "Dataset",
     "DatasetError",
+    "Figure",
     "Interval",
     "ModelError",
+    "OnnxModel",
     "Result",
     "Rows",
     "Score",
@@ -38,6 +42,7 @@ __all__ = [
     "from_arrays",
     "import_recording",
     "load",
+    "onnx",
     "open",
     "progress",
     "score",

@@ -1,6 +1,8 @@
 """The command ``taceva`` within Python: ``python -m taceva``."""
 
+import os
 import sys
+from pathlib import Path
 
 
 def main() -> int:
@@ -8,7 +10,9 @@ def main() -> int:
     from taceva._taceva import command
 
     sys.stdout.flush()
-    return command(["taceva", *sys.argv[1:]])
+    # Plugins in libraries run in a process of their own, which an interpreter cannot be: the wheel brings a program for it.
+    child = Path(__file__).with_name("bin") / "taceva-host-child"
+    return command(["taceva", *sys.argv[1:]], os.fspath(child) if os.access(child, os.X_OK) else None)
 
 
 if __name__ == "__main__":

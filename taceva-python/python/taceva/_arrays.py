@@ -9,55 +9,95 @@ import numpy.typing as npt
 
 Numbers = npt.NDArray[np.float32] | npt.NDArray[np.float64]
 
+#: The most rows of one call. An array of more is one that was made by broadcasting, or a mistake; it is refused before anything of it is copied.
+MOST_ROWS = 2**31 - 1
 
-def numbers(array: Any, name: str, *, allow_invalid: bool = False) -> Numbers:
-    """Return ``array`` as native float32 or float64, C-contiguous, copied only where it must be.
+#: Rows that are brought to the form of the sums at once, so that no array is copied as a whole.
+BLOCK_ROWS = 65_536
 
-    Arrays of numpy and torch (any device), lists, and whatever has ``__array__`` or ``__dlpack__`` are taken; whole numbers are converted.
+
+def real(array: Any, name: str) -> npt.NDArray[Any]:
+    """Return ``array`` as an array of real numbers, in whatever form they lie; nothing is copied of an array of numpy or of a tensor on the CPU.
 
     Raises
     ------
     TypeError
         For complex numbers, texts and objects.
     ValueError
-        For NaN or an infinite number, unless ``allow_invalid``; for rows of unequal length.
+        For rows of unequal length, more rows than `MOST_ROWS`, a mask, and a tensor without memory.
     """
-    if hasattr(array, "detach") and hasattr(array, "cpu"):
-        # A tensor of torch: its gradient and its device are left behind. bfloat16 is not known to numpy.
-        tensor = array.detach().cpu()
-        array = tensor.float() if str(tensor.dtype) == "torch.bfloat16" else tensor
-    found = np.asarray(array)
-    if found.dtype.kind in "iub" or found.dtype == np.float16:
-        found = found.astype(np.float64)
-    if found.dtype.kind != "f" or found.dtype.itemsize not in (4, 8):
+    if np.ma.isMaskedArray(array) and np.ma.getmaskarray(array).any():
+        raise ValueError(f"{name}: a masked array; expected one without a mask, of the rows that count")
+    found = np.asarray(_in_memory(array, name))
+    is_number = found.dtype.kind in "iub" or (found.dtype.kind == "f" and found.dtype.itemsize <= 8)
+    if not is_number:
         raise TypeError(f"{name}: expected numbers, found an array of {found.dtype}")
-    found = np.ascontiguousarray(found, dtype=found.dtype.newbyteorder("="))
+    require_rows(found, name)
+    return found
+
+
+def require_rows(array: npt.NDArray[Any], name: str) -> None:
+    """Refuse more rows than are taken in one call."""
+    if array.ndim and len(array) > MOST_ROWS:
+        raise ValueError(f"{name} has {len(array)} rows, expected at most {MOST_ROWS} in one call: update with a part after the other")
+
+
+def native(array: npt.NDArray[Any], name: str, *, allow_invalid: bool = False, first: int = 0) -> Numbers:
+    """Return an array of real numbers as native float32 or float64 in the order of C, copied only where it must be.
+
+    ``first`` is the place of its first row, for messages.
+    """
+    is_single = array.dtype.kind == "f" and array.dtype.itemsize == 4
+    found: Numbers = np.ascontiguousarray(array, dtype=np.float32) if is_single else np.ascontiguousarray(array, dtype=np.float64)
     if not allow_invalid and not np.isfinite(found).all():
-        place = tuple(int(at[0]) for at in np.nonzero(~np.isfinite(found)))
+        row, *column = (int(at[0]) for at in np.nonzero(~np.isfinite(found)))
         raise ValueError(
-            f"{name}: {found[place]} at {list(place)}: expected finite numbers; "
+            f"{name}: {found[(row, *column)]} at {[first + row, *column]}: expected finite numbers; "
             "allow_invalid=True counts such samples and leaves them out"
         )
     return found
 
 
-def points(names: Any) -> Any:
-    """Return contact points as an array of int64, or as a list of texts.
+def numbers(array: Any, name: str, *, allow_invalid: bool = False) -> Numbers:
+    """Return ``array`` as native float32 or float64, C-contiguous, copied only where it must be.
+
+    Arrays of numpy and torch (any device), lists, and whatever has ``__array__`` are taken; whole numbers are converted.
+
+    Raises
+    ------
+    TypeError, ValueError
+        As of `real`, and for NaN or an infinite number, unless ``allow_invalid``.
+    """
+    return native(real(array, name), name, allow_invalid=allow_invalid)
+
+
+def points(names: Any, name: str = "points") -> npt.NDArray[np.int64] | list[str]:
+    """Return contact points, or other names, as an array of whole numbers or as a list of texts.
 
     Raises
     ------
     TypeError
-        For points that are neither whole numbers nor texts.
+        For names that are neither whole numbers nor texts.
     """
-    if hasattr(names, "detach") and hasattr(names, "cpu"):
-        names = names.detach().cpu()
-    found = np.asarray(names)
+    found = np.asarray(_in_memory(names, name))
     if found.ndim != 1:
-        raise ValueError(f"points have the shape {list(found.shape)}, expected one a row")
+        raise ValueError(f"{name} have the shape {list(found.shape)}, expected one a row")
+    require_rows(found, name)
     if found.dtype.kind in "iub":
-        if found.dtype == np.uint64 and found.size and int(found.max()) >= 2**63:
-            return [str(name) for name in found.tolist()]
+        if found.dtype.kind == "u" and found.dtype.itemsize == 8 and found.size and int(found.max()) >= 2**63:
+            return [str(number) for number in found.tolist()]
         return np.ascontiguousarray(found, dtype=np.int64)
-    if found.dtype.kind in "UO" and all(isinstance(name, str) for name in found.tolist()):
-        return [str(name) for name in found.tolist()]
-    raise TypeError(f"points: expected whole numbers or texts, found an array of {found.dtype}")
+    if found.dtype.kind in "UO" and all(isinstance(text, str) for text in found.tolist()):
+        return [str(text) for text in found.tolist()]
+    raise TypeError(f"{name}: expected whole numbers or texts, found an array of {found.dtype}")
+
+
+def _in_memory(array: Any, name: str) -> Any:
+    """Return a tensor of torch without its gradient and its device; anything else as it is."""
+    if not (hasattr(array, "detach") and hasattr(array, "cpu")):
+        return array
+    if getattr(array, "is_meta", False):
+        raise ValueError(f"{name}: a tensor on the device meta, which holds no numbers; expected one with memory")
+    tensor = array.detach().cpu()
+    # bfloat16 is not known to numpy.
+    return tensor.float() if str(tensor.dtype) == "torch.bfloat16" else tensor

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import html
 import json
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 from taceva import _taceva
-from taceva._result import Result
+from taceva._figure import Figure, figures_of
+from taceva._result import Result, not_measured
 
 
 class Comparison:
@@ -15,6 +17,7 @@ class Comparison:
 
     def __init__(self, results: Sequence[Result], metrics: Sequence[str], margins: Mapping[str, float], seed: int) -> None:
         self._asked = ([result.text for result in results], list(metrics), dict(margins), seed)
+        self._said = not_measured([result.source for result in results])
 
     def _form(self, form: str) -> str:
         return _taceva.comparison(*self._asked, form)
@@ -25,13 +28,17 @@ class Comparison:
 
     def to_latex(self) -> str:
         """Return a table for a paper."""
-        return self._form("tex")
+        return "".join(f"% {line}\n" for line in self._said) + self._form("tex")
+
+    def figures(self) -> list[Figure]:
+        """Return every figure in which the results can be drawn beside each other."""
+        return figures_of(self._asked[0])
 
     def __str__(self) -> str:
-        return self._form("text")
+        return "\n".join([*self._said, self._form("text")])
 
     def _repr_html_(self) -> str:
-        return self._form("html")
+        return "".join(f"<p>{html.escape(line)}</p>" for line in self._said) + self._form("html")
 
 
 def compare(

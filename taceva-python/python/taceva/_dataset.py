@@ -6,6 +6,7 @@ import json
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,7 @@ import numpy.typing as npt
 
 from taceva import _taceva
 from taceva._bar import bar
+from taceva._pickles import PICKLE_VERSION, require_version
 from taceva._settings import setting_words
 
 IntArray = npt.NDArray[np.intp]
@@ -155,15 +157,57 @@ class Dataset:
         """Return what ``taceva check --format json`` finds: what spoils the recording or what a reader should know."""
         return dict(json.loads(self._inner.check(jobs, bar())))
 
-    def to_frame(self) -> Any:
-        """Return the labels as a ``pandas.DataFrame`` with points and units; ``attrs["units"]`` holds units by channel."""
+    def to_pandas(self) -> Any:
+        """Return the table as a ``pandas.DataFrame``, a row a sample; ``attrs["units"]`` holds units by column."""
         import pandas
 
         frame = pandas.DataFrame(np.array(self.labels()), columns=list(self.channels))
-        frame.insert(0, "sample", self.column("sample"))
-        frame.insert(1, "point_id", self.points())
-        frame.attrs["units"] = self.units
+        known = ("sample", "point_id", "unit_id", "scene", "repeat", "depth_step", "phase", "t_s")
+        there = [name for name in known if self._inner.column(name) is not None]
+        for at, name in enumerate(there):
+            column = pandas.Series(self.column(name), index=frame.index, dtype=object)
+            is_number = name in ("repeat", "depth_step", "t_s")
+            frame.insert(at, name, pandas.to_numeric(column) if is_number else column)
+        for name in self._inner.attributes():
+            frame[name] = self.column(name)
+        frame.attrs.update(units=self._units_of(list(frame.columns)), source=self.source, sensor=self.sensor)
         return frame
+
+    def _units_of(self, columns: Sequence[str]) -> dict[str, str]:
+        units = {"t_s": "s", "spacing_mm": "mm", **self.units}
+        return {name: units[name] for name in columns if name in units}
+
+    def __arrow_c_stream__(self, requested_schema: object = None) -> object:
+        """Return the table as a stream of Arrow, which pyarrow, polars, DuckDB and others read: ``pyarrow.table(dataset)``.
+
+        A label that is absent is null. The metadata of a column holds its ``unit``, that of the table ``taceva.sensor`` and ``taceva.source``.
+        ``requested_schema`` is not regarded, as the interface allows: the table is given in its own types.
+        """
+        return self._inner.arrow_stream()
+
+    def export(self, out: str | os.PathLike[str], form: str = "csv", *, jobs: int = 0) -> list[str]:
+        """Write the new folder ``out`` in a form that other programs read, as ``taceva export --format`` does: ``csv``, ``huggingface``, ``hdf5`` or ``lerobot``.
+
+        ``map.toml`` in it brings the recording back by `import_recording`. What the form cannot say is returned in words.
+        """
+        return self._inner.export(form, os.fspath(out), jobs, bar())
+
+    def to_huggingface(self, folder: str | os.PathLike[str], *, jobs: int = 0) -> Any:
+        """Export to the new ``folder`` and return it as a ``datasets.Dataset`` of Hugging Face: pictures as ``Image``, labels as numbers.
+
+        Units are kept where they survive ``save_to_disk`` and ``map``: ``info.description`` is JSON of sensor, source, digest and units by column.
+        The metadata of the Parquet file holds them too, as ``unit.Fz``.
+        """
+        try:
+            import datasets
+        except ImportError as error:
+            raise ImportError("to_huggingface needs the package datasets: pip install datasets") from error
+        self.export(folder, "huggingface", jobs=jobs)
+        files = sorted(str(path) for path in Path(folder).glob("data/*.parquet"))
+        found = datasets.Dataset.from_parquet(files, cache_dir=str(Path(folder) / ".cache"))
+        said = {"sensor": self.sensor, "source": self.source, "digest": self.digest, "units": self._units_of(found.column_names)}
+        found.info.description = json.dumps(said)
+        return found
 
     def torch(self, rows: Sequence[int] | IntArray | None = None) -> Any:
         """Return a ``torch.utils.data.Dataset`` of ``(frame, labels)``: the frame ``[samples, height, width]`` in float32 from 0 to 1, labels in float32."""
@@ -187,8 +231,8 @@ class Dataset:
     def __repr__(self) -> str:
         return f"<taceva.Dataset {self.path!r}: {len(self)} rows of {self.sensor}, {self.source}>"
 
-    def __reduce__(self) -> tuple[Any, tuple[str, str]]:
-        return _arrived, (self.path, self.digest)
+    def __reduce__(self) -> tuple[Any, tuple[int, str, str]]:
+        return _arrived, (PICKLE_VERSION, self.path, self.digest)
 
 
 def open(path: str | os.PathLike[str]) -> Dataset:
@@ -202,7 +246,8 @@ def open(path: str | os.PathLike[str]) -> Dataset:
     return Dataset(path)
 
 
-def _arrived(path: str, digest: str) -> Dataset:
+def _arrived(version: object, path: str = "", digest: str = "") -> Dataset:
+    require_version(version)
     dataset = Dataset(path)
     if dataset.digest != digest:
         raise _taceva.DatasetError(f"{path}: another recording than the one that was sent, its digest differs")

@@ -13,6 +13,7 @@ from taceva import _taceva
 from taceva._arrays import numbers
 from taceva._bar import bar
 from taceva._dataset import Dataset
+from taceva._onnx import OnnxModel
 from taceva._result import Result
 from taceva._settings import setting_words
 
@@ -27,6 +28,7 @@ def evaluate(
     seed: int = 0,
     part: str | None = None,
     metrics: str | Sequence[str] = "all",
+    bounded: bool = True,
     batch: int = 64,
     jobs: int = 0,
 ) -> Result:
@@ -41,6 +43,7 @@ def evaluate(
         - the file of a model that ``taceva fit`` wrote, which brings its own split;
         - an object with ``fit(X, y)`` and ``predict(X)``, as scikit-learn's: fitted here on ``X``, float32 ``[rows, features]`` (see
           `Dataset.features`, 32×32 gray where nothing is asked for), and ``y``, float64 ``[rows, channels]`` in their units; ``fit`` changes it;
+        - `onnx` of a file;
         - a ``torch.nn.Module``: called in ``eval`` mode without gradients, on its own device, with float32 ``[rows, samples, height, width]``
           from 0 to 1;
         - any other callable: called with frames ``[rows, height, width, samples]``, uint8 or uint16.
@@ -55,6 +58,9 @@ def evaluate(
         As of `Dataset.split`.
     part
         ``test`` where nothing is said; ``train``, ``validation`` or ``all`` are no test, and a note says so.
+    bounded
+        ``False`` scores an object with ``fit`` by its predictions as they are, and a note says so; otherwise they are brought within the bounds of the
+        labels it has learnt and a quarter of their range, as those of every model that is fitted here.
     batch
         Frames that a module or a callable gets at once.
 
@@ -75,6 +81,8 @@ def evaluate(
     wanted = [metrics] if isinstance(metrics, str) else list(metrics)
     words = setting_words(settings)
     if isinstance(model, str | os.PathLike):
+        if not bounded:
+            raise ValueError("bounded=False: a model by its name or its file keeps its bounds")
         text = _taceva.evaluate_named(
             recording._inner, os.fspath(model), words, list(channels), split, seed, part, wanted, jobs, bar()
         )
@@ -87,11 +95,15 @@ def evaluate(
             f"model: {_name_of(model)} has no fit and predict and cannot be called; "
             "expected a name, a file, or an object that learns or predicts"
         )
+    if not bounded and not learns:
+        raise ValueError("bounded=False: a model that is taken as it is has no bounds")
+    if batch < 1:
+        raise ValueError(f"batch {batch}: expected at least 1")
     if words and not learns:
         raise ValueError(f"settings {', '.join(words)}: a model that is taken as it is has none")
     reads_frames = recording.frame_shape is not None
-    given = _taceva.Given(recording._inner, list(channels), learns, split, seed, part, reads_frames)
-    described = {} if not learns else _settings_of(model)
+    given = _taceva.Given(recording._inner, list(channels), learns, split, seed, part, reads_frames, not bounded)
+    described = model.settings if isinstance(model, OnnxModel) else _settings_of(model) if learns else {}
     if learns:
         predictions = _fitted(recording, model, given, words, described, jobs)
     else:
@@ -118,18 +130,20 @@ def _called(recording: Dataset, model: Any, given: Any, batch: int, jobs: int) -
     rows = given.target()
     call = _module(model) if _is_module(model) else model
     shown = bar()
+    width = len(given.channels())
     if shown is not None:
         shown.begin("predict", len(rows))
-    predictions = []
-    for first in range(0, len(rows), batch):
-        own = rows[first : first + batch]
-        frames = np.asarray(recording._inner.frames(own, jobs, None))
-        found = _as_rows(call(frames), _name_of(model), len(own), None)
-        predictions.append(found)
+    try:
+        predictions = []
+        for first in range(0, len(rows), batch):
+            own = rows[first : first + batch]
+            frames = np.asarray(recording._inner.frames(own, jobs, None))
+            predictions.append(_as_rows(call(frames), _name_of(model), len(own), width))
+            if shown is not None:
+                shown.advance(len(own))
+    finally:
         if shown is not None:
-            shown.advance(len(own))
-    if shown is not None:
-        shown.end()
+            shown.end()
     return np.concatenate(predictions)
 
 
@@ -161,18 +175,19 @@ def _module(model: Any) -> Callable[[npt.NDArray[Any]], Any]:
     return call
 
 
-def _as_rows(predictions: Any, name: str, rows: int, width: int | None) -> Any:
+def _as_rows(predictions: Any, name: str, rows: int, width: int) -> Any:
     """Return predictions as an array of ``[rows, width]``."""
     found = numbers(predictions, f"what {name} predicted", allow_invalid=True)
-    if found.ndim == 1 and (width or 1) == 1:
+    if found.ndim == 1 and width == 1:
         found = found[:, np.newaxis]
-    expected = f"[{rows}, {'channels' if width is None else width}]"
-    if found.ndim != 2 or len(found) != rows or (width is not None and found.shape[1] != width):
-        raise ValueError(f"{name} predicted an array of the shape {list(found.shape)}, expected {expected}")
+    if found.shape != (rows, width):
+        raise ValueError(f"{name} predicted an array of the shape {list(found.shape)}, expected {[rows, width]}: a row a sample, a column a channel")
     return np.ascontiguousarray(found)
 
 
 def _name_of(model: Any) -> str:
+    if isinstance(model, OnnxModel):
+        return model.name
     of = model if isinstance(model, type) or hasattr(model, "__qualname__") else type(model)
     return f"{getattr(of, '__module__', '?')}.{getattr(of, '__qualname__', '?')}"
 

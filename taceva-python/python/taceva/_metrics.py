@@ -7,15 +7,15 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from taceva import _taceva
-from taceva._arrays import numbers
+from taceva._arrays import BLOCK_ROWS, native, real
 from taceva._arrays import points as names_of_points
 from taceva._bar import bar
+from taceva._fields import columns
+from taceva._pickles import PICKLE_VERSION, require_version
 from taceva._result import Result
 
 #: The channels of the TacEva paper: place and depth in mm, forces in N.
 SIX = ("Px", "Py", "Pz", "Fx", "Fy", "Fz")
-
-_PICKLE_VERSION = 1
 
 
 class TactileMetrics:
@@ -35,6 +35,9 @@ class TactileMetrics:
     independent
         Whether samples do not depend on each other; intervals are formed of samples then. Where this is not said and no points are given there
         are no intervals.
+    fields
+        What every row carries besides, of ``scene``, ``unit_id``, ``phase``, ``depth_step``, ``repeat``, ``t_s`` and ``intensity``; metrics that
+        need one of them are left out without it.
 
     >>> import numpy as np
     >>> import taceva
@@ -53,9 +56,11 @@ class TactileMetrics:
         *,
         units: Mapping[str, str] | None = None,
         independent: bool = False,
+        fields: Sequence[str] = (),
     ) -> None:
-        if isinstance(channels, str):
-            raise TypeError(f"channels: expected a list of names, found the text {channels!r}")
+        for name, listed in (("channels", channels), ("fields", fields)):
+            if isinstance(listed, str):
+                raise TypeError(f"{name}: expected a list of names, found the text {listed!r}")
         if not channels:
             raise ValueError("no channels: expected the names of the columns")
         units = dict(units or {})
@@ -64,7 +69,7 @@ class TactileMetrics:
             raise ValueError(f"units of {', '.join(unknown)}, which are no channels: {', '.join(channels)}")
         with_units = [(name, units.get(name) or _taceva.unit_of(name) or "1") for name in channels]
         wanted = [metrics] if isinstance(metrics, str) else list(metrics)
-        self._asked = (with_units, wanted, independent)
+        self._asked = (with_units, wanted, independent, list(fields))
         self._sums = _taceva.Sums(*self._asked)
 
     @property
@@ -79,8 +84,9 @@ class TactileMetrics:
         points: Any = None,
         *,
         allow_invalid: bool = False,
+        **fields: Any,
     ) -> None:
-        """Take in samples; none is taken in where one is refused.
+        """Take in samples; none is taken in where one is refused, or where Ctrl-C interrupts.
 
         Parameters
         ----------
@@ -91,6 +97,8 @@ class TactileMetrics:
             The contact point of each row, a whole number or a text: intervals take the samples of one point as dependent.
         allow_invalid
             Whether rows with NaN or an infinite number are counted and left out instead of refused.
+        fields
+            One a row of what was named at the start: ``scene=["dark", …]``, ``repeat=[0, …]``.
 
         Raises
         ------
@@ -99,11 +107,25 @@ class TactileMetrics:
         TypeError
             For arrays of anything but real numbers.
         """
-        self._sums.update(
-            numbers(truth, "truth", allow_invalid=allow_invalid),
-            numbers(prediction, "prediction", allow_invalid=allow_invalid),
-            None if points is None else names_of_points(points),
-        )
+        tables = {"truth": real(truth, "truth"), "prediction": real(prediction, "prediction")}
+        width = len(self.channels)
+        for name, table in tables.items():
+            if table.shape[1:] != (width,) and not (width == 1 and table.ndim == 1):
+                raise ValueError(f"{name} has the shape {list(table.shape)}, expected [rows, {width}]: a column a channel")
+        names = None if points is None else names_of_points(points)
+        rows = len(tables["truth"])
+        for name, column in {"prediction": tables["prediction"], "points": names}.items():
+            if column is not None and len(column) != rows:
+                raise ValueError(f"{name} has {len(column)} rows, truth has {rows}")
+        said = columns(fields, self._asked[3], rows)
+        # Of several blocks one may be refused, or Ctrl-C may come: they are summed apart, and joined when all of them are in.
+        sums = self._sums if rows <= BLOCK_ROWS else _taceva.Sums(*self._asked)
+        for first in range(0, rows, BLOCK_ROWS):
+            block = slice(first, first + BLOCK_ROWS)
+            rows_of = {name: native(table[block], name, allow_invalid=allow_invalid, first=first) for name, table in tables.items()}
+            sums.update(rows_of["truth"], rows_of["prediction"], None if names is None else names[block], [(name, column[block]) for name, column in said])
+        if sums is not self._sums:
+            self._sums.merge(sums)
 
     def compute(self) -> Result:
         """Return the scores of all samples so far; more samples may follow."""
@@ -126,14 +148,10 @@ class TactileMetrics:
         self._sums.merge_bytes(states)
 
     def __getstate__(self) -> dict[str, Any]:
-        return {"version": _PICKLE_VERSION, "asked": self._asked, "states": self.states()}
+        return {"version": PICKLE_VERSION, "asked": self._asked, "states": self.states()}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        if state.get("version") != _PICKLE_VERSION:
-            raise ValueError(
-                f"a pickle of version {state.get('version')}, this taceva reads version {_PICKLE_VERSION}: "
-                "use the same taceva on both sides, or pass states()"
-            )
+        require_version(state.get("version"))
         self._asked = state["asked"]
         self._sums = _taceva.Sums(*self._asked)
         self._sums.merge_bytes(state["states"])
@@ -152,10 +170,11 @@ def score(
     units: Mapping[str, str] | None = None,
     independent: bool = False,
     allow_invalid: bool = False,
+    **fields: Any,
 ) -> Result:
     """Return the scores of ``prediction`` against ``truth``, arrays of ``[rows, channels]``; see `TactileMetrics`.
 
-    Where ``channels`` are not named there are six columns, those of the paper.
+    Where ``channels`` are not named there are six columns, those of the paper. ``fields`` are what rows say besides, such as ``scene=[…]``.
 
     >>> import numpy as np
     >>> import taceva
@@ -163,8 +182,9 @@ def score(
     >>> taceva.score(truth, truth + 0.5)["mae", "Pz"].value
     0.5
     """
-    found = TactileMetrics(SIX if channels is None else channels, metrics, units=units, independent=independent)
-    found.update(truth, prediction, points, allow_invalid=allow_invalid)
+    wanted = SIX if channels is None else channels
+    found = TactileMetrics(wanted, metrics, units=units, independent=independent, fields=list(fields))
+    found.update(truth, prediction, points, allow_invalid=allow_invalid, **fields)
     return found.compute()
 
 

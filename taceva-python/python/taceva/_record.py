@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from taceva import _taceva
-from taceva._arrays import numbers
+from taceva._arrays import numbers, real
 from taceva._arrays import points as names_of_points
 from taceva._bar import bar
 from taceva._dataset import Dataset
@@ -66,20 +66,17 @@ def from_arrays(
     channels = list(channels)
     units = dict(units or {})
     with_units = [(name, units.get(name) or _taceva.unit_of(name) or "1") for name in channels]
+    if not channels and frames is None:
+        raise ValueError("no channels and no frames: expected one of them, there is nothing to record")
+    # Before anything is copied.
+    rows = len(real(labels, "labels"))
+    for name, column in {"frames": frames, "points": points, "times": times, "scenes": scenes}.items():
+        if column is not None and len(column) != rows:
+            raise ValueError(f"{name} has {len(column)} rows, labels has {rows}")
     table = numbers(labels, "labels", allow_invalid=True)
     if np.isinf(table).any():
         raise ValueError("labels: an infinite number; expected finite ones, and NaN where a label is absent")
-    rows = len(table)
     pictures = None if frames is None else _pixels(frames, 3)
-    lengths = {
-        "frames": None if pictures is None else len(pictures),
-        "points": None if points is None else len(points),
-        "times": None if times is None else len(times),
-        "scenes": None if scenes is None else len(scenes),
-    }
-    for name, length in lengths.items():
-        if length is not None and length != rows:
-            raise ValueError(f"{name} has {length} rows, labels has {rows}")
     _taceva.record(
         os.fspath(path),
         {

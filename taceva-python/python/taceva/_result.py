@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import html
 import json
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from taceva import _taceva
+from taceva._figure import Figure, figures_of
+from taceva._pickles import PICKLE_VERSION, require_version
 
 
 @dataclass(frozen=True)
@@ -120,21 +124,31 @@ class Result:
 
     def to_latex(self) -> str:
         """Return a table for a paper, in the symbols of the field; it needs ``booktabs``."""
-        return _taceva.score_table([self._text], "tex")
+        said = "".join(f"% {line}\n" for line in self._said())
+        return said + _taceva.score_table([self._text], "tex")
+
+    def figures(self) -> list[Figure]:
+        """Return every figure that the scores give something to draw of, as the report of the command has them."""
+        return figures_of([self._text])
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the JSON to ``path``, which must not exist: the same bytes as ``taceva … --format json --out``."""
         with Path(path).open("x", encoding="utf-8", newline="\n") as file:
             file.write(self._text)
 
+    def _said(self) -> list[str]:
+        """Return what a reader must know first: that nothing was measured, and the notes."""
+        return [*not_measured([self.source]), *self.notes]
+
     def __str__(self) -> str:
-        return _taceva.score_table([self._text], "text")
+        return "\n".join([*self._said(), _taceva.score_table([self._text], "text")])
 
     def __repr__(self) -> str:
         return f"<taceva.Result of {len(self.scores())} scores, {self.source}>"
 
     def _repr_html_(self) -> str:
-        return _taceva.score_table([self._text], "html")
+        said = "".join(f"<p>{html.escape(line)}</p>" for line in self._said())
+        return said + _taceva.score_table([self._text], "html") + "".join(figure._repr_html_() for figure in self.figures())
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Result) and other._text == self._text
@@ -142,13 +156,27 @@ class Result:
     def __hash__(self) -> int:
         return hash(self._text)
 
-    def __reduce__(self) -> tuple[type[Result], tuple[str]]:
-        return Result, (self._text,)
+    def __reduce__(self) -> tuple[Any, tuple[int, str]]:
+        return _arrived, (PICKLE_VERSION, self._text)
+
+
+def not_measured(sources: Sequence[str]) -> list[str]:
+    """Return the sentence that stands before whatever was made of samples that nobody measured."""
+    kinds = sorted({source for source in sources if source in ("simulated", "synthetic")})
+    if not kinds:
+        return []
+    whose = "the samples are" if set(sources) == set(kinds) else "some of the samples are"
+    return [f"{'Nothing here was measured' if whose.startswith('the') else 'Not all of this was measured'}: {whose} {' and '.join(kinds)}."]
 
 
 def load(path: str | os.PathLike[str]) -> Result:
     """Read the JSON of one evaluation that ``save`` or the command wrote; one that was changed since is refused."""
     return Result(Path(path).read_text(encoding="utf-8"))
+
+
+def _arrived(version: object, text: str = "") -> Result:
+    require_version(version)
+    return Result(text)
 
 
 def _score(metric: str, channel: str, found: dict[str, Any]) -> Score:

@@ -11,12 +11,13 @@ if TYPE_CHECKING:
     from taceva._dataset import Dataset
 
 
-class Frames(torch.utils.data.Dataset):  # type: ignore[misc, unused-ignore]
+class Frames(torch.utils.data.Dataset):  # type: ignore[misc, type-arg, unused-ignore]
     """Frames with labels; each worker opens the recording anew, so any number of workers may read."""
 
     def __init__(self, dataset: Dataset, rows: list[int]) -> None:
         self._dataset = dataset
         self._rows = rows
+        self._labels = dataset.labels().astype(np.float32)
 
     def __len__(self) -> int:
         return len(self._rows)
@@ -26,5 +27,4 @@ class Frames(torch.utils.data.Dataset):  # type: ignore[misc, unused-ignore]
         frame = self._dataset.frame(row)
         scale = np.float32(np.iinfo(frame.dtype).max)
         picture = np.ascontiguousarray(frame.transpose(2, 0, 1), dtype=np.float32) / scale
-        labels = self._dataset.labels()[row].astype(np.float32)
-        return torch.from_numpy(picture), torch.from_numpy(labels)
+        return torch.from_numpy(picture), torch.from_numpy(self._labels[row].copy())

@@ -28,6 +28,7 @@ pub struct GivenRows {
     part: Option<DataPart>,
     learns: bool,
     reads_frames: bool,
+    is_unbounded: bool,
 }
 
 /// How rows are chosen for a model that a caller holds.
@@ -45,6 +46,8 @@ pub struct GivenRequest {
     pub part: Option<DataPart>,
     /// Whether the model looks at frames.
     pub reads_frames: bool,
+    /// Whether predictions of a model that learns now are scored as they are, and not brought within the bounds of its labels.
+    pub is_unbounded: bool,
 }
 
 /// What a model that a caller holds is called.
@@ -91,6 +94,7 @@ impl GivenRows {
             part: request.part,
             learns: request.learns,
             reads_frames: request.reads_frames,
+            is_unbounded: request.is_unbounded,
         })
     }
 
@@ -150,7 +154,7 @@ impl GivenRows {
             .iter()
             .map(|channel| channel.name().to_owned());
         let predictor = Predictor {
-            bounds: match self.learns {
+            bounds: match self.learns && !self.is_unbounded {
                 true => LabelBounds::of_labels(targets),
                 false => LabelBounds::unknown(self.channels.len()),
             },
@@ -188,6 +192,7 @@ impl GivenRows {
                 self.learns,
                 self.target.divided.is_some(),
                 self.train_left_out,
+                self.is_unbounded,
             ),
         };
         score(dataset, asked, behind, (&self.target, &predicted), jobs)
@@ -220,7 +225,7 @@ impl GivenRows {
     }
 }
 
-fn notes(learns: bool, is_divided: bool, left_out: usize) -> Vec<String> {
+fn notes(learns: bool, is_divided: bool, left_out: usize, is_unbounded: bool) -> Vec<String> {
     let learnt = match (learns, is_divided) {
         (true, _) => {
             "the model is one that the caller holds, fitted here on the training part alone"
@@ -237,6 +242,12 @@ fn notes(learns: bool, is_divided: bool, left_out: usize) -> Vec<String> {
         notes.push(format!(
             "{left_out} samples of the part train lack a label or a frame and were left out"
         ));
+    }
+    if is_unbounded {
+        notes.push(
+            "predictions were not brought within the bounds of the labels that were learnt, as those of other models are"
+                .to_owned(),
+        );
     }
     notes
 }

@@ -1,0 +1,52 @@
+"""What a row says beside its numbers and its contact point: the scene, the unit of the sensor, the repeat and so on."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from taceva._arrays import native, points, real
+
+#: Fields that are texts, and those that are numbers, of which some count.
+_TEXTS = ("scene", "unit_id", "phase")
+_COUNTS = ("depth_step", "repeat")
+
+
+def columns(fields: Mapping[str, Any], expected: Sequence[str], rows: int) -> list[tuple[str, Any]]:
+    """Return each of the ``expected`` fields as an array or a list of texts, one a row.
+
+    Raises
+    ------
+    ValueError
+        For a field that is missing or that nobody expects, of another length, with a phase that is none, or with a number that is not finite.
+    TypeError
+        For counts that are no whole numbers.
+    """
+    for name in expected:
+        if name not in fields:
+            raise ValueError(f"no {name}: every row carries {', '.join(expected)}, as was said at the start")
+    for name in fields:
+        if name not in expected:
+            raise ValueError(f"{name} was not expected: name it at the start, fields=[{', '.join(map(repr, [*expected, name]))}]")
+    found = []
+    for name in expected:
+        column = points(fields[name], name) if name in _TEXTS else _numbers(fields[name], name)
+        if len(column) != rows:
+            raise ValueError(f"{name} has {len(column)} rows, truth has {rows}")
+        if name == "phase":
+            other = sorted({str(phase) for phase in column} - {"load", "unload"})
+            if other:
+                raise ValueError(f"phase {other[0]!r}: expected load or unload")
+        found.append((name, column))
+    return found
+
+
+def _numbers(column: Any, name: str) -> Any:
+    found = real(column, name)
+    if found.ndim != 1:
+        raise ValueError(f"{name} has the shape {list(found.shape)}, expected one a row")
+    if name in _COUNTS and found.dtype.kind not in "iu":
+        raise TypeError(f"{name}: expected whole numbers, found an array of {found.dtype}")
+    return np.ascontiguousarray(native(found, name), dtype=np.float64)

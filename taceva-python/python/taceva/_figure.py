@@ -1,0 +1,73 @@
+"""Figures of results, as the reports of the command draw them."""
+
+from __future__ import annotations
+
+import base64
+import html
+import os
+from collections.abc import Sequence
+from pathlib import Path
+
+from taceva import _taceva
+
+
+class Figure:
+    """A figure of one or more results: shown by a notebook, saved as SVG or PDF for a paper."""
+
+    def __init__(self, texts: Sequence[str], drawn: dict[str, str]) -> None:
+        self._texts = list(texts)
+        self._drawn = drawn
+
+    @property
+    def name(self) -> str:
+        """A name for files: ``histograms``."""
+        return self._drawn["name"]
+
+    @property
+    def title(self) -> str:
+        """What it is."""
+        return self._drawn["title"]
+
+    @property
+    def caption(self) -> str:
+        """What a reader must know: what is drawn, of how many samples, what was left out."""
+        return self._drawn["caption"]
+
+    @property
+    def description(self) -> str:
+        """What the figure shows, in words."""
+        return self._drawn["description"]
+
+    @property
+    def svg(self) -> str:
+        """The drawing, complete, on white."""
+        return self._drawn["svg"]
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the figure to ``path``, which must not exist and ends in ``.svg`` or ``.pdf``; fonts of a PDF are embedded."""
+        target = Path(path)
+        forms = {".svg": lambda: self.svg.encode(), ".pdf": lambda: bytes(_taceva.figure_pdf(self._texts, self.name))}
+        if target.suffix not in forms:
+            raise ValueError(f"{target}: expected a name that ends in .svg or .pdf")
+        content = forms[target.suffix]()
+        with target.open("xb") as file:
+            file.write(content)
+
+    def __repr__(self) -> str:
+        return f"<taceva.Figure {self.name!r}: {self.title}>"
+
+    def _repr_svg_(self) -> str:
+        return self.svg
+
+    def _repr_html_(self) -> str:
+        # As a picture: its style and its names stay apart from those of the page.
+        address = base64.b64encode(self.svg.encode()).decode()
+        return (
+            f'<figure style="margin: 1em 0"><img src="data:image/svg+xml;base64,{address}" alt="{html.escape(self.description)}"'
+            f' style="max-width: 100%"><figcaption>{html.escape(self.title)}: {html.escape(self.caption)}</figcaption></figure>'
+        )
+
+
+def figures_of(texts: Sequence[str]) -> list[Figure]:
+    """Return every figure that results have something to draw of, in the order of reports."""
+    return [Figure(texts, drawn) for drawn in _taceva.figures(list(texts))]

@@ -1,0 +1,159 @@
+"""Models in files of ONNX, run by the caller's onnxruntime."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from taceva._arrays import numbers
+from taceva._pickles import PICKLE_VERSION, require_version
+
+#: Types of the input, by their names in onnxruntime, and whether pixels are brought to 0…1.
+_INPUTS = {
+    "tensor(float)": (np.float32, True),
+    "tensor(float16)": (np.float16, True),
+    "tensor(double)": (np.float64, True),
+    "tensor(uint8)": (np.uint8, False),
+    "tensor(uint16)": (np.uint16, False),
+}
+
+
+class OnnxModel:
+    """A model of an ONNX file, as `evaluate` takes it: called with frames, it returns ``[rows, channels]``; see `onnx`."""
+
+    def __init__(self, path: str | os.PathLike[str], providers: list[str] | None, order: str | None) -> None:
+        try:
+            import onnxruntime
+        except ImportError as error:
+            raise ImportError("models of ONNX need the package onnxruntime: pip install 'taceva[onnx]'") from error
+        if order not in (None, "nchw", "nhwc"):
+            raise ValueError(f"order {order!r}: expected nchw or nhwc")
+        self._path = Path(path)
+        self._asked = (os.fspath(path), providers, order)
+        content = self._path.read_bytes()
+        self._digest = f"sha256:{hashlib.sha256(content).hexdigest()}"
+        options = onnxruntime.SessionOptions()
+        options.log_severity_level = 3
+        try:
+            # By its path, since weights may lie in files beside it.
+            self._session = onnxruntime.InferenceSession(
+                os.fspath(path), options, providers=providers or onnxruntime.get_available_providers()
+            )
+        except Exception as error:
+            raise ValueError(f"{path}: no model that onnxruntime {onnxruntime.__version__} runs: {error}") from error
+        inputs, outputs = self._session.get_inputs(), self._session.get_outputs()
+        if len(inputs) != 1 or len(outputs) != 1:
+            raise ValueError(
+                f"{path}: {len(inputs)} inputs ({', '.join(one.name for one in inputs)}) and {len(outputs)} outputs "
+                f"({', '.join(one.name for one in outputs)}), expected one of each: frames in, [rows, channels] out"
+            )
+        self._input = inputs[0]
+        if self._input.type not in _INPUTS:
+            raise ValueError(f"{path}: the input {self._input.name} is {self._input.type}, expected one of {', '.join(_INPUTS)}")
+        self._shape: list[Any] = list(self._input.shape)
+        if len(self._shape) != 4:
+            raise ValueError(
+                f"{path}: the input {self._input.name} has the shape {self._shape}, expected four axes: "
+                "[rows, samples, height, width] or [rows, height, width, samples]"
+            )
+        self._order = order
+
+    @property
+    def name(self) -> str:
+        """What provenance calls it."""
+        return f"onnx:{self._path.name}"
+
+    @property
+    def settings(self) -> dict[str, str]:
+        """What provenance says of it: the digest of the file, and who runs it."""
+        import onnxruntime
+
+        return {"digest": self._digest, "runtime": f"onnxruntime {onnxruntime.__version__}"}
+
+    def __call__(self, frames: npt.NDArray[Any]) -> npt.NDArray[Any]:
+        """Return ``[rows, channels]`` of ``[rows, height, width, samples]``, uint8 or uint16."""
+        number, is_scaled = _INPUTS[self._input.type]
+        pictures = frames if self._wants(frames) == "nhwc" else frames.transpose(0, 3, 1, 2)
+        if is_scaled:
+            pictures = np.ascontiguousarray(pictures, dtype=np.float32) / np.float32(np.iinfo(frames.dtype).max)
+        elif frames.dtype != number:
+            raise ValueError(f"{self._path}: the input is {self._input.type}, the frames are {frames.dtype}")
+        pictures = np.ascontiguousarray(pictures, dtype=number)
+        size = self._shape[0] if isinstance(self._shape[0], int) else len(pictures)
+        found = []
+        for first in range(0, len(pictures), size):
+            batch = pictures[first : first + size]
+            missing = size - len(batch)
+            if missing:
+                # A model of a fixed batch gets the last picture again; what it says of that is left out.
+                batch = np.concatenate([batch, np.repeat(batch[-1:], missing, axis=0)])
+            (predicted,) = self._session.run(None, {self._input.name: batch})
+            found.append(self._rows(predicted, size)[: size - missing])
+        return np.concatenate(found)
+
+    def _rows(self, predicted: Any, rows: int) -> npt.NDArray[Any]:
+        seen = numbers(predicted, f"what {self.name} predicted", allow_invalid=True)
+        if seen.ndim == 0 or len(seen) != rows:
+            raise ValueError(f"{self.name} predicted an array of the shape {list(seen.shape)} for {rows} frames, expected [{rows}, channels]")
+        return seen
+
+    def _wants(self, frames: npt.NDArray[Any]) -> str:
+        """Return the order of axes in which the frames fit the input."""
+        _, height, width, samples = frames.shape
+        orders = {"nchw": (samples, height, width), "nhwc": (height, width, samples)}
+        fit = [
+            name
+            for name, sizes in orders.items()
+            if self._order in (None, name)
+            and all(not isinstance(asked, int) or asked == size for asked, size in zip(self._shape[1:], sizes, strict=True))
+        ]
+        if not fit:
+            raise ValueError(
+                f"{self._path}: the input {self._input.name} has the shape {self._shape}, which frames of "
+                f"{height}×{width} pixels of {samples} samples do not fit"
+            )
+        return fit[0]
+
+    def __reduce__(self) -> tuple[Any, tuple[int, tuple[str, list[str] | None, str | None], str]]:
+        return _arrived, (PICKLE_VERSION, self._asked, self._digest)
+
+    def __repr__(self) -> str:
+        return f"<taceva.OnnxModel {os.fspath(self._path)!r}>"
+
+
+def onnx(path: str | os.PathLike[str], *, providers: list[str] | None = None, order: str | None = None) -> OnnxModel:
+    """Return the model in an ONNX file for `evaluate`, run by the onnxruntime that is installed: ``pip install 'taceva[onnx]'``.
+
+    It has one input of four axes: ``[rows, samples, height, width]``, as torch exports it, or ``[rows, height, width, samples]``. Floating point numbers
+    get pixels from 0 to 1, whole numbers pixels as they are. A fixed number of rows is kept. Its one output is ``[rows, channels]`` in their units.
+
+    Parameters
+    ----------
+    providers
+        Those of onnxruntime, such as ``["CUDAExecutionProvider"]``; all that it has, if ``None``.
+    order
+        ``nchw`` or ``nhwc``; where ``None``, the one that frames fit, ``nchw`` if both.
+
+    Raises
+    ------
+    ImportError
+        Without onnxruntime.
+    FileNotFoundError
+        If there is no such file.
+    ValueError
+        For a file that is no model, or one of other inputs and outputs.
+    """
+    return OnnxModel(path, providers, order)
+
+
+def _arrived(version: object, asked: tuple[str, list[str] | None, str | None] = ("", None, None), digest: str = "") -> OnnxModel:
+    require_version(version)
+    model = OnnxModel(*asked)
+    if model.settings["digest"] != digest:
+        raise ValueError(f"{asked[0]}: another model than the one that was sent, its digest differs")
+    return model

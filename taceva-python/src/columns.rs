@@ -1,0 +1,91 @@
+//! The table of a recording, column by column, for readers of Arrow.
+
+use taceva_core::shown;
+use taceva_dataset::{Dataset, Table};
+use taceva_study::Subject;
+
+use pyo3::prelude::*;
+use pyo3::types::PyCapsule;
+
+use crate::arrow::{self, ArrowColumn, Cells};
+
+/// The columns that are no labels, by the names and in the order that they have on disk.
+const NAMES: [&str; 18] = [
+    "sample",
+    "point_id",
+    "unit_id",
+    "scene",
+    "depth_step",
+    "repeat",
+    "phase",
+    "limited_by",
+    "source_table",
+    "source_row",
+    "source_frame",
+    "part",
+    "t_s",
+    "kind",
+    "spacing_mm",
+    "intensity",
+    "frame",
+    "frame_sha256",
+];
+
+/// The table of `dataset`: a row a sample, a column a label in the unit that its metadata names, and of the rest what some row says.
+pub(crate) fn stream<'py>(py: Python<'py>, dataset: &Dataset) -> PyResult<Bound<'py, PyCapsule>> {
+    let table = dataset.table();
+    let mut columns = Vec::new();
+    for name in NAMES
+        .into_iter()
+        .chain(table.attribute_names().iter().map(String::as_str))
+    {
+        let unit: &[(&str, &str)] = match name {
+            "t_s" => &[("unit", "s")],
+            "spacing_mm" => &[("unit", "mm")],
+            _ => &[],
+        };
+        let cells = cells(table, name).filter(|cells| !cells.are_absent());
+        if let Some(cells) = cells {
+            columns.push(ArrowColumn::new(name, cells, unit)?);
+        }
+    }
+    for (position, channel) in table.channels().iter().enumerate() {
+        let truth = table.truth(position);
+        let labels = (0..table.rows()).map(|row| truth.get(row)).collect();
+        let unit = [("unit", channel.unit().symbol())];
+        columns.push(ArrowColumn::new(
+            channel.name(),
+            Cells::Numbers(labels),
+            &unit,
+        )?);
+    }
+    let digest = dataset.digest().to_string();
+    let path = shown(dataset.path()).to_string();
+    let metadata = [
+        ("taceva.sensor", dataset.header().sensor.model.as_str()),
+        ("taceva.source", &Subject::of(dataset).source),
+        ("taceva.digest", &digest),
+        ("taceva.path", &path),
+    ];
+    arrow::stream(py, table.rows(), columns, &metadata)
+}
+
+/// The cells of the column called `name`.
+fn cells(table: &Table, name: &str) -> Option<Cells> {
+    Some(match name {
+        "depth_step" => Cells::Counts(table.depth_step().to_vec()),
+        "repeat" => Cells::Counts(table.repeat().to_vec()),
+        "source_row" => Cells::Counts(table.source_row().to_vec()),
+        "t_s" => Cells::Numbers(table.t_s().to_vec()),
+        "intensity" => Cells::Numbers(table.intensity().to_vec()),
+        "spacing_mm" => {
+            let spacing = table.spacing().iter();
+            Cells::Numbers(
+                spacing
+                    .map(|spacing| spacing.map(|spacing| spacing.to_millimetres()))
+                    .collect(),
+            )
+        }
+        name => Cells::Texts(table.as_text(name)?),
+    })
+}
