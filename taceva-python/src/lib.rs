@@ -10,6 +10,7 @@ mod errors;
 mod evaluate;
 mod given;
 mod metrics;
+mod plugin;
 mod record;
 mod results;
 mod watched;
@@ -35,6 +36,10 @@ mod _taceva {
     #[pymodule_export]
     use super::metrics::{Sums, unit_of};
     #[pymodule_export]
+    use super::plugin::{Deadline, Interrupted, Training};
+    #[pymodule_export]
+    use super::plugin::{plugin_log, plugin_manifest, serve_plugin, wire};
+    #[pymodule_export]
     use super::record::{import_recording, record};
     #[pymodule_export]
     use super::results::{check_seal, comparison, score_table};
@@ -42,8 +47,9 @@ mod _taceva {
     /// Carries out the command that `arguments` say, the first being the name of the program, and returns the exit code. The command handles
     /// signals from then on.
     #[pyfunction]
-    fn command(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
-        py.detach(|| taceva_cli::main_with(arguments))
+    fn command(py: Python<'_>, arguments: Vec<OsString>) -> PyResult<u8> {
+        super::plugin::within(py)?;
+        Ok(py.detach(|| taceva_cli::main_with(arguments)))
     }
 
     /// The version of the crates that the module was built from.

@@ -15,6 +15,9 @@ pub(crate) struct PluginArgs {
     /// Also search this folder for plugins, before all others; may be repeated
     #[arg(long = "plugin-dir", global = true, value_name = "DIR")]
     pub(crate) folders: Vec<PathBuf>,
+    /// Ask this interpreter of Python for the plugins in its environment, and run plugins in Python by it; may be repeated
+    #[arg(long = "python", global = true, value_name = "FILE")]
+    pub(crate) interpreters: Vec<PathBuf>,
     /// Run the code of this plugin in this process instead of a sandboxed one; may be repeated
     #[arg(long = "trust", global = true, value_name = "ID")]
     pub(crate) trusted: Vec<PluginId>,

@@ -1,0 +1,69 @@
+"""The process of a plugin: the host starts it, and nobody else.
+
+The interpreter comes here before it has looked at its environment (``-I -S``), so that no code of anybody ran before the process is
+confined, and no thread began that would not be. What the environment has is found after that.
+"""
+
+from __future__ import annotations
+
+import sys
+
+_NAME = "taceva._taceva"
+
+
+def _extension() -> object:
+    """The compiled part of the package, without the package: what that imports begins threads."""
+    import os
+    from importlib.machinery import EXTENSION_SUFFIXES, ExtensionFileLoader
+    from importlib.util import module_from_spec, spec_from_file_location
+
+    folder = os.path.dirname(os.path.abspath(__file__))
+    for suffix in EXTENSION_SUFFIXES:
+        path = os.path.join(folder, "_taceva" + suffix)
+        if os.path.exists(path):
+            break
+    else:
+        raise ImportError(f"the compiled part of taceva is missing in {folder}")
+    loader = ExtensionFileLoader(_NAME, path)
+    spec = spec_from_file_location(_NAME, path, loader=loader)
+    if spec is None:
+        raise ImportError(f"{path} cannot be loaded")
+    module = module_from_spec(spec)
+    sys.modules[_NAME] = module
+    loader.exec_module(module)
+    return module
+
+
+def _import_plugin(folder: str, name: str, preload: list[str]) -> object:
+    """Import the package ``name`` that lies at ``folder``, and give its plugin."""
+    import site
+    from importlib import import_module
+
+    site.main()
+    # Where it was started from is none of the environment.
+    package = __file__.rsplit("/", 2)[0]
+    if package not in sys.path:
+        sys.path.append(package)
+    for module in preload:
+        import_module(module)
+    from taceva.plugin import load
+
+    return load(name, folder)
+
+
+def main() -> None:
+    """Serve until the host is gone."""
+    import os
+
+    code = 70
+    try:
+        extension = _extension()
+        code = extension.serve_plugin(_import_plugin)  # type: ignore[attr-defined]
+    except BaseException as error:
+        print(f"{type(error).__name__}: {error}", file=sys.stderr)
+    # What is registered for the end of an interpreter is not run: threads of a plugin may hang.
+    os._exit(code)
+
+
+if __name__ == "__main__":
+    main()
