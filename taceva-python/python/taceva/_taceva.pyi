@@ -3,21 +3,28 @@ from typing import Any, final
 __all__ = [
     "Buffer",
     "DatasetError",
+    "Deadline",
     "Given",
+    "Interrupted",
     "ModelError",
     "Recording",
     "Sums",
+    "Training",
     "check_seal",
     "command",
     "comparison",
     "evaluate_named",
     "features",
     "import_recording",
+    "plugin_log",
+    "plugin_manifest",
     "record",
     "score_table",
     "score_tables",
+    "serve_plugin",
     "unit_of",
     "version",
+    "wire",
 ]
 
 class DatasetError(ValueError): ...
@@ -132,3 +139,22 @@ def import_recording(
 ) -> None: ...
 def command(arguments: list[str]) -> int: ...
 def version() -> str: ...
+
+class Interrupted(Exception): ...
+
+@final
+class Deadline:
+    def remaining(self) -> float: ...
+    def rest(self, seconds: float) -> None: ...
+
+@final
+class Training:
+    def begin(self, stage: str, steps: int | None = None) -> None: ...
+    def advance(self, steps: int = 1) -> None: ...
+    def end(self) -> None: ...
+    def is_cancelled(self) -> bool: ...
+
+def plugin_log(level: str, message: str) -> None: ...
+def plugin_manifest(plugin: Any, name: str, text: str, license: str | None = None) -> str: ...
+def serve_plugin(import_module: Any) -> int: ...
+def wire() -> int: ...

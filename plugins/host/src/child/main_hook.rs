@@ -154,3 +154,26 @@ fn prepare(
     seal(&isolation).map_err(denied)?;
     Ok((isolation, session))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_host_of_another_wire_is_refused_before_anything_is_given_up_or_loaded() {
+        let (mut host, theirs) = Socket::pair().expect("a pair");
+        host.send(&(7_u32, FirstWord::OfOtherWire(2)), &[]).expect("sent");
+        let code = run(Socket::from(theirs), |_| {
+            Err((ErrorKind::Internal, "it was loaded".to_owned()))
+        });
+        assert_eq!(code, NOT_A_CHILD);
+        let (sequence, greeting) = host.receive::<(u32, Greeting)>().expect("an answer");
+        assert_eq!(sequence, 7);
+        let Greeting::Refused { failure } = greeting else {
+            panic!("it served");
+        };
+        assert_eq!(failure.kind, ErrorKind::Abi);
+        let why = failure.cause.expect("a reason");
+        assert!(why.contains("version 1 of the wire, its host version 2"), "{why}");
+    }
+}

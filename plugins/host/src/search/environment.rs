@@ -105,3 +105,6 @@ impl Searching {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;
