@@ -20,8 +20,8 @@ pub(crate) use self::dataset::{Check, Export, Import, Reseal};
 pub(crate) use self::live::{Capture, LiveArgs, Preview};
 pub(crate) use self::model::{Evaluate, Fit, Merge, Predict, Score};
 pub(crate) use self::plugin::{
-    Plugin, PluginAllow, PluginArgs, PluginCheck, PluginDeny, PluginHeaders, PluginInfo,
-    Language, PluginInstall, PluginList, PluginManifest, PluginNew, PluginPack, PluginRelease,
+    Language, Plugin, PluginAllow, PluginArgs, PluginCheck, PluginDeny, PluginHeaders, PluginInfo,
+    PluginInstall, PluginList, PluginManifest, PluginNew, PluginPack, PluginRelease,
 };
 pub(crate) use self::results::{
     Accept, CatalogueArgs, CatalogueShow, CatalogueSite, CatalogueSubject, Choose, Compare,

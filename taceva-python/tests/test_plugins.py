@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -206,12 +208,13 @@ def test_a_plugin_that_does_wrong_fails_with_what_it_did_and_what_is_expected(
 ) -> None:
     does, said = FAULTS[fault]
     code = SCALE.replace("self.readings += 1", does)
-    assert said in failure(program, package(tmp_path, code), "force/gives")
+    assert said in failure(program, package(tmp_path, code), "force/reads")
 
 
 def test_a_plugin_that_hangs_is_ended_and_one_that_prints_is_told_of(tmp_path: Path, program: Program) -> None:
     code = SCALE.replace("self.readings += 1", "import time; time.sleep(1000)")
-    assert "expected at most" in failure(program, package(tmp_path / "hangs", code), "force/gives", "--limit", "8") or True
+    why = failure(program, package(tmp_path / "hangs", code), "force/reads", "--limit", "15")
+    assert "did not start within 15s" in why
     prints = package(tmp_path / "prints", "print('loaded')\n" + SCALE)
     assert "it printed" in failure(program, prints, "library/quiet")
 
@@ -228,11 +231,11 @@ def test_a_module_that_cannot_be_imported_is_refused_with_its_reason(tmp_path: P
 
 def test_code_that_comes_too_late_is_refused_and_the_remedy_is_named(tmp_path: Path, program: Program) -> None:
     late = SCALE.replace("self.readings += 1", "import _decimal, sqlite3, lzma; self.readings += 1")
-    why = failure(program, package(tmp_path / "late", late), "force/gives")
+    why = failure(program, package(tmp_path / "late", late), "force/reads")
     assert "`preload` of plugin.toml" in why and "interpreter-open" in why
     for name, more in [("early", 'preload = ["_decimal", "sqlite3", "lzma"]'), ("open", 'profile = "interpreter-open"')]:
         made = package(tmp_path / name, late, MANIFEST.replace("wire = 1", f"wire = 1\n{more}"))
-        done = program.check(KEY, made, "--only", "force/gives")
+        done = program.check(KEY, made, "--only", "force/reads")
         assert done["failed"] == [], done
     listed = program.run("plugin", "list", "--plugin-dir", str(tmp_path / "open/src/lab_scale")).stdout
     assert "code may come into it at any time" in listed, listed
@@ -267,3 +270,23 @@ def test_an_estimator_in_python_is_evaluated_by_the_command(tmp_path: Path, prog
     )
     assert done.returncode == 0, done.stderr
     assert f"model {key}" in done.stdout and "Fz" in done.stdout, done.stdout
+
+
+def test_a_plugin_in_a_library_runs_in_the_processes_of_this_interpreter(tmp_path: Path, program: Program) -> None:
+    source = Path(__file__).parents[2] / "plugins"
+    if shutil.which("cc") is None:
+        pytest.skip("no C compiler")
+    made = tmp_path / "c-example"
+    shutil.copytree(source / "c-example", made, ignore=shutil.ignore_patterns("*.so"))
+    text = (made / "plugin.toml").read_text()
+    library = re.search(r'linux-x86_64 = \{ path = "([^"]+)"', text)
+    assert library is not None
+    files = sorted(map(str, (made / "src").glob("*.c")))
+    command = ["cc", "-std=c11", "-D_GNU_SOURCE", "-O2", "-fPIC", "-fvisibility=hidden", "-pthread", "-shared"]
+    command += ["-I", str(source / "abi/include"), "-o", str(made / library[1]), *files, "-lm"]
+    subprocess.run(command, check=True, capture_output=True)
+    id = re.search(r'^id = "([^"]+)"', text, re.MULTILINE)
+    assert id is not None
+    done = program.check(id[1], made, "--only", "library/loads,driver/opens,sensor/gives,force/reads")
+    assert done["failed"] == [], done
+    assert len(done["passed"]) >= 4, done

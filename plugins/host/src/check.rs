@@ -32,6 +32,7 @@ use self::subject::{Ending, Subject};
 use crate::child::{Child, ChildError, no_port};
 use crate::grant::{self, Grant};
 use crate::host::PluginHost;
+use crate::host::code::ReadCode;
 use crate::manifest::Provided;
 use crate::search::Plugin;
 
@@ -151,7 +152,8 @@ impl PluginHost {
     ) -> Result<(), DriverError> {
         let whole = plugin.id().as_driver();
         // One that cannot be run at all breaks no promise: its user hears why, once.
-        plugin.child(&whole, self.children())?;
+        let code = plugin.read(&whole)?;
+        plugin.child(&code, &whole, self.children())?;
         let is_wanted = |check: &&Check| {
             let mut only = request.only.iter();
             request.only.is_empty() || only.any(|begin| check.name.starts_with(begin))
@@ -171,7 +173,7 @@ impl PluginHost {
                     moves: request.moves,
                 };
                 let begun = Instant::now();
-                let mut outcome = self.made(plugin, &probe, request.limit);
+                let mut outcome = self.made(plugin, (&code, &probe), request.limit);
                 let cause = match &outcome {
                     CheckOutcome::Failed(why) => Some((why.clone(), "failed")),
                     CheckOutcome::Skipped(why) => Some((why.clone(), "was skipped")),
@@ -200,7 +202,12 @@ impl PluginHost {
     }
 
     /// One check, in a child.
-    fn made(&self, plugin: &Plugin, probe: &Probe, limit: Duration) -> CheckOutcome {
+    fn made(
+        &self,
+        plugin: &Plugin,
+        (code, probe): (&ReadCode, &Probe),
+        limit: Duration,
+    ) -> CheckOutcome {
         let (grant, arguments) = match self.grant_of(plugin, &probe.driver, &probe.arguments) {
             Ok(granted) => granted,
             Err(error) => return CheckOutcome::Failed(error.to_string()),
@@ -210,9 +217,9 @@ impl PluginHost {
             ..probe.clone()
         };
         let files = probe.sealed().map(|probe| -> Vec<OwnedFd> { vec![probe] });
-        let spec = plugin.child(&plugin.id().as_driver(), self.children());
+        let spec = plugin.child(code, &plugin.id().as_driver(), self.children());
         let (mut spec, files) = match (spec, files) {
-            (Ok((spec, _)), Ok(files)) => (spec, files),
+            (Ok(spec), Ok(files)) => (spec, files),
             (Err(error), _) => return CheckOutcome::Failed(error.to_string()),
             (_, Err(error)) => return CheckOutcome::Failed(error.to_string()),
         };

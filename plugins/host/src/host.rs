@@ -1,6 +1,6 @@
 //! The plugins of a program, and the drivers that they are.
 
-mod code;
+pub(crate) mod code;
 mod driver;
 mod estimator;
 mod isolation;
@@ -233,7 +233,7 @@ impl PluginHost {
                 .filter(|entry| entry.plugin == plugin.id().as_str())
                 .peekable();
             of_plugin.peek()?;
-            let digest = plugin.digest(&plugin.id().as_driver()).ok()?;
+            let digest = plugin.read(&plugin.id().as_driver()).ok()?.digest();
             let entry = of_plugin.find(|entry| entry.sha256 == digest)?;
             Some(entry.reason)
         }
@@ -267,7 +267,8 @@ impl PluginHost {
         limit: Option<Duration>,
     ) -> Result<Started, DriverError> {
         const DOING: &str = "load the plugin";
-        let (mut spec, digest) = plugin.child(driver, &self.children)?;
+        let code = plugin.read(driver)?;
+        let mut spec = plugin.child(&code, driver, &self.children)?;
         // What is trusted and is no library runs in a process of its own all the same.
         spec.confinement.is_trusted = self.config.trust(plugin).is_some();
         spec.log = Some(self.log_of(plugin));
@@ -288,7 +289,7 @@ impl PluginHost {
         }
         let session = ChildSession::of_plugin(spec, &plugin.manifest);
         let session = session.map_err(|error| error.of(driver, DOING))?;
-        Ok((Arc::new(session), digest))
+        Ok((Arc::new(session), code.digest()))
     }
 
     #[cfg(not(target_os = "linux"))]

@@ -9,12 +9,10 @@ mod open_to;
 mod own;
 mod run;
 
-#[cfg(target_os = "linux")]
-pub(crate) use self::child::arguments;
 pub(crate) use self::digest::digest;
 pub use self::error::PythonError;
 pub(crate) use self::error::other_wire;
 pub use self::interpreter::Interpreter;
 pub(crate) use self::interpreter::Lying;
-pub(crate) use self::own::own;
+pub(crate) use self::own::{arguments, own};
 pub use self::own::{beside_this_program, run_within};

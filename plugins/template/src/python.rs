@@ -34,9 +34,18 @@ pub fn python_project(kind: Kind, name: &Name) -> Option<Vec<File>> {
     let package = format!("src/{}", name.as_crate());
     let manifest = [include_str!("../project/python/plugin.toml.in"), provides].concat();
     let files = [
-        ("pyproject.toml".to_owned(), include_str!("../project/python/pyproject.toml.in")),
-        ("README.md".to_owned(), include_str!("../project/python/README.md.in")),
-        (".gitignore".to_owned(), include_str!("../project/python/gitignore.in")),
+        (
+            "pyproject.toml".to_owned(),
+            include_str!("../project/python/pyproject.toml.in"),
+        ),
+        (
+            "README.md".to_owned(),
+            include_str!("../project/python/README.md.in"),
+        ),
+        (
+            ".gitignore".to_owned(),
+            include_str!("../project/python/gitignore.in"),
+        ),
         (format!("{package}/__init__.py"), module),
         (format!("{package}/plugin.toml"), manifest.as_str()),
     ];
@@ -54,7 +63,9 @@ mod tests {
     #[test]
     fn a_project_in_python_is_a_package_with_its_manifest_in_it() {
         let name: Name = "my-device".parse().expect("a name");
-        let kinds = Kind::ALL.into_iter().filter_map(|kind| python_project(kind, &name));
+        let kinds = Kind::ALL
+            .into_iter()
+            .filter_map(|kind| python_project(kind, &name));
         let kinds: Vec<Vec<File>> = kinds.collect();
         assert_eq!(kinds.len(), 4);
         for files in kinds {

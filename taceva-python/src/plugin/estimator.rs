@@ -101,12 +101,12 @@ impl EstimatorFactory for PythonEstimator {
     fn fit(&self, request: &FitRequest<'_>) -> Result<Box<dyn SavedRegressor>, ModelError> {
         let (settings, training, validation) =
             (request.settings, request.training, request.validation);
-        let fitted = watched(request.progress, |told| {
+        let fitted = watched(request.progress, |watching| {
             Python::attach(|py| {
                 let silent = taceva_core::SilentProgress;
                 let request =
                     FitRequest::new(settings, training, &silent).with_validation(validation);
-                let fitted = self.fitted(py, &request, told);
+                let fitted = self.fitted(py, &request, watching);
                 fitted.map_err(|error| self.error(py, &error, "fit"))
             })
         });

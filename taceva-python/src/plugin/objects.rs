@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use taceva_core::{ArgSpec, ArgValue, Args, DriverError, DriverKey, Interrupt};
+use taceva_core::{ArgKind, ArgSpec, ArgValue, Args, DriverError, DriverKey, Interrupt};
 use taceva_plugin::Interruption;
 
 use super::failure::{Doing, device_error};
@@ -102,6 +102,10 @@ pub(super) fn keywords<'py>(
             Some(ArgValue::Whole(value)) => given.set_item(&spec.key, *value)?,
             Some(ArgValue::Number(value)) => given.set_item(&spec.key, *value)?,
             Some(ArgValue::Flag(value)) => given.set_item(&spec.key, *value)?,
+            Some(ArgValue::Text(text)) if spec.kind == ArgKind::Path => {
+                let path = py.import("pathlib")?.getattr("Path")?.call1((text,))?;
+                given.set_item(&spec.key, path)?;
+            }
             Some(value) => given.set_item(&spec.key, value.to_string())?,
             // Its own default says what is meant by nothing.
             None => {}

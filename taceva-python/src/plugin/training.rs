@@ -14,7 +14,7 @@ use super::waiting::Interrupted;
 const ASKED_EVERY: Duration = Duration::from_millis(20);
 
 /// What a fit tells.
-enum Told {
+enum Event {
     Begins(String, Option<u64>),
     Advances(u64),
     Ends,
@@ -23,18 +23,18 @@ enum Told {
 /// What a fit is told and asked by Python.
 #[pyclass(module = "taceva._taceva", frozen)]
 pub(crate) struct Training {
-    to: std::sync::Mutex<Sender<Told>>,
+    to: std::sync::Mutex<Sender<Event>>,
     is_cancelled: Arc<AtomicBool>,
 }
 
 impl Training {
-    fn tell(&self, told: Told) -> PyResult<()> {
+    fn send(&self, event: Event) -> PyResult<()> {
         let to = self
             .to
             .lock()
             .unwrap_or_else(std::sync::PoisonError::into_inner);
         // Nobody listens to a fit that was given up.
-        let _ = to.send(told);
+        let _ = to.send(event);
         drop(to);
         match self.is_cancelled() {
             true => Err(Interrupted::new_err("the fit was cancelled")),
@@ -48,18 +48,18 @@ impl Training {
     /// A stage begins, of so many steps where that is known.
     #[pyo3(signature = (stage, steps = None))]
     fn begin(&self, stage: String, steps: Option<u64>) -> PyResult<()> {
-        self.tell(Told::Begins(stage, steps))
+        self.send(Event::Begins(stage, steps))
     }
 
     /// So many steps are done; raises `Interrupted` where the fit should end.
     #[pyo3(signature = (steps = 1))]
     fn advance(&self, steps: u64) -> PyResult<()> {
-        self.tell(Told::Advances(steps))
+        self.send(Event::Advances(steps))
     }
 
     /// The stage ends.
     fn end(&self) -> PyResult<()> {
-        self.tell(Told::Ends)
+        self.send(Event::Ends)
     }
 
     /// Whether somebody asked the fit to end.
@@ -73,7 +73,7 @@ pub(super) fn watched<T: Send>(
     progress: &dyn Progress,
     fit: impl FnOnce(Training) -> T + Send,
 ) -> std::thread::Result<T> {
-    let (to, told) = channel();
+    let (to, events) = channel();
     let is_cancelled = Arc::new(AtomicBool::new(false));
     let training = Training {
         to: std::sync::Mutex::new(to),
@@ -86,13 +86,13 @@ pub(super) fn watched<T: Send>(
             let _done = done;
             fit(training)
         });
-        pass_on(&told, &is_done, progress, &is_cancelled);
+        pass_on(&events, &is_done, progress, &is_cancelled);
         fitting.join()
     })
 }
 
 fn pass_on(
-    told: &Receiver<Told>,
+    events: &Receiver<Event>,
     is_done: &Receiver<()>,
     progress: &dyn Progress,
     is_cancelled: &AtomicBool,
@@ -101,10 +101,10 @@ fn pass_on(
         if progress.is_cancelled() {
             is_cancelled.store(true, Ordering::Release);
         }
-        match told.recv_timeout(ASKED_EVERY) {
-            Ok(Told::Begins(stage, steps)) => progress.begin(&stage, steps),
-            Ok(Told::Advances(steps)) => progress.advance(steps),
-            Ok(Told::Ends) => progress.end(),
+        match events.recv_timeout(ASKED_EVERY) {
+            Ok(Event::Begins(stage, steps)) => progress.begin(&stage, steps),
+            Ok(Event::Advances(steps)) => progress.advance(steps),
+            Ok(Event::Ends) => progress.end(),
             Err(RecvTimeoutError::Disconnected) => return,
             // Python may keep what it was given, but the fit is over.
             Err(RecvTimeoutError::Timeout) => {

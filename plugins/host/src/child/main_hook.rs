@@ -162,7 +162,8 @@ mod tests {
     #[test]
     fn a_host_of_another_wire_is_refused_before_anything_is_given_up_or_loaded() {
         let (mut host, theirs) = Socket::pair().expect("a pair");
-        host.send(&(7_u32, FirstWord::OfOtherWire(2)), &[]).expect("sent");
+        host.send(&(7_u32, FirstWord::OfOtherWire(2)), &[])
+            .expect("sent");
         let code = run(Socket::from(theirs), |_| {
             Err((ErrorKind::Internal, "it was loaded".to_owned()))
         });
@@ -174,6 +175,9 @@ mod tests {
         };
         assert_eq!(failure.kind, ErrorKind::Abi);
         let why = failure.cause.expect("a reason");
-        assert!(why.contains("version 1 of the wire, its host version 2"), "{why}");
+        assert!(
+            why.contains("version 1 of the wire, its host version 2"),
+            "{why}"
+        );
     }
 }

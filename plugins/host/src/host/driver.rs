@@ -104,7 +104,7 @@ impl PluginDriver {
     fn digest(&self) -> Result<String, DriverError> {
         let key = self.descriptor.key();
         let plugin = self.plugin("read the library")?;
-        Ok(format!("sha256:{}", plugin.digest(key)?))
+        Ok(format!("sha256:{}", plugin.read(key)?.digest()))
     }
 
     /// The devices that the library finds; where it finds none, those that the manifest names and the kernel lists.

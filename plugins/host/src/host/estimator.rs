@@ -51,7 +51,8 @@ impl PluginEstimator {
         if let Some(digest) = self.built.get() {
             return Ok(*digest);
         }
-        let digest = self.plugin.digest(&self.info.key).map_err(of_driver)?;
+        let code = self.plugin.read(&self.info.key).map_err(of_driver)?;
+        let digest = code.digest();
         Ok(*self.built.get_or_init(|| digest))
     }
 }

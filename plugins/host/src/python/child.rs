@@ -1,6 +1,5 @@
 //! The process of a plugin in Python.
 
-use std::ffi::OsString;
 use std::path::Path;
 
 use rustix::process::geteuid;
@@ -8,18 +7,10 @@ use rustix::process::geteuid;
 use super::error::PythonError;
 use super::interpreter::Interpreter;
 use super::open_to::closed_by;
+use super::own::arguments;
 use crate::child::{ChildSpec, ModuleToImport, NOBODY};
 use crate::manifest::PythonModule;
 use crate::search::Plugin;
-
-/// Alone, without its user's modules, before its environment is looked at, writing no compiled files, printing at once.
-const ALONE: [&str; 4] = ["-I", "-S", "-B", "-u"];
-
-/// What an interpreter is given to run `child`.
-pub(crate) fn arguments(child: &Path) -> Vec<OsString> {
-    let alone = ALONE.into_iter().map(OsString::from);
-    alone.chain([child.as_os_str().to_owned()]).collect()
-}
 
 impl Interpreter {
     /// A child that is this interpreter, confined to what `module` of `plugin` is to be confined to.

@@ -1,7 +1,17 @@
 //! The interpreter that this program itself belongs to.
 
-use std::path::PathBuf;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
+
+/// Alone, without its user's modules, before its environment is looked at, writing no compiled files, printing at once.
+const ALONE: [&str; 4] = ["-I", "-S", "-B", "-u"];
+
+/// What an interpreter is given to run `child`.
+pub(crate) fn arguments(child: &Path) -> Vec<OsString> {
+    let alone = ALONE.into_iter().map(OsString::from);
+    alone.chain([child.as_os_str().to_owned()]).collect()
+}
 
 /// An interpreter, and the file that it runs to become the process of a plugin.
 static OWN: OnceLock<(PathBuf, PathBuf)> = OnceLock::new();

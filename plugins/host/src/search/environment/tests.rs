@@ -91,9 +91,15 @@ fn a_plugin_is_found_by_the_entry_point_of_an_environment_and_run_by_its_interpr
     assert!(found.rejections.is_empty(), "{found:?}");
     let plugin = found.get("org.example.scale").expect("found");
     assert_eq!(plugin.place, Place::Python);
-    assert_eq!(plugin.module().map(|module| module.name.as_str()), Some("lab_scale"));
+    assert_eq!(
+        plugin.module().map(|module| module.name.as_str()),
+        Some("lab_scale")
+    );
     let by = plugin.interpreter.as_ref().expect("known");
-    assert_eq!((by.program(), by.version()), (interpreter.as_path(), "3.11.0"));
+    assert_eq!(
+        (by.program(), by.version()),
+        (interpreter.as_path(), "3.11.0")
+    );
 }
 
 #[test]
@@ -118,15 +124,32 @@ fn a_package_in_a_folder_is_run_by_the_first_interpreter_that_is_known() {
 fn an_entry_point_that_names_nothing_or_another_plugin_is_refused_with_its_name() {
     let environment = Environment::new(MANIFEST);
     let said = refused(&environment.naming("org.example.other", "lab_scale"));
-    assert!(said.contains("the entry point `org.example.other`"), "{said}");
-    assert!(said.contains("its manifest says it is `org.example.scale`"), "{said}");
+    assert!(
+        said.contains("the entry point `org.example.other`"),
+        "{said}"
+    );
+    assert!(
+        said.contains("its manifest says it is `org.example.scale`"),
+        "{said}"
+    );
     let said = refused(&environment.naming("org.example.scale", "taceva"));
-    assert!(said.contains("no plugin.toml lies in it; `python -m taceva.plugin manifest taceva --write`"), "{said}");
+    assert!(
+        said.contains(
+            "no plugin.toml lies in it; `python -m taceva.plugin manifest taceva --write`"
+        ),
+        "{said}"
+    );
     let newer = Environment::new(&MANIFEST.replace("wire = 1", "wire = 2"));
     let interpreter = newer.naming("org.example.scale", "lab_scale");
     let said = refused(&interpreter);
-    assert!(said.contains("written for version 2 of the wire, this TacEva speaks 1"), "{said}");
-    assert_eq!(found(&interpreter).rejections[0].reason.kind(), ReasonKind::Wire);
+    assert!(
+        said.contains("written for version 2 of the wire, this TacEva speaks 1"),
+        "{said}"
+    );
+    assert_eq!(
+        found(&interpreter).rejections[0].reason.kind(),
+        ReasonKind::Wire
+    );
 }
 
 #[test]
@@ -143,9 +166,15 @@ fn an_interpreter_that_is_gone_fails_says_nothing_or_lacks_the_package_is_named_
         assert!(why.contains(said), "{why}");
     }
     for (script, said) in [
-        ("echo 'no such option' >&2; exit 2", "no such option; expected Python 3.11 or later"),
+        (
+            "echo 'no such option' >&2; exit 2",
+            "no such option; expected Python 3.11 or later",
+        ),
         ("echo hello", "it printed \"hello\\n\""),
-        ("echo '# taceva environment'; echo 'version = 3'", "it did not say what lies in its environment"),
+        (
+            "echo '# taceva environment'; echo 'version = 3'",
+            "it did not say what lies in its environment",
+        ),
         (
             "echo '# taceva environment'; echo 'version = \"3.11.0\"'; echo 'readable = []'",
             "the package `taceva` is not installed in its environment",
@@ -173,11 +202,17 @@ fn a_manifest_that_does_not_lie_in_the_package_it_names_is_refused() {
     fs::rename(environment.path().join("lab_scale"), &other).expect("ours");
     let search = || Plugins::search(SearchPath::empty().given([other.clone()]), &[]);
     let said = search().rejections[0].to_string();
-    assert!(said.contains("expected a folder called `lab_scale`"), "{said}");
+    assert!(
+        said.contains("expected a folder called `lab_scale`"),
+        "{said}"
+    );
     let back = environment.path().join("lab_scale");
     fs::rename(&other, &back).expect("ours");
     fs::remove_file(back.join("__init__.py")).expect("ours");
     let found = Plugins::search(SearchPath::empty().given([back]), &[]);
     let said = found.rejections[0].to_string();
-    assert!(said.contains("no package, expected __init__.py beside the manifest"), "{said}");
+    assert!(
+        said.contains("no package, expected __init__.py beside the manifest"),
+        "{said}"
+    );
 }
