@@ -193,7 +193,7 @@ plugin = tp.Plugin("org.example.scale", "1.0.0", {{"scale": Scale}})
 
 FAULTS = {
     "raises": ("raise ValueError('the cell is wet')", "ValueError: the cell is wet ("),
-    "says_not_finite": ("return tp.Reading(float('nan'), 0.01)", "finite"),
+    "says_not_finite": ("return tp.Reading(float('nan'), 0.01)", "is NaN, expected a number"),
     "has_another_shape": ("return tp.Reading([1.0, 2.0], 0.01)", "expected Fz, [Fx, Fy, Fz] or [Fx, Fy, Fz, Tx, Ty, Tz]"),
     "gives_nothing": ("return None", "expected taceva.plugin.Reading(force, time)"),
     "gives_no_time": ("return tp.Reading(1.0, 'now')", "a time of type str, expected seconds as taceva.plugin.now() counts them"),
@@ -251,7 +251,7 @@ def test_an_estimator_in_python_is_evaluated_by_the_command(tmp_path: Path, prog
     made = tmp_path / "my-plane/src/my_plane"
     random = np.random.default_rng(5)
     force = random.uniform(0, 5, 120)
-    frames = np.zeros((120, 8, 8, 1), np.uint8) + (20 + 40 * force).astype(np.uint8)[:, None, None, None]
+    frames = np.zeros((120, 32, 32, 1), np.uint8) + (20 + 40 * force).astype(np.uint8)[:, None, None, None]
     frames += random.integers(0, 3, frames.shape, np.uint8)
     points = np.arange(120) // 4
     taceva.from_arrays(

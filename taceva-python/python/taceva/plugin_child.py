@@ -34,16 +34,27 @@ def _extension() -> object:
     return module
 
 
+def _say_what_is_not_there() -> None:
+    """Say that no program can be run and no file written, to libraries that would only find out by failing."""
+    import os
+    import tempfile
+
+    # By which `ctypes.util.find_library` looks for compilers, which then want a file.
+    os.environ["PATH"] = ""
+    tempfile.tempdir = "/tmp"
+
+
 def _import_plugin(folder: str, name: str, preload: list[str]) -> object:
     """Import the package ``name`` that lies at ``folder``, and give its plugin."""
     import site
     from importlib import import_module
 
     site.main()
-    # Where it was started from is none of the environment.
-    package = __file__.rsplit("/", 2)[0]
-    if package not in sys.path:
-        sys.path.append(package)
+    _say_what_is_not_there()
+    # Where this package lies, if that is none of the places of the environment.
+    above = __file__.rsplit("/", 2)[0]
+    if above not in sys.path:
+        sys.path.append(above)
     for module in preload:
         import_module(module)
     from taceva.plugin import load

@@ -26,10 +26,6 @@ impl PythonEstimator {
         PythonEstimator { info, class }
     }
 
-    fn error(&self, py: Python<'_>, error: &PyErr, doing: &str) -> ModelError {
-        model_error(py, error, &self.info.key, doing)
-    }
-
     fn fitted(
         &self,
         py: Python<'_>,
@@ -46,9 +42,9 @@ impl PythonEstimator {
     }
 }
 
-fn model_error(py: Python<'_>, error: &PyErr, key: &DriverKey, doing: &str) -> ModelError {
-    let why = words(py, error);
-    ModelError::new(kind(py, error), format!("{key}: cannot {doing}: {why}"))
+/// What was raised; which estimator it is of, and what it was doing, the host says.
+fn model_error(py: Python<'_>, error: &PyErr) -> ModelError {
+    ModelError::new(kind(py, error), words(py, error))
 }
 
 /// A set of samples as `taceva.plugin.Samples`.
@@ -107,15 +103,14 @@ impl EstimatorFactory for PythonEstimator {
                 let request =
                     FitRequest::new(settings, training, &silent).with_validation(validation);
                 let fitted = self.fitted(py, &request, watching);
-                fitted.map_err(|error| self.error(py, &error, "fit"))
+                fitted.map_err(|error| model_error(py, &error))
             })
         });
         let object = fitted.map_err(|_| {
-            let why = format!("{}: cannot fit: its thread panicked", self.info.key);
+            let why = "its thread panicked".to_owned();
             ModelError::new(ErrorKind::Panicked, why)
         })??;
         Ok(Box::new(Fitted {
-            key: self.info.key.clone(),
             object,
             channels: training.targets.channels.clone(),
             shape: training.features.shape(),
@@ -130,14 +125,9 @@ impl EstimatorFactory for PythonEstimator {
             let bytes = PyBytes::new(py, saved.bytes);
             let loaded = self.class.call_method1(py, "load", (bytes, names, shape));
             // Whatever it raises: the bytes are none of its models.
-            loaded.map_err(|error| {
-                let why = words(py, &error);
-                let why = format!("{}: cannot load: {why}", self.info.key);
-                ModelError::new(ErrorKind::Protocol, why)
-            })
+            loaded.map_err(|error| ModelError::new(ErrorKind::Protocol, words(py, &error)))
         })?;
         Ok(Box::new(Fitted {
-            key: self.info.key.clone(),
             object,
             channels: channels.clone(),
             shape,
@@ -147,7 +137,6 @@ impl EstimatorFactory for PythonEstimator {
 
 /// A fitted object.
 struct Fitted {
-    key: DriverKey,
     object: Py<PyAny>,
     channels: Channels,
     shape: FeatureShape,
@@ -181,26 +170,20 @@ impl Regressor for Fitted {
     }
 
     fn predict(&self, features: &Features, into: &mut [f64]) -> Result<(), ModelError> {
-        const DOING: &str = "predict";
+        if features.samples() == 0 && into.is_empty() {
+            return Ok(());
+        }
         let predicted = Python::attach(|py| {
             let predicted = self.predicted(py, features);
-            predicted.map_err(|error| model_error(py, &error, &self.key, DOING))
+            predicted.map_err(|error| model_error(py, &error))
         })?;
         if predicted.len() != into.len() {
-            let why = format!(
-                "{}: {} numbers for {}",
-                self.key,
-                predicted.len(),
-                into.len()
-            );
+            let why = format!("{} numbers for {}", predicted.len(), into.len());
             return Err(ModelError::new(ErrorKind::InvalidArgument, why));
         }
         if let Some(place) = predicted.iter().position(|number| !number.is_finite()) {
             let sample = place / self.channels.len().max(1);
-            let why = format!(
-                "{}: cannot {DOING}: sample {sample}: {}, expected a number",
-                self.key, predicted[place]
-            );
+            let why = format!("sample {sample}: {}, expected a number", predicted[place]);
             return Err(ModelError::new(ErrorKind::DeviceFault, why));
         }
         into.copy_from_slice(&predicted);
@@ -222,7 +205,7 @@ impl SavedRegressor for Fitted {
                         )
                     })
             });
-            saved.map_err(|error| model_error(py, &error, &self.key, "save"))
+            saved.map_err(|error| model_error(py, &error))
         })
     }
 }

@@ -38,14 +38,14 @@ pub fn main_if_child_with(
         CAN_BE_CHILD.store(true, Ordering::Relaxed);
         return;
     }
-    let code = serve_host(load);
+    let code = serve_host(|files, _| load(files));
     // SAFETY: ends the process without running what plugins registered to be run at its end.
     unsafe { libc::_exit(code) }
 }
 
 /// Confines this process, serves what `load` loads to the host at the other end of standard input, and says with which code to end.
 pub(super) fn serve_host(
-    load: impl FnOnce(Vec<File>) -> Result<Arc<dyn Session>, (ErrorKind, String)>,
+    load: impl FnOnce(Vec<File>, &Isolation) -> Result<Arc<dyn Session>, (ErrorKind, String)>,
 ) -> i32 {
     match orders() {
         Some(orders) => run(orders, load),
@@ -103,7 +103,7 @@ fn is_open(file: RawFd) -> bool {
 
 fn run(
     mut orders: Socket,
-    load: impl FnOnce(Vec<File>) -> Result<Arc<dyn Session>, (ErrorKind, String)>,
+    load: impl FnOnce(Vec<File>, &Isolation) -> Result<Arc<dyn Session>, (ErrorKind, String)>,
 ) -> i32 {
     let first = orders.receive_with_files::<(u32, FirstWord)>();
     let Ok(((sequence, first), mut files)) = first else {
@@ -146,11 +146,11 @@ type Prepared = (Isolation, Option<Arc<dyn Session>>);
 fn prepare(
     hello: &Hello,
     files: Vec<File>,
-    load: impl FnOnce(Vec<File>) -> Result<Arc<dyn Session>, (ErrorKind, String)>,
+    load: impl FnOnce(Vec<File>, &Isolation) -> Result<Arc<dyn Session>, (ErrorKind, String)>,
 ) -> Result<Prepared, (ErrorKind, String)> {
     let denied = |why| (ErrorKind::PermissionDenied, why);
     let isolation = confine(&hello.confinement, hello.parent).map_err(denied)?;
-    let session = hello.loads.then(|| load(files)).transpose()?;
+    let session = hello.loads.then(|| load(files, &isolation)).transpose()?;
     seal(&isolation).map_err(denied)?;
     Ok((isolation, session))
 }
@@ -164,7 +164,7 @@ mod tests {
         let (mut host, theirs) = Socket::pair().expect("a pair");
         host.send(&(7_u32, FirstWord::OfOtherWire(2)), &[])
             .expect("sent");
-        let code = run(Socket::from(theirs), |_| {
+        let code = run(Socket::from(theirs), |_, _| {
             Err((ErrorKind::Internal, "it was loaded".to_owned()))
         });
         assert_eq!(code, NOT_A_CHILD);

@@ -12,6 +12,7 @@ use taceva_core::{ArgSpec, DriverKey, ErrorKind};
 
 use super::main_hook::main_if_child_with;
 use super::quarantine::Quarantine;
+use super::sandbox::{Isolation, seal};
 use super::spec::ChildSpec;
 use super::wire::{Wire, decode, variants};
 use crate::in_process::InProcess;
@@ -141,7 +142,8 @@ fn sealed(label: &Label) -> io::Result<OwnedFd> {
 /// A program that embeds the host calls this before anything else in `main`, while there is one thread and no file is open.
 pub fn main_if_child() {
     main_if_child_with(|files| {
-        load(files, |module| {
+        // Nothing is sealed here: what is no library is refused.
+        load(files, &Isolation::default(), |module| {
             Err(format!(
                 "`{}` is a module of Python, and this process is none of Python's",
                 module.name
@@ -157,12 +159,13 @@ pub fn main_if_child() {
 /// that begins others, which would not be confined. Every file that is open but the standard ones is closed. `import` gives the table
 /// that it made of the module, or says in words why there is none. The process must end without running what is registered for its end.
 pub fn serve_as_child(import: impl FnOnce(&ModuleToImport) -> Result<Linked, String>) -> i32 {
-    super::main_hook::serve_host(|files| load(files, import))
+    super::main_hook::serve_host(|files, isolation| load(files, isolation, import))
 }
 
 /// The plugin that `files` are, loaded.
 fn load(
     files: Vec<File>,
+    isolation: &Isolation,
     import: impl FnOnce(&ModuleToImport) -> Result<Linked, String>,
 ) -> Result<Arc<dyn Session>, (ErrorKind, String)> {
     let broken = |why: &str| (ErrorKind::Abi, format!("its host gave it {why}"));
@@ -192,6 +195,8 @@ fn load(
                 preload,
             };
             let linked = import(&module).map_err(|why| (ErrorKind::InvalidArgument, why))?;
+            // A check of it is made in the same state in which it is used; a library is loaded by some of them again.
+            seal(isolation).map_err(|why| (ErrorKind::PermissionDenied, why))?;
             (Source::Linked(linked), Some(manifest))
         }
     };

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import os
+import tempfile
 from typing import Annotated
+
+# Torch makes a folder for code that it compiles, and a plugin can make none: one that is there will do.
+os.environ.setdefault("TORCHINDUCTOR_CACHE_DIR", tempfile.gettempdir())
 
 import numpy as np
 import torch
