@@ -62,6 +62,9 @@ impl PluginHost {
         let of =
             runs.map(|(interpreter, module)| (interpreter.program().to_owned(), module.profile));
         let tried_as = (needs, of);
+        if let Some(Err(closed)) = runs.map(|(runs, _)| runs.refuse_closed(&plugin.folder)) {
+            return Keeping::Refused(closed.to_string());
+        }
         let mut tried = self.lock_tried();
         if let Some(keeping) = tried.get(&tried_as) {
             return keeping.clone();

@@ -52,7 +52,7 @@ impl Interpreter {
     }
 
     /// Refuses what the user of the process may not read, where that is another than ours.
-    fn refuse_closed(&self, package: &Path) -> Result<(), PythonError> {
+    pub(crate) fn refuse_closed(&self, package: &Path) -> Result<(), PythonError> {
         if !geteuid().is_root() {
             return Ok(());
         }

@@ -58,7 +58,7 @@ impl Interpreter {
         let printed = output(program, &["-I", "-c", ASK])?;
         let Some((_, said)) = printed.split_once(BEGIN) else {
             return Err(silent(format!(
-                "it printed {:?}",
+                "it printed `{}`",
                 crate::shown::shown(&printed)
             )));
         };

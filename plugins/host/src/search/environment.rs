@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use taceva_core::shown;
+
 use super::{MANIFEST, Place, Reason, Searching};
 use crate::python::{Interpreter, Lying, PythonError};
 
@@ -14,7 +16,11 @@ impl Searching {
         let interpreter = match self.asked(program) {
             Ok(interpreter) => interpreter,
             Err(error) => {
-                let reason = Reason::Python(error.to_string());
+                // A rejection names it already.
+                let own = format!("{}: ", shown(program));
+                let said = error.to_string();
+                let why = said.strip_prefix(&own).unwrap_or(&said);
+                let reason = Reason::Python(why.to_owned());
                 self.rejections.push(reason.of(program, Place::Python));
                 return;
             }
@@ -45,15 +51,15 @@ impl Searching {
     }
 
     fn entry_point(&mut self, interpreter: &Interpreter, lying: &Lying) {
-        let shown = |text: &str| crate::shown::shown(text);
-        let (id, module) = (shown(&lying.id), shown(&lying.module));
+        let plain = crate::shown::shown;
+        let (id, module) = (plain(&lying.id), plain(&lying.module));
         let refused = |why: String| {
             Reason::Python(format!(
                 "the entry point `{id}` of the group `taceva.plugins` names `{module}`: {why}"
             ))
         };
         let Some(folder) = &lying.folder else {
-            let why = shown(lying.fault.as_deref().unwrap_or("it is not there"));
+            let why = plain(lying.fault.as_deref().unwrap_or("it is not there"));
             let rejection = refused(why).of(interpreter.program(), Place::Python);
             self.rejections.push(rejection);
             return;

@@ -170,7 +170,7 @@ fn an_interpreter_that_is_gone_fails_says_nothing_or_lacks_the_package_is_named_
             "echo 'no such option' >&2; exit 2",
             "no such option; expected Python 3.11 or later",
         ),
-        ("echo hello", "it printed \"hello\\n\""),
+        ("echo hello", "it printed `hello\\n`"),
         (
             "echo '# taceva environment'; echo 'version = 3'",
             "it did not say what lies in its environment",
