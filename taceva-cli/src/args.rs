@@ -21,7 +21,7 @@ pub(crate) use self::dataset::{Check, Export, Import, Reseal};
 pub(crate) use self::live::{Capture, LiveArgs, Preview};
 pub(crate) use self::model::{Evaluate, Fit, Merge, Predict, Score};
 pub(crate) use self::plugin::{
-    Plugin, PluginAllow, PluginArgs, PluginCheck, PluginDeny, PluginHeaders, PluginInfo,
+    Language, Plugin, PluginAllow, PluginArgs, PluginCheck, PluginDeny, PluginHeaders, PluginInfo,
     PluginInstall, PluginList, PluginManifest, PluginNew, PluginPack, PluginRelease,
 };
 pub(crate) use self::results::{

@@ -12,6 +12,7 @@ mod errors;
 mod evaluate;
 mod given;
 mod metrics;
+mod plugin;
 mod record;
 mod results;
 mod watched;
@@ -38,6 +39,10 @@ mod _taceva {
     #[pymodule_export]
     use super::metrics::{Sums, unit_of};
     #[pymodule_export]
+    use super::plugin::{Deadline, Interrupted, Training};
+    #[pymodule_export]
+    use super::plugin::{plugin_log, plugin_manifest, serve_plugin, wire};
+    #[pymodule_export]
     use super::record::{import_recording, record};
     #[pymodule_export]
     use super::results::{check_seal, comparison, figure_pdf, figures, score_table};
@@ -54,11 +59,12 @@ mod _taceva {
     /// Carries out the command that `arguments` say, the first being the name of the program, and returns the exit code. The command handles
     /// signals from then on. Plugins in libraries run in `child`, if there is one.
     #[pyfunction]
-    fn command(py: Python<'_>, arguments: Vec<OsString>, child: Option<PathBuf>) -> u8 {
+    fn command(py: Python<'_>, arguments: Vec<OsString>, child: Option<PathBuf>) -> PyResult<u8> {
+        super::plugin::within(py)?;
         if let Some(child) = child {
             taceva_cli::plugins_run_in(child);
         }
-        py.detach(|| taceva_cli::main_with(arguments))
+        Ok(py.detach(|| taceva_cli::main_with(arguments)))
     }
 
     /// The version of the crates that the module was built from.

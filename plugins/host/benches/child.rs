@@ -1,9 +1,11 @@
-//! A frame of 640×480×3 through a child, beside the copy of as many bytes: `cargo bench -p taceva-host --bench child`.
+//! A frame of 640×480×3 through a child, beside the copy of as many bytes: `cargo bench -p taceva-host --bench child`. With
+//! `TACEVA_PYTHON=/path/to/venv/bin/python` through one in Python too.
 
 #[path = "../tests/support/built_in.rs"]
 mod built_in;
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::Duration;
@@ -14,7 +16,10 @@ use taceva_core::{
     ArgSpec, Args, Deadline, Descriptor, DescriptorSpec, DriverError, DriverKey, DriverSource,
     ErrorKind, Factory, Facts, FrameInfo, FrameMut, PixelFormat, Rig, Sensor, SensorFacts, Stamp,
 };
-use taceva_host::{ChildSession, ChildSpec, Session, main_if_child_with};
+use taceva_host::{
+    ChildSession, ChildSpec, Children, PluginConfig, PluginHost, Plugins, SearchPath, Session,
+    main_if_child_with,
+};
 
 fn main() -> ExitCode {
     main_if_child_with(|_| match served() {
@@ -108,4 +113,68 @@ fn child(bencher: Bencher<'_, '_>) {
 #[divan::bench]
 fn child_that_writes_each_frame(bencher: Bencher<'_, '_>) {
     capture_through_a_child(bencher, "writes=true");
+}
+
+/// A camera in Python that writes each frame.
+const PACKAGE: &str = r#"
+import numpy as np
+import taceva.plugin as tp
+class Camera(tp.Sensor, title="camera", source="simulated", frame=(640, 480, "rgb8")):
+    def __init__(self):
+        self.picture = np.full((480, 640, 3), 7, np.uint8)
+    def capture(self, into, deadline):
+        into[:] = self.picture
+        return 1.0
+plugin = tp.Plugin("org.example.bench", "1.0.0", {"camera": Camera})
+"#;
+const MANIFEST: &str = r#"
+manifest_version = 1
+id = "org.example.bench"
+name = "bench"
+version = "1.0.0"
+license = "MIT"
+program = { python = "lab_bench", wire = 1 }
+[[provides]]
+kind = "sensor"
+key = "camera"
+title = "camera"
+source = "simulated"
+frame = { width = 640, height = 480, format = "rgb8" }
+"#;
+
+/// The interpreter of an environment in which `taceva` is installed; the user of a plugin must be able to read it.
+fn interpreter() -> Option<PathBuf> {
+    std::env::var_os("TACEVA_PYTHON").map(PathBuf::from)
+}
+
+#[divan::bench(ignore = interpreter().is_none())]
+fn child_in_python_that_writes_each_frame(bencher: Bencher<'_, '_>) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let package = folder.path().join("lab_bench");
+    std::fs::create_dir(&package).expect("room");
+    std::fs::write(package.join("__init__.py"), PACKAGE).expect("room");
+    std::fs::write(package.join("plugin.toml"), MANIFEST).expect("room");
+    for path in [folder.path(), &package] {
+        let everybody = std::os::unix::fs::PermissionsExt::from_mode(0o755);
+        std::fs::set_permissions(path, everybody).expect("ours");
+    }
+    let interpreters: Vec<PathBuf> = interpreter().into_iter().collect();
+    let found = Plugins::search_with(SearchPath::empty().given([package]), &[], &interpreters);
+    let host = PluginHost::with_children(
+        found,
+        PluginConfig::default(),
+        Arc::new(|_, _, _, _| {}),
+        Children::default(),
+    );
+    let drivers = host.drivers::<dyn Sensor>();
+    let driver = drivers.first().expect("one");
+    let mut camera = driver
+        .open(&Args::default(), &mut Rig::new())
+        .unwrap_or_else(|error| panic!("{error}"));
+    let mut bytes = vec![0; BYTES];
+    bencher.bench_local(|| {
+        let into = FrameMut::new(FRAME, &mut bytes).expect("fits");
+        camera.capture(into, LONG).expect("a frame")
+    });
+    assert!(bytes.iter().all(|byte| *byte == 7), "another picture");
 }

@@ -29,10 +29,10 @@ use taceva_core::{Args, DriverError, DriverKey, DriverKind, ErrorKind};
 use self::probe::Probe;
 pub(crate) use self::run::run;
 use self::subject::{Ending, Subject};
-use crate::child::{Child, ChildError, ChildSpec, no_port};
+use crate::child::{Child, ChildError, no_port};
 use crate::grant::{self, Grant};
 use crate::host::PluginHost;
-use crate::library::Image;
+use crate::host::code::ReadCode;
 use crate::manifest::Provided;
 use crate::search::Plugin;
 
@@ -151,8 +151,9 @@ impl PluginHost {
         tell: &mut dyn FnMut(CheckResult),
     ) -> Result<(), DriverError> {
         let whole = plugin.id().as_driver();
-        let image = Image::read(&plugin.folder, &plugin.library)
-            .map_err(|error| error.of_driver(&whole))?;
+        // One that cannot be run at all breaks no promise: its user hears why, once.
+        let code = plugin.read(&whole)?;
+        plugin.child(&code, &whole, self.children())?;
         let is_wanted = |check: &&Check| {
             let mut only = request.only.iter();
             request.only.is_empty() || only.any(|begin| check.name.starts_with(begin))
@@ -172,7 +173,7 @@ impl PluginHost {
                     moves: request.moves,
                 };
                 let begun = Instant::now();
-                let mut outcome = self.made(plugin, (&image, &probe), request.limit);
+                let mut outcome = self.made(plugin, (&code, &probe), request.limit);
                 let cause = match &outcome {
                     CheckOutcome::Failed(why) => Some((why.clone(), "failed")),
                     CheckOutcome::Skipped(why) => Some((why.clone(), "was skipped")),
@@ -204,7 +205,7 @@ impl PluginHost {
     fn made(
         &self,
         plugin: &Plugin,
-        (image, probe): (&Image, &Probe),
+        (code, probe): (&ReadCode, &Probe),
         limit: Duration,
     ) -> CheckOutcome {
         let (grant, arguments) = match self.grant_of(plugin, &probe.driver, &probe.arguments) {
@@ -216,13 +217,15 @@ impl PluginHost {
             ..probe.clone()
         };
         let files = probe.sealed().map(|probe| -> Vec<OwnedFd> { vec![probe] });
-        let spec = ChildSpec::of_plugin(image, &plugin.manifest, &plugin.text, None);
+        let spec = plugin.child(code, &plugin.id().as_driver(), self.children());
         let (mut spec, files) = match (spec, files) {
             (Ok(spec), Ok(files)) => (spec, files),
-            (Err(error), _) | (_, Err(error)) => return CheckOutcome::Failed(error.to_string()),
+            (Err(error), _) => return CheckOutcome::Failed(error.to_string()),
+            (_, Err(error)) => return CheckOutcome::Failed(error.to_string()),
         };
         spec.files.extend(files);
-        spec.program = self.children().program.clone();
+        // A check does what nobody should; a plugin that does not live through it may start again.
+        spec.quarantine = None;
         spec.confinement.needs = grant.reached.iter().cloned().collect();
         if let Some(why) = no_port(&spec.confinement.needs) {
             return CheckOutcome::Failed(why);

@@ -21,6 +21,7 @@ use crate::search::{Place, Plugin};
 ///     [plugins]
 ///     trust_in_process = ["org.example.fast"]
 ///     prefer = ["/opt/taceva/digit"]
+///     python = ["/opt/lab/venv/bin/python"]
 ///
 ///     [plugins.allow]
 ///     "org.example.digit" = ["usb"]
@@ -37,6 +38,9 @@ pub struct PluginConfig {
     /// The folders of plugins that are used where another has the same id.
     #[serde(default)]
     pub prefer: Vec<PathBuf>,
+    /// Interpreters of environments that are asked for plugins; the first of them runs those that lie elsewhere.
+    #[serde(default)]
+    pub python: Vec<PathBuf>,
     /// What plugins may reach outside their process, of what their manifests ask for.
     #[serde(default)]
     pub allow: BTreeMap<PluginId, BTreeSet<Need>>,
@@ -91,8 +95,8 @@ impl PluginConfig {
     /// How `plugin` is delivered.
     pub fn delivery(&self, plugin: &Plugin) -> Delivery {
         match self.trust(plugin) {
-            Some(_) => Delivery::InProcess,
-            None => Delivery::Child,
+            Some(_) if plugin.library().is_some() => Delivery::InProcess,
+            _ => Delivery::Child,
         }
     }
 

@@ -1,5 +1,6 @@
 //! The plugins of a program, and the drivers that they are.
 
+pub(crate) mod code;
 mod driver;
 mod estimator;
 mod isolation;
@@ -14,14 +15,14 @@ use std::time::Duration;
 use taceva_core::{Args, DriverError, DriverKey, ErrorKind, Factory};
 
 #[cfg(target_os = "linux")]
-use crate::child::{ChildSession, ChildSpec, Quarantine, no_port};
+use crate::child::{ChildSession, Quarantine, no_port};
 use crate::config::{Delivery, PluginConfig};
 use crate::grant::{Grant, Withheld};
 use crate::id::PluginId;
 use crate::in_process::InProcess;
 use crate::library::{Image, Level, Library, Log};
 use crate::log::Limited;
-use crate::manifest::{EstimatorInfo, Need, Provided, Sha256Digest};
+use crate::manifest::{EstimatorInfo, Need, Profile, Provided, Sha256Digest};
 use crate::search::{NotFound, Plugin, Plugins};
 use crate::session::Session;
 
@@ -56,6 +57,9 @@ impl Children {
 /// A session, and the digest of the library that answers in it.
 type Started = (Arc<dyn Session>, Sha256Digest);
 
+/// What was found to be enforced, by what children may reach and by the interpreter and the profile of those that have one.
+type Tried = BTreeMap<(BTreeSet<Need>, Option<(PathBuf, Profile)>), Keeping>;
+
 /// The plugins of a program: found, settled, and delivered as the user decided.
 pub struct PluginHost {
     plugins: Plugins,
@@ -71,7 +75,7 @@ pub struct PluginHost {
     /// Where devices are looked for: one session a plugin.
     lookers: Mutex<BTreeMap<PluginId, Looker>>,
     /// What is enforced upon children, by what they may reach.
-    tried: Mutex<BTreeMap<BTreeSet<Need>, Keeping>>,
+    tried: Mutex<Tried>,
 }
 
 impl PluginHost {
@@ -229,8 +233,8 @@ impl PluginHost {
                 .filter(|entry| entry.plugin == plugin.id().as_str())
                 .peekable();
             of_plugin.peek()?;
-            let image = Image::read(&plugin.folder, &plugin.library).ok()?;
-            let entry = of_plugin.find(|entry| entry.sha256 == image.digest())?;
+            let digest = plugin.read(&plugin.id().as_driver()).ok()?.digest();
+            let entry = of_plugin.find(|entry| entry.sha256 == digest)?;
             Some(entry.reason)
         }
         #[cfg(not(target_os = "linux"))]
@@ -263,16 +267,10 @@ impl PluginHost {
         limit: Option<Duration>,
     ) -> Result<Started, DriverError> {
         const DOING: &str = "load the plugin";
-        let image = Image::read(&plugin.folder, &plugin.library)
-            .map_err(|error| error.of_driver(driver))?;
-        let Children {
-            program,
-            quarantine,
-        } = self.children.clone();
-        let spec = ChildSpec::of_plugin(&image, &plugin.manifest, &plugin.text, quarantine);
-        let mut spec = spec
-            .map_err(|error| DriverError::new(ErrorKind::Internal, driver, DOING).because(error))?;
-        spec.program = program;
+        let code = plugin.read(driver)?;
+        let mut spec = plugin.child(&code, driver, &self.children)?;
+        // What is trusted and is no library runs in a process of its own all the same.
+        spec.confinement.is_trusted = self.config.trust(plugin).is_some();
         spec.log = Some(self.log_of(plugin));
         if let Some(limit) = limit {
             (spec.patience.start, spec.patience.open) = (limit, limit);
@@ -291,7 +289,7 @@ impl PluginHost {
         }
         let session = ChildSession::of_plugin(spec, &plugin.manifest);
         let session = session.map_err(|error| error.of(driver, DOING))?;
-        Ok((Arc::new(session), image.digest()))
+        Ok((Arc::new(session), code.digest()))
     }
 
     #[cfg(not(target_os = "linux"))]
@@ -314,7 +312,7 @@ impl PluginHost {
     }
 
     #[cfg(target_os = "linux")]
-    fn lock_tried(&self) -> MutexGuard<'_, BTreeMap<BTreeSet<Need>, Keeping>> {
+    fn lock_tried(&self) -> MutexGuard<'_, Tried> {
         self.tried.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -336,8 +334,12 @@ impl PluginHost {
         if let Some((library, digest)) = loaded.get(plugin.id()) {
             return Ok((Arc::clone(library), *digest));
         }
-        let image = Image::read(&plugin.folder, &plugin.library)
-            .map_err(|error| error.of_driver(driver))?;
+        let library = plugin.library().ok_or_else(|| {
+            let why = "it is written in Python, and runs in a process of its own alone";
+            DriverError::new(ErrorKind::Unsupported, driver, "load the plugin").because(why)
+        })?;
+        let image =
+            Image::read(&plugin.folder, library).map_err(|error| error.of_driver(driver))?;
         let log = Limited::new(self.log_of(plugin));
         let log = Box::new(move |level, target: &str, message: &str| {
             log.tell(level, target, message);

@@ -18,10 +18,12 @@ mod log;
 mod manifest;
 mod offer;
 mod package;
+mod python;
 mod search;
 mod session;
 mod shown;
 mod usb;
+mod wire_version;
 
 pub use call::Failure;
 #[cfg(target_os = "linux")]
@@ -29,7 +31,8 @@ pub use check::{Check, CheckOutcome, CheckRequest, CheckResult, checks};
 #[cfg(target_os = "linux")]
 pub use child::{
     CHILD_ARGUMENT, Child, ChildError, ChildSession, ChildSpec, Confinement, Fate, Isolation,
-    Patience, Quarantine, Quarantined, main_if_child, main_if_child_with,
+    ModuleToImport, Patience, Quarantine, Quarantined, main_if_child, main_if_child_with,
+    serve_as_child,
 };
 // For the fuzzer alone.
 #[cfg(target_os = "linux")]
@@ -41,14 +44,17 @@ pub use grant::Withheld;
 pub use host::{Children, Keeping, PluginDriver, PluginHost, PluginLog};
 pub use id::{PluginId, PluginIdError};
 pub use in_process::InProcess;
-pub use library::{Image, Level, Library, LoadError, LoadProblem, Log, libraries_loaded};
+pub use library::{Image, Level, Library, Linked, LoadError, LoadProblem, Log, libraries_loaded};
 pub use manifest::{
     AbiVersion, DeclaredNeed, EstimatorInfo, LibraryFile, Manifest, ManifestError, Need, NeedError,
-    Provided, Sha256Digest, UsbId, platform,
+    Profile, Provided, PythonModule, Sha256Digest, UsbId, platform,
 };
 pub use offer::Offer;
 pub use package::{PackageError, pack, unpack};
+pub use python::{Interpreter, PythonError, beside_this_program, run_within};
 pub use search::{
-    NotFound, Place, Plugin, Plugins, Reason, ReasonKind, Rejection, SearchPath, user_config_file,
+    Code, NotFound, Place, Plugin, Plugins, Reason, ReasonKind, Rejection, SearchPath,
+    user_config_file,
 };
 pub use session::{FitRequest, Saved, SavedRegressor, Session};
+pub use wire_version::WIRE;

@@ -12,6 +12,7 @@ mod host;
 mod image;
 mod mapped;
 mod offer;
+mod source;
 
 use std::collections::BTreeMap;
 use std::ffi::c_void;
@@ -33,6 +34,8 @@ pub use self::host::{Level, Log};
 pub use self::image::Image;
 pub(crate) use self::image::LENGTH_MAX;
 use self::mapped::Mapped;
+pub use self::source::Linked;
+pub(crate) use self::source::Source;
 use crate::call::{call, table};
 use crate::id::PluginId;
 use crate::manifest::Manifest;
@@ -75,14 +78,6 @@ impl Library {
         Library::begin(image, Some(manifest), log)
     }
 
-    /// Loads `image`, of which no manifest says anything, to hear what it offers.
-    ///
-    /// # Errors
-    /// As [`load`](Library::load).
-    pub(crate) fn load_unpromised(image: &Image, log: Log) -> Result<Arc<Library>, LoadError> {
-        Library::begin(image, None, log)
-    }
-
     fn begin(
         image: &Image,
         manifest: Option<&Manifest>,
@@ -90,6 +85,17 @@ impl Library {
     ) -> Result<Arc<Library>, LoadError> {
         let failed = |problem: LoadProblem| problem.of(image.path());
         let symbol = open(image).map_err(failed)?;
+        Library::of_symbol(symbol, image.path(), manifest, log)
+    }
+
+    /// The library whose table lies at `symbol`, compared and initialised.
+    fn of_symbol(
+        symbol: *const abi::Plugin,
+        path: &std::path::Path,
+        manifest: Option<&Manifest>,
+        log: Log,
+    ) -> Result<Arc<Library>, LoadError> {
+        let failed = |problem: LoadProblem| problem.of(path);
         let mapped = Mapped::now().ok();
         let plugin = read(symbol, mapped.as_ref()).map_err(failed)?;
         let id = identity(&plugin, manifest, mapped.as_ref()).map_err(failed)?;
@@ -101,7 +107,7 @@ impl Library {
         }
         let mut library = Library {
             id,
-            path: image.path().to_owned(),
+            path: path.to_owned(),
             plugin,
             entries: BTreeMap::new(),
         };

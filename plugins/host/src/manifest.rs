@@ -5,6 +5,7 @@ mod error;
 mod facts;
 mod library;
 mod need;
+mod program;
 mod provides;
 mod usb_id;
 mod written;
@@ -13,6 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use serde::Deserialize;
+use taceva_abi::{ABI_MAJOR, ABI_MINOR};
 use taceva_core::{Descriptor, DriverKey};
 use toml::Spanned;
 
@@ -22,6 +24,8 @@ pub(crate) use self::library::path_fault;
 pub use self::library::{LibraryFile, Sha256Digest, platform};
 pub(crate) use self::need::matches;
 pub use self::need::{DeclaredNeed, Need, NeedError};
+use self::program::WrittenProgram;
+pub use self::program::{Profile, PythonModule};
 pub use self::provides::{EstimatorInfo, Provided};
 pub use self::usb_id::UsbId;
 use self::written::WrittenProvides;
@@ -91,6 +95,7 @@ pub struct Manifest {
     /// Its drivers and estimators, in the order of the manifest.
     pub provides: Vec<Provided>,
     libraries: BTreeMap<String, LibraryFile>,
+    module: Option<PythonModule>,
 }
 
 /// A version of the C interface.
@@ -113,8 +118,9 @@ struct Written {
     name: Spanned<String>,
     version: Spanned<String>,
     license: Spanned<String>,
-    abi: AbiVersion,
-    library: Spanned<BTreeMap<String, Spanned<WrittenLibrary>>>,
+    abi: Option<AbiVersion>,
+    library: Option<Spanned<BTreeMap<String, Spanned<WrittenLibrary>>>>,
+    program: Option<Spanned<WrittenProgram>>,
     #[serde(default)]
     needs: Vec<Spanned<String>>,
     provides: Spanned<Vec<WrittenProvides>>,
@@ -182,6 +188,11 @@ impl Manifest {
         self.libraries.keys().map(String::as_str)
     }
 
+    /// The module that it is, if it is one of Python and no library.
+    pub fn module(&self) -> Option<&PythonModule> {
+        self.module.as_ref()
+    }
+
     /// Its drivers.
     pub fn drivers(&self) -> impl Iterator<Item = &Descriptor> {
         self.provides.iter().filter_map(|provided| match provided {
@@ -228,7 +239,7 @@ impl Provided {
 fn meant(written: Written) -> Result<Manifest, Refused> {
     let id: PluginId = (written.id.get_ref().parse())
         .map_err(|error| Refused::at(&written.id, format!("`id`: {error}")))?;
-    let libraries = libraries(&written.library)?;
+    let (libraries, module) = code(&written)?;
     let mut needs = BTreeSet::new();
     for need in &written.needs {
         let read: DeclaredNeed = (need.get_ref().parse())
@@ -263,10 +274,15 @@ fn meant(written: Written) -> Result<Manifest, Refused> {
         name,
         version,
         license,
-        abi: written.abi,
+        // A module is given its tables by the package that runs it, which is of the interface that it was built with.
+        abi: written.abi.unwrap_or(AbiVersion {
+            major: ABI_MAJOR,
+            minor: ABI_MINOR,
+        }),
         needs,
         provides,
         libraries,
+        module,
     })
 }
 
@@ -294,6 +310,27 @@ fn check_arguments(
         "`needs`: `{need}`: no driver has these arguments, expected keys of `[[provides.args]]`"
     );
     Err(Refused::at(written, problem))
+}
+
+/// What a plugin is made of: libraries, or a module.
+type Code = (BTreeMap<String, LibraryFile>, Option<PythonModule>);
+
+/// One of `[library]` and `[program]`.
+fn code(written: &Written) -> Result<Code, Refused> {
+    match (&written.library, &written.program) {
+        (Some(library), None) if written.abi.is_some() => Ok((libraries(library)?, None)),
+        (Some(library), None) => Err(Refused::at(library, "the key `abi` is missing")),
+        (None, Some(program)) => Ok((BTreeMap::new(), Some(program.get_ref().module()?))),
+        (Some(_), Some(program)) => {
+            let problem =
+                "`program`: a plugin is a library or a program, and `library` stands here too";
+            Err(Refused::at(program, problem))
+        }
+        (None, None) => {
+            let problem = "the key `library` is missing; a plugin in Python has `program` instead";
+            Err(Refused::at(&written.id, problem))
+        }
+    }
 }
 
 fn libraries(

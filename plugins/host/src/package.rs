@@ -73,7 +73,9 @@ impl Plugin {
     /// # Errors
     /// If its folder cannot be read.
     pub fn files(&self) -> io::Result<Vec<PathBuf>> {
-        let mut files = vec![PathBuf::from(MANIFEST), PathBuf::from(&self.library.path)];
+        let library = self.library().map(|library| PathBuf::from(&library.path));
+        let mut files = vec![PathBuf::from(MANIFEST)];
+        files.extend(library);
         files.extend(licences(&self.folder)?);
         Ok(files)
     }

@@ -1,5 +1,6 @@
 //! Finding plugins by their manifests. No library is opened, and nothing that is found is lost: what is not used is kept with its reason.
 
+mod environment;
 mod place;
 mod rejection;
 mod writable;
@@ -16,8 +17,10 @@ pub use self::place::{Place, SearchPath, user_config_file};
 pub use self::rejection::{Reason, ReasonKind, Rejection};
 use self::writable::Writable;
 use crate::id::PluginId;
-use crate::manifest::{self, LibraryFile, Manifest};
+use crate::manifest::{self, LibraryFile, Manifest, PythonModule};
+use crate::python::Interpreter;
 use crate::shown::suggestion;
+use crate::wire_version::WIRE;
 
 /// The name of every manifest.
 pub(crate) const MANIFEST: &str = "plugin.toml";
@@ -33,11 +36,39 @@ pub struct Plugin {
     pub folder: PathBuf,
     /// Who named the folder that it was found in.
     pub place: Place,
+    /// What runs.
+    pub code: Code,
+    /// The interpreter in whose environment it was found, or the first that is known, where it is a module of Python.
+    pub interpreter: Option<Interpreter>,
+}
+
+/// What of a plugin runs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Code {
     /// Its library for this platform.
-    pub library: LibraryFile,
+    Library(LibraryFile),
+    /// A module of Python, in the folder of the manifest.
+    Python(PythonModule),
 }
 
 impl Plugin {
+    /// Its library, if it is one.
+    pub fn library(&self) -> Option<&LibraryFile> {
+        match &self.code {
+            Code::Library(library) => Some(library),
+            Code::Python(_) => None,
+        }
+    }
+
+    /// Its module, if it is one of Python.
+    pub fn module(&self) -> Option<&PythonModule> {
+        match &self.code {
+            Code::Library(_) => None,
+            Code::Python(module) => Some(module),
+        }
+    }
+
     /// Its id.
     pub fn id(&self) -> &PluginId {
         &self.manifest.id
@@ -56,7 +87,16 @@ pub struct Plugins {
 impl Plugins {
     /// Looks through `path`. Of plugins with one id none is used, unless the folder of one of them is in `prefer`.
     pub fn search(path: SearchPath, prefer: &[PathBuf]) -> Plugins {
+        Plugins::search_with(path, prefer, &[])
+    }
+
+    /// The same, and asks each of `interpreters` what lies in its environment. The first that answers runs what is written in Python and
+    /// lies elsewhere.
+    pub fn search_with(path: SearchPath, prefer: &[PathBuf], interpreters: &[PathBuf]) -> Plugins {
         let mut searching = Searching::default();
+        for interpreter in interpreters {
+            searching.environment(interpreter);
+        }
         for (place, folder) in path.folders() {
             searching.folder(place, folder);
         }
@@ -151,6 +191,7 @@ struct Searching {
     found: BTreeMap<PluginId, Vec<Plugin>>,
     rejections: Vec<Rejection>,
     seen: BTreeSet<PathBuf>,
+    interpreters: Vec<Interpreter>,
     writable: Writable,
 }
 
@@ -159,7 +200,7 @@ impl Searching {
         match self.manifests(folder) {
             Ok(manifests) => {
                 for manifest in manifests {
-                    self.manifest(place, &manifest);
+                    self.manifest(place, &manifest, None);
                 }
             }
             // Only who types a folder expects it to be there.
@@ -198,24 +239,37 @@ impl Searching {
         Ok(manifests)
     }
 
-    fn manifest(&mut self, place: Place, manifest: &Path) {
+    /// Reads a manifest, of a package in the environment of an interpreter or of another; says which plugin it found.
+    fn manifest(
+        &mut self,
+        place: Place,
+        manifest: &Path,
+        within: Option<&Interpreter>,
+    ) -> Option<String> {
         let path = match fs::canonicalize(manifest) {
             Ok(path) => path,
             Err(error) => {
                 self.rejections
                     .push(Reason::Unreadable(error).of(manifest, place));
-                return;
+                return None;
             }
         };
         if !self.seen.insert(path.clone()) {
-            return;
+            return None;
         }
         match self.plugin(place, &path) {
-            Ok(plugin) => {
-                let alike = self.found.entry(plugin.id().clone()).or_default();
-                alike.push(plugin);
+            Ok(mut plugin) => {
+                let first = || self.interpreters.first();
+                let known = plugin.module().and_then(|_| within.or_else(first));
+                plugin.interpreter = known.cloned();
+                let id = plugin.id().clone();
+                self.found.entry(id.clone()).or_default().push(plugin);
+                Some(id.to_string())
             }
-            Err(reason) => self.rejections.push(reason.of(&path, place)),
+            Err(reason) => {
+                self.rejections.push(reason.of(&path, place));
+                None
+            }
         }
     }
 
@@ -230,20 +284,34 @@ impl Searching {
                 found: manifest.abi,
             });
         }
-        let platform = manifest::platform();
-        let Some(library) = manifest.library(&platform).cloned() else {
-            let has = manifest.platforms().map(str::to_owned).collect();
-            return Err(Reason::Platform { platform, has });
-        };
         let folder = path.parent().unwrap_or(path).to_owned();
-        self.library(&folder.join(&library.path))?;
+        let code = self.code(&manifest, &folder)?;
         Ok(Plugin {
             manifest,
             text,
             folder,
             place,
-            library,
+            code,
+            interpreter: None,
         })
+    }
+
+    /// What of it runs, looked at from outside.
+    fn code(&mut self, manifest: &Manifest, folder: &Path) -> Result<Code, Reason> {
+        if let Some(module) = manifest.module() {
+            if module.wire != WIRE {
+                return Err(Reason::Wire { found: module.wire });
+            }
+            self.package(folder, &module.name)?;
+            return Ok(Code::Python(module.clone()));
+        }
+        let platform = manifest::platform();
+        let Some(library) = manifest.library(&platform).cloned() else {
+            let has = manifest.platforms().map(str::to_owned).collect();
+            return Err(Reason::Platform { platform, has });
+        };
+        self.library(&folder.join(&library.path))?;
+        Ok(Code::Library(library))
     }
 
     /// Looks at the library from outside; it is not opened.

@@ -40,6 +40,41 @@ pub enum Driver {
     Changer(Builtin<dyn Changer>),
     /// An estimator.
     Estimator(MakeEstimator),
+    /// One that is known only when the program runs.
+    Made(Made),
+}
+
+/// The factory of a driver or an estimator that is known only when the program runs, such as one that another language describes.
+///
+/// ```
+/// # use taceva_core::{Args, Axes, Descriptor, DescriptorSpec, DriverError, DriverKey, DriverSource, Factory, Facts, ForceFacts};
+/// # use taceva_core::{ForceTransducer, Rig};
+/// # struct Scale(Descriptor);
+/// # impl Factory<dyn ForceTransducer> for Scale {
+/// #     fn descriptor(&self) -> &Descriptor { &self.0 }
+/// #     fn open(&self, _: &Args, _: &mut Rig) -> Result<Box<dyn ForceTransducer>, DriverError> { unreachable!("nothing is opened") }
+/// # }
+/// use taceva_plugin::{Driver, Made};
+/// let facts = Facts::Force(ForceFacts::default().with_axes(Axes::NORMAL));
+/// let key = DriverKey::fixed("org.example.scale/scale");
+/// let scale = Scale(DescriptorSpec::new(key, "a scale", DriverSource::Real, facts).check()?);
+/// assert!(matches!(Driver::Made(Made::Force(Box::new(scale))), Driver::Made(_)));
+/// # Ok::<(), taceva_core::DescriptorError>(())
+/// ```
+#[non_exhaustive]
+pub enum Made {
+    /// Of a sensor.
+    Sensor(Box<dyn Factory<dyn Sensor>>),
+    /// Of a robot.
+    Robot(Box<dyn Factory<dyn Robot>>),
+    /// Of a force transducer.
+    Force(Box<dyn Factory<dyn ForceTransducer>>),
+    /// Of a lighting.
+    Lighting(Box<dyn Factory<dyn Lighting>>),
+    /// Of a changer.
+    Changer(Box<dyn Factory<dyn Changer>>),
+    /// Of an estimator.
+    Estimator(Box<dyn EstimatorFactory>),
 }
 
 /// Makes the factory of an estimator.

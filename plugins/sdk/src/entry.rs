@@ -16,7 +16,7 @@ use taceva_core::{
 };
 
 use crate::calls::Kind;
-use crate::driver::Driver;
+use crate::driver::{Driver, Made};
 use crate::export::Export;
 use crate::failure::Failure;
 use crate::guard::{caught, guard};
@@ -50,6 +50,12 @@ fn load(drivers: Vec<Driver>) -> Result<Loaded, DescriptorError> {
             Driver::Lighting(driver) => lightings.push(driver.factory()?),
             Driver::Changer(driver) => changers.push(driver.factory()?),
             Driver::Estimator(make) => estimators.push(make()),
+            Driver::Made(Made::Sensor(made)) => sensors.push(made),
+            Driver::Made(Made::Robot(made)) => robots.push(made),
+            Driver::Made(Made::Force(made)) => forces.push(made),
+            Driver::Made(Made::Lighting(made)) => lightings.push(made),
+            Driver::Made(Made::Changer(made)) => changers.push(made),
+            Driver::Made(Made::Estimator(made)) => estimators.push(made),
         }
     }
     let mut prefixes = BTreeSet::new();

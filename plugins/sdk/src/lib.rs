@@ -18,7 +18,7 @@ mod plugin;
 mod rig;
 mod table;
 
-pub use driver::{Driver, MakeEstimator, MakeFactory, Provide};
+pub use driver::{Driver, Made, MakeEstimator, MakeFactory, Provide};
 pub use estimator::{EstimatorFactory, FitRequest};
 pub use export::Export;
 pub use host::{log, now};

@@ -15,6 +15,9 @@ pub(crate) struct PluginArgs {
     /// Also search this folder for plugins, before all others; may be repeated
     #[arg(long = "plugin-dir", global = true, value_name = "DIR")]
     pub(crate) folders: Vec<PathBuf>,
+    /// Ask this interpreter of Python for the plugins in its environment, and run plugins in Python by it; may be repeated
+    #[arg(long = "python", global = true, value_name = "FILE")]
+    pub(crate) interpreters: Vec<PathBuf>,
     /// Run the code of this plugin in this process instead of a sandboxed one; may be repeated
     #[arg(long = "trust", global = true, value_name = "ID")]
     pub(crate) trusted: Vec<PluginId>,
@@ -27,7 +30,7 @@ pub(crate) enum Plugin {
     List(PluginList),
     /// Print the manifest of a plugin; none of its code runs
     Info(PluginInfo),
-    /// Create a plugin in Rust: a project that builds as it is, with one driver to be replaced
+    /// Create a plugin in Rust or Python: a project that works as it is, with one driver to be replaced
     New(PluginNew),
     /// Write the headers for plugins in C and C++
     Headers(PluginHeaders),
@@ -71,8 +74,18 @@ pub(crate) struct PluginNew {
     /// Its name: lower-case letters, digits and `-`; the project is written to a folder of that name
     pub(crate) name: Name,
     /// Depend on crates of the registry, by version, instead of copies under vendor/
-    #[arg(long)]
+    #[arg(long, conflicts_with = "language")]
     pub(crate) registry: bool,
+    /// What it is written in: Python for sensors, force transducers, lightings and estimators
+    #[arg(long, value_enum, default_value_t = Language::Rust)]
+    pub(crate) language: Language,
+}
+
+/// What a new plugin is written in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Language {
+    Rust,
+    Python,
 }
 
 /// What a new plugin provides.

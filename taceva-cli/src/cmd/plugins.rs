@@ -1,5 +1,6 @@
 //! The plugins of this program, and its drivers with theirs.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 use taceva_core::shown;
@@ -7,7 +8,8 @@ use taceva_core::shown;
 use anyhow::Context as _;
 use taceva_drivers::Drivers;
 use taceva_host::{
-    Children, Level, PluginConfig, PluginHost, PluginLog, Plugins, SearchPath, user_config_file,
+    Children, Level, PluginConfig, PluginHost, PluginLog, Plugins, SearchPath, beside_this_program,
+    user_config_file,
 };
 use taceva_models::Models;
 
@@ -70,12 +72,29 @@ impl Context {
         if let Some(folder) = scene.and_then(folder_of) {
             path = path.project(&folder);
         }
-        let plugins = Plugins::search(path, &config.prefer);
+        let interpreters = self.interpreters(&config)?;
+        let plugins = Plugins::search_with(path, &config.prefer, &interpreters);
         for rejection in &plugins.rejections {
             self.say_more(format_args!("plugin not used: {rejection}"));
         }
         let log = self.plugin_log();
         Ok(PluginHost::with_children(plugins, config, log, children()))
+    }
+
+    /// The interpreters that are asked for plugins: those that were typed, those of the settings, and that of the environment in which
+    /// this program lies.
+    fn interpreters(&self, config: &PluginConfig) -> anyhow::Result<Vec<PathBuf>> {
+        let typed = self
+            .plugins
+            .interpreters
+            .iter()
+            .map(|typed| std::path::absolute(typed).with_context(|| shown(typed).to_string()));
+        let mut interpreters = typed.collect::<Result<Vec<PathBuf>, _>>()?;
+        interpreters.extend(config.python.iter().cloned());
+        interpreters.extend(beside_this_program());
+        let mut known = BTreeSet::new();
+        interpreters.retain(|interpreter| known.insert(interpreter.clone()));
+        Ok(interpreters)
     }
 
     /// Logs of plugins go to standard error: warnings always, everything with `-v`.

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 use taceva_drivers::ListedDriver;
-use taceva_host::{Delivery, Place, Plugin, PluginHost, ReasonKind, Rejection};
+use taceva_host::{Delivery, Place, Plugin, PluginHost, PythonModule, ReasonKind, Rejection};
 
 use super::{devices, json};
 use crate::args::ListFormat;
@@ -63,7 +63,20 @@ pub(crate) fn info(
     }
     line(&listed, out)?;
     writeln!(out, "    folder    {}", listed.folder)?;
-    writeln!(out, "    library   {} ({})", listed.library, listed.sha256)?;
+    match &listed.module {
+        None => writeln!(out, "    library   {} ({})", listed.library, listed.sha256)?,
+        Some(module) => {
+            let run = listed.interpreter.as_deref().unwrap_or("no interpreter");
+            writeln!(
+                out,
+                "    module    {} ({}), run by {run}",
+                module.name, module.profile
+            )?;
+            if !module.preload.is_empty() {
+                writeln!(out, "    preload   {}", module.preload.join(", "))?;
+            }
+        }
+    }
     writeln!(out, "    licence   {}", listed.license)?;
     writeln!(out, "    interface {}", listed.abi)?;
     for driver in &listed.drivers {
@@ -124,9 +137,16 @@ struct Listed {
     abi: String,
     place: Place,
     folder: String,
+    /// Empty where it is a module.
     library: String,
     /// The digest of the library that the manifest demands, if any.
     sha256: String,
+    /// The module of Python that it is, if it is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    module: Option<PythonModule>,
+    /// The interpreter that runs the module, and its version.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    interpreter: Option<String>,
     delivery: Delivery,
     /// How it would be kept from the rest of the machine, tried by confining a process without it.
     isolation: String,
@@ -161,11 +181,22 @@ impl Listed {
             abi: format!("{}.{}", manifest.abi.major, manifest.abi.minor),
             place: plugin.place,
             folder: plugin.folder.display().to_string(),
-            library: plugin.library.path.clone(),
-            sha256: match plugin.library.sha256 {
+            library: plugin
+                .library()
+                .map(|library| library.path.clone())
+                .unwrap_or_default(),
+            sha256: match plugin.library().and_then(|library| library.sha256) {
                 Some(digest) => format!("sha256 {digest}"),
                 None => "any build of it".to_owned(),
             },
+            module: plugin.module().cloned(),
+            interpreter: plugin.interpreter.as_ref().map(|interpreter| {
+                format!(
+                    "{} ({})",
+                    interpreter.program().display(),
+                    interpreter.version()
+                )
+            }),
             delivery: host.config().delivery(plugin),
             isolation: host.keeping(plugin).to_string(),
             needs: manifest.needs.iter().map(ToString::to_string).collect(),

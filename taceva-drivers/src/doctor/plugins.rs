@@ -12,7 +12,7 @@ pub fn examine_plugins(host: &Arc<PluginHost>) -> Vec<Finding> {
         let id = plugin.id();
         let keeping = host.keeping(plugin);
         let (state, remedy) = match &keeping {
-            Keeping::Trusted(_) | Keeping::Confined(_) => (State::Good, None),
+            Keeping::Trusted(_) | Keeping::Apart(_) | Keeping::Confined(_) => (State::Good, None),
             Keeping::Refused(_) => {
                 let remedy = format!("`--trust {id}` runs it unconfined, in this process");
                 (State::Problem, Some(remedy))

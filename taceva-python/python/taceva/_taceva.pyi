@@ -4,10 +4,13 @@ from typing import Any, final
 __all__ = [
     "Buffer",
     "DatasetError",
+    "Deadline",
     "Given",
+    "Interrupted",
     "ModelError",
     "Recording",
     "Sums",
+    "Training",
     "check_seal",
     "command",
     "comparison",
@@ -16,11 +19,15 @@ __all__ = [
     "figure_pdf",
     "figures",
     "import_recording",
+    "plugin_log",
+    "plugin_manifest",
     "record",
     "score_table",
     "score_tables",
+    "serve_plugin",
     "unit_of",
     "version",
+    "wire",
 ]
 
 class DatasetError(ValueError):
@@ -144,3 +151,22 @@ def import_recording(
 ) -> None: ...
 def command(arguments: list[str], child: str | None) -> int: ...
 def version() -> str: ...
+
+class Interrupted(Exception): ...
+
+@final
+class Deadline:
+    def remaining(self) -> float: ...
+    def rest(self, seconds: float) -> None: ...
+
+@final
+class Training:
+    def begin(self, stage: str, steps: int | None = None) -> None: ...
+    def advance(self, steps: int = 1) -> None: ...
+    def end(self) -> None: ...
+    def is_cancelled(self) -> bool: ...
+
+def plugin_log(level: str, message: str) -> None: ...
+def plugin_manifest(plugin: Any, name: str, text: str, license: str | None = None) -> str: ...
+def serve_plugin(import_module: Any) -> int: ...
+def wire() -> int: ...

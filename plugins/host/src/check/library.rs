@@ -39,8 +39,9 @@ const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Ending>) -> C
 }
 
 fn load(subject: &Subject) -> Result<std::sync::Arc<Library>, Ending> {
-    Library::load(&subject.image, &subject.manifest, Box::new(|_, _, _| {}))
-        .map_err(|error| Ending::Broken(error.problem().to_string()))
+    let manifest = Some(&subject.manifest);
+    let loaded = subject.source.load(manifest, Box::new(|_, _, _| {}));
+    loaded.map_err(|error| Ending::Broken(error.problem().to_string()))
 }
 
 /// A second copy of the library has its own statics, and works as the first does.

@@ -11,19 +11,19 @@ use super::probe::Probe;
 use super::subject::{Ending, Subject};
 use crate::child::wire::decode;
 use crate::in_process::InProcess;
-use crate::library::Image;
+use crate::library::Source;
 use crate::manifest::Manifest;
 
 /// How the answer of a check begins that could not be made.
 pub(super) const SKIPPED: &str = "skipped: ";
 
-/// Makes the check that `file` asks for on the plugin of `image`, in this process; a session that is still whole is the sign that it held.
+/// Makes the check that `file` asks for on the plugin of `source`, in this process; a session that is still whole is the sign that it held.
 ///
 /// # Errors
 /// Why the promise does not hold, in the words of the check.
 pub(crate) fn run(
     mut file: File,
-    image: &Image,
+    source: Source,
     manifest: &Manifest,
 ) -> Result<InProcess, (ErrorKind, String)> {
     let mut bytes = Vec::new();
@@ -33,7 +33,7 @@ pub(crate) fn run(
     let check = checks().find(|check| check.name == probe.check);
     let check = check.ok_or_else(|| (ErrorKind::Abi, format!("no check `{}`", probe.check)))?;
     let made = catch_unwind(AssertUnwindSafe(|| {
-        let subject = Subject::new(image, manifest, probe)?;
+        let subject = Subject::new(source, manifest, probe)?;
         (check.run)(&subject)?;
         Ok(subject.session)
     }));

@@ -13,7 +13,7 @@ use super::surroundings::Surroundings;
 use crate::call::{ArgList, Failure, Table, call};
 use crate::device::{Opened, RigHandle, open};
 use crate::in_process::InProcess;
-use crate::library::{Entry, Image, Library};
+use crate::library::{Entry, Library, Source};
 use crate::manifest::{Manifest, Provided};
 use crate::session::Session;
 
@@ -70,7 +70,7 @@ const REAL_OPENINGS: usize = 3;
 pub(crate) struct Subject {
     pub(super) probe: Probe,
     pub(super) library: Arc<Library>,
-    pub(super) image: Image,
+    pub(super) source: Source,
     pub(super) manifest: Manifest,
     pub(super) session: InProcess,
     /// As it was before the plugin was loaded.
@@ -79,21 +79,25 @@ pub(crate) struct Subject {
 }
 
 impl Subject {
-    pub(super) fn new(image: &Image, manifest: &Manifest, probe: Probe) -> Result<Subject, Ending> {
+    pub(super) fn new(
+        source: Source,
+        manifest: &Manifest,
+        probe: Probe,
+    ) -> Result<Subject, Ending> {
         let broken = |error: &dyn std::fmt::Display| Ending::Broken(error.to_string());
         let before = Surroundings::now();
-        let library = Library::load(image, manifest, Box::new(|_, _, _| {}))
+        let library = source
+            .load(Some(manifest), Box::new(|_, _, _| {}))
             .map_err(|error| broken(&error.problem()))?;
         let session = InProcess::open(&library)?;
         let key = match probe.driver.as_str() {
             "" => None,
             driver => Some(driver.parse().map_err(|error| broken(&error))?),
         };
-        let image = image.try_copy().map_err(|error| broken(&error))?;
         Ok(Subject {
             probe,
             library,
-            image,
+            source,
             manifest: manifest.clone(),
             session,
             before,

@@ -17,7 +17,7 @@ use super::log;
 use super::sandbox::{Isolation, confine, seal};
 use super::serve::serve;
 use super::socket::Socket;
-use super::wire::{Failure, Greeting, Hello};
+use super::wire::{Failure, FirstWord, Greeting, Hello};
 use crate::session::Session;
 
 /// The first argument of a host child. Nobody types it.
@@ -38,12 +38,19 @@ pub fn main_if_child_with(
         CAN_BE_CHILD.store(true, Ordering::Relaxed);
         return;
     }
-    let code = match orders() {
-        Some(orders) => run(orders, load),
-        None => NOT_A_CHILD,
-    };
+    let code = serve_host(|files, _| load(files));
     // SAFETY: ends the process without running what plugins registered to be run at its end.
     unsafe { libc::_exit(code) }
+}
+
+/// Confines this process, serves what `load` loads to the host at the other end of standard input, and says with which code to end.
+pub(super) fn serve_host(
+    load: impl FnOnce(Vec<File>, &Isolation) -> Result<Arc<dyn Session>, (ErrorKind, String)>,
+) -> i32 {
+    match orders() {
+        Some(orders) => run(orders, load),
+        None => NOT_A_CHILD,
+    }
 }
 
 /// Whether this program asked whether it is a child, so that it may be started as one.
@@ -96,10 +103,20 @@ fn is_open(file: RawFd) -> bool {
 
 fn run(
     mut orders: Socket,
-    load: impl FnOnce(Vec<File>) -> Result<Arc<dyn Session>, (ErrorKind, String)>,
+    load: impl FnOnce(Vec<File>, &Isolation) -> Result<Arc<dyn Session>, (ErrorKind, String)>,
 ) -> i32 {
-    let Ok(((sequence, hello), mut files)) = orders.receive_with_files::<(u32, Hello)>() else {
+    let first = orders.receive_with_files::<(u32, FirstWord)>();
+    let Ok(((sequence, first), mut files)) = first else {
         return NOT_A_CHILD;
+    };
+    let hello = match first {
+        FirstWord::Known(hello) => hello,
+        FirstWord::OfOtherWire(wire) => {
+            let failure = Failure::new(ErrorKind::Abi, "serve", &FirstWord::refusal(wire));
+            // A host that is gone wants no reason.
+            let _ = orders.send(&(sequence, Greeting::Refused { failure }), &[]);
+            return NOT_A_CHILD;
+        }
     };
     if let Some(host) = files.pop_if(|_| hello.is_heard) {
         log::to_host(host);
@@ -129,11 +146,38 @@ type Prepared = (Isolation, Option<Arc<dyn Session>>);
 fn prepare(
     hello: &Hello,
     files: Vec<File>,
-    load: impl FnOnce(Vec<File>) -> Result<Arc<dyn Session>, (ErrorKind, String)>,
+    load: impl FnOnce(Vec<File>, &Isolation) -> Result<Arc<dyn Session>, (ErrorKind, String)>,
 ) -> Result<Prepared, (ErrorKind, String)> {
     let denied = |why| (ErrorKind::PermissionDenied, why);
     let isolation = confine(&hello.confinement, hello.parent).map_err(denied)?;
-    let session = hello.loads.then(|| load(files)).transpose()?;
+    let session = hello.loads.then(|| load(files, &isolation)).transpose()?;
     seal(&isolation).map_err(denied)?;
     Ok((isolation, session))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_host_of_another_wire_is_refused_before_anything_is_given_up_or_loaded() {
+        let (mut host, theirs) = Socket::pair().expect("a pair");
+        host.send(&(7_u32, FirstWord::OfOtherWire(2)), &[])
+            .expect("sent");
+        let code = run(Socket::from(theirs), |_, _| {
+            Err((ErrorKind::Internal, "it was loaded".to_owned()))
+        });
+        assert_eq!(code, NOT_A_CHILD);
+        let (sequence, greeting) = host.receive::<(u32, Greeting)>().expect("an answer");
+        assert_eq!(sequence, 7);
+        let Greeting::Refused { failure } = greeting else {
+            panic!("it served");
+        };
+        assert_eq!(failure.kind, ErrorKind::Abi);
+        let why = failure.cause.expect("a reason");
+        assert!(
+            why.contains("version 1 of the wire, its host version 2"),
+            "{why}"
+        );
+    }
 }

@@ -1,11 +1,9 @@
-//! A plugin handed to a child: its library, sealed, and what its manifest says.
+//! A plugin handed to a child: what its manifest says, and its library, sealed, or where its module lies.
 
 use std::collections::BTreeMap;
-use std::ffi::OsString;
 use std::fs::File;
 use std::io::{self, Read, Write};
 use std::os::fd::{AsFd, OwnedFd};
-use std::os::unix::ffi::{OsStrExt, OsStringExt};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -14,27 +12,47 @@ use taceva_core::{ArgSpec, DriverKey, ErrorKind};
 
 use super::main_hook::main_if_child_with;
 use super::quarantine::Quarantine;
+use super::sandbox::{Isolation, seal};
 use super::spec::ChildSpec;
-use super::wire::{Wire, decode, fields};
+use super::wire::{Wire, decode, variants};
 use crate::in_process::InProcess;
-use crate::library::{Image, Level, Library};
+use crate::library::{Image, Level, Linked, Source};
 use crate::manifest::{Manifest, Sha256Digest};
 use crate::session::Session;
 
-/// What a child must know of a plugin besides its library.
+/// What a child is to serve.
 #[derive(Debug, PartialEq)]
-struct Label {
-    path: Vec<u8>,
-    digest: String,
-    /// Without one, the library is only asked what it offers.
-    manifest: Option<String>,
+enum Label {
+    /// The library that comes behind; without a manifest it is only asked what it offers.
+    Library {
+        path: PathBuf,
+        digest: String,
+        manifest: Option<String>,
+    },
+    /// The module in this folder.
+    Module {
+        folder: PathBuf,
+        name: String,
+        preload: Vec<String>,
+        manifest: String,
+    },
 }
 
-fields!(Label {
-    path,
-    digest,
-    manifest
+variants!(Label, "what is to be served" {
+    0 => Library { path, digest, manifest },
+    1 => Module { folder, name, preload, manifest },
 });
+
+/// A module that a runtime is to import, in a process that is confined by then.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ModuleToImport {
+    /// Its folder, which is the package.
+    pub folder: PathBuf,
+    /// Its name.
+    pub name: String,
+    /// What is imported before it.
+    pub preload: Vec<String>,
+}
 
 impl ChildSpec {
     /// A child that loads `image`, the library of the plugin whose manifest is `text`. It reaches nothing outside until
@@ -48,15 +66,34 @@ impl ChildSpec {
         text: &str,
         quarantine: Option<Quarantine>,
     ) -> io::Result<ChildSpec> {
-        let label = Label {
-            path: image.path().as_os_str().as_bytes().to_vec(),
+        let label = Label::Library {
+            path: image.path().to_owned(),
             digest: image.digest().to_string(),
             manifest: Some(text.to_owned()),
         };
-        let files = vec![image.as_fd().try_clone_to_owned()?, sealed(&label)?];
+        let files = vec![sealed(&label)?, image.as_fd().try_clone_to_owned()?];
         let mut spec = ChildSpec::new(manifest.id.to_string(), files);
         spec.quarantine = quarantine.map(|quarantine| (quarantine, image.digest()));
         Ok(spec)
+    }
+
+    /// A child that imports `module` for the plugin `id` whose manifest is `text`; which program does so, and what it may read, is for the caller to say.
+    ///
+    /// # Errors
+    /// As [`of_plugin`](ChildSpec::of_plugin).
+    pub(crate) fn of_module(module: ModuleToImport, id: &str, text: &str) -> io::Result<ChildSpec> {
+        let ModuleToImport {
+            folder,
+            name,
+            preload,
+        } = module;
+        let label = Label::Module {
+            folder,
+            name,
+            preload,
+            manifest: text.to_owned(),
+        };
+        Ok(ChildSpec::new(id, vec![sealed(&label)?]))
     }
 }
 
@@ -66,12 +103,12 @@ impl ChildSpec {
     /// # Errors
     /// As [`of_plugin`](ChildSpec::of_plugin).
     pub(crate) fn of_library(image: &Image) -> io::Result<ChildSpec> {
-        let label = Label {
-            path: image.path().as_os_str().as_bytes().to_vec(),
+        let label = Label::Library {
+            path: image.path().to_owned(),
             digest: image.digest().to_string(),
             manifest: None,
         };
-        let files = vec![image.as_fd().try_clone_to_owned()?, sealed(&label)?];
+        let files = vec![sealed(&label)?, image.as_fd().try_clone_to_owned()?];
         let name = image.path().file_name().unwrap_or_default();
         Ok(ChildSpec::new(name.to_string_lossy(), files))
     }
@@ -104,31 +141,71 @@ fn sealed(label: &Label) -> io::Result<OwnedFd> {
 ///
 /// A program that embeds the host calls this before anything else in `main`, while there is one thread and no file is open.
 pub fn main_if_child() {
-    main_if_child_with(load);
+    main_if_child_with(|files| {
+        // Nothing is sealed here: what is no library is refused.
+        load(files, &Isolation::default(), |module| {
+            Err(format!(
+                "`{}` is a module of Python, and this process is none of Python's",
+                module.name
+            ))
+        })
+    });
+}
+
+/// Serves as the child of the host at the other end of standard input: confines this process, lets `import` import the module that is
+/// asked for, serves it until its host is gone, and says with which code to end. A library that is asked for is loaded instead.
+///
+/// For runtimes of other languages, whose `main` is not ours. They call it first of all: while there is one thread, and nothing is imported
+/// that begins others, which would not be confined. Every file that is open but the standard ones is closed. `import` gives the table
+/// that it made of the module, or says in words why there is none. The process must end without running what is registered for its end.
+pub fn serve_as_child(import: impl FnOnce(&ModuleToImport) -> Result<Linked, String>) -> i32 {
+    super::main_hook::serve_host(|files, isolation| load(files, isolation, import))
 }
 
 /// The plugin that `files` are, loaded.
-fn load(files: Vec<File>) -> Result<Arc<dyn Session>, (ErrorKind, String)> {
+fn load(
+    files: Vec<File>,
+    isolation: &Isolation,
+    import: impl FnOnce(&ModuleToImport) -> Result<Linked, String>,
+) -> Result<Arc<dyn Session>, (ErrorKind, String)> {
     let broken = |why: &str| (ErrorKind::Abi, format!("its host gave it {why}"));
     let mut files = files.into_iter();
-    let (Some(library), Some(label), probe) = (files.next(), files.next(), files.next()) else {
-        return Err(broken("less than two files"));
-    };
+    let label = files.next().ok_or_else(|| broken("no file"))?;
     let label = read(label).map_err(|error| broken(&error.to_string()))?;
-    let digest = Sha256Digest::from_hex(&label.digest).ok_or_else(|| broken("no digest"))?;
-    let path = PathBuf::from(OsString::from_vec(label.path));
-    let image = Image::from_sealed(library.into(), digest, path);
-    let loaded = match label.manifest {
-        None => Library::load_unpromised(&image, Box::new(log)),
-        Some(text) => {
-            let manifest =
-                Manifest::parse(&text).map_err(|error| (ErrorKind::Protocol, error.to_string()))?;
-            if let Some(probe) = probe {
-                return Ok(Arc::new(crate::check::run(probe, &image, &manifest)?));
-            }
-            Library::load(&image, &manifest, Box::new(log))
+    let (source, text) = match label {
+        Label::Library {
+            path,
+            digest,
+            manifest,
+        } => {
+            let library = files.next().ok_or_else(|| broken("no library"))?;
+            let digest = Sha256Digest::from_hex(&digest).ok_or_else(|| broken("no digest"))?;
+            let image = Image::from_sealed(library.into(), digest, path);
+            (Source::Image(image), manifest)
+        }
+        Label::Module {
+            folder,
+            name,
+            preload,
+            manifest,
+        } => {
+            let module = ModuleToImport {
+                folder,
+                name,
+                preload,
+            };
+            let linked = import(&module).map_err(|why| (ErrorKind::InvalidArgument, why))?;
+            // A check of it is made in the same state in which it is used; a library is loaded by some of them again.
+            seal(isolation).map_err(|why| (ErrorKind::PermissionDenied, why))?;
+            (Source::Linked(linked), Some(manifest))
         }
     };
+    let manifest = text.as_deref().map(Manifest::parse).transpose();
+    let manifest = manifest.map_err(|error| (ErrorKind::Protocol, error.to_string()))?;
+    if let Some((manifest, probe)) = manifest.as_ref().zip(files.next()) {
+        return Ok(Arc::new(crate::check::run(probe, source, manifest)?));
+    }
+    let loaded = source.load(manifest.as_ref(), Box::new(log));
     let library = loaded.map_err(|error| (error.problem().kind(), error.to_string()))?;
     let session = InProcess::open(&library).map_err(|error| (error.kind(), error.to_string()))?;
     Ok(Arc::new(session))

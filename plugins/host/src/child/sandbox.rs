@@ -15,3 +15,4 @@ use crate::manifest::Need;
 
 pub(crate) use devices::no_port;
 pub(crate) use enforce::{confine, seal};
+pub(crate) use identity::NOBODY;

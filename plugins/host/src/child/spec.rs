@@ -1,5 +1,6 @@
 //! What a child is started with.
 
+use std::ffi::OsString;
 use std::fmt;
 use std::os::fd::OwnedFd;
 use std::path::PathBuf;
@@ -20,6 +21,8 @@ pub struct ChildSpec {
     pub plugin: String,
     /// The program whose `main` begins with [`main_if_child`](crate::main_if_child): this one, if none is named.
     pub program: Option<PathBuf>,
+    /// What that program is given before the argument of a host child: how an interpreter is told which file to run.
+    pub arguments: Vec<OsString>,
     /// What is handed to it, at most three files; it decides what they are.
     pub files: Vec<OwnedFd>,
     /// What it must confine itself to.
@@ -42,6 +45,7 @@ impl ChildSpec {
         ChildSpec {
             plugin: plugin.into(),
             program: None,
+            arguments: Vec::new(),
             files,
             confinement: Confinement::default(),
             patience: Patience::default(),

@@ -23,6 +23,8 @@ use super::socket::{Caller, Socket};
 use super::spec::{ChildSpec, Ended};
 use super::wire::{Greeting, Hello, Order, OrderAnswer};
 use crate::manifest::Sha256Digest;
+use crate::python::{arguments as python_arguments, own};
+use crate::wire_version::WIRE;
 
 /// The program that is running: the same file, even if another one has taken its name since.
 const THIS_PROGRAM: &str = "/proc/self/exe";
@@ -46,6 +48,7 @@ impl Child {
         let ChildSpec {
             plugin,
             program,
+            arguments,
             files,
             confinement,
             patience,
@@ -59,6 +62,12 @@ impl Child {
             plugin: plugin.clone(),
             why: why.to_string(),
         };
+        // A program that runs within an interpreter is that one again.
+        let within = own().filter(|_| program.is_none() && !can_be_child());
+        let (program, arguments) = match within {
+            Some((interpreter, child)) => (Some(interpreter.clone()), python_arguments(child)),
+            None => (program, arguments),
+        };
         if program.is_none() && !can_be_child() {
             let why = "the `main` of this program does not begin with `main_if_child`, and no other program was named";
             return Err(failed(&why));
@@ -67,8 +76,12 @@ impl Child {
         let (printed, output) = pipe_with(PipeFlags::CLOEXEC).map_err(|error| failed(&error))?;
         let also_output = output.try_clone().map_err(|error| failed(&error))?;
         let mut command = Command::new(program.unwrap_or_else(|| PathBuf::from(THIS_PROGRAM)));
+        // An interpreter finds its environment by the name that it is started by.
+        if arguments.is_empty() {
+            command.arg0("taceva-plugin");
+        }
         command
-            .arg0("taceva-plugin")
+            .args(&arguments)
             .arg(CHILD_ARGUMENT)
             .arg(&plugin)
             .env_clear()
@@ -99,6 +112,7 @@ impl Child {
             listener: None,
         };
         let hello = Hello {
+            wire: WIRE,
             parent: std::process::id(),
             confinement,
             is_heard: heard.is_some(),

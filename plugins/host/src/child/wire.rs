@@ -8,6 +8,8 @@ mod basic;
 mod bench;
 mod describe;
 mod device;
+#[cfg(test)]
+mod golden;
 mod macros;
 mod message;
 mod model;
@@ -17,7 +19,7 @@ pub use any::read_any_message;
 pub(crate) use bench::{BenchAnswer, BenchCall};
 pub(crate) use device::{Answer, Call, OpenedDevice, Urgent};
 pub(crate) use macros::{fields, messages, variants};
-pub(crate) use message::{Failure, Greeting, Hello, Order, OrderAnswer};
+pub(crate) use message::{Failure, FirstWord, Greeting, Hello, Order, OrderAnswer};
 pub(crate) use model::{ModelAnswer, ModelCall, ModelEvent, ModelOrder, ModelWord, SetShape};
 
 use std::fmt;

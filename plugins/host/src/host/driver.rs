@@ -12,7 +12,7 @@ use crate::config::Delivery;
 use crate::descriptor::changes_facts;
 use crate::grant::{self, Grant};
 use crate::id::PluginId;
-use crate::library::{Image, Level};
+use crate::library::Level;
 use crate::manifest::UsbId;
 use crate::search::Plugin;
 use crate::session::Session;
@@ -104,9 +104,7 @@ impl PluginDriver {
     fn digest(&self) -> Result<String, DriverError> {
         let key = self.descriptor.key();
         let plugin = self.plugin("read the library")?;
-        let image = Image::read(&plugin.folder, &plugin.library);
-        let image = image.map_err(|error| error.of_driver(key))?;
-        Ok(format!("sha256:{}", image.digest()))
+        Ok(format!("sha256:{}", plugin.read(key)?.digest()))
     }
 
     /// The devices that the library finds; where it finds none, those that the manifest names and the kernel lists.

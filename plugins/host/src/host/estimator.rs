@@ -9,7 +9,7 @@ use taceva_core::{
 };
 
 use super::PluginHost;
-use crate::library::{Image, Level};
+use crate::library::Level;
 use crate::manifest::{EstimatorInfo, Sha256Digest};
 use crate::search::Plugin;
 use crate::session::Session;
@@ -51,9 +51,9 @@ impl PluginEstimator {
         if let Some(digest) = self.built.get() {
             return Ok(*digest);
         }
-        let image = Image::read(&self.plugin.folder, &self.plugin.library);
-        let image = image.map_err(|error| of_driver(error.of_driver(&self.info.key)))?;
-        Ok(*self.built.get_or_init(|| image.digest()))
+        let code = self.plugin.read(&self.info.key).map_err(of_driver)?;
+        let digest = code.digest();
+        Ok(*self.built.get_or_init(|| digest))
     }
 }
 
@@ -91,7 +91,8 @@ impl EstimatorFactory for PluginEstimator {
         let fitted_by =
             crate::shown::shown(fitted_by.unwrap_or("a program that it was linked into"));
         let key = &self.info.key;
-        if self.plugin.library.sha256.is_some() {
+        let library = self.plugin.library();
+        if library.is_some_and(|library| library.sha256.is_some()) {
             let why = format!(
                 "{key}: the model was fitted by {fitted_by}, the manifest allows {build} alone"
             );

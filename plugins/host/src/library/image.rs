@@ -82,15 +82,6 @@ impl Image {
         }
     }
 
-    /// The same image, held once more.
-    pub(crate) fn try_copy(&self) -> std::io::Result<Image> {
-        Ok(Image {
-            memory: self.memory.try_clone()?,
-            digest: self.digest,
-            path: self.path.clone(),
-        })
-    }
-
     pub(super) fn try_clone(&self) -> std::io::Result<OwnedFd> {
         self.memory.try_clone()
     }

@@ -6,6 +6,7 @@ use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, Value, value};
 use super::Offer;
 use crate::descriptor::{arguments, difference};
 use crate::manifest::{LibraryFile, Manifest, ManifestError, Provided, platform};
+use crate::wire_version::WIRE;
 
 /// What the manifest says and the library does not know.
 const OF_MANIFEST: [&str; 1] = ["usb"];
@@ -23,15 +24,40 @@ impl Offer {
         library: &LibraryFile,
         license: Option<&str>,
     ) -> Result<String, ManifestError> {
+        self.written(text, license, false, |manifest| {
+            library_of(manifest, library)
+        })
+    }
+
+    /// The same of what is offered by `module`. What is imported before it and what it is kept from stay as they are written.
+    ///
+    /// # Errors
+    /// As [`manifest`](Offer::manifest).
+    pub fn manifest_of_module(
+        &self,
+        text: &str,
+        module: &str,
+        license: Option<&str>,
+    ) -> Result<String, ManifestError> {
+        self.written(text, license, true, |manifest| module_of(manifest, module))
+    }
+
+    fn written(
+        &self,
+        text: &str,
+        license: Option<&str>,
+        is_module: bool,
+        code: impl FnOnce(&mut DocumentMut),
+    ) -> Result<String, ManifestError> {
         let wrong = |error: toml_edit::TomlError| {
             ManifestError::whole(error.to_string().trim_end().replace('\n', "; "))
         };
         let mut manifest: DocumentMut = text.parse().map_err(wrong)?;
-        self.head(&mut manifest, license)?;
+        self.head(&mut manifest, license, is_module)?;
         if !self.needs.is_empty() {
             needs(&mut manifest, &self.needs);
         }
-        library_of(&mut manifest, library);
+        code(&mut manifest);
         let offered: Result<Vec<Table>, ManifestError> = self
             .provides
             .iter()
@@ -44,7 +70,12 @@ impl Offer {
         Ok(written)
     }
 
-    fn head(&self, manifest: &mut DocumentMut, license: Option<&str>) -> Result<(), ManifestError> {
+    fn head(
+        &self,
+        manifest: &mut DocumentMut,
+        license: Option<&str>,
+        is_module: bool,
+    ) -> Result<(), ManifestError> {
         let is_new = manifest.get("license").is_none();
         let name = self.id.rsplit('.').next().unwrap_or(&self.id);
         let license = match (license, is_new) {
@@ -66,7 +97,7 @@ impl Offer {
         set("name", name.into(), false);
         set("version", self.version.as_str().into(), true);
         set("license", license.into(), false);
-        if manifest.get("abi").is_none() {
+        if manifest.get("abi").is_none() && !is_module {
             let abi = "{ major = 1, minor = 0 }".parse::<Value>();
             let abi = abi.map_err(|error| ManifestError::whole(error.to_string()))?;
             put(manifest.as_table_mut(), "abi", &value(abi));
@@ -207,6 +238,18 @@ fn library_of(manifest: &mut DocumentMut, library: &LibraryFile) {
         *written = digest.to_string().into();
         *written.decor_mut() = decor;
     }
+}
+
+/// The module and the wire that this program speaks.
+fn module_of(manifest: &mut DocumentMut, module: &str) {
+    let program = manifest
+        .entry("program")
+        .or_insert_with(|| Item::Table(Table::new()));
+    let Some(program) = program.as_table_mut() else {
+        return;
+    };
+    put(program, "python", &value(module));
+    put(program, "wire", &value(i64::from(WIRE)));
 }
 
 /// The tables of drivers and estimators, in the order in which the library has them.

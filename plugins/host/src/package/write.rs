@@ -17,6 +17,10 @@ use crate::search::{MANIFEST, Plugin};
 /// # Errors
 /// [`PackageError`] for a file that cannot be read, and for one whose path does not fit a header of tar (256 bytes).
 pub fn pack(plugin: &Plugin, into: &mut dyn Write) -> Result<Vec<String>, PackageError> {
+    if let Some(module) = plugin.module() {
+        let problem = "a package of Python is handed on as a wheel, which `pip wheel` makes";
+        return Err(PackageError::entry(&module.name, problem));
+    }
     let mut names: BTreeSet<String> = BTreeSet::new();
     for library in libraries(&plugin.manifest) {
         if plugin.folder.join(library).is_file() {

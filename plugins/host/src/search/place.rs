@@ -20,16 +20,19 @@ pub enum Place {
     User,
     /// What is installed for everybody.
     System,
+    /// An environment of Python.
+    Python,
 }
 
 impl Place {
     /// Every place, in the order in which they are looked at.
-    pub const ALL: [Place; 5] = [
+    pub const ALL: [Place; 6] = [
         Place::Given,
         Place::Project,
         Place::Environment,
         Place::User,
         Place::System,
+        Place::Python,
     ];
 
     /// The word for it.
@@ -40,6 +43,7 @@ impl Place {
             Place::Environment => "environment",
             Place::User => "user",
             Place::System => "system",
+            Place::Python => "python",
         }
     }
 }

@@ -10,6 +10,7 @@ use serde::Serialize;
 use super::Place;
 use crate::id::PluginId;
 use crate::manifest::{AbiVersion, ManifestError};
+use crate::python::other_wire;
 
 /// A folder or a manifest that is not used.
 #[derive(Debug)]
@@ -66,6 +67,13 @@ pub enum Reason {
         /// What is wrong with it.
         problem: String,
     },
+    /// An interpreter, an environment or a package of Python that is none for plugins; what is wrong, and what helps.
+    Python(String),
+    /// A module that was written for another version of the wire.
+    Wire {
+        /// Its version.
+        found: u32,
+    },
     /// Another plugin has the same id.
     Duplicate {
         /// The id.
@@ -98,13 +106,17 @@ pub enum ReasonKind {
     Platform,
     /// [`Reason::Library`]
     Library,
+    /// [`Reason::Python`]
+    Python,
+    /// [`Reason::Wire`]
+    Wire,
     /// [`Reason::Duplicate`]
     Duplicate,
 }
 
 impl ReasonKind {
     /// Every kind.
-    pub const ALL: [ReasonKind; 10] = [
+    pub const ALL: [ReasonKind; 12] = [
         ReasonKind::Relative,
         ReasonKind::WorldWritable,
         ReasonKind::Unreadable,
@@ -114,6 +126,8 @@ impl ReasonKind {
         ReasonKind::Abi,
         ReasonKind::Platform,
         ReasonKind::Library,
+        ReasonKind::Python,
+        ReasonKind::Wire,
         ReasonKind::Duplicate,
     ];
 
@@ -129,6 +143,8 @@ impl ReasonKind {
             ReasonKind::Abi => "abi",
             ReasonKind::Platform => "platform",
             ReasonKind::Library => "library",
+            ReasonKind::Python => "python",
+            ReasonKind::Wire => "wire",
             ReasonKind::Duplicate => "duplicate",
         }
     }
@@ -153,6 +169,8 @@ impl Reason {
             Reason::Abi { .. } => ReasonKind::Abi,
             Reason::Platform { .. } => ReasonKind::Platform,
             Reason::Library { .. } => ReasonKind::Library,
+            Reason::Python(_) => ReasonKind::Python,
+            Reason::Wire { .. } => ReasonKind::Wire,
             Reason::Duplicate { .. } => ReasonKind::Duplicate,
         }
     }
@@ -177,6 +195,8 @@ impl fmt::Display for Reason {
             ),
             Reason::Unreadable(error) => write!(f, "{error}"),
             Reason::NotAFile => f.write_str("no regular file"),
+            Reason::Python(why) => f.write_str(why),
+            Reason::Wire { found } => f.write_str(&other_wire(*found)),
             Reason::NotText => f.write_str("not UTF-8, or longer than 1 MiB"),
             Reason::Manifest(error) => write!(f, "{error}"),
             Reason::Abi { found } => write!(

@@ -176,7 +176,7 @@ impl Fixture {
     pub(crate) fn loaded(&self) -> Result<Arc<Library>, LoadError> {
         let plugin = self.plugin();
         assert_eq!(plugin.place, Place::Given);
-        let image = Image::read(&plugin.folder, &plugin.library)?;
+        let image = Image::read(&plugin.folder, plugin.library().expect("a library"))?;
         Library::load(&image, &plugin.manifest, Box::new(|_, _, _| {}))
     }
 

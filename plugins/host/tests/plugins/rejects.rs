@@ -214,7 +214,7 @@ fn a_wrong_digest() {
     let (problem, text) = why(&fixture).expect("built");
     assert!(matches!(problem, LoadProblem::Digest { .. }), "{text}");
     let plugin = fixture.plugin();
-    let mut library = plugin.library.clone();
+    let mut library = plugin.library().expect("a library").clone();
     library.sha256 = None;
     let image = Image::read(&plugin.folder, &library).expect("a library");
     let promised = format!("libfixture.so\", sha256 = \"{}\"", image.digest());
@@ -228,7 +228,8 @@ fn a_file_that_is_swapped_after_it_was_hashed() {
         return;
     };
     let plugin = fixture.plugin();
-    let image = Image::read(&plugin.folder, &plugin.library).expect("a library");
+    let image =
+        Image::read(&plugin.folder, plugin.library().expect("a library")).expect("a library");
     let mut file = fs::OpenOptions::new()
         .write(true)
         .open(fixture.library())

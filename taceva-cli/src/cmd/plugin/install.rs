@@ -73,6 +73,13 @@ pub(super) fn checked(
         bail!("{}: {} plugins, expected one", shown(&folder), found.len());
     };
     let plugin = plugin.clone();
+    if let Some(module) = plugin.module() {
+        bail!(
+            "{} is the package `{}` of Python, which lies in an environment: `pip install` puts it there, and `taceva plugin list --python ENVIRONMENT/bin/python` finds it",
+            plugin.id(),
+            module.name
+        );
+    }
     let config = context.plugins(None)?.config().clone();
     let host = PluginHost::with_children(found, config, Arc::new(|_, _, _, _| {}), children());
     check(&host, &plugin)?;

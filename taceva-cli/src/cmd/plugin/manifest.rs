@@ -19,6 +19,16 @@ pub(super) fn run(args: &PluginManifest) -> anyhow::Result<u8> {
         Err(error) if error.kind() == io::ErrorKind::NotFound => String::new(),
         Err(error) => return Err(error).with_context(|| shown(&path).to_string()),
     };
+    if let Ok(manifest) = Manifest::parse(&text)
+        && let Some(module) = manifest.module()
+    {
+        bail!(
+            "{}: of a module of Python, which its own interpreter asks: `python -m taceva.plugin manifest {}`{}",
+            shown(&path),
+            module.name,
+            if args.write { " with `--write`" } else { "" }
+        );
+    }
     let file = LibraryFile {
         path: library(args, &text, &path)?,
         sha256: None,

@@ -8,7 +8,7 @@ use taceva_core::shown;
 use anyhow::{Context as _, bail};
 use taceva_template::{File, Sources};
 
-use crate::args::{PluginHeaders, PluginNew};
+use crate::args::{Language, PluginHeaders, PluginNew};
 use crate::cmd::Context;
 use crate::exit;
 
@@ -16,6 +16,9 @@ use crate::exit;
 const INCLUDE: &str = "include";
 
 pub(super) fn project(args: &PluginNew, context: &Context) -> anyhow::Result<u8> {
+    if args.language == Language::Python {
+        return python_project(args, context);
+    }
     let sources = if args.registry {
         Sources::Registry
     } else {
@@ -28,6 +31,25 @@ pub(super) fn project(args: &PluginNew, context: &Context) -> anyhow::Result<u8>
         "{}: build it with `cargo build --release`, then `taceva devices --plugin-dir {}`",
         shown(folder),
         shown(folder)
+    ));
+    Ok(exit::DONE)
+}
+
+fn python_project(args: &PluginNew, context: &Context) -> anyhow::Result<u8> {
+    let kind = taceva_template::Kind::from(args.kind);
+    let files = taceva_template::python_project(kind, &args.name);
+    let Some(files) = files else {
+        bail!(
+            "a {kind} cannot be written in Python yet: expected a sensor, a force transducer, a lighting or an estimator, or `--language rust`"
+        );
+    };
+    let folder = Path::new(args.name.as_str());
+    write_folder(folder, "", &files)?;
+    context.say(format_args!(
+        "{}: `pip install --editable {}` puts it into an environment, and `taceva plugin check org.example.{} --python ENVIRONMENT/bin/python` checks it",
+        shown(folder),
+        shown(folder),
+        args.name
     ));
     Ok(exit::DONE)
 }

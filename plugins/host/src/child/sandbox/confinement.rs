@@ -1,5 +1,7 @@
 //! What a child confines itself to.
 
+use std::path::PathBuf;
+
 use super::Need;
 use crate::child::wire::{Malformed, Reader, Wire, fields};
 
@@ -15,6 +17,10 @@ pub struct Confinement {
     pub files: u64,
     /// What it reaches outside, as its manifest declares and its user allows.
     pub needs: Vec<Need>,
+    /// Files and folders of its own that it reads: the environment of an interpreter.
+    pub readable: Vec<PathBuf>,
+    /// Whether no more code comes into it once it is loaded.
+    pub seals: bool,
     /// Whether a kernel that enforces only a part will do; without, the child refuses to start.
     pub accepts_less: bool,
     /// Whether nothing is kept from it: its user trusts it, and it is apart only so that it can end alone.
@@ -28,6 +34,8 @@ impl Default for Confinement {
             memory: 4 << 30,
             files: 256,
             needs: Vec::new(),
+            readable: Vec::new(),
+            seals: true,
             accepts_less: false,
             is_trusted: false,
         }
@@ -38,6 +46,8 @@ fields!(Confinement {
     memory,
     files,
     needs,
+    readable,
+    seals,
     accepts_less,
     is_trusted
 });

@@ -15,7 +15,7 @@ pub(crate) fn confine(confinement: &Confinement, parent: u32) -> Result<Isolatio
     identity::limit(confinement)?;
     let user = identity::give_up_root(&confinement.needs)?;
     identity::end_with(parent)?;
-    let landlock = files::close_off(&confinement.needs)?;
+    let landlock = files::close_off(confinement)?;
     let system_calls = seccomp::filter_for_loading(&confinement.needs)?;
     let isolation = Isolation {
         landlock,
@@ -23,6 +23,7 @@ pub(crate) fn confine(confinement: &Confinement, parent: u32) -> Result<Isolatio
         user,
         memory: confinement.memory,
         needs: confinement.needs.clone(),
+        takes_code: !confinement.seals,
     };
     if isolation.is_whole() || confinement.accepts_less {
         Ok(isolation)
@@ -39,7 +40,7 @@ pub(crate) fn confine(confinement: &Confinement, parent: u32) -> Result<Isolatio
 /// As [`confine`].
 pub(crate) fn seal(isolation: &Isolation) -> Result<(), String> {
     match isolation.system_calls {
-        Some(_) => seccomp::filter_after_loading(),
-        None => Ok(()),
+        Some(_) if !isolation.takes_code => seccomp::filter_after_loading(),
+        _ => Ok(()),
     }
 }

@@ -8,7 +8,7 @@ use landlock::{
     Scope,
 };
 
-use super::{Need, devices};
+use super::{Confinement, Need, devices};
 
 /// The newest version of Landlock whose rights are handled; an older kernel handles what it knows.
 const NEWEST: ABI = ABI::V7;
@@ -33,13 +33,14 @@ const READABLE: [&str; 12] = [
 /// Where the devices of USB and what describes them are.
 const USB: [&str; 3] = ["/dev/bus/usb", "/sys/bus/usb", "/sys/devices"];
 
-/// Closes off every file but the libraries of the system and the devices needed, every TCP port but those needed, and every other process.
+/// Closes off every file but the libraries of the system, what is its own to read and the devices needed, every TCP port but those needed, and every other process.
 /// Says which version of Landlock does so.
-pub(super) fn close_off(needs: &[Need]) -> Result<Option<u32>, String> {
-    restrict(needs).map_err(|error| format!("cannot close off files: {error}"))
+pub(super) fn close_off(confinement: &Confinement) -> Result<Option<u32>, String> {
+    restrict(confinement).map_err(|error| format!("cannot close off files: {error}"))
 }
 
-fn restrict(needs: &[Need]) -> Result<Option<u32>, RulesetError> {
+fn restrict(confinement: &Confinement) -> Result<Option<u32>, RulesetError> {
+    let needs = confinement.needs.as_slice();
     let ruleset = Ruleset::default()
         .set_compatibility(CompatLevel::BestEffort)
         .handle_access(AccessFs::from_all(NEWEST))?
@@ -56,6 +57,8 @@ fn restrict(needs: &[Need]) -> Result<Option<u32>, RulesetError> {
     ruleset = allow(ruleset, devices.iter().map(PathBuf::as_path), device)?;
     let readable = devices::readable(needs);
     ruleset = allow(ruleset, readable.iter().map(PathBuf::as_path), read)?;
+    let own = confinement.readable.iter().map(PathBuf::as_path);
+    ruleset = allow(ruleset, own, read)?;
     if needs.contains(&Need::Usb) {
         ruleset = allow(ruleset, USB.iter().map(Path::new), device)?;
     }

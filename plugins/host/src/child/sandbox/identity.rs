@@ -11,7 +11,7 @@ use rustix::thread::{set_no_new_privs, set_thread_groups, set_thread_res_gid, se
 use super::{Confinement, Need, devices};
 
 /// The user and the group that own nothing, by custom.
-const NOBODY: u32 = 65_534;
+pub(crate) const NOBODY: u32 = 65_534;
 
 /// Sets the limits of what the process may use; they cannot be raised again.
 ///

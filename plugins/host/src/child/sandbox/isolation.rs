@@ -18,6 +18,8 @@ pub struct Isolation {
     pub memory: u64,
     /// What it reaches outside.
     pub needs: Vec<Need>,
+    /// Whether code may come into it at any time, and not only while it is loaded.
+    pub takes_code: bool,
 }
 
 impl Isolation {
@@ -47,6 +49,9 @@ impl fmt::Display for Isolation {
             write!(f, ", user {user}")?;
         }
         write!(f, ", {} MiB of memory", self.memory >> 20)?;
+        if self.takes_code {
+            f.write_str(", code may come into it at any time")?;
+        }
         if !self.needs.is_empty() {
             f.write_str(", may reach")?;
             for (position, need) in self.needs.iter().enumerate() {
@@ -62,7 +67,8 @@ fields!(Isolation {
     system_calls,
     user,
     memory,
-    needs
+    needs,
+    takes_code
 });
 
 #[cfg(test)]
@@ -77,11 +83,20 @@ mod tests {
             user: Some(65_534),
             memory: 4 << 30,
             needs: vec!["usb".parse().expect("a need")],
+            takes_code: false,
         };
         assert!(whole.is_whole());
         assert_eq!(
             whole.to_string(),
             "a process of its own, files and ports closed by Landlock 7, 60 system calls allowed, user 65534, 4096 MiB of memory, may reach usb"
+        );
+        let open = Isolation {
+            takes_code: true,
+            ..whole
+        };
+        assert!(
+            open.to_string()
+                .contains("MiB of memory, code may come into it at any time, may reach")
         );
         let bare = Isolation::default();
         assert!(!bare.is_whole());

@@ -1,5 +1,8 @@
 //! How numbers, texts, options and lists are written.
 
+use std::ffi::OsString;
+use std::os::unix::ffi::{OsStrExt, OsStringExt};
+use std::path::PathBuf;
 use std::time::Duration;
 
 use super::{Malformed, Reader, Wire};
@@ -52,6 +55,20 @@ impl Wire for String {
         std::str::from_utf8(bytes)
             .map(str::to_owned)
             .map_err(|_| from.malformed("UTF-8"))
+    }
+}
+
+impl Wire for PathBuf {
+    fn write(&self, into: &mut Vec<u8>) {
+        let bytes = self.as_os_str().as_bytes();
+        write_count(bytes.len(), into);
+        into.extend(bytes);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<PathBuf, Malformed> {
+        let count = from.count()?;
+        let bytes = from.take(count, "the path")?;
+        Ok(PathBuf::from(OsString::from_vec(bytes.to_vec())))
     }
 }
 

@@ -58,6 +58,12 @@ macro_rules! messages {
         }
 
         $crate::child::wire::variants!($type, $expected { $($tag => $variant { $($field),* }),* });
+
+        #[cfg(test)]
+        impl $crate::child::wire::golden::Listed for $type {
+            const NAME: &'static str = stringify!($type);
+            const TAGS: &'static [u8] = &[$($tag),*];
+        }
     )*};
 }
 

@@ -9,10 +9,13 @@ use taceva_core::{Access, ArgValue, Descriptor, DriverKey, DriverKind, ErrorKind
 use super::{Malformed, ModelOrder, OpenedDevice, Reader, Wire, fields, messages};
 use crate::child::sandbox::{Confinement, Isolation};
 use crate::offer::Offer;
+use crate::wire_version::WIRE;
 
 /// The first word: what the child must do before it loads anything. The files to serve come beside it.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Hello {
+    /// [`WIRE`], as the host has it: before everything else, so that a child of any version can read it.
+    pub(crate) wire: u32,
     /// The process that started it; another parent means that one is gone.
     pub(crate) parent: u32,
     /// What to confine itself to.
@@ -79,11 +82,54 @@ pub(crate) struct Failure {
 }
 
 fields!(Hello {
+    wire,
     parent,
     confinement,
     is_heard,
     loads
 });
+/// The first word as a child reads it, whoever wrote it.
+#[derive(Debug, PartialEq)]
+pub(crate) enum FirstWord {
+    /// Of a host that speaks as this child does.
+    Known(Hello),
+    /// Of another one, of which no more can be read.
+    OfOtherWire(u32),
+}
+
+impl FirstWord {
+    /// What is said to a host that speaks otherwise.
+    pub(crate) fn refusal(wire: u32) -> String {
+        format!(
+            "it speaks version {WIRE} of the wire, its host version {wire}: both must be of one version of TacEva; install the package `taceva` of the version of the program ({} here), or run the program `taceva` that this package brings along",
+            env!("CARGO_PKG_VERSION")
+        )
+    }
+}
+
+impl Wire for FirstWord {
+    fn write(&self, into: &mut Vec<u8>) {
+        match self {
+            FirstWord::Known(hello) => hello.write(into),
+            FirstWord::OfOtherWire(wire) => wire.write(into),
+        }
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<FirstWord, Malformed> {
+        let begin = from.at;
+        match u32::read(from)? {
+            WIRE => {
+                from.at = begin;
+                Hello::read(from).map(FirstWord::Known)
+            }
+            wire => {
+                from.at = from.bytes.len();
+                Ok(FirstWord::OfOtherWire(wire))
+            }
+        }
+    }
+}
+
 fields!(Offer {
     id,
     version,
@@ -183,6 +229,23 @@ mod tests {
                 radius: taceva_core::Nanometre(2_000_000),
             },
         });
+    }
+
+    #[test]
+    fn a_host_of_another_wire_is_heard_whatever_it_says_besides() {
+        for behind in [&[][..], &[1, 2, 3], &[0xFF; 300]] {
+            let mut bytes = Vec::new();
+            (9_u32, WIRE + 1).write(&mut bytes);
+            bytes.extend(behind);
+            let read = decode::<(u32, FirstWord)>(&bytes);
+            assert_eq!(read, Ok((9, FirstWord::OfOtherWire(WIRE + 1))));
+        }
+        let said = FirstWord::refusal(2);
+        assert!(
+            said.contains("version 1 of the wire, its host version 2"),
+            "{said}"
+        );
+        assert!(said.contains("install the package `taceva`"), "{said}");
     }
 
     #[test]

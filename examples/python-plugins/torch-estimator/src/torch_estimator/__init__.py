@@ -1,0 +1,87 @@
+"""A small network of PyTorch as an estimator: two layers over the features, fitted by Adam with a fixed seed."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from typing import Annotated
+
+# Torch makes a folder for code that it compiles, and a plugin can make none: one that is there will do.
+os.environ.setdefault("TORCHINDUCTOR_CACHE_DIR", tempfile.gettempdir())
+
+import numpy as np
+import torch
+
+import taceva.plugin as tp
+
+HIDDEN = 32
+
+
+class Network(tp.Estimator):
+    """Two layers of PyTorch."""
+
+    def __init__(
+        self,
+        epochs: Annotated[int, tp.Arg(range=(1, 10_000), help="passes over the training samples")] = 200,
+        seed: Annotated[int, tp.Arg(range=(0, 1_000_000))] = 0,
+    ) -> None:
+        self.epochs = epochs
+        self.seed = seed
+        self.net: torch.nn.Sequential | None = None
+        # Of the labels, in the order of the channels.
+        self.mean = self.spread = np.zeros(0)
+
+    @staticmethod
+    def made(inputs: int, outputs: int) -> torch.nn.Sequential:
+        return torch.nn.Sequential(torch.nn.Linear(inputs, HIDDEN), torch.nn.Tanh(), torch.nn.Linear(HIDDEN, outputs))
+
+    def fit(self, training: tp.Samples, validation: tp.Samples | None, progress: tp.Training) -> None:
+        # One thread and one seed: the same samples give the same network.
+        torch.set_num_threads(1)
+        torch.manual_seed(self.seed)
+        x = torch.from_numpy(training.features.reshape(len(training.features), -1).copy())
+        self.mean = training.targets.mean(axis=0)
+        self.spread = np.where(training.targets.std(axis=0) > 0, training.targets.std(axis=0), 1.0)
+        y = torch.from_numpy(((training.targets - self.mean) / self.spread).astype(np.float32))
+        self.net = self.made(x.shape[1], y.shape[1])
+        optimizer = torch.optim.Adam(self.net.parameters(), lr=0.01)
+        progress.begin("fit", self.epochs)
+        for _ in range(self.epochs):
+            optimizer.zero_grad()
+            torch.nn.functional.mse_loss(self.net(x), y).backward()
+            optimizer.step()
+            progress.advance()
+        progress.end()
+
+    def predict(self, features) -> np.ndarray:
+        flat = np.array(features, np.float32).reshape(len(features), -1)
+        rows = np.zeros((len(flat), len(self.mean)))
+        with torch.inference_mode():
+            # Sample by sample: a batch of another size may be summed in another order.
+            for row, sample in zip(rows, torch.from_numpy(flat), strict=True):
+                row[:] = self.net(sample[None]).numpy()[0]
+        return rows * self.spread + self.mean
+
+    def save(self) -> bytes:
+        parts = [self.mean, self.spread, *(weights.detach().numpy() for weights in self.net.parameters())]
+        return b"".join(np.ascontiguousarray(part, "<f8").tobytes() for part in parts)
+
+    @classmethod
+    def load(cls, data: bytes, channels: list[str], shape: tuple[int, int, int]) -> Network:
+        model = cls()
+        net = cls.made(int(np.prod(shape)), len(channels))
+        sizes = [len(channels), len(channels), *(weights.numel() for weights in net.parameters())]
+        if len(data) != 8 * sum(sizes):
+            raise ValueError(f"{len(data)} bytes, expected {8 * sum(sizes)} for {shape} and {channels}")
+        numbers = np.frombuffer(data, "<f8")
+        if not np.isfinite(numbers).all():
+            raise ValueError("a weight that is no number")
+        model.mean, model.spread, *parts = np.split(numbers, np.cumsum(sizes)[:-1])
+        with torch.no_grad():
+            for weights, part in zip(net.parameters(), parts, strict=True):
+                weights.copy_(torch.from_numpy(part.astype(np.float32)).reshape(weights.shape))
+        model.net = net
+        return model
+
+
+plugin = tp.Plugin("org.example.torch-estimator", "1.0.0", {"network": Network})

@@ -1,0 +1,18 @@
+//! Plugins in Python: interpreters, what is asked of them, and the process that one becomes.
+
+#[cfg(target_os = "linux")]
+mod child;
+mod digest;
+mod error;
+mod interpreter;
+mod open_to;
+mod own;
+mod run;
+
+pub(crate) use self::digest::digest;
+pub use self::error::PythonError;
+pub(crate) use self::error::other_wire;
+pub use self::interpreter::Interpreter;
+pub(crate) use self::interpreter::Lying;
+pub(crate) use self::own::{arguments, own};
+pub use self::own::{beside_this_program, run_within};

@@ -1,0 +1,53 @@
+"""Says in TOML which environment this is, and which plugins lie in it: `taceva` runs it by the interpreter of the environment.
+
+Nothing of a plugin is imported: a package at the top is found without running anything of it.
+"""
+import importlib.metadata
+import importlib.util
+import json
+import os
+import sys
+
+
+def text(value):
+    return json.dumps(value, ensure_ascii=False).encode("utf-8", "replace").decode()
+
+
+def package(name):
+    """The folder of a package, or why there is none."""
+    try:
+        spec = importlib.util.find_spec(name)
+    except Exception as error:
+        return None, f"{type(error).__name__}: {error}"
+    if spec is None:
+        return None, f"there is no module {name!r} in this environment"
+    if not spec.submodule_search_locations or not spec.origin:
+        return None, f"{name!r} is no package: expected a folder with an __init__.py"
+    return os.path.dirname(spec.origin), None
+
+
+def main():
+    lines = ["# taceva environment"]
+    say = lambda key, value: lines.append(f"{key} = {text(value)}")
+    say("version", ".".join(map(str, sys.version_info[:3])))
+    say("readable", [path for path in (sys.prefix, sys.base_prefix, *sys.path) if os.path.exists(path)])
+    folder, fault = package("taceva")
+    if folder is not None:
+        say("package", folder)
+    for point in importlib.metadata.entry_points(group="taceva.plugins"):
+        lines.append("[[plugins]]")
+        say("id", point.name)
+        say("module", point.value)
+        if not point.value.isidentifier():
+            folder, fault = None, f"expected the name of a package at the top, such as {point.value.split('.')[0].split(':')[0]!r}"
+        else:
+            folder, fault = package(point.value)
+        if folder is not None:
+            say("folder", folder)
+        else:
+            say("fault", fault)
+    sys.stdout.buffer.write("\n".join(lines).encode() + b"\n")
+    sys.stdout.buffer.flush()
+
+
+main()

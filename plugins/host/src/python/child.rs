@@ -1,0 +1,70 @@
+//! The process of a plugin in Python.
+
+use std::path::Path;
+
+use rustix::process::geteuid;
+
+use super::error::PythonError;
+use super::interpreter::Interpreter;
+use super::open_to::closed_by;
+use super::own::arguments;
+use crate::child::{ChildSpec, ModuleToImport, NOBODY};
+use crate::manifest::PythonModule;
+use crate::search::Plugin;
+
+impl Interpreter {
+    /// A child that is this interpreter, confined to what `module` of `plugin` is to be confined to.
+    pub(crate) fn spec(
+        &self,
+        plugin: &Plugin,
+        module: &PythonModule,
+    ) -> Result<ChildSpec, PythonError> {
+        let start = |source| PythonError::Start {
+            program: self.program().to_owned(),
+            source,
+        };
+        // Asked first, since a process that does not start says less.
+        std::fs::metadata(self.program()).map_err(start)?;
+        std::fs::metadata(self.child()).map_err(|source| PythonError::File {
+            path: self.child(),
+            source,
+        })?;
+        self.refuse_closed(&plugin.folder)?;
+        let import = ModuleToImport {
+            folder: plugin.folder.clone(),
+            name: module.name.clone(),
+            preload: module.preload.clone(),
+        };
+        let spec = ChildSpec::of_module(import, plugin.id().as_str(), &plugin.text);
+        let mut spec = spec.map_err(start)?;
+        self.confine(&mut spec, module);
+        spec.confinement.readable.push(plugin.folder.clone());
+        Ok(spec)
+    }
+
+    /// Makes the child this interpreter, with the confinement of `module`.
+    pub(crate) fn confine(&self, spec: &mut ChildSpec, module: &PythonModule) {
+        spec.program = Some(self.program().to_owned());
+        spec.arguments = arguments(&self.child());
+        spec.confinement.readable = self.reads();
+        spec.confinement.memory = module.profile.memory();
+        spec.confinement.seals = module.profile.seals();
+    }
+
+    /// Refuses what the user of the process may not read, where that is another than ours.
+    pub(crate) fn refuse_closed(&self, package: &Path) -> Result<(), PythonError> {
+        if !geteuid().is_root() {
+            return Ok(());
+        }
+        for path in self.must_read().chain([package]) {
+            if let Some(closed) = closed_by(path) {
+                return Err(PythonError::Closed {
+                    path: path.to_owned(),
+                    closed,
+                    user: NOBODY,
+                });
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,164 @@
+"""Sensors, force transducers, lightings and estimators written in Python, as plugins of TacEva.
+
+A plugin is a package whose module has a ``plugin``:
+
+>>> import taceva.plugin as tp
+>>> class Scale(tp.Force, source="real", axes=["Fz"], rate_hz=10):
+...     "A scale that weighs nothing."
+...     def read(self, deadline):
+...         return tp.Reading(0.0, tp.now())
+>>> plugin = tp.Plugin("org.example.scale", "1.0.0", {"scale": Scale})
+>>> print(plugin.tables()[0][0], end="")
+kind = "force"
+key = "scale"
+title = "A scale that weighs nothing."
+source = "real"
+axes = ["Fz"]
+rate_hz = 10
+
+Beside ``__init__.py`` lies its manifest, which ``python -m taceva.plugin manifest MODULE --write`` writes. It runs in a process of its own
+that reaches nothing but what the manifest says it needs and its user allows.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from typing import TYPE_CHECKING, NamedTuple
+
+from taceva._taceva import Deadline, Interrupted, Training, plugin_log
+from taceva.plugin_classes import Arg, Device, Estimator, Force, Lighting, Samples, Sensor
+from taceva.plugin_table import table
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+__all__ = [
+    "Arg",
+    "Deadline",
+    "Device",
+    "Estimator",
+    "Failure",
+    "Force",
+    "Interrupted",
+    "Lighting",
+    "Plugin",
+    "Reading",
+    "Samples",
+    "Sensor",
+    "Training",
+    "load",
+    "log",
+    "now",
+]
+
+
+class Failure(Exception):
+    """A failure of a kind that no exception of Python stands for.
+
+    Parameters
+    ----------
+    kind : str
+        Such as ``"not found"``, ``"busy"``, ``"disconnected"``, ``"out of range"`` or ``"device fault"``.
+    message : str
+        What happened, and what would help.
+    """
+
+    def __init__(self, kind: str, message: str) -> None:
+        super().__init__(message)
+        self.kind = kind
+
+
+class Reading(NamedTuple):
+    """What a force transducer read.
+
+    ``force`` is Fz, or ``[Fx, Fy, Fz]``, or ``[Fx, Fy, Fz, Tx, Ty, Tz]``, in N and N·mm; ``time`` is when, as `now` counts; ``number`` is
+    the number that the device itself gave it, where it numbers its readings.
+    """
+
+    force: float | Sequence[float]
+    time: float | tuple[float, float]
+    number: int | None = None
+
+
+def now() -> float:
+    """Return the seconds of the clock that devices are stamped by: the monotonic clock of the machine."""
+    return time.monotonic()
+
+
+def log(message: str, level: str = "info") -> None:
+    """Write a line to the log of the program; ``level`` is ``"error"``, ``"warn"``, ``"info"`` or ``"debug"``."""
+    plugin_log(level, message)
+
+
+class Plugin:
+    """What a module offers: its id, its version, and its devices and estimators by their keys.
+
+    Parameters
+    ----------
+    id : str
+        Reverse DNS, such as ``"org.example.eye"``.
+    version : str
+        Its version.
+    provides : mapping of str to class
+        Subclasses of `Sensor`, `Force`, `Lighting` and `Estimator`.
+    needs : sequence of str
+        What it must reach outside itself, such as ``"camera"`` or ``"serial:{port}"``.
+    """
+
+    def __init__(
+        self,
+        id: str,
+        version: str,
+        provides: Mapping[str, type[Device | Estimator]],
+        *,
+        needs: Sequence[str] = (),
+    ) -> None:
+        for key, given in provides.items():
+            if not (isinstance(given, type) and issubclass(given, (Device, Estimator))):
+                raise TypeError(
+                    f"{key!r}: expected a subclass of taceva.plugin.Sensor, Force, Lighting or Estimator, got {given!r}"
+                )
+        if isinstance(needs, str):
+            raise TypeError(f"needs: expected a list of texts, got {needs!r}")
+        self.id = id
+        self.version = version
+        self.provides = dict(provides)
+        self.needs = list(needs)
+
+    def tables(self) -> list[tuple[str, type[Device | Estimator]]]:
+        """Return what a manifest says of each class, and the class."""
+        return [(table(key, given), given) for key, given in self.provides.items()]
+
+    def __repr__(self) -> str:
+        return f"<Plugin {self.id} {self.version}: {', '.join(self.provides)}>"
+
+
+def load(name: str, folder: str | None = None) -> Plugin:
+    """Import the package ``name``, from ``folder`` where one is given, and return its plugin."""
+    import importlib
+    import importlib.util
+    import os
+
+    if folder is None:
+        module = importlib.import_module(name)
+    else:
+        path = os.path.join(folder, "__init__.py")
+        spec = importlib.util.spec_from_file_location(name, path, submodule_search_locations=[folder])
+        if spec is None or spec.loader is None:
+            raise ImportError(f"{path} cannot be imported")
+        module = importlib.util.module_from_spec(spec)
+        sys.modules[name] = module
+        spec.loader.exec_module(module)
+    plugin = getattr(module, "plugin", None)
+    if not isinstance(plugin, Plugin):
+        raise TypeError(
+            f"the module {name} has no plugin, expected plugin = taceva.plugin.Plugin(id, version, {{key: class}})"
+        )
+    return plugin
+
+
+if __name__ == "__main__":
+    from taceva.plugin_command import main
+
+    sys.exit(main())

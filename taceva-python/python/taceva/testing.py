@@ -1,0 +1,83 @@
+"""Whether a plugin keeps its promises, for the tests of its author."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+
+class Checked(NamedTuple):
+    """A check that was made: its name, what it looked at, and ``"passed"`` or ``"skipped"`` with the reason."""
+
+    check: str
+    subject: str | None
+    outcome: str
+    why: str | None
+
+
+def check(
+    module: str,
+    *,
+    arguments: Mapping[str, str] | None = None,
+    only: Sequence[str] = (),
+    limit: float = 120,
+) -> list[Checked]:
+    """Check the plugin that ``module`` is, as ``taceva plugin check`` does: each check in a confined process of its own.
+
+    Parameters
+    ----------
+    module : str
+        The package, as ``import`` names it. It is not imported here.
+    arguments : mapping of str to str, optional
+        Arguments of drivers by their keys: ``{"org.example.eye/camera": "index=1"}``.
+    only : sequence of str
+        The checks whose names begin with one of these; all, where there is none.
+    limit : float
+        The time limit of each check, in seconds.
+
+    Returns
+    -------
+    list of Checked
+        What passed, and what could not be looked at.
+
+    Raises
+    ------
+    AssertionError
+        If a promise does not hold; it names each.
+    """
+    import importlib.util
+    import tomllib
+
+    spec = importlib.util.find_spec(module)
+    if spec is None or spec.origin is None:
+        raise ModuleNotFoundError(f"no package is called {module!r} in this environment")
+    folder = os.path.dirname(spec.origin)
+    manifest = os.path.join(folder, "plugin.toml")
+    if not os.path.exists(manifest):
+        raise FileNotFoundError(
+            f"{manifest} is missing: `python -m taceva.plugin manifest {module} --write` writes it"
+        )
+    with open(manifest, "rb") as file:
+        id = tomllib.load(file)["id"]
+    command = [sys.executable, "-m", "taceva", "plugin", "check", id, "--plugin-dir", folder]
+    command += ["--format", "json", "--limit", str(int(limit))]
+    for driver, given in (arguments or {}).items():
+        command += ["--with", f"{driver}:{given}"]
+    if only:
+        command += ["--only", ",".join(only)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    try:
+        results = json.loads(done.stdout)["results"]
+    except (ValueError, KeyError):
+        raise RuntimeError(f"{id} could not be checked: {done.stderr.strip()}") from None
+    failed = [result for result in results if result["outcome"] == "failed"]
+    if failed:
+        lines = [f"{one['check']} {one.get('subject') or ''}: {one['why']}" for one in failed]
+        raise AssertionError(f"{id} breaks {len(failed)} of {len(results)} promises:\n" + "\n".join(lines))
+    return [Checked(one["check"], one.get("subject"), one["outcome"], one.get("why")) for one in results]

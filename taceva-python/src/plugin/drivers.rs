@@ -1,0 +1,91 @@
+//! A class of Python as a driver of devices.
+
+use pyo3::prelude::*;
+use taceva_core::{
+    Args, Descriptor, DriverError, DriverKind, Factory, ForceTransducer, Found, Lighting, Rig,
+    Sensor,
+};
+use taceva_plugin::Made;
+
+use super::failure::{Doing, device_error};
+use super::force::PythonForce;
+use super::lighting::PythonLighting;
+use super::objects::{Object, keywords};
+use super::sensor::PythonSensor;
+
+/// A class whose objects are devices.
+pub(super) struct PythonDriver {
+    descriptor: Descriptor,
+    class: Py<PyAny>,
+}
+
+impl PythonDriver {
+    /// The driver that `class` is; none of a kind that cannot be written in Python.
+    pub(super) fn made(descriptor: Descriptor, class: Py<PyAny>) -> Option<Made> {
+        let kind = descriptor.kind();
+        let driver = PythonDriver { descriptor, class };
+        match kind {
+            DriverKind::Sensor => Some(Made::Sensor(Box::new(driver))),
+            DriverKind::Force => Some(Made::Force(Box::new(driver))),
+            DriverKind::Lighting => Some(Made::Lighting(Box::new(driver))),
+            _ => None,
+        }
+    }
+
+    /// An object of the class, made with `args`.
+    fn object(&self, args: &Args) -> Result<Object, DriverError> {
+        const DOING: Doing = Doing::Opening("open the device");
+        let key = self.descriptor.key();
+        Python::attach(|py| {
+            let made = keywords(py, self.descriptor.arguments(), args)
+                .and_then(|given| self.class.call(py, (), Some(&given)));
+            let object = made.map_err(|error| device_error(py, &error, key, DOING))?;
+            Ok(Object::new(key.clone(), object))
+        })
+    }
+
+    /// What `discover` of the class finds, if it has one.
+    fn found(&self) -> Result<Vec<Found>, DriverError> {
+        const DOING: Doing = Doing::Working("look for devices");
+        let key = self.descriptor.key();
+        Python::attach(|py| {
+            let found = || -> PyResult<Vec<String>> {
+                match self.class.bind(py).getattr_opt("discover")? {
+                    Some(discover) => discover.call0()?.extract(),
+                    None => Ok(Vec::new()),
+                }
+            };
+            let found = found().map_err(|error| device_error(py, &error, key, DOING))?;
+            let title = self.descriptor.title();
+            let found = found.into_iter().map(|arguments| {
+                Found::new(key.clone(), title.to_owned()).with_arguments(arguments)
+            });
+            Ok(found.collect())
+        })
+    }
+}
+
+macro_rules! factories {
+    ($($device:ty => $made:expr),* $(,)?) => {$(
+        impl Factory<$device> for PythonDriver {
+            fn descriptor(&self) -> &Descriptor {
+                &self.descriptor
+            }
+
+            fn open(&self, args: &Args, _: &mut Rig) -> Result<Box<$device>, DriverError> {
+                let object = self.object(args)?;
+                Ok(Box::new($made(object, &self.descriptor)?))
+            }
+
+            fn discover(&self) -> Result<Vec<Found>, DriverError> {
+                self.found()
+            }
+        }
+    )*};
+}
+
+factories! {
+    dyn Sensor => PythonSensor::new,
+    dyn ForceTransducer => PythonForce::new,
+    dyn Lighting => PythonLighting::new,
+}

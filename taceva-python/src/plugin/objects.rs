@@ -1,0 +1,115 @@
+//! An object of Python that is a device: called by one thread at a time, and closed when it is dropped.
+
+use std::sync::Arc;
+
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use taceva_core::{ArgKind, ArgSpec, ArgValue, Args, DriverError, DriverKey, Interrupt};
+use taceva_plugin::Interruption;
+
+use super::failure::{Doing, device_error};
+use super::waiting::Deadline;
+
+/// A device that Python holds.
+pub(super) struct Object {
+    key: DriverKey,
+    object: Py<PyAny>,
+    interruption: Arc<Interruption>,
+}
+
+impl Object {
+    pub(super) fn new(key: DriverKey, object: Py<PyAny>) -> Object {
+        Object {
+            key,
+            object,
+            interruption: Arc::default(),
+        }
+    }
+
+    pub(super) fn key(&self) -> &DriverKey {
+        &self.key
+    }
+
+    /// Does `work` with the object, in time for `deadline`; what Python raises is an error of the device while it was `doing`.
+    pub(super) fn call<T>(
+        &self,
+        doing: &'static str,
+        deadline: taceva_core::Deadline,
+        work: impl FnOnce(&Bound<'_, PyAny>, Bound<'_, Deadline>) -> PyResult<T>,
+    ) -> Result<T, DriverError> {
+        // Held until Python has returned, so that an interrupt meets this call and no other.
+        let _call = self.interruption.call();
+        Python::attach(|py| {
+            let deadline = Deadline::new(deadline, Arc::clone(&self.interruption));
+            let done =
+                Bound::new(py, deadline).and_then(|deadline| work(self.object.bind(py), deadline));
+            done.map_err(|error| device_error(py, &error, &self.key, Doing::Working(doing)))
+        })
+    }
+
+    /// Calls a method that takes a deadline.
+    pub(super) fn method(
+        &self,
+        name: &str,
+        doing: &'static str,
+        deadline: taceva_core::Deadline,
+    ) -> Result<(), DriverError> {
+        self.call(doing, deadline, |object, deadline| {
+            object.call_method1(name, (deadline,)).map(drop)
+        })
+    }
+
+    /// Calls a method that takes nothing.
+    pub(super) fn plain_method(&self, name: &str, doing: &'static str) -> Result<(), DriverError> {
+        Python::attach(|py| {
+            let called = self.object.call_method0(py, name).map(drop);
+            called.map_err(|error| device_error(py, &error, &self.key, Doing::Working(doing)))
+        })
+    }
+
+    /// What ends a call that rests by its deadline.
+    pub(super) fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
+        self.interruption.handle()
+    }
+
+    /// Whether it has a method of that name.
+    pub(super) fn has(&self, name: &str) -> bool {
+        Python::attach(|py| self.object.bind(py).hasattr(name).unwrap_or(false))
+    }
+}
+
+impl Drop for Object {
+    fn drop(&mut self) {
+        Python::attach(|py| {
+            if let Err(error) = self.object.call_method0(py, "close") {
+                let words = super::failure::words(py, &error);
+                let line = format!("{}: cannot close: {words}", self.key);
+                taceva_plugin::log(taceva_plugin::Level::Warn, &line);
+            }
+        });
+    }
+}
+
+/// The arguments that are given, by name.
+pub(super) fn keywords<'py>(
+    py: Python<'py>,
+    specs: &[ArgSpec],
+    args: &Args,
+) -> PyResult<Bound<'py, PyDict>> {
+    let given = PyDict::new(py);
+    for spec in specs {
+        match args.get(&spec.key) {
+            Some(ArgValue::Whole(value)) => given.set_item(&spec.key, *value)?,
+            Some(ArgValue::Number(value)) => given.set_item(&spec.key, *value)?,
+            Some(ArgValue::Flag(value)) => given.set_item(&spec.key, *value)?,
+            Some(ArgValue::Text(text)) if spec.kind == ArgKind::Path => {
+                let path = py.import("pathlib")?.getattr("Path")?.call1((text,))?;
+                given.set_item(&spec.key, path)?;
+            }
+            Some(value) => given.set_item(&spec.key, value.to_string())?,
+            // Its own default says what is meant by nothing.
+            None => {}
+        }
+    }
+    Ok(given)
+}

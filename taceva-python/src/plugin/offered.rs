@@ -1,0 +1,86 @@
+//! What a plugin in Python offers, and the table that is made of it.
+
+use std::path::PathBuf;
+use std::sync::OnceLock;
+
+use pyo3::prelude::*;
+use taceva_host::{Linked, PluginId, Provided};
+use taceva_plugin::abi::{Plugin, Text};
+use taceva_plugin::{Driver, Export, Made, plugin};
+
+use super::drivers::PythonDriver;
+use super::estimator::PythonEstimator;
+use crate::errors::value_error;
+
+/// A process serves one plugin.
+static OFFERED: OnceLock<Offered> = OnceLock::new();
+
+/// The plugin that a module of Python is: what it says of itself, and the classes of its devices.
+pub(super) struct Offered {
+    id: String,
+    version: String,
+    needs: Vec<String>,
+    classes: Vec<(Provided, Py<PyAny>)>,
+}
+
+impl Offered {
+    /// What an object of `taceva.plugin.Plugin` offers.
+    pub(super) fn of(plugin: &Bound<'_, PyAny>) -> PyResult<Offered> {
+        let id: String = plugin.getattr("id")?.extract()?;
+        let parsed: PluginId = id.parse().map_err(value_error)?;
+        let tables: Vec<(String, Py<PyAny>)> = plugin.call_method0("tables")?.extract()?;
+        let mut classes = Vec::with_capacity(tables.len());
+        for (table, class) in tables {
+            let provided = Provided::parse(&table, &parsed).map_err(|error| {
+                value_error(format_args!(
+                    "what `{id}` says of itself, {error}:\n{table}"
+                ))
+            })?;
+            classes.push((provided, class));
+        }
+        Ok(Offered {
+            id,
+            version: plugin.getattr("version")?.extract()?,
+            needs: plugin.getattr("needs")?.extract()?,
+            classes,
+        })
+    }
+
+    /// The table of it, made of the code at `path`. The first plugin of a process is the one that it serves.
+    pub(super) fn linked(self, path: PathBuf) -> Linked {
+        let offered = OFFERED.get_or_init(|| self);
+        let mut table: Plugin = plugin::<Offered>();
+        table.id = Text::from(offered.id.as_str());
+        table.version = Text::from(offered.version.as_str());
+        let needs: &'static str = Box::leak(offered.needs.join("\n").into_boxed_str());
+        table.needs = Text::from(needs);
+        Linked::new(Box::leak(Box::new(table)), path)
+    }
+}
+
+impl Export for Offered {
+    /// Both are written over by [`Offered::linked`], which knows them.
+    const ID: &'static str = "";
+    const VERSION: &'static str = "";
+
+    fn drivers() -> Vec<Driver> {
+        let classes = OFFERED.get().map(|offered| offered.classes.as_slice());
+        let made = classes
+            .into_iter()
+            .flatten()
+            .filter_map(|(provided, class)| {
+                let class = Python::attach(|py| class.clone_ref(py));
+                match provided {
+                    Provided::Driver { descriptor, .. } => {
+                        PythonDriver::made((**descriptor).clone(), class)
+                    }
+                    Provided::Estimator(info) => {
+                        let estimator = PythonEstimator::new(info.clone(), class);
+                        Some(Made::Estimator(Box::new(estimator)))
+                    }
+                    _ => None,
+                }
+            });
+        made.map(Driver::Made).collect()
+    }
+}

@@ -1,0 +1,117 @@
+//! A fit as Python sees it: how far it is, and whether it should go on.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::time::Duration;
+
+use pyo3::prelude::*;
+use taceva_core::Progress;
+
+use super::waiting::Interrupted;
+
+/// How often it is asked whether a fit should end.
+const ASKED_EVERY: Duration = Duration::from_millis(20);
+
+/// What a fit tells.
+enum Event {
+    Begins(String, Option<u64>),
+    Advances(u64),
+    Ends,
+}
+
+/// What a fit is told and asked by Python.
+#[pyclass(module = "taceva._taceva", frozen)]
+pub(crate) struct Training {
+    to: std::sync::Mutex<Sender<Event>>,
+    is_cancelled: Arc<AtomicBool>,
+}
+
+impl Training {
+    fn send(&self, event: Event) -> PyResult<()> {
+        let to = self
+            .to
+            .lock()
+            .unwrap_or_else(std::sync::PoisonError::into_inner);
+        // Nobody listens to a fit that was given up.
+        let _ = to.send(event);
+        drop(to);
+        match self.is_cancelled() {
+            true => Err(Interrupted::new_err("the fit was cancelled")),
+            false => Ok(()),
+        }
+    }
+}
+
+#[pymethods]
+impl Training {
+    /// A stage begins, of so many steps where that is known.
+    #[pyo3(signature = (stage, steps = None))]
+    fn begin(&self, stage: String, steps: Option<u64>) -> PyResult<()> {
+        self.send(Event::Begins(stage, steps))
+    }
+
+    /// So many steps are done; raises `Interrupted` where the fit should end.
+    #[pyo3(signature = (steps = 1))]
+    fn advance(&self, steps: u64) -> PyResult<()> {
+        self.send(Event::Advances(steps))
+    }
+
+    /// The stage ends.
+    fn end(&self) -> PyResult<()> {
+        self.send(Event::Ends)
+    }
+
+    /// Whether somebody asked the fit to end.
+    fn is_cancelled(&self) -> bool {
+        self.is_cancelled.load(Ordering::Acquire)
+    }
+}
+
+/// Runs `fit` on a thread of its own while this one passes on what it tells to `progress`, which only this one may call.
+pub(super) fn watched<T: Send>(
+    progress: &dyn Progress,
+    fit: impl FnOnce(Training) -> T + Send,
+) -> std::thread::Result<T> {
+    let (to, events) = channel();
+    let is_cancelled = Arc::new(AtomicBool::new(false));
+    let training = Training {
+        to: std::sync::Mutex::new(to),
+        is_cancelled: Arc::clone(&is_cancelled),
+    };
+    std::thread::scope(|scope| {
+        let (done, is_done) = channel::<()>();
+        let fitting = scope.spawn(move || {
+            // Dropped when it is done, however it ends.
+            let _done = done;
+            fit(training)
+        });
+        pass_on(&events, &is_done, progress, &is_cancelled);
+        fitting.join()
+    })
+}
+
+fn pass_on(
+    events: &Receiver<Event>,
+    is_done: &Receiver<()>,
+    progress: &dyn Progress,
+    is_cancelled: &AtomicBool,
+) {
+    loop {
+        if progress.is_cancelled() {
+            is_cancelled.store(true, Ordering::Release);
+        }
+        match events.recv_timeout(ASKED_EVERY) {
+            Ok(Event::Begins(stage, steps)) => progress.begin(&stage, steps),
+            Ok(Event::Advances(steps)) => progress.advance(steps),
+            Ok(Event::Ends) => progress.end(),
+            Err(RecvTimeoutError::Disconnected) => return,
+            // Python may keep what it was given, but the fit is over.
+            Err(RecvTimeoutError::Timeout) => {
+                if is_done.try_recv() == Err(std::sync::mpsc::TryRecvError::Disconnected) {
+                    return;
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! Until when a call may last, for Python: how it waits so that it can be interrupted.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use pyo3::create_exception;
+use pyo3::exceptions::{PyException, PyTimeoutError};
+use pyo3::prelude::*;
+use taceva_plugin::Interruption;
+
+use crate::errors::value_error;
+
+create_exception!(
+    taceva,
+    Interrupted,
+    PyException,
+    "Somebody asked the call to end."
+);
+
+/// Longer than any call lasts, in seconds.
+const LONG_S: f64 = 1e9;
+
+/// When a call must have ended.
+#[pyclass(module = "taceva._taceva", frozen)]
+pub(crate) struct Deadline {
+    end: Instant,
+    interruption: Arc<Interruption>,
+}
+
+impl Deadline {
+    pub(super) fn new(
+        deadline: taceva_core::Deadline,
+        interruption: Arc<Interruption>,
+    ) -> Deadline {
+        let longest = Duration::from_secs_f64(LONG_S);
+        Deadline {
+            end: Instant::now() + deadline.remaining().min(longest),
+            interruption,
+        }
+    }
+
+    fn left(&self) -> Duration {
+        self.end.saturating_duration_since(Instant::now())
+    }
+}
+
+#[pymethods]
+impl Deadline {
+    /// How many seconds are left; 0 when it has passed.
+    fn remaining(&self) -> f64 {
+        self.left().as_secs_f64()
+    }
+
+    /// Rests for `seconds`; raises `Interrupted` as soon as somebody asks the call to end, and `TimeoutError` at the deadline.
+    fn rest(&self, py: Python<'_>, seconds: f64) -> PyResult<()> {
+        if seconds.is_nan() || seconds < 0.0 {
+            return Err(value_error(format_args!(
+                "rest: {seconds} seconds, expected 0 or more"
+            )));
+        }
+        let asked = Duration::from_secs_f64(seconds.min(LONG_S));
+        let left = self.left();
+        let call = self.interruption.call();
+        let rested = py.detach(|| call.rest(asked.min(left)));
+        rested.map_err(|interrupted| Interrupted::new_err(interrupted.to_string()))?;
+        if asked > left {
+            return Err(PyTimeoutError::new_err("the deadline has passed"));
+        }
+        Ok(())
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<Deadline in {:.3} s>", self.remaining())
+    }
+}

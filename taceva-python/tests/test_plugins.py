@@ -1,0 +1,292 @@
+"""Plugins in Python: found without being imported, confined, and refused in words where something is wrong."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from plugin_environment import Program, add_package, make_environment
+
+HEAD = "import taceva.plugin as tp\n"
+SCALE = """
+class Scale(tp.Force, title="scale", source="simulated", axes=["Fz"]):
+    readings = 0
+    def read(self, deadline):
+        self.readings += 1
+        return tp.Reading(1.5, self.readings * 0.01)
+plugin = tp.Plugin("org.example.scale", "1.0.0", {"scale": Scale})
+"""
+MANIFEST = """manifest_version = 1
+id = "org.example.scale"
+name = "scale"
+version = "1.0.0"
+license = "MIT"
+
+[program]
+python = "lab_scale"
+wire = 1
+
+[[provides]]
+kind = "force"
+key = "scale"
+title = "scale"
+source = "simulated"
+axes = ["Fz"]
+"""
+KEY = "org.example.scale"
+
+
+@pytest.fixture(scope="module")
+def environment(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return make_environment(opened(tmp_path_factory.mktemp("environment")) / "venv")
+
+
+def opened(folder: Path) -> Path:
+    """The folder, where every user may go to it: pytest closes its own."""
+    for above in [folder, folder.parent, folder.parent.parent]:
+        if above.stat().st_uid == os.geteuid():
+            above.chmod(above.stat().st_mode | 0o055)
+    return folder
+
+
+@pytest.fixture
+def program(tmp_path: Path, environment: Path) -> Program:
+    return Program(opened(tmp_path) / "home", environment)
+
+
+def package(folder: Path, code: str = SCALE, manifest: str = MANIFEST, name: str = "lab_scale") -> Path:
+    made = folder / "src" / name
+    made.mkdir(parents=True)
+    (made / "__init__.py").write_text(HEAD + code)
+    (made / "plugin.toml").write_text(manifest)
+    for part in [folder, folder / "src", made]:
+        part.chmod(0o755)
+    return made
+
+
+def failure(program: Program, made: Path, only: str, *more: str) -> str:
+    """Why the checks of a plugin fail."""
+    done = program.check(KEY, made, "--only", only, *more)
+    assert done["failed"], done
+    return "\n".join(done["failed"])
+
+
+def test_an_editable_installation_is_found_by_its_entry_point_and_nothing_of_it_is_imported(
+    tmp_path: Path, program: Program
+) -> None:
+    mark = tmp_path / "imported"
+    made = package(tmp_path, f"open({str(mark)!r}, 'w').close()\n" + SCALE)
+    own = make_environment(tmp_path / "venv")
+    add_package(own, made.parent, "lab_scale", KEY)
+    add_package(own, made.parent, "lab_nothing", "org.example.nothing")
+    add_package(own, made.parent, "lab_part", "org.example.part", "lab_scale.part")
+    program.python = own
+    listed = program.run("plugin", "list", "--all")
+    assert listed.returncode == 0, listed.stderr
+    assert f"{KEY}/scale" in listed.stdout, listed.stdout
+    assert "names `lab_nothing`: there is no module 'lab_nothing' in this environment" in listed.stdout
+    assert "names `lab_scale.part`: expected the name of a package at the top" in listed.stdout
+    assert not mark.exists()
+    told = program.run("plugin", "info", KEY)
+    assert f"lab_scale (interpreter), run by {own}" in told.stdout, told.stdout + told.stderr
+
+
+def test_a_new_project_of_every_kind_says_what_its_manifest_says_and_keeps_every_promise(
+    tmp_path: Path, program: Program
+) -> None:
+    groups = {
+        "sensor": "sensor/",
+        "force": "force/",
+        "lighting": "lighting/",
+        "estimator": "estimator/fits,estimator/keeps,estimator/refuses,estimator/ends",
+    }
+    for kind, only in groups.items():
+        command = [sys.executable, "-m", "taceva", "plugin", "new", kind, f"my-{kind}", "--language", "python"]
+        subprocess.run(command, cwd=tmp_path, check=True, capture_output=True)
+        made = tmp_path / f"my-{kind}/src/my_{kind}"
+        command = [sys.executable, "-m", "taceva.plugin", "manifest", f"my_{kind}"]
+        said = subprocess.run(command, cwd=made.parent, capture_output=True, text=True, check=False)
+        assert said.returncode == 0, said.stdout + said.stderr
+        done = program.check(f"org.example.my-{kind}", made, "--only", f"library/,driver/opens,{only}")
+        assert done["failed"] == [], (kind, done)
+        assert len(done["passed"]) > 10, (kind, done)
+    refused = subprocess.run(
+        [sys.executable, "-m", "taceva", "plugin", "new", "robot", "my-arm", "--language", "python"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert "a robot cannot be written in Python yet" in refused.stderr
+
+
+def test_a_manifest_of_another_wire_is_refused_with_both_numbers_and_the_remedy(tmp_path: Path, program: Program) -> None:
+    made = package(tmp_path, manifest=MANIFEST.replace("wire = 1", "wire = 2"))
+    listed = program.run("plugin", "list", "--all", "--plugin-dir", str(made)).stdout
+    assert "written for version 2 of the wire, this TacEva speaks 1" in listed
+    assert "python -m taceva.plugin manifest MODULE --write" in listed
+
+
+def test_an_interpreter_that_is_gone_or_has_no_taceva_is_named_with_the_remedy(tmp_path: Path, program: Program) -> None:
+    made = package(tmp_path)
+    program.python = tmp_path / "gone/bin/python"
+    listed = program.run("plugin", "list", "--all").stdout
+    assert f"{program.python}: " in listed and "expected the interpreter of an environment" in listed
+    subprocess.run([sys.executable, "-m", "venv", "--without-pip", str(tmp_path / "bare")], check=True)
+    program.python = tmp_path / "bare/bin/python"
+    listed = program.run("plugin", "list", "--all").stdout
+    assert "the package `taceva` is not installed in its environment" in listed
+    assert f"{program.python} -m pip install taceva==" in listed
+    other = package(tmp_path / "other", name="lab_other")
+    listed = program.run("plugin", "list", "--all", "--plugin-dir", str(other)).stdout
+    assert "the manifest of a module lies in its package, expected a folder called `lab_scale`" in listed
+    (made / "__init__.py").unlink()
+    listed = program.run("plugin", "list", "--all", "--plugin-dir", str(made)).stdout
+    assert "no package, expected __init__.py beside the manifest" in listed
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="a plugin runs as another user for root alone")
+def test_what_the_user_of_the_sandbox_may_not_read_is_refused_with_the_folder_that_closes_it(
+    tmp_path: Path, program: Program
+) -> None:
+    made = package(tmp_path / "closed")
+    (tmp_path / "closed").chmod(0o700)
+    done = program.run("plugin", "check", KEY, "--plugin-dir", str(made))
+    assert done.returncode != 0
+    assert f"it is closed by {tmp_path / 'closed'}" in done.stderr, done.stderr
+    assert "runs as user 65534" in done.stderr
+
+
+def test_home_sockets_processes_and_programs_are_closed_to_a_plugin(tmp_path: Path, program: Program) -> None:
+    (program.home / "secret").write_text("secret")
+    code = f"""
+import os, socket, subprocess
+def tried(name, work):
+    try:
+        work()
+    except PermissionError:
+        return name + " refused"
+    except BaseException as error:
+        return name + " gave " + repr(error)
+    return name + " ALLOWED"
+class Scale(tp.Force, title="scale", source="simulated", axes=["Fz"]):
+    def __init__(self):
+        raise tp.Failure("device fault", ", ".join([
+            tried("home", lambda: open({str(program.home / "secret")!r}).read()),
+            tried("listing", lambda: os.listdir({str(program.home)!r})),
+            tried("writing", lambda: open("/tmp/of-a-plugin", "w")),
+            tried("socket", lambda: socket.socket()),
+            tried("fork", os.fork),
+            tried("program", lambda: os.execv("/bin/true", ["true"])),
+        ]))
+plugin = tp.Plugin("org.example.scale", "1.0.0", {{"scale": Scale}})
+"""
+    why = failure(program, package(tmp_path, code), "driver/opens")
+    for closed in ["home", "listing", "writing", "socket", "fork", "program"]:
+        assert f"{closed} refused" in why, why
+
+
+FAULTS = {
+    "raises": ("raise ValueError('the cell is wet')", "ValueError: the cell is wet ("),
+    "says_not_finite": ("return tp.Reading(float('nan'), 0.01)", "is NaN, expected a number"),
+    "has_another_shape": ("return tp.Reading([1.0, 2.0], 0.01)", "expected Fz, [Fx, Fy, Fz] or [Fx, Fy, Fz, Tx, Ty, Tz]"),
+    "gives_nothing": ("return None", "expected taceva.plugin.Reading(force, time)"),
+    "gives_no_time": ("return tp.Reading(1.0, 'now')", "a time of type str, expected seconds as taceva.plugin.now() counts them"),
+    "leaves_the_process": ("import os; os._exit(3)", "the process ended"),
+    "ends_the_interpreter": ("raise SystemExit('bye')", "SystemExit: bye"),
+}
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_a_plugin_that_does_wrong_fails_with_what_it_did_and_what_is_expected(
+    fault: str, tmp_path: Path, program: Program
+) -> None:
+    does, said = FAULTS[fault]
+    code = SCALE.replace("self.readings += 1", does)
+    assert said in failure(program, package(tmp_path, code), "force/reads")
+
+
+def test_a_plugin_that_hangs_is_ended_and_one_that_prints_is_told_of(tmp_path: Path, program: Program) -> None:
+    code = SCALE.replace("self.readings += 1", "import time; time.sleep(1000)")
+    why = failure(program, package(tmp_path / "hangs", code), "force/reads", "--limit", "15")
+    assert "did not start within 15s" in why
+    prints = package(tmp_path / "prints", "print('loaded')\n" + SCALE)
+    assert "it printed" in failure(program, prints, "library/quiet")
+
+
+def test_a_module_that_cannot_be_imported_is_refused_with_its_reason(tmp_path: Path, program: Program) -> None:
+    missing = package(tmp_path / "missing", "import no_such_library\n" + SCALE)
+    why = failure(program, missing, "library/loads")
+    assert "No module named 'no_such_library'" in why and "install it in the environment of the plugin" in why
+    empty = package(tmp_path / "empty", "plugin = None\n")
+    assert "has no plugin, expected plugin = taceva.plugin.Plugin(" in failure(program, empty, "library/loads")
+    other = package(tmp_path / "other", SCALE.replace('title="scale"', 'title="scale", tare=True'))
+    assert "tare" in failure(program, other, "library/loads")
+
+
+def test_code_that_comes_too_late_is_refused_and_the_remedy_is_named(tmp_path: Path, program: Program) -> None:
+    late = SCALE.replace("self.readings += 1", "import _decimal, sqlite3, lzma; self.readings += 1")
+    why = failure(program, package(tmp_path / "late", late), "force/reads")
+    assert "`preload` of plugin.toml" in why and "interpreter-open" in why
+    for name, more in [("early", 'preload = ["_decimal", "sqlite3", "lzma"]'), ("open", 'profile = "interpreter-open"')]:
+        made = package(tmp_path / name, late, MANIFEST.replace("wire = 1", f"wire = 1\n{more}"))
+        done = program.check(KEY, made, "--only", "force/reads")
+        assert done["failed"] == [], done
+    listed = program.run("plugin", "list", "--plugin-dir", str(tmp_path / "open/src/lab_scale")).stdout
+    assert "code may come into it at any time" in listed, listed
+
+
+def test_an_estimator_in_python_is_evaluated_by_the_command(tmp_path: Path, program: Program) -> None:
+    import numpy as np
+
+    import taceva
+
+    command = [sys.executable, "-m", "taceva", "plugin", "new", "estimator", "my-plane", "--language", "python"]
+    subprocess.run(command, cwd=tmp_path, check=True, capture_output=True)
+    made = tmp_path / "my-plane/src/my_plane"
+    random = np.random.default_rng(5)
+    force = random.uniform(0, 5, 120)
+    frames = np.zeros((120, 32, 32, 1), np.uint8) + (20 + 40 * force).astype(np.uint8)[:, None, None, None]
+    frames += random.integers(0, 3, frames.shape, np.uint8)
+    points = np.arange(120) // 4
+    taceva.from_arrays(
+        tmp_path / "recording",
+        force,
+        frames,
+        channels=["Fz"],
+        points=points,
+        sensor="plate",
+        source="synthetic",
+    )
+    key = "org.example.my-plane/my-plane"
+    done = program.run(
+        "evaluate", str(tmp_path / "recording"), "--model", key, "--metrics", "mae", "--no-cache",
+        "--plugin-dir", str(made),
+    )
+    assert done.returncode == 0, done.stderr
+    assert f"model {key}" in done.stdout and "Fz" in done.stdout, done.stdout
+
+
+def test_a_plugin_in_a_library_runs_in_the_processes_of_this_interpreter(tmp_path: Path, program: Program) -> None:
+    source = Path(__file__).parents[2] / "plugins"
+    if shutil.which("cc") is None:
+        pytest.skip("no C compiler")
+    made = tmp_path / "c-example"
+    shutil.copytree(source / "c-example", made, ignore=shutil.ignore_patterns("*.so"))
+    text = (made / "plugin.toml").read_text()
+    library = re.search(r'linux-x86_64 = \{ path = "([^"]+)"', text)
+    assert library is not None
+    files = sorted(map(str, (made / "src").glob("*.c")))
+    command = ["cc", "-std=c11", "-D_GNU_SOURCE", "-O2", "-fPIC", "-fvisibility=hidden", "-pthread", "-shared"]
+    command += ["-I", str(source / "abi/include"), "-o", str(made / library[1]), *files, "-lm"]
+    subprocess.run(command, check=True, capture_output=True)
+    id = re.search(r'^id = "([^"]+)"', text, re.MULTILINE)
+    assert id is not None
+    done = program.check(id[1], made, "--only", "library/loads,driver/opens,sensor/gives,force/reads")
+    assert done["failed"] == [], done
+    assert len(done["passed"]) >= 4, done
