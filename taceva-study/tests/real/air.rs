@@ -10,12 +10,7 @@ use crate::{SCENE, with_workshop};
 #[test]
 fn a_run_in_the_air_visits_every_place_far_above_the_gel_and_presses_nothing() {
     let world = World::new();
-    let visited = with_workshop(
-        &world,
-        &SilentProgress,
-        (SCENE, None, None),
-        |planned, workshop| rehearse_scene(planned, workshop),
-    );
+    let visited = with_workshop(&world, &SilentProgress, (SCENE, None, None), rehearse_scene);
     assert_eq!(visited.expect("nothing is in the way"), 3);
     // Depths of the presses, a millimetre at most, are visited there too.
     assert!(depth_mm(&world) < 1.0 - AIR_MM, "{} mm", depth_mm(&world));
