@@ -114,7 +114,7 @@ fn a_package_in_a_folder_is_run_by_the_first_interpreter_that_is_known() {
         "echo '# taceva environment'; echo 'version = \"3.12.1\"'; echo 'readable = []'; echo 'package = \"{}/taceva\"'",
         other.path().display()
     ));
-    let found = Plugins::search_with(path(), &[], &[interpreter.clone()]);
+    let found = Plugins::search_with(path(), &[], std::slice::from_ref(&interpreter));
     let plugin = found.get("org.example.scale").expect("found");
     let by = plugin.interpreter.as_ref().expect("known");
     assert_eq!(by.program(), interpreter);
