@@ -2,7 +2,7 @@
 
 mod support;
 
-use support::{Bench, leftovers};
+use support::{Bench, leftovers, of_format};
 
 fn imported() -> Bench {
     let bench = Bench::new();
@@ -238,10 +238,7 @@ fn a_folder_that_is_no_dataset_or_a_newer_one_is_refused() {
     bench.refused("evaluate lab --model ridge", 3, "lab is no dataset");
     bench.refused("check nowhere", 3, "nowhere is no dataset");
     let header = std::fs::read_to_string(bench.path("data/dataset.toml")).expect("there");
-    bench.write(
-        "data/dataset.toml",
-        &header.replace("format = \"1.4\"", "format = \"2.0\""),
-    );
+    bench.write("data/dataset.toml", &of_format(&header, "2.0"));
     bench.refused(
         "evaluate data --model ridge",
         3,

@@ -2,7 +2,7 @@
 
 mod support;
 
-use support::Bench;
+use support::{Bench, of_format};
 
 fn imported() -> Bench {
     let bench = Bench::new();
@@ -79,7 +79,7 @@ fn a_dataset_of_before_seals_is_read_and_marked_and_can_be_sealed() {
     let (body, _) = text.split_once("\n[seal]").expect("sealed");
     bench.write("data/dataset.toml", body);
     bench.refused("check data", 3, "dataset.toml: the seal is gone");
-    bench.write("data/dataset.toml", &body.replacen("\"1.4\"", "\"1.2\"", 1));
+    bench.write("data/dataset.toml", &of_format(body, "1.2"));
     let result = bench.json("evaluate data --model ridge --part all");
     let unsealed = &result["provenance"]["unsealed"];
     assert_eq!(unsealed[0], "dataset.toml of format 1.2");

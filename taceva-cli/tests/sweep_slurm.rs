@@ -6,6 +6,7 @@ use std::fs;
 use std::net::TcpListener;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use support::Bench;
@@ -33,9 +34,13 @@ const FILES: [&str; 3] = ["table.csv", "table.parquet", "page.html"];
 /// A loaded machine is waited for.
 const PATIENCE: Duration = Duration::from_secs(240);
 
+/// One cluster at a time: ports that were found free are free until the daemons have them.
+static ALONE: Mutex<()> = Mutex::new(());
+
 /// A Slurm of two nodes, ended when it is dropped.
 struct Cluster {
     folder: tempfile::TempDir,
+    _alone: MutexGuard<'static, ()>,
 }
 
 impl Cluster {
@@ -59,6 +64,7 @@ impl Cluster {
         }
         let cluster = Cluster {
             folder: tempfile::tempdir().expect("a folder"),
+            _alone: ALONE.lock().unwrap_or_else(PoisonError::into_inner),
         };
         let output = cluster.script("up.sh", &[&free_ports().to_string()]);
         assert!(

@@ -57,7 +57,7 @@ export SLURM_CONF=$folder/slurm.conf
 slurmctld -f "$SLURM_CONF" -c
 slurmd -f "$SLURM_CONF" -N one
 slurmd -f "$SLURM_CONF" -N two
-for _ in $(seq 240); do
+while [ $SECONDS -lt 120 ]; do
     [ "$(sinfo --noheader --states=idle --format=%D 2>/dev/null)" = 2 ] && exit 0
     sleep 0.25
 done

@@ -310,3 +310,10 @@ pub(crate) fn leftovers(folder: &Path, known: &[&str]) -> Vec<String> {
         .filter(|name| !known.contains(&name.as_str()))
         .collect()
 }
+
+/// The header of a dataset as one of the format `version`; its seal is left as it was.
+pub(crate) fn of_format(header: &str, version: &str) -> String {
+    let line = header.lines().find(|line| line.starts_with("format = "));
+    let line = line.expect("a header states its format");
+    header.replacen(line, &format!("format = \"{version}\""), 1)
+}
