@@ -5,7 +5,7 @@ mod lab;
 use std::fs;
 
 use lab::{Lab, MAP};
-use taceva_dataset::{Dataset, DatasetError, ImportMap};
+use taceva_dataset::{Dataset, DatasetError, ImportMap, Version};
 
 #[test]
 fn a_missing_column_lists_those_there_are_and_suggests_one() {
@@ -131,7 +131,8 @@ fn an_existing_target_is_never_written_over() {
 fn a_dataset_of_a_newer_major_is_refused_and_says_so() {
     let lab = Lab::new();
     lab.import().expect("imported");
-    lab.replace("set/dataset.toml", "format = \"1.8\"", "format = \"2.3\"");
+    let written = format!("format = \"{}\"", Version::CURRENT);
+    lab.replace("set/dataset.toml", &written, "format = \"2.3\"");
     let error = Dataset::open(&lab.path("set")).expect_err("newer");
     assert!(matches!(error, DatasetError::Version { .. }));
     assert!(
