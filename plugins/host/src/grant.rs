@@ -41,7 +41,13 @@ pub struct Withheld {
     /// The folder, of a plugin that nobody installed.
     folder: Option<String>,
     needs: BTreeSet<Need>,
+    /// Whether the manifest asks for nothing at all, so that a confined process reaches nothing and no permission would help.
+    asks_for_nothing: bool,
 }
+
+/// What mends a refusal where the manifest asks for nothing.
+const ASKS_FOR_NOTHING: &str =
+    "the process of a plugin reaches only what `needs` in its plugin.toml names, which is nothing";
 
 impl Withheld {
     /// What is not allowed; nothing where everything is.
@@ -62,16 +68,30 @@ impl Withheld {
         ];
         let folded = why.to_lowercase();
         let is_refused = is_refusal.iter().any(|words| folded.contains(words));
-        (is_refused && !self.needs.is_empty()).then(|| format!("{why}; {self}"))
+        if !is_refused {
+            return None;
+        }
+        self.remedy().map(|remedy| format!("{why}; {remedy}"))
+    }
+
+    /// What would mend a want of permission, if it is ours to mend.
+    fn remedy(&self) -> Option<String> {
+        match (self.needs.is_empty(), self.asks_for_nothing) {
+            (false, _) => Some(self.to_string()),
+            (true, true) => Some(ASKS_FOR_NOTHING.to_owned()),
+            (true, false) => None,
+        }
     }
 
     /// The same error, which ends with the line that allows what is withheld, if that is its reason.
     pub(crate) fn explained(&self, error: DriverError) -> DriverError {
         let why =
             Error::source(&error).map_or_else(|| error.kind().to_string(), ToString::to_string);
-        let is_denied = error.kind() == ErrorKind::PermissionDenied && !self.needs.is_empty();
+        let denied = (error.kind() == ErrorKind::PermissionDenied)
+            .then(|| self.remedy())
+            .flatten();
         let explained = self.explain(&why);
-        let Some(explained) = explained.or(is_denied.then(|| format!("{why}; {self}"))) else {
+        let Some(explained) = explained.or(denied.map(|remedy| format!("{why}; {remedy}"))) else {
             return error;
         };
         let fault = error.fault();
@@ -159,6 +179,7 @@ impl PluginConfig {
             // Nothing is kept from what is trusted.
             withheld.clear();
         }
+        let is_confined = self.delivery(plugin) != Delivery::InProcess;
         let is_installed = matches!(
             plugin.place,
             Place::User | Place::System | Place::Environment
@@ -170,6 +191,7 @@ impl PluginConfig {
                 plugin: plugin.id().to_string(),
                 folder: (!is_installed).then_some(folder),
                 needs: withheld,
+                asks_for_nothing: is_confined && plugin.manifest.needs.is_empty(),
             },
             is_bound: false,
         }
@@ -241,7 +263,18 @@ mod tests {
                 .iter()
                 .map(|need| need.parse().expect("a need"))
                 .collect(),
+            asks_for_nothing: false,
         }
+    }
+
+    #[test]
+    fn where_the_manifest_asks_for_nothing_a_want_of_permission_says_so() {
+        let mut nothing = withheld(&[]);
+        nothing.asks_for_nothing = true;
+        let refused = std::io::Error::from_raw_os_error(libc::EPERM).to_string();
+        let explained = nothing.explain(&refused).expect("it is");
+        assert!(explained.ends_with(ASKS_FOR_NOTHING), "{explained}");
+        assert_eq!(nothing.explain("no such file (os error 2)"), None);
     }
 
     #[test]

@@ -85,7 +85,8 @@ pub struct Plugins {
 }
 
 impl Plugins {
-    /// Looks through `path`. Of plugins with one id none is used, unless the folder of one of them is in `prefer`.
+    /// Looks through `path`. Of plugins with one id none is used, unless the folder of one of them is in `prefer`, or somebody named the
+    /// folder of one of them for this command ([`Place::Given`]).
     pub fn search(path: SearchPath, prefer: &[PathBuf]) -> Plugins {
         Plugins::search_with(path, prefer, &[])
     }
@@ -153,9 +154,14 @@ impl Plugins {
 
     fn settle(&mut self, id: PluginId, mut alike: Vec<Plugin>, prefer: &[PathBuf]) {
         let preferred = |plugin: &Plugin| prefer.contains(&plugin.folder);
+        let is_given = |plugin: &Plugin| plugin.place == Place::Given;
+        let given = || {
+            let position = alike.iter().position(is_given)?;
+            (!alike[position + 1..].iter().any(is_given)).then_some(position)
+        };
         let chosen = match alike.len() {
             1 => Some(0),
-            _ => alike.iter().position(preferred),
+            _ => alike.iter().position(preferred).or_else(given),
         };
         let chosen = chosen.map(|position| alike.remove(position));
         let manifests: Vec<PathBuf> = (alike.iter())

@@ -62,7 +62,7 @@ pub enum SceneProblem {
     #[error("rig version {0} is not known here, expected 1")]
     RigVersion(u32),
     /// A name out of a closed list that is not in it.
-    #[error("`{name}`: unknown {what}{}; known: {known}", did_you_mean(.nearest))]
+    #[error("`{name}`: unknown {what}{}; known: {known}{}", did_you_mean(.nearest), found_where(.what, .name))]
     UnknownName {
         /// What it should name: `driver of a sensor`, `metric`, `report format`.
         what: &'static str,
@@ -262,6 +262,16 @@ fn did_you_mean(nearest: &Option<String>) -> String {
     nearest.as_ref().map_or_else(String::new, |nearest| {
         format!(", did you mean `{nearest}`?")
     })
+}
+
+/// Where a driver of a plugin, `ID/KEY` with dots in its id, would be found.
+fn found_where(what: &str, name: &str) -> &'static str {
+    let is_of_plugin = name.split_once('/').is_some_and(|(id, _)| id.contains('.'));
+    if what.starts_with("driver of") && is_of_plugin {
+        "; a plugin is found where `taceva plugin install` put it, or in the folder that `--plugin-dir` names"
+    } else {
+        ""
+    }
 }
 
 /// The known name nearest to `name`, if at most a third of its letters differ.

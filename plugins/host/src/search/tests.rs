@@ -106,6 +106,28 @@ fn duplicate_ids_are_refused_naming_each_other_unless_one_is_preferred() {
 }
 
 #[test]
+fn of_duplicate_ids_the_one_whose_folder_is_given_is_used_and_the_other_says_so() {
+    let within = folder();
+    let installed = folder();
+    let given = plugin(within.path(), "lamp", "org.example.lamp");
+    let other = plugin(installed.path(), "lamp", "org.example.lamp");
+    let both = SearchPath::empty().environment(installed.path().as_os_str());
+    let plugins = Plugins::search(both.clone().given([given.clone()]), &[]);
+    let chosen = plugins.get("org.example.lamp").expect("chosen");
+    assert_eq!(chosen.folder, given);
+    let [rejection] = &plugins.rejections[..] else {
+        panic!("one is left out: {:?}", plugins.rejections);
+    };
+    assert_eq!(rejection.reason.kind(), ReasonKind::Duplicate);
+    // What the user's settings prefer goes before what is given.
+    let plugins = Plugins::search(both.given([given]), std::slice::from_ref(&other));
+    assert_eq!(
+        plugins.get("org.example.lamp").expect("chosen").folder,
+        other
+    );
+}
+
+#[test]
 fn what_every_user_may_write_is_refused() {
     let within = folder();
     let lamp = plugin(within.path(), "lamp", "org.example.lamp");
