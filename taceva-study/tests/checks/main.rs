@@ -393,7 +393,8 @@ fn checks_that_need_frames_are_skipped_by_name_where_there_are_none() {
             "check:TAC004",
             "check:TAC006",
             "check:TAC020",
-            "check:TAC019"
+            "check:TAC019",
+            "check:TAC027"
         ]
     );
     assert_eq!(report.frames_decoded, 0);
