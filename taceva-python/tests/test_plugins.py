@@ -113,9 +113,9 @@ def test_a_new_project_of_every_kind_says_what_its_manifest_says_and_keeps_every
         command = [sys.executable, "-m", "taceva.plugin", "manifest", f"my_{kind}"]
         said = subprocess.run(command, cwd=made.parent, capture_output=True, text=True, check=False)
         assert said.returncode == 0, said.stdout + said.stderr
-        done = program.check(f"org.example.my-{kind}", made, "--only", f"library/,driver/opens,{only}")
+        done = program.check(f"org.example.my-{kind}", made, "--only", f"library/loads,library/quiet,driver/opens,{only}")
         assert done["failed"] == [], (kind, done)
-        assert len(done["passed"]) > 10, (kind, done)
+        assert len(done["passed"]) >= 6, (kind, done)
     refused = subprocess.run(
         [sys.executable, "-m", "taceva", "plugin", "new", "robot", "my-arm", "--language", "python"],
         cwd=tmp_path,
@@ -214,8 +214,8 @@ def test_a_plugin_that_does_wrong_fails_with_what_it_did_and_what_is_expected(
 
 def test_a_plugin_that_hangs_is_ended_and_one_that_prints_is_told_of(tmp_path: Path, program: Program) -> None:
     code = SCALE.replace("self.readings += 1", "import time; time.sleep(1000)")
-    why = failure(program, package(tmp_path / "hangs", code), "force/reads", "--limit", "15")
-    assert "did not start within 15s" in why
+    why = failure(program, package(tmp_path / "hangs", code), "force/reads", "--limit", "5")
+    assert "the process ended" in why and "within 5s" in why
     prints = package(tmp_path / "prints", "print('loaded')\n" + SCALE)
     assert "it printed" in failure(program, prints, "library/quiet")
 
@@ -304,13 +304,13 @@ def test_a_sensor_in_python_is_measured_by_a_whole_run_of_the_command(tmp_path: 
     assert studies[0]["provenance"]["dataset"] == studies[1]["provenance"]["dataset"]
 
 
-def test_a_device_has_the_stack_that_numpy_takes_for_a_thousand_equations(tmp_path: Path, program: Program) -> None:
+def test_a_device_has_all_of_numpy_and_the_stack_that_a_thousand_equations_take(tmp_path: Path, program: Program) -> None:
     code = SCALE.replace("    readings = 0", """    readings = 0
     def __init__(self):
         import numpy as np
-        assert np.linalg.solve(np.eye(1600) + 0.5, np.ones(1600)).shape == (1600,)""")
-    made = package(tmp_path, code, MANIFEST.replace("wire = 1", 'wire = 1\npreload = ["numpy"]'))
-    done = program.check(KEY, made, "--only", "driver/opens")
+        matrix = np.random.default_rng(3).random((1600, 1600))
+        assert np.linalg.solve(matrix, np.fft.fft(matrix[0]).real).shape == (1600,)""")
+    done = program.check(KEY, package(tmp_path, code), "--only", "driver/opens")
     assert done["failed"] == [] and done["passed"], done
 
 
