@@ -24,7 +24,7 @@ mod on_page;
 mod operator;
 pub(crate) mod plan;
 pub(crate) mod plugin;
-pub(crate) mod plugins;
+mod plugins;
 pub(crate) mod predict;
 pub(crate) mod preview;
 pub(crate) mod reseal;

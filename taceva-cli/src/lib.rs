@@ -19,7 +19,6 @@ mod stderr;
 use taceva_sim as _;
 
 use std::ffi::OsString;
-use std::path::PathBuf;
 
 use anyhow::Error;
 use clap::Parser;
@@ -32,7 +31,8 @@ use args::{Cli, Command};
 use cmd::Context;
 
 /// Serves as the child process of another `taceva` and ends, if this process was started for that; returns otherwise. A `main` that does not
-/// begin with it has no child processes: plugins in libraries are refused, and clips of AV1 are decoded by an ffmpeg, if there is one.
+/// begin with it has no child processes: plugins in libraries are refused, unless an interpreter was named for them
+/// ([`taceva_host::run_within`]), and clips of AV1 are decoded by an ffmpeg, if there is one.
 ///
 /// ```
 /// taceva_cli::main_if_child();
@@ -42,11 +42,6 @@ pub fn main_if_child() {
     taceva_host::main_if_child();
     #[cfg(feature = "av1")]
     av1_child::main_if_child();
-}
-
-/// Makes `program`, whose `main` begins with [`main_if_child`], what plugins in libraries run in, for a process that is no program of ours.
-pub fn plugins_run_in(program: PathBuf) {
-    cmd::plugins::run_in(program);
 }
 
 /// Carries out the command that `arguments` say, of which the first is the name of the program, and returns the exit code. SIGINT and SIGTERM

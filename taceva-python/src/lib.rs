@@ -22,7 +22,6 @@ use pyo3::prelude::*;
 #[pymodule(gil_used = false)]
 mod _taceva {
     use std::ffi::OsString;
-    use std::path::PathBuf;
 
     use pyo3::prelude::*;
 
@@ -57,13 +56,10 @@ mod _taceva {
     }
 
     /// Carries out the command that `arguments` say, the first being the name of the program, and returns the exit code. The command handles
-    /// signals from then on. Plugins in libraries run in `child`, if there is one.
+    /// signals from then on, and the processes of plugins are this interpreter again.
     #[pyfunction]
-    fn command(py: Python<'_>, arguments: Vec<OsString>, child: Option<PathBuf>) -> PyResult<u8> {
+    fn command(py: Python<'_>, arguments: Vec<OsString>) -> PyResult<u8> {
         super::plugin::within(py)?;
-        if let Some(child) = child {
-            taceva_cli::plugins_run_in(child);
-        }
         Ok(py.detach(|| taceva_cli::main_with(arguments)))
     }
 

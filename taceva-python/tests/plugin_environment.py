@@ -11,6 +11,9 @@ from pathlib import Path
 
 import pytest
 
+# How often a check is made again that failed by these words, of a time that was measured.
+TRIES, LATE = 6, "it took"
+
 # Any interpreter whose compiled modules are those of this one.
 _CANDIDATES = ["/usr/bin/python3", "/usr/local/bin/python3"]
 
@@ -83,11 +86,31 @@ class Program:
         file.write_text(f"[plugins.allow]\n{json.dumps(id)} = {json.dumps(needs)}\n")
 
     def check(self, id: str, folder: Path, *arguments: str) -> dict[str, list[str]]:
-        """Check a plugin; the lines by their outcome."""
+        """Check a plugin; the lines by their outcome. What only came too late is checked again: the machine may be busy."""
         given = ["plugin", "check", id, "--plugin-dir", str(folder), "--format", "json", *arguments]
+        outcomes = self._outcomes(given)
+        for _ in range(TRIES):
+            late = [line for line in outcomes["failed"] if LATE in line]
+            if not late:
+                break
+            names = ",".join(line.split(":")[0] for line in late)
+            again = self._outcomes([*_without(given, "--only"), "--only", names])
+            outcomes["failed"] = [line for line in outcomes["failed"] if line not in late] + again["failed"]
+            outcomes["passed"] += again["passed"]
+        return outcomes
+
+    def _outcomes(self, given: list[str]) -> dict[str, list[str]]:
         done = self.run(*given)
         assert done.stdout, done.stderr
         outcomes: dict[str, list[str]] = {"passed": [], "failed": [], "skipped": []}
         for result in json.loads(done.stdout)["results"]:
             outcomes[result["outcome"]].append(f"{result['check']}: {result.get('why', '')}")
         return outcomes
+
+
+def _without(arguments: list[str], option: str) -> list[str]:
+    """The arguments without an option and its value."""
+    if option not in arguments:
+        return arguments
+    at = arguments.index(option)
+    return arguments[:at] + arguments[at + 2 :]

@@ -1,7 +1,7 @@
 """Results from Python against golden numbers, and against the command on golden sets and real recordings, bit for bit.
 
 `TACEVA_GOLDEN` names a folder with another `pairs.json`; `TACEVA_DATA` the folder of the recordings of others, which are not part of the project and
-may lie beside it.
+may lie beside it. `TACEVA_GOLDEN_ALL=1` takes every golden set through the command and every recording; without, a few sets and the smallest recording.
 """
 
 from __future__ import annotations
@@ -164,7 +164,8 @@ def test_scores_of_arrays_have_the_golden_bits(case: dict[str, Any]) -> None:
     assert result["mae", "Fz"].n == case["expected"]["n"]
 
 
-SMALL = [case for case in CASES if 0 < case.get("n", case["expected"]["n"]) <= 5_000][::6]
+ALL = os.environ.get("TACEVA_GOLDEN_ALL") == "1"
+SMALL = [case for case in CASES if 0 < case.get("n", case["expected"]["n"]) <= 5_000][:: 1 if ALL else 8]
 
 
 @pytest.mark.parametrize("case", SMALL, ids=[case["name"] for case in SMALL])
@@ -188,7 +189,7 @@ REAL = {
 }
 
 
-@pytest.mark.parametrize("name", REAL)
+@pytest.mark.parametrize("name", REAL if ALL else ["tactip-force"])
 def test_a_real_recording_is_scored_as_the_command_scores_it(name: str, tmp_path: Path) -> None:
     folder, model, split = REAL[name]
     source = Path(os.environ.get("TACEVA_DATA", WORKSPACE.parent / "shared" / "data")) / folder

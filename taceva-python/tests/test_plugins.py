@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import shutil
@@ -9,7 +10,9 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
+import taceva
 from plugin_environment import Program, add_package, make_environment
 
 HEAD = "import taceva.plugin as tp\n"
@@ -106,15 +109,13 @@ def test_a_new_project_of_every_kind_says_what_its_manifest_says_and_keeps_every
         "estimator": "estimator/fits,estimator/keeps,estimator/refuses,estimator/ends",
     }
     for kind, only in groups.items():
-        command = [sys.executable, "-m", "taceva", "plugin", "new", kind, f"my-{kind}", "--language", "python"]
-        subprocess.run(command, cwd=tmp_path, check=True, capture_output=True)
-        made = tmp_path / f"my-{kind}/src/my_{kind}"
+        made = new(tmp_path, kind, f"my-{kind}")
         command = [sys.executable, "-m", "taceva.plugin", "manifest", f"my_{kind}"]
         said = subprocess.run(command, cwd=made.parent, capture_output=True, text=True, check=False)
         assert said.returncode == 0, said.stdout + said.stderr
-        done = program.check(f"org.example.my-{kind}", made, "--only", f"library/,driver/opens,{only}")
+        done = program.check(f"org.example.my-{kind}", made, "--only", f"library/loads,library/quiet,driver/opens,{only}")
         assert done["failed"] == [], (kind, done)
-        assert len(done["passed"]) > 10, (kind, done)
+        assert len(done["passed"]) >= 6, (kind, done)
     refused = subprocess.run(
         [sys.executable, "-m", "taceva", "plugin", "new", "robot", "my-arm", "--language", "python"],
         cwd=tmp_path,
@@ -213,8 +214,8 @@ def test_a_plugin_that_does_wrong_fails_with_what_it_did_and_what_is_expected(
 
 def test_a_plugin_that_hangs_is_ended_and_one_that_prints_is_told_of(tmp_path: Path, program: Program) -> None:
     code = SCALE.replace("self.readings += 1", "import time; time.sleep(1000)")
-    why = failure(program, package(tmp_path / "hangs", code), "force/reads", "--limit", "15")
-    assert "did not start within 15s" in why
+    why = failure(program, package(tmp_path / "hangs", code), "force/reads", "--limit", "5")
+    assert "the process ended" in why and "within 5s" in why
     prints = package(tmp_path / "prints", "print('loaded')\n" + SCALE)
     assert "it printed" in failure(program, prints, "library/quiet")
 
@@ -232,7 +233,7 @@ def test_a_module_that_cannot_be_imported_is_refused_with_its_reason(tmp_path: P
 def test_code_that_comes_too_late_is_refused_and_the_remedy_is_named(tmp_path: Path, program: Program) -> None:
     late = SCALE.replace("self.readings += 1", "import _decimal, sqlite3, lzma; self.readings += 1")
     why = failure(program, package(tmp_path / "late", late), "force/reads")
-    assert "`preload` of plugin.toml" in why and "interpreter-open" in why
+    assert "_decimal: failed to map segment; name its module in `preload` of plugin.toml" in why and "interpreter-open" in why
     for name, more in [("early", 'preload = ["_decimal", "sqlite3", "lzma"]'), ("open", 'profile = "interpreter-open"')]:
         made = package(tmp_path / name, late, MANIFEST.replace("wire = 1", f"wire = 1\n{more}"))
         done = program.check(KEY, made, "--only", "force/reads")
@@ -241,14 +242,15 @@ def test_code_that_comes_too_late_is_refused_and_the_remedy_is_named(tmp_path: P
     assert "code may come into it at any time" in listed, listed
 
 
+def new(folder: Path, kind: str, name: str) -> Path:
+    """Begin a project as its author does; return its package."""
+    command = [sys.executable, "-m", "taceva", "plugin", "new", kind, name, "--language", "python"]
+    subprocess.run(command, cwd=folder, check=True, capture_output=True)
+    return folder / name / "src" / name.replace("-", "_")
+
+
 def test_an_estimator_in_python_is_evaluated_by_the_command(tmp_path: Path, program: Program) -> None:
-    import numpy as np
-
-    import taceva
-
-    command = [sys.executable, "-m", "taceva", "plugin", "new", "estimator", "my-plane", "--language", "python"]
-    subprocess.run(command, cwd=tmp_path, check=True, capture_output=True)
-    made = tmp_path / "my-plane/src/my_plane"
+    made = new(tmp_path, "estimator", "my-plane")
     random = np.random.default_rng(5)
     force = random.uniform(0, 5, 120)
     frames = np.zeros((120, 32, 32, 1), np.uint8) + (20 + 40 * force).astype(np.uint8)[:, None, None, None]
@@ -270,6 +272,46 @@ def test_an_estimator_in_python_is_evaluated_by_the_command(tmp_path: Path, prog
     )
     assert done.returncode == 0, done.stderr
     assert f"model {key}" in done.stdout and "Fz" in done.stdout, done.stdout
+
+
+SCENE = """scene_version = 1
+name = "eye"
+seed = 7
+robot = { driver = "sim/robot:gel=gelsight" }
+force = { driver = "sim/force-transducer" }
+model = { name = "ridge", set = { size = "8x6" } }
+sensor = { driver = "org.example.my-eye/my-eye:brightness=180" }
+protocol = { calibration = { points = 6, indentations = 2 } }
+metrics = { want = ["mae", "intrinsic"] }
+"""
+
+
+def test_a_sensor_in_python_is_measured_by_a_whole_run_of_the_command(tmp_path: Path, program: Program) -> None:
+    made = new(tmp_path, "sensor", "my-eye")
+    (tmp_path / "eye.toml").write_text(SCENE)
+    studies = []
+    for out in ["first", "again"]:
+        done = program.run(
+            "run", str(tmp_path / "eye.toml"), "--plugin-dir", str(made), "--out", str(tmp_path / out), "--no-cache",
+            "--format", "json", "--quiet",
+        )
+        assert done.returncode == 0, done.stderr
+        studies.append(json.loads(done.stdout)["studies"][0])
+    assert studies[0]["subject"]["source"] == "simulated"
+    # Its pictures come a hundred times a second by its own clock.
+    assert abs(studies[0]["metrics"]["intrinsic"]["frame_rate"]["value"] - 100) < 0.1
+    assert studies[0]["metrics"]["mae"]["Fz"]["value"] > 0
+    assert studies[0]["provenance"]["dataset"] == studies[1]["provenance"]["dataset"]
+
+
+def test_a_device_has_all_of_numpy_and_the_stack_that_a_thousand_equations_take(tmp_path: Path, program: Program) -> None:
+    code = SCALE.replace("    readings = 0", """    readings = 0
+    def __init__(self):
+        import numpy as np
+        matrix = np.random.default_rng(3).random((1600, 1600))
+        assert np.linalg.solve(matrix, np.fft.fft(matrix[0]).real).shape == (1600,)""")
+    done = program.check(KEY, package(tmp_path, code), "--only", "driver/opens")
+    assert done["failed"] == [] and done["passed"], done
 
 
 def test_a_plugin_in_a_library_runs_in_the_processes_of_this_interpreter(tmp_path: Path, program: Program) -> None:

@@ -2,35 +2,19 @@
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 use taceva_core::shown;
 
 use anyhow::Context as _;
 use taceva_drivers::Drivers;
 use taceva_host::{
-    Children, Level, PluginConfig, PluginHost, PluginLog, Plugins, SearchPath, beside_this_program,
+    Level, PluginConfig, PluginHost, PluginLog, Plugins, SearchPath, beside_this_program,
     user_config_file,
 };
 use taceva_models::Models;
 
 use super::Context;
 use crate::stderr;
-
-/// What plugins in libraries run in where this process is no program of ours.
-static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
-
-/// Makes `program` what plugins in libraries run in; the first call counts.
-pub(crate) fn run_in(program: PathBuf) {
-    let _ = PROGRAM.set(program);
-}
-
-/// This program or the one that was named, and the quarantine of the user.
-pub(super) fn children() -> Children {
-    Children {
-        program: PROGRAM.get().cloned(),
-        ..Children::of_user()
-    }
-}
 
 /// The models that this program was built with.
 fn compiled() -> Models {
@@ -77,8 +61,7 @@ impl Context {
         for rejection in &plugins.rejections {
             self.say_more(format_args!("plugin not used: {rejection}"));
         }
-        let log = self.plugin_log();
-        Ok(PluginHost::with_children(plugins, config, log, children()))
+        Ok(PluginHost::new(plugins, config, self.plugin_log()))
     }
 
     /// The interpreters that are asked for plugins: those that were typed, those of the settings, and that of the environment in which

@@ -48,10 +48,16 @@ def progress(shown: bool | None) -> None:
     _shown = shown
 
 
+def _is_notebook() -> bool:
+    """Whether a kernel of Jupyter runs here, which is more than that somebody imported it."""
+    interactive = sys.modules.get("IPython")
+    shell = interactive.get_ipython() if interactive is not None else None
+    return type(shell).__module__.startswith("ipykernel.")
+
+
 def bar() -> Bar | None:
     """Return a bar for the work that begins now, if one is to be shown and tqdm is installed."""
-    is_notebook = "ipykernel" in sys.modules
-    if _shown is False or (_shown is None and not is_notebook and not sys.stderr.isatty()):
+    if _shown is False or (_shown is None and not _is_notebook() and not sys.stderr.isatty()):
         return None
     try:
         from tqdm.auto import tqdm

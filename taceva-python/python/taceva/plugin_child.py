@@ -10,6 +10,9 @@ import sys
 
 _NAME = "taceva._taceva"
 
+# What numpy, which every plugin has, imports only when it is asked for: too late for compiled code.
+_LATE = ["numpy.fft", "numpy.random"]
+
 
 def _extension() -> object:
     """The compiled part of the package, without the package: what that imports begins threads."""
@@ -55,7 +58,7 @@ def _import_plugin(folder: str, name: str, preload: list[str]) -> object:
     above = __file__.rsplit("/", 2)[0]
     if above not in sys.path:
         sys.path.append(above)
-    for module in preload:
+    for module in [*_LATE, *preload]:
         import_module(module)
     from taceva.plugin import load
 

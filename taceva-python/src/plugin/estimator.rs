@@ -106,10 +106,7 @@ impl EstimatorFactory for PythonEstimator {
                 fitted.map_err(|error| model_error(py, &error))
             })
         });
-        let object = fitted.map_err(|_| {
-            let why = "its thread panicked".to_owned();
-            ModelError::new(ErrorKind::Panicked, why)
-        })??;
+        let object = fitted??;
         Ok(Box::new(Fitted {
             object,
             channels: training.targets.channels.clone(),

@@ -70,7 +70,8 @@ pub(super) fn kind(py: Python<'_>, error: &PyErr) -> ErrorKind {
     }
 }
 
-/// What was raised and where, in one line: the class, its message, and the innermost file and line.
+/// What was raised and where, in one line: the class, its message, and the innermost file and line. What does not fit into an error of the
+/// interface is cut, so the remedy stands before the place.
 pub(super) fn words(py: Python<'_>, error: &PyErr) -> String {
     let name = error.get_type(py).name();
     let name = name.map_or_else(|_| "an exception".to_owned(), |name| name.to_string());
@@ -78,19 +79,32 @@ pub(super) fn words(py: Python<'_>, error: &PyErr) -> String {
     let message = message.map_or_else(|_| String::new(), |message| message.to_string());
     let mut words = match message.trim() {
         "" => name,
+        // The loader's words for a library that comes too late.
+        message if message.contains(TOO_LATE) => {
+            let module = error.value(py).getattr("name").ok();
+            let module = module.and_then(|module| module.extract::<String>().ok());
+            let late = module.as_deref().unwrap_or_else(|| library(message));
+            format!(
+                "{name}: {late}: {TOO_LATE}; name its module in `preload` of plugin.toml, or set `profile = \"interpreter-open\"`"
+            )
+        }
         message => format!("{name}: {message}"),
     };
-    if let Some(place) = place(py, error) {
-        words.push_str(&format!(" ({place})"));
-    }
     if error.is_instance_of::<PyModuleNotFoundError>(py) {
         words.push_str("; install it in the environment of the plugin");
     }
-    // The loader's words for a library that comes too late.
-    if words.contains("failed to map segment") {
-        words.push_str("; no more code comes in once the plugin is imported: name the module that brings it in `preload` of plugin.toml, or set `profile = \"interpreter-open\"`");
+    if let Some(place) = place(py, error) {
+        words.push_str(&format!(" ({place})"));
     }
     words
+}
+
+const TOO_LATE: &str = "failed to map segment";
+
+/// The file that the loader complains of, without its folder.
+fn library(message: &str) -> &str {
+    let path = message.split(": ").next().unwrap_or(message);
+    path.rsplit('/').next().unwrap_or(path)
 }
 
 /// The innermost file and line that the exception passed.

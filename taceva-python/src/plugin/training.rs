@@ -6,12 +6,15 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::time::Duration;
 
 use pyo3::prelude::*;
-use taceva_core::Progress;
+use taceva_core::{ErrorKind, ModelError, Progress};
 
 use super::waiting::Interrupted;
 
 /// How often it is asked whether a fit should end.
 const ASKED_EVERY: Duration = Duration::from_millis(20);
+
+/// What a thread of a C program has, in bytes: numpy takes more of it for a system of equations than the 2 MiB of Rust.
+const STACK: usize = 8 << 20;
 
 /// What a fit tells.
 enum Event {
@@ -72,7 +75,7 @@ impl Training {
 pub(super) fn watched<T: Send>(
     progress: &dyn Progress,
     fit: impl FnOnce(Training) -> T + Send,
-) -> std::thread::Result<T> {
+) -> Result<T, ModelError> {
     let (to, events) = channel();
     let is_cancelled = Arc::new(AtomicBool::new(false));
     let training = Training {
@@ -81,13 +84,17 @@ pub(super) fn watched<T: Send>(
     };
     std::thread::scope(|scope| {
         let (done, is_done) = channel::<()>();
-        let fitting = scope.spawn(move || {
+        let fitting = std::thread::Builder::new().stack_size(STACK);
+        let fitting = fitting.spawn_scoped(scope, move || {
             // Dropped when it is done, however it ends.
             let _done = done;
             fit(training)
         });
+        let fitting =
+            fitting.map_err(|error| ModelError::new(ErrorKind::Internal, error.to_string()))?;
         pass_on(&events, &is_done, progress, &is_cancelled);
-        fitting.join()
+        let fitted = fitting.join();
+        fitted.map_err(|_| ModelError::new(ErrorKind::Panicked, "its thread panicked"))
     })
 }
 

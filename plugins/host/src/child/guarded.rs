@@ -7,10 +7,14 @@ use taceva_core::ErrorKind;
 
 use super::wire::Failure;
 
+/// What a thread of a C program has, in bytes: libraries of linear algebra take more of it than the 2 MiB of Rust.
+const STACK: usize = 8 << 20;
+
 /// Starts a thread.
 pub(super) fn start(name: &str, run: impl FnOnce() + Send + 'static) -> Result<(), Failure> {
     std::thread::Builder::new()
         .name(name.to_owned())
+        .stack_size(STACK)
         .spawn(run)
         .map(drop)
         .map_err(|error| Failure::new(ErrorKind::Internal, "start a thread", &error.to_string()))

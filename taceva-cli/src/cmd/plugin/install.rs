@@ -11,7 +11,6 @@ use taceva_host::{CheckOutcome, CheckRequest, Place, Plugin, PluginHost, Plugins
 
 use crate::args::PluginInstall;
 use crate::cmd::Context;
-use crate::cmd::plugins::children;
 use crate::{exit, output, report};
 
 /// The checks that a library must pass before it is installed: it loads, and is what its manifest says.
@@ -81,7 +80,7 @@ pub(super) fn checked(
         );
     }
     let config = context.plugins(None)?.config().clone();
-    let host = PluginHost::with_children(found, config, Arc::new(|_, _, _, _| {}), children());
+    let host = PluginHost::new(found, config, Arc::new(|_, _, _, _| {}));
     check(&host, &plugin)?;
     Ok((host, plugin))
 }

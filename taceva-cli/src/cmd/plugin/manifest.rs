@@ -6,10 +6,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
 use taceva_core::shown;
-use taceva_host::{Image, LibraryFile, Manifest, Offer, platform};
+use taceva_host::{Children, Image, LibraryFile, Manifest, Offer, platform};
 
 use crate::args::PluginManifest;
-use crate::cmd::plugins::children;
 use crate::{exit, output};
 
 pub(super) fn run(args: &PluginManifest) -> anyhow::Result<u8> {
@@ -34,7 +33,7 @@ pub(super) fn run(args: &PluginManifest) -> anyhow::Result<u8> {
         sha256: None,
     };
     let image = Image::read(&args.folder, &file)?;
-    let offer = Offer::of(&image, &children())?;
+    let offer = Offer::of(&image, &Children::of_user())?;
     let library = LibraryFile {
         sha256: Some(image.digest()),
         ..file
