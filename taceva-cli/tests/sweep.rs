@@ -577,3 +577,68 @@ fn a_sweep_that_is_killed_at_random_moments_ends_with_the_same_bytes_and_counts_
     }
     assert!(done >= kills);
 }
+
+#[test]
+fn a_recording_whose_header_changed_is_another_one_and_scored_anew() {
+    let bench = week();
+    small(&bench, &[("\"8x8\", \"12x12\"", "\"8x8\"")]);
+    bench.ok("sweep which.toml -q");
+    let before = text(&bench, "which.sweep/table.csv");
+    let header = text(&bench, "monday/dataset.toml");
+    assert!(header.contains("\"drawn\""), "{header}");
+    bench.write(
+        "monday/dataset.toml",
+        &header.replace("\"drawn\"", "\"drawn again\""),
+    );
+    bench.ok("reseal monday --reason corrected -q");
+    bench.ok("sweep which.toml -q");
+    let after = text(&bench, "which.sweep/table.csv");
+    assert!(before.contains(",drawn,"), "{before}");
+    assert!(
+        after.contains(",drawn again,") && !after.contains(",drawn,"),
+        "{after}"
+    );
+}
+
+#[test]
+fn what_would_share_one_result_is_refused_by_both_names() {
+    let bench = week();
+    small(&bench, &[("[\"monday\"]", "[\"monday\", \"./monday\"]")]);
+    bench.refused(
+        "sweep which.toml",
+        3,
+        "`monday` and `./monday` are one recording",
+    );
+    small(&bench, &[("\"pls\"", "\"ridge\"")]);
+    bench.refused("sweep which.toml", 3, "the model ridge is named twice");
+    small(&bench, &[("size = [\"8x8\", \"12x12\"]", "seed = [1, 2]")]);
+    bench.refused("sweep which.toml", 3, "`seed` varies by `seeds`");
+}
+
+#[test]
+fn settings_of_a_model_that_are_no_table_are_refused_and_not_left_out() {
+    let bench = week();
+    small(
+        &bench,
+        &[("set = { neighbours = 3 }", "set = \"neighbours=3\"")],
+    );
+    bench.refused("sweep which.toml", 3, "`set` of the model knn: expected {");
+}
+
+#[test]
+fn lines_of_a_list_are_words_of_a_shell_whatever_the_folder_is_called() {
+    let bench = week();
+    small(&bench, &[]);
+    let mut command = bench.command("sweep which.toml --on list -q");
+    let listed = command.args(["--out", "it's; touch made"]).output();
+    let listed = listed.expect("it starts").stdout;
+    let script = String::from_utf8(listed).expect("text");
+    assert!(script.contains("'\\''s; touch made"), "{script}");
+    let harmless = script.replace("taceva sweep", "true");
+    let status = Command::new("sh")
+        .args(["-c", &harmless])
+        .current_dir(bench.path(""))
+        .status();
+    assert!(status.expect("sh").success());
+    assert!(!bench.path("made").exists());
+}

@@ -38,7 +38,7 @@ pub(crate) fn table(loaded: &[Loaded<'_>], list: &TaskList, channels: &[String])
             }
         }
     }
-    table.note("Each pair is two tasks that differ in this setting alone, on their test parts; a negative difference is a smaller error. The interval takes pairs for independent, which those of one recording are not quite: it describes this sweep. Nothing is chosen by it.");
+    table.note("Each pair is two tasks that differ in this setting alone, on their test parts; a negative difference is a smaller error. A channel whose unit is not the same everywhere has no row. The interval takes pairs for independent, which those of one recording are not quite: it describes this sweep. Nothing is chosen by it.");
     table
 }
 
@@ -49,7 +49,8 @@ fn row(
     channel: &str,
 ) -> Option<Vec<Cell>> {
     let mut pairs: BTreeMap<String, [Option<f64>; 2]> = BTreeMap::new();
-    let mut unit = String::new();
+    // Errors in several units have no mean; a row is of the unit that the channel has everywhere.
+    let mut units: Vec<String> = Vec::new();
     for one in loaded {
         let word = one.task.word(name);
         let side = match word {
@@ -60,13 +61,18 @@ fn row(
         let Some(score) = one.result().and_then(|result| result.score("mae", channel)) else {
             continue;
         };
-        unit.clone_from(&score.unit);
+        if !units.contains(&score.unit) {
+            units.push(score.unit.clone());
+        }
         pairs.entry(beside(one.task, name)).or_default()[side] = score.value;
     }
     let differences: Vec<f64> = pairs
         .values()
         .filter_map(|[value, first]| Some((*value)? - (*first)?))
         .collect();
+    let [unit] = units.as_slice() else {
+        return None;
+    };
     if differences.is_empty() {
         return None;
     }
@@ -83,7 +89,7 @@ fn row(
             |over| ends(mean, over.interval),
         )),
         Cell::Number(differences.len().to_string()),
-        Cell::text(unit),
+        Cell::text(unit.as_str()),
     ])
 }
 

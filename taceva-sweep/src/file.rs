@@ -222,13 +222,16 @@ fn model(value: &toml::Value, place: FilePlace<'_>) -> Result<ModelEntry, SweepE
             "`models`: the key `name` of a model is missing".to_owned(),
         )
     })?;
+    let own = match table.get("set") {
+        None => None,
+        Some(toml::Value::Table(own)) => Some(own),
+        Some(_) => {
+            let problem = format!("`set` of the model {name}: expected {{ KEY = VALUE, … }}");
+            return Err(place.wrong("set", problem));
+        }
+    };
     let mut set = BTreeMap::new();
-    for (key, value) in table
-        .get("set")
-        .and_then(toml::Value::as_table)
-        .into_iter()
-        .flatten()
-    {
+    for (key, value) in own.into_iter().flatten() {
         let text = word(value).ok_or_else(|| {
             place.wrong(
                 key,

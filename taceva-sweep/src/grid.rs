@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use taceva_core::shown;
-use taceva_dataset::{Dataset, Digest, SensorFile};
+use taceva_dataset::{Digest, SensorFile};
 use taceva_metrics::catalogue;
 use taceva_models::Models;
 use taceva_study::StudyError;
@@ -13,6 +13,7 @@ use crate::file::{ModelEntry, SweepFile};
 use crate::glob;
 use crate::key::{KeyParts, TaskKey};
 use crate::limits::MOST_TASKS;
+use crate::recording::opened;
 use crate::task::Task;
 
 /// The tasks of a sweep, in the order of its file: recordings, splits, seeds, settings, models.
@@ -42,6 +43,11 @@ impl Grid {
         check_size(file, named.len())?;
         let metrics = file.metrics.iter().map(String::as_str);
         catalogue::select(metrics).map_err(StudyError::from)?;
+        if file.vary.contains_key("seed") {
+            let problem =
+                "`seed` varies by `seeds`, which divide the samples and are what models draw by";
+            return Err(file.wrong("seed", problem.to_owned()));
+        }
         let sensor = sensor_digest(file)?;
         let settings: BTreeSet<String> = setting_names(file);
         for condition in &file.skip {
@@ -53,9 +59,10 @@ impl Grid {
             let path = file.folder().join(&name);
             // Absolute, since a job of a scheduler begins elsewhere.
             let path = std::path::absolute(&path).map_err(SweepError::io("find", &path))?;
-            let digest = Dataset::open(&path)?.digest();
+            let (_, digest) = opened(&path)?;
             recordings.push(Recording { name, path, digest });
         }
+        refuse_twice(file, &recordings)?;
         let grid = combined(file, &recordings, sensor);
         if grid.tasks.is_empty() {
             return Err(file.wrong(
@@ -96,6 +103,34 @@ fn named(file: &SweepFile) -> Result<Vec<String>, SweepError> {
     let mut known = BTreeSet::new();
     names.retain(|name| known.insert(name.clone()));
     Ok(names)
+}
+
+/// Refuses two names of one recording, and a model that is named twice with the same settings: of both there would be one result.
+fn refuse_twice(file: &SweepFile, recordings: &[Recording]) -> Result<(), SweepError> {
+    for (at, one) in recordings.iter().enumerate() {
+        let alike = recordings[..at]
+            .iter()
+            .find(|other| other.digest == one.digest);
+        if let Some(other) = alike {
+            let problem = format!(
+                "`{}` and `{}` are one recording, the same to the last byte of its header; name it once, or give the copy of another unit its serial number",
+                shown(&other.name),
+                shown(&one.name)
+            );
+            return Err(file.wrong("datasets", problem));
+        }
+    }
+    for (at, one) in file.models.iter().enumerate() {
+        let is_alike = |other: &ModelEntry| other.name == one.name && other.set == one.set;
+        if file.models[..at].iter().any(is_alike) {
+            let problem = format!(
+                "the model {} is named twice with the same settings",
+                one.name
+            );
+            return Err(file.wrong("models", problem));
+        }
+    }
+    Ok(())
 }
 
 /// Refuses a grid without a task, or with too many.
@@ -143,7 +178,8 @@ fn setting_names(file: &SweepFile) -> BTreeSet<String> {
     file.vary.keys().chain(own).cloned().collect()
 }
 
-fn sensor_digest(file: &SweepFile) -> Result<Option<Digest>, SweepError> {
+/// The digest of the file that says what is known of the sensor, if there is one.
+pub(crate) fn sensor_digest(file: &SweepFile) -> Result<Option<Digest>, SweepError> {
     let Some(path) = &file.sensor else {
         return Ok(None);
     };
@@ -178,7 +214,7 @@ fn combined(file: &SweepFile, recordings: &[Recording], sensor: Option<Digest>) 
             }
         }
     }
-    // The same model may be named twice; a result is made once.
+    // A model whose own setting stands in the place of one that varies comes once for each value; a result is made once.
     let mut known = BTreeSet::new();
     grid.tasks.retain(|task| known.insert(task.key.clone()));
     grid

@@ -86,12 +86,7 @@ impl Runner<'_> {
         if left.is_empty() {
             return Ok(ran);
         }
-        let sensor = self
-            .list
-            .sensor
-            .as_deref()
-            .map(SensorFile::read)
-            .transpose()?;
+        let sensor = self.list.read_sensor()?;
         self.progress.begin("tasks", Some(left.len() as u64));
         let workers = self.jobs.get().min(left.len());
         let threads = NonZeroUsize::new(self.jobs.get() / workers).unwrap_or(NonZeroUsize::MIN);

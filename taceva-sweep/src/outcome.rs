@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use taceva_core::{ErrorKind, shown};
-use taceva_dataset::{Dataset, SensorFile};
+use taceva_dataset::SensorFile;
 use taceva_models::{ChosenBy, Model, Models};
 use taceva_report::Study;
 use taceva_study::{
@@ -12,6 +12,7 @@ use taceva_study::{
 
 use crate::error::SweepError;
 use crate::folder::SweepFolder;
+use crate::recording::opened;
 use crate::result::{PointErrors, TaskResult, ValidationError};
 use crate::task::Task;
 
@@ -40,8 +41,8 @@ pub(crate) struct Common<'a> {
 /// # Errors
 /// [`SweepError`] if it cannot be carried out; nothing is written then.
 pub(crate) fn carry_out(task: &Task, common: Common<'_>, work: Work<'_>) -> Result<(), SweepError> {
-    let dataset = Dataset::open(&task.path)?;
-    let digest = dataset.digest().to_string();
+    let (dataset, digest) = opened(&task.path)?;
+    let digest = digest.to_string();
     if digest != task.digest {
         return Err(SweepError::Kept {
             path: task.path.clone(),

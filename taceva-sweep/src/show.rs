@@ -57,8 +57,9 @@ pub fn show(
 
 fn table(loaded: &[Loaded<'_>], by: &[String], metric: &str) -> Table {
     let mut order: Vec<Vec<String>> = Vec::new();
-    let mut values: BTreeMap<(Vec<String>, String), (Vec<f64>, String)> = BTreeMap::new();
-    let mut channels: Vec<String> = Vec::new();
+    // Values in different units are never averaged.
+    let mut values: BTreeMap<(Vec<String>, [String; 2]), Vec<f64>> = BTreeMap::new();
+    let mut channels: Vec<[String; 2]> = Vec::new();
     for one in loaded {
         let words = by
             .iter()
@@ -69,14 +70,12 @@ fn table(loaded: &[Loaded<'_>], by: &[String], metric: &str) -> Table {
         }
         let scores = one.result().into_iter().flat_map(|result| &result.scores);
         for score in scores.filter(|score| score.metric == metric) {
-            if !channels.contains(&score.channel) {
-                channels.push(score.channel.clone());
+            let channel = [score.channel.clone(), score.unit.clone()];
+            if !channels.contains(&channel) {
+                channels.push(channel.clone());
             }
-            let entry = values
-                .entry((words.clone(), score.channel.clone()))
-                .or_default();
-            entry.0.extend(score.value);
-            entry.1.clone_from(&score.unit);
+            let entry = values.entry((words.clone(), channel)).or_default();
+            entry.extend(score.value);
         }
     }
     let head = by.iter().map(|name| Column::new(name.as_str()));
@@ -84,9 +83,10 @@ fn table(loaded: &[Loaded<'_>], by: &[String], metric: &str) -> Table {
     let mut table = Table::new(Better::named(metric), head);
     for words in &order {
         for channel in &channels {
-            let Some((of, unit)) = values.get(&(words.clone(), channel.clone())) else {
+            let Some(of) = values.get(&(words.clone(), channel.clone())) else {
                 continue;
             };
+            let [channel, unit] = channel;
             let mut cells: Vec<Cell> = words.iter().map(|word| Cell::text(word.as_str())).collect();
             cells.push(Cell::text(channel.as_str()));
             if of.is_empty() {

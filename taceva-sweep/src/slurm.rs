@@ -12,6 +12,7 @@ use taceva_core::shown;
 
 use crate::error::SweepError;
 use crate::folder::SweepFolder;
+use crate::shell::shell_word;
 use crate::slurm_spec::SlurmSpec;
 use crate::task_list::TaskList;
 
@@ -181,14 +182,14 @@ impl Script<'_> {
         let blocks = self.root.join(format!("slurm/{name}.blocks"));
         text.push_str(&format!(
             "blocks={}\n[ -r \"$blocks\" ] || {{ echo \"$blocks is not on $(hostname): the folder of the sweep is not shared with this node\" >&2; exit 1; }}\n",
-            quoted(&blocks.to_string_lossy())
+            shell_word(&blocks.to_string_lossy())
         ));
         text.push_str("block=$(sed -n \"$((SLURM_ARRAY_TASK_ID + 1))p\" \"$blocks\")\n");
         text.push_str(&format!(
             "exec {} sweep task {} --tasks {} --at \"$block\" --jobs {cpus} --quiet{}\n",
-            quoted(self.program),
-            quoted(&self.root.to_string_lossy()),
-            quoted(&self.tasks.to_string_lossy()),
+            shell_word(self.program),
+            shell_word(&self.root.to_string_lossy()),
+            shell_word(&self.tasks.to_string_lossy()),
             self.options
         ));
         text
@@ -200,9 +201,9 @@ impl Script<'_> {
         text.push_str(&self.setup());
         text.push_str(&format!(
             "exec {} sweep collect {} --tasks {} --quiet\n",
-            quoted(self.program),
-            quoted(&self.root.to_string_lossy()),
-            quoted(&self.tasks.to_string_lossy())
+            shell_word(self.program),
+            shell_word(&self.root.to_string_lossy()),
+            shell_word(&self.tasks.to_string_lossy())
         ));
         text
     }
@@ -222,11 +223,6 @@ impl Script<'_> {
         let lines = self.spec.setup.iter();
         lines.map(|line| format!("{line}\n")).collect()
     }
-}
-
-/// A word of the shell.
-fn quoted(text: &str) -> String {
-    format!("'{}'", text.replace('\'', "'\\''"))
 }
 
 /// How many jobs the site allows in one array.

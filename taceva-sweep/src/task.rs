@@ -18,7 +18,7 @@ pub struct Task {
     pub dataset: String,
     /// Where the recording is.
     pub path: PathBuf,
-    /// The digest of the recording when the sweep was planned.
+    /// The digest of all that the recording said when the sweep was planned, its header included.
     pub digest: String,
     /// The model.
     pub model: String,

@@ -4,13 +4,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
-use taceva_dataset::Digest;
+use taceva_dataset::{Digest, SensorFile};
 
 use crate::condition::Condition;
 use crate::error::SweepError;
 use crate::file::SweepFile;
 use crate::folder::SweepFolder;
-use crate::grid::Grid;
+use crate::grid::{Grid, sensor_digest};
 use crate::task::Task;
 
 /// The schema of the list.
@@ -28,6 +28,9 @@ pub struct TaskList {
     pub metrics: Vec<String>,
     /// The file that says what is known of the sensor.
     pub sensor: Option<PathBuf>,
+    /// The digest of that file when the sweep was planned.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) sensor_digest: Option<Digest>,
     /// The file of limits that each unit is held to.
     pub limits: Option<PathBuf>,
     /// Settings that vary, each with its values in their order.
@@ -62,6 +65,7 @@ impl TaskList {
             name: file.name.clone(),
             metrics: file.metrics.clone(),
             sensor: file.sensor.as_ref().map(absolute).transpose()?,
+            sensor_digest: sensor_digest(file)?,
             limits: file.limits.as_ref().map(absolute).transpose()?,
             vary: file.vary.clone().into_iter().collect(),
             tasks: grid.tasks,
@@ -177,6 +181,29 @@ impl TaskList {
             )));
         }
         Ok(list)
+    }
+
+    /// What is known of the sensor, as it was when the sweep was planned.
+    ///
+    /// # Errors
+    /// [`SweepError::Kept`] if its file is another one now; [`SweepError`] if it cannot be read.
+    pub(crate) fn read_sensor(&self) -> Result<Option<SensorFile>, SweepError> {
+        let Some(path) = &self.sensor else {
+            return Ok(None);
+        };
+        let bytes = fs::read(path).map_err(SweepError::io("read", path))?;
+        if self
+            .sensor_digest
+            .is_some_and(|digest| digest != Digest::of(&bytes))
+        {
+            return Err(SweepError::Kept {
+                path: path.clone(),
+                problem:
+                    "it is another file than when the sweep was planned; start the sweep again"
+                        .to_owned(),
+            });
+        }
+        Ok(Some(SensorFile::read(path)?))
     }
 
     /// The last list that was written into `folder`.

@@ -164,6 +164,12 @@ impl ImportPlan {
         {
             return Err(refused(differs(key, &own, &other)));
         }
+        if header.columns.is_empty() && !self.columns.is_empty() {
+            return Err(refused(
+                "it does not say how its labels were read, as files of before format 1.9, so that another unit or sign would not be noticed; import its folder anew with this version"
+                    .to_owned(),
+            ));
+        }
         match misread(&header.columns, &self.columns) {
             None => Ok(()),
             Some(Misread { key, own, other }) => Err(refused(format!(

@@ -5,7 +5,7 @@ use std::path::Path;
 use taceva_core::shown;
 use taceva_study::Cache;
 use taceva_sweep::{
-    Condition, Estimate, Grid, Ran, Runner, SweepFile, SweepFolder, TaskList, collect,
+    Condition, Estimate, Grid, Ran, Runner, SweepFile, SweepFolder, TaskList, collect, shell_word,
 };
 
 use super::super::{Context, Usage, cache};
@@ -66,7 +66,7 @@ pub(super) fn run(args: &SweepRun, context: &Context) -> anyhow::Result<u8> {
 
 /// Prints how the tasks at `left` are carried out by an engine that is none of ours.
 fn listed(left: &[usize], list: &Path, folder: &SweepFolder) -> anyhow::Result<u8> {
-    let (list, folder) = (shown(list).to_string(), shown(folder.path()).to_string());
+    let [list, folder] = [list, folder.path()].map(|path| shell_word(&path.to_string_lossy()));
     output::write(None, |out| {
         for at in left {
             writeln!(out, "taceva sweep task {folder} --tasks {list} --at {at}")?;
