@@ -24,12 +24,6 @@ const KNOWN: &[(&str, &str, usize, &str)] = &[
         "a kind of device holds both ends of the socket: one end starts the child that serves the other",
     ),
     (
-        "taceva-host",
-        "child/wire/message",
-        3,
-        "messages nest: one holds those of devices and of models, which are made of the same parts",
-    ),
-    (
         "taceva-report",
         "figure/pdf/text",
         3,
