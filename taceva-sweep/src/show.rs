@@ -55,10 +55,18 @@ pub fn show(
     Ok(table(&loaded, by, metric))
 }
 
+/// What a mean is of.
+#[derive(Default)]
+struct Averaged {
+    values: Vec<f64>,
+    /// Where the samples come from: `recorded`, `simulated`, `synthetic`.
+    sources: BTreeSet<String>,
+}
+
 fn table(loaded: &[Loaded<'_>], by: &[String], metric: &str) -> Table {
     let mut order: Vec<Vec<String>> = Vec::new();
     // Values in different units are never averaged.
-    let mut values: BTreeMap<(Vec<String>, [String; 2]), Vec<f64>> = BTreeMap::new();
+    let mut values: BTreeMap<(Vec<String>, [String; 2]), Averaged> = BTreeMap::new();
     let mut channels: Vec<[String; 2]> = Vec::new();
     for one in loaded {
         let words = by
@@ -68,22 +76,39 @@ fn table(loaded: &[Loaded<'_>], by: &[String], metric: &str) -> Table {
         if !order.contains(&words) {
             order.push(words.clone());
         }
-        let scores = one.result().into_iter().flat_map(|result| &result.scores);
-        for score in scores.filter(|score| score.metric == metric) {
+        let Some(result) = one.result() else {
+            continue;
+        };
+        for score in result.scores.iter().filter(|score| score.metric == metric) {
             let channel = [score.channel.clone(), score.unit.clone()];
             if !channels.contains(&channel) {
                 channels.push(channel.clone());
             }
             let entry = values.entry((words.clone(), channel)).or_default();
-            entry.extend(score.value);
+            entry.values.extend(score.value);
+            entry.sources.insert(result.source.clone());
         }
     }
     let head = by.iter().map(|name| Column::new(name.as_str()));
-    let head = head.chain(["channel", "mean", "95 % over tasks", "tasks", "unit"].map(Column::new));
+    let head = head.chain(
+        [
+            "channel",
+            "mean",
+            "95 % over tasks",
+            "tasks",
+            "unit",
+            "source",
+        ]
+        .map(Column::new),
+    );
     let mut table = Table::new(Better::named(metric), head);
     for words in &order {
         for channel in &channels {
-            let Some(of) = values.get(&(words.clone(), channel.clone())) else {
+            let Some(Averaged {
+                values: of,
+                sources,
+            }) = values.get(&(words.clone(), channel.clone()))
+            else {
                 continue;
             };
             let [channel, unit] = channel;
@@ -99,6 +124,8 @@ fn table(loaded: &[Loaded<'_>], by: &[String], metric: &str) -> Table {
             }
             cells.push(Cell::Number(of.len().to_string()));
             cells.push(Cell::text(unit.as_str()));
+            let sources: Vec<&str> = sources.iter().map(String::as_str).collect();
+            cells.push(Cell::text(sources.join(", ")));
             table.push(cells);
         }
     }
