@@ -121,7 +121,7 @@ pub(crate) fn table(groups: &[Group<'_>], choices: &[Choice]) -> Table {
             Cell::text(choice.unit.as_str()),
         ]);
     }
-    table.note("Chosen by the least root mean square error on validation parts (of models without one, on groups of training parts that were left out), the mean over seeds. Test parts took no part in any choice: the test error is that of what was chosen.");
+    table.note("Chosen by the least root mean square error on validation parts, or on what a model left out of its training part in turn, the mean over seeds; models that report neither take no part. Test parts took no part in any choice: the test error is that of what was chosen.");
     table.note("The interval over contact points says how far the score would move with other presses and the same training; the one over seeds how far with other divisions and random numbers, on the same recording. They are not to be added.");
     table
 }
