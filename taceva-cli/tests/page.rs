@@ -149,7 +149,10 @@ fn the_button_of_a_run_stops_the_arm_and_the_run_goes_on_from_there() {
     while took_ms.len() < stops {
         sittings += 1;
         assert!(sittings <= 2 * stops + 3, "{took_ms:?}");
-        let resume = if sittings == 1 { "" } else { " --resume" };
+        let resume = match bench.path("r").exists() {
+            true => " --resume",
+            false => "",
+        };
         let mut running = Running::start(&bench, &format!("{run}{resume}"));
         let page = Page::of(&running);
         page.answer_everything();

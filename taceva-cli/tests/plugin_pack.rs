@@ -132,4 +132,16 @@ fn a_manifest_is_written_from_the_library_and_the_plugin_packed_and_installed() 
     fs::copy(&manifest, cut_off.join("plugin.toml")).expect("copied");
     let listed = bench.ok("plugin list");
     assert!(listed.ends_with("1 plugins, 0 not used\n"), "{listed}");
+
+    // Removed, it is gone whole; what it may reach stays and is said.
+    bench.ok("plugin allow org.example.my-scale hid");
+    let said = bench.ok("plugin uninstall org.example.my-scale");
+    assert!(
+        said.ends_with("take it back: taceva plugin deny org.example.my-scale\n"),
+        "{said}"
+    );
+    assert!(!installed.join(ID).exists());
+    let listed = bench.ok("plugin list");
+    assert!(listed.ends_with("0 plugins, 0 not used\n"), "{listed}");
+    bench.refused("plugin uninstall org.example.my-scale", 3, "not there");
 }

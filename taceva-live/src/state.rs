@@ -131,9 +131,10 @@ impl Asked {
             done: match question {
                 Question::Enable(robot) => format!("Let {robot} move"),
                 Question::Resume(_) => "Go on all the same".to_owned(),
+                Question::GoOn => "Go on, hands out of reach".to_owned(),
                 _ => "Done, hands out of reach".to_owned(),
             },
-            can_skip: !matches!(question, Question::Enable(_) | Question::Resume(_)),
+            can_skip: !matches!(question, Question::Enable(_) | Question::Resume(_) | Question::GoOn),
             picture: crate::picture::of(question),
             answer: None,
         }

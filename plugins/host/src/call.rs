@@ -41,11 +41,17 @@ impl Failure {
     /// The same, as the failure of `driver` while it was `doing`.
     pub(crate) fn of(self, driver: &DriverKey, doing: &'static str) -> DriverError {
         let error = DriverError::new(self.kind, driver, doing);
+        // A plugin may say what it did in other words, or in these.
+        let same = format!("cannot {doing}: ");
+        let message = match self.message.strip_prefix(&same) {
+            Some(reason) => reason.to_owned(),
+            None => self.message,
+        };
         match self.fault {
-            None => error.because(self.message),
+            None => error.because(message),
             // The fault stands in the message of the error already.
-            Some(fault) if self.message.is_empty() => error.with_fault(fault),
-            Some(fault) => error.with_fault(fault).because(self.message),
+            Some(fault) if message.is_empty() => error.with_fault(fault),
+            Some(fault) => error.with_fault(fault).because(message),
         }
     }
 

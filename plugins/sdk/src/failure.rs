@@ -33,10 +33,10 @@ impl Failure {
 }
 
 impl From<DriverError> for Failure {
-    /// The reason alone: which driver it was and what it did, the host knows.
+    /// What it did and the reason: which driver it was, the host knows, which leaves out what it did where it says the same.
     fn from(error: DriverError) -> Failure {
         let message = match std::error::Error::source(&error) {
-            Some(reason) => reason.to_string(),
+            Some(reason) => format!("cannot {}: {reason}", error.doing()),
             // The fault is said beside the message.
             None if error.fault().is_some() => String::new(),
             None => error.kind().to_string(),

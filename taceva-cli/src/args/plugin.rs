@@ -42,6 +42,8 @@ pub(crate) enum Plugin {
     Pack(PluginPack),
     /// Copy or unpack a plugin to where every command finds it: ~/.local/share/taceva/plugins
     Install(PluginInstall),
+    /// Remove a plugin that was installed
+    Uninstall(PluginUninstall),
     /// Let a plugin reach what its manifest needs: a camera, a port, a machine, a file
     Allow(PluginAllow),
     /// Take back what a plugin may reach
@@ -212,6 +214,13 @@ pub(crate) struct PluginAllow {
     /// What it may reach, of what its manifest needs
     #[arg(required = true, value_name = "NEED")]
     pub(crate) needs: Vec<Need>,
+}
+
+/// What it may reach stays in the settings, for another version of it.
+#[derive(Debug, Args)]
+pub(crate) struct PluginUninstall {
+    /// The id of the plugin
+    pub(crate) id: PluginId,
 }
 
 /// Without NEED, everything is taken back that it may reach.

@@ -39,7 +39,7 @@ fn keys(question: &Question) -> String {
         Question::Enable(robot) => {
             format!("type {} to let it move; q or Esc: stop", shown(robot))
         }
-        Question::Resume(_) => "Enter: go on; q or Esc: stop".to_owned(),
+        Question::Resume(_) | Question::GoOn => "Enter: go on; q or Esc: stop".to_owned(),
         _ => "Enter: done, hands out of reach; s: skip; q or Esc: stop".to_owned(),
     }
 }
@@ -90,7 +90,7 @@ fn answer(question: &Question, line: &str) -> Option<Answer> {
         (_, "q" | "Q") => Some(Answer::Stop),
         (Question::Enable(robot), typed) => (typed == robot).then_some(Answer::Done),
         (_, "") => Some(Answer::Done),
-        (Question::Resume(_), _) => None,
+        (Question::Resume(_) | Question::GoOn, _) => None,
         (_, "s" | "S") => Some(Answer::Skip),
         _ => None,
     }
@@ -162,6 +162,7 @@ mod tests {
         assert_eq!(answers("\u{1b}\n S \r\n", 2), [Stop, Skip]);
         // Hung up.
         assert_eq!(answers("", 1), [Stop]);
+        assert_eq!(answers_to(&Question::GoOn, "s\n\n", 1), [Done]);
     }
 
     #[test]

@@ -6,6 +6,7 @@ mod install;
 mod manifest;
 mod new;
 mod pack;
+mod uninstall;
 
 use super::Context;
 use crate::args::{Plugin, PluginInfo, PluginList, PluginRelease};
@@ -21,6 +22,7 @@ pub(crate) fn run(which: &Plugin, context: &Context) -> anyhow::Result<u8> {
         Plugin::Manifest(args) => manifest::run(args),
         Plugin::Pack(args) => pack::run(args, context),
         Plugin::Install(args) => install::run(args, context),
+        Plugin::Uninstall(args) => uninstall::run(args),
         Plugin::Allow(args) => allow::allow(args, context),
         Plugin::Deny(args) => allow::deny(args),
         Plugin::Release(args) => release(args, context),

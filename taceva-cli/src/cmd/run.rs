@@ -81,6 +81,9 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
             args.scene.scene,
             shown(&path)
         ),
+        false if existing != Existing::Resume && folder.remove_if_untouched() => {
+            format!("nothing was recorded, {} is not kept", shown(&path))
+        }
         false => format!("run in {}", shown(&path)),
     })?;
     cache::note(cache.as_ref(), context);

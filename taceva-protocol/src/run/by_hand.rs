@@ -13,11 +13,15 @@ impl Run<'_> {
     /// Mounts the specimen and sets the light of a press that a changer or hands must change; whether somebody skipped one of them.
     pub(super) fn is_skipped(&mut self, planned: &PlannedPress) -> Result<bool, RunError> {
         let failed = |run: &mut Self, cause| run.abandoned(Some(planned.id), cause);
+        if self.needs_what_was_skipped(planned) {
+            return Ok(true);
+        }
+        self.see_hands_out(planned)?;
         let unchanged = self.change(planned)?;
+        if self.needs_what_was_skipped(planned) {
+            return Ok(true);
+        }
         for question in self.needed_by_hand(planned) {
-            if self.skipped.contains(&question) {
-                return Ok(true);
-            }
             let (asked, question) = match (&unchanged, question) {
                 (Some(why), mount @ Question::Mount(_)) => {
                     let of_changer = Box::new(mount.clone());
@@ -30,6 +34,7 @@ impl Run<'_> {
                 Ok(Answer::Done) => self.done_by_hand(&question),
                 Ok(Answer::Skip) => {
                     self.skipped.push(question);
+                    self.may_hands_be_in = true;
                     return Ok(true);
                 }
                 Ok(Answer::Stop) => return Err(failed(self, StopCause::Cancelled)),
@@ -37,6 +42,30 @@ impl Run<'_> {
             }
         }
         Ok(false)
+    }
+
+    fn needs_what_was_skipped(&mut self, planned: &PlannedPress) -> bool {
+        let needed = self.needed_by_hand(planned);
+        needed
+            .iter()
+            .any(|question| self.skipped.contains(question))
+    }
+
+    /// Somebody who skipped what was asked for has not said that hands are out of reach, and the robot is still halted: that is asked before
+    /// anything moves which nobody is asked for.
+    fn see_hands_out(&mut self, planned: &PlannedPress) -> Result<(), RunError> {
+        let specimen = planned.press.specimen;
+        let is_changed = self.mounted != Some(specimen) && self.is_held_by_changer(specimen);
+        if !self.may_hands_be_in || !is_changed && !self.needed_by_hand(planned).is_empty() {
+            return Ok(());
+        }
+        match self.ask(&Question::GoOn) {
+            Ok(Answer::Done) => Ok(()),
+            Ok(Answer::Skip | Answer::Stop) => {
+                Err(self.abandoned(Some(planned.id), StopCause::Cancelled))
+            }
+            Err(cause) => Err(self.abandoned(Some(planned.id), cause)),
+        }
     }
 
     /// What hands must change before `planned`, where there is somebody.
@@ -86,6 +115,7 @@ impl Run<'_> {
         let answer = operator.ask(question, self.tip.cancel);
         if answer == Answer::Done {
             self.tip.release()?;
+            self.may_hands_be_in = false;
         }
         Ok(answer)
     }

@@ -39,6 +39,8 @@ pub enum Question {
         /// Why it failed.
         why: String,
     },
+    /// Take all hands out of reach: after something was skipped the robot goes on with what needs nobody.
+    GoOn,
     /// Go on although the gel is not touched as in an earlier session of this recording.
     Resume(ChangedTouch),
 }
@@ -106,6 +108,9 @@ impl fmt::Display for Question {
                 taceva_core::shown(why)
             ),
             Question::Unit(unit) => write!(f, "put unit {} in place", taceva_core::shown(unit)),
+            Question::GoOn => f.write_str(
+                "what was skipped stays as it is: hands out of reach, the robot goes on with the other presses",
+            ),
             Question::Light(light) => write!(f, "set the light `{}`", taceva_core::shown(light)),
             Question::Acknowledge(fault) => write!(
                 f,
@@ -138,6 +143,7 @@ mod tests {
                 "it is stuck; see that nothing of it moves any more and that it is out of the way, then by hand: mount the dot",
             ),
             (Question::Light("S1".to_owned()), "`S1`"),
+            (Question::GoOn, "hands out of reach"),
             (Question::Acknowledge(Fault::Collision), "collision"),
             (
                 Question::Enable("lab/arm".to_owned()),

@@ -34,6 +34,8 @@ pub(super) struct Run<'a> {
     pub(super) patience_s: f64,
     /// What somebody skipped.
     pub(super) skipped: Vec<Question>,
+    /// Whether somebody skipped something and has not said since that hands are out of reach.
+    pub(super) may_hands_be_in: bool,
     /// The session that has not begun yet; `None` of a rig without a rig file, and from the first press on.
     pub(super) session: Option<SessionSpec<'a>>,
 }
@@ -101,6 +103,7 @@ impl<'a> Run<'a> {
                 .as_ref()
                 .map_or(0.0, |session| session.rig.patience_s()),
             skipped: Vec::new(),
+            may_hands_be_in: false,
             session,
         })
     }

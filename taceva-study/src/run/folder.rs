@@ -136,6 +136,15 @@ impl RunFolder {
         Ok(())
     }
 
+    /// Removes the folder of a run that recorded nothing, so that the same command can be given again once what refused it is mended; whether it
+    /// did.
+    pub fn remove_if_untouched(&self) -> bool {
+        let is_untouched = [RECORDINGS, REPORTS, FIGURES]
+            .iter()
+            .all(|inner| is_empty(&self.path.join(inner)).unwrap_or(false));
+        is_untouched && fs::remove_dir_all(&self.path).is_ok()
+    }
+
     /// The first path `<parent>/<scene>-<number>` that is free, counted from 1; or the last that is taken.
     pub fn numbered(parent: &Path, scene: &str, existing: Existing) -> PathBuf {
         let path = |number: u64| parent.join(format!("{}-{number}", slug(scene)));
@@ -300,6 +309,18 @@ mod tests {
         for half in &halves {
             assert!(!half.exists(), "{half:?}");
         }
+    }
+
+    #[test]
+    fn a_run_that_recorded_nothing_leaves_no_folder_and_any_other_stays() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let run = folder.path().join("run");
+        let scene = scene(folder.path(), 1);
+        let opened = RunFolder::open(&run, &scene, Existing::Refuse).expect("made");
+        assert!(opened.remove_if_untouched() && !run.exists());
+        let opened = RunFolder::open(&run, &scene, Existing::Refuse).expect("made again");
+        fs::create_dir(run.join("recordings/.1-gel.partial")).expect("made");
+        assert!(!opened.remove_if_untouched() && run.exists());
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! An emulated controller of Universal Robots: the real-time data exchange (port 30004) and script (port 30002).
 //!
-//! What it does: any outputs by name (zeros for those that it does not know the meaning of), `movel` to a pose, `speedl` for a time (without turning), `stopl`, a stop
-//! of its safety.
+//! What it does: any outputs by name (zeros for those that it does not know the meaning of), `movel` to a pose, `speedl` for a time (without turning), `stopl` with
+//! the number of a register before it, a stop of its safety.
 //! What it does not: inputs, other script, acceleration, joints.
 
 mod exchange;
@@ -47,6 +47,8 @@ struct Inside {
     fault: Option<ArmFault>,
     /// The rotation vector of the tool, which the gel does not know.
     turned: [f64; 3],
+    /// The number of the last stop that has one.
+    stop_number: i32,
 }
 
 impl Controller {
@@ -64,6 +66,10 @@ impl Controller {
 
     fn is_moving(&self) -> bool {
         self.bench.is_moving()
+    }
+
+    fn stop_number(&self) -> i32 {
+        self.inside().stop_number
     }
 
     fn fault(&self) -> Option<ArmFault> {
@@ -95,6 +101,12 @@ impl Controller {
             return;
         }
         self.bench.stand();
+        if let Program::Stop {
+            number: Some(number),
+        } = *program
+        {
+            inside.stop_number = number;
+        }
         if let Program::Cruise {
             velocity_m_s,
             lasts_s,
@@ -132,6 +144,7 @@ impl Emulator {
             inside: Mutex::new(Inside {
                 fault: None,
                 turned: DOWN,
+                stop_number: 0,
             }),
         });
         let serving = (Arc::clone(&controller), end.clone());

@@ -35,7 +35,7 @@ const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Ending>) -> C
 }
 
 fn open(subject: &Subject) -> Result<Box<dyn Changer>, Ending> {
-    Ok(subject.session.changer(subject.key()?, &subject.args()?)?)
+    subject.opened(subject.session.changer(subject.key()?, &subject.args()?))
 }
 
 /// The changer and what it holds; skipped where its arguments have it hold nothing.

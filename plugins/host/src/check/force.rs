@@ -56,7 +56,7 @@ impl Streams for Transducer {
     const COUNT: usize = 20;
 
     fn open(subject: &Subject) -> Result<Transducer, Ending> {
-        Ok(subject.session.force(subject.key()?, &subject.args()?)?)
+        subject.opened(subject.session.force(subject.key()?, &subject.args()?))
     }
 
     fn begin(&mut self) -> Result<(), DriverError> {

@@ -40,7 +40,7 @@ const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Ending>) -> C
 }
 
 fn open(subject: &Subject) -> Result<Box<dyn Robot>, Ending> {
-    Ok(subject.session.robot(subject.key()?, &subject.args()?)?)
+    subject.opened(subject.session.robot(subject.key()?, &subject.args()?))
 }
 
 fn facts(subject: &Subject) -> Result<RobotFacts, Ending> {

@@ -67,7 +67,7 @@ impl Streams for PluginSensor {
 
     fn open(subject: &Subject) -> Result<PluginSensor, Ending> {
         let args = subject.args()?;
-        Ok(subject.session.open_sensor(subject.key()?, &args)?)
+        subject.opened(subject.session.open_sensor(subject.key()?, &args))
     }
 
     fn begin(&mut self) -> Result<(), DriverError> {
@@ -93,7 +93,7 @@ fn same_frames(subject: &Subject) -> Result<(), Ending> {
     }
     let frames = || -> Result<Vec<Vec<u8>>, Ending> {
         let rig = crate::in_process::InProcess::open(&subject.library)?;
-        let mut sensor = rig.open_sensor(subject.key()?, &subject.args()?)?;
+        let mut sensor = subject.opened(rig.open_sensor(subject.key()?, &subject.args()?))?;
         sensor.start(PATIENT)?;
         let frames = (0..3).map(|_| Ok(capture(&mut sensor, PATIENT)?.1));
         frames.collect()

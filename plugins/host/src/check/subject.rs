@@ -146,12 +146,18 @@ impl Subject {
     /// The device with its bare table, in a rig of its own.
     pub(super) fn open<T: Table>(&self) -> Result<Opened<T>, Ending> {
         let rig = RigHandle::open(&self.library)?;
-        open(&rig, self.entry()?, &self.list()?).map_err(|error| self.not_opened(error))
+        self.opened(open(&rig, self.entry()?, &self.list()?))
+    }
+
+    /// A device that opened, or why it did not.
+    pub(super) fn opened<T>(&self, opened: Result<T, DriverError>) -> Result<T, Ending> {
+        opened.map_err(|error| self.not_opened(error))
     }
 
     /// Why a device did not open: one that exists, and is not here, keeps no promise and breaks none.
     fn not_opened(&self, error: DriverError) -> Ending {
-        let is_absent = error.kind() == ErrorKind::NotFound && self.is_real();
+        let is_away = [ErrorKind::NotFound, ErrorKind::Disconnected].contains(&error.kind());
+        let is_absent = is_away && self.is_real();
         if is_absent {
             let key = &self.probe.driver;
             return Ending::Skipped(format!(

@@ -17,10 +17,7 @@ use crate::{exit, output, report};
 const CHECKS: &str = "library/";
 
 pub(super) fn run(args: &PluginInstall, context: &Context) -> anyhow::Result<u8> {
-    let user = SearchPath::of_process();
-    let user = user.folders().find(|(place, _)| *place == Place::User);
-    let (_, user) = user.context("no folder for plugins: neither XDG_DATA_HOME nor HOME is set")?;
-    let user = user.to_owned();
+    let user = folder_of_user()?;
     let unpacked = match args.plugin.is_dir() {
         true => None,
         false => Some(Unpacked::of(&args.plugin, &user)?),
@@ -56,6 +53,14 @@ pub(super) fn run(args: &PluginInstall, context: &Context) -> anyhow::Result<u8>
         }
     })?;
     Ok(exit::DONE)
+}
+
+/// Where plugins of this user are installed.
+pub(super) fn folder_of_user() -> anyhow::Result<PathBuf> {
+    let search = SearchPath::of_process();
+    let user = search.folders().find(|(place, _)| *place == Place::User);
+    let (_, user) = user.context("no folder for plugins: neither XDG_DATA_HOME nor HOME is set")?;
+    Ok(user.to_owned())
 }
 
 /// The plugin in `folder`, whose library was loaded in a confined process and is what its manifest says.

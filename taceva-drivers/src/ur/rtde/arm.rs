@@ -13,7 +13,7 @@ use super::KEY;
 use super::message::ArmState;
 use super::rotation::pose_of;
 use super::safety::ArmFault;
-use super::script::{ScriptLine, stop};
+use super::script::{ScriptLine, numbered_stop, stop};
 use super::states::States;
 use crate::link::watch::{LOOK, ReportedPose};
 use crate::link::{LinkError, Seen, monotonic};
@@ -46,13 +46,32 @@ pub(super) struct Stop {
     /// Set once the robot is dropped: there is nothing left to stop.
     is_gone: AtomicBool,
     line: ScriptLine,
-    program: String,
-    /// When a stop was last sent, on the monotonic clock.
-    sent: Mutex<Duration>,
+    deceleration_m_s2: f64,
+    sent: Mutex<Sent>,
 }
 
-/// A stop that nothing confirms has had its effect after this time: a motion that is sent on another connection before might be stopped by it.
-const EFFECT: Duration = Duration::from_millis(150);
+/// The stop that was sent last.
+#[derive(Debug)]
+struct Sent {
+    /// Another for each; the controller says which one it carries out.
+    number: i32,
+    /// On the monotonic clock; `None` where none was sent.
+    at: Option<Duration>,
+}
+
+impl Sent {
+    /// None was sent yet. The numbers begin where no earlier connection has been, for the controller may still show one of it.
+    fn none() -> Sent {
+        let number = monotonic().as_millis() & 0x3fff_ffff;
+        Sent {
+            number: i32::try_from(number).unwrap_or_default(),
+            at: None,
+        }
+    }
+}
+
+/// A stop of which the controller says nothing for so long counts as lost.
+const LOST_AFTER: Duration = Duration::from_secs(2);
 
 impl Stop {
     pub(super) fn is_halted(&self) -> bool {
@@ -63,23 +82,31 @@ impl Stop {
         self.line.is_alive()
     }
 
-    /// The program that brakes.
-    pub(super) fn program(&self) -> &str {
-        &self.program
+    /// The program that brakes, for the connection of motions, where nothing overtakes it.
+    pub(super) fn program(&self) -> String {
+        stop(self.deceleration_m_s2)
     }
 
-    /// Sends it.
+    /// Sends one that the controller answers by its number.
     pub(super) fn send(&self) -> Result<(), LinkError> {
-        *self.sent() = monotonic();
-        self.line.send(&self.program)
+        let mut sent = self.sent();
+        sent.number = sent.number.wrapping_add(1);
+        sent.at = Some(monotonic());
+        let program = numbered_stop(sent.number, self.deceleration_m_s2);
+        self.line.send(&program)
     }
 
-    /// How long it is until the last stop has had its effect.
-    pub(super) fn lasts(&self) -> Duration {
-        (*self.sent() + EFFECT).saturating_sub(monotonic())
+    /// Whether the last stop that was sent, and so every one before it, was carried out by a controller that says `number`, or is lost: one that
+    /// is late would end a motion that was sent on another connection after it.
+    pub(super) fn is_obeyed(&self, number: i32) -> bool {
+        let sent = self.sent();
+        sent.number == number
+            || sent
+                .at
+                .is_none_or(|at| monotonic().saturating_sub(at) > LOST_AFTER)
     }
 
-    fn sent(&self) -> MutexGuard<'_, Duration> {
+    fn sent(&self) -> MutexGuard<'_, Sent> {
         self.sent.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -128,8 +155,8 @@ impl Arm {
                 is_halted: AtomicBool::new(false),
                 is_gone: AtomicBool::new(false),
                 line: stopping,
-                program: stop(options.deceleration_mm_s2 * M_A_MM),
-                sent: Mutex::default(),
+                deceleration_m_s2: options.deceleration_mm_s2 * M_A_MM,
+                sent: Mutex::new(Sent::none()),
             }),
             options,
         })

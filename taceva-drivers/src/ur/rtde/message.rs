@@ -13,11 +13,14 @@ const TEXT: u8 = b'M';
 
 /// The version of the protocol that is spoken.
 const PROTOCOL: u16 = 2;
-/// What is asked for, in this order, and the types that the controller must give it.
-const NAMES: &str = "timestamp,actual_TCP_pose,robot_mode,safety_status_bits,runtime_state";
-const TYPES: &str = "DOUBLE,VECTOR6D,INT32,UINT32,UINT32";
+/// What is asked for, in this order, and the types that the controller must give it. The last is the register to which stops write their number:
+/// the first of those that programs from outside may use.
+const NAMES: &str = "timestamp,actual_TCP_pose,robot_mode,safety_status_bits,runtime_state,output_int_register_24";
+const TYPES: &str = "DOUBLE,VECTOR6D,INT32,UINT32,UINT32,INT32";
+/// The number of that register in script.
+pub(super) const STOP_REGISTER: u8 = 24;
 /// Bytes of a message of data: the number of the recipe, and what was asked for.
-const DATA_LENGTH: usize = 1 + 8 + 48 + 4 + 4 + 4;
+const DATA_LENGTH: usize = 1 + 8 + 48 + 4 + 4 + 4 + 4;
 /// No answer is longer.
 const LENGTH_MAX: usize = 4096;
 /// Length and kind stand before what a message says.
@@ -31,6 +34,8 @@ pub(super) struct ArmState {
     pub(super) robot_mode: i32,
     pub(super) safety: u32,
     pub(super) runtime: u32,
+    /// The number of the last stop that it began to carry out.
+    pub(super) stop: i32,
 }
 
 /// A message of the controller.
@@ -144,6 +149,7 @@ fn state(says: &[u8]) -> ArmState {
         robot_mode: word(56).cast_signed(),
         safety: word(60),
         runtime: word(64),
+        stop: word(68).cast_signed(),
     }
 }
 
@@ -158,7 +164,7 @@ mod tests {
         for number in [12.5, 0.3, 0.0, 0.25, 0.0, 3.125, 0.0] {
             says.extend_from_slice(&f64::to_be_bytes(number));
         }
-        says.extend_from_slice(&hexadecimal("00000007 00000001 00000002"));
+        says.extend_from_slice(&hexadecimal("00000007 00000001 00000002 0000002a"));
         message(DATA, &says)
     }
 
@@ -167,8 +173,8 @@ mod tests {
         assert_eq!(ask_version(), hexadecimal("0005 56 0002"));
         assert_eq!(ask_start(), hexadecimal("0003 53"));
         let outputs = ask_outputs(125.0);
-        assert_eq!(outputs[..11], hexadecimal("0050 4f 405f400000000000"));
-        assert_eq!(outputs.len(), 0x50);
+        assert_eq!(outputs[..11], hexadecimal("0067 4f 405f400000000000"));
+        assert_eq!(outputs.len(), 0x67);
     }
 
     #[test]
@@ -202,7 +208,8 @@ mod tests {
                 state.pose.map(f64::to_bits),
                 [0.3, 0.0, 0.25, 0.0, 3.125, 0.0].map(f64::to_bits)
             );
-            assert_eq!((state.robot_mode, state.safety, state.runtime), (7, 1, 2));
+            let words = (state.robot_mode, state.safety, state.runtime, state.stop);
+            assert_eq!(words, (7, 1, 2, 42));
         }
     }
 

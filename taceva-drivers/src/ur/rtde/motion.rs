@@ -22,6 +22,8 @@ const BEGUN: Duration = Duration::from_millis(100);
 const NEVER_BEGUN: Duration = Duration::from_millis(1_000);
 /// How long after its program an arm may still creep to its target.
 const SETTLED: Duration = Duration::from_millis(200);
+/// After this time a stop that the controller began has ended.
+const BRAKED: Duration = Duration::from_millis(400);
 /// How long an arm that was asked to stop is looked at until it stands.
 const STOPPING: Duration = Duration::from_millis(400);
 pub(super) const M_A_MM: f64 = 1e-3;
@@ -55,12 +57,7 @@ impl Arm {
         if deadline.has_passed() {
             return Err(failed(ErrorKind::Timeout, DOING, "no time to move at all"));
         }
-        std::thread::sleep(self.stop.lasts().min(deadline.remaining()));
-        let left = until.saturating_sub(monotonic());
-        let first = self.look(None, left)?;
-        if let Some(fault) = ArmFault::of(&first.what) {
-            return Err(fault.met(DOING));
-        }
+        let first = self.after_every_stop(until)?;
         if first.what.runtime != STOPPED {
             let why = "the controller runs another program, expected none";
             return Err(failed(ErrorKind::DeviceFault, DOING, why));
@@ -68,12 +65,40 @@ impl Arm {
         Ok(first)
     }
 
+    /// The first state after every stop that was sent: it was carried out, and has ended or should have.
+    fn after_every_stop(&self, until: Duration) -> Result<Seen<ArmState>, DriverError> {
+        let left = || until.saturating_sub(monotonic());
+        let mut seen = self.look(None, left())?;
+        // Since when the last one is known to be carried out.
+        let mut obeyed = None;
+        loop {
+            if let Some(fault) = ArmFault::of(&seen.what) {
+                return Err(fault.met(DOING));
+            }
+            if self.stop.is_obeyed(seen.what.stop) {
+                let since = *obeyed.get_or_insert(seen.at);
+                let has_ended = seen.what.runtime == STOPPED;
+                if has_ended || seen.at.saturating_sub(since) >= BRAKED {
+                    return Ok(seen);
+                }
+            }
+            if self.stop.is_halted() {
+                return Err(halted());
+            }
+            if left().is_zero() {
+                let why = "the controller has not said within the deadline that it carried out the last stop";
+                return Err(failed(ErrorKind::Timeout, DOING, why));
+            }
+            seen = self.look(Some(seen.number), left())?;
+        }
+    }
+
     /// Ends a motion: an arm whose motion was broken off is stopped.
     pub(super) fn end(&self, ended: Result<Stamp, DriverError>) -> Result<Stamp, DriverError> {
         if ended.is_err() {
             // Behind the motion on its own way, which a stop on the other may have overtaken; one that could not be sent says so by a link
             // that is gone.
-            let _ = self.motions.send(self.stop.program());
+            let _ = self.motions.send(&self.stop.program());
             let _ = self.stop.send();
             self.settle();
         }

@@ -112,6 +112,7 @@ mod tests {
                 robot_mode,
                 safety,
                 runtime: 1,
+                stop: 0,
             })
         };
         assert_eq!(fault(1, 7), None);

@@ -8,6 +8,7 @@ use std::sync::{Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
+use super::message::STOP_REGISTER;
 use crate::link::{LinkError, connect};
 
 /// The program that moves in a straight line: to a pose in m and rad, at m/s and m/s².
@@ -32,6 +33,13 @@ pub(super) fn cruise(
 /// The program that takes the place of the one that runs, and brakes.
 pub(super) fn stop(deceleration_m_s2: f64) -> String {
     format!("def taceva_stop():\n  stopl({deceleration_m_s2:.6})\nend\n")
+}
+
+/// The same, which says by its `number` that the controller carries it out.
+pub(super) fn numbered_stop(number: i32, deceleration_m_s2: f64) -> String {
+    format!(
+        "def taceva_stop():\n  write_output_integer_register({STOP_REGISTER}, {number})\n  stopl({deceleration_m_s2:.6})\nend\n"
+    )
 }
 
 /// A connection that takes script.
@@ -119,5 +127,9 @@ mod tests {
             "def taceva_cruise():\n  speedl([0.000000000, 0.000000001, -0.005000000, 0, 0, 0], a=0.500000, t=0.200)\n  stopl(2.000000)\nend\n"
         );
         assert_eq!(stop(2.0), "def taceva_stop():\n  stopl(2.000000)\nend\n");
+        assert_eq!(
+            numbered_stop(42, 2.0),
+            "def taceva_stop():\n  write_output_integer_register(24, 42)\n  stopl(2.000000)\nend\n"
+        );
     }
 }

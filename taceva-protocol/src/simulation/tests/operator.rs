@@ -19,7 +19,7 @@ force = { driver = "faults/force" }
 model = { name = "ridge" }
 [protocol]
 contact = { clearance_mm = 0.5, search_mm = 1.0 }
-calibration = { points = 2, indentations = 1 }
+calibration = { points = 3, indentations = 1 }
 "#;
 
 type Asked = Arc<Mutex<Vec<Question>>>;
@@ -94,6 +94,54 @@ fn what_is_skipped_is_left_for_another_run_and_everything_else_is_made() {
     assert_eq!(error.left, Left::Clear);
     assert_eq!(log.records.len(), bench.plan.presses.len() - 1);
     assert_eq!(asked.lock().expect("whole").len(), 2);
+}
+
+/// A bench whose presses need nobody but one in the middle, which needs a light that hands set and that is skipped.
+fn with_a_skipped_light(answer: fn(&Shared, &Question) -> Answer) -> (Bench, Asked) {
+    let (mut bench, asked) = bench(answer);
+    let presses = &mut bench.plan.presses;
+    let specimen = presses[0].press.specimen;
+    for planned in presses.iter_mut() {
+        planned.press.specimen = specimen;
+    }
+    let middle = presses.len() / 2;
+    presses[middle].press.light = Some("S1".to_owned());
+    assert!((1..presses.len() - 1).contains(&middle));
+    (bench, asked)
+}
+
+#[test]
+fn after_a_skip_nothing_moves_before_somebody_says_that_hands_are_out_of_reach() {
+    let (mut bench, asked) = with_a_skipped_light(|_, question| match question {
+        Question::Light(_) => Answer::Skip,
+        _ => Answer::Done,
+    });
+    let mut log = Memory::default();
+    let error = bench.run(Mode::Acquire, &mut log).expect_err("one is left");
+    assert!(
+        matches!(error.cause, StopCause::Skipped { presses: 1 }),
+        "{error}"
+    );
+    assert_eq!(log.records.len(), bench.plan.presses.len() - 1);
+    let specimen = bench.plan.presses[0].press.specimen;
+    let light = Question::Light("S1".to_owned());
+    let expected = [Question::Mount(specimen), light, Question::GoOn];
+    assert_eq!(*asked.lock().expect("whole"), expected);
+    assert_eq!(bench.shared.world().oracle.violations, []);
+}
+
+#[test]
+fn who_skips_and_does_not_let_the_robot_go_on_ends_the_run_with_every_press_before() {
+    let (mut bench, _) = with_a_skipped_light(|_, question| match question {
+        Question::Light(_) => Answer::Skip,
+        Question::GoOn => Answer::Stop,
+        _ => Answer::Done,
+    });
+    let mut log = Memory::default();
+    let error = bench.run(Mode::Acquire, &mut log).expect_err("stopped");
+    assert!(matches!(error.cause, StopCause::Cancelled), "{error}");
+    let middle = bench.plan.presses.len() / 2;
+    assert_eq!((error.left, log.records.len()), (Left::Clear, middle));
 }
 
 #[test]

@@ -5,6 +5,7 @@ use std::net::TcpStream;
 use std::time::Duration;
 
 use super::Controller;
+use super::program::REGISTER;
 use crate::fault::{ArmFault, Device, FaultKind};
 use crate::link::Link;
 use crate::server::{End, read};
@@ -157,6 +158,9 @@ impl Wanted {
                 "safety_mode" => NORMAL,
                 "runtime_state" if controller.is_moving() => PLAYING,
                 "runtime_state" => STOPPED,
+                name if name == format!("output_int_register_{REGISTER}") => {
+                    controller.stop_number().cast_unsigned()
+                }
                 _ => 0,
             };
             match (name.as_str(), type_of(name)) {

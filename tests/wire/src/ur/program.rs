@@ -10,8 +10,8 @@ pub(super) enum Program {
         velocity_m_s: [f64; 3],
         lasts_s: f64,
     },
-    /// Brakes.
-    Stop,
+    /// Brakes, and says so by a number where it has one.
+    Stop { number: Option<i32> },
     /// Anything else, which takes the place of what runs and does nothing.
     Other,
 }
@@ -31,7 +31,9 @@ impl Program {
             return Program::cruise(program).unwrap_or(Program::Other);
         }
         if program.contains("stopl(") {
-            return Program::Stop;
+            return Program::Stop {
+                number: number_of(program),
+            };
         }
         Program::move_line(program).unwrap_or(Program::Other)
     }
@@ -66,6 +68,17 @@ impl Program {
     }
 }
 
+/// What a program writes to the register of [`REGISTER`].
+fn number_of(program: &str) -> Option<i32> {
+    let call = format!("write_output_integer_register({REGISTER},");
+    let (_, number) = program.split_once(&call)?;
+    let (number, _) = number.split_once(')')?;
+    number.trim().parse().ok()
+}
+
+/// The register of whole numbers that programs may write and clients may read; there is no other.
+pub(super) const REGISTER: u8 = 24;
+
 /// Numbers between commas; `None` if one is none.
 fn numbers(text: &str) -> Option<Vec<f64>> {
     let number = |number: &str| number.trim().parse().ok();
@@ -88,7 +101,11 @@ mod tests {
         };
         assert_eq!(first, expected);
         let (second, rest) = Program::take(&rest).expect("a program");
-        assert_eq!((second, Program::take(&rest)), (Program::Stop, None));
+        let stop = Program::Stop { number: None };
+        assert_eq!((second, Program::take(&rest)), (stop, None));
+        let text = "def b():\n  write_output_integer_register(24, 42)\n  stopl(2.0)\nend\n";
+        let stop = Program::Stop { number: Some(42) };
+        assert_eq!(Program::take(text).expect("one").0, stop);
         let (other, _) =
             Program::take("def c():\n  movel(p[nan,0,0,0,0,0], v=1)\nend\n").expect("one");
         assert_eq!(other, Program::Other);

@@ -1,6 +1,7 @@
 //! Every driver of a robot and of a force transducer against its emulated device, through sockets and a pseudo-terminal.
 
 mod expiring;
+mod gate;
 #[cfg(unix)]
 mod gcode;
 #[cfg(unix)]

@@ -1,14 +1,15 @@
 //! `ur/rtde` against the emulated controller, through sockets.
 
 use std::net::Ipv4Addr;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
-use taceva_core::ErrorKind;
+use taceva_core::{Deadline, ErrorKind};
 use taceva_drivers::UrFactory;
 use taceva_wire::ur::Emulator;
 use taceva_wire::{Arm, ArmFault, Device, FaultKind};
 
 use crate::expiring::die_moving;
+use crate::gate::Gate;
 use crate::setup::Setup;
 use crate::support::{PATIENCE, inject, lower, moved, speed};
 
@@ -58,6 +59,66 @@ fn a_halt_stops_the_arm_at_once_and_no_program_begins_after_it() {
         arm.move_to(home, speed(50.0), PATIENCE)
             .expect("it arrives");
     }
+}
+
+/// A stop that is not answered counts as lost after so long: a machine that stood still for that long shows nothing.
+const LOST_AFTER: Duration = Duration::from_secs(2);
+const TRIES: u32 = 5;
+
+#[test]
+fn a_stop_that_is_late_is_waited_for_so_that_it_ends_no_motion_after_the_halt() {
+    assert!(
+        (0..TRIES).any(|_| a_late_stop_is_waited_for()),
+        "this machine stands still for seconds"
+    );
+}
+
+/// Holds up a stop on its connection; whether that was shorter than what counts as lost.
+fn a_late_stop_is_waited_for() -> bool {
+    let setup = setup();
+    // The second connection for script is that for stops.
+    let address = setup.emulator.script_address();
+    let (gate, port) = Gate::before(address, |number| number == 1);
+    let direct = format!("script_port={}", address.port());
+    let gated = setup
+        .arguments()
+        .replace(&direct, &format!("script_port={port}"));
+    assert_ne!(gated, setup.arguments());
+    let mut arm = setup.opened(&gated).expect("a robot");
+    let (home, _) = arm.pose(PATIENCE).expect("a pose");
+    let handle = arm.halt_handle();
+    let (shut, moved) = std::thread::scope(|scope| {
+        let halting = scope.spawn(|| {
+            while !setup.bench.truth().is_moving {
+                std::thread::yield_now();
+            }
+            let shut = Instant::now();
+            gate.shut(true);
+            handle.halt().expect("it is sent");
+            shut
+        });
+        let moved = arm.move_to(lower(home, 15.0), speed(2.0), PATIENCE);
+        (halting.join().expect("no panic"), moved)
+    });
+    assert_eq!(moved.expect_err("halted").kind(), ErrorKind::Interrupted);
+    // The stop behind the motion, on its own connection, has stopped it.
+    assert!(!setup.bench.truth().is_moving);
+    arm.clear_halt(PATIENCE).expect("nothing else is wrong");
+    let way_mm = setup.bench.truth().way_mm;
+    let soon = Deadline::after(Duration::from_millis(300));
+    let refused = arm.move_to(home, speed(50.0), soon);
+    if shut.elapsed() > LOST_AFTER {
+        return false;
+    }
+    assert_eq!(
+        refused.expect_err("a stop is under way").kind(),
+        ErrorKind::Timeout
+    );
+    assert!(setup.bench.truth().way_mm <= way_mm, "nothing moves");
+    gate.shut(false);
+    arm.move_to(home, speed(50.0), PATIENCE)
+        .expect("no stop comes any more");
+    true
 }
 
 #[test]

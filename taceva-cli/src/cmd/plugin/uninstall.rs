@@ -1,0 +1,55 @@
+//! `taceva plugin uninstall`: what `taceva plugin install` copied is removed.
+
+use std::fs;
+use std::io;
+use std::path::Path;
+
+use anyhow::{Context as _, bail};
+use taceva_core::shown;
+use taceva_host::{PluginConfig, user_config_file};
+
+use super::install;
+use crate::args::PluginUninstall;
+use crate::{exit, output};
+
+pub(super) fn run(args: &PluginUninstall) -> anyhow::Result<u8> {
+    let PluginUninstall { id } = args;
+    let user = install::folder_of_user()?;
+    let target = user.join(id.as_str());
+    if target.symlink_metadata().is_err() {
+        bail!(
+            "{}: not there; what lies elsewhere is not removed: `taceva plugin list` says where",
+            shown(&target)
+        );
+    }
+    remove(&target).with_context(|| format!("cannot remove {}", shown(&target)))?;
+    // Settings that cannot be read allow nothing.
+    let settings = user_config_file().map(|path| PluginConfig::read(&path));
+    let is_allowed = settings.is_some_and(|settings| {
+        settings.is_ok_and(|config| config.allow.get(id).is_some_and(|needs| !needs.is_empty()))
+    });
+    output::write(None, |out| {
+        writeln!(out, "{id} is no longer installed ({})", shown(&target))?;
+        match is_allowed {
+            true => writeln!(
+                out,
+                "what it may reach is kept for another version; take it back: taceva plugin deny {id}"
+            ),
+            false => Ok(()),
+        }
+    })?;
+    Ok(exit::DONE)
+}
+
+/// Removes a plugin at once for whoever searches: it is renamed first to what no search looks at.
+fn remove(target: &Path) -> io::Result<()> {
+    let above = taceva_durable::parent_of(target);
+    let name = target.file_name().unwrap_or_default().display();
+    let former = above.join(format!(".{name}.{}.former", std::process::id()));
+    fs::rename(target, &former)?;
+    taceva_durable::sync_folder(above)?;
+    match former.symlink_metadata()?.is_dir() {
+        true => fs::remove_dir_all(&former),
+        false => fs::remove_file(&former),
+    }
+}
