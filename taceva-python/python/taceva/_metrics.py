@@ -122,11 +122,12 @@ class TactileMetrics:
         sums = self._sums if rows <= BLOCK_ROWS else _taceva.Sums(*self._asked)
         for first in range(0, rows, BLOCK_ROWS):
             block = slice(first, first + BLOCK_ROWS)
-            rows_of = [native(table[block], name, allow_invalid=True) for name, table in tables.items()]
+            rows_of = {name: native(table[block], name, allow_invalid=True) for name, table in tables.items()}
             points_of = None if names is None else names[block]
             fields_of = [(name, column[block]) for name, column in said]
-            if not sums.update(*rows_of, points_of, fields_of, allow_invalid, sums is not self._sums):
-                for (name, _), found in zip(tables.items(), rows_of, strict=True):
+            is_apart = sums is not self._sums
+            if not sums.update(rows_of["truth"], rows_of["prediction"], points_of, fields_of, allow_invalid, is_apart):
+                for name, found in rows_of.items():
                     require_finite(found, name, first)
         if sums is not self._sums:
             self._sums.merge(sums)

@@ -45,4 +45,4 @@ class Signals(Labelled):
     """Signals of taxels, ``[values]`` in the unit of the recording."""
 
     def _seen(self, row: int) -> npt.NDArray[np.float32]:
-        return self._dataset.signals([row])[0].copy()
+        return np.array(self._dataset.signals([row])[0])
