@@ -57,6 +57,14 @@ pub struct Table {
 }
 
 impl Table {
+    /// The names on disk of the columns that are neither channels nor attributes, in their order there.
+    ///
+    /// ```
+    /// use taceva_dataset::Table;
+    /// assert!(Table::NAMES.contains(&"point_id") && !Table::NAMES.contains(&"Fz"));
+    /// ```
+    pub const NAMES: [&'static str; 18] = RESERVED;
+
     /// A table without rows.
     pub fn new(channels: Channels, attribute_names: Vec<String>) -> Table {
         Table {

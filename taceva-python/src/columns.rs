@@ -9,33 +9,11 @@ use pyo3::types::PyCapsule;
 
 use crate::arrow::{self, ArrowColumn, Cells};
 
-/// The columns that are no labels, by the names and in the order that they have on disk.
-const NAMES: [&str; 18] = [
-    "sample",
-    "point_id",
-    "unit_id",
-    "scene",
-    "depth_step",
-    "repeat",
-    "phase",
-    "limited_by",
-    "source_table",
-    "source_row",
-    "source_frame",
-    "part",
-    "t_s",
-    "kind",
-    "spacing_mm",
-    "intensity",
-    "frame",
-    "frame_sha256",
-];
-
 /// The table of `dataset`: a row a sample, a column a label in the unit that its metadata names, and of the rest what some row says.
 pub(crate) fn stream<'py>(py: Python<'py>, dataset: &Dataset) -> PyResult<Bound<'py, PyCapsule>> {
     let table = dataset.table();
     let mut columns = Vec::new();
-    for name in NAMES
+    for name in Table::NAMES
         .into_iter()
         .chain(table.attribute_names().iter().map(String::as_str))
     {

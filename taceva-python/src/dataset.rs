@@ -167,6 +167,12 @@ impl Recording {
             .transpose()
     }
 
+    /// Signals of a row; `None` without signals.
+    fn signal_values(&self) -> Option<usize> {
+        let signals = self.dataset.header().signals.as_ref()?;
+        Some(signals.spec.info.len())
+    }
+
     /// `[rows, values]` of the signals of `rows`, taxel by taxel.
     fn signals(&self, py: Python<'_>, rows: Vec<usize>) -> PyResult<Buffer> {
         let Some(header) = &self.dataset.header().signals else {

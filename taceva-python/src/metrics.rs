@@ -127,7 +127,9 @@ impl Sums {
         })
     }
 
-    /// Takes in rows; nothing is taken in where any of them is refused.
+    /// Takes in rows, and says whether it did: not where a number is not finite, unless `allows_invalid`. Nothing is taken in where any of them is
+    /// refused, unless these sums are `apart`, which are given up then.
+    #[expect(clippy::too_many_arguments, reason = "what one row carries")]
     fn update(
         &self,
         py: Python<'_>,
@@ -135,7 +137,9 @@ impl Sums {
         prediction: &Bound<'_, PyAny>,
         points: Option<&Bound<'_, PyAny>>,
         fields: Vec<(String, Bound<'_, PyAny>)>,
-    ) -> PyResult<usize> {
+        allows_invalid: bool,
+        apart: bool,
+    ) -> PyResult<bool> {
         let width = self.plan.channels().len();
         let truth = Table::of(truth, "truth", width)?;
         let prediction = Table::of(prediction, "prediction", width)?;
@@ -161,13 +165,24 @@ impl Sums {
                 )));
             }
         }
+        // Of one block nothing is taken in before all of it was looked at.
+        if !allows_invalid && !apart && rows > BLOCK_ROWS {
+            for table in [&truth, &prediction] {
+                if !table.is_finite(py) {
+                    return Ok(false);
+                }
+            }
+        }
         let column = || Vec::with_capacity(BLOCK_ROWS.min(rows));
         let columns = || (0..width).map(|_| column()).collect::<Vec<_>>();
         for first in (0..rows).step_by(BLOCK_ROWS) {
             let block = first..rows.min(first + BLOCK_ROWS);
             let (mut truths, mut predictions) = (columns(), columns());
-            truth.read(py, block.clone(), &mut truths);
-            prediction.read(py, block.clone(), &mut predictions);
+            let is_finite = truth.read(py, block.clone(), &mut truths)
+                & prediction.read(py, block.clone(), &mut predictions);
+            if !is_finite && !allows_invalid {
+                return Ok(false);
+            }
             let labels = points.as_ref().map(|points| points.read(py, block.clone()));
             let full = |columns: Vec<Vec<f64>>| columns.into_iter().map(Column::full).collect();
             let channels = self.plan.channels().clone();
@@ -178,7 +193,7 @@ impl Sums {
             let done = py.detach(|| self.evaluator().update(&batch));
             done.map_err(value_error)?;
         }
-        Ok(rows)
+        Ok(true)
     }
 
     /// Takes over what another has seen.

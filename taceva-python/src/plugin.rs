@@ -3,6 +3,7 @@
 //! The objects implement the traits of core as a library's devices do, and are offered to the child's side of the host through the tables of
 //! the interface. So there is one wire, one sandbox and one set of checks, whatever a plugin is written in.
 
+mod changer;
 mod drivers;
 mod estimator;
 mod failure;
@@ -10,6 +11,8 @@ mod force;
 mod lighting;
 mod objects;
 mod offered;
+mod poses;
+mod robot;
 mod sensor;
 mod training;
 mod waiting;

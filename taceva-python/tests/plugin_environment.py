@@ -69,6 +69,7 @@ class Program:
     def __init__(self, home: Path, python: Path) -> None:
         self.home = home
         self.python = python
+        self.allowed: dict[str, tuple[str, ...]] = {}
         home.mkdir(exist_ok=True)
         home.chmod(0o755)
         self.variables = {
@@ -81,9 +82,12 @@ class Program:
         return subprocess.run(command, capture_output=True, text=True, check=False, env=self.variables, timeout=500)
 
     def allow(self, id: str, *needs: str) -> None:
+        """Allow a plugin what it needs; what was allowed to it before is not any more."""
+        self.allowed[id] = needs
         file = self.home / ".config/taceva/config.toml"
         file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_text(f"[plugins.allow]\n{json.dumps(id)} = {json.dumps(needs)}\n")
+        lines = [f"{json.dumps(id)} = {json.dumps(needs)}\n" for id, needs in self.allowed.items()]
+        file.write_text("[plugins.allow]\n" + "".join(lines))
 
     def check(self, id: str, folder: Path, *arguments: str) -> dict[str, list[str]]:
         """Check a plugin; the lines by their outcome. What only came too late is checked again: the machine may be busy."""

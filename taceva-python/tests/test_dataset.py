@@ -17,6 +17,8 @@ import taceva
 from conftest import RECORDINGS
 from conftest import taceva as command
 
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
 
 def test_labels_frames_and_columns_are_those_of_the_recording(recording: Path) -> None:
     dataset = taceva.open(recording)
@@ -148,6 +150,25 @@ def test_a_torch_dataset_gives_frames_and_labels(recording: Path) -> None:
     assert frames.shape == (2, samples, height, width)
     assert labels.shape == (2, len(dataset.channels))
     assert sys.modules["torch"]
+
+
+def test_a_torch_dataset_of_taxels_gives_signals_and_labels(tmp_path: Path) -> None:
+    torch = pytest.importorskip("torch")
+    source = EXAMPLES / "taxels/magnetic"
+    done = command("import", source, "--map", source / "map.toml", "--out", tmp_path / "taxels")
+    assert done.returncode == 0, done.stderr
+    dataset = taceva.open(tmp_path / "taxels")
+    rows = [3, 0, 2]
+    signals, labels = next(iter(torch.utils.data.DataLoader(dataset.torch(rows), batch_size=3, num_workers=1)))
+    assert signals.dtype == torch.float32 and np.array_equal(signals.numpy(), dataset.signals(rows))
+    assert np.array_equal(labels.numpy(), dataset.labels()[rows].astype(np.float32))
+
+
+def test_a_recording_of_labels_alone_is_refused_as_a_torch_dataset_whether_or_not_torch_is_there(tmp_path: Path) -> None:
+    dataset = taceva.from_arrays(tmp_path / "labels", np.ones((3, 1)), sensor="plate", source="synthetic", channels=["Fz"])
+    with pytest.raises(taceva.DatasetError, match="neither frames nor signals") as refused:
+        dataset.torch()
+    assert refused.value.path == tmp_path / "labels"
 
 
 def drawn(rows: int = 24) -> tuple[np.ndarray, np.ndarray, list[str]]:

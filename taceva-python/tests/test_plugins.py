@@ -105,7 +105,9 @@ def test_a_new_project_of_every_kind_says_what_its_manifest_says_and_keeps_every
     groups = {
         "sensor": "sensor/",
         "force": "force/",
+        "robot": "robot/",
         "lighting": "lighting/",
+        "changer": "changer/",
         "estimator": "estimator/fits,estimator/keeps,estimator/refuses,estimator/ends",
     }
     for kind, only in groups.items():
@@ -116,14 +118,6 @@ def test_a_new_project_of_every_kind_says_what_its_manifest_says_and_keeps_every
         done = program.check(f"org.example.my-{kind}", made, "--only", f"library/loads,library/quiet,driver/opens,{only}")
         assert done["failed"] == [], (kind, done)
         assert len(done["passed"]) >= 6, (kind, done)
-    refused = subprocess.run(
-        [sys.executable, "-m", "taceva", "plugin", "new", "robot", "my-arm", "--language", "python"],
-        cwd=tmp_path,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert "a robot cannot be written in Python yet" in refused.stderr
 
 
 def test_a_manifest_of_another_wire_is_refused_with_both_numbers_and_the_remedy(tmp_path: Path, program: Program) -> None:
@@ -212,10 +206,91 @@ def test_a_plugin_that_does_wrong_fails_with_what_it_did_and_what_is_expected(
     assert said in failure(program, package(tmp_path, code), "force/reads")
 
 
+def test_a_long_message_keeps_its_beginning_its_end_and_where_it_was_raised(tmp_path: Path, program: Program) -> None:
+    code = SCALE.replace("self.readings += 1", "raise ValueError('begins ' + 'x' * 5000 + ' ends')")
+    why = failure(program, package(tmp_path, code), "force/reads")
+    assert "ValueError: begins xxx" in why and "characters left out" in why and "xxx ends (" in why and "line 5)" in why, why
+    code = SCALE.replace("self.readings += 1", "raise ValueError('of 300 ' + 'y' * 300 + ' whole')")
+    why = failure(program, package(tmp_path / "whole", code), "force/reads")
+    assert "y" * 300 + " whole (" in why and "left out" not in why, why
+
+
+def test_a_plugin_that_hangs_while_it_is_imported_is_told_of_in_these_words(tmp_path: Path, program: Program) -> None:
+    made = package(tmp_path, "import time; time.sleep(1000)\n" + SCALE)
+    why = failure(program, made, "library/loads", "--limit", "5")
+    assert "it did not import its module within 5s" in why, why
+
+
+ARM = """
+import math
+class Arm(tp.Robot, title="arm", source="simulated", limits={"speed_max_mm_s": 50.0}, guarded_motion=False):
+    stands = tp.Pose(z=-20.0)
+    def pose(self, deadline):
+        return self.stands, tp.now()
+    def move_to(self, target, speed, deadline):
+        deadline.rest(math.dist(self.stands[:3], target[:3]) / speed)
+        self.stands = target
+        return tp.now()
+    def halt(self):
+        pass
+plugin = tp.Plugin("org.example.scale", "1.0.0", {"scale": Arm})
+"""
+ARM_MANIFEST = MANIFEST.split("[[provides]]")[0] + """[[provides]]
+kind = "robot"
+key = "scale"
+title = "arm"
+source = "simulated"
+limits = { speed_max_mm_s = 50.0 }
+guarded_motion = false
+"""
+
+
+ARM_FAULTS = {
+    "has_no_halt": ("    def halt(self):\n        pass\n", "", "Arm has no halt(), expected one that stops its motion from any thread", "robot/says"),
+    "says_no_pose": ("return self.stands, tp.now()", "return 1.0", "pose returned a float, expected (taceva.plugin.Pose(x, y, z), time)", "robot/says"),
+    "has_another_pose": ("return self.stands, tp.now()", "return (1.0, 2.0), tp.now()", "not 3 or 6 numbers", "robot/says"),
+    "stands_nowhere": ("return self.stands, tp.now()", "return (1.0, 2.0, math.nan), tp.now()", "NaN", "robot/says"),
+    "ignores_halts": ("deadline.rest(", "import time; time.sleep(", "a move of 1 s in 20 ms", "robot/timeout"),
+    "cannot_be_stopped": ("pass", "raise ConnectionError('the cable')", "ConnectionError: the cable", "robot/halts-twice"),
+    "moves_after_its_deadline": (
+        "deadline.rest(",
+        "raise ValueError('jammed'); (",
+        "ValueError: jammed",
+        "robot/moves-and",
+    ),
+    "guards_without_a_method": (
+        "guarded_motion=False",
+        "guarded_motion=True",
+        "no method move_guarded(target, speed, force, deadline)",
+        "driver/opens",
+    ),
+}
+
+
+@pytest.mark.parametrize("fault", ARM_FAULTS)
+def test_a_robot_that_does_wrong_fails_with_what_it_did_and_what_is_expected(fault: str, tmp_path: Path, program: Program) -> None:
+    found, does, said, only = ARM_FAULTS[fault]
+    manifest = ARM_MANIFEST.replace("guarded_motion = false", "guarded_motion = true" if "True" in does else "guarded_motion = false")
+    made = package(tmp_path, ARM.replace(found, does), manifest)
+    assert said in failure(program, made, only), fault
+
+
+def test_a_robot_that_stops_at_a_force_and_one_that_stops_by_itself_keep_every_promise(tmp_path: Path, program: Program) -> None:
+    code = ARM.replace("guarded_motion=False", "guarded_motion=True").replace("    def halt(self):", """    def move_guarded(self, target, speed, force, deadline):
+        self.move_to(target, speed, deadline)
+        return self.pose(deadline) if target.z > 0 else tp.now()
+    move_expiring = move_to
+    def halt(self):""")
+    made = package(tmp_path, code, ARM_MANIFEST.replace("guarded_motion = false", "guarded_motion = true"))
+    done = program.check(KEY, made, "--only", "robot/,library/loads,driver/opens")
+    assert done["failed"] == [], done
+    assert any(line.startswith("robot/guards-that-are-none") for line in done["passed"]), done
+
+
 def test_a_plugin_that_hangs_is_ended_and_one_that_prints_is_told_of(tmp_path: Path, program: Program) -> None:
     code = SCALE.replace("self.readings += 1", "import time; time.sleep(1000)")
     why = failure(program, package(tmp_path / "hangs", code), "force/reads", "--limit", "5")
-    assert "the process ended" in why and "within 5s" in why
+    assert "it did not read the force within 5s" in why
     prints = package(tmp_path / "prints", "print('loaded')\n" + SCALE)
     assert "it printed" in failure(program, prints, "library/quiet")
 

@@ -3,6 +3,7 @@
 mod arguments;
 mod table;
 mod taken;
+pub(crate) mod under_way;
 
 pub(crate) use self::arguments::ArgList;
 pub(crate) use self::table::{Table, table};
@@ -11,9 +12,7 @@ pub(crate) use self::taken::{Taken, take};
 use std::fmt;
 
 use taceva_abi as abi;
-use taceva_core::{Deadline, DriverError, DriverKey, ErrorKind, Fault};
-
-use crate::shown::shown;
+use taceva_core::{Deadline, DriverError, DriverKey, ErrorKind, Fault, shown};
 
 /// A call that failed, in the plugin's words.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -88,7 +87,8 @@ pub(crate) fn call(run: impl FnOnce(&mut abi::Error) -> abi::Status) -> Result<(
     let mut message = match bytes.as_slice() {
         [] if fault.is_some() => String::new(),
         [] => kind.to_string(),
-        bytes => shown(&String::from_utf8_lossy(bytes)),
+        // The interface bounds its length.
+        bytes => shown(&*String::from_utf8_lossy(bytes)).to_string(),
     };
     if error.vendor_code != 0 {
         message.push_str(&format!(" (code {} of the device)", error.vendor_code));

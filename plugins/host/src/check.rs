@@ -21,6 +21,7 @@ mod surroundings;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::os::fd::OwnedFd;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use serde::Serialize;
@@ -29,10 +30,11 @@ use taceva_core::{Args, DriverError, DriverKey, DriverKind, ErrorKind};
 use self::probe::Probe;
 pub(crate) use self::run::run;
 use self::subject::{Ending, Subject};
-use crate::child::{Child, ChildError, no_port};
+use crate::child::{CALL, Child, ChildError, Fate, no_port};
 use crate::grant::{self, Grant};
 use crate::host::PluginHost;
 use crate::host::code::ReadCode;
+use crate::library::Log;
 use crate::manifest::Provided;
 use crate::search::Plugin;
 
@@ -231,11 +233,14 @@ impl PluginHost {
             return CheckOutcome::Failed(why);
         }
         spec.confinement.is_trusted = self.config().trust(plugin).is_some();
+        let call = Arc::new(Mutex::new(String::new()));
+        spec.log = Some(noting(&call));
         spec.patience.start = limit;
         let child = match Child::start(spec) {
             Ok(child) => child,
             Err(error) => {
-                let outcome = ended(error);
+                let call = call.lock().unwrap_or_else(PoisonError::into_inner);
+                let outcome = ended(hung_in(error, &call));
                 // A plugin may take what it may not reach for what is not there, which would be no failure.
                 return match &outcome {
                     // What its arguments name is not allowed, so the name of a machine was not looked up for it either: one cause, whatever it is
@@ -255,7 +260,7 @@ impl PluginHost {
                 };
             }
         };
-        let life = std::sync::Arc::clone(child.life());
+        let life = Arc::clone(child.life());
         drop(child);
         let printed = life.watch.printed();
         if probe.check == library::QUIET && !printed.is_empty() {
@@ -295,6 +300,35 @@ impl PluginHost {
             Some(format!("{}={}", spec.key, value.replace(';', ";;")))
         });
         Ok((grant, given.collect::<Vec<_>>().join(";")))
+    }
+}
+
+/// A log that notes in `call` which call a check says that it is in.
+fn noting(call: &Arc<Mutex<String>>) -> Log {
+    let call = Arc::clone(call);
+    Box::new(move |_, target, message| {
+        if target == CALL {
+            message.clone_into(&mut call.lock().unwrap_or_else(PoisonError::into_inner));
+        }
+    })
+}
+
+/// The error of a check that was ended, in whose place the call stands that did not return, where it is known.
+fn hung_in(error: ChildError, call: &str) -> ChildError {
+    match error {
+        ChildError::Gone {
+            plugin,
+            fate: Fate::Late { after, .. },
+            printed,
+        } if !call.is_empty() => ChildError::Gone {
+            plugin,
+            fate: Fate::Late {
+                doing: call.to_owned(),
+                after,
+            },
+            printed,
+        },
+        other => other,
     }
 }
 

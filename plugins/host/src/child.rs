@@ -45,6 +45,7 @@ pub(crate) mod wire;
 
 pub use error::ChildError;
 pub use exit_status::Fate;
+pub(crate) use log::CALL;
 pub use main_hook::{CHILD_ARGUMENT, main_if_child_with};
 pub use plugin::{ModuleToImport, main_if_child, serve_as_child};
 pub use quarantine::{Quarantine, Quarantined};

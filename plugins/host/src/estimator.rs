@@ -17,7 +17,7 @@ use taceva_core::{DriverKey, ErrorKind, ModelError};
 use self::lent::Lent;
 use self::listener::{Listener, STEPS, progress};
 use self::model::Model;
-use crate::call::{ArgList, Failure, call};
+use crate::call::{ArgList, Failure, call, under_way};
 use crate::library::{Entry, Library};
 use crate::session::{FitRequest, Saved, SavedRegressor};
 
@@ -50,6 +50,7 @@ pub(crate) fn fit(
     let mut regressor = EMPTY;
     request.progress.begin(&format!("fit {key}"), Some(STEPS));
     let training_set = training.set();
+    let _under_way = under_way::begin("fit");
     let done = call(|error| {
         let context = std::ptr::from_mut(&mut listener).cast();
         let training = &raw const training_set;
@@ -87,6 +88,7 @@ pub(crate) fn load(
     let load = entry.estimators.and_then(|factory| factory.load);
     let load = load.ok_or_else(|| failed(lacks("load")))?;
     let mut regressor = EMPTY;
+    let _under_way = under_way::begin("load");
     call(|error| {
         let (bytes, length) = (saved.bytes.as_ptr(), saved.bytes.len() as u64);
         // SAFETY: [any], with bytes, a place for the model and an error that outlive the call.

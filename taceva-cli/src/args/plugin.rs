@@ -78,7 +78,7 @@ pub(crate) struct PluginNew {
     /// Depend on crates of the registry, by version, instead of copies under vendor/
     #[arg(long, conflicts_with = "language")]
     pub(crate) registry: bool,
-    /// What it is written in: Python for sensors, force transducers, lightings and estimators
+    /// What it is written in
     #[arg(long, value_enum, default_value_t = Language::Rust)]
     pub(crate) language: Language,
 }

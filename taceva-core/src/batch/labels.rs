@@ -17,6 +17,9 @@ pub struct Labels {
     lookup: HashMap<String, u32>,
 }
 
+/// Whole numbers get a place each if there are no more places than this a row, and are looked up if there are.
+const PLACES_A_ROW: usize = 4;
+
 impl Labels {
     /// Adds a row called `name`.
     ///
@@ -49,27 +52,40 @@ impl Labels {
     /// # Panics
     /// Beyond 2³² distinct names, which no memory holds.
     pub fn of_numbers(numbers: impl IntoIterator<Item = i64>) -> Labels {
+        let numbers: Vec<i64> = numbers.into_iter().collect();
         let mut labels = Labels::default();
-        let mut known: HashMap<i64, u32> = HashMap::new();
-        let mut last = None;
-        for number in numbers {
-            // Samples of one point mostly follow each other, and looking a number up costs less than a text.
-            let found = match last {
-                Some((before, index)) if before == number => Some(index),
-                _ => known.get(&number).copied(),
-            };
-            let index = found.unwrap_or_else(|| {
-                labels.push(&number.to_string());
-                // Its row is added below, as every other.
-                labels.index.pop().expect("just pushed")
-            });
-            if found.is_none() {
-                known.insert(number, index);
+        let least = numbers.iter().copied().min().unwrap_or(0);
+        let most = numbers.iter().copied().max().unwrap_or(0);
+        // Numbers of points mostly lie close together: then a place each costs less than to look them up.
+        match most.checked_sub(least).map(usize::try_from) {
+            Some(Ok(width)) if width / PLACES_A_ROW < numbers.len() => {
+                let mut places = vec![Labels::ABSENT; width + 1];
+                for number in numbers {
+                    let place = usize::try_from(number - least).expect("between the two");
+                    if places[place] == Labels::ABSENT {
+                        places[place] = labels.named(number);
+                    }
+                    labels.index.push(places[place]);
+                }
             }
-            last = Some((number, index));
-            labels.index.push(index);
+            _ => {
+                let mut known: HashMap<i64, u32> = HashMap::new();
+                for number in numbers {
+                    let index = *known
+                        .entry(number)
+                        .or_insert_with(|| labels.named(number));
+                    labels.index.push(index);
+                }
+            }
         }
         labels
+    }
+
+    /// The index of `number`, which is new.
+    fn named(&mut self, number: i64) -> u32 {
+        self.push(&number.to_string());
+        // Its row is added by the caller, as every other.
+        self.index.pop().expect("just pushed")
     }
 
     /// Adds a row without a name.
@@ -99,5 +115,29 @@ impl Labels {
     pub fn get(&self, row: usize) -> Option<&str> {
         let index = self.index[row];
         (index != Labels::ABSENT).then(|| self.names[index as usize].as_str())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_named_by_their_digits_however_far_apart_they_lie() {
+        let lists: [&[i64]; 5] = [
+            &[],
+            &[5],
+            &[3, 1, 2, 3, 3, -1, 1],
+            &[1_000_000, 0, 1_000_000, -7],
+            &[i64::MIN, i64::MAX, 0, i64::MIN],
+        ];
+        for numbers in lists {
+            let mut expected = Labels::default();
+            for number in numbers {
+                expected.push(&number.to_string());
+            }
+            let labels = Labels::of_numbers(numbers.iter().copied());
+            assert_eq!(labels, expected, "{numbers:?}");
+        }
     }
 }

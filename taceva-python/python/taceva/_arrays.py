@@ -42,20 +42,23 @@ def require_rows(array: npt.NDArray[Any], name: str) -> None:
         raise ValueError(f"{name} has {len(array)} rows, expected at most {MOST_ROWS} in one call: update with a part after the other")
 
 
-def native(array: npt.NDArray[Any], name: str, *, allow_invalid: bool = False, first: int = 0) -> Numbers:
-    """Return an array of real numbers as native float32 or float64 in the order of C, copied only where it must be.
-
-    ``first`` is the place of its first row, for messages.
-    """
+def native(array: npt.NDArray[Any], name: str, *, allow_invalid: bool = False) -> Numbers:
+    """Return an array of real numbers as native float32 or float64 in the order of C, copied only where it must be."""
     is_single = array.dtype.kind == "f" and array.dtype.itemsize == 4
     found: Numbers = np.ascontiguousarray(array, dtype=np.float32) if is_single else np.ascontiguousarray(array, dtype=np.float64)
-    if not allow_invalid and not np.isfinite(found).all():
-        row, *column = (int(at[0]) for at in np.nonzero(~np.isfinite(found)))
+    if not allow_invalid:
+        require_finite(found, name)
+    return found
+
+
+def require_finite(array: Numbers, name: str, first: int = 0) -> None:
+    """Refuse NaN and infinite numbers; ``first`` is the place of the first row, for messages."""
+    if not np.isfinite(array).all():
+        row, *column = (int(at[0]) for at in np.nonzero(~np.isfinite(array)))
         raise ValueError(
-            f"{name}: {found[(row, *column)]} at {[first + row, *column]}: expected finite numbers; "
+            f"{name}: {array[(row, *column)]} at {[first + row, *column]}: expected finite numbers; "
             "allow_invalid=True counts such samples and leaves them out"
         )
-    return found
 
 
 def numbers(array: Any, name: str, *, allow_invalid: bool = False) -> Numbers:

@@ -210,10 +210,24 @@ class Dataset:
         return found
 
     def torch(self, rows: Sequence[int] | IntArray | None = None) -> Any:
-        """Return a ``torch.utils.data.Dataset`` of ``(frame, labels)``: the frame ``[samples, height, width]`` in float32 from 0 to 1, labels in float32."""
-        from taceva._torch import Frames
+        """Return a ``torch.utils.data.Dataset`` of ``(frame, labels)``: the frame ``[samples, height, width]`` in float32 from 0 to 1, labels in float32.
 
-        return Frames(self, self._rows(rows))
+        Of a recording of taxels it is ``(signals, labels)``: ``[values]``, taxel by taxel, as `signals` gives them.
+
+        Raises
+        ------
+        DatasetError
+            For a recording that has neither frames nor signals.
+        """
+        wanted = self._rows(rows)
+        has_frames = self.frame_shape is not None
+        if not has_frames and self._inner.signal_values() is None:
+            error = _taceva.DatasetError(f"{self.path}: the recording has neither frames nor signals, expected one of them for a data set of torch")
+            error.path = Path(self.path)
+            raise error
+        from taceva._torch import Frames, Signals
+
+        return Frames(self, wanted) if has_frames else Signals(self, wanted)
 
     def _rows(self, rows: Sequence[int] | IntArray | None) -> list[int]:
         if rows is None:

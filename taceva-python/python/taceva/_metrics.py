@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from taceva import _taceva
-from taceva._arrays import BLOCK_ROWS, native, real
+from taceva._arrays import BLOCK_ROWS, native, real, require_finite
 from taceva._arrays import points as names_of_points
 from taceva._bar import bar
 from taceva._fields import columns
@@ -122,8 +122,13 @@ class TactileMetrics:
         sums = self._sums if rows <= BLOCK_ROWS else _taceva.Sums(*self._asked)
         for first in range(0, rows, BLOCK_ROWS):
             block = slice(first, first + BLOCK_ROWS)
-            rows_of = {name: native(table[block], name, allow_invalid=allow_invalid, first=first) for name, table in tables.items()}
-            sums.update(rows_of["truth"], rows_of["prediction"], None if names is None else names[block], [(name, column[block]) for name, column in said])
+            rows_of = {name: native(table[block], name, allow_invalid=True) for name, table in tables.items()}
+            points_of = None if names is None else names[block]
+            fields_of = [(name, column[block]) for name, column in said]
+            is_apart = sums is not self._sums
+            if not sums.update(rows_of["truth"], rows_of["prediction"], points_of, fields_of, allow_invalid, is_apart):
+                for name, found in rows_of.items():
+                    require_finite(found, name, first)
         if sums is not self._sums:
             self._sums.merge(sums)
 

@@ -8,23 +8,41 @@ import numpy as np
 import torch
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
+
     from taceva._dataset import Dataset
 
 
-class Frames(torch.utils.data.Dataset):  # type: ignore[misc, type-arg, unused-ignore]
-    """Frames with labels; each worker opens the recording anew, so any number of workers may read."""
+class Labelled(torch.utils.data.Dataset):  # type: ignore[misc, type-arg, unused-ignore]
+    """What the sensor gave in each row, with labels; each worker opens the recording anew, so any number of workers may read."""
 
     def __init__(self, dataset: Dataset, rows: list[int]) -> None:
         self._dataset = dataset
         self._rows = rows
         self._labels = dataset.labels().astype(np.float32)
 
+    def _seen(self, row: int) -> npt.NDArray[np.float32]:
+        raise NotImplementedError
+
     def __len__(self) -> int:
         return len(self._rows)
 
     def __getitem__(self, index: int) -> tuple[Any, Any]:
         row = self._rows[index]
+        return torch.from_numpy(self._seen(row)), torch.from_numpy(self._labels[row].copy())
+
+
+class Frames(Labelled):
+    """Pictures, ``[samples, height, width]`` from 0 to 1."""
+
+    def _seen(self, row: int) -> npt.NDArray[np.float32]:
         frame = self._dataset.frame(row)
         scale = np.float32(np.iinfo(frame.dtype).max)
-        picture = np.ascontiguousarray(frame.transpose(2, 0, 1), dtype=np.float32) / scale
-        return torch.from_numpy(picture), torch.from_numpy(self._labels[row].copy())
+        return np.ascontiguousarray(frame.transpose(2, 0, 1), dtype=np.float32) / scale
+
+
+class Signals(Labelled):
+    """Signals of taxels, ``[values]`` in the unit of the recording."""
+
+    def _seen(self, row: int) -> npt.NDArray[np.float32]:
+        return np.array(self._dataset.signals([row])[0])

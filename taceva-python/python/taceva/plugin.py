@@ -1,4 +1,4 @@
-"""Sensors, force transducers, lightings and estimators written in Python, as plugins of TacEva.
+"""Sensors, robots, force transducers, lightings, changers and estimators written in Python, as plugins of TacEva.
 
 A plugin is a package whose module has a ``plugin``:
 
@@ -27,7 +27,7 @@ import time
 from typing import TYPE_CHECKING, NamedTuple
 
 from taceva._taceva import Deadline, Interrupted, Training, plugin_log
-from taceva.plugin_classes import Arg, Device, Estimator, Force, Lighting, Samples, Sensor
+from taceva.plugin_classes import Arg, Changer, Device, Estimator, Force, Lighting, Robot, Samples, Sensor
 from taceva.plugin_table import table
 
 if TYPE_CHECKING:
@@ -35,6 +35,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Arg",
+    "Changer",
     "Deadline",
     "Device",
     "Estimator",
@@ -43,7 +44,9 @@ __all__ = [
     "Interrupted",
     "Lighting",
     "Plugin",
+    "Pose",
     "Reading",
+    "Robot",
     "Samples",
     "Sensor",
     "Training",
@@ -51,6 +54,9 @@ __all__ = [
     "log",
     "now",
 ]
+
+
+_FAULTS = ("emergency stop", "collision", "boundary", "servo fault")
 
 
 class Failure(Exception):
@@ -62,11 +68,28 @@ class Failure(Exception):
         Such as ``"not found"``, ``"busy"``, ``"disconnected"``, ``"out of range"`` or ``"device fault"``.
     message : str
         What happened, and what would help.
+    fault : str, optional
+        Why a robot stopped by itself, so that nothing moves until a person has looked: ``"emergency stop"``, ``"collision"``, ``"boundary"`` or
+        ``"servo fault"``.
     """
 
-    def __init__(self, kind: str, message: str) -> None:
+    def __init__(self, kind: str, message: str, fault: str | None = None) -> None:
         super().__init__(message)
+        if fault is not None and fault not in _FAULTS:
+            raise ValueError(f"fault {fault!r}: expected one of {', '.join(map(repr, _FAULTS))}")
         self.kind = kind
+        self.fault = fault
+
+
+class Pose(NamedTuple):
+    """Where the tip is in the frame of the sensor, in mm, z into the gel; and how it is turned about x, then y, then z, in degrees."""
+
+    x: float = 0.0
+    y: float = 0.0
+    z: float = 0.0
+    rx: float = 0.0
+    ry: float = 0.0
+    rz: float = 0.0
 
 
 class Reading(NamedTuple):
@@ -101,7 +124,7 @@ class Plugin:
     version : str
         Its version.
     provides : mapping of str to class
-        Subclasses of `Sensor`, `Force`, `Lighting` and `Estimator`.
+        Subclasses of `Sensor`, `Robot`, `Force`, `Lighting`, `Changer` and `Estimator`.
     needs : sequence of str
         What it must reach outside itself, such as ``"camera"`` or ``"serial:{port}"``.
     """
@@ -117,8 +140,10 @@ class Plugin:
         for key, given in provides.items():
             if not (isinstance(given, type) and issubclass(given, (Device, Estimator))):
                 raise TypeError(
-                    f"{key!r}: expected a subclass of taceva.plugin.Sensor, Force, Lighting or Estimator, got {given!r}"
+                    f"{key!r}: expected a subclass of taceva.plugin.Sensor, Robot, Force, Lighting, Changer or Estimator, got {given!r}"
                 )
+            if issubclass(given, Robot) and given.halt is Robot.halt:
+                raise TypeError(f"{key!r}: {given.__name__} has no halt(), expected one that stops its motion from any thread")
         if isinstance(needs, str):
             raise TypeError(f"needs: expected a list of texts, got {needs!r}")
         self.id = id

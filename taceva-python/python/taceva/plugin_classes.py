@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from taceva._taceva import Deadline, Training
-    from taceva.plugin import Reading
+    from taceva.plugin import Pose, Reading
 
 
 @dataclass(frozen=True)
@@ -89,6 +89,41 @@ class Force(_Streaming):
         raise NotImplementedError(f"{type(self).__name__} has no read(deadline)")
 
 
+class Robot(Device):
+    """Moves the tip that presses on the gel.
+
+    Its head says at least ``source``; better also ``workspace={"least_mm": [x, y, z], "greatest_mm": [x, y, z]}`` and
+    ``limits={"speed_max_mm_s": 50.0}``, which are held to before it is asked. Poses are in mm and degrees in the frame of the sensor, z into the gel.
+
+    With ``guarded_motion=True`` it has a method ``move_guarded(target, speed, force, deadline)`` that stops by itself at ``force`` (N) and
+    returns ``(pose, time)`` there, or the time alone where it arrived. A robot that stops within 0.2 s when its program stops sending has a
+    method ``move_expiring(target, speed, deadline)``, which is used for motions towards a surface.
+    """
+
+    kind = "robot"
+
+    def pose(self, deadline: Deadline) -> tuple[Pose, float | tuple[float, float]]:
+        """Return where the tip is and when it was there; nothing moves."""
+        raise NotImplementedError(f"{type(self).__name__} has no pose(deadline)")
+
+    def move_to(self, target: Pose, speed: float, deadline: Deadline) -> float | tuple[float, float]:
+        """Move the tip to ``target`` along a straight line at ``speed`` (mm/s), wait until it rests there, and return when it did.
+
+        Wait by ``deadline.rest(seconds)``, which raises as soon as the robot is halted. Whatever this raises, `halt` is called after it.
+        """
+        raise NotImplementedError(f"{type(self).__name__} has no move_to(target, speed, deadline)")
+
+    def halt(self) -> None:
+        """Stop the motion: called from another thread while ``move_to`` waits, in every state, and more than once.
+
+        No motion is asked for after it until `clear_halt`, and that is seen to before this is called.
+        """
+        raise NotImplementedError(f"{type(self).__name__} has no halt()")
+
+    def clear_halt(self, deadline: Deadline) -> None:
+        """Make the device ready to move after a halt; nothing moves. A fault of the device itself is left for a person to acknowledge."""
+
+
 class Lighting(Device):
     """Sets the light around the sensor. Its head says at least ``source`` and ``scenes``."""
 
@@ -97,6 +132,19 @@ class Lighting(Device):
     def set(self, scene: str, deadline: Deadline) -> None:
         """Set the light called ``scene``, and return once it is steady."""
         raise NotImplementedError(f"{type(self).__name__} has no set(scene, deadline)")
+
+
+class Changer(Device):
+    """Brings specimens or units of a sensor into place. Its head says at least ``source`` and ``holds``, the names of what it holds."""
+
+    kind = "changer"
+
+    def bring(self, name: str, deadline: Deadline) -> str | None:
+        """Bring what is called ``name`` into place; return the name of what its own signals say is there, or ``None`` where it has none.
+
+        The robot is halted meanwhile; return once nothing moves any more.
+        """
+        raise NotImplementedError(f"{type(self).__name__} has no bring(name, deadline)")
 
 
 @dataclass(frozen=True)

@@ -2,15 +2,17 @@
 
 use pyo3::prelude::*;
 use taceva_core::{
-    Args, Descriptor, DriverError, DriverKind, Factory, ForceTransducer, Found, Lighting, Rig,
-    Sensor,
+    Args, Changer, Descriptor, DriverError, DriverKind, Factory, ForceTransducer, Found, Lighting,
+    Rig, Robot, Sensor,
 };
 use taceva_plugin::Made;
 
+use super::changer::PythonChanger;
 use super::failure::{Doing, device_error};
 use super::force::PythonForce;
 use super::lighting::PythonLighting;
 use super::objects::{Object, keywords};
+use super::robot::PythonRobot;
 use super::sensor::PythonSensor;
 
 /// A class whose objects are devices.
@@ -20,14 +22,16 @@ pub(super) struct PythonDriver {
 }
 
 impl PythonDriver {
-    /// The driver that `class` is; none of a kind that cannot be written in Python.
+    /// The driver that `class` is; none of a kind that is newer than this.
     pub(super) fn made(descriptor: Descriptor, class: Py<PyAny>) -> Option<Made> {
         let kind = descriptor.kind();
         let driver = PythonDriver { descriptor, class };
         match kind {
             DriverKind::Sensor => Some(Made::Sensor(Box::new(driver))),
+            DriverKind::Robot => Some(Made::Robot(Box::new(driver))),
             DriverKind::Force => Some(Made::Force(Box::new(driver))),
             DriverKind::Lighting => Some(Made::Lighting(Box::new(driver))),
+            DriverKind::Changer => Some(Made::Changer(Box::new(driver))),
             _ => None,
         }
     }
@@ -86,6 +90,8 @@ macro_rules! factories {
 
 factories! {
     dyn Sensor => PythonSensor::new,
+    dyn Robot => PythonRobot::new,
     dyn ForceTransducer => PythonForce::new,
     dyn Lighting => PythonLighting::new,
+    dyn Changer => PythonChanger::new,
 }

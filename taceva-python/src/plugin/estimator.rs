@@ -8,7 +8,7 @@ use taceva_core::{
 };
 use taceva_host::EstimatorInfo;
 
-use super::failure::{kind, words};
+use super::failure::{kind, short_words};
 use super::objects::keywords;
 use super::training::{Training, watched};
 use crate::arrays::Table;
@@ -44,7 +44,7 @@ impl PythonEstimator {
 
 /// What was raised; which estimator it is of, and what it was doing, the host says.
 fn model_error(py: Python<'_>, error: &PyErr) -> ModelError {
-    ModelError::new(kind(py, error), words(py, error))
+    ModelError::new(kind(py, error), short_words(py, error))
 }
 
 /// A set of samples as `taceva.plugin.Samples`.
@@ -122,7 +122,7 @@ impl EstimatorFactory for PythonEstimator {
             let bytes = PyBytes::new(py, saved.bytes);
             let loaded = self.class.call_method1(py, "load", (bytes, names, shape));
             // Whatever it raises: the bytes are none of its models.
-            loaded.map_err(|error| ModelError::new(ErrorKind::Protocol, words(py, &error)))
+            loaded.map_err(|error| ModelError::new(ErrorKind::Protocol, short_words(py, &error)))
         })?;
         Ok(Box::new(Fitted {
             object,

@@ -5,7 +5,7 @@ use pyo3::exceptions::{
     PyNotImplementedError, PyPermissionError, PyTimeoutError, PyTypeError, PyValueError,
 };
 use pyo3::prelude::*;
-use taceva_core::{DriverError, DriverKey, ErrorKind};
+use taceva_core::{DriverError, DriverKey, ErrorKind, Fault};
 
 use super::waiting::Interrupted;
 
@@ -28,7 +28,19 @@ pub(super) fn device_error(
         Doing::Opening(doing) if is_of_value(py, error) => (ErrorKind::InvalidArgument, doing),
         Doing::Opening(doing) | Doing::Working(doing) => (kind, doing),
     };
-    DriverError::new(kind, key, doing).because(words(py, error))
+    let failed = DriverError::new(kind, key, doing).because(short_words(py, error));
+    match fault(py, error) {
+        Some(fault) => failed.with_fault(fault),
+        None => failed,
+    }
+}
+
+/// Why a device stopped by itself, where the exception names that.
+fn fault(py: Python<'_>, error: &PyErr) -> Option<Fault> {
+    let named = error.value(py).getattr("fault").ok()?;
+    let named: String = named.extract().ok()?;
+    let mut faults = Fault::ALL.into_iter();
+    faults.find(|fault| fault.to_string() == named)
 }
 
 fn is_of_value(py: Python<'_>, error: &PyErr) -> bool {
@@ -70,33 +82,71 @@ pub(super) fn kind(py: Python<'_>, error: &PyErr) -> ErrorKind {
     }
 }
 
-/// What was raised and where, in one line: the class, its message, and the innermost file and line. What does not fit into an error of the
-/// interface is cut, so the remedy stands before the place.
+/// What an error of the interface holds, in bytes.
+const ERROR_MAX: usize = taceva_plugin::abi::MESSAGE_SIZE - 1;
+/// What an answer of the process holds with ease, in bytes.
+const ANSWER_MAX: usize = 1_900;
+
+/// What was raised and where, in one line: the class, its message, the remedy, and the innermost file and line.
 pub(super) fn words(py: Python<'_>, error: &PyErr) -> String {
+    words_within(py, error, ANSWER_MAX)
+}
+
+/// The same in as many bytes as an error of the interface holds.
+pub(super) fn short_words(py: Python<'_>, error: &PyErr) -> String {
+    words_within(py, error, ERROR_MAX)
+}
+
+fn words_within(py: Python<'_>, error: &PyErr, room: usize) -> String {
     let name = error.get_type(py).name();
     let name = name.map_or_else(|_| "an exception".to_owned(), |name| name.to_string());
     let message = error.value(py).str();
     let message = message.map_or_else(|_| String::new(), |message| message.to_string());
-    let mut words = match message.trim() {
-        "" => name,
+    let (said, mut behind) = match message.trim() {
+        "" => (name, String::new()),
         // The loader's words for a library that comes too late.
         message if message.contains(TOO_LATE) => {
             let module = error.value(py).getattr("name").ok();
             let module = module.and_then(|module| module.extract::<String>().ok());
             let late = module.as_deref().unwrap_or_else(|| library(message));
-            format!(
-                "{name}: {late}: {TOO_LATE}; name its module in `preload` of plugin.toml, or set `profile = \"interpreter-open\"`"
-            )
+            let remedy = "; name its module in `preload` of plugin.toml, or set `profile = \"interpreter-open\"`";
+            (format!("{name}: {late}: {TOO_LATE}"), remedy.to_owned())
         }
-        message => format!("{name}: {message}"),
+        message => (format!("{name}: {message}"), String::new()),
     };
     if error.is_instance_of::<PyModuleNotFoundError>(py) {
-        words.push_str("; install it in the environment of the plugin");
+        behind.push_str("; install it in the environment of the plugin");
     }
     if let Some(place) = place(py, error) {
-        words.push_str(&format!(" ({place})"));
+        behind.push_str(&format!(" ({place})"));
     }
-    words
+    // A path that fills all the room is cut as the message is.
+    let behind = shortened(&behind, room / 2);
+    let said = shortened(&said, room - behind.len());
+    said + &behind
+}
+
+/// `text` in at most `room` bytes: its beginning and its end, and between them how much is missing.
+fn shortened(text: &str, room: usize) -> String {
+    /// Longer than what is put between them.
+    const BETWEEN: usize = 48;
+    if text.len() <= room || room < 2 * BETWEEN {
+        return text.to_owned();
+    }
+    let half = (room - BETWEEN) / 2;
+    let (mut end, mut begin) = (half, text.len() - half);
+    while !text.is_char_boundary(end) {
+        end -= 1;
+    }
+    while !text.is_char_boundary(begin) {
+        begin += 1;
+    }
+    let missing = text[end..begin].chars().count();
+    format!(
+        "{} [… {missing} characters left out …] {}",
+        &text[..end],
+        &text[begin..]
+    )
 }
 
 const TOO_LATE: &str = "failed to map segment";

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use taceva_core::{ArgKind, ArgSpec, ArgValue, Args, DriverError, DriverKey, Interrupt};
-use taceva_plugin::Interruption;
+use taceva_plugin::{HaltLatch, Interruption};
 
-use super::failure::{Doing, device_error};
-use super::waiting::Deadline;
+use super::failure::{Doing, device_error, short_words, words};
+use super::waiting::{Deadline, Ends};
 
 /// A device that Python holds.
 pub(super) struct Object {
@@ -39,8 +39,29 @@ impl Object {
     ) -> Result<T, DriverError> {
         // Held until Python has returned, so that an interrupt meets this call and no other.
         let _call = self.interruption.call();
+        let ends = Ends::Interrupt(Arc::clone(&self.interruption));
+        self.called(doing, Deadline::new(deadline, ends), work)
+    }
+
+    /// As [`call`](Object::call), of a motion: what rests by its deadline ends at a halt.
+    pub(super) fn call_until_halted<T>(
+        &self,
+        doing: &'static str,
+        deadline: taceva_core::Deadline,
+        latch: &Arc<HaltLatch>,
+        work: impl FnOnce(&Bound<'_, PyAny>, Bound<'_, Deadline>) -> PyResult<T>,
+    ) -> Result<T, DriverError> {
+        let ends = Ends::Halt(Arc::clone(latch));
+        self.called(doing, Deadline::new(deadline, ends), work)
+    }
+
+    fn called<T>(
+        &self,
+        doing: &'static str,
+        deadline: Deadline,
+        work: impl FnOnce(&Bound<'_, PyAny>, Bound<'_, Deadline>) -> PyResult<T>,
+    ) -> Result<T, DriverError> {
         Python::attach(|py| {
-            let deadline = Deadline::new(deadline, Arc::clone(&self.interruption));
             let done =
                 Bound::new(py, deadline).and_then(|deadline| work(self.object.bind(py), deadline));
             done.map_err(|error| device_error(py, &error, &self.key, Doing::Working(doing)))
@@ -72,9 +93,37 @@ impl Object {
         self.interruption.handle()
     }
 
+    /// What calls its method `halt` from any thread.
+    pub(super) fn stopper(&self) -> Stopper {
+        Stopper {
+            key: self.key.clone(),
+            object: Python::attach(|py| self.object.clone_ref(py)),
+        }
+    }
+
     /// Whether it has a method of that name.
     pub(super) fn has(&self, name: &str) -> bool {
         Python::attach(|py| self.object.bind(py).hasattr(name).unwrap_or(false))
+    }
+}
+
+/// Has an object stop its motion, while another thread may be in a call of it.
+pub(super) struct Stopper {
+    key: DriverKey,
+    object: Py<PyAny>,
+}
+
+impl Stopper {
+    pub(super) fn key(&self) -> &DriverKey {
+        &self.key
+    }
+
+    /// Calls `halt`; what it raises in words.
+    pub(super) fn stop(&self) -> Result<(), String> {
+        Python::attach(|py| {
+            let halted = self.object.call_method0(py, "halt").map(drop);
+            halted.map_err(|error| short_words(py, &error))
+        })
     }
 }
 
@@ -82,7 +131,7 @@ impl Drop for Object {
     fn drop(&mut self) {
         Python::attach(|py| {
             if let Err(error) = self.object.call_method0(py, "close") {
-                let words = super::failure::words(py, &error);
+                let words = words(py, &error);
                 let line = format!("{}: cannot close: {words}", self.key);
                 taceva_plugin::log(taceva_plugin::Level::Warn, &line);
             }

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use pyo3::create_exception;
 use pyo3::exceptions::{PyException, PyTimeoutError};
 use pyo3::prelude::*;
-use taceva_plugin::Interruption;
+use taceva_plugin::{HaltLatch, Interruption};
 
 use crate::errors::value_error;
 
@@ -20,22 +20,39 @@ create_exception!(
 /// Longer than any call lasts, in seconds.
 const LONG_S: f64 = 1e9;
 
+/// What ends a rest before its time.
+pub(super) enum Ends {
+    /// An interrupt of the call.
+    Interrupt(Arc<Interruption>),
+    /// A halt of the robot, before the call or during it.
+    Halt(Arc<HaltLatch>),
+}
+
+impl Ends {
+    fn rest(&self, time: Duration) -> Result<(), &'static str> {
+        match self {
+            Ends::Interrupt(interruption) => interruption
+                .call()
+                .rest(time)
+                .map_err(|_| "it was interrupted"),
+            Ends::Halt(latch) => latch.rest(time).map_err(|_| "it was halted"),
+        }
+    }
+}
+
 /// When a call must have ended.
 #[pyclass(module = "taceva._taceva", frozen)]
 pub(crate) struct Deadline {
     end: Instant,
-    interruption: Arc<Interruption>,
+    ends: Ends,
 }
 
 impl Deadline {
-    pub(super) fn new(
-        deadline: taceva_core::Deadline,
-        interruption: Arc<Interruption>,
-    ) -> Deadline {
+    pub(super) fn new(deadline: taceva_core::Deadline, ends: Ends) -> Deadline {
         let longest = Duration::from_secs_f64(LONG_S);
         Deadline {
             end: Instant::now() + deadline.remaining().min(longest),
-            interruption,
+            ends,
         }
     }
 
@@ -60,9 +77,8 @@ impl Deadline {
         }
         let asked = Duration::from_secs_f64(seconds.min(LONG_S));
         let left = self.left();
-        let call = self.interruption.call();
-        let rested = py.detach(|| call.rest(asked.min(left)));
-        rested.map_err(|interrupted| Interrupted::new_err(interrupted.to_string()))?;
+        let rested = py.detach(|| self.ends.rest(asked.min(left)));
+        rested.map_err(Interrupted::new_err)?;
         if asked > left {
             return Err(PyTimeoutError::new_err("the deadline has passed"));
         }

@@ -9,6 +9,7 @@ use taceva_core::ErrorKind;
 use super::checks;
 use super::probe::Probe;
 use super::subject::{Ending, Subject};
+use crate::call::under_way;
 use crate::child::wire::decode;
 use crate::in_process::InProcess;
 use crate::library::Source;
@@ -33,6 +34,7 @@ pub(crate) fn run(
     let check = checks().find(|check| check.name == probe.check);
     let check = check.ok_or_else(|| (ErrorKind::Abi, format!("no check `{}`", probe.check)))?;
     let made = catch_unwind(AssertUnwindSafe(|| {
+        let _under_way = under_way::begin("end the check");
         let subject = Subject::new(source, manifest, probe)?;
         (check.run)(&subject)?;
         Ok(subject.session)

@@ -57,6 +57,14 @@ pub(super) fn send(level: Level, target: &str, message: &str) -> bool {
     true
 }
 
+/// What a line is about that says in which call a check is.
+pub(crate) const CALL: &str = "taceva-call";
+
+/// In the child: says that the call to do `doing` lasts; nothing where none does any more.
+pub(super) fn tell_call(doing: &'static str) {
+    send(Level::Debug, CALL, doing);
+}
+
 /// Sends how many lines found no room since the last count was sent.
 fn tell_how_many(host: &OwnedFd) -> Result<(), LinkError> {
     let count = LOST.swap(0, Ordering::Relaxed);

@@ -15,6 +15,7 @@ use super::quarantine::Quarantine;
 use super::sandbox::{Isolation, seal};
 use super::spec::ChildSpec;
 use super::wire::{Wire, decode, variants};
+use crate::call::under_way;
 use crate::in_process::InProcess;
 use crate::library::{Image, Level, Linked, Source};
 use crate::manifest::{Manifest, Sha256Digest};
@@ -180,6 +181,9 @@ fn load(
         } => {
             let library = files.next().ok_or_else(|| broken("no library"))?;
             let digest = Sha256Digest::from_hex(&digest).ok_or_else(|| broken("no digest"))?;
+            if files.len() > 0 {
+                under_way::watch(super::log::tell_call);
+            }
             let image = Image::from_sealed(library.into(), digest, path);
             (Source::Image(image), manifest)
         }
@@ -194,8 +198,14 @@ fn load(
                 name,
                 preload,
             };
+            // What comes behind is a check.
+            if files.len() > 0 {
+                under_way::watch(super::log::tell_call);
+            }
+            let importing = under_way::begin("import its module");
             let linked = import(&module).map_err(|why| (ErrorKind::InvalidArgument, why))?;
             // A check of it is made in the same state in which it is used; a library is loaded by some of them again.
+            drop(importing);
             seal(isolation).map_err(|why| (ErrorKind::PermissionDenied, why))?;
             (Source::Linked(linked), Some(manifest))
         }

@@ -13,7 +13,7 @@ use taceva_abi as abi;
 use taceva_core::{DriverError, DriverKey, DriverKind, ErrorKind, Facts, Interrupt};
 
 use super::rig::RigHandle;
-use crate::call::{ArgList, Failure, Table, call, table};
+use crate::call::{ArgList, Failure, Table, call, table, under_way};
 use crate::library::Entry;
 
 /// An open device, shared by its owner and by whoever may interrupt or halt it.
@@ -80,6 +80,7 @@ pub(crate) fn open<T: Table>(
         calls: std::ptr::null(),
     };
     let args = list.args();
+    let _under_way = under_way::begin(DOING);
     // SAFETY: [any], with arguments, a rig of the same plugin, a place for the device and an error that outlive the call.
     call(|error| unsafe {
         open(
@@ -139,6 +140,7 @@ impl Handle {
             let why = "the plugin has panicked in this device before, which is dead since then";
             return Err(Failure::new(ErrorKind::Panicked, why).of(&self.driver, doing));
         }
+        let _under_way = under_way::begin(doing);
         call(|error| run(self.raw, error)).map_err(|failure| {
             if failure.kind() == ErrorKind::Panicked {
                 self.is_dead.store(true, Ordering::Release);
@@ -250,6 +252,7 @@ impl Drop for Owned {
             .write()
             .unwrap_or_else(PoisonError::into_inner);
         if let Some(close) = self.0.calls.close.filter(|_| *is_open) {
+            let _under_way = under_way::begin("close the device");
             // SAFETY: [owner & open], the last call: `is_open` is true once, and whoever interrupts is kept out by the lock.
             unsafe { close(self.0.raw) };
         }

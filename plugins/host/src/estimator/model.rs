@@ -12,7 +12,7 @@ use taceva_abi as abi;
 use taceva_core::{Channels, DriverKey, ErrorKind, FeatureShape, Features, ModelError, Regressor};
 
 use super::{lacks, model_error};
-use crate::call::{Failure, call, table};
+use crate::call::{Failure, call, table, under_way};
 use crate::library::Library;
 use crate::session::SavedRegressor;
 
@@ -103,6 +103,7 @@ impl Regressor for Model {
         let predict = predict.ok_or_else(|| self.failed(DOING, lacks("predict")))?;
         // What a plugin leaves out is no prediction.
         into.fill(f64::NAN);
+        let _under_way = under_way::begin(DOING);
         call(|error| {
             let values = features.values();
             // SAFETY: [any & open], with features and a place of the lengths that are said, and an error that outlive the call.
@@ -137,6 +138,7 @@ impl SavedRegressor for Model {
         let save = self.calls.save;
         let save = save.ok_or_else(|| self.failed(DOING, lacks("save")))?;
         let mut length = 0_u64;
+        let _under_way = under_way::begin(DOING);
         // SAFETY: [any & open]; without a place nothing is written but the length.
         let asked = call(|error| unsafe {
             save(self.handle, std::ptr::null_mut(), &raw mut length, error)

@@ -36,13 +36,7 @@ pub(super) fn project(args: &PluginNew, context: &Context) -> anyhow::Result<u8>
 }
 
 fn python_project(args: &PluginNew, context: &Context) -> anyhow::Result<u8> {
-    let kind = taceva_template::Kind::from(args.kind);
-    let files = taceva_template::python_project(kind, &args.name);
-    let Some(files) = files else {
-        bail!(
-            "a {kind} cannot be written in Python yet: expected a sensor, a force transducer, a lighting or an estimator, or `--language rust`"
-        );
-    };
+    let files = taceva_template::python_project(args.kind.into(), &args.name);
     let folder = Path::new(args.name.as_str());
     write_folder(folder, "", &files)?;
     context.say(format_args!(
