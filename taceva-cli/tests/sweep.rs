@@ -8,31 +8,10 @@ use std::process::{Command, Stdio};
 use std::time::Duration;
 
 use support::Bench;
+use support::sweeps::{self, SWEEP, TASKS, bytes};
 
-/// Two recordings × four models × three seeds × two sizes.
-const SWEEP: &str = r#"
-sweep_version = 1
-name = "which model, which size"
-datasets = ["monday", "tuesday"]
-models = ["ridge", "pls", "baseline", { name = "knn", set = { neighbours = 3 } }]
-seeds = "1-3"
-splits = ["by-point 50/10/40"]
-metrics = ["accuracy"]
-[vary]
-size = ["8x8", "12x12"]
-"#;
-const TASKS: usize = 48;
-/// What is compared byte by byte.
-const FILES: [&str; 3] = ["table.csv", "table.parquet", "page.html"];
-
-/// A folder with two recordings and the file of a sweep over both.
 fn week() -> Bench {
-    let bench = Bench::new();
-    for (name, noise) in [("monday", 0), ("tuesday", 1)] {
-        bench.record_with_noise(name, 24, noise);
-    }
-    bench.write("which.toml", SWEEP);
-    bench
+    sweeps::week("")
 }
 
 fn small(bench: &Bench, changed: &[(&str, &str)]) {
@@ -44,11 +23,6 @@ fn small(bench: &Bench, changed: &[(&str, &str)]) {
         text = text.replace(old, new);
     }
     bench.write("which.toml", &text);
-}
-
-fn bytes(bench: &Bench, folder: &str) -> Vec<Vec<u8>> {
-    let read = |name: &&str| fs::read(bench.path(folder).join(name)).expect(name);
-    FILES.iter().map(read).collect()
 }
 
 fn text(bench: &Bench, name: &str) -> String {
@@ -641,4 +615,185 @@ fn lines_of_a_list_are_words_of_a_shell_whatever_the_folder_is_called() {
         .status();
     assert!(status.expect("sh").success());
     assert!(!bench.path("made").exists());
+}
+
+#[test]
+fn a_sensor_file_that_changes_between_submission_and_execution_stops_its_tasks_and_says_so() {
+    let bench = week();
+    let sensor = "model = \"drawn\"\nopaque = true\n";
+    bench.write("sensor.toml", sensor);
+    small(
+        &bench,
+        &[("metrics =", "sensor = \"sensor.toml\"\nmetrics =")],
+    );
+    bench.ok("sweep which.toml -q --only model=baseline");
+    bench.write("sensor.toml", &sensor.replace("true", "false"));
+    bench.refused(
+        "sweep task which.sweep --tasks which.sweep/tasks.json --at 0,1",
+        3,
+        "sensor.toml: it is another file than when the sweep was planned; start the sweep again",
+    );
+    // Planned anew no result with the former facts is taken for one with these.
+    let dry = bench.ok("sweep which.toml --dry-run");
+    assert!(dry.contains("found    0"), "{dry}");
+    bench.write("sensor.toml", sensor);
+    bench.ok("sweep which.toml -q");
+}
+
+#[test]
+fn a_flipped_bit_of_the_list_of_tasks_or_of_an_evaluation_is_noticed() {
+    let bench = week();
+    small(&bench, &[("\"8x8\", \"12x12\"", "\"8x8\"")]);
+    bench.ok("sweep which.toml -q");
+    let list = text(&bench, "which.sweep/tasks.json");
+    bench.write(
+        "which.sweep/tasks.json",
+        &list.replacen("\"seed\":1", "\"seed\":2", 1),
+    );
+    for words in ["collect which.toml", "status which.toml", "show which.toml"] {
+        bench.refused(
+            &format!("sweep {words}"),
+            3,
+            "was changed after it was sealed; start the sweep again",
+        );
+    }
+    bench.ok("sweep which.toml -q");
+    let evaluations = fs::read_dir(bench.path("which.sweep/evaluations")).expect("evaluations");
+    let path = evaluations.flatten().next().expect("one").path();
+    let mut evaluation = fs::read(&path).expect("bytes");
+    let middle = evaluation.len() / 2;
+    evaluation[middle] ^= 1;
+    fs::write(&path, evaluation).expect("changed");
+    bench.refused(
+        "sweep collect which.toml",
+        3,
+        "it is not what the task wrote",
+    );
+    // As the message says.
+    let name = path.file_name().expect("a name").to_owned();
+    fs::remove_file(&path).expect("removed");
+    fs::remove_file(bench.path("which.sweep/results").join(name)).expect("removed");
+    bench.ok("sweep which.toml -q");
+    bench.ok("sweep collect which.toml");
+}
+
+#[test]
+fn conditions_seeds_and_splits_that_cannot_be_meant_are_refused_at_the_start() {
+    let bench = week();
+    small(&bench, &[]);
+    for only in ["model==ridge", "model=ridge,seed=1", "seed>1", "(seed=1)"] {
+        bench.refused(
+            &format!("sweep which.toml --only {only}"),
+            2,
+            "expected NAME = VALUE or NAME != VALUE",
+        );
+    }
+    small(
+        &bench,
+        &[("[vary]", "[skip]\nwhere = [\"model == ridge\"]\n[vary]")],
+    );
+    bench.refused("sweep which.toml", 3, "line 10: `model == ridge`: ");
+    for (old, new, message) in [
+        (
+            "seeds = [1]",
+            "seeds = 3",
+            "line 6: `seeds = 3`: expected a list such as [1, 2, 3], or the first and the last as in \"1-5\"; one seed is [3]",
+        ),
+        (
+            "seeds = [1]",
+            "seeds = [-1]",
+            "line 6: `seeds`: -1: expected whole numbers from 0",
+        ),
+        (
+            "seeds = [1]",
+            "seeds = \"9223372036854775807-9223372036854775808\"",
+            "to 9223372036854775807",
+        ),
+        (
+            "by-point 50",
+            "by-pont 50",
+            "line 7: no split is called `by-pont",
+        ),
+    ] {
+        small(&bench, &[(old, new)]);
+        bench.refused("sweep which.toml", 3, message);
+    }
+    assert!(!bench.path("which.sweep").exists());
+    small(
+        &bench,
+        &[(
+            "[vary]",
+            "[skip]\nwhere = [\"model = pls or model = knn and size = 8x8\"]\n[vary]",
+        )],
+    );
+    let dry = bench.ok("sweep which.toml --dry-run");
+    assert!(dry.contains("tasks    5, 3 combinations left out"), "{dry}");
+}
+
+#[test]
+fn the_reason_of_a_failed_task_is_that_of_its_last_attempt_and_names_no_folder() {
+    let bench = week();
+    bench.record_nothing("nothing");
+    small(
+        &bench,
+        &[
+            ("[\"monday\"]", "[\"nothing\"]"),
+            ("\"8x8\", \"12x12\"", "\"8x8\""),
+        ],
+    );
+    assert_eq!(bench.run("sweep which.toml -q").code, 1);
+    let table = text(&bench, "which.sweep/table.csv");
+    assert!(table.contains("the dataset has 0 rows"), "{table}");
+    let folder = bench.path("").to_string_lossy().into_owned();
+    assert!(!table.contains(&folder), "{folder}: {table}");
+    let key = table
+        .lines()
+        .nth(1)
+        .and_then(|row| row.split(',').next())
+        .expect("a key");
+    let failure = format!("which.sweep/failed/{key}.json");
+    bench.write(
+        &failure,
+        &format!("{{\"key\":\"{key}\",\"reason\":\"an old reason\"}}"),
+    );
+    bench.run("sweep collect which.toml");
+    assert!(text(&bench, "which.sweep/table.csv").contains("an old reason"));
+    assert_eq!(bench.run("sweep which.toml -q --retry-failed").code, 1);
+    assert_eq!(text(&bench, "which.sweep/table.csv"), table);
+}
+
+#[test]
+fn a_file_that_changed_since_its_tasks_were_listed_is_said_to_have() {
+    let bench = week();
+    small(&bench, &[("\"8x8\", \"12x12\"", "\"8x8\"")]);
+    bench.ok("sweep which.toml -q");
+    assert_eq!(bench.run("sweep status which.toml").err, "");
+    small(&bench, &[("\"8x8\", \"12x12\"", "\"9x9\"")]);
+    for words in ["status", "show", "collect"] {
+        let ran = bench.run(&format!("sweep {words} which.toml"));
+        assert_eq!(ran.code, 0, "{}", ran.err);
+        assert!(
+            ran.err
+                .contains("which.toml has changed since its tasks were listed"),
+            "{}",
+            ran.err
+        );
+    }
+}
+
+#[test]
+fn models_that_were_no_candidates_and_settings_of_one_model_stand_on_the_page_by_name() {
+    let bench = week();
+    let twice = "{ name = \"knn\", set = { neighbours = 1 } }, { name = \"knn\"";
+    small(&bench, &[("\"pls\", ", ""), ("{ name = \"knn\"", twice)]);
+    bench.ok("sweep which.toml -q");
+    let page = text(&bench, "which.sweep/page.html");
+    let words =
+        "No candidates, as they report no such error: baseline size=12x12; baseline size=8x8";
+    let words_too =
+        "No candidates, as they report no such error: baseline size=8x8; baseline size=12x12";
+    assert!(page.contains(words) || page.contains(words_too), "{page}");
+    for words in ["neighbours of knn", "knn neighbours=1", "knn neighbours=3"] {
+        assert!(page.contains(words), "{words}");
+    }
 }

@@ -10,27 +10,17 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use support::Bench;
+use support::sweeps::{self, SWEEP, bytes, tables};
 use taceva_needs::{Need, skip};
 
-/// Two recordings × four models × three seeds × two sizes.
-const SWEEP: &str = r#"
-sweep_version = 1
-name = "which model, which size"
-datasets = ["monday", "tuesday"]
-models = ["ridge", "pls", "baseline", { name = "knn", set = { neighbours = 3 } }]
-seeds = "1-3"
-splits = ["by-point 50/10/40"]
-metrics = ["accuracy"]
-[vary]
-size = ["8x8", "12x12"]
-[slurm]
+/// What the cluster is asked for.
+const SLURM: &str = r#"[slurm]
 partition = "main"
 time = "00:10:00"
 memory = "200M"
 tasks_a_job = 3
 setup = ["export SET_UP=yes"]
 "#;
-const FILES: [&str; 3] = ["table.csv", "table.parquet", "page.html"];
 /// A loaded machine is waited for.
 const PATIENCE: Duration = Duration::from_secs(240);
 
@@ -231,17 +221,7 @@ fn free_ports() -> u16 {
 }
 
 fn week() -> Bench {
-    let bench = Bench::new();
-    for (name, noise) in [("monday", 0), ("tuesday", 1)] {
-        bench.record_with_noise(name, 24, noise);
-    }
-    bench.write("which.toml", SWEEP);
-    bench
-}
-
-fn bytes(bench: &Bench, folder: &str) -> Vec<Vec<u8>> {
-    let read = |name: &&str| fs::read(bench.path(folder).join(name)).expect(name);
-    FILES.iter().map(read).collect()
+    sweeps::week(SLURM)
 }
 
 #[test]
@@ -330,12 +310,34 @@ fn two_nodes_one_of_them_killed_and_a_controller_that_is_started_anew_give_the_s
 }
 
 #[test]
+fn shards_of_tables_on_two_nodes_end_in_the_scores_of_one_pass() {
+    let Some(cluster) = Cluster::start() else {
+        return;
+    };
+    let bench = Bench::new();
+    let [truth, prediction] = tables(500, true);
+    bench.write("truth.csv", &truth);
+    bench.write("pred.csv", &prediction);
+    let score = "[score]\ntruth = \"truth.csv\"\npred = \"pred.csv\"\nshards = 5\n";
+    bench.write("which.toml", &format!("sweep_version = 1\n{score}{SLURM}"));
+    let said = cluster.ok(&bench, "sweep which.toml --on slurm");
+    assert!(said.contains("submitted 5 tasks in 2 jobs"), "{said}");
+    cluster.wait(&bench);
+    let joined = fs::read_to_string(bench.path("which.sweep/score.json"));
+    let whole = bench.ok("score --truth truth.csv --pred pred.csv --format json -q");
+    assert_eq!(joined.expect(&cluster.logs(&bench)), whole);
+}
+
+#[test]
 fn a_refusing_sbatch_is_quoted_and_nothing_of_the_sweep_is_left_in_the_queue() {
     let Some(cluster) = Cluster::start() else {
         return;
     };
     let bench = week();
-    bench.write("which.toml", &SWEEP.replace("\"main\"", "\"nowhere\""));
+    bench.write(
+        "which.toml",
+        &format!("{SWEEP}{}", SLURM.replace("\"main\"", "\"nowhere\"")),
+    );
     let (code, said) = cluster.run(&bench, "sweep which.toml --on slurm");
     assert_eq!(code, 3, "{said}");
     assert!(

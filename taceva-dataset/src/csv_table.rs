@@ -2,7 +2,9 @@
 
 mod columns;
 pub(crate) mod number;
+pub(crate) mod parts;
 mod quoted;
+mod scan;
 mod split;
 
 use std::num::NonZeroUsize;
@@ -47,6 +49,8 @@ pub struct CsvTable {
     counted: OnceLock<Vec<u64>>,
     /// Lines of the text that the file does not have: the names of columns of a file without a header.
     added_lines: u64,
+    /// Lines of the file that the text does not have: the rows before a part.
+    left_out_lines: u64,
 }
 
 impl CsvTable {
@@ -197,7 +201,7 @@ impl CsvTable {
             Some(lines) => lines[row],
             None => self.counted.get_or_init(|| self.count_lines())[row],
         };
-        line - self.added_lines
+        line - self.added_lines + self.left_out_lines
     }
 
     /// The line of each row, in one pass over the text: where rows keep their place, every one is asked for.

@@ -197,6 +197,17 @@ impl DatasetError {
         self
     }
 
+    /// The same error, so many lines further down: of a part of a table that has only its header before it.
+    pub(crate) fn lines_below(mut self, lines: u64) -> DatasetError {
+        if let DatasetError::Table { place, .. } = &mut self
+            && let Some(line) = &mut place.line
+            && *line > 1
+        {
+            *line += lines;
+        }
+        self
+    }
+
     /// What kind of failure it was, by the closed list that every part shares.
     pub fn kind(&self) -> ErrorKind {
         match self {

@@ -44,6 +44,7 @@ mod version;
 #[cfg(feature = "ndarray")]
 pub use arrays::{FrameArray, FrameArrays};
 pub use csv_table::CsvTable;
+pub use csv_table::parts::CsvParts;
 pub use dataset::{Dataset, JoinedRecording, Pass, StreamReport};
 pub use decode::ChannelOrder;
 pub use digest::{Digest, DigestError};

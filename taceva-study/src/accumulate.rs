@@ -11,7 +11,7 @@ use crate::error::StudyError;
 use crate::recordings;
 
 /// Rows a batch: large enough that merging is rare, small enough that a batch stays in the cache.
-const BATCH_ROWS: usize = 1 << 12;
+pub(crate) const BATCH_ROWS: usize = 1 << 12;
 
 /// Where rows with truth and prediction come from: any of them, asked for from any thread.
 pub(crate) trait Rows: Sync {

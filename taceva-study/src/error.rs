@@ -8,6 +8,7 @@ use taceva_drivers::OpenError;
 use taceva_metrics::{MetricError, UnknownMetric};
 use taceva_models::{FeatureError, FormatError, SettingError, SplitError, UnknownModel};
 use taceva_protocol::{RunError, SceneError, StopCause};
+use taceva_tables::TableError;
 
 /// Why a study cannot be run.
 #[derive(Debug, thiserror::Error)]
@@ -57,6 +58,9 @@ pub enum StudyError {
         /// What does not fit, and what was expected.
         problem: String,
     },
+    /// A Parquet table of scores that cannot be read.
+    #[error(transparent)]
+    Parquet(#[from] TableError),
     /// A state file that cannot be read, or not be joined with the others.
     #[error("{}: {problem}", taceva_core::shown(path))]
     State {
@@ -157,9 +161,10 @@ impl StudyError {
         match self {
             StudyError::Dataset(error) => error.kind(),
             StudyError::Model(error) => error.kind(),
-            StudyError::Tables { .. } | StudyError::State { .. } | StudyError::Scores(_) => {
-                ErrorKind::Protocol
-            }
+            StudyError::Tables { .. }
+            | StudyError::Parquet(_)
+            | StudyError::State { .. }
+            | StudyError::Scores(_) => ErrorKind::Protocol,
             StudyError::Open { source, .. } | StudyError::OpenLive(source) => source.kind(),
             StudyError::Device(error) => error.kind(),
             StudyError::CaptureEnded { source, .. } => source.kind(),

@@ -72,7 +72,7 @@ pub use rows::{DataPart, Divided};
 pub use run::{Existing, RunFolder, run_scene};
 pub use samples::Samples;
 pub use scene::{Instead, PlannedScene, PlannedStudy, SceneText};
-pub use score::{ScoreRequest, Scored, Scoring};
+pub use score::{ScoreRequest, ScoreTables, Scored, Scoring, Shard, ShardError};
 pub use skill::with_skill;
 pub use state_file::{STATE_SCHEMA, StateFile, merge};
 pub use subject::Subject;

@@ -1,15 +1,20 @@
 //! Someone else's predictions against the truth: two tables, no pictures, no model.
 
+mod by_shard;
 mod fields;
+mod ids;
 mod paired_rows;
+mod parquet_parts;
 mod request;
+mod shard;
+mod table_parts;
 mod tables;
 
 use std::collections::BTreeMap;
 
 use taceva_core::{Channel, Column, Progress, shown};
 use taceva_dataset::{CsvTable, SensorFile};
-use taceva_metrics::{MetricPlan, SensorFacts, catalogue};
+use taceva_metrics::{Evaluator, MetricPlan, SensorFacts, catalogue};
 
 use crate::accumulate::{self, Rows};
 use crate::bounded::Bounded;
@@ -28,7 +33,9 @@ use fields::Place;
 use paired_rows::PairedRows;
 use tables::Pairing;
 
+pub use by_shard::ScoreTables;
 pub use request::ScoreRequest;
+pub use shard::{Shard, ShardError};
 
 /// Finished scores of two tables.
 #[derive(Debug)]
@@ -58,23 +65,14 @@ impl Scoring {
     /// # Errors
     /// [`StudyError`] if a table cannot be read, a channel is in one of them only, ids differ or repeat, or numbers of rows differ.
     pub fn read(request: ScoreRequest) -> Result<Scoring, StudyError> {
-        let wanted = catalogue::select(request.metrics.iter().map(String::as_str))?;
+        catalogue::select(request.metrics.iter().map(String::as_str))?;
         tables::check_distinct(&request)?;
         let [(truth, of_truth), (prediction, of_prediction)] = tables::read_both(&request)?;
         tables::check_rows(&truth)?;
         tables::check_rows(&prediction)?;
         let digests = [("truth", of_truth), ("prediction", of_prediction)];
-        let channels = tables::channels(&truth, &prediction, &request.units)?;
+        let (metrics, places, sensor) = planned(&request, &truth, &prediction)?;
         let pairing = tables::pair(&truth, &prediction)?;
-        let places = fields::places(&truth, &prediction)?;
-        let sensor = request
-            .sensor
-            .as_deref()
-            .map(SensorFile::read)
-            .transpose()?;
-        let sensor = sensor.unwrap_or_default();
-        let metrics = MetricPlan::new(&with_skill(wanted), channels, fields::stated(&places))
-            .with_facts(facts::of_file(&sensor, SensorFacts::default()));
         Ok(Scoring {
             request,
             truth,
@@ -142,7 +140,7 @@ impl Scoring {
     /// As [`run`](Scoring::run).
     pub fn samples(&self) -> Result<Samples, StudyError> {
         let rows = self.truth.rows();
-        let batch = PairedRows::of(self)?.batch(&self.metrics, 0..rows)?;
+        let batch = self.paired()?.batch(&self.metrics, 0..rows)?;
         let ids = match self.truth.has("id") {
             true => {
                 let column = self.truth.position("id")?;
@@ -164,24 +162,64 @@ impl Scoring {
         Ok(Samples::of_pairs(ids, points, channels.collect()))
     }
 
-    fn evaluate(&self) -> Result<Scored, StudyError> {
-        let rows = PairedRows::of(self)?;
-        let mut evaluator = accumulate::accumulate(&rows, &self.metrics, self.request.jobs)?;
-        let provenance = Provenance {
-            taceva: env!("CARGO_PKG_VERSION").to_owned(),
-            notes: tables::same_bytes_note(&self.digests).into_iter().collect(),
-            tables: self.digests.clone(),
-            ..Provenance::default()
-        };
-        let subject = Subject::of_file(&self.sensor);
-        let input: Vec<&str> = self.digests.values().map(String::as_str).collect();
-        let taken = Taken::all_of(input.join(" "), self.truth.rows());
-        let state = StateFile::of(&mut evaluator, &subject, &provenance, Bounded::default())?
-            .with_taken(vec![taken]);
-        let evaluation = state.finish(evaluator)?;
-        Ok(Scored {
-            report: EvaluationReport::new(subject, evaluation, provenance),
-            state,
-        })
+    fn paired(&self) -> Result<PairedRows<'_>, StudyError> {
+        PairedRows::new(
+            [&self.truth, &self.prediction],
+            &self.pairing,
+            &self.metrics,
+            &self.places,
+            self.request.allow_invalid,
+        )
     }
+
+    fn evaluate(&self) -> Result<Scored, StudyError> {
+        let rows = self.paired()?;
+        let evaluator = accumulate::accumulate(&rows, &self.metrics, self.request.jobs)?;
+        let input = tables::input_of(&self.digests);
+        let taken = Taken::all_of(input, self.truth.rows());
+        finished(evaluator, &self.sensor, self.digests.clone(), taken)
+    }
+}
+
+/// What can be scored by the columns of both tables, where fields are stated, and what is known of the sensor.
+fn planned(
+    request: &ScoreRequest,
+    truth: &CsvTable,
+    prediction: &CsvTable,
+) -> Result<(MetricPlan, Vec<Place>, SensorFile), StudyError> {
+    let wanted = catalogue::select(request.metrics.iter().map(String::as_str))?;
+    let channels = tables::channels(truth, prediction, &request.units)?;
+    let places = fields::places(truth, prediction)?;
+    let sensor = request
+        .sensor
+        .as_deref()
+        .map(SensorFile::read)
+        .transpose()?;
+    let sensor = sensor.unwrap_or_default();
+    let metrics = MetricPlan::new(&with_skill(wanted), channels, fields::stated(&places))
+        .with_facts(facts::of_file(&sensor, SensorFacts::default()));
+    Ok((metrics, places, sensor))
+}
+
+/// The scores and the state of what `evaluator` has seen of the tables with these digests.
+fn finished(
+    mut evaluator: Evaluator,
+    sensor: &SensorFile,
+    digests: BTreeMap<String, String>,
+    taken: Taken,
+) -> Result<Scored, StudyError> {
+    let provenance = Provenance {
+        taceva: env!("CARGO_PKG_VERSION").to_owned(),
+        notes: tables::same_bytes_note(&digests).into_iter().collect(),
+        tables: digests,
+        ..Provenance::default()
+    };
+    let subject = Subject::of_file(sensor);
+    let state = StateFile::of(&mut evaluator, &subject, &provenance, Bounded::default())?
+        .with_taken(vec![taken]);
+    let evaluation = state.finish(evaluator)?;
+    Ok(Scored {
+        report: EvaluationReport::new(subject, evaluation, provenance),
+        state,
+    })
 }

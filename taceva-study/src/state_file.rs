@@ -23,6 +23,9 @@ pub use merge::merge;
 /// The schema of a state file. A minor version only adds keys; since 1.1 a state is sealed and says which rows it took.
 pub const STATE_SCHEMA: &str = "taceva.state/1.1";
 
+/// The schema of states of some of several shards of an input, which say how many rows it has.
+const SHARD_SCHEMA: &str = "taceva.state/1.2";
+
 /// The schema of states of before seals, which are read and marked.
 const UNSEALED_SCHEMA: &str = "taceva.state/1";
 
@@ -99,7 +102,20 @@ impl StateFile {
 
     /// The same, having taken these rows.
     pub(crate) fn with_taken(self, taken: Vec<Taken>) -> StateFile {
-        StateFile { taken, ..self }
+        let schema = match taken.iter().any(Taken::is_of_shard) {
+            true => SHARD_SCHEMA,
+            false => STATE_SCHEMA,
+        };
+        StateFile {
+            schema: schema.to_owned(),
+            taken,
+            ..self
+        }
+    }
+
+    /// Whether it took all rows of its inputs, and not some shards of them.
+    pub fn is_whole(&self) -> bool {
+        !self.taken.iter().any(Taken::is_of_shard)
     }
 
     /// Reads the file at `path`.
@@ -119,7 +135,7 @@ impl StateFile {
         let head: Head = serde_json::from_str(&text)
             .map_err(|error| wrong(format!("no state of an evaluation: {error}")))?;
         let version = match head.schema.as_str() {
-            STATE_SCHEMA => Version::Sealed,
+            STATE_SCHEMA | SHARD_SCHEMA => Version::Sealed,
             UNSEALED_SCHEMA => Version::BeforeSeals,
             schema => {
                 return Err(wrong(format!(

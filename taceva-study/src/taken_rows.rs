@@ -1,5 +1,6 @@
 //! Which rows a state has taken, so that none is taken twice.
 
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -12,6 +13,9 @@ pub(crate) struct Taken {
     input: String,
     /// From which row to before which, counted from 0, in order.
     rows: Vec<[usize; 2]>,
+    /// How many rows the input has, where these are some of several shards of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    of: Option<usize>,
 }
 
 impl Taken {
@@ -29,6 +33,7 @@ impl Taken {
         Taken {
             input,
             rows: ranges,
+            of: None,
         }
     }
 
@@ -37,6 +42,56 @@ impl Taken {
         Taken {
             input,
             rows: vec![[0, rows]],
+            of: None,
+        }
+    }
+
+    /// Some rows of an input of so many; those of a shard, which may be none.
+    pub(crate) fn part_of(input: String, rows: Range<usize>, of: usize) -> Taken {
+        let ranges = match rows.is_empty() {
+            true => Vec::new(),
+            false => vec![[rows.start, rows.end]],
+        };
+        Taken {
+            input,
+            rows: ranges,
+            of: Some(of),
+        }
+        .whole_or_not()
+    }
+
+    /// Whether these are rows of a shard.
+    pub(crate) fn is_of_shard(&self) -> bool {
+        self.of.is_some()
+    }
+
+    /// Of shards of one input: how many rows they have, and how many there are.
+    pub(crate) fn share(&self) -> Option<[usize; 2]> {
+        let own = self.rows.iter().map(|[begin, end]| end - begin).sum();
+        Some([own, self.of?])
+    }
+
+    /// All rows of an input are no shard.
+    fn whole_or_not(mut self) -> Taken {
+        if let ([[0, end]], Some(of)) = (self.rows.as_slice(), self.of)
+            && *end == of
+        {
+            self.of = None;
+        }
+        self
+    }
+
+    /// The rows of another shard of the same input, as well.
+    fn join(&mut self, other: &Taken) {
+        let mut ranges = self.rows.clone();
+        ranges.extend(&other.rows);
+        ranges.sort_unstable();
+        self.rows.clear();
+        for [begin, end] in ranges {
+            match self.rows.last_mut() {
+                Some([_, last]) if *last == begin => *last = end,
+                _ => self.rows.push([begin, end]),
+            }
         }
     }
 
@@ -73,7 +128,10 @@ pub(crate) struct AllTaken {
 impl AllTaken {
     /// Adds what the state in the file at `path`, of this digest, has taken; or says in words what was taken before.
     pub(crate) fn add(&mut self, path: &Path, digest: &str, taken: &[Taken]) -> Result<(), String> {
-        if let Some((before, _)) = self.states.iter().find(|(_, known)| known == digest) {
+        // Shards without a row are equal, and nothing in them counts twice.
+        let is_empty = !taken.is_empty() && taken.iter().all(|taken| taken.rows.is_empty());
+        let known = self.states.iter().find(|(_, known)| known == digest);
+        if let Some((before, _)) = known.filter(|_| !is_empty) {
             return Err(format!(
                 "the same state as {}, whose rows would count twice",
                 before.display()
@@ -96,9 +154,29 @@ impl AllTaken {
         Ok(())
     }
 
-    /// What was taken, inputs in the order in which they came.
+    /// Whether all states are of shards of one input.
+    pub(crate) fn is_of_shards_of_one_input(&self) -> bool {
+        let mut taken = self.taken.iter().map(|(_, taken)| taken);
+        let first = taken.next();
+        first.is_some_and(|first| {
+            first.is_of_shard()
+                && taken.all(|other| first.input == other.input && first.of == other.of)
+        })
+    }
+
+    /// What was taken, inputs in the order in which they came, shards of one input together.
     pub(crate) fn into_taken(self) -> Vec<Taken> {
-        self.taken.into_iter().map(|(_, taken)| taken).collect()
+        let mut all: Vec<Taken> = Vec::new();
+        for (_, taken) in self.taken {
+            let is_same = |known: &&mut Taken| {
+                known.is_of_shard() && known.of == taken.of && known.input == taken.input
+            };
+            match all.iter_mut().find(is_same) {
+                Some(known) => known.join(&taken),
+                None => all.push(taken),
+            }
+        }
+        all.into_iter().map(Taken::whole_or_not).collect()
     }
 }
 
@@ -124,6 +202,26 @@ mod tests {
         assert_eq!(one.shared(&taken("a", &[2, 3, 9, 10])), Some((2, 2)));
         assert_eq!(one.shared(&taken("a", &[3, 4, 5, 6, 7, 10])), None);
         assert_eq!(one.shared(&taken("b", &[0])), None);
+    }
+
+    #[test]
+    fn shards_join_to_the_whole_in_any_order_and_empty_ones_are_not_the_same_twice() {
+        let part = |rows| Taken::part_of("x".to_owned(), rows, 5);
+        let mut all = AllTaken::default();
+        for (at, rows) in [3..5, 0..0, 0..0, 0..3].into_iter().enumerate() {
+            let path = PathBuf::from(format!("{at}.state"));
+            let digest = format!("{rows:?}");
+            assert_eq!(all.add(&path, &digest, &[part(rows)]), Ok(()));
+        }
+        assert_eq!(all.into_taken(), [Taken::all_of("x".to_owned(), 5)]);
+        let mut some = AllTaken::default();
+        for rows in [3..4, 0..2] {
+            let digest = format!("{rows:?}");
+            assert_eq!(some.add(Path::new("a"), &digest, &[part(rows)]), Ok(()));
+        }
+        let taken = some.into_taken();
+        assert_eq!(taken[0].share(), Some([3, 5]));
+        assert_eq!(taken[0].rows, [[0, 2], [3, 4]]);
     }
 
     #[test]

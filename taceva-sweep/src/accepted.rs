@@ -67,7 +67,7 @@ fn unit(folder: &SweepFolder, one: &Loaded<'_>, limits: &LimitsFile) -> Result<U
         Found::Result(result) => {
             unit.serial.clone_from(&result.serial);
             let path = folder.evaluation(&task.key);
-            let text = fs::read_to_string(&path).map_err(SweepError::io("read", &path))?;
+            let text = result.read_evaluation(folder)?;
             let wrong = |problem: String| SweepError::Kept {
                 path: path.clone(),
                 problem: format!(

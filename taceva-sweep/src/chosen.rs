@@ -54,6 +54,19 @@ pub(crate) fn choices(groups: &[Group<'_>], channels: &[String]) -> Vec<Choice> 
     choices
 }
 
+/// The configurations that have results and report no error that could choose among them, each once.
+fn without_validation(groups: &[Group<'_>]) -> Vec<String> {
+    let mut silent: Vec<String> = Vec::new();
+    for group in groups {
+        let mut results = group.results.iter();
+        let is_silent = results.any(|(_, result)| result.validation.is_empty());
+        if is_silent && !silent.contains(&group.configuration) {
+            silent.push(group.configuration.clone());
+        }
+    }
+    silent
+}
+
 /// What a channel answers.
 fn question(channel: &str) -> &'static str {
     match channel {
@@ -122,6 +135,13 @@ pub(crate) fn table(groups: &[Group<'_>], choices: &[Choice]) -> Table {
         ]);
     }
     table.note("Chosen by the least root mean square error on validation parts, or on what a model left out of its training part in turn, the mean over seeds; models that report neither take no part. Test parts took no part in any choice: the test error is that of what was chosen.");
+    let silent = without_validation(groups);
+    if !silent.is_empty() {
+        table.note(format!(
+            "No candidates, as they report no such error: {}.",
+            silent.join("; ")
+        ));
+    }
     table.note("The interval over contact points says how far the score would move with other presses and the same training; the one over seeds how far with other divisions and random numbers, on the same recording. They are not to be added.");
     table
 }

@@ -10,8 +10,11 @@ use taceva_dataset::Digest;
 use crate::accepted::{self, Unit};
 use crate::analysis::{self, Found, Loaded};
 use crate::error::SweepError;
+use crate::failure::Failure;
 use crate::folder::{SweepFolder, beside};
 use crate::page;
+use crate::result::TaskResult;
+use crate::shards_joined;
 use crate::table::TidyTable;
 use crate::task_list::TaskList;
 use crate::times;
@@ -26,12 +29,15 @@ pub struct Collected {
     pub failed: usize,
     /// Tasks that were not carried out yet.
     pub missing: usize,
-    /// The digest of the table.
+    /// The digest of the table; of shards of two tables that of their scores, empty while one is missing.
     pub digest: String,
+    /// Whether tasks were shards of two tables, joined to their scores.
+    #[serde(default)]
+    pub is_of_tables: bool,
     /// Units that were held to limits, where the file names limits.
     pub units: Vec<Unit>,
     /// What it was made of.
-    made_of: String,
+    pub(crate) made_of: String,
 }
 
 impl Collected {
@@ -46,11 +52,17 @@ impl Collected {
 /// # Errors
 /// [`SweepError`] for a result that is not what was written, or of another version, and if the folder cannot be written.
 pub fn collect(folder: &SweepFolder, list: &TaskList, anew: bool) -> Result<Collected, SweepError> {
+    if let Some(tables) = &list.tables {
+        return shards_joined::join(folder, list, tables);
+    }
     let made_of = made_of(folder, list)?;
     if !anew && let Some(before) = kept(folder, &made_of) {
         return Ok(before);
     }
     let loaded = analysis::load(folder, list)?;
+    for result in loaded.iter().filter_map(Loaded::result) {
+        check_evaluation(folder, result)?;
+    }
     let csv = TidyTable::of(&loaded).csv();
     let mut collected = Collected {
         digest: Digest::of(&csv).to_string(),
@@ -67,6 +79,14 @@ pub fn collect(folder: &SweepFolder, list: &TaskList, anew: bool) -> Result<Coll
     }
     write_all(folder, list, &loaded, &collected, &csv)?;
     Ok(collected)
+}
+
+/// Refuses an evaluation that is not what its task wrote. One that somebody removed to save room is missed by nothing in the table.
+fn check_evaluation(folder: &SweepFolder, result: &TaskResult) -> Result<(), SweepError> {
+    match folder.evaluation(&result.key).exists() {
+        true => result.read_evaluation(folder).map(drop),
+        false => Ok(()),
+    }
 }
 
 fn write_all(
@@ -128,7 +148,7 @@ fn kept(folder: &SweepFolder, made_of: &str) -> Option<Collected> {
     (before.made_of == made_of && is_there && is_same).then_some(before)
 }
 
-/// The digest of the list of tasks, the limits, and which of the tasks have a result or failed.
+/// The digest of the list of tasks, the limits, and which of the tasks have a result or failed, and why.
 fn made_of(folder: &SweepFolder, list: &TaskList) -> Result<String, SweepError> {
     let (results, failures) = (folder.results()?, folder.failures()?);
     let mut text = serde_json::to_string(list).unwrap_or_default();
@@ -137,11 +157,15 @@ fn made_of(folder: &SweepFolder, list: &TaskList) -> Result<String, SweepError> 
     }
     for task in &list.tasks {
         let key = task.key.as_str();
-        text.push(match (results.contains(key), failures.contains(key)) {
-            (true, _) => 's',
-            (false, true) => 'f',
-            (false, false) => 'm',
-        });
+        match (results.contains(key), failures.contains(key)) {
+            (true, _) => text.push('s'),
+            (false, true) => {
+                let failure = Failure::read(folder, &task.key)?;
+                text.push_str(&failure.map_or_else(String::new, |failure| failure.reason));
+                text.push('f');
+            }
+            (false, false) => text.push('m'),
+        }
     }
     Ok(Digest::of(text.as_bytes()).to_string())
 }

@@ -1,4 +1,6 @@
-//! Conditions over tasks: `model = ridge and size = 64x64`.
+//! Conditions over tasks: `model = ridge and size = 64x64 or seed != 1`.
+
+mod term;
 
 use std::collections::BTreeSet;
 
@@ -7,54 +9,44 @@ use taceva_models::Suggestion;
 use crate::error::SweepError;
 use crate::task::Task;
 
-/// Which tasks are meant: those of one key, or those of which every term holds.
+use term::Term;
+
+/// Which tasks are meant: those of one key, or those of which all terms of one alternative hold.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Condition {
     text: String,
-    terms: Vec<Term>,
-}
-
-#[derive(Clone, Debug, PartialEq, Eq)]
-struct Term {
-    name: String,
-    is_equal: bool,
-    value: String,
+    alternatives: Vec<Vec<Term>>,
 }
 
 impl Condition {
     /// What can be asked beside the settings of tasks.
     pub const NAMES: [&'static str; 5] = ["key", "dataset", "model", "split", "seed"];
 
-    /// The condition that `text` states: terms `NAME = VALUE` or `NAME != VALUE` with ` and ` between them, or the key of a task or how it
-    /// begins.
+    /// The condition that `text` states: terms `NAME = VALUE` or `NAME != VALUE` with ` and ` and ` or ` between them, of which ` and ` binds
+    /// closer, or the key of a task or how it begins. A value with one of these words or signs in it stands in quotes.
     ///
     /// ```
     /// use taceva_sweep::Condition;
-    /// assert!(Condition::parse("model = ridge and size != 64x64").is_ok());
+    /// assert!(Condition::parse("model = ridge and size != 64x64 or seed = 1").is_ok());
     /// let error = Condition::parse("ridge or pls").unwrap_err();
-    /// assert!(error.to_string().contains("expected NAME = VALUE"), "{error}");
+    /// assert!(error.to_string().contains("`ridge`: expected NAME = VALUE"), "{error}");
     /// ```
     ///
     /// # Errors
-    /// [`SweepError::Condition`].
+    /// [`SweepError::Condition`] with the term that cannot be meant.
     pub fn parse(text: &str) -> Result<Condition, SweepError> {
         let trimmed = text.trim();
         let is_digits = trimmed.bytes().all(|byte| byte.is_ascii_hexdigit());
-        if (4..=32).contains(&trimmed.len()) && is_digits {
-            let term = Term {
-                name: "key".to_owned(),
-                is_equal: true,
-                value: trimmed.to_owned(),
-            };
-            return Ok(Condition {
+        let alternatives = match (4..=32).contains(&trimmed.len()) && is_digits {
+            true => vec![vec![Term::of_key(trimmed)]],
+            false => term::alternatives(trimmed).map_err(|problem| SweepError::Condition {
                 text: text.to_owned(),
-                terms: vec![term],
-            });
-        }
-        let terms = trimmed.split(" and ").map(|term| Term::parse(text, term));
+                problem,
+            })?,
+        };
         Ok(Condition {
             text: text.to_owned(),
-            terms: terms.collect::<Result<_, _>>()?,
+            alternatives,
         })
     }
 
@@ -72,7 +64,7 @@ impl Condition {
             let settings = settings.iter().map(String::as_str);
             Condition::NAMES.into_iter().chain(settings)
         };
-        for term in &self.terms {
+        for term in self.alternatives.iter().flatten() {
             if !known().any(|name| name == term.name) {
                 let suggestion = Suggestion::of(&term.name, known());
                 return Err(SweepError::Condition {
@@ -86,37 +78,7 @@ impl Condition {
 
     /// Whether it holds of `task`.
     pub fn holds(&self, task: &Task) -> bool {
-        self.terms.iter().all(|term| {
-            let is_same = match term.name.as_str() {
-                "key" => task.key.as_str().starts_with(&term.value),
-                name => task.word(name).as_deref() == Some(term.value.as_str()),
-            };
-            is_same == term.is_equal
-        })
-    }
-}
-
-impl Term {
-    fn parse(whole: &str, text: &str) -> Result<Term, SweepError> {
-        let parts = match text.split_once("!=") {
-            Some((name, value)) => Some((name, false, value)),
-            None => text
-                .split_once('=')
-                .map(|(name, value)| (name, true, value)),
-        };
-        let unquoted = |text: &str| text.trim().trim_matches(['"', '\'']).to_owned();
-        let term = parts.map(|(name, is_equal, value)| Term {
-            name: name.trim().to_owned(),
-            is_equal,
-            value: unquoted(value),
-        });
-        term.filter(|term| {
-            let is_word = |letter: char| letter.is_alphanumeric() || "_-.".contains(letter);
-            !term.name.is_empty() && term.name.chars().all(is_word) && !term.value.is_empty()
-        })
-        .ok_or_else(|| SweepError::Condition {
-            text: whole.to_owned(),
-            problem: "expected NAME = VALUE or NAME != VALUE, several with ` and ` between them, or the key of a task".to_owned(),
-        })
+        let mut alternatives = self.alternatives.iter();
+        alternatives.any(|terms| terms.iter().all(|term| term.holds(task)))
     }
 }

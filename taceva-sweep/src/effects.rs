@@ -1,5 +1,7 @@
 //! What each setting changes, paired within everything else.
 
+mod dimension;
+
 use std::collections::BTreeMap;
 
 use taceva_metrics::Repeats;
@@ -7,8 +9,8 @@ use taceva_report::{Cell, Column, Table};
 
 use crate::analysis::Loaded;
 use crate::chosen::{ends, number};
-use crate::task::Task;
 use crate::task_list::TaskList;
+use dimension::{Dimension, dimensions};
 
 /// Pairs that an interval needs.
 const LEAST: usize = 2;
@@ -26,25 +28,25 @@ pub(crate) fn table(loaded: &[Loaded<'_>], list: &TaskList, channels: &[String])
         "unit",
     ];
     let mut table = Table::new("The effect of each setting", columns.map(Column::new));
-    for (name, values) in dimensions(list) {
-        let Some((first, rest)) = values.split_first() else {
+    for dimension in dimensions(list) {
+        let Some((first, rest)) = dimension.values.split_first() else {
             continue;
         };
         for value in rest {
             for channel in channels {
-                if let Some(row) = row(loaded, &name, [value, first], channel) {
+                if let Some(row) = row(loaded, &dimension, [value, first], channel) {
                     table.push(row);
                 }
             }
         }
     }
-    table.note("Each pair is two tasks that differ in this setting alone, on their test parts; a negative difference is a smaller error. A channel whose unit is not the same everywhere has no row. The interval takes pairs for independent, which those of one recording are not quite: it describes this sweep. Nothing is chosen by it.");
+    table.note("Each pair is two tasks that differ in this setting alone, on their test parts; a negative difference is a smaller error. A model stands with the settings that it alone has. A channel whose unit is not the same everywhere has no row. The interval takes pairs for independent, which those of one recording are not quite: it describes this sweep. Nothing is chosen by it.");
     table
 }
 
 fn row(
     loaded: &[Loaded<'_>],
-    name: &str,
+    dimension: &Dimension,
     [value, first]: [&String; 2],
     channel: &str,
 ) -> Option<Vec<Cell>> {
@@ -52,7 +54,7 @@ fn row(
     // Errors in several units have no mean; a row is of the unit that the channel has everywhere.
     let mut units: Vec<String> = Vec::new();
     for one in loaded {
-        let word = one.task.word(name);
+        let word = dimension.word(one.task);
         let side = match word {
             Some(word) if word == *value => 0,
             Some(word) if word == *first => 1,
@@ -64,7 +66,7 @@ fn row(
         if !units.contains(&score.unit) {
             units.push(score.unit.clone());
         }
-        pairs.entry(beside(one.task, name)).or_default()[side] = score.value;
+        pairs.entry(dimension.beside(one.task)).or_default()[side] = score.value;
     }
     let differences: Vec<f64> = pairs
         .values()
@@ -79,7 +81,7 @@ fn row(
     let mean = differences.iter().sum::<f64>() / differences.len() as f64;
     let interval = Repeats::of(&differences).filter(|_| differences.len() >= LEAST);
     Some(vec![
-        Cell::text(name),
+        Cell::text(dimension.title()),
         Cell::text(value.as_str()),
         Cell::text(first.as_str()),
         Cell::text(channel),
@@ -91,40 +93,4 @@ fn row(
         Cell::Number(differences.len().to_string()),
         Cell::text(unit.as_str()),
     ])
-}
-
-/// What varies: each with its values in the order of the file.
-fn dimensions(list: &TaskList) -> Vec<(String, Vec<String>)> {
-    let mut all = list.vary.clone();
-    for name in ["model", "split"] {
-        let mut values: Vec<String> = Vec::new();
-        for word in list.tasks.iter().filter_map(|task| task.word(name)) {
-            if !values.contains(&word) {
-                values.push(word);
-            }
-        }
-        all.insert(0, (name.to_owned(), values));
-    }
-    all.retain(|(_, values)| values.len() > 1);
-    all
-}
-
-/// Everything else of a task. Models have settings of their own, which belong to the model.
-fn beside(task: &Task, name: &str) -> String {
-    let own = |key: &str| task.settings.get(key).cloned().unwrap_or_default();
-    let settings = task.settings.keys().filter(|key| *key != name);
-    let settings = settings.map(|key| format!("{key}={}", own(key)));
-    let settings: Vec<String> = settings.collect();
-    let of = |other: &str| match other == name {
-        true => String::new(),
-        false => task.word(other).unwrap_or_default(),
-    };
-    format!(
-        "{}|{}|{}|{}|{}",
-        of("dataset"),
-        of("model"),
-        of("split"),
-        of("seed"),
-        settings.join(" ")
-    )
 }

@@ -44,6 +44,14 @@ pub enum SweepError {
         /// What is wrong, and what to do.
         problem: String,
     },
+    /// A recording, a table, the sensor file or a plugin that is another one than when the sweep was planned.
+    #[error("{}: {problem}; start the sweep again", shown(path))]
+    Changed {
+        /// The file, the folder, or the name of the model.
+        path: PathBuf,
+        /// What is another one.
+        problem: String,
+    },
     /// The operating system refused.
     #[error("cannot {doing} {}: {source}", shown(path))]
     Io {

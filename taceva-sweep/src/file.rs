@@ -1,25 +1,38 @@
 //! The file of a sweep: what varies, and what stays.
 
+mod model_entry;
+mod place;
+mod tables;
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use taceva_dataset::read_toml;
-use taceva_models::Suggestion;
+use taceva_dataset::{Digest, read_toml};
+use taceva_models::SplitSpec;
 
 use crate::condition::Condition;
 use crate::error::SweepError;
+use crate::seeds::seeds;
 use crate::slurm_spec::SlurmSpec;
 use crate::written::WrittenSweep;
+use model_entry::word;
+use place::FilePlace;
+
+pub use model_entry::ModelEntry;
+pub use tables::TablesEntry;
 
 /// The version of the form that this program reads.
 const VERSION: u32 = 1;
 
 /// The file of a sweep, read and checked; nothing of the recordings was looked at.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct SweepFile {
     /// Where it is.
     pub path: PathBuf,
+    /// The digest of its text.
+    pub digest: Digest,
     /// What it is called.
     pub name: String,
     /// Folders of recordings, and patterns of such, relative to the folder of the file.
@@ -40,17 +53,10 @@ pub struct SweepFile {
     pub vary: BTreeMap<String, Vec<String>>,
     /// Combinations that make no sense.
     pub skip: Vec<Condition>,
+    /// Tables that are scored in shards, in the place of recordings and models.
+    pub tables: Option<TablesEntry>,
     /// How jobs are asked for.
     pub slurm: SlurmSpec,
-}
-
-/// A model with settings of its own.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ModelEntry {
-    /// Its name.
-    pub name: String,
-    /// Its settings.
-    pub set: BTreeMap<String, String>,
 }
 
 impl SweepFile {
@@ -71,41 +77,27 @@ impl SweepFile {
                 ),
             ));
         }
+        if written.score.is_some() {
+            tables::check_alone(&written, place)?;
+        }
+        let folder = folder_of(path);
+        let tables = written.score.as_ref();
+        let tables = tables.map(|score| tables::TablesEntry::of(score, folder, place));
         let models = written.models.iter();
         let models: Vec<ModelEntry> = models
-            .map(|value| model(value, place))
+            .map(|value| ModelEntry::of(value, place))
             .collect::<Result<_, _>>()?;
-        let mut vary = BTreeMap::new();
-        for (key, values) in written.vary {
-            if let Some(model) = models.iter().find(|model| model.set.contains_key(&key)) {
-                return Err(place.wrong(
-                    &key,
-                    format!(
-                        "`{key}` varies and is set by the model {}; keep one of both",
-                        model.name
-                    ),
-                ));
-            }
-            let texts = values.iter().map(|value| {
-                word(value).ok_or_else(|| {
-                    place.wrong(
-                        &key,
-                        format!("`{key}`: expected texts, numbers, true or false"),
-                    )
-                })
-            });
-            let texts: Vec<String> = texts.collect::<Result<_, _>>()?;
-            place.check_distinct(&key, &texts)?;
-            vary.insert(key, texts);
-        }
-        let seeds = match written.seeds {
+        let vary = vary(written.vary, &models, place)?;
+        let seeds = match &written.seeds {
             None => vec![0],
-            Some(seeds) => seeds
-                .list()
-                .map_err(|problem| place.wrong("seeds", problem))?,
+            Some(written) => seeds(written).map_err(|problem| place.wrong("seeds", problem))?,
         };
         place.check_distinct("seeds", &seeds)?;
         place.check_distinct("splits", &written.splits)?;
+        for split in &written.splits {
+            let known = split.parse::<SplitSpec>();
+            known.map_err(|error| place.wrong("splits", error.to_string()))?;
+        }
         let datasets = written.datasets.list();
         place.check_distinct("datasets", &datasets)?;
         let splits = match written.splits.is_empty() {
@@ -120,9 +112,10 @@ impl SweepFile {
         let skip = skip.iter().map(|text| {
             Condition::parse(text).map_err(|error| place.wrong("where", error.to_string()))
         });
-        let beside = |file: PathBuf| folder_of(path).join(file);
+        let beside = |file: PathBuf| folder.join(file);
         Ok(SweepFile {
             path: path.to_owned(),
+            digest: Digest::of(text.as_bytes()),
             name: written.name,
             datasets,
             models,
@@ -133,6 +126,7 @@ impl SweepFile {
             limits: written.limits.map(beside),
             vary,
             skip: skip.collect::<Result<_, _>>()?,
+            tables: tables.transpose()?,
             slurm: written.slurm.unwrap_or_default(),
         })
     }
@@ -157,102 +151,34 @@ fn folder_of(path: &Path) -> &Path {
     taceva_durable::parent_of(path)
 }
 
-/// The file, where errors are named.
-#[derive(Clone, Copy)]
-struct FilePlace<'a> {
-    path: &'a Path,
-    text: &'a str,
-}
-
-impl FilePlace<'_> {
-    fn wrong(&self, key: &str, problem: String) -> SweepError {
-        let line = self.text.lines().position(|line| {
-            let code = line.split('#').next().unwrap_or_default();
-            code.split(|letter: char| !(letter.is_alphanumeric() || "_-".contains(letter)))
-                .any(|word| word == key)
+/// The settings that vary, each with its values as people type them.
+fn vary(
+    written: BTreeMap<String, Vec<toml::Value>>,
+    models: &[ModelEntry],
+    place: FilePlace<'_>,
+) -> Result<BTreeMap<String, Vec<String>>, SweepError> {
+    let mut vary = BTreeMap::new();
+    for (key, values) in written {
+        if let Some(model) = models.iter().find(|model| model.set.contains_key(&key)) {
+            return Err(place.wrong(
+                &key,
+                format!(
+                    "`{key}` varies and is set by the model {}; keep one of both",
+                    model.name
+                ),
+            ));
+        }
+        let texts = values.iter().map(|value| {
+            word(value).ok_or_else(|| {
+                place.wrong(
+                    &key,
+                    format!("`{key}`: expected texts, numbers, true or false"),
+                )
+            })
         });
-        SweepError::Meaning {
-            path: self.path.to_owned(),
-            line: line.map(|line| line + 1),
-            problem,
-        }
+        let texts: Vec<String> = texts.collect::<Result<_, _>>()?;
+        place.check_distinct(&key, &texts)?;
+        vary.insert(key, texts);
     }
-
-    fn check_distinct<T: PartialEq + std::fmt::Display>(
-        &self,
-        key: &str,
-        values: &[T],
-    ) -> Result<(), SweepError> {
-        for (at, value) in values.iter().enumerate() {
-            if values[..at].contains(value) {
-                return Err(self.wrong(key, format!("`{key}`: {value} comes twice")));
-            }
-        }
-        Ok(())
-    }
-}
-
-/// A name, or `{ name = …, set = { … } }`.
-fn model(value: &toml::Value, place: FilePlace<'_>) -> Result<ModelEntry, SweepError> {
-    const KEYS: [&str; 2] = ["name", "set"];
-    let table = match value {
-        toml::Value::String(name) => {
-            return Ok(ModelEntry {
-                name: name.clone(),
-                set: BTreeMap::new(),
-            });
-        }
-        toml::Value::Table(table) => table,
-        _ => {
-            let problem = "`models`: expected names, or { name = \"…\", set = { … } }";
-            return Err(place.wrong("models", problem.to_owned()));
-        }
-    };
-    if let Some(key) = table.keys().find(|key| !KEYS.contains(&key.as_str())) {
-        let suggestion = Suggestion::of(key, KEYS);
-        return Err(place.wrong(
-            key,
-            format!("`{key}`: unknown key of a model, {suggestion}"),
-        ));
-    }
-    let name = table.get("name").and_then(toml::Value::as_str);
-    let name = name.ok_or_else(|| {
-        place.wrong(
-            "models",
-            "`models`: the key `name` of a model is missing".to_owned(),
-        )
-    })?;
-    let own = match table.get("set") {
-        None => None,
-        Some(toml::Value::Table(own)) => Some(own),
-        Some(_) => {
-            let problem = format!("`set` of the model {name}: expected {{ KEY = VALUE, … }}");
-            return Err(place.wrong("set", problem));
-        }
-    };
-    let mut set = BTreeMap::new();
-    for (key, value) in own.into_iter().flatten() {
-        let text = word(value).ok_or_else(|| {
-            place.wrong(
-                key,
-                format!("`{key}` of the model {name}: expected a text, a number, true or false"),
-            )
-        })?;
-        set.insert(key.clone(), text);
-    }
-    Ok(ModelEntry {
-        name: name.to_owned(),
-        set,
-    })
-}
-
-/// A setting as people type it.
-fn word(value: &toml::Value) -> Option<String> {
-    match value {
-        toml::Value::String(text) => Some(text.clone()),
-        toml::Value::Integer(number) => Some(number.to_string()),
-        toml::Value::Float(number) => Some(number.to_string()),
-        toml::Value::Boolean(value) => Some(value.to_string()),
-        _ => None,
-    }
+    Ok(vary)
 }

@@ -137,6 +137,13 @@ impl SweepFolder {
         })
         .map_err(SweepError::io("write", path))
     }
+
+    /// Writes a file that is whole at any moment and may be gone after a loss of power: for what no result misses.
+    pub(crate) fn write_lightly(&self, path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+        let beside = beside(path);
+        fs::write(&beside, bytes)?;
+        fs::rename(&beside, path)
+    }
 }
 
 /// A name in the same folder that no other thread, process or machine uses.

@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
+use taceva_core::Unit;
 use taceva_dataset::Digest;
 
 /// Counted on when the result of the same parts becomes another one within a version of this program.
-const VERSION: &str = "1";
+const VERSION: &str = "2";
 /// Hexadecimal digits of a key, 128 bits.
 const DIGITS: usize = 32;
 
@@ -27,37 +28,80 @@ pub(crate) struct KeyParts<'a> {
     pub(crate) metrics: &'a [String],
     /// The digest of the file that says what is known of the sensor.
     pub(crate) sensor: Option<Digest>,
+    /// The build of the plugin that offers the model.
+    pub(crate) plugin: Option<&'a str>,
+}
+
+/// What decides the result of a shard of two tables.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ShardParts<'a> {
+    /// The digests of the truth and of the predictions.
+    pub(crate) tables: [Digest; 2],
+    /// Which shard of how many: `2/7`.
+    pub(crate) shard: &'a str,
+    pub(crate) units: &'a [(String, Unit)],
+    pub(crate) allow_invalid: bool,
+    pub(crate) metrics: &'a [String],
+    pub(crate) sensor: Option<Digest>,
+}
+
+/// Parts of a key, each with its length, so that no two sequences of parts run together.
+struct KeyBytes(Vec<u8>);
+
+impl KeyBytes {
+    fn new(what: &str) -> KeyBytes {
+        let mut bytes = KeyBytes(Vec::new());
+        for text in [what, VERSION, env!("CARGO_PKG_VERSION")] {
+            bytes.part(text);
+        }
+        bytes
+    }
+
+    fn part(&mut self, text: &str) {
+        self.0.extend((text.len() as u64).to_le_bytes());
+        self.0.extend(text.as_bytes());
+    }
+
+    fn finish(self) -> TaskKey {
+        let digest = Digest::of(&self.0);
+        let digits = digest.as_bytes().iter().map(|byte| format!("{byte:02x}"));
+        TaskKey(digits.collect::<String>()[..DIGITS].to_owned())
+    }
 }
 
 impl TaskKey {
     pub(crate) fn of(parts: KeyParts<'_>) -> TaskKey {
-        let mut bytes = Vec::new();
-        // Each part with its length, so that no two sequences of parts run together.
-        let mut part = |text: &str| {
-            bytes.extend((text.len() as u64).to_le_bytes());
-            bytes.extend(text.as_bytes());
-        };
-        for text in ["taceva-sweep", VERSION, env!("CARGO_PKG_VERSION")] {
-            part(text);
-        }
-        part(&parts.dataset.to_string());
-        part(parts.model);
-        part(&parts.settings.len().to_string());
+        let mut bytes = KeyBytes::new("taceva-sweep");
+        bytes.part(&parts.dataset.to_string());
+        bytes.part(parts.model);
+        bytes.part(&parts.settings.len().to_string());
         for (key, value) in parts.settings {
-            part(key);
-            part(value);
+            bytes.part(key);
+            bytes.part(value);
         }
-        part(parts.split.unwrap_or_default());
-        part(&parts.seed.to_string());
-        part(&parts.metrics.join(","));
-        part(
-            &parts
-                .sensor
-                .map_or_else(String::new, |digest| digest.to_string()),
-        );
-        let digest = Digest::of(&bytes);
-        let digits = digest.as_bytes().iter().map(|byte| format!("{byte:02x}"));
-        TaskKey(digits.collect::<String>()[..DIGITS].to_owned())
+        bytes.part(parts.split.unwrap_or_default());
+        bytes.part(&parts.seed.to_string());
+        bytes.part(&parts.metrics.join(","));
+        bytes.part(&text_of(parts.sensor));
+        bytes.part(parts.plugin.unwrap_or_default());
+        bytes.finish()
+    }
+
+    pub(crate) fn of_shard(parts: ShardParts<'_>) -> TaskKey {
+        let mut bytes = KeyBytes::new("taceva-sweep of tables");
+        for table in parts.tables {
+            bytes.part(&table.to_string());
+        }
+        bytes.part(parts.shard);
+        bytes.part(&parts.units.len().to_string());
+        for (name, unit) in parts.units {
+            bytes.part(name);
+            bytes.part(unit.symbol());
+        }
+        bytes.part(&parts.allow_invalid.to_string());
+        bytes.part(&parts.metrics.join(","));
+        bytes.part(&text_of(parts.sensor));
+        bytes.finish()
     }
 
     /// Its digits.
@@ -70,6 +114,10 @@ impl TaskKey {
         let is_digit = |byte: u8| byte.is_ascii_digit() || (b'a'..=b'f').contains(&byte);
         text.len() == DIGITS && text.bytes().all(is_digit)
     }
+}
+
+fn text_of(digest: Option<Digest>) -> String {
+    digest.map_or_else(String::new, |digest| digest.to_string())
 }
 
 impl fmt::Display for TaskKey {
@@ -88,7 +136,8 @@ mod tests {
                   settings: &[(&str, &str)],
                   split: Option<&str>,
                   seed: u64,
-                  metrics: &str| {
+                  metrics: &str,
+                  plugin: Option<&str>| {
             let settings = settings.iter();
             let settings = settings.map(|(key, value)| ((*key).to_owned(), (*value).to_owned()));
             TaskKey::of(KeyParts {
@@ -99,22 +148,50 @@ mod tests {
                 seed,
                 metrics: &[metrics.to_owned()],
                 sensor: None,
+                plugin,
             })
         };
         let keys = [
-            of("ridge", &[], None, 1, "all"),
-            of("ridge", &[], None, 2, "all"),
-            of("ridge", &[("size", "32x32")], None, 1, "all"),
-            of("ridge", &[("siz", "e32x32")], None, 1, "all"),
-            of("ridge", &[], Some("by-point"), 1, "all"),
-            of("pls", &[], None, 1, "all"),
-            of("ridge", &[], None, 1, "accuracy"),
+            of("ridge", &[], None, 1, "all", None),
+            of("ridge", &[], None, 2, "all", None),
+            of("ridge", &[("size", "32x32")], None, 1, "all", None),
+            of("ridge", &[("siz", "e32x32")], None, 1, "all", None),
+            of("ridge", &[], Some("by-point"), 1, "all", None),
+            of("pls", &[], None, 1, "all", None),
+            of("ridge", &[], None, 1, "accuracy", None),
+            of("ridge", &[], None, 1, "all", Some("sha256:1")),
+            of("ridge", &[], None, 1, "all", Some("sha256:2")),
         ];
         for (at, key) in keys.iter().enumerate() {
             assert!(TaskKey::is_one(key.as_str()), "{key}");
             assert!(keys[..at].iter().all(|other| other != key), "{key}");
         }
-        assert_eq!(of("ridge", &[], None, 1, "all"), keys[0]);
+        assert_eq!(of("ridge", &[], None, 1, "all", None), keys[0]);
         assert!(!TaskKey::is_one("../../etc/passwd"));
+    }
+
+    #[test]
+    fn every_part_of_a_shard_is_part_of_its_key() {
+        let of = |tables: [&[u8]; 2], shard: &str, units: &[(String, Unit)], allow_invalid| {
+            TaskKey::of_shard(ShardParts {
+                tables: tables.map(Digest::of),
+                shard,
+                units,
+                allow_invalid,
+                metrics: &["all".to_owned()],
+                sensor: None,
+            })
+        };
+        let newton = [("tension".to_owned(), Unit::Newton)];
+        let keys = [
+            of([b"a", b"b"], "1/2", &[], false),
+            of([b"b", b"a"], "1/2", &[], false),
+            of([b"a", b"b"], "2/2", &[], false),
+            of([b"a", b"b"], "1/2", &newton, false),
+            of([b"a", b"b"], "1/2", &[], true),
+        ];
+        for (at, key) in keys.iter().enumerate() {
+            assert!(keys[..at].iter().all(|other| other != key), "{key}");
+        }
     }
 }

@@ -1,9 +1,10 @@
 //! Carrying one task out.
 
-use std::collections::BTreeMap;
+mod errors;
+mod shard;
 
 use taceva_core::{ErrorKind, shown};
-use taceva_dataset::SensorFile;
+use taceva_dataset::{Digest, SensorFile};
 use taceva_models::{ChosenBy, Model, Models};
 use taceva_report::Study;
 use taceva_study::{
@@ -12,9 +13,12 @@ use taceva_study::{
 
 use crate::error::SweepError;
 use crate::folder::SweepFolder;
+use crate::grid::build_of;
 use crate::recording::opened;
-use crate::result::{PointErrors, TaskResult, ValidationError};
+use crate::result::{TaskResult, ValidationError};
 use crate::task::Task;
+use crate::task_list::TaskList;
+use errors::errors;
 
 /// What came of a task.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -28,11 +32,11 @@ pub enum Outcome {
 }
 
 /// What tasks of a sweep have in common.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub(crate) struct Common<'a> {
     pub(crate) folder: &'a SweepFolder,
     pub(crate) models: &'a Models,
-    pub(crate) metrics: &'a [String],
+    pub(crate) list: &'a TaskList,
     pub(crate) sensor: Option<&'a SensorFile>,
 }
 
@@ -41,14 +45,29 @@ pub(crate) struct Common<'a> {
 /// # Errors
 /// [`SweepError`] if it cannot be carried out; nothing is written then.
 pub(crate) fn carry_out(task: &Task, common: Common<'_>, work: Work<'_>) -> Result<(), SweepError> {
+    if let Some(tables) = &common.list.tables {
+        return shard::carry_out(task, tables, common, work);
+    }
     let (dataset, digest) = opened(&task.path)?;
     let digest = digest.to_string();
     if digest != task.digest {
-        return Err(SweepError::Kept {
+        return Err(SweepError::Changed {
             path: task.path.clone(),
             problem: format!(
-                "the recording is another one than when the sweep was planned: {digest}, expected {}; start the sweep again",
+                "the recording is another one than when the sweep was planned: {digest}, expected {}",
                 task.digest
+            ),
+        });
+    }
+    let build = build_of(&task.model, common.models)?;
+    if build != task.plugin {
+        let said = |build: &Option<String>| build.clone().unwrap_or_else(|| "no plugin".to_owned());
+        return Err(SweepError::Changed {
+            path: task.model.clone().into(),
+            problem: format!(
+                "the plugin is another build than when the sweep was planned: {}, expected {}",
+                said(&build),
+                said(&task.plugin)
             ),
         });
     }
@@ -56,7 +75,7 @@ pub(crate) fn carry_out(task: &Task, common: Common<'_>, work: Work<'_>) -> Resu
     let fitted = fit(&dataset, &request, None, work)?;
     let asked = |model| EvaluateRequest {
         model: ModelChoice::Fitted(Box::new(model)),
-        metrics: common.metrics.to_vec(),
+        metrics: common.list.metrics.clone(),
         part: None,
         sensor: common.sensor.cloned(),
     };
@@ -72,6 +91,7 @@ pub(crate) fn carry_out(task: &Task, common: Common<'_>, work: Work<'_>) -> Resu
     let study = study.first().ok_or_else(|| unexpected(task, &"no study"))?;
     result = result.with_scores(study);
     result.errors = errors(&evaluated.report).map_err(|error| unexpected(task, &error))?;
+    result.evaluation = Digest::of(text.as_bytes()).to_string();
     // The evaluation first: where the result is, everything is.
     let folder = common.folder;
     folder.write(&folder.evaluation(&task.key), text.as_bytes())?;
@@ -99,7 +119,7 @@ fn unexpected(task: &Task, problem: &dyn std::fmt::Display) -> SweepError {
 }
 
 /// The evaluation as `taceva evaluate --format json` writes it.
-fn sealed(report: &EvaluationReport) -> Result<String, SweepError> {
+pub(crate) fn sealed(report: &EvaluationReport) -> Result<String, SweepError> {
     let wrong = |problem: String| SweepError::Kept {
         path: "evaluation".into(),
         problem,
@@ -126,54 +146,4 @@ fn validation(model: &Model) -> (String, Vec<ValidationError>) {
         })
     });
     (by.to_owned(), errors.collect())
-}
-
-/// The absolute errors of each channel, summed by contact point, or sample by sample where no contact point is known.
-fn errors(report: &EvaluationReport) -> Result<PointErrors, csv::Error> {
-    let Some(samples) = &report.samples else {
-        return Ok(BTreeMap::new());
-    };
-    let mut text = Vec::new();
-    samples.write(&mut text, str::to_owned)?;
-    let mut table = csv::Reader::from_reader(text.as_slice());
-    let names: Vec<String> = table.headers()?.iter().map(str::to_owned).collect();
-    let position = |name: &str| names.iter().position(|known| known == name);
-    let channels: Vec<(&str, usize, usize)> = names
-        .iter()
-        .filter_map(|name| {
-            let predicted = position(&format!("{name}_predicted"))?;
-            Some((name.as_str(), position(name)?, predicted))
-        })
-        .collect();
-    let point = position("point_id").or_else(|| position("id")).unwrap_or(0);
-    let mut sums: BTreeMap<String, BTreeMap<String, (u64, f64)>> = BTreeMap::new();
-    for record in table.records() {
-        let record = record?;
-        let number = |at: usize| {
-            record
-                .get(at)?
-                .parse::<f64>()
-                .ok()
-                .filter(|value| value.is_finite())
-        };
-        for (channel, truth, predicted) in &channels {
-            let (Some(truth), Some(predicted)) = (number(*truth), number(*predicted)) else {
-                continue;
-            };
-            let of_channel = sums.entry((*channel).to_owned()).or_default();
-            let cell = of_channel
-                .entry(record.get(point).unwrap_or_default().to_owned())
-                .or_default();
-            cell.0 += 1;
-            cell.1 += (truth - predicted).abs();
-        }
-    }
-    let listed = |points: BTreeMap<String, (u64, f64)>| {
-        let points = points.into_iter();
-        points.map(|(point, (n, sum))| (point, n, sum)).collect()
-    };
-    Ok(sums
-        .into_iter()
-        .map(|(channel, points)| (channel, listed(points)))
-        .collect())
 }

@@ -1,8 +1,8 @@
 //! The pages of a sweep: results, and apart from them what they took.
 
-use taceva_report::{
-    Cell, Column, PagePart, PageSection, Race, RacePoint, Table, TablesPage, race,
-};
+mod times;
+
+use taceva_report::{Cell, Column, PagePart, PageSection, Table, TablesPage};
 
 use crate::accepted;
 use crate::analysis::{self, Found, Loaded};
@@ -10,9 +10,9 @@ use crate::chosen;
 use crate::collected::Collected;
 use crate::decided;
 use crate::effects;
-use crate::folder::SweepFolder;
 use crate::task_list::TaskList;
-use crate::times::TaskTime;
+
+pub(crate) use times::times;
 
 /// The page of results; the same results give the same bytes.
 pub(crate) fn results(list: &TaskList, loaded: &[Loaded<'_>], collected: &Collected) -> String {
@@ -115,76 +115,4 @@ fn left(loaded: &[Loaded<'_>]) -> Table {
         ]);
     }
     table
-}
-
-/// The page of times, which no two runs agree on: run time against error, a figure for each recording and channel with R².
-pub(crate) fn times(folder: &SweepFolder, list: &TaskList, loaded: &[Loaded<'_>]) -> String {
-    let mut parts = vec![PagePart::Words(
-        "What a task took depends on the machine, its load and on what was in the cache before. Filled: no other configuration is both faster and more accurate.".to_owned(),
-    )];
-    let groups = analysis::groups(loaded);
-    let mut places: Vec<(&str, Option<&str>)> = Vec::new();
-    for group in &groups {
-        if !places.contains(&group.place()) {
-            places.push(group.place());
-        }
-    }
-    for place in places {
-        for channel in analysis::channels(loaded) {
-            let of_place = groups.iter().filter(|group| group.place() == place);
-            let points = of_place.filter_map(|group| {
-                let gains = group.values("r2", &channel);
-                let seconds = group
-                    .results
-                    .iter()
-                    .filter_map(|(_, result)| TaskTime::read(folder, &result.key));
-                let seconds: Vec<f64> = seconds.map(|time| time.seconds).collect();
-                let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
-                (!gains.is_empty() && !seconds.is_empty()).then(|| RacePoint {
-                    name: group.configuration.clone(),
-                    gain: mean(&gains),
-                    cost: mean(&seconds).max(1e-3),
-                    is_on_front: false,
-                })
-            });
-            let mut points: Vec<RacePoint> = points.collect();
-            mark_front(&mut points);
-            if points.len() > 1 {
-                let split = place.1.unwrap_or("split as recorded");
-                parts.push(PagePart::Figure(Box::new(race(&Race {
-                    title: format!("{channel} of {}, {split}", place.0),
-                    caption: "Seconds of a task, features included, against R² on the test part, means over seeds.".to_owned(),
-                    gain: format!("R² of {channel}"),
-                    cost: "s a task".to_owned(),
-                    floor: None,
-                    points,
-                }))));
-            }
-        }
-    }
-    TablesPage {
-        title: format!("{}: times", title(list)),
-        badge: badge(loaded),
-        lead: vec!["Run times stand apart from results: times.csv has a row a task.".to_owned()],
-        sections: vec![PageSection {
-            id: "times",
-            title: "Run time against error",
-            parts,
-        }],
-    }
-    .html()
-}
-
-fn mark_front(points: &mut [RacePoint]) {
-    let all: Vec<[f64; 2]> = points
-        .iter()
-        .map(|point| [point.gain, point.cost])
-        .collect();
-    for point in points {
-        let is_beaten = |other: &[f64; 2]| {
-            let [gain, cost] = *other;
-            gain >= point.gain && cost <= point.cost && (gain > point.gain || cost < point.cost)
-        };
-        point.is_on_front = !all.iter().any(is_beaten);
-    }
 }

@@ -1,19 +1,17 @@
 //! What a task found: its scores and the errors behind them, in a sealed file.
 
+mod kept;
+
 use std::collections::BTreeMap;
-use std::fs;
 
 use serde::{Deserialize, Serialize};
 use taceva_metrics::ClusterSums;
 use taceva_report::{Interval, Study, Value};
-use taceva_seal::Version;
 
-use crate::error::SweepError;
-use crate::folder::SweepFolder;
 use crate::key::TaskKey;
 
 /// The schema of a result.
-const SCHEMA: &str = "taceva.sweep-result/1.0";
+const SCHEMA: &str = "taceva.sweep-result/1.1";
 
 /// Of each channel: contact point, samples of it, and the sum of their absolute errors.
 pub(crate) type PointErrors = BTreeMap<String, Vec<(String, u64, f64)>>;
@@ -41,6 +39,8 @@ pub(crate) struct TaskResult {
     pub(crate) scores: Vec<SweepScore>,
     /// The errors on the test part, by contact point.
     pub(crate) errors: PointErrors,
+    /// The digest of the file of its evaluation.
+    pub(crate) evaluation: String,
 }
 
 /// The error of a channel on the part that settings were chosen on.
@@ -81,6 +81,7 @@ impl TaskResult {
             validation: Vec::new(),
             scores: Vec::new(),
             errors: BTreeMap::new(),
+            evaluation: String::new(),
         }
     }
 
@@ -131,57 +132,5 @@ impl TaskResult {
             }
         }
         Some(sums)
-    }
-
-    pub(crate) fn text(&self) -> Result<String, SweepError> {
-        let text =
-            serde_json::to_string(self).map_err(|error| self.unwritable(error.to_string()))?;
-        let text = taceva_seal::json::seal(&text);
-        text.map_err(|error| self.unwritable(error.to_string()))
-    }
-
-    fn unwritable(&self, problem: String) -> SweepError {
-        SweepError::Kept {
-            path: format!("results/{}.json", self.key).into(),
-            problem,
-        }
-    }
-
-    /// The result of `key` in `folder`; `None` if there is none.
-    pub(crate) fn read(
-        folder: &SweepFolder,
-        key: &TaskKey,
-    ) -> Result<Option<TaskResult>, SweepError> {
-        let path = folder.result(key);
-        let text = match fs::read_to_string(&path) {
-            Ok(text) => text,
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-            Err(error) => return Err(SweepError::io("read", &path)(error)),
-        };
-        let wrong = |problem: String| SweepError::Kept {
-            path: path.clone(),
-            problem: format!("{problem}; remove the file, and the task is carried out again"),
-        };
-        taceva_seal::json::check(&text, Version::Sealed)
-            .map_err(|error| wrong(error.to_string()))?;
-        let result: TaskResult =
-            serde_json::from_str(&text).map_err(|error| wrong(error.to_string()))?;
-        if result.schema != SCHEMA {
-            return Err(wrong(format!(
-                "schema `{}`, expected `{SCHEMA}`",
-                result.schema
-            )));
-        }
-        if result.taceva != env!("CARGO_PKG_VERSION") {
-            return Err(wrong(format!(
-                "a result of TacEva {}, this is {}",
-                result.taceva,
-                env!("CARGO_PKG_VERSION")
-            )));
-        }
-        if &result.key != key {
-            return Err(wrong(format!("the result of the task {}", result.key)));
-        }
-        Ok(Some(result))
     }
 }

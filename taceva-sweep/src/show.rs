@@ -23,6 +23,12 @@ pub fn show(
     by: &[String],
     metric: &str,
 ) -> Result<Table, SweepError> {
+    if list.is_of_tables() {
+        return Err(SweepError::Condition {
+            text: "show".to_owned(),
+            problem: "tasks are shards of two tables, which have no scores of their own: those of all rows are in score.json".to_owned(),
+        });
+    }
     let settings: BTreeSet<&str> = list
         .tasks
         .iter()

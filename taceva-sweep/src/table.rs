@@ -1,5 +1,7 @@
 //! The table of a sweep: a row a task, metric and channel.
 
+mod rows;
+
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -9,7 +11,7 @@ use taceva_tables::{Cell, ParquetWriter, WrittenColumn, WrittenKind};
 use crate::analysis::{Found, Loaded};
 use crate::error::SweepError;
 use crate::result::SweepScore;
-use crate::task::Task;
+use rows::{head, scored, without_scores};
 
 /// A table with typed columns; the same tasks and results give the same bytes.
 pub(crate) struct TidyTable {
@@ -136,61 +138,4 @@ fn field(text: &str) -> String {
         true => format!("\"{}\"", text.replace('"', "\"\"")),
         false => text,
     }
-}
-
-fn text(text: &str) -> Cell {
-    match text {
-        "" => Cell::Null,
-        text => Cell::Text(text.to_owned()),
-    }
-}
-
-fn head(task: &Task, settings: &BTreeSet<&str>, of_result: [&str; 3]) -> Vec<Cell> {
-    let mut cells = vec![
-        text(task.key.as_str()),
-        text(&task.dataset),
-        text(&task.digest),
-    ];
-    cells.extend(of_result.map(text));
-    cells.push(text(&task.model));
-    cells.extend(settings.iter().map(|name| {
-        task.settings
-            .get(*name)
-            .map_or(Cell::Null, |value| text(value))
-    }));
-    cells.push(text(task.split.as_deref().unwrap_or_default()));
-    cells.push(Cell::Integer(i128::from(task.seed)));
-    cells
-}
-
-fn without_scores(mut cells: Vec<Cell>, status: &str, reason: &str) -> Vec<Cell> {
-    cells.push(text(status));
-    cells.extend(std::iter::repeat_n(Cell::Null, 10));
-    cells.push(text(reason));
-    cells
-}
-
-fn scored(mut cells: Vec<Cell>, part: &str, score: &SweepScore, by: &str) -> Vec<Cell> {
-    let number = |value: Option<f64>| value.map_or(Cell::Null, Cell::Number);
-    cells.extend(
-        [
-            "scored",
-            part,
-            &score.metric,
-            &score.channel,
-            &score.unit,
-            &score.better,
-        ]
-        .map(text),
-    );
-    cells.push(number(score.value));
-    cells.push(number(score.interval.map(|[low, _]| low)));
-    cells.push(number(score.interval.map(|[_, high]| high)));
-    cells.push(match score.n {
-        0 => Cell::Null,
-        n => Cell::Integer(i128::from(n)),
-    });
-    cells.push(text(by));
-    cells.push(text(score.reason.as_deref().unwrap_or_default()));
-    cells
 }

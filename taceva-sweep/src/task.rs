@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use taceva_models::{ModelSettings, Models};
 use taceva_study::{FitRequest, StudyError};
 
+use crate::folder::SweepFolder;
 use crate::key::TaskKey;
 
 /// One evaluation of a sweep: a model with its settings, fitted on and scored on one recording, divided by one split and seed.
@@ -28,7 +29,13 @@ pub struct Task {
     pub split: Option<String>,
     /// The seed of the division and of whatever the model draws.
     pub seed: u64,
+    /// The build of the plugin that offers the model, when the sweep was planned.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plugin: Option<String>,
 }
+
+/// The word that says which shard of its tables a task is: `2/7`.
+pub(crate) const SHARD: &str = "shard";
 
 impl Task {
     /// What `name` is of this task: a setting, or `dataset`, `model`, `split`, `seed`.
@@ -47,6 +54,24 @@ impl Task {
         let settings = self.settings.iter();
         let settings = settings.map(|(key, value)| format!(" {key}={value}"));
         format!("{}{}", self.model, settings.collect::<String>())
+    }
+
+    /// `reason` without the folders in which it came to be: with the name that the file gives the recording, and relative to the folder of the
+    /// sweep. So it is the same wherever the task runs.
+    pub(crate) fn without_folders(&self, reason: &str, folder: &SweepFolder) -> String {
+        let mut reason = reason.to_owned();
+        let own = folder.path();
+        let absolute = std::path::absolute(own).unwrap_or_else(|_| own.to_owned());
+        for (path, name) in [
+            (self.path.as_path(), self.dataset.as_str()),
+            (absolute.as_path(), "."),
+        ] {
+            let path = path.to_string_lossy();
+            if path.len() > 1 {
+                reason = reason.replace(&*path, name);
+            }
+        }
+        reason
     }
 
     /// Whether it asks for a device other than the processor.

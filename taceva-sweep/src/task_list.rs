@@ -1,20 +1,21 @@
 //! The tasks of a sweep as a file, so that a job elsewhere carries out what was planned here.
 
-use std::fs;
+mod kept;
+
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
-use taceva_dataset::{Digest, SensorFile};
+use taceva_dataset::Digest;
 
 use crate::condition::Condition;
 use crate::error::SweepError;
 use crate::file::SweepFile;
 use crate::folder::SweepFolder;
-use crate::grid::{Grid, sensor_digest};
+use crate::grid::{Grid, PlannedTables, sensor_digest};
 use crate::task::Task;
 
 /// The schema of the list.
-const SCHEMA: &str = "taceva.sweep-tasks/1.0";
+const SCHEMA: &str = "taceva.sweep-tasks/1.1";
 
 /// The tasks of a sweep, with all that is needed to carry them out and to collect them.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -22,6 +23,8 @@ const SCHEMA: &str = "taceva.sweep-tasks/1.0";
 pub struct TaskList {
     schema: String,
     taceva: String,
+    /// The digest of the file that the list was made from.
+    file: Digest,
     /// What the sweep is called.
     pub name: String,
     /// Metrics and groups by name.
@@ -37,6 +40,9 @@ pub struct TaskList {
     pub vary: Vec<(String, Vec<String>)>,
     /// The tasks, in the order of the table.
     pub tasks: Vec<Task>,
+    /// The tables that tasks are shards of.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) tables: Option<PlannedTables>,
 }
 
 /// How far a sweep is.
@@ -62,6 +68,7 @@ impl TaskList {
         Ok(TaskList {
             schema: SCHEMA.to_owned(),
             taceva: env!("CARGO_PKG_VERSION").to_owned(),
+            file: file.digest,
             name: file.name.clone(),
             metrics: file.metrics.clone(),
             sensor: file.sensor.as_ref().map(absolute).transpose()?,
@@ -69,7 +76,18 @@ impl TaskList {
             limits: file.limits.as_ref().map(absolute).transpose()?,
             vary: file.vary.clone().into_iter().collect(),
             tasks: grid.tasks,
+            tables: grid.tables,
         })
+    }
+
+    /// Whether the file at `path` says what it said when the list was made from it; so, too, where it cannot be read.
+    pub fn is_of(&self, path: &Path) -> bool {
+        std::fs::read(path).map_or(true, |text| Digest::of(&text) == self.file)
+    }
+
+    /// Whether tasks are shards of two tables.
+    pub fn is_of_tables(&self) -> bool {
+        self.tables.is_some()
     }
 
     /// The positions of the tasks of which `only` holds; of all without it.
@@ -132,89 +150,4 @@ impl TaskList {
         }
         Ok(counts)
     }
-
-    /// Writes the list into `folder`, under a name that only equal lists have, and as the last one; returns where.
-    ///
-    /// # Errors
-    /// [`SweepError::Io`].
-    pub fn write(&self, folder: &SweepFolder) -> Result<PathBuf, SweepError> {
-        let latest = latest(folder);
-        let text = serde_json::to_string(self).map_err(|error| SweepError::Kept {
-            path: latest.clone(),
-            problem: error.to_string(),
-        })?;
-        let digest = Digest::of(text.as_bytes()).as_bytes()[..8]
-            .iter()
-            .map(|byte| format!("{byte:02x}"))
-            .collect::<String>();
-        let lists = folder.path().join("tasks");
-        fs::create_dir_all(&lists).map_err(SweepError::io("make", &lists))?;
-        let own = lists.join(format!("{digest}.json"));
-        if !own.exists() {
-            folder.write(&own, text.as_bytes())?;
-        }
-        folder.write(&latest, text.as_bytes())?;
-        Ok(own)
-    }
-
-    /// The list at `path`.
-    ///
-    /// # Errors
-    /// [`SweepError::Kept`] if it is none, or one of another version.
-    pub fn read(path: &Path) -> Result<TaskList, SweepError> {
-        let wrong = |problem: String| SweepError::Kept {
-            path: path.to_owned(),
-            problem,
-        };
-        let text = fs::read_to_string(path).map_err(|error| {
-            wrong(format!(
-                "no list of tasks: {error}; is the folder of the sweep shared with this machine?"
-            ))
-        })?;
-        let list: TaskList =
-            serde_json::from_str(&text).map_err(|error| wrong(error.to_string()))?;
-        if list.schema != SCHEMA || list.taceva != env!("CARGO_PKG_VERSION") {
-            return Err(wrong(format!(
-                "planned by TacEva {}, this is {}; start the sweep again",
-                list.taceva,
-                env!("CARGO_PKG_VERSION")
-            )));
-        }
-        Ok(list)
-    }
-
-    /// What is known of the sensor, as it was when the sweep was planned.
-    ///
-    /// # Errors
-    /// [`SweepError::Kept`] if its file is another one now; [`SweepError`] if it cannot be read.
-    pub(crate) fn read_sensor(&self) -> Result<Option<SensorFile>, SweepError> {
-        let Some(path) = &self.sensor else {
-            return Ok(None);
-        };
-        let bytes = fs::read(path).map_err(SweepError::io("read", path))?;
-        if self
-            .sensor_digest
-            .is_some_and(|digest| digest != Digest::of(&bytes))
-        {
-            return Err(SweepError::Kept {
-                path: path.clone(),
-                problem:
-                    "it is another file than when the sweep was planned; start the sweep again"
-                        .to_owned(),
-            });
-        }
-        Ok(Some(SensorFile::read(path)?))
-    }
-
-    /// The last list that was written into `folder`.
-    ///
-    /// # Errors
-    /// As [`read`](TaskList::read).
-    pub fn latest(folder: &SweepFolder) -> Result<TaskList, SweepError> {
-        TaskList::read(&latest(folder))
-    }
-}
-
-fn latest(folder: &SweepFolder) -> PathBuf {
-    folder.path().join("tasks.json")
 }

@@ -5,7 +5,6 @@ use std::path::PathBuf;
 
 use serde::Deserialize;
 
-use crate::limits::MOST_TASKS;
 use crate::slurm_spec::SlurmSpec;
 
 /// The file of a sweep as it is written.
@@ -20,7 +19,7 @@ pub(crate) struct WrittenSweep {
     #[serde(default)]
     pub(crate) models: Vec<toml::Value>,
     #[serde(default)]
-    pub(crate) seeds: Option<WrittenSeeds>,
+    pub(crate) seeds: Option<toml::Value>,
     #[serde(default)]
     pub(crate) splits: Vec<String>,
     #[serde(default)]
@@ -33,6 +32,8 @@ pub(crate) struct WrittenSweep {
     pub(crate) vary: BTreeMap<String, Vec<toml::Value>>,
     #[serde(default)]
     pub(crate) skip: WrittenSkip,
+    #[serde(default)]
+    pub(crate) score: Option<WrittenScore>,
     #[serde(default)]
     pub(crate) slurm: Option<SlurmSpec>,
 }
@@ -52,6 +53,11 @@ impl Default for Words {
 }
 
 impl Words {
+    /// Whether there is none.
+    pub(crate) fn is_empty(&self) -> bool {
+        matches!(self, Words::Several(words) if words.is_empty())
+    }
+
     pub(crate) fn list(self) -> Vec<String> {
         match self {
             Words::One(word) => vec![word],
@@ -60,38 +66,17 @@ impl Words {
     }
 }
 
-/// Seeds: a list of numbers, or `"1-5"`.
+/// Tables that are scored in shards.
 #[derive(Debug, Deserialize)]
-#[serde(untagged)]
-pub(crate) enum WrittenSeeds {
-    List(Vec<u64>),
-    Range(String),
-}
-
-impl WrittenSeeds {
-    /// The seeds, or what is wrong with the words.
-    pub(crate) fn list(self) -> Result<Vec<u64>, String> {
-        let text = match self {
-            WrittenSeeds::List(list) => return Ok(list),
-            WrittenSeeds::Range(text) => text,
-        };
-        let ends = text.split_once('-');
-        let ends = ends.and_then(|(first, last)| {
-            let (first, last): (u64, u64) = (first.trim().parse().ok()?, last.trim().parse().ok()?);
-            (first <= last).then_some((first, last))
-        });
-        let (first, last) = ends.ok_or(
-            "`seeds`: expected a list such as [1, 2, 3], or the first and the last as in \"1-5\"",
-        )?;
-        // Counted before they are made: too many are refused, not allocated.
-        match last - first {
-            span if span < MOST_TASKS => Ok((first..=last).collect()),
-            span => Err(format!(
-                "a grid of {} tasks for each model by its seeds alone, {MOST_TASKS} are the most",
-                u128::from(span) + 1
-            )),
-        }
-    }
+#[serde(deny_unknown_fields)]
+pub(crate) struct WrittenScore {
+    pub(crate) truth: PathBuf,
+    pub(crate) pred: PathBuf,
+    pub(crate) shards: u32,
+    #[serde(default)]
+    pub(crate) units: BTreeMap<String, String>,
+    #[serde(default)]
+    pub(crate) allow_invalid: bool,
 }
 
 /// What makes no sense.

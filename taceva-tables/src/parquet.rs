@@ -8,6 +8,7 @@ mod leaf;
 mod levels;
 mod page_header;
 mod pages;
+mod part;
 mod schema;
 mod select;
 mod stream;

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{ArgGroup, Args};
 use taceva_models::Checkpoints;
+use taceva_study::Shard;
 
 use super::{
     CacheArgs, ModelArgs, OptionalModelArgs, Output, PartArgs, ScoringArgs, SplitArgs, SplitOutArgs,
@@ -94,7 +95,7 @@ pub(crate) struct Predict {
 /// Both tables have a header with channel names; rows are matched by `id` where both have one, else by order.
 #[derive(Debug, Args)]
 pub(crate) struct Score {
-    /// The truth: a table with columns Px,Py,Pz (mm), Fx,Fy,Fz (N) or named others
+    /// The truth: a table, CSV or Parquet, with columns Px,Py,Pz (mm), Fx,Fy,Fz (N) or named others
     #[arg(long, value_name = "TRUTH.csv")]
     pub(crate) truth: PathBuf,
     /// The predictions: a table with the same channels
@@ -106,6 +107,10 @@ pub(crate) struct Score {
     /// Count NaN and infinite cells as n_invalid instead of refusing the file
     #[arg(long)]
     pub(crate) allow_invalid: bool,
+    /// Score shard K of N alone: rows that follow each other, of tables of any length; --state-out keeps what `taceva merge` joins to the
+    /// scores of all rows
+    #[arg(long, value_name = "K/N", conflicts_with_all = ["samples_out", "html", "figures"])]
+    pub(crate) shard: Option<Shard>,
     #[command(flatten)]
     pub(crate) scoring: ScoringArgs,
     #[command(flatten)]

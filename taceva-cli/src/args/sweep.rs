@@ -26,6 +26,12 @@ The file:
   tasks_a_job = 8
   setup = [\"module load taceva\"]
 
+Tables that somebody else predicted, in shards, instead of recordings and models:
+  [score]
+  truth = \"truth.parquet\"                  # CSV or Parquet
+  pred = \"pred.parquet\"
+  shards = 8
+
 The same command again goes on where it was stopped. `taceva sweep show FILE --by model,size` prints results.";
 
 /// Every combination of recordings, models, settings, splits and seeds is a task; its result is a file named after all that decides it. The

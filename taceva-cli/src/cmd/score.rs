@@ -2,7 +2,7 @@
 
 use anyhow::Context as _;
 use taceva_core::{SourceUnit, Unit};
-use taceva_study::{ScoreRequest, Scoring};
+use taceva_study::{ScoreRequest, ScoreTables, Scored, Scoring, Shard};
 
 use super::{Context, Usage};
 use crate::args::Score;
@@ -24,17 +24,15 @@ pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
         allow_invalid: args.allow_invalid,
         jobs: context.jobs,
     };
-    let scoring = Scoring::read(request)?;
-    if asked.explain.is_wanted {
-        output::write(None, |out| write!(out, "{}", scoring.plan()))?;
-        return Ok(exit::DONE);
-    }
-    context.print_plan(|| Ok(scoring.plan()))?;
-    let mut scored = scoring.run(&context.progress)?;
     let attachments = super::Attachments::of(asked);
-    if attachments.is_any() {
-        scored.report.samples = Some(scoring.samples()?);
-    }
+    let in_parts = args.shard.is_some() || ScoreTables::are_columns(&request);
+    let scored = match in_parts && !attachments.is_any() {
+        true => by_shard(&request, args, context)?,
+        false => whole(request, (args, attachments.is_any()), context)?,
+    };
+    let Some(mut scored) = scored else {
+        return Ok(exit::DONE);
+    };
     if asked.samples_out.is_some() {
         super::attachments::note_samples(&mut scored.report)?;
     }
@@ -46,6 +44,42 @@ pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
         output::write(Some(path), |out| scored.state.write(out))?;
     }
     Ok(exit::DONE)
+}
+
+/// Scores tables that fit the memory; `None` where only the plan is asked for.
+fn whole(
+    request: ScoreRequest,
+    (args, with_samples): (&Score, bool),
+    context: &Context,
+) -> anyhow::Result<Option<Scored>> {
+    let scoring = Scoring::read(request)?;
+    if args.scoring.explain.is_wanted {
+        output::write(None, |out| write!(out, "{}", scoring.plan()))?;
+        return Ok(None);
+    }
+    context.print_plan(|| Ok(scoring.plan()))?;
+    let mut scored = scoring.run(&context.progress)?;
+    if with_samples {
+        scored.report.samples = Some(scoring.samples()?);
+    }
+    Ok(Some(scored))
+}
+
+/// Scores a shard of tables of any length, or all of it; `None` where only the plan is asked for.
+fn by_shard(
+    request: &ScoreRequest,
+    args: &Score,
+    context: &Context,
+) -> anyhow::Result<Option<Scored>> {
+    let shard = args.shard.unwrap_or(Shard::WHOLE);
+    let tables = ScoreTables::scan(request)?;
+    if args.scoring.explain.is_wanted {
+        let plan = tables.plan(request, shard)?;
+        output::write(None, |out| write!(out, "{plan}"))?;
+        return Ok(None);
+    }
+    context.print_plan(|| Ok(tables.plan(request, shard)?))?;
+    Ok(Some(tables.score(request, shard, &context.progress)?))
 }
 
 /// `NAME=UNIT`: a unit that values are kept in, since tables of scores are not converted.

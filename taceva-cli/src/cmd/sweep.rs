@@ -9,22 +9,22 @@ use taceva_sweep::{TaskList, collect, show};
 use super::{Context, results};
 use crate::args::{Sweep, SweepCollect, SweepShow, SweepSubject};
 use crate::exit;
-use summary::{all_pass, folder_of, print};
+use summary::{all_pass, folder_of, latest, print};
 
 pub(crate) fn run(args: &Sweep, context: &Context) -> anyhow::Result<u8> {
     match &args.subject {
         None => run::run(&args.run, context),
-        Some(SweepSubject::Show(args)) => shown(args),
-        Some(SweepSubject::Status(args)) => jobs::status(&args.sweep),
+        Some(SweepSubject::Show(args)) => shown(args, context),
+        Some(SweepSubject::Status(args)) => jobs::status(&args.sweep, context),
         Some(SweepSubject::Cancel(args)) => jobs::cancel(&args.sweep, context),
-        Some(SweepSubject::Collect(args)) => collected(args),
+        Some(SweepSubject::Collect(args)) => collected(args, context),
         Some(SweepSubject::Task(args)) => run::tasks(args, context),
     }
 }
 
-fn shown(args: &SweepShow) -> anyhow::Result<u8> {
+fn shown(args: &SweepShow, context: &Context) -> anyhow::Result<u8> {
     let folder = folder_of(&args.of.sweep);
-    let list = TaskList::latest(&folder)?;
+    let list = latest(&args.of.sweep, &folder, context)?;
     let table = show(&folder, &list, &args.by, &args.metric)?;
     results::write(&table, &args.output, || {
         table.json("taceva.sweep-means/1.0")
@@ -32,11 +32,11 @@ fn shown(args: &SweepShow) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-fn collected(args: &SweepCollect) -> anyhow::Result<u8> {
+fn collected(args: &SweepCollect, context: &Context) -> anyhow::Result<u8> {
     let folder = folder_of(&args.of.sweep);
     let list = match &args.tasks {
         Some(path) => TaskList::read(path)?,
-        None => TaskList::latest(&folder)?,
+        None => latest(&args.of.sweep, &folder, context)?,
     };
     let collected = collect(&folder, &list, true)?;
     print(&folder, &collected)?;

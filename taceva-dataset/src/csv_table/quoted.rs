@@ -71,5 +71,6 @@ pub(super) fn read(path: &Path, text: &str, delimiter: u8) -> Result<CsvTable, D
         lines: Some(lines),
         counted: std::sync::OnceLock::new(),
         added_lines: 0,
+        left_out_lines: 0,
     })
 }

@@ -77,6 +77,7 @@ pub(super) fn read(
         lines: None,
         counted: std::sync::OnceLock::new(),
         added_lines: 0,
+        left_out_lines: 0,
     })
 }
 

@@ -6,7 +6,6 @@ use taceva_core::{Batch, Channel, Column, Field};
 use taceva_dataset::CsvTable;
 use taceva_metrics::MetricPlan;
 
-use super::Scoring;
 use super::fields::{self, Place};
 use super::tables::Pairing;
 use crate::accumulate::Rows;
@@ -24,26 +23,31 @@ pub(super) struct PairedRows<'a> {
     allow_invalid: bool,
 }
 
-impl PairedRows<'_> {
-    pub(super) fn of(scoring: &Scoring) -> Result<PairedRows<'_>, StudyError> {
-        let (truth, prediction) = (&scoring.truth, &scoring.prediction);
+impl<'a> PairedRows<'a> {
+    /// The rows of the truth with those of the prediction that `pairing` gives them; `places` say which columns state which fields.
+    pub(super) fn new(
+        [truth, prediction]: [&'a CsvTable; 2],
+        pairing: &'a Pairing,
+        metrics: &MetricPlan,
+        places: &[Place],
+        allow_invalid: bool,
+    ) -> Result<PairedRows<'a>, StudyError> {
         let stand = |channel: &Channel| {
             let name = channel.name();
             Ok([truth.position(name)?, prediction.position(name)?])
         };
-        let channels: Result<_, StudyError> =
-            scoring.metrics.channels().iter().map(stand).collect();
-        let wanted = scoring.metrics.fields();
-        let places = scoring.places.iter().copied();
+        let channels: Result<_, StudyError> = metrics.channels().iter().map(stand).collect();
+        let wanted = metrics.fields();
+        let places = places.iter().copied();
         Ok(PairedRows {
             truth,
             prediction,
-            pairing: &scoring.pairing,
+            pairing,
             channels: channels?,
             places: places
                 .filter(|place| wanted.contains(place.field))
                 .collect(),
-            allow_invalid: scoring.request.allow_invalid,
+            allow_invalid,
         })
     }
 

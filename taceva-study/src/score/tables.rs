@@ -8,8 +8,9 @@ use taceva_core::shown;
 use taceva_core::{Channel, Channels, Unit};
 use taceva_dataset::{CsvTable, Digest};
 
-use super::ScoreRequest;
 use super::fields::NOT_CHANNELS;
+use super::table_parts::TableParts;
+use super::{ScoreRequest, parquet_parts};
 use crate::error::StudyError;
 
 /// How rows find each other.
@@ -27,6 +28,10 @@ pub(super) enum Pairing {
 pub(super) fn read_both(request: &ScoreRequest) -> Result<[(CsvTable, Digest); 2], StudyError> {
     let share = NonZeroUsize::new(request.jobs.get() / 2).unwrap_or(NonZeroUsize::MIN);
     let read = |path: &Path| -> Result<(CsvTable, Digest), StudyError> {
+        if parquet_parts::is_parquet(path) {
+            let parts = TableParts::scan(path)?;
+            return Ok((parts.reader()?.whole(parts.rows())?, parts.digest()));
+        }
         let table = CsvTable::read_with(path, share)?;
         let digest = table.digest();
         Ok((table, digest))
@@ -66,13 +71,27 @@ pub(super) fn check_distinct(request: &ScoreRequest) -> Result<(), StudyError> {
 /// # Errors
 /// [`StudyError::Tables`].
 pub(super) fn check_rows(table: &CsvTable) -> Result<(), StudyError> {
-    match table.rows() {
+    check_some(table.path(), table.rows() as u64)
+}
+
+/// The same of a table that is read in parts.
+///
+/// # Errors
+/// [`StudyError::Tables`].
+pub(super) fn check_some(path: &Path, rows: u64) -> Result<(), StudyError> {
+    match rows {
         0 => Err(StudyError::Tables {
-            path: table.path().to_owned(),
+            path: path.to_owned(),
             problem: "no row below the header: there is nothing to score".to_owned(),
         }),
         _ => Ok(()),
     }
+}
+
+/// What both tables are known by together.
+pub(super) fn input_of(digests: &BTreeMap<String, String>) -> String {
+    let digests: Vec<&str> = digests.values().map(String::as_str).collect();
+    digests.join(" ")
 }
 
 /// What a reader must know where both tables hold the same bytes.

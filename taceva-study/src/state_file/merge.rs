@@ -69,15 +69,25 @@ pub fn merge(paths: &[PathBuf]) -> Result<(EvaluationReport, StateFile), StudyEr
         provenance = provenance.joined(&file.provenance);
         bounded = bounded.joined(&file.bounded);
     }
-    provenance
-        .notes
-        .push(format!("{} states joined", paths.len()));
     let mut finished = Evaluator::new(&plan.with_constants(constants)?);
     finished.merge(evaluator)?;
-    let mut state = StateFile::of(&mut finished, &subject, &provenance, bounded)?
-        .with_taken(all_taken.into_taken());
+    let is_of_shards = all_taken.is_of_shards_of_one_input();
+    let taken = all_taken.into_taken();
+    // All shards of one input are that input, and nothing else is to be said of them.
+    let mut notes = Vec::new();
+    match (is_of_shards, taken.first().and_then(Taken::share)) {
+        (false, _) => provenance
+            .notes
+            .push(format!("{} states joined", paths.len())),
+        (true, Some([own, all])) => notes.push(format!(
+            "{own} of {all} rows: the others are in no shard that was joined"
+        )),
+        (true, None) => {}
+    }
+    let mut state = StateFile::of(&mut finished, &subject, &provenance, bounded)?.with_taken(taken);
     state.seen = is_seen;
     let evaluation = state.finish(finished)?;
+    provenance.notes.extend(notes);
     Ok((
         EvaluationReport::new(subject, evaluation, provenance),
         state,

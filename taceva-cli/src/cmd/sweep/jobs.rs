@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 
 use taceva_core::shown;
 use taceva_sweep::{
-    SlurmSpec, Submitted, SweepFolder, TaskList, collect, queue_of, scripts,
+    SlurmSpec, Submitted, SweepFolder, TaskList, collect, queue_of, scripts, shell_word,
     submit as submit_scripts,
 };
 
 use super::super::{Context, Usage};
-use super::summary::{folder_of, print};
+use super::summary::{folder_of, latest, print};
 use crate::args::SweepRun;
 use crate::{exit, output};
 
@@ -51,14 +51,13 @@ pub(super) fn submit(
 
 /// Options of this call that jobs need too.
 fn options(args: &SweepRun, context: &Context) -> String {
-    let quoted = |text: String| format!("'{}'", text.replace('\'', "'\\''"));
     let mut words = String::new();
     for folder in &context.plugins.folders {
         let folder = absolute(folder).to_string_lossy().into_owned();
-        words.push_str(&format!(" --plugin-dir {}", quoted(folder)));
+        words.push_str(&format!(" --plugin-dir {}", shell_word(&folder)));
     }
     for id in &context.plugins.trusted {
-        words.push_str(&format!(" --trust {}", quoted(id.to_string())));
+        words.push_str(&format!(" --trust {}", shell_word(&id.to_string())));
     }
     if args.retry_failed {
         words.push_str(" --retry-failed");
@@ -68,14 +67,14 @@ fn options(args: &SweepRun, context: &Context) -> String {
     }
     if let Some(cache) = &args.cache.cache {
         let cache = absolute(cache).to_string_lossy().into_owned();
-        words.push_str(&format!(" --cache {}", quoted(cache)));
+        words.push_str(&format!(" --cache {}", shell_word(&cache)));
     }
     words
 }
 
-pub(super) fn status(named: &Path) -> anyhow::Result<u8> {
+pub(super) fn status(named: &Path, context: &Context) -> anyhow::Result<u8> {
     let folder = folder_of(named);
-    let list = TaskList::latest(&folder)?;
+    let list = latest(named, &folder, context)?;
     let counts = list.counts(&folder)?;
     let submitted = Submitted::read(&folder)?;
     let jobs = submitted.as_ref().map(queue_of).transpose()?;

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use taceva_core::shown;
+use taceva_models::Models;
 use taceva_study::Cache;
 use taceva_sweep::{
     Condition, Estimate, Grid, Ran, Runner, SweepFile, SweepFolder, TaskList, collect, shell_word,
@@ -47,21 +48,42 @@ pub(super) fn run(args: &SweepRun, context: &Context) -> anyhow::Result<u8> {
             return listed(&left, &written, &folder);
         }
     }
-    let cache = cache_of(&args.cache, &folder);
-    let runner = Runner {
-        list: &list,
-        folder: &folder,
-        models: &models,
-        cache: cache.as_ref(),
-        jobs: context.jobs,
+    let asked = Asked {
+        cache: &args.cache,
         retry_failed: args.retry_failed,
-        progress: &context.progress,
     };
-    let ran = runner.run(&wanted)?;
-    cache::note(cache.as_ref(), context);
+    let ran = carried_out((&folder, &list), (&wanted, asked), &models, context)?;
     let collected = collect(&folder, &list, ran.scored > 0)?;
     print(&folder, &collected)?;
     Ok(ended(&ran, (&folder, &list), all_pass(&collected), context))
+}
+
+/// How tasks are to be carried out.
+struct Asked<'a> {
+    cache: &'a CacheArgs,
+    retry_failed: bool,
+}
+
+/// Carries out the tasks at `wanted` in this process.
+fn carried_out(
+    (folder, list): (&SweepFolder, &TaskList),
+    (wanted, asked): (&[usize], Asked<'_>),
+    models: &Models,
+    context: &Context,
+) -> anyhow::Result<Ran> {
+    let cache = cache_of(asked.cache, folder);
+    let runner = Runner {
+        list,
+        folder,
+        models,
+        cache: cache.as_ref(),
+        jobs: context.jobs,
+        retry_failed: asked.retry_failed,
+        progress: &context.progress,
+    };
+    let ran = runner.run(wanted)?;
+    cache::note(cache.as_ref(), context);
+    Ok(ran)
 }
 
 /// Prints how the tasks at `left` are carried out by an engine that is none of ours.
@@ -87,18 +109,11 @@ pub(super) fn tasks(args: &SweepTask, context: &Context) -> anyhow::Result<u8> {
         )));
     }
     let models = context.models()?;
-    let cache = cache_of(&args.cache, &folder);
-    let runner = Runner {
-        list: &list,
-        folder: &folder,
-        models: &models,
-        cache: cache.as_ref(),
-        jobs: context.jobs,
+    let asked = Asked {
+        cache: &args.cache,
         retry_failed: args.retry_failed,
-        progress: &context.progress,
     };
-    let ran = runner.run(&args.at)?;
-    cache::note(cache.as_ref(), context);
+    let ran = carried_out((&folder, &list), (&args.at, asked), &models, context)?;
     Ok(ended(&ran, (&folder, &list), true, context))
 }
 
@@ -111,11 +126,14 @@ fn ended(
 ) -> u8 {
     for (at, reason) in &ran.failed {
         let task = &list.tasks[*at];
+        let seed = match list.is_of_tables() {
+            true => String::new(),
+            false => format!(", seed {}", task.seed),
+        };
         context.say(format_args!(
-            "failed: {} of {}, seed {}: {} ({})",
+            "failed: {} of {}{seed}: {} ({})",
             task.configuration(),
             shown(&task.dataset),
-            task.seed,
             shown(reason),
             shown(&folder.log(&task.key))
         ));

@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use taceva_report::{Cell, Column, Table};
-use taceva_sweep::{Collected, SweepFolder};
+use taceva_sweep::{Collected, SweepFolder, TaskList};
 
+use super::super::Context;
 use crate::output;
 
 /// The folder of results: the one that is named, or the one beside the file that is named.
@@ -13,6 +14,22 @@ pub(super) fn folder_of(named: &Path) -> SweepFolder {
         true => SweepFolder::new(named.to_owned()),
         false => SweepFolder::beside(named),
     }
+}
+
+/// The tasks of the last call. Where the file that is named says something else by now, that is said too.
+pub(super) fn latest(
+    named: &Path,
+    folder: &SweepFolder,
+    context: &Context,
+) -> anyhow::Result<TaskList> {
+    let list = TaskList::latest(folder)?;
+    if named.is_file() && !list.is_of(named) {
+        let named = taceva_core::shown(named);
+        context.say(format_args!(
+            "{named} has changed since its tasks were listed, and this is of the tasks before: taceva sweep {named} --dry-run says what it asks for now"
+        ));
+    }
+    Ok(list)
 }
 
 /// Whether every unit keeps to its limits, where there are limits.
@@ -29,6 +46,16 @@ pub(super) fn print(folder: &SweepFolder, collected: &Collected) -> anyhow::Resu
             "tasks    {} scored, {} failed, {} missing",
             collected.scored, collected.failed, collected.missing
         )?;
+        if collected.is_of_tables {
+            return match collected.is_whole() {
+                true => writeln!(
+                    out,
+                    "scores   {path}/score.json\ndigest   {}",
+                    collected.digest
+                ),
+                false => writeln!(out, "scores   none before every shard is scored"),
+            };
+        }
         writeln!(out, "table    {path}/table.csv")?;
         writeln!(out, "digest   {}", collected.digest)?;
         writeln!(out, "page     {path}/page.html")?;

@@ -1,0 +1,118 @@
+//! What varies in a sweep: splits, models with what they alone have, and settings.
+
+use std::collections::BTreeSet;
+
+use crate::task::Task;
+use crate::task_list::TaskList;
+
+/// One thing that varies, with its values in the order of the file.
+pub(super) struct Dimension {
+    what: What,
+    pub(super) values: Vec<String>,
+    /// Settings that every model has in turn: `[vary]`.
+    shared: BTreeSet<String>,
+}
+
+enum What {
+    Split,
+    /// Models, each with the settings that it alone has: these belong to it.
+    Model,
+    /// A setting that every model has in turn.
+    Shared(String),
+    /// A setting that a model has for itself, which is in the file more than once.
+    Own {
+        model: String,
+        key: String,
+    },
+}
+
+/// What varies.
+pub(super) fn dimensions(list: &TaskList) -> Vec<Dimension> {
+    let shared: BTreeSet<String> = list.vary.iter().map(|(key, _)| key.clone()).collect();
+    let mut whats = vec![What::Split, What::Model];
+    whats.extend(list.vary.iter().map(|(key, _)| What::Shared(key.clone())));
+    let mut own = Vec::new();
+    for task in &list.tasks {
+        for key in task.settings.keys().filter(|key| !shared.contains(*key)) {
+            let of = (task.model.clone(), key.clone());
+            if !own.contains(&of) {
+                own.push(of);
+            }
+        }
+    }
+    whats.extend(own.into_iter().map(|(model, key)| What::Own { model, key }));
+    let dimensions = whats.into_iter().map(|what| {
+        let mut dimension = Dimension {
+            what,
+            values: Vec::new(),
+            shared: shared.clone(),
+        };
+        for task in &list.tasks {
+            let word = dimension.word(task);
+            if let Some(word) = word.filter(|word| !dimension.values.contains(word)) {
+                dimension.values.push(word);
+            }
+        }
+        dimension
+    });
+    dimensions
+        .filter(|dimension| dimension.values.len() > 1)
+        .collect()
+}
+
+impl Dimension {
+    /// What it is called.
+    pub(super) fn title(&self) -> String {
+        match &self.what {
+            What::Split => "split".to_owned(),
+            What::Model => "model".to_owned(),
+            What::Shared(key) => key.clone(),
+            What::Own { model, key } => format!("{key} of {model}"),
+        }
+    }
+
+    /// What it is of a task; none where the task has no such thing.
+    pub(super) fn word(&self, task: &Task) -> Option<String> {
+        match &self.what {
+            What::Split => task.split.clone(),
+            What::Model => Some(format!("{}{}", task.model, self.own_settings(task, None))),
+            What::Shared(key) => task.settings.get(key).cloned(),
+            What::Own { model, key } if *model == task.model => task.settings.get(key).cloned(),
+            What::Own { .. } => None,
+        }
+    }
+
+    /// Everything else of a task: tasks that are alike in it make a pair.
+    pub(super) fn beside(&self, task: &Task) -> String {
+        let split = match self.what {
+            What::Split => None,
+            _ => task.split.as_deref(),
+        };
+        let (model, own) = match &self.what {
+            What::Model => ("", String::new()),
+            What::Own { key, .. } => (task.model.as_str(), self.own_settings(task, Some(key))),
+            _ => (task.model.as_str(), self.own_settings(task, None)),
+        };
+        let shared = task.settings.iter().filter(|(key, _)| {
+            self.shared.contains(*key) && !matches!(&self.what, What::Shared(own) if own == *key)
+        });
+        let shared: String = shared
+            .map(|(key, value)| format!(" {key}={value}"))
+            .collect();
+        format!(
+            "{}|{}|{model}{own}|{shared}|{}",
+            task.dataset,
+            split.unwrap_or_default(),
+            task.seed
+        )
+    }
+
+    /// The settings that a model has for itself, but for one.
+    fn own_settings(&self, task: &Task, but: Option<&str>) -> String {
+        let own = task
+            .settings
+            .iter()
+            .filter(|(key, _)| !self.shared.contains(*key) && but != Some(key.as_str()));
+        own.map(|(key, value)| format!(" {key}={value}")).collect()
+    }
+}

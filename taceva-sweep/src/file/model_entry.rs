@@ -1,0 +1,93 @@
+//! Models of a sweep with settings of their own.
+
+use std::collections::BTreeMap;
+
+use taceva_models::Suggestion;
+
+use super::place::FilePlace;
+use crate::error::SweepError;
+
+/// A model with settings of its own.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ModelEntry {
+    /// Its name.
+    pub name: String,
+    /// Its settings.
+    pub set: BTreeMap<String, String>,
+}
+
+impl ModelEntry {
+    /// A name, or `{ name = …, set = { … } }`.
+    pub(super) fn of(value: &toml::Value, place: FilePlace<'_>) -> Result<ModelEntry, SweepError> {
+        const KEYS: [&str; 2] = ["name", "set"];
+        let table = match value {
+            toml::Value::String(name) => {
+                return Ok(ModelEntry {
+                    name: name.clone(),
+                    set: BTreeMap::new(),
+                });
+            }
+            toml::Value::Table(table) => table,
+            _ => {
+                let problem = "`models`: expected names, or { name = \"…\", set = { … } }";
+                return Err(place.wrong("models", problem.to_owned()));
+            }
+        };
+        if let Some(key) = table.keys().find(|key| !KEYS.contains(&key.as_str())) {
+            let suggestion = Suggestion::of(key, KEYS);
+            return Err(place.wrong(
+                key,
+                format!("`{key}`: unknown key of a model, {suggestion}"),
+            ));
+        }
+        let name = table.get("name").and_then(toml::Value::as_str);
+        let name = name.ok_or_else(|| {
+            place.wrong(
+                "models",
+                "`models`: the key `name` of a model is missing".to_owned(),
+            )
+        })?;
+        Ok(ModelEntry {
+            name: name.to_owned(),
+            set: settings(name, table.get("set"), place)?,
+        })
+    }
+}
+
+/// The settings that a model has for itself.
+fn settings(
+    name: &str,
+    written: Option<&toml::Value>,
+    place: FilePlace<'_>,
+) -> Result<BTreeMap<String, String>, SweepError> {
+    let own = match written {
+        None => None,
+        Some(toml::Value::Table(own)) => Some(own),
+        Some(_) => {
+            let problem = format!("`set` of the model {name}: expected {{ KEY = VALUE, … }}");
+            return Err(place.wrong("set", problem));
+        }
+    };
+    let mut set = BTreeMap::new();
+    for (key, value) in own.into_iter().flatten() {
+        let text = word(value).ok_or_else(|| {
+            place.wrong(
+                key,
+                format!("`{key}` of the model {name}: expected a text, a number, true or false"),
+            )
+        })?;
+        set.insert(key.clone(), text);
+    }
+    Ok(set)
+}
+
+/// A setting as people type it.
+pub(super) fn word(value: &toml::Value) -> Option<String> {
+    match value {
+        toml::Value::String(text) => Some(text.clone()),
+        toml::Value::Integer(number) => Some(number.to_string()),
+        toml::Value::Float(number) => Some(number.to_string()),
+        toml::Value::Boolean(value) => Some(value.to_string()),
+        _ => None,
+    }
+}

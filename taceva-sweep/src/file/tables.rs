@@ -1,0 +1,91 @@
+//! Tables that a sweep scores in shards.
+
+use std::path::{Path, PathBuf};
+
+use taceva_core::{Unit, shown};
+use taceva_models::Suggestion;
+
+use super::place::FilePlace;
+use crate::error::SweepError;
+use crate::limits::MOST_TASKS;
+use crate::written::{WrittenScore, WrittenSweep};
+
+/// Two tables, scored in so many shards: a task each.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct TablesEntry {
+    /// The table of what is true, as the file names it.
+    pub name: String,
+    /// The table of what is true.
+    pub truth: PathBuf,
+    /// The table of what was predicted.
+    pub prediction: PathBuf,
+    /// Shards.
+    pub shards: u32,
+    /// Units of channels beside the six.
+    pub units: Vec<(String, Unit)>,
+    /// Whether cells that are no finite number are counted instead of refused.
+    pub allow_invalid: bool,
+}
+
+impl TablesEntry {
+    /// What `written` means; paths are relative to `folder`.
+    pub(super) fn of(
+        written: &WrittenScore,
+        folder: &Path,
+        place: FilePlace<'_>,
+    ) -> Result<TablesEntry, SweepError> {
+        match u64::from(written.shards) {
+            0 => {
+                let problem = "`shards = 0`: expected a number from 1";
+                return Err(place.wrong("shards", problem.to_owned()));
+            }
+            shards if shards > MOST_TASKS => {
+                let problem = format!("`shards = {shards}`: {MOST_TASKS} are the most");
+                return Err(place.wrong("shards", problem));
+            }
+            _ => {}
+        }
+        let unit = |(name, symbol): (&String, &String)| {
+            let unit = Unit::from_symbol(symbol);
+            unit.map(|unit| (name.clone(), unit)).ok_or_else(|| {
+                let known = Unit::ALL.iter().map(|unit| unit.symbol());
+                let suggestion = Suggestion::of(symbol, known);
+                place.wrong(
+                    name,
+                    format!("`{name}`: no unit `{}`, {suggestion}", shown(symbol)),
+                )
+            })
+        };
+        Ok(TablesEntry {
+            name: written.truth.to_string_lossy().into_owned(),
+            truth: folder.join(&written.truth),
+            prediction: folder.join(&written.pred),
+            shards: written.shards,
+            units: written.units.iter().map(unit).collect::<Result<_, _>>()?,
+            allow_invalid: written.allow_invalid,
+        })
+    }
+}
+
+/// Refuses what a sweep of recordings has beside tables.
+pub(super) fn check_alone(written: &WrittenSweep, place: FilePlace<'_>) -> Result<(), SweepError> {
+    let others = [
+        ("datasets", !written.datasets.is_empty()),
+        ("models", !written.models.is_empty()),
+        ("seeds", written.seeds.is_some()),
+        ("splits", !written.splits.is_empty()),
+        ("vary", !written.vary.is_empty()),
+        ("where", !written.skip.r#where.is_empty()),
+        ("limits", written.limits.is_some()),
+    ];
+    match others.iter().find(|(_, is_there)| *is_there) {
+        None => Ok(()),
+        Some((key, _)) => Err(place.wrong(
+            key,
+            format!(
+                "`{key}` stands beside `[score]`: a sweep is of recordings or of tables; write two files"
+            ),
+        )),
+    }
+}

@@ -1,0 +1,116 @@
+//! Shards of two tables, as tasks.
+
+use std::collections::BTreeMap;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+use taceva_core::Unit;
+use taceva_dataset::Digest;
+use taceva_study::{ScoreRequest, ScoreTables, Shard, StudyError};
+
+use super::{Grid, sensor_digest};
+use crate::error::SweepError;
+use crate::file::{SweepFile, TablesEntry};
+use crate::key::{ShardParts, TaskKey};
+use crate::task::{SHARD, Task};
+
+/// Two tables as they were when the sweep was planned, with all that is needed to score a shard of them.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PlannedTables {
+    truth: PathBuf,
+    prediction: PathBuf,
+    units: Vec<(String, Unit)>,
+    allow_invalid: bool,
+    /// Where their rows lie, and what they hold.
+    tables: ScoreTables,
+}
+
+impl PlannedTables {
+    /// The tables, looked through again where a file does not look as it did.
+    ///
+    /// # Errors
+    /// [`SweepError::Study`] if one holds something else now.
+    pub(crate) fn again(&self) -> Result<ScoreTables, SweepError> {
+        Ok(self.tables.clone().again()?)
+    }
+
+    /// The digests of the truth and of the predictions.
+    pub(crate) fn digests(&self) -> [Digest; 2] {
+        self.tables.digests()
+    }
+
+    /// What is to be scored.
+    pub(crate) fn request(
+        &self,
+        metrics: &[String],
+        sensor: Option<&Path>,
+        jobs: NonZeroUsize,
+    ) -> ScoreRequest {
+        ScoreRequest {
+            truth: self.truth.clone(),
+            prediction: self.prediction.clone(),
+            units: self.units.clone(),
+            sensor: sensor.map(Path::to_owned),
+            metrics: metrics.to_vec(),
+            allow_invalid: self.allow_invalid,
+            jobs,
+        }
+    }
+}
+
+/// A task a shard. Looks through both tables once, so that no task has to.
+pub(super) fn grid(file: &SweepFile, entry: &TablesEntry) -> Result<Grid, SweepError> {
+    // Absolute, since a job of a scheduler begins elsewhere.
+    let absolute = |path: &Path| std::path::absolute(path).map_err(SweepError::io("find", path));
+    let [truth, prediction] = [absolute(&entry.truth)?, absolute(&entry.prediction)?];
+    let mut planned = ScoreRequest {
+        truth: truth.clone(),
+        prediction: prediction.clone(),
+        units: entry.units.clone(),
+        sensor: file.sensor.clone(),
+        metrics: file.metrics.clone(),
+        allow_invalid: entry.allow_invalid,
+        // Two, as there are two tables to look through.
+        jobs: NonZeroUsize::MIN.saturating_add(1),
+    };
+    let tables = ScoreTables::scan(&planned)?;
+    tables.check(&planned)?;
+    let sensor = sensor_digest(file)?;
+    planned.units.sort_by(|one, other| one.0.cmp(&other.0));
+    let tasks = (1..=entry.shards).map(|number| {
+        let shard = Shard::new(number, entry.shards);
+        let shard = shard.map_err(|error| StudyError::Request(error.to_string()))?;
+        let key = TaskKey::of_shard(ShardParts {
+            tables: tables.digests(),
+            shard: &shard.to_string(),
+            units: &planned.units,
+            allow_invalid: entry.allow_invalid,
+            metrics: &file.metrics,
+            sensor,
+        });
+        Ok(Task {
+            key,
+            dataset: entry.name.clone(),
+            path: truth.clone(),
+            digest: tables.digests()[0].to_string(),
+            model: "score".to_owned(),
+            settings: BTreeMap::from([(SHARD.to_owned(), shard.to_string())]),
+            split: None,
+            seed: 0,
+            plugin: None,
+        })
+    });
+    Ok(Grid {
+        tasks: tasks.collect::<Result<_, SweepError>>()?,
+        skipped: 0,
+        tables: Some(PlannedTables {
+            truth,
+            prediction,
+            units: planned.units,
+            allow_invalid: entry.allow_invalid,
+            tables,
+        }),
+    })
+}

@@ -1,0 +1,69 @@
+//! The log of a task: its stages, and how it ended.
+
+use std::fs::File;
+use std::io::Write as _;
+use std::sync::Mutex;
+
+use taceva_core::Progress;
+
+use super::lock;
+use crate::folder::SweepFolder;
+use crate::task::Task;
+
+/// The log of a task: its stages, and how it ended.
+pub(super) struct TaskLog<'a> {
+    file: Mutex<Option<File>>,
+    whole: &'a dyn Progress,
+}
+
+impl<'a> TaskLog<'a> {
+    pub(super) fn new(folder: &SweepFolder, task: &Task, whole: &'a dyn Progress) -> TaskLog<'a> {
+        let log = TaskLog {
+            file: Mutex::new(
+                File::options()
+                    .create(true)
+                    .append(true)
+                    .open(folder.log(&task.key))
+                    .ok(),
+            ),
+            whole,
+        };
+        let split = task.split.as_deref().unwrap_or("as recorded");
+        log.say(&format!(
+            "task {} {} {} split {split} seed {}",
+            task.key,
+            task.dataset,
+            task.configuration(),
+            task.seed
+        ));
+        log
+    }
+
+    /// Adds a line; a log that cannot be written costs no result.
+    pub(super) fn say(&self, line: &str) {
+        if let Some(file) = lock(&self.file).as_mut() {
+            drop(writeln!(file, "{}", taceva_core::shown(line)));
+        }
+    }
+}
+
+impl Progress for TaskLog<'_> {
+    fn begin(&self, stage: &str, steps: Option<u64>) {
+        match steps {
+            Some(steps) => self.say(&format!("{stage} ({steps})")),
+            None => self.say(stage),
+        }
+    }
+
+    fn advance(&self, _steps: u64) {}
+
+    fn end(&self) {}
+
+    fn is_cancelled(&self) -> bool {
+        self.whole.is_cancelled()
+    }
+
+    fn is_insisted(&self) -> bool {
+        self.whole.is_insisted()
+    }
+}

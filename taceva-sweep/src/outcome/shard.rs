@@ -1,0 +1,36 @@
+//! Carrying one shard of two tables out: its result is the state that joins with those of the others.
+
+use taceva_study::{Shard, StudyError, Work};
+
+use super::Common;
+use crate::error::SweepError;
+use crate::grid::PlannedTables;
+use crate::task::{SHARD, Task};
+
+/// Scores the shard that `task` is, and writes its state.
+///
+/// # Errors
+/// [`SweepError`] if it cannot be carried out; nothing is written then.
+pub(super) fn carry_out(
+    task: &Task,
+    planned: &PlannedTables,
+    common: Common<'_>,
+    work: Work<'_>,
+) -> Result<(), SweepError> {
+    let named = task.settings.get(SHARD).map_or("", String::as_str);
+    let shard: Shard = named
+        .parse()
+        .map_err(|error| StudyError::Request(format!("{error}")))?;
+    let tables = planned.again()?;
+    let request = planned.request(
+        &common.list.metrics,
+        common.list.sensor.as_deref(),
+        work.jobs,
+    );
+    let scored = tables.score(&request, shard, work.progress)?;
+    let path = common.folder.result(&task.key);
+    let mut bytes = Vec::new();
+    let written = scored.state.write(&mut bytes);
+    written.map_err(SweepError::io("write", &path))?;
+    common.folder.write(&path, &bytes)
+}

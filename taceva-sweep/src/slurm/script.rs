@@ -1,0 +1,89 @@
+//! Scripts of jobs, to be read, kept and submitted by hand.
+
+use std::path::Path;
+
+use crate::shell::shell_word;
+use crate::slurm_spec::SlurmSpec;
+
+/// What scripts have in common.
+pub(super) struct Script<'a> {
+    pub(super) root: &'a Path,
+    pub(super) tasks: &'a Path,
+    pub(super) program: &'a str,
+    pub(super) spec: &'a SlurmSpec,
+    /// Options of the program that the sweep was started with.
+    pub(super) options: &'a str,
+}
+
+impl Script<'_> {
+    /// One job of an array: the tasks of a line of its file of blocks.
+    pub(super) fn array(&self, name: &str, jobs: usize, gres: Option<&str>) -> String {
+        let most = self
+            .spec
+            .most_jobs
+            .map_or_else(String::new, |most| format!("%{most}"));
+        let mut text = self.head(name, "%A_%a");
+        let mut line = |line: String| {
+            text.push_str(&line);
+            text.push('\n');
+        };
+        line(format!("#SBATCH --array=0-{}{most}", jobs - 1));
+        line("#SBATCH --requeue".to_owned());
+        let asked = [
+            ("time", self.spec.time.as_deref()),
+            ("mem", self.spec.memory.as_deref()),
+            ("gres", gres),
+        ];
+        for (option, value) in asked {
+            if let Some(value) = value {
+                line(format!("#SBATCH --{option}={value}"));
+            }
+        }
+        let cpus = self.spec.cpus.unwrap_or(1).max(1);
+        line(format!("#SBATCH --cpus-per-task={cpus}"));
+        text.push_str(&self.setup());
+        let blocks = self.root.join(format!("slurm/{name}.blocks"));
+        text.push_str(&format!(
+            "blocks={}\n[ -r \"$blocks\" ] || {{ echo \"$blocks is not on $(hostname): the folder of the sweep is not shared with this node\" >&2; exit 1; }}\n",
+            shell_word(&blocks.to_string_lossy())
+        ));
+        text.push_str("block=$(sed -n \"$((SLURM_ARRAY_TASK_ID + 1))p\" \"$blocks\")\n");
+        text.push_str(&format!(
+            "exec {} sweep task {} --tasks {} --at \"$block\" --jobs {cpus} --quiet{}\n",
+            shell_word(self.program),
+            shell_word(&self.root.to_string_lossy()),
+            shell_word(&self.tasks.to_string_lossy()),
+            self.options
+        ));
+        text
+    }
+
+    /// The job that makes the table of what is there once every other has ended, however it ended.
+    pub(super) fn collect(&self) -> String {
+        let mut text = self.head("collect", "%j");
+        text.push_str(&self.setup());
+        text.push_str(&format!(
+            "exec {} sweep collect {} --tasks {} --quiet\n",
+            shell_word(self.program),
+            shell_word(&self.root.to_string_lossy()),
+            shell_word(&self.tasks.to_string_lossy())
+        ));
+        text
+    }
+
+    fn head(&self, name: &str, log: &str) -> String {
+        let root = self.root.to_string_lossy();
+        let mut text = format!(
+            "#!/bin/bash\n# Written by `taceva sweep --on slurm`; it may be submitted by hand again: what has a result is not made twice.\n#SBATCH --job-name=taceva-{name}\n#SBATCH --chdir={root}\n#SBATCH --output={root}/slurm/logs/{name}-{log}.txt\n#SBATCH --open-mode=append\n"
+        );
+        if let Some(partition) = &self.spec.partition {
+            text.push_str(&format!("#SBATCH --partition={partition}\n"));
+        }
+        text
+    }
+
+    fn setup(&self) -> String {
+        let lines = self.spec.setup.iter();
+        lines.map(|line| format!("{line}\n")).collect()
+    }
+}
