@@ -251,10 +251,7 @@ fn the_whole_map_of_the_page_is_read_once_what_only_a_lab_knows_is_filled_in() {
     let maps: Vec<&str> = maps.collect();
     assert_eq!(maps.len(), 1, "maps in a fence");
     let open = parsed(maps[0]).expect_err("it is a draft");
-    assert!(
-        open.contains("a draft leaves open"),
-        "{open}"
-    );
+    assert!(open.contains("a draft leaves open"), "{open}");
     let mut filled = String::new();
     for line in maps[0].lines() {
         let unit = match line.get(..1) {
