@@ -135,6 +135,49 @@ impl ArrayFile {
         groups
     }
 
+    /// Links in the file that lead nowhere, each with the reason: nothing is listed for them, and reading what they are called is an error.
+    ///
+    /// ```no_run
+    /// # fn of(file: &taceva_arrays::ArrayFile) {
+    /// for (link, reason) in file.dead_links() {
+    ///     println!("{link}: {reason}");
+    /// }
+    /// # }
+    /// ```
+    #[must_use]
+    pub fn dead_links(&self) -> Vec<(String, String)> {
+        let links = self.store.nowhere().iter();
+        links
+            .map(|(link, reason)| (link.clone(), reason.to_string()))
+            .collect()
+    }
+
+    /// Checks that no link that leads nowhere is as `pattern`, or above what is, so that [`groups`](ArrayFile::groups) leaves none out.
+    ///
+    /// ```no_run
+    /// # fn of(file: &taceva_arrays::ArrayFile) -> Result<(), taceva_arrays::ArrayError> {
+    /// file.check_groups("/data/*")?;
+    /// let presses = file.groups("/data/*");
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// # Errors
+    /// [`ArrayError`] naming such a link.
+    pub fn check_groups(&self, pattern: &str) -> Result<(), ArrayError> {
+        let wanted: Vec<&str> = pattern.trim_matches('/').split('/').collect();
+        let is_like = |link: &str| {
+            let steps = link.trim_matches('/').split('/').count();
+            let above = wanted.get(..steps);
+            above.is_some_and(|above| crate::pattern::matches(&above.join("/"), link))
+        };
+        let mut links = self.store.nowhere().iter();
+        match links.find(|(link, _)| is_like(link)) {
+            None => Ok(()),
+            Some((link, reason)) => Err(self.wrong(link, reason.again())),
+        }
+    }
+
     /// The names of the attributes of the group or array `owner`; none where the form has no attributes.
     ///
     /// ```no_run
@@ -221,6 +264,14 @@ impl ArrayFile {
             rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
         };
         if let Some((_, reason)) = self.store.refused().iter().find(|(array, _)| is_of(array)) {
+            return reason.again();
+        }
+        let is_behind = |link: &str| {
+            let rest = name.strip_prefix(link.trim_start_matches('/'));
+            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '/']))
+        };
+        let mut links = self.store.nowhere().iter();
+        if let Some((_, reason)) = links.find(|(link, _)| is_behind(link)) {
             return reason.again();
         }
         if let Some(link) = self.store.link(name) {

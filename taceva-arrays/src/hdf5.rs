@@ -27,7 +27,7 @@ use crate::store::{Arrays, Store, chunks_of};
 use crate::values::ArrayData;
 
 use heap::GlobalHeap;
-use soft_links::Patches;
+use soft_links::{LONGEST_PATCH, Patches};
 
 pub use write::Hdf5Writer;
 pub use written_element::WrittenElement;
@@ -40,6 +40,8 @@ pub(crate) struct Hdf5 {
     groups: Vec<String>,
     datasets: Vec<Listed>,
     refused: Vec<(String, Problem)>,
+    /// Links that lead nowhere.
+    nowhere: Vec<(String, Problem)>,
     /// For each array that is listed, which dataset and which field of it.
     listed: Vec<(usize, usize)>,
     open: Mutex<Kept<usize, Opened>>,
@@ -75,14 +77,16 @@ impl Hdf5 {
             let file = File::from_source(shared).map_err(problem)?;
             Ok((walk::walk(&file)?, file))
         };
+        let mut nowhere = Vec::new();
         let (found, file) = match open(Patches::new()) {
             Ok(opened) => opened,
             // Perhaps for its soft links alone.
             Err(problem) => match soft_links::followed(&bytes) {
-                Ok(patches) if patches.is_empty() => return Err(problem),
-                Err(link @ Problem::Unsupported { .. }) => return Err(link),
-                Err(_) => return Err(problem),
-                Ok(patches) => open(patches)?,
+                Ok(followed) if !followed.patches.is_empty() => {
+                    nowhere = followed.nowhere;
+                    open(followed.patches)?
+                }
+                _ => return Err(problem),
             },
         };
         let fields = found
@@ -107,6 +111,7 @@ impl Hdf5 {
             groups: found.groups,
             datasets: found.datasets,
             refused: found.refused,
+            nowhere,
             listed,
             open: Mutex::new(Kept::new(limits::HELD_BYTES)),
             file,
@@ -237,6 +242,10 @@ impl Store for Hdf5 {
         &self.refused
     }
 
+    fn nowhere(&self) -> &[(String, Problem)] {
+        &self.nowhere
+    }
+
     fn link(&self, name: &str) -> Option<Problem> {
         link::of(&self.bytes, name)
     }
@@ -323,7 +332,7 @@ impl Source for Shared {
             .read_at(offset, buffer)
             .map_err(|problem| FormatError::Source(problem.to_string()))?;
         let end = end.unwrap_or(u64::MAX);
-        let first = offset.saturating_sub(11);
+        let first = offset.saturating_sub(LONGEST_PATCH - 1);
         for (at, patch) in self.patches.range(first..end) {
             for (at, byte) in (*at..).zip(patch) {
                 let place = at

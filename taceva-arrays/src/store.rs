@@ -19,6 +19,11 @@ pub(crate) trait Store: std::fmt::Debug + Send + Sync {
         &[]
     }
 
+    /// Links that lead nowhere, with the reason: what lies behind them has no array and no group.
+    fn nowhere(&self) -> &[(String, Problem)] {
+        &[]
+    }
+
     /// Why an array that is not among them has a name here: it is a link to elsewhere.
     fn link(&self, _name: &str) -> Option<Problem> {
         None

@@ -30,7 +30,7 @@ use crate::file::SourceFolder;
 use crate::import::FrameNames;
 use crate::text::{listed, nearest, shown};
 
-pub(crate) use arrays::ArrayPictures;
+pub(crate) use arrays::{ArrayPictures, stated};
 pub(crate) use clips::ClipPictures;
 pub(crate) use columns::{ColumnTable, PictureColumn, PictureKind, Stated};
 pub(crate) use files::FileRows;
@@ -180,11 +180,11 @@ impl ForeignTable {
         }
     }
 
-    /// What the file says of the numbers in a column.
-    pub(crate) fn stated(&self, name: &str) -> Stated {
+    /// What the file says of the numbers in a column; in each of its groups where that differs.
+    pub(crate) fn stated(&self, name: &str) -> Vec<Stated> {
         match self {
             ForeignTable::Columns(table) => table.stated(name),
-            _ => Stated::default(),
+            _ => Vec::new(),
         }
     }
 
@@ -287,6 +287,14 @@ impl ForeignTable {
     pub(crate) fn element_names(&self, column: &str) -> Vec<String> {
         match self {
             ForeignTable::Columns(table) => table.element_names(column),
+            _ => Vec::new(),
+        }
+    }
+
+    /// What of its file is not read and is no column, each with the reason.
+    pub(crate) fn unread(&self) -> Vec<String> {
+        match self {
+            ForeignTable::Columns(table) => table.unread(),
             _ => Vec::new(),
         }
     }

@@ -4,7 +4,11 @@ mod extended;
 mod facts;
 mod footprint;
 mod left_out;
+mod mapped_class;
 mod mapped_column;
+mod mapped_join;
+mod mapped_pictures;
+mod mapping;
 mod stream;
 #[cfg(test)]
 mod tests;
@@ -31,8 +35,11 @@ pub use facts::{FrameCodec, FramesInfo, Known, ReferenceInfo, SensorFacts, Sourc
 pub use footprint::{Footprint, Shape};
 pub use left_out::LeftOut;
 pub(crate) use left_out::add as add_left_out;
+pub use mapped_class::MappedClass;
 pub use mapped_column::MappedColumn;
-pub(crate) use mapped_column::{Misread, misread, united};
+pub use mapped_join::MappedJoin;
+pub use mapped_pictures::MappedPictures;
+pub(crate) use mapping::{Mapping, Misread};
 pub use stream::StreamFacts;
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -83,6 +90,12 @@ pub struct Header {
     pub unmentioned_columns: Vec<String>,
     /// How each label was read, by every map that rows came by; empty of a recording, and before format 1.9.
     pub columns: Vec<MappedColumn>,
+    /// How the rows of joined tables were found, by every map that rows came by; likewise.
+    pub joins: Vec<MappedJoin>,
+    /// How each row found its picture, and numbers became pixels, by every map that rows came by; likewise.
+    pub pictures: Vec<MappedPictures>,
+    /// The closed lists of classes, by every map that rows came by; likewise.
+    pub classes: Vec<MappedClass>,
     /// What an import left out; empty of a recording, and before format 1.8.
     pub left_out: LeftOut,
     /// What all frames share; `None` if there is none.
@@ -135,6 +148,12 @@ struct Written {
     channels: Vec<ChannelInfo>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     columns: Vec<MappedColumn>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    joins: Vec<MappedJoin>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pictures: Vec<MappedPictures>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    classes: Vec<MappedClass>,
     /// Edits that were accepted before rows were added; read by whoever reads the seal.
     #[serde(default, skip_deserializing, skip_serializing_if = "Vec::is_empty")]
     history: Vec<Edit>,
@@ -194,6 +213,9 @@ impl Header {
             attributes: written.attributes,
             unmentioned_columns: written.unmentioned_columns,
             columns: written.columns,
+            joins: written.joins,
+            pictures: written.pictures,
+            classes: written.classes,
             left_out: written.left_out,
             frames: written.frames,
             presses: written.presses,
@@ -204,6 +226,16 @@ impl Header {
             signals,
             seal,
         })
+    }
+
+    /// How every map read what it read.
+    pub(crate) fn mapping(&self) -> Mapping {
+        Mapping {
+            columns: self.columns.clone(),
+            joins: self.joins.clone(),
+            pictures: self.pictures.clone(),
+            classes: self.classes.clone(),
+        }
     }
 
     /// The text of the header, sealed.
@@ -243,6 +275,9 @@ impl Header {
                 })
                 .collect(),
             columns: self.columns.clone(),
+            joins: self.joins.clone(),
+            pictures: self.pictures.clone(),
+            classes: self.classes.clone(),
             history: self.seal.history.clone(),
         };
         toml::to_string(&written).expect("text, numbers and tables of them can be written as TOML")

@@ -7,7 +7,7 @@ mod extend;
 mod frame_cells;
 mod left_out;
 mod map;
-mod mapped_columns;
+mod mapped;
 mod plan;
 mod planned_frames;
 mod references;

@@ -53,8 +53,9 @@ pub use error::{DatasetError, Place};
 pub use export::{ExportForm, ExportPlan, ExportReport, export_csv};
 pub use header::reseal_header;
 pub use header::{
-    Extension, Footprint, FrameCodec, FramesInfo, Header, Known, LeftOut, MappedColumn,
-    ReferenceInfo, SensorFacts, Shape, Source, StreamFacts, TableInfo,
+    Extension, Footprint, FrameCodec, FramesInfo, Header, Known, LeftOut, MappedClass,
+    MappedColumn, MappedJoin, MappedPictures, ReferenceInfo, SensorFacts, Shape, Source,
+    StreamFacts, TableInfo,
 };
 pub use import::{
     Addition, ArrayFrames, ArrayLayout, ColumnMap, Conversion, DropRules, FrameMap, FrameNames,

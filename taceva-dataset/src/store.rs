@@ -9,8 +9,8 @@ use crate::digest::{Digest, PartsDigest};
 use crate::error::DatasetError;
 use crate::file::write_durable;
 use crate::header::{
-    Extension, Footprint, FramesInfo, Header, LeftOut, MappedColumn, SensorFacts, Source,
-    StreamFacts, TableInfo,
+    Extension, Footprint, FramesInfo, Header, LeftOut, Mapping, SensorFacts, Source, StreamFacts,
+    TableInfo,
 };
 use crate::samples::to_parquet;
 use crate::signals::SignalsInfo;
@@ -78,8 +78,8 @@ pub(crate) struct Beside {
     pub(crate) presses: BTreeMap<PressOutcome, u64>,
     /// Columns that no key of an import names.
     pub(crate) unmentioned_columns: Vec<String>,
-    /// How each label was read.
-    pub(crate) columns: Vec<MappedColumn>,
+    /// How each map read what it read.
+    pub(crate) mapping: Mapping,
     /// What an import left out.
     pub(crate) left_out: LeftOut,
     /// What was lost of a stream.
@@ -111,7 +111,7 @@ pub(crate) fn write_table_and_header(
         .is_some_and(|frames| !frames.other_codecs.is_empty());
     let mut written = Header {
         format: match table.source_row().iter().any(Option::is_some) {
-            _ if !beside.columns.is_empty() => Version::CURRENT,
+            _ if !beside.mapping.is_empty() => Version::CURRENT,
             _ if !beside.extended.is_empty() => Version::WITHOUT_COLUMNS,
             _ if !beside.left_out.is_empty() || has_more_codecs => Version::WITHOUT_COLUMNS,
             _ if beside.signals.is_some() => Version::NEVER_EXTENDED,
@@ -129,7 +129,10 @@ pub(crate) fn write_table_and_header(
         channels: table.channels().clone(),
         attributes: table.attribute_names().to_vec(),
         unmentioned_columns: beside.unmentioned_columns,
-        columns: beside.columns,
+        columns: beside.mapping.columns,
+        joins: beside.mapping.joins,
+        pictures: beside.mapping.pictures,
+        classes: beside.mapping.classes,
         left_out: beside.left_out,
         digest: digest_with(
             dataset_digest(table_digest, frames.as_ref()),

@@ -109,7 +109,7 @@ pub fn write_as_jpeg(
             history: Vec::new(),
             presses: header.presses.clone(),
             unmentioned_columns: header.unmentioned_columns.clone(),
-            columns: header.columns.clone(),
+            mapping: header.mapping(),
             left_out: header.left_out.clone(),
             stream: header.stream,
             signals: header.signals.clone(),

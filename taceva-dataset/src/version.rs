@@ -29,7 +29,7 @@ impl Version {
     /// The newest that this crate writes.
     pub const CURRENT: Version = Version { major: 1, minor: 9 };
 
-    /// The version of a header that does not say how labels were read, so that it is what it was before 1.9.
+    /// The version of a header that does not say how a map read labels, joined tables, pictures and classes, so that it is what it was before 1.9.
     pub(crate) const WITHOUT_COLUMNS: Version = Version { major: 1, minor: 8 };
 
     /// The version of a header of a recording to which no rows were added and of which nothing was left out, so that it is what it was before 1.8.

@@ -17,19 +17,31 @@ const SOFT_LINK: u32 = 2;
 /// Bytes of an entry: where its name is, where its header is, what it is, and 16 bytes for that.
 const ENTRY: usize = 40;
 
+/// The longest of the texts that are read in the place of those of a file, bytes.
+pub(super) const LONGEST_PATCH: u64 = ENTRY as u64;
+
 /// Bytes that are read in the place of those of the file, by their place in it.
-pub(super) type Patches = BTreeMap<u64, [u8; 12]>;
+pub(super) type Patches = BTreeMap<u64, Vec<u8>>;
+
+/// What becomes of the soft links of a file.
+#[derive(Default)]
+pub(super) struct Followed {
+    /// The links as hard ones, and those that lead nowhere taken out.
+    pub(super) patches: Patches,
+    /// The links that lead nowhere, or in a circle, with the words for whoever reads them.
+    pub(super) nowhere: Vec<(String, Problem)>,
+}
 
 /// What the soft links of a file would be as hard ones; none where it has no symbol tables, or no such links.
 ///
 /// # Errors
-/// [`Problem`] naming a link that leads nowhere, or what does not read.
-pub(super) fn followed(file: &FileBytes) -> Result<Patches, Problem> {
+/// [`Problem`] naming what does not read.
+pub(super) fn followed(file: &FileBytes) -> Result<Followed, Problem> {
     let mut found = Found {
         file,
         base: 0,
         headers: BTreeMap::new(),
-        links: Vec::new(),
+        links: BTreeMap::new(),
         entries: 0,
     };
     let start = bytes_of(file, 0, 96)?;
@@ -37,12 +49,12 @@ pub(super) fn followed(file: &FileBytes) -> Result<Patches, Problem> {
     let is_known =
         start.starts_with(b"\x89HDF\r\n\x1a\n") && start[8] < 2 && start[13..15] == [8, 8];
     if !is_known {
-        return Ok(Patches::new());
+        return Ok(Followed::default());
     }
     let root = if start[8] == 0 { 56 } else { 60 };
     found.base = number(&start[root - 32..]);
     found.group(&bytes_of(file, root as u64, ENTRY as u64)?, "", 0)?;
-    found.patches()
+    found.followed()
 }
 
 struct Found<'f> {
@@ -50,15 +62,23 @@ struct Found<'f> {
     base: u64,
     /// Of each object that a hard link leads to, the address of its header.
     headers: BTreeMap<String, u64>,
-    links: Vec<SoftLink>,
+    /// Of each soft link, by its path, where its entry is and what it leads to.
+    links: BTreeMap<String, SoftLink>,
     entries: u64,
 }
 
 struct SoftLink {
-    /// Where its entry lies in the file.
-    at: u64,
-    path: String,
+    node: Node,
+    /// Which entry of the node it is.
+    position: usize,
     target: String,
+}
+
+/// A symbol node: entries of a group, one behind the other.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Node {
+    address: u64,
+    used: u64,
 }
 
 impl Found<'_> {
@@ -118,14 +138,12 @@ impl Found<'_> {
             let path = format!("{path}/{name}");
             if number32(&entry[16..]) == SOFT_LINK {
                 let target = text(names, u64::from(number32(&entry[24..])));
-                self.links.push(SoftLink {
-                    at: self
-                        .base
-                        .saturating_add(address)
-                        .saturating_add(8 + (position * ENTRY) as u64),
-                    path,
+                let link = SoftLink {
+                    node: Node { address, used },
+                    position,
                     target: target.unwrap_or_default(),
-                });
+                };
+                self.links.insert(path, link);
             } else {
                 self.headers.insert(path.clone(), number(&entry[8..]));
                 self.group(entry, &path, depth + 1)?;
@@ -134,24 +152,57 @@ impl Found<'_> {
         Ok(())
     }
 
-    fn patches(&self) -> Result<Patches, Problem> {
-        let patch = |link: &SoftLink| {
-            let header = self.header(&absolute(&link.path, &link.target), 0);
-            let header = header.ok_or_else(|| {
-                let name = link.path.trim_start_matches('/');
-                Problem::unsupported(
-                    format!(
-                        "the soft link `{}` leads to `{}`, which is not there",
-                        link.path, link.target
-                    ),
-                    format!("remove it: `with h5py.File(path, 'a') as f: del f['{name}']`"),
-                )
-            })?;
-            let mut bytes = [0; 12];
-            bytes[..8].copy_from_slice(&header.to_le_bytes());
-            Ok((link.at.saturating_add(8), bytes))
-        };
-        self.links.iter().map(patch).collect()
+    fn followed(&self) -> Result<Followed, Problem> {
+        let mut followed = Followed::default();
+        // Of each node the headers that its links lead to: a node has several paths where a group has.
+        let mut nodes: BTreeMap<Node, BTreeMap<usize, Option<u64>>> = BTreeMap::new();
+        for (path, link) in &self.links {
+            let header = self.header(&absolute(path, &link.target), 0);
+            let links = nodes.entry(link.node).or_default();
+            let own = links.entry(link.position).or_default();
+            *own = own.or(header);
+            if own.is_none() {
+                followed
+                    .nowhere
+                    .push((path.clone(), leads_nowhere(path, &link.target)));
+            }
+        }
+        for (node, links) in nodes {
+            self.patch(node, &links, &mut followed.patches)?;
+        }
+        Ok(followed)
+    }
+
+    /// The entries of a node with its links as hard ones. Behind one that leads nowhere, which is left out, the others move up.
+    fn patch(
+        &self,
+        node: Node,
+        links: &BTreeMap<usize, Option<u64>>,
+        patches: &mut Patches,
+    ) -> Result<(), Problem> {
+        let entries = self.bytes(node.address.saturating_add(8), node.used * ENTRY as u64)?;
+        let at = self.base.saturating_add(node.address);
+        let mut kept: u16 = 0;
+        for (position, entry) in entries.chunks_exact(ENTRY).enumerate() {
+            let mut own = entry.to_vec();
+            match links.get(&position) {
+                Some(None) => continue,
+                Some(Some(header)) => {
+                    own[8..16].copy_from_slice(&header.to_le_bytes());
+                    own[16..20].fill(0);
+                }
+                None => {}
+            }
+            let place = 8 + u64::from(kept) * ENTRY as u64;
+            if own != entry || usize::from(kept) != position {
+                patches.insert(at.saturating_add(place), own);
+            }
+            kept += 1;
+        }
+        if u64::from(kept) != node.used {
+            patches.insert(at.saturating_add(6), kept.to_le_bytes().to_vec());
+        }
+        Ok(())
     }
 
     /// The header of the object at `path`, through other links too.
@@ -159,14 +210,26 @@ impl Found<'_> {
         if let Some(header) = self.headers.get(path) {
             return Some(*header);
         }
-        let within = |link: &&SoftLink| {
-            let rest = path.strip_prefix(&link.path);
-            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
-        };
-        let link = self.links.iter().find(within).filter(|_| hops < DEPTH)?;
-        let target = absolute(&link.path, &link.target);
-        self.header(&format!("{target}{}", &path[link.path.len()..]), hops + 1)
+        if hops == DEPTH {
+            return None;
+        }
+        let ends = path.match_indices('/').map(|(at, _)| at).skip(1);
+        let mut ends = ends.chain([path.len()]);
+        let (end, link) = ends.find_map(|end| Some((end, self.links.get(&path[..end])?)))?;
+        let target = absolute(&path[..end], &link.target);
+        self.header(&format!("{target}{}", &path[end..]), hops + 1)
     }
+}
+
+/// What is said of a link to whoever reads it.
+fn leads_nowhere(path: &str, target: &str) -> Problem {
+    let name = path.trim_start_matches('/');
+    Problem::unsupported(
+        format!("the soft link `{path}` leads to `{target}`, which is not there"),
+        format!(
+            "remove it: `with h5py.File(path, 'a') as f: del f['{name}']`, or name what it should lead to"
+        ),
+    )
 }
 
 /// The full path of what a link at `path` leads to.

@@ -52,7 +52,10 @@ impl Matlab73 {
         };
         let name_of = |path: &str| path.trim_start_matches('/').replace('/', ".");
         let mut variables = Vec::new();
-        let mut refused: Vec<(String, Problem)> = Vec::new();
+        let dead = hdf5.nowhere().iter();
+        let mut refused: Vec<(String, Problem)> = dead
+            .map(|(path, reason)| (name_of(path), reason.again()))
+            .collect();
         for (index, dataset) in hdf5
             .datasets()
             .iter()

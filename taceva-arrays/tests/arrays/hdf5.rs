@@ -150,16 +150,57 @@ fn soft_links_of_the_default_layout_lead_to_what_they_name() {
 }
 
 #[test]
-fn a_soft_link_that_leads_nowhere_or_back_to_itself_names_the_line_that_removes_it() {
-    for (name, words) in [
-        ("refused/dangling.h5", "`/frames` leads to `/nowhere`"),
-        ("refused/cycle-soft.h5", "`/a` leads to `/b`"),
+fn a_soft_link_that_leads_nowhere_is_refused_when_it_is_read_and_leaves_the_others_alone() {
+    for (name, link, words) in [
+        (
+            "refused/dangling.h5",
+            "/frames",
+            "`/frames` leads to `/nowhere`",
+        ),
+        ("refused/cycle-soft.h5", "/a", "`/a` leads to `/b`"),
+        ("refused/cycle-soft.h5", "/b", "`/b` leads to `/a`"),
     ] {
-        let error = ArrayFile::open(&at(name), ArrayFormat::Hdf5).expect_err(name);
-        let error = error.to_string();
-        assert!(error.contains(words), "{error}");
-        assert!(error.contains("del f['"), "{error}");
+        let file = opened(name);
+        assert_eq!(file.names(), ["/ft"], "{name}");
+        let forces = file.read("/ft", 0..6).expect("there").values;
+        assert_eq!(forces, ArrayValues::F64(vec![0.0, 1.0, 2.0, 3.0, 4.0, 5.0]));
+        for asked in [link, &link[1..], &format!("{link}/behind")] {
+            let error = why(&file, asked);
+            assert!(error.contains(words), "{asked}: {error}");
+            assert!(error.contains("del f['"), "{error}");
+        }
+        let dead = file.dead_links();
+        assert!(
+            dead.iter()
+                .any(|(own, reason)| own == link && reason.contains(words)),
+            "{dead:?}"
+        );
     }
+}
+
+#[test]
+fn dead_links_between_others_of_a_large_group_leave_all_others_where_they_were() {
+    let file = opened("refused/dead-links.h5");
+    let names = file.names();
+    assert_eq!(names.len(), 21, "{names:?}");
+    for number in 0..20_u8 {
+        let name = format!("/data/x{number:02}");
+        let read = file.read(&name, 0..2).expect(&name).values;
+        assert_eq!(read, ArrayValues::U8(vec![number, number + 1]), "{name}");
+    }
+    assert_eq!(
+        file.read("/data/live", 0..2).expect("a link").values,
+        ArrayValues::U8(vec![7, 8])
+    );
+    assert_eq!(file.dead_links().len(), 8);
+    assert!(file.check_groups("/press_*").is_ok());
+    let error = file.check_groups("/data/x*").expect_err("x00-dead is one");
+    assert!(
+        error.to_string().contains("del f['data/x00-dead']"),
+        "{error}"
+    );
+    let error = file.check_groups("data/x05-dead/*").expect_err("above");
+    assert!(error.to_string().contains("leads to `/gone`"), "{error}");
 }
 
 #[test]

@@ -127,6 +127,11 @@ def write_links():
         f["ft"] = np.arange(6.0); f["frames"] = h5py.SoftLink("/nowhere")
     with h5py.File(refused / "cycle-soft.h5", "w") as f:
         f["ft"] = np.arange(6.0); f["a"] = h5py.SoftLink("/b"); f["b"] = h5py.SoftLink("/a")
+    with h5py.File(refused / "dead-links.h5", "w") as f:
+        for k in range(20):
+            f[f"data/x{k:02}"] = np.array([k, k + 1], "u1")
+            if k % 5 == 0: f[f"data/x{k:02}-dead"] = h5py.SoftLink("/gone"); f[f"data/x{k:02}-far"] = h5py.SoftLink("../data/gone")
+        f["data/live"] = h5py.SoftLink("/data/x07")
     with h5py.File(refused / "links.h5", "w", libver=("v110", "v110")) as f:
         f["run/frames"] = np.arange(24, dtype="u1").reshape(6, 2, 2)
         f["frames"] = h5py.SoftLink("/run/frames"); f["elsewhere"] = h5py.ExternalLink("other.h5", "/x")

@@ -38,6 +38,8 @@ pub(super) struct SeenTable<'g> {
     pub(super) classes: Vec<(String, Vec<String>)>,
     /// Other tables with pictures in the same file, as a map writes them.
     pub(super) others: Vec<String>,
+    /// What of its file is not read, each with the reason.
+    pub(super) unread: Vec<String>,
 }
 
 #[derive(Debug)]
@@ -187,6 +189,7 @@ impl<'g> SeenTable<'g> {
             rows,
             classes: table.classes(),
             others: Vec::new(),
+            unread: table.unread(),
             pictures,
         })
     }

@@ -18,6 +18,9 @@ const HEAD: &str = "\
 map_version = 2
 ";
 
+/// How many things that are not read a draft names.
+const UNREAD: usize = 8;
+
 /// Why a file is not read, and what reads it.
 pub(super) fn refused_form(group: &FileGroup) -> Option<String> {
     let remedy = converter(group.first())?;
@@ -51,6 +54,12 @@ pub(super) fn of_table(
     if !main.others.is_empty() {
         let others = main.others.join(", ");
         line(&mut text, &format!("# Other pictures in it: {others}"));
+    }
+    for reason in main.unread.iter().take(UNREAD) {
+        line(
+            &mut text,
+            &format!("# Not read: {}", reason.replace('\n', " ")),
+        );
     }
     let others: Vec<&str> = tables
         .iter()

@@ -52,10 +52,13 @@ impl ArrayRows {
         let file = ArrayFile::open(path, format).map_err(problem)?;
         let paths = match rows {
             None | Some("" | "/") => vec![String::new()],
-            Some(pattern) => match file.groups(pattern) {
-                found if found.is_empty() => vec![pattern.trim_end_matches('/').to_owned()],
-                found => found,
-            },
+            Some(pattern) => {
+                file.check_groups(pattern).map_err(problem)?;
+                match file.groups(pattern) {
+                    found if found.is_empty() => vec![pattern.trim_end_matches('/').to_owned()],
+                    found => found,
+                }
+            }
         };
         let groups: Result<Vec<Group>, String> = paths
             .into_iter()
@@ -235,24 +238,12 @@ impl ColumnSource for ArrayRows {
         })
     }
 
-    fn stated(&self, name: &str) -> Stated {
-        let paths = self
-            .groups
-            .iter()
-            .filter_map(|group| self.info(group, name));
-        let paths: Vec<String> = paths.map(|(path, _)| path).collect();
-        let first = |attribute: &str| {
-            let mut found = paths.iter();
-            found.find_map(|path| self.file.attribute(path, attribute))
-        };
-        let number = |attribute: &str| first(attribute)?.trim_matches(['[', ']']).parse().ok();
-        let packed = [number("scale_factor"), number("add_offset")];
-        let is_packed = packed.iter().any(Option::is_some);
-        let packed = [packed[0].unwrap_or(1.0), packed[1].unwrap_or(0.0)];
-        Stated {
-            unit: first("unit").or_else(|| first("units")),
-            packed: (is_packed && packed != UNPACKED).then_some(packed),
-        }
+    fn stated(&self, name: &str) -> Vec<Stated> {
+        let groups = self.groups.iter();
+        let paths = groups.filter_map(|group| Some(self.info(group, name)?.0));
+        let mut all: Vec<Stated> = paths.map(|path| stated(&self.file, &path)).collect();
+        all.dedup();
+        all
     }
 
     fn why_absent(&self, name: &str) -> Option<String> {
@@ -261,6 +252,11 @@ impl ColumnSource for ArrayRows {
         let mut found = paths.filter_map(|path| self.file.find(&path).err());
         let error = found.find(|error| !matches!(error.problem, Problem::Absent { .. }))?;
         Some(problem(error))
+    }
+
+    fn unread(&self) -> Vec<String> {
+        let links = self.file.dead_links().into_iter();
+        links.map(|(_, reason)| reason).collect()
     }
 
     fn absent_chunks(&self, names: &[&str]) -> Result<Vec<(String, u64)>, String> {
@@ -390,6 +386,19 @@ fn rows_of(file: &ArrayFile, group: &str) -> Result<usize, String> {
                 false => listed(&names),
             }
         )),
+    }
+}
+
+/// What a file says of the numbers in an array.
+pub(crate) fn stated(file: &ArrayFile, array: &str) -> Stated {
+    let said = |attribute: &str| file.attribute(array, attribute);
+    let number = |attribute: &str| said(attribute)?.trim_matches(['[', ']']).parse().ok();
+    let packed = [number("scale_factor"), number("add_offset")];
+    let is_packed = packed.iter().any(Option::is_some);
+    let packed = [packed[0].unwrap_or(1.0), packed[1].unwrap_or(0.0)];
+    Stated {
+        unit: said("unit").or_else(|| said("units")),
+        packed: (is_packed && packed != UNPACKED).then_some(packed),
     }
 }
 

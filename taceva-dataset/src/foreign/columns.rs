@@ -44,14 +44,19 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
         false
     }
 
-    /// What the file itself says of the numbers in a column.
-    fn stated(&self, _name: &str) -> Stated {
-        Stated::default()
+    /// What the file itself says of the numbers in a column; in each of its groups where that differs.
+    fn stated(&self, _name: &str) -> Vec<Stated> {
+        Vec::new()
     }
 
     /// Why a column is not among them although the file has something of this name: a link, or a form that is not read.
     fn why_absent(&self, _name: &str) -> Option<String> {
         None
+    }
+
+    /// What of the file is not read and is no column, each with the reason.
+    fn unread(&self) -> Vec<String> {
+        Vec::new()
     }
 
     /// The arrays behind these columns of which chunks were never written, and how many.
@@ -199,8 +204,12 @@ impl ColumnTable {
         guarded(|| self.source.holds_integers(name)).unwrap_or_default()
     }
 
-    pub(super) fn stated(&self, name: &str) -> Stated {
+    pub(super) fn stated(&self, name: &str) -> Vec<Stated> {
         guarded(|| self.source.stated(name)).unwrap_or_default()
+    }
+
+    pub(super) fn unread(&self) -> Vec<String> {
+        guarded(|| self.source.unread()).unwrap_or_default()
     }
 
     pub(super) fn why_absent(&self, name: &str) -> Option<String> {

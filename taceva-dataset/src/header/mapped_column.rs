@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::mapping::{Misread, differing, number, quoted};
+
 /// How the map of an import read a label: what a dataset must know before rows by another map are added to it, since a column of the same name in
 /// another unit, with another sign or through another matrix gives numbers that nothing tells from the others.
 ///
@@ -29,18 +31,16 @@ pub struct MappedColumn {
     /// What the differences are then multiplied by, one a column and the sum taken; empty where they are not.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub factors: Vec<f64>,
+    /// The number in it that stands for "not measured": a row in which all columns with one hold it is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub placeholder: Option<f64>,
     /// `place-first` or `channel-first`, of taxels.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub order: Option<String>,
 }
 
-/// A key of a map that reads a column otherwise than it was read before.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Misread {
-    pub(crate) key: String,
-    pub(crate) own: String,
-    pub(crate) other: String,
-}
+/// What to do where a column was recorded otherwise.
+const OTHER_COLUMN: &str = "if the column was recorded otherwise this time, rename it in the table";
 
 impl MappedColumn {
     /// `label`, read from `from` in `unit`, as the cells are.
@@ -52,6 +52,7 @@ impl MappedColumn {
             sign: 1,
             offset: Vec::new(),
             factors: Vec::new(),
+            placeholder: None,
             order: None,
         }
     }
@@ -62,6 +63,7 @@ impl MappedColumn {
         match (self.label.as_str(), word) {
             ("t_s", _) => format!("time.{word}"),
             ("signals", _) => format!("signals.{word}"),
+            (label, "placeholder") => format!("drop.placeholders.{label}"),
             (label, "unit") if is_matrix => format!("matrix.gives.{label}"),
             (_, "factors") if is_matrix => "matrix.by".to_owned(),
             (_, _) if is_matrix => format!("matrix.{word}"),
@@ -77,28 +79,24 @@ impl MappedColumn {
     /// What of `self`, of a new map, is otherwise than in `known`, which read the same column for the same label.
     fn differs_from(&self, known: &MappedColumn) -> Option<Misread> {
         let facts = |column: &MappedColumn| {
-            [
-                ("from", words(&column.from)),
+            let order = column.order.clone();
+            let facts = [
+                ("from", quoted(&column.from)),
                 ("unit", column.unit.clone()),
                 ("sign", column.sign.to_string()),
                 ("offset", numbers(&column.offset)),
                 ("factors", numbers(&column.factors)),
-                ("order", column.order.clone().unwrap_or_default()),
-            ]
+                ("placeholder", number(column.placeholder)),
+                ("order", order.unwrap_or_else(|| "none".to_owned())),
+            ];
+            facts.map(|(word, said)| (self.key(word), said)).to_vec()
         };
-        let pairs = facts(known).into_iter().zip(facts(self));
-        let mut differing = pairs.filter(|((_, own), (_, other))| own != other);
-        let ((word, own), (_, other)) = differing.next()?;
-        Some(Misread {
-            key: self.key(word),
-            own,
-            other,
-        })
+        differing(facts(known), facts(self), OTHER_COLUMN)
     }
 }
 
 /// The first of `new`, the columns of another map, that reads a column of `known` otherwise. A column of another name says nothing.
-pub(crate) fn misread(known: &[MappedColumn], new: &[MappedColumn]) -> Option<Misread> {
+pub(super) fn misread(known: &[MappedColumn], new: &[MappedColumn]) -> Option<Misread> {
     new.iter().find_map(|column| {
         let same_label = known.iter().filter(|known| known.label == column.label);
         let mut shared = same_label.filter(|known| known.shares_a_column(column));
@@ -117,28 +115,13 @@ pub(crate) fn misread(known: &[MappedColumn], new: &[MappedColumn]) -> Option<Mi
             key: column.key("from"),
             own: format!(
                 "another column, since {} is `{}`",
-                words(&other.from),
+                quoted(&other.from),
                 other.label
             ),
-            other: words(&column.from),
+            other: quoted(&column.from),
+            mend: OTHER_COLUMN,
         })
     })
-}
-
-/// Those of `known` and behind them those of `new` that are not among them.
-pub(crate) fn united(known: &[MappedColumn], new: &[MappedColumn]) -> Vec<MappedColumn> {
-    let mut all = known.to_vec();
-    for column in new {
-        if !all.contains(column) {
-            all.push(column.clone());
-        }
-    }
-    all
-}
-
-fn words(columns: &[String]) -> String {
-    let quoted: Vec<String> = columns.iter().map(|name| format!("`{name}`")).collect();
-    quoted.join(", ")
 }
 
 fn numbers(numbers: &[f64]) -> String {
@@ -211,6 +194,13 @@ mod tests {
             ),
             (
                 MappedColumn {
+                    placeholder: Some(-1.0),
+                    ..plain()
+                },
+                Some("drop.placeholders.Fx"),
+            ),
+            (
+                MappedColumn {
                     unit: "ms".into(),
                     ..column("t_s", &["t"])
                 },
@@ -243,8 +233,7 @@ mod tests {
             sign: -1,
             ..column("Fx", &["g0"])
         };
-        let both = united(&known, std::slice::from_ref(&inverted));
-        assert_eq!(both.len(), 3);
+        let both = [&known[..], std::slice::from_ref(&inverted)].concat();
         assert_eq!(misread(&both, &[inverted]), None);
         let plain = column("Fx", &["g0"]);
         assert_eq!(

@@ -29,6 +29,22 @@ fn header() -> Header {
             offset: vec![0.1],
             ..MappedColumn::new("Fz", vec!["force [z]".to_owned()], "mN")
         }],
+        joins: vec![MappedJoin {
+            unmatched: "drop".to_owned(),
+            lag_ms: Some(12.5),
+            skip: vec!["4 = -1".to_owned()],
+            ..MappedJoin::new("ft", "time")
+        }],
+        pictures: vec![MappedPictures {
+            range: Some([0.0, 0.1]),
+            bits: Some(8),
+            ..MappedPictures::new("array", "/rgb")
+        }],
+        classes: vec![MappedClass::new(
+            "texture",
+            "path.class",
+            vec!["smooth".to_owned(), "rough".to_owned()],
+        )],
         left_out: LeftOut::default(),
         unmentioned_columns: vec!["quality_flags".to_owned()],
         frames: Some(FramesInfo {

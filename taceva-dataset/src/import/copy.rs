@@ -107,7 +107,7 @@ impl ImportPlan {
             (&table, frames),
             Beside {
                 unmentioned_columns: self.summary.columns_left_behind(),
-                columns: self.columns,
+                mapping: self.mapping,
                 left_out: self.summary.left_out(),
                 signals: signals.transpose()?,
                 ..Beside::default()

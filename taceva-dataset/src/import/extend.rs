@@ -17,7 +17,7 @@ use crate::dataset::{Dataset, Difference, differences_of_added};
 use crate::digest::Digest;
 use crate::error::DatasetError;
 use crate::file::read_capped;
-use crate::header::{Extension, FramesInfo, Header, Misread, misread, united};
+use crate::header::{Extension, FramesInfo, Header, Misread};
 use crate::layout;
 use crate::limits;
 use crate::signals::{SignalsInfo, SignalsWriter};
@@ -164,18 +164,20 @@ impl ImportPlan {
         {
             return Err(refused(differs(key, &own, &other)));
         }
-        if header.columns.is_empty() && !self.columns.is_empty() {
-            return Err(refused(
-                "it does not say how its labels were read, as files of before format 1.9, so that another unit or sign would not be noticed; import its folder anew with this version"
-                    .to_owned(),
-            ));
+        let known = header.mapping();
+        if let Some(what) = known.unsaid(&self.mapping, header.frames.is_some()) {
+            return Err(refused(format!(
+                "it does not say how its {what} were read, as files of before format 1.9, so that another way of reading them would not be noticed; import its folder anew with this version"
+            )));
         }
-        match misread(&header.columns, &self.columns) {
+        match known.misread(&self.mapping) {
             None => Ok(()),
-            Some(Misread { key, own, other }) => Err(refused(format!(
-                "{}; if the column was recorded otherwise this time, rename it in the table",
-                differs(&key, &own, &other)
-            ))),
+            Some(Misread {
+                key,
+                own,
+                other,
+                mend,
+            }) => Err(refused(format!("{}; {mend}", differs(&key, &own, &other)))),
         }
     }
 
@@ -320,7 +322,7 @@ fn write_header(
             unmentioned_columns: unmentioned,
             signals,
             extended,
-            columns: united(&header.columns, &plan.columns),
+            mapping: header.mapping().and(&plan.mapping),
             left_out: header.left_out.clone().and(plan.summary.left_out()),
             history: header.seal.history.clone(),
             ..Beside::default()

@@ -13,7 +13,7 @@ use taceva_video::Decoders;
 use super::frame_cells::FrameName;
 use super::left_out;
 use super::map::{FrameMap, FrameNames, ImportMap};
-use super::mapped_columns::mapped_columns;
+use super::mapped::mapping;
 use super::planned_frames::{FrameSource, PlannedFrame, PlannedFrames};
 use super::references::{References, Settled};
 use super::resolve::JoinMatches;
@@ -24,7 +24,7 @@ use super::summary::ImportSummary;
 use crate::error::{DatasetError, Place};
 use crate::file::SourceFolder;
 use crate::foreign::{Pictures, TableForm};
-use crate::header::MappedColumn;
+use crate::header::Mapping;
 use crate::store::RecordingFacts;
 use crate::table::Table;
 use crate::text::shown;
@@ -55,8 +55,8 @@ pub struct ImportPlan {
     pub(super) table: Table,
     pub(super) frames: Option<PlannedFrames>,
     pub(super) signals: Option<PlannedSignals>,
-    /// How the map reads each label.
-    pub(super) columns: Vec<MappedColumn>,
+    /// How the map reads what it reads.
+    pub(super) mapping: Mapping,
     /// Whether samples are called by the number of their row, because the map names no column for it.
     pub(super) is_numbered: bool,
 }
@@ -373,7 +373,7 @@ impl<'a> Reading<'a> {
             summary: self.summary,
             facts: self.map.facts.clone(),
             is_numbered: self.map.ids.sample.is_none(),
-            columns: mapped_columns(self.map, self.folder)?,
+            mapping: mapping(self.map, self.folder)?,
             table: self.table,
             frames,
         })

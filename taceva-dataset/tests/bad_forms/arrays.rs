@@ -35,13 +35,34 @@ fn cyclic_and_external_links_of_hdf5_end_or_are_named() {
     };
     let cycle = imported(from("cycle.h5").path(), &map("/a/b/x"));
     assert!(cycle.is_ok(), "{:?}", cycle.err());
+    for (file, link, words) in [
+        ("cycle-soft.h5", "/a", "`/a` leads to `/b`"),
+        ("dangling.h5", "/frames", "`/frames` leads to `/nowhere`"),
+    ] {
+        let folder = from(file);
+        refused(folder.path(), &map(link), &[words, "del f['"]);
+        let other = imported(folder.path(), &map("/ft"));
+        assert!(other.is_ok(), "{file}: {:?}", other.err());
+    }
+    // Groups of which one is a dead link are not read without it.
+    let groups = map("x").replace("\"run.h5\"", "{ file = \"run.h5\", rows = \"/data/x*\" }");
     refused(
-        from("cycle-soft.h5").path(),
-        &map("/ft"),
-        &["`/a` leads to `/b`", "del f['"],
+        from("dead-links.h5").path(),
+        &groups,
+        &["leads to `/gone`", "del f['data/x"],
     );
     refused(from("kinds.h5").path(), &map("/elsewhere"), &["/elsewhere"]);
     refused(from("links.h5").path(), &map("/elsewhere"), &["/elsewhere"]);
+}
+
+#[test]
+fn a_draft_names_the_links_that_lead_nowhere() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = workspace("taceva-arrays/tests/data/refused/dangling.h5");
+    fs::copy(path, folder.path().join("run.h5")).expect("copied");
+    let draft = taceva_dataset::MapDraft::of(folder.path()).expect("a draft");
+    let words = "# Not read: the soft link `/frames` leads to `/nowhere`, which is not there";
+    assert!(draft.text().contains(words), "{}", draft.text());
 }
 
 #[test]

@@ -1,10 +1,12 @@
 //! Maps of version 2: labels in paths and cells, tables of other forms, joins, matrices, classes; and what of them is refused.
 
+mod added;
 mod arrays;
 mod classes;
 mod codecs;
 mod joins;
 mod left_out;
+mod page;
 mod references;
 mod signals;
 mod stated;

@@ -109,7 +109,7 @@ fn a_unit_in_the_name_of_a_column_is_held_against_the_map_of_either_version() {
     let problem = taceva_dataset::ImportPlan::new(folder.path(), &old).expect_err("the same");
     let problem = problem.to_string();
     assert!(
-        problem.contains("t.csv, line 1, column `Fz [mN]`: the name of the column says `mN`"),
+        problem.contains("t.csv, line 1, column `Fz [mN]`: its name says `mN`"),
         "{problem}"
     );
 }
@@ -143,4 +143,141 @@ fn files_that_are_counted_through_are_refused_where_10_stands_before_2() {
             .expect("renamed");
     }
     planned(folder.path(), &map).expect("padded");
+}
+
+/// Two rows of three taxels in a file of HDF5 beside a table, of which the file says this.
+fn taxels(attributes: &[(&str, &str)]) -> tempfile::TempDir {
+    let folder = super::lab(&[("labels.csv", "Fz\n1\n2\n")]);
+    let path = folder.path().join("skin.h5");
+    let mut writer = Hdf5Writer::create(&path).expect("made");
+    writer
+        .begin("field", WrittenElement::F32, &[2, 3], attributes)
+        .expect("begun");
+    for number in 1..=6_u8 {
+        writer
+            .write(&f32::from(number).to_le_bytes())
+            .expect("written");
+    }
+    writer.finish(&[]).expect("written");
+    folder
+}
+
+fn taxels_map(from: &str, unit: &str) -> String {
+    format!(
+        "table = \"labels.csv\"\n[columns]\nFz = {{ from = \"Fz\", unit = \"N\" }}\n[signals]\nfrom = {from}\nunit = \"{unit}\"\nplaces = [1, 1]\nchannels = [\"x\", \"y\", \"z\"]\n{NO_TIME}"
+    )
+}
+
+#[test]
+fn a_unit_that_an_array_of_taxels_states_is_not_overruled_by_the_map_without_a_word() {
+    let from = "{ file = \"skin.h5\", path = \"/field\" }";
+    let folder = taxels(&[("units", "mT")]);
+    let problem = planned(folder.path(), &taxels_map(from, "uT")).expect_err("a thousand times");
+    for word in [
+        "skin.h5",
+        "`/field`",
+        "its unit is `mT`",
+        "the map says `uT`",
+        "correct the one that is wrong",
+    ] {
+        assert!(problem.contains(word), "{word}: {problem}");
+    }
+    assert!(!problem.contains("scale = 1"), "{problem}");
+    planned(folder.path(), &taxels_map(from, "mT")).expect("as the file says");
+    // As columns of the table itself, where [signals] has no scale either.
+    let column = taxels_map("\"skin.field\"", "uT")
+        + "[[join]]\nname = \"skin\"\ntable = \"skin.h5\"\non = \"row\"\n";
+    let problem = planned(folder.path(), &column).expect_err("the same");
+    assert!(problem.contains("its unit is `mT`"), "{problem}");
+    assert!(!problem.contains("scale = 1"), "{problem}");
+}
+
+#[test]
+fn packed_numbers_of_taxels_are_refused_with_what_unpacks_them() {
+    let folder = taxels(&[("scale_factor", "0.5")]);
+    let from = "{ file = \"skin.h5\" }";
+    let problem = planned(folder.path(), &taxels_map(from, "uT")).expect_err("packed");
+    assert!(
+        problem.contains("numbers × 0.5 + 0.0 without these attributes"),
+        "{problem}"
+    );
+    let plain = taxels(&[("scale_factor", "1.0")]);
+    planned(plain.path(), &taxels_map(from, "uT")).expect("as they lie");
+}
+
+#[test]
+fn a_unit_that_a_later_group_states_is_looked_at_as_that_of_the_first() {
+    let mut files = vec![
+        (
+            "run.zarr/.zgroup".to_owned(),
+            "{\"zarr_format\": 2}".to_owned(),
+        ),
+        (
+            "run.zarr/data/.zgroup".to_owned(),
+            "{\"zarr_format\": 2}".to_owned(),
+        ),
+    ];
+    for (name, unit) in [("a", "N"), ("b", "mN")] {
+        let of = |file: &str| format!("run.zarr/data/{name}/{file}");
+        let array = "{\"zarr_format\": 2, \"shape\": [1], \"chunks\": [1], \"dtype\": \"|u1\", \"compressor\": null, \"fill_value\": 0, \"order\": \"C\", \"filters\": null}";
+        files.push((of(".zgroup"), "{\"zarr_format\": 2}".to_owned()));
+        files.push((of("force/.zarray"), array.to_owned()));
+        files.push((of("force/.zattrs"), format!("{{\"unit\": \"{unit}\"}}")));
+        files.push((of("force/0"), "\u{7}".to_owned()));
+    }
+    let files: Vec<(&str, &str)> = files
+        .iter()
+        .map(|(path, text)| (path.as_str(), text.as_str()))
+        .collect();
+    let folder = super::lab(&files);
+    let groups = |unit: &str| {
+        map(&format!("unit = \"{unit}\""))
+            .replace("\"run.h5\"", "{ file = \"run.zarr\", rows = \"/data/*\" }")
+    };
+    let problem = planned(folder.path(), &groups("N")).expect_err("the second group");
+    assert!(problem.contains("its unit is `mN`"), "{problem}");
+    let problem = planned(folder.path(), &groups("mN")).expect_err("the first group");
+    assert!(problem.contains("its unit is `N`"), "{problem}");
+    let (_, found) = imported_from(
+        folder.path(),
+        &groups("N").replace("unit = \"N\"", "unit = \"N\", scale = 1"),
+        &["Fz"],
+    );
+    assert_eq!(found[0], ["7.0", "7.0"]);
+}
+
+#[test]
+fn a_unit_that_the_file_states_of_times_is_not_overruled_in_the_table_or_in_a_joined_one() {
+    let folder = super::lab(&[("camera.csv", "t,Fz\n0,1\n0.1,2\n")]);
+    let mut writer = Hdf5Writer::create(&folder.path().join("ft.h5")).expect("made");
+    for (name, unit, numbers) in [("t", "ms", [0.0_f64, 100.0]), ("f", "N", [3.0, 4.0])] {
+        writer
+            .begin(name, WrittenElement::F64, &[2], &[("units", unit)])
+            .expect("begun");
+        for number in numbers {
+            writer.write(&number.to_le_bytes()).expect("written");
+        }
+    }
+    writer.finish(&[]).expect("written");
+    let own = |unit: &str| {
+        format!(
+            "table = \"ft.h5\"\n[columns]\nFz = {{ from = \"f\", unit = \"N\" }}\n[time]\nclock = \"unknown\"\ncolumn = \"t\"\nunit = \"{unit}\"\n"
+        )
+    };
+    let joined = |unit: &str| {
+        format!(
+            "table = \"camera.csv\"\n[columns]\nFz = {{ from = \"ft.f\", unit = \"N\" }}\n[time]\nclock = \"unknown\"\ncolumn = \"t\"\nunit = \"s\"\n[[join]]\nname = \"ft\"\ntable = \"ft.h5\"\ntime = {{ column = \"t\", unit = \"{unit}\" }}\ntolerance_ms = 1e6\nlag_ms = 0\n"
+        )
+    };
+    for map in [own("s"), joined("s")] {
+        let problem = planned(folder.path(), &map).expect_err("a thousand times");
+        for word in ["column `t`", "its unit is `ms`", "the map says `s`"] {
+            assert!(problem.contains(word), "{word}: {problem}");
+        }
+        assert!(!problem.contains("scale = 1"), "{problem}");
+    }
+    for map in [own("ms"), joined("ms")] {
+        let (_, found) = imported_from(folder.path(), &map, &["Fz"]);
+        assert_eq!(found[0], ["3.0", "4.0"]);
+    }
 }

@@ -153,8 +153,8 @@ impl Check<'_> {
                 JoinBy::Time(TimeJoin {
                     time: self.time_of(time.column, &time.unit)?,
                     pick: pick.unwrap_or(Pick::Nearest),
-                    tolerance_s: tolerance_ms / 1e3,
-                    lag_s: lag_ms / 1e3,
+                    tolerance_ms,
+                    lag_ms,
                 })
             }
             (None, Some(_), _) => {

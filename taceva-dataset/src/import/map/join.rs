@@ -37,10 +37,22 @@ pub(crate) struct TimeJoin {
     /// The time of the joined table.
     pub(crate) time: TimeMap,
     pub(crate) pick: Pick,
+    /// The greatest distance in time, ms.
+    pub(crate) tolerance_ms: f64,
+    /// How much later the clock of the joined table shows the same instant, ms.
+    pub(crate) lag_ms: f64,
+}
+
+impl TimeJoin {
     /// The greatest distance in time, s.
-    pub(crate) tolerance_s: f64,
+    pub(crate) fn tolerance_s(&self) -> f64 {
+        self.tolerance_ms / 1e3
+    }
+
     /// How much later the clock of the joined table shows the same instant, s.
-    pub(crate) lag_s: f64,
+    pub(crate) fn lag_s(&self) -> f64 {
+        self.lag_ms / 1e3
+    }
 }
 
 /// Which of the rows about a time it is.
@@ -55,6 +67,17 @@ pub(crate) enum Pick {
     Linear,
 }
 
+impl Pick {
+    /// The word for it in a map.
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Pick::Nearest => "nearest",
+            Pick::Before => "before",
+            Pick::Linear => "linear",
+        }
+    }
+}
+
 /// What becomes of a row to which none belongs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -63,4 +86,14 @@ pub(crate) enum Unmatched {
     Drop,
     /// The import is refused.
     Refuse,
+}
+
+impl Unmatched {
+    /// The word for it in a map.
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Unmatched::Drop => "drop",
+            Unmatched::Refuse => "refuse",
+        }
+    }
 }

@@ -8,8 +8,8 @@ use std::path::Path;
 
 use super::classes::holds_integers;
 use super::columns::{base_of, mentioned};
-use super::stated::{self, Reading};
-use super::{Sources, cell_of, times};
+use super::stated::{self, Of, Reading};
+use super::{Sources, cell_of};
 use crate::csv_table::number;
 use crate::error::{DatasetError, Place};
 use crate::file::SourceFolder;
@@ -278,7 +278,7 @@ impl<'a> Joined<'a> {
                 let Some(instant) = seconds(&cell, time, place)? else {
                     return Ok(At::Nowhere);
                 };
-                let found = about(&candidates.by_time, instant + join.lag_s, join);
+                let found = about(&candidates.by_time, instant + join.lag_s(), join);
                 if let Some((_, gap_s)) = found {
                     self.greatest_gap_s =
                         Some(self.greatest_gap_s.map_or(gap_s, |most| most.max(gap_s)));
@@ -357,7 +357,12 @@ impl Candidates {
                 }
             }
             JoinBy::Time(join) => {
-                times::check(table, &join.time.column, &join.time.unit)?;
+                let reading = Reading {
+                    unit: &join.time.unit,
+                    is_moved: false,
+                    of: Of::Others,
+                };
+                stated::check(table, &join.time.column, reading)?;
                 for row in rows.iter() {
                     let cell = cell_of(table, *row, &join.time.column)?;
                     let place = || table.place(*row, &join.time.column);

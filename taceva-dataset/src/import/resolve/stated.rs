@@ -14,6 +14,16 @@ pub(super) struct Reading<'a> {
     pub(super) unit: &'a SourceUnit,
     /// Whether the map subtracts or multiplies, and so knows what the numbers are.
     pub(super) is_moved: bool,
+    pub(super) of: Of,
+}
+
+/// What the numbers are to the map.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Of {
+    /// Labels, of which it may say a scale.
+    Labels,
+    /// Times and numbers of taxels, of which it says none.
+    Others,
 }
 
 /// Checks that `reading`, what the map says of the column `name` of `table`, is not otherwise than the file itself says.
@@ -30,7 +40,9 @@ pub(super) fn check(
     if reading.is_moved || !table.has(base) {
         return Ok(());
     }
-    let found = problem(&table.stated(base), reading.unit);
+    let stated = table.stated(base);
+    let mut stated = stated.iter();
+    let found = stated.find_map(|stated| problem(stated, reading.unit, reading.of));
     match found.or_else(|| problem_of_name(base, reading.unit)) {
         None => Ok(()),
         Some(problem) => Err(DatasetError::Table {
@@ -54,7 +66,7 @@ pub(in crate::import) fn problem_of_name(name: &str, unit: &SourceUnit) -> Optio
     let (_, stated) = name.strip_suffix(close)?.rsplit_once(open)?;
     contradicted(stated, unit).map(|own| {
         format!(
-            "the name of the column says `{own}`, the map says `{}`: correct the one that is wrong",
+            "its name says `{own}`, the map says `{}`: correct the one that is wrong",
             unit.symbol()
         )
     })
@@ -69,17 +81,33 @@ fn contradicted(stated: &str, unit: &SourceUnit) -> Option<&'static str> {
     is_other.then(|| own.symbol())
 }
 
-fn problem(stated: &Stated, unit: &SourceUnit) -> Option<String> {
+/// Why the map contradicts what a file says of an array of numbers of taxels.
+pub(in crate::import) fn problem_of_signals(stated: &Stated, unit: &SourceUnit) -> Option<String> {
+    problem(stated, unit, Of::Others)
+}
+
+fn problem(stated: &Stated, unit: &SourceUnit, of: Of) -> Option<String> {
     if let Some([factor, added]) = stated.packed {
+        let remedy = match of {
+            Of::Labels => format!(
+                "write `scale = {factor:?}, offset = {:?}`, or `scale = 1` if they are what they are",
+                0.0 - added / factor
+            ),
+            Of::Others => format!(
+                "write them as numbers × {factor:?} + {added:?} without these attributes, or take the attributes away if they are what they are"
+            ),
+        };
         return Some(format!(
-            "the file says that its numbers are packed (`scale_factor` {factor}, `add_offset` {added}), and the map reads them as they lie: write \
-             `scale = {factor:?}, offset = {:?}`, or `scale = 1` if they are what they are",
-            0.0 - added / factor
+            "the file says that its numbers are packed (`scale_factor` {factor}, `add_offset` {added}), and the map reads them as they lie: {remedy}"
         ));
     }
     contradicted(stated.unit.as_deref()?, unit).map(|own| {
+        let remedy = match of {
+            Of::Labels => ", or write `scale = 1` if it is the attribute",
+            Of::Others => "",
+        };
         format!(
-            "the file says that its unit is `{own}`, the map says `{}`: correct the one that is wrong, or write `scale = 1` if it is the attribute",
+            "the file says that its unit is `{own}`, the map says `{}`: correct the one that is wrong{remedy}",
             unit.symbol()
         )
     })
@@ -91,16 +119,16 @@ impl Sources<'_> {
         let columns = self.map.columns.iter();
         let columns = columns.map(|column| {
             let is_moved = column.is_moved();
-            (column.from.as_str(), &column.unit, is_moved)
+            (column.from.as_str(), &column.unit, is_moved, Of::Labels)
         });
         let times = self.map.time.iter();
-        let times = times.map(|time| (time.column.as_str(), &time.unit, false));
+        let times = times.map(|time| (time.column.as_str(), &time.unit, false, Of::Others));
         let signals = self.map.signals.iter().flat_map(|signals| {
             let names = signals.columns().iter();
-            names.map(|name| (name.as_str(), &signals.unit, false))
+            names.map(|name| (name.as_str(), &signals.unit, false, Of::Others))
         });
-        for (name, unit, is_moved) in columns.chain(times).chain(signals) {
-            let reading = Reading { unit, is_moved };
+        for (name, unit, is_moved, of) in columns.chain(times).chain(signals) {
+            let reading = Reading { unit, is_moved, of };
             match self.joined_column(name) {
                 None => check(&self.main, name, reading)?,
                 Some((joined, column)) => joined.check(column, reading)?,
@@ -119,7 +147,7 @@ mod tests {
             unit: unit.map(str::to_owned),
             packed,
         };
-        problem(&stated, &SourceUnit::parse(map).expect("known"))
+        problem(&stated, &SourceUnit::parse(map).expect("known"), Of::Labels)
     }
 
     #[test]

@@ -8,9 +8,10 @@ use taceva_core::Progress;
 
 use crate::error::{DatasetError, Place};
 use crate::file::SourceFolder;
+use crate::foreign::stated;
 use crate::guard::guarded;
 use crate::import::map::SignalsMap;
-use crate::import::resolve::place_first;
+use crate::import::resolve::{place_first, problem_of_name, problem_of_signals};
 use crate::signals::SignalsWriter;
 
 /// Numbers that are read at once: 8 MiB as 64 bits.
@@ -68,6 +69,11 @@ impl ArraySignals {
                 "`{array}` of shape {:?} has no row of signals",
                 info.shape
             )));
+        }
+        let of_file = guarded(|| stated(&file, &name)).map_err(wrong)?;
+        let contradicted = problem_of_signals(&of_file, &map.unit);
+        if let Some(problem) = contradicted.or_else(|| problem_of_name(&name, &map.unit)) {
+            return Err(wrong(format!("`{array}`: {problem}")));
         }
         map.check_axes(beside)
             .map_err(|problem| wrong(format!("`{array}`: {problem}")))?;

@@ -68,7 +68,7 @@ pub(super) fn about(times: &[(f64, usize)], instant: f64, join: &TimeJoin) -> Op
         },
         (Pick::Nearest, before, after) => one(before.or(after)?),
     };
-    (found.1 <= join.tolerance_s + ROUNDING_S).then_some(found)
+    (found.1 <= join.tolerance_s() + ROUNDING_S).then_some(found)
 }
 
 #[cfg(test)]
@@ -81,8 +81,8 @@ mod tests {
         TimeJoin {
             time: TimeMap::new("t", SourceUnit::parse("s").expect("known")),
             pick,
-            tolerance_s,
-            lag_s: 0.0,
+            tolerance_ms: tolerance_s * 1e3,
+            lag_ms: 0.0,
         }
     }
 

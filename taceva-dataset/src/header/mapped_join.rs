@@ -1,0 +1,84 @@
+//! How a map found the rows of another table that belong to those of the main one.
+
+use serde::{Deserialize, Serialize};
+
+use super::mapping::{Fact, number, or_none, quoted};
+
+/// How the map of an import joined a table: with another lag or another pick the same columns give the readings of other instants.
+///
+/// ```
+/// let text = "name = \"ft\"\nby = \"time\"\ncolumn = \"t\"\nunit = \"s\"\npick = \"nearest\"\ntolerance_ms = 5.0\nlag_ms = 12.5\nunmatched = \"drop\"\n";
+/// let join: taceva_dataset::MappedJoin = toml::from_str(text)?;
+/// assert_eq!((join.name.as_str(), join.lag_ms), ("ft", Some(12.5)));
+/// # Ok::<(), toml::de::Error>(())
+/// ```
+#[non_exhaustive]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MappedJoin {
+    /// What stands before the names of its columns.
+    pub name: String,
+    /// `columns`, `row`, `all`, `time` or `until`.
+    pub by: String,
+    /// Of a join by columns: `column of the main table = column of this one`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub on: Vec<String>,
+    /// The column of the time, or of the number up to which its rows reach.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub column: Option<String>,
+    /// The unit of the time.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unit: Option<String>,
+    /// `nearest`, `before` or `linear`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pick: Option<String>,
+    /// The greatest distance in time, ms.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tolerance_ms: Option<f64>,
+    /// How much later the clock of this table shows the same instant, ms.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lag_ms: Option<f64>,
+    /// What becomes of a row of the main table to which none belongs: `drop` or `refuse`.
+    pub unmatched: String,
+    /// Rows that are no candidates: `column = number`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub skip: Vec<String>,
+}
+
+impl MappedJoin {
+    /// The table `name`, joined by that, where a row to which none belongs is refused.
+    pub(crate) fn new(name: &str, by: &str) -> MappedJoin {
+        MappedJoin {
+            name: name.to_owned(),
+            by: by.to_owned(),
+            on: Vec::new(),
+            column: None,
+            unit: None,
+            pick: None,
+            tolerance_ms: None,
+            lag_ms: None,
+            unmatched: "refuse".to_owned(),
+            skip: Vec::new(),
+        }
+    }
+
+    /// What decides which rows belong together, by the keys of a map.
+    pub(super) fn facts(&self) -> Vec<Fact> {
+        let name = &self.name;
+        let key = |word: &str| format!("join.{name}.{word}");
+        let column = match self.by.as_str() {
+            "time" => "time.column",
+            _ => "until",
+        };
+        vec![
+            (format!("join.{name}"), format!("by {}", self.by)),
+            (key("on"), quoted(&self.on)),
+            (key(column), or_none(self.column.as_deref())),
+            (key("time.unit"), or_none(self.unit.as_deref())),
+            (key("pick"), or_none(self.pick.as_deref())),
+            (key("tolerance_ms"), number(self.tolerance_ms)),
+            (key("lag_ms"), number(self.lag_ms)),
+            (key("unmatched"), self.unmatched.clone()),
+            (key("skip"), quoted(&self.skip)),
+        ]
+    }
+}

@@ -1,0 +1,139 @@
+//! How the maps of an import read what is in a dataset, and what of it another map would read otherwise.
+
+use super::mapped_class::MappedClass;
+use super::mapped_column::{MappedColumn, misread};
+use super::mapped_join::MappedJoin;
+use super::mapped_pictures::MappedPictures;
+
+/// A key of a map, and what it says.
+pub(super) type Fact = (String, String);
+
+/// What decides the values that an import reads from the cells, the rows and the arrays of a lab.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Mapping {
+    pub(crate) columns: Vec<MappedColumn>,
+    pub(crate) joins: Vec<MappedJoin>,
+    pub(crate) pictures: Vec<MappedPictures>,
+    pub(crate) classes: Vec<MappedClass>,
+}
+
+/// A key of a map that reads something otherwise than it was read before.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Misread {
+    pub(crate) key: String,
+    pub(crate) own: String,
+    pub(crate) other: String,
+    /// What may be done about it where the map is right.
+    pub(crate) mend: &'static str,
+}
+
+/// What to do where a join was recorded otherwise.
+const OTHER_JOIN: &str =
+    "if that table was recorded otherwise this time, give the join another name in the map";
+/// What to do where a list of classes grew.
+const LONGER_LIST: &str = "write the list as it was, with new names at its end";
+/// What to do where an array was written otherwise.
+const OTHER_ARRAY: &str =
+    "if the pictures were written otherwise this time, give their array another name";
+
+impl Mapping {
+    /// Whether nothing is known of any map: no import, or one by an older version.
+    pub(crate) fn is_empty(&self) -> bool {
+        *self == Mapping::default()
+    }
+
+    /// What `self`, which maps of before read, leaves unsaid of what `new` says, as files of before format 1.9 do.
+    pub(crate) fn unsaid(&self, new: &Mapping, has_frames: bool) -> Option<&'static str> {
+        let is_joined = |name: &str| {
+            let mut columns = self.columns.iter().flat_map(|column| &column.from);
+            columns.any(|from| from.split_once('.').is_some_and(|(join, _)| join == name))
+        };
+        let is_known = |join: &MappedJoin| self.joins.iter().any(|known| known.name == join.name);
+        if self.columns.is_empty() && !new.columns.is_empty() {
+            return Some("labels");
+        }
+        if has_frames && self.pictures.is_empty() && !new.pictures.is_empty() {
+            return Some("pictures");
+        }
+        let mut joins = new.joins.iter();
+        joins
+            .any(|join| !is_known(join) && is_joined(&join.name))
+            .then_some("joined tables")
+    }
+
+    /// The first key by which `new`, another map, reads what `self` knows otherwise. What has another name says nothing.
+    pub(crate) fn misread(&self, new: &Mapping) -> Option<Misread> {
+        let columns = misread(&self.columns, &new.columns);
+        let joins = new.joins.iter().find_map(|join| {
+            let mut known = self.joins.iter().filter(|known| known.name == join.name);
+            if known.clone().any(|known| known == join) {
+                return None;
+            }
+            differing(known.next()?.facts(), join.facts(), OTHER_JOIN)
+        });
+        let pictures = new.pictures.iter().find_map(|pictures| {
+            let mut known = self.pictures.iter().filter(|known| pictures.is_of(known));
+            differing(known.next()?.facts(), pictures.facts(), OTHER_ARRAY)
+        });
+        let classes = new.classes.iter().find_map(|class| {
+            let mut known = self.classes.iter();
+            let known = known.find(|known| known.name == class.name && known.from == class.from)?;
+            let at = class.other_position(known)?;
+            Some(Misread {
+                key: format!("classes.{}.names[{at}]", class.name),
+                own: format!("`{}`", known.names[at]),
+                other: format!("`{}`", class.names[at]),
+                mend: LONGER_LIST,
+            })
+        });
+        columns.or(joins).or(pictures).or(classes)
+    }
+
+    /// What is known once rows by `new` are added.
+    pub(crate) fn and(self, new: &Mapping) -> Mapping {
+        Mapping {
+            columns: united(self.columns, &new.columns),
+            joins: united(self.joins, &new.joins),
+            pictures: united(self.pictures, &new.pictures),
+            classes: united(self.classes, &new.classes),
+        }
+    }
+}
+
+/// The first fact of `new` that is otherwise than the same one of `known`.
+pub(super) fn differing(known: Vec<Fact>, new: Vec<Fact>, mend: &'static str) -> Option<Misread> {
+    let mut pairs = known.into_iter().zip(new);
+    let ((_, own), (key, other)) = pairs.find(|((_, own), (_, other))| own != other)?;
+    Some(Misread {
+        key,
+        own,
+        other,
+        mend,
+    })
+}
+
+/// Those of `known` and behind them those of `new` that are not among them.
+fn united<T: Clone + PartialEq>(mut known: Vec<T>, new: &[T]) -> Vec<T> {
+    for one in new {
+        if !known.contains(one) {
+            known.push(one.clone());
+        }
+    }
+    known
+}
+
+pub(super) fn quoted(names: &[String]) -> String {
+    let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    match quoted[..] {
+        [] => "none".to_owned(),
+        _ => quoted.join(", "),
+    }
+}
+
+pub(super) fn number(number: Option<f64>) -> String {
+    number.map_or_else(|| "none".to_owned(), |number| number.to_string())
+}
+
+pub(super) fn or_none(name: Option<&str>) -> String {
+    name.map_or_else(|| "none".to_owned(), |name| format!("`{name}`"))
+}
