@@ -134,7 +134,10 @@ impl Asked {
                 Question::GoOn => "Go on, hands out of reach".to_owned(),
                 _ => "Done, hands out of reach".to_owned(),
             },
-            can_skip: !matches!(question, Question::Enable(_) | Question::Resume(_) | Question::GoOn),
+            can_skip: !matches!(
+                question,
+                Question::Enable(_) | Question::Resume(_) | Question::GoOn
+            ),
             picture: crate::picture::of(question),
             answer: None,
         }

@@ -15,7 +15,8 @@ const TEXT: u8 = b'M';
 const PROTOCOL: u16 = 2;
 /// What is asked for, in this order, and the types that the controller must give it. The last is the register to which stops write their number:
 /// the first of those that programs from outside may use.
-const NAMES: &str = "timestamp,actual_TCP_pose,robot_mode,safety_status_bits,runtime_state,output_int_register_24";
+const NAMES: &str =
+    "timestamp,actual_TCP_pose,robot_mode,safety_status_bits,runtime_state,output_int_register_24";
 const TYPES: &str = "DOUBLE,VECTOR6D,INT32,UINT32,UINT32,INT32";
 /// The number of that register in script.
 pub(super) const STOP_REGISTER: u8 = 24;
