@@ -130,13 +130,29 @@ fn the_baseline_wins_nothing_in_comparisons_choices_pages_and_acceptances() {
 }
 
 #[test]
-fn too_few_points_for_an_interval_show_no_skill() {
+fn too_few_points_for_an_interval_leave_open_whether_there_is_skill() {
     let bench = Bench::new();
     bench.record("data", 32);
     let report = bench.json("evaluate data --model ridge --metrics mae");
     let skill = &report["metrics"]["skill"]["Fz"];
     assert!(skill["ci95"]["undefined"].is_string(), "{skill:#}");
-    assert_eq!(report["metrics"]["mae"]["Fz"]["standing"], "no skill");
+    assert!(
+        skill["value"].as_f64().is_some_and(|skill| skill > 0.0),
+        "{skill:#}"
+    );
+    schema::check("evaluation", &report);
+    let standing = &report["metrics"]["mae"]["Fz"]["standing"];
+    assert_eq!(standing, "skill not known: no interval");
+    for model in ["ridge", "pls"] {
+        bench.ok(&format!(
+            "evaluate data --model {model} --metrics mae --out {model}.json -q"
+        ));
+    }
+    let comparison = bench.json("compare ridge.json pls.json");
+    schema::check("comparison", &comparison);
+    for answer in comparison["answers"].as_array().expect("a list") {
+        assert_eq!(answer["winner"], Value::Null, "{answer:#}");
+    }
 }
 
 #[test]

@@ -81,3 +81,44 @@ fn what_a_constant_reaches_is_merged_with_that_of_the_same_constant_and_lost_bes
     assert_eq!(share([0.0, 0.0]), Some(0.0));
     assert_eq!(share([0.25, 0.0]), None);
 }
+
+/// Six presses at each of so many points, read to within 1 % of a spread of 1 N.
+fn of_points(points: usize) -> Evaluation {
+    let channels = Channels::new([Channel::FZ]).expect("one channel");
+    let plan = MetricPlan::new(
+        &catalogue::ALL,
+        channels,
+        FieldSet::PAIRS.with(Field::Point),
+    );
+    let truth: Vec<f64> = (0..6_u32)
+        .flat_map(|press| (0..points).map(move |_| f64::from(press) / 6.0))
+        .collect();
+    let prediction: Vec<f64> = truth
+        .iter()
+        .enumerate()
+        .map(|(row, truth)| truth + if row % 2 == 0 { 0.01 } else { -0.008 })
+        .collect();
+    let names = (0..truth.len()).map(|row| (row % points).to_string());
+    let mut evaluator = Evaluator::new(&plan);
+    let rows = Rows::new().pairs(Channel::FZ, &truth, &prediction);
+    evaluator.update_rows(rows.points(names)).expect("rows");
+    evaluator.finish().expect("scores")
+}
+
+#[test]
+fn too_few_points_for_an_interval_are_no_verdict_that_there_is_no_skill() {
+    let standing = |points, metric| {
+        let evaluation = of_points(points);
+        let score = evaluation.score(metric, "Fz").expect("a score");
+        (score.standing, score.interval.ends().is_some())
+    };
+    for metric in ["mae", "r2", "skill"] {
+        assert_eq!(
+            standing(4, metric),
+            (Standing::NoInterval, false),
+            "{metric}"
+        );
+        assert_eq!(standing(8, metric), (Standing::Counts, true), "{metric}");
+    }
+    assert!(!Standing::NoInterval.takes_part());
+}

@@ -49,7 +49,7 @@ pub(crate) fn set_standings(entries: &mut [Entry]) {
 }
 
 fn of_skill_score(skill: &Score) -> Standing {
-    Standing::of_skill(low_end(skill))
+    Standing::of_value(low_end(skill), skill.value.scalar())
 }
 
 /// Where the interval of a score begins.
@@ -104,6 +104,7 @@ fn of_score(
 fn beside_constant(metric: &Metric, score: &Score) -> Standing {
     match (&metric.formula, of_share(score)) {
         (Formula::Tolerance, Standing::NoSkill) => Standing::NotAboveConstant,
+        (Formula::Tolerance, Standing::NoInterval) => Standing::NoInterval,
         _ => Standing::Counts,
     }
 }
@@ -115,7 +116,10 @@ fn of_share(score: &Score) -> Standing {
         .and_then(|variant| variant.value.scalar());
     match of_constant {
         None => Standing::SkillUnknown,
-        Some(constant) => Standing::of_skill(low_end(score).map(|low| low - constant)),
+        Some(constant) => {
+            let above = |share: f64| share - constant;
+            Standing::of_value(low_end(score).map(above), score.value.scalar().map(above))
+        }
     }
 }
 

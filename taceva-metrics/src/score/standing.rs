@@ -30,18 +30,21 @@ pub enum Standing {
     /// It takes no part: a share of good answers whose interval does not lie above the share that the constant of the skill score reaches,
     /// though the model may be nearer in the mean square.
     NotAboveConstant,
+    /// It takes no part: it lies above a constant, and has no interval that says whether more than chance does it.
+    NoInterval,
     /// It takes no part: the model is not shown to do better than a constant.
     NoSkill,
 }
 
 impl Standing {
     /// Every standing, the best first.
-    pub const ALL: [Standing; 6] = [
+    pub const ALL: [Standing; 7] = [
         Standing::Counts,
         Standing::SkillUnknown,
         Standing::Bounded,
         Standing::LowStimulus,
         Standing::NotAboveConstant,
+        Standing::NoInterval,
         Standing::NoSkill,
     ];
 
@@ -64,6 +67,7 @@ impl Standing {
             Standing::Bounded => Some("bounded"),
             Standing::LowStimulus => Some("low stimulus"),
             Standing::NotAboveConstant => Some("not above the constant"),
+            Standing::NoInterval => Some("skill not known: no interval"),
             Standing::NoSkill => Some("no skill"),
         }
     }
@@ -87,6 +91,9 @@ impl Standing {
             Standing::NotAboveConstant => Some(
                 "not above the constant: its interval does not lie above the share that the constant of the skill, the mean of the labels that the model was fitted on, reaches",
             ),
+            Standing::NoInterval => Some(
+                "skill not known: no interval, since too few contact points were scored or nothing varied between them",
+            ),
             Standing::NoSkill => {
                 Some("no skill: the model is not shown to do better than a constant")
             }
@@ -95,12 +102,31 @@ impl Standing {
 
     /// What a skill score says whose interval of 95 % begins at `low`.
     ///
-    /// Without an interval there is no evidence, and a verdict needs evidence: no skill is shown then.
+    /// Without an interval there is no evidence, and a verdict needs evidence: neither that the model has skill nor that it has none.
+    ///
+    /// ```
+    /// use taceva_metrics::Standing;
+    /// assert_eq!(Standing::of_skill(Some(0.25)), Standing::Counts);
+    /// assert_eq!(Standing::of_skill(Some(-0.25)), Standing::NoSkill);
+    /// assert_eq!(Standing::of_skill(None), Standing::NoInterval);
+    /// ```
     pub fn of_skill(low: Option<f64>) -> Standing {
         match low {
             Some(low) if low > ROUNDING => Standing::Counts,
-            _ => Standing::NoSkill,
+            Some(_) => Standing::NoSkill,
+            None => Standing::NoInterval,
         }
+    }
+
+    /// The same of a score with its value: one that does not lie above zero itself shows no skill with an interval or without.
+    ///
+    /// ```
+    /// use taceva_metrics::Standing;
+    /// assert_eq!(Standing::of_value(None, Some(0.9)), Standing::NoInterval);
+    /// assert_eq!(Standing::of_value(None, Some(-0.1)), Standing::NoSkill);
+    /// ```
+    pub fn of_value(low: Option<f64>, value: Option<f64>) -> Standing {
+        Standing::of_skill(low.or(value.filter(|value| *value <= ROUNDING)))
     }
 
     /// What a share of predictions that were, or would have been, brought back to the bounds of the model says.
@@ -139,10 +165,14 @@ mod tests {
     }
 
     #[test]
-    fn an_interval_that_begins_at_zero_shows_no_skill_and_none_at_all_neither() {
+    fn an_interval_that_begins_at_zero_shows_no_skill_and_without_one_it_is_not_known() {
         let said = [Some(-0.1), Some(0.0), Some(1e-12), Some(0.001), None].map(Standing::of_skill);
         let (none, some) = (Standing::NoSkill, Standing::Counts);
-        assert_eq!(said, [none, none, none, some, none]);
+        assert_eq!(said, [none, none, none, some, Standing::NoInterval]);
+        let of_values = [Some(0.9), Some(0.0), Some(-2.0), None];
+        let said = of_values.map(|value| Standing::of_value(None, value));
+        let unknown = Standing::NoInterval;
+        assert_eq!(said, [unknown, none, none, unknown]);
     }
 
     #[test]

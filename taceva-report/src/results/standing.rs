@@ -4,18 +4,21 @@ use taceva_metrics::{Standing, catalogue};
 
 use super::{Interval, Score};
 
-/// Gives `scores` the standing that their R² says: a channel whose interval does not lie above zero, or that has no interval, shows no
-/// skill; of a channel without R² nothing is known.
+/// Gives `scores` the standing that their R² says: a channel whose interval does not lie above zero shows no skill, of one without an
+/// interval it is not known; of a channel without R² nothing is known.
 pub(crate) fn by_r2(scores: &mut [Score]) {
     judge(scores, |r2| {
         let ends = r2.interval.as_ref().and_then(Interval::ends);
-        Standing::of_skill(ends.map(|[low, _]| low))
+        Standing::of_value(ends.map(|[low, _]| low), r2.value.number())
     });
 }
 
 /// The same of published numbers, which have no interval: by the value of R² itself.
 pub(crate) fn by_published_r2(scores: &mut [Score]) {
-    judge(scores, |r2| Standing::of_skill(r2.value.number()));
+    judge(scores, |r2| match r2.value.number() {
+        None => Standing::SkillUnknown,
+        number => Standing::of_skill(number),
+    });
 }
 
 fn judge(scores: &mut [Score], of_r2: impl Fn(&Score) -> Standing) {
@@ -78,6 +81,17 @@ mod tests {
         );
         let of_truth = study.score("sensitivity", "Fz").expect("there");
         assert_eq!(of_truth.standing, counts);
+    }
+
+    #[test]
+    fn of_an_older_r2_without_an_interval_it_is_not_known_whether_there_is_skill() {
+        let without = SCORES.replace(
+            r#", "ci95": [0.4, 0.6], "method": "jackknife by point_id, G=32""#,
+            "",
+        );
+        assert_ne!(without, SCORES);
+        let study = read("taceva.evaluation/1.1", &without);
+        assert_eq!(standings(&study)[1], Standing::NoInterval);
     }
 
     #[test]

@@ -110,7 +110,7 @@ fn standing(place: &Place<'_>) -> Result<Standing, ResultsError> {
     let words = place.text()?;
     Standing::from_words(words).ok_or_else(|| {
         place.refuse_found(
-            "`skill unknown`, `bounded`, `low stimulus`, `not above the constant` or `no skill`",
+            "`skill unknown`, `bounded`, `low stimulus`, `not above the constant`, `skill not known: no interval` or `no skill`",
             format!("`{}`", words.escape_debug()),
         )
     })
