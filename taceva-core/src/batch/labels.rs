@@ -71,9 +71,7 @@ impl Labels {
             _ => {
                 let mut known: HashMap<i64, u32> = HashMap::new();
                 for number in numbers {
-                    let index = *known
-                        .entry(number)
-                        .or_insert_with(|| labels.named(number));
+                    let index = *known.entry(number).or_insert_with(|| labels.named(number));
                     labels.index.push(index);
                 }
             }

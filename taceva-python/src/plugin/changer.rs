@@ -37,8 +37,7 @@ impl Changer for PythonChanger {
     fn bring(&mut self, name: &str, deadline: Deadline) -> Result<String, DriverError> {
         if !self.holds.iter().any(|held| held == name) {
             let why = format!("{name:?}, expected one of {:?}", self.holds);
-            let refused =
-                DriverError::new(ErrorKind::InvalidArgument, self.object.key(), BRING);
+            let refused = DriverError::new(ErrorKind::InvalidArgument, self.object.key(), BRING);
             return Err(refused.because(why));
         }
         self.object.call(BRING, deadline, |object, deadline| {

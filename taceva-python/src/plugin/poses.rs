@@ -12,14 +12,7 @@ pub(super) fn python_pose<'py>(py: Python<'py>, pose: &Pose) -> PyResult<Bound<'
         position: Point { x, y, z },
         rotation,
     } = pose;
-    let numbers = (
-        x.0,
-        y.0,
-        z.0,
-        rotation.x.0,
-        rotation.y.0,
-        rotation.z.0,
-    );
+    let numbers = (x.0, y.0, z.0, rotation.x.0, rotation.y.0, rotation.z.0);
     py.import("taceva.plugin")?.getattr("Pose")?.call1(numbers)
 }
 

@@ -136,8 +136,7 @@ impl Robot for PythonRobot {
     }
 
     fn clear_halt(&mut self, deadline: Deadline) -> Result<(), DriverError> {
-        self.object
-            .method("clear_halt", "end the halt", deadline)?;
+        self.object.method("clear_halt", "end the halt", deadline)?;
         self.latch.clear();
         Ok(())
     }
@@ -162,8 +161,7 @@ impl GuardedMotion for PythonRobot {
         self.motion(deadline, |object, deadline| {
             let target = python_pose(object.py(), &target)?;
             let (speed, force) = (speed.mm_per_s(), guard.force.0);
-            let said =
-                object.call_method1("move_guarded", (target, speed, force, deadline))?;
+            let said = object.call_method1("move_guarded", (target, speed, force, deadline))?;
             stop(&said)
         })
     }
@@ -174,7 +172,10 @@ fn stop(said: &Bound<'_, PyAny>) -> PyResult<GuardedStop> {
     if let Ok((place, time)) = said.extract::<(Bound<'_, PyAny>, Bound<'_, PyAny>)>()
         && place.extract::<f64>().is_err()
     {
-        let (pose, stamp) = (pose_of(&place, "move_guarded")?, stamp(&time, "move_guarded")?);
+        let (pose, stamp) = (
+            pose_of(&place, "move_guarded")?,
+            stamp(&time, "move_guarded")?,
+        );
         return Ok(GuardedStop::Guarded { pose, stamp });
     }
     let stamp = stamp(said, "move_guarded").map_err(|_| {

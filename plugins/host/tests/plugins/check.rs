@@ -102,7 +102,11 @@ fn every_kind_of_mistake_is_found_by_a_check() {
             "set itself to NULL",
         ),
         (&["CRASHES"], "sensor/gives-the-frames", "the process ended"),
-        (&["HANGS"], "driver/opens-again", "did not open the device within"),
+        (
+            &["HANGS"],
+            "driver/opens-again",
+            "did not open the device within",
+        ),
         (&["BAD_POSE"], "robot/says-its-pose", "NaN"),
         (&["ANY_TARGET"], "robot/refuses-targets", "succeeded"),
         (&["FORCE=NAN"], "force/reads", "`Fz` is NaN"),
