@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 
-use pyo3::buffer::{Element, PyBuffer, ReadOnlyCell};
+use pyo3::buffer::{Element, PyBuffer};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use taceva_core::Labels;
 
-use crate::buffer::values;
+use crate::buffer::{copy_into, values};
 use crate::errors::value_error;
 
 /// An array of float32 or float64 numbers in the order of C, `[rows, width]` or, of one channel, `[rows]`.
@@ -69,48 +69,60 @@ impl Table {
         rows: Range<usize>,
         columns: &mut [Vec<f64>],
     ) -> bool {
-        let wanted = rows.start * columns.len()..rows.end * columns.len();
         match self {
-            Table::Single(buffer) => gather(&cells(py, buffer)[wanted], columns),
-            Table::Double(buffer) => gather(&cells(py, buffer)[wanted], columns),
+            Table::Single(buffer) => gather(py, buffer, rows, columns),
+            Table::Double(buffer) => gather(py, buffer, rows, columns),
         }
     }
 
     /// Whether all numbers are finite.
     pub(crate) fn is_finite(&self, py: Python<'_>) -> bool {
         match self {
-            Table::Single(buffer) => are_finite(cells(py, buffer).iter().map(ReadOnlyCell::get)),
-            Table::Double(buffer) => are_finite(cells(py, buffer).iter().map(ReadOnlyCell::get)),
+            Table::Single(buffer) => is_finite(py, buffer),
+            Table::Double(buffer) => is_finite(py, buffer),
         }
     }
 }
 
-/// The numbers of an array in the order of C, where they lie.
-fn cells<'a, T: Element>(py: Python<'a>, array: &'a PyBuffer<T>) -> &'a [ReadOnlyCell<T>] {
-    // An array that is not in the order of C was refused.
-    array.as_slice(py).unwrap_or_default()
-}
-
-/// Rows that are taken apart at once: with their columns they fit into the fastest cache.
-const ROWS_AT_ONCE: usize = 256;
+/// Numbers that are taken out of an array at once: they fit into the fastest cache, with the columns that they go into.
+const AT_ONCE: usize = 1536;
 
 /// Rows after each other as a column a channel; whether all numbers are finite.
-fn gather<T: Element + Into<f64>>(rows: &[ReadOnlyCell<T>], columns: &mut [Vec<f64>]) -> bool {
+fn gather<T: Element + Into<f64>>(
+    py: Python<'_>,
+    array: &PyBuffer<T>,
+    rows: Range<usize>,
+    columns: &mut [Vec<f64>],
+) -> bool {
     let width = columns.len();
-    let mut is_finite = true;
-    for rows in rows.chunks(ROWS_AT_ONCE * width.max(1)) {
+    let step = (AT_ONCE / width.max(1)).max(1);
+    let mut numbers = Vec::new();
+    let mut are_all = true;
+    for first in rows.clone().step_by(step) {
+        let end = rows.end.min(first + step);
+        copy_into(py, array, first * width..end * width, &mut numbers);
         for (at, column) in columns.iter_mut().enumerate() {
             let before = column.len();
-            column.extend(rows.chunks_exact(width).map(|row| row[at].get().into()));
-            is_finite &= are_finite(column[before..].iter().copied());
+            column.extend(numbers.chunks_exact(width).map(|row| row[at].into()));
+            are_all &= are_finite(&column[before..]);
         }
     }
-    is_finite
+    are_all
+}
+
+fn is_finite<T: Element + Into<f64>>(py: Python<'_>, array: &PyBuffer<T>) -> bool {
+    let count = array.item_count();
+    let mut numbers = Vec::new();
+    (0..count).step_by(AT_ONCE).all(|first| {
+        copy_into(py, array, first..count.min(first + AT_ONCE), &mut numbers);
+        are_finite(&numbers)
+    })
 }
 
 /// Whether all numbers are finite; all are looked at, which takes less time than to look where to end.
-fn are_finite<T: Into<f64>>(numbers: impl Iterator<Item = T>) -> bool {
-    numbers.fold(true, |all, number| all & number.into().is_finite())
+fn are_finite<T: Copy + Into<f64>>(numbers: &[T]) -> bool {
+    let numbers = numbers.iter().map(|number| (*number).into());
+    numbers.fold(true, |all, number: f64| all & number.is_finite())
 }
 
 /// Contact points, a name or a whole number a row.

@@ -15,17 +15,33 @@ use crate::errors::value_error;
 ///
 /// # Panics
 /// Beyond the end of `array`.
-#[expect(unsafe_code, reason = "the memory is Python's")]
 pub(crate) fn values<T: Element>(
-    _py: Python<'_>,
+    py: Python<'_>,
     array: &PyBuffer<T>,
     wanted: Range<usize>,
 ) -> Vec<T> {
+    let mut values = Vec::new();
+    copy_into(py, array, wanted, &mut values);
+    values
+}
+
+/// The same in the place of what `values` held.
+///
+/// # Panics
+/// Beyond the end of `array`.
+#[expect(unsafe_code, reason = "the memory is Python's")]
+pub(crate) fn copy_into<T: Element>(
+    _py: Python<'_>,
+    array: &PyBuffer<T>,
+    wanted: Range<usize>,
+    values: &mut Vec<T>,
+) {
     assert!(
         array.is_c_contiguous() && wanted.start <= wanted.end && wanted.end <= array.item_count(),
         "a caller has checked the form of the array"
     );
-    let mut values = Vec::with_capacity(wanted.len());
+    values.clear();
+    values.reserve_exact(wanted.len());
     // SAFETY: the buffer holds the memory of `item_count` numbers, which `get` has found to be aligned numbers of this type. The lock of the
     // interpreter is held, so no Python code writes to it; of C code that writes without it, numpy gives no better promise, and any bits are
     // a number.
@@ -34,7 +50,6 @@ pub(crate) fn values<T: Element>(
         ptr::copy_nonoverlapping(start, values.as_mut_ptr(), wanted.len());
         values.set_len(wanted.len());
     }
-    values
 }
 
 /// The type of the numbers of a buffer.

@@ -209,7 +209,7 @@ def test_a_plugin_that_does_wrong_fails_with_what_it_did_and_what_is_expected(
 def test_a_long_message_keeps_its_beginning_its_end_and_where_it_was_raised(tmp_path: Path, program: Program) -> None:
     code = SCALE.replace("self.readings += 1", "raise ValueError('begins ' + 'x' * 5000 + ' ends')")
     why = failure(program, package(tmp_path, code), "force/reads")
-    assert "ValueError: begins xxx" in why and "characters left out" in why and "xxx ends (" in why and "line 5)" in why, why
+    assert "ValueError: begins xxx" in why and "characters left out" in why and "xxx ends (" in why and "__init__.py, line 6)" in why, why
     code = SCALE.replace("self.readings += 1", "raise ValueError('of 300 ' + 'y' * 300 + ' whole')")
     why = failure(program, package(tmp_path / "whole", code), "force/reads")
     assert "y" * 300 + " whole (" in why and "left out" not in why, why

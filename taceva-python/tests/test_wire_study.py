@@ -8,6 +8,7 @@ from __future__ import annotations
 import importlib.util
 import json
 import os
+import random
 import re
 import socket
 import subprocess
@@ -53,20 +54,21 @@ def wire_bench(rig: Path) -> Iterator[str]:
 
 @contextmanager
 def serial_port(control: str) -> Iterator[str]:
-    """A serial port on which the normal force of the bench comes, N, a line every 5 ms."""
+    """A serial port on which the normal force of the bench comes, N, a line every 5 ms, with noise of 1 mN: one that repeats itself is taken for frozen."""
     ours, theirs = os.openpty()
     port = os.ttyname(theirs)
     os.chmod(port, 0o666)
     os.set_blocking(ours, False)
     ended = threading.Event()
     host, _, number = control.rpartition(":")
+    noise = random.Random(7)
 
     def send() -> None:
         with socket.create_connection((host, int(number))) as connection, connection.makefile("rw") as lines:
             while not ended.is_set():
                 lines.write('"truth"\n')
                 lines.flush()
-                force = json.loads(lines.readline())["force_N"][2]
+                force = json.loads(lines.readline())["force_N"][2] + noise.gauss(0, 0.001)
                 try:
                     os.write(ours, f"{force:.6f}\n".encode())
                 except BlockingIOError:
@@ -95,7 +97,7 @@ def with_plugins(rig: str, camera: str, transducer: str) -> str:
     """The rig file with another camera and another transducer, of which the one over the gel measures along its normal alone."""
     sections = re.split(r"\n(?=\[)", rig)
     kept = [section for section in sections if not section.startswith(("[force]", "[sensor]"))]
-    kept.append(f'[force]\ndriver = "{transducer}"\nlatency_ms = 0.0\n')
+    kept.append(f'[force]\ndriver = "{transducer}"\naxes = ["x", "y", "z"]\nlatency_ms = 0.0\n')
     kept.append(f'[sensor]\ndriver = "{camera}"\nlatency_ms = 0.0\n')
     return "\n".join(kept)
 
@@ -113,15 +115,16 @@ def test_the_example_packages_measure_in_a_whole_study_on_the_wire_bench(model: 
     scene = (EXAMPLES / "scenes/wire.toml").read_text()
     scene = scene.replace("points = 60", f"points = {PRESSES}").replace('name = "ridge"', MODELS[model])
     (tmp_path / "wire.toml").write_text(scene)
-    with wire_bench(tmp_path / "rig.toml") as rig, serial_port(found(rig, r"JSON lines on ([0-9.:]+)")) as port:
+    with wire_bench(tmp_path / "rig.toml") as rig, serial_port(found(rig, r"JSON lines on ([0-9.]+:[0-9]+)")) as port:
         stream = re.search(r"http://([0-9.]+):([0-9]+)/", rig)
         assert stream is not None, rig
         camera = f"{CAMERA}/stream:host={stream[1]};port={stream[2]}"
         program.allow(CAMERA, f"tcp:{stream[1]}:{stream[2]}")
         program.allow(TRANSDUCER, f"serial:{port}")
         (tmp_path / "rig.toml").write_text(with_plugins(rig, camera, f"{TRANSDUCER}/line:port={port}"))
-        packages = [package for package in ("opencv-camera", "serial-transducer", "torch-estimator")]
-        given = [word for name in packages for word in ("--plugin-dir", str(EXAMPLES / "python-plugins" / name / "src" / name.replace("-", "_")))]
+        given = []
+        for name in ("opencv-camera", "serial-transducer", "torch-estimator"):
+            given += ["--plugin-dir", str(EXAMPLES / "python-plugins" / name / "src" / name.replace("-", "_"))]
         done = program.run(
             "run", str(tmp_path / "wire.toml"), "--rig", str(tmp_path / "rig.toml"), "--out", str(tmp_path / "run"), "--no-cache",
             "--format", "json", "--quiet", *given,
