@@ -204,6 +204,7 @@ fn bad_cells_ids_and_lengths_are_refused_by_their_place_in_the_file() {
         "100 rows, but truth.csv has 101",
     );
     // Of columns, by row.
+    fs::remove_file(bench.path("truth.parquet")).expect("removed");
     write_parquet(
         &bench.path("truth.parquet"),
         &truth.replacen("\n90,p16,-4.5,", "\n90,p16,inf,", 1),

@@ -3,6 +3,7 @@
 mod model_entry;
 mod place;
 mod tables;
+mod vary;
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -16,8 +17,8 @@ use crate::error::SweepError;
 use crate::seeds::seeds;
 use crate::slurm_spec::SlurmSpec;
 use crate::written::WrittenSweep;
-use model_entry::word;
 use place::FilePlace;
+use vary::vary;
 
 pub use model_entry::ModelEntry;
 pub use tables::TablesEntry;
@@ -149,36 +150,4 @@ impl SweepFile {
 
 fn folder_of(path: &Path) -> &Path {
     taceva_durable::parent_of(path)
-}
-
-/// The settings that vary, each with its values as people type them.
-fn vary(
-    written: BTreeMap<String, Vec<toml::Value>>,
-    models: &[ModelEntry],
-    place: FilePlace<'_>,
-) -> Result<BTreeMap<String, Vec<String>>, SweepError> {
-    let mut vary = BTreeMap::new();
-    for (key, values) in written {
-        if let Some(model) = models.iter().find(|model| model.set.contains_key(&key)) {
-            return Err(place.wrong(
-                &key,
-                format!(
-                    "`{key}` varies and is set by the model {}; keep one of both",
-                    model.name
-                ),
-            ));
-        }
-        let texts = values.iter().map(|value| {
-            word(value).ok_or_else(|| {
-                place.wrong(
-                    &key,
-                    format!("`{key}`: expected texts, numbers, true or false"),
-                )
-            })
-        });
-        let texts: Vec<String> = texts.collect::<Result<_, _>>()?;
-        place.check_distinct(&key, &texts)?;
-        vary.insert(key, texts);
-    }
-    Ok(vary)
 }

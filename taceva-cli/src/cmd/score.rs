@@ -78,7 +78,7 @@ fn by_shard(
         output::write(None, |out| write!(out, "{plan}"))?;
         return Ok(None);
     }
-    context.print_plan(|| Ok(tables.plan(request, shard)?))?;
+    context.print_plan(|| tables.plan(request, shard))?;
     Ok(Some(tables.score(request, shard, &context.progress)?))
 }
 

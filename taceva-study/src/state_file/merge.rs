@@ -73,9 +73,12 @@ pub fn merge(paths: &[PathBuf]) -> Result<(EvaluationReport, StateFile), StudyEr
     finished.merge(evaluator)?;
     let is_of_shards = all_taken.is_of_shards_of_one_input();
     let taken = all_taken.into_taken();
-    // All shards of one input are that input, and nothing else is to be said of them.
+    // All shards of one input are that input, and one state is itself: nothing else is to be said of them.
     let mut notes = Vec::new();
-    match (is_of_shards, taken.first().and_then(Taken::share)) {
+    match (
+        is_of_shards || rest.is_empty(),
+        taken.first().and_then(Taken::share),
+    ) {
         (false, _) => provenance
             .notes
             .push(format!("{} states joined", paths.len())),
