@@ -5,8 +5,9 @@ mod shuffle;
 
 pub(crate) use blosc::blosc;
 
-use ruzstd::decoding::{BlockDecodingStrategy, FrameDecoder};
-use ruzstd::io::Read;
+use std::fmt::Display;
+
+use mzstd::{DecodeError, DecodeLimits, DecoderConfig, Decompressor};
 
 use crate::error::Problem;
 use crate::inflate::{Wrapping, inflated_at_most};
@@ -71,51 +72,33 @@ pub(crate) fn gzip(packed: &[u8], most: usize) -> Result<Vec<u8>, Problem> {
 
 /// Frames of zstd; their checksums are compared where they have any.
 pub(crate) fn zstd(packed: &[u8], most: usize) -> Result<Vec<u8>, Problem> {
-    let mut rest = packed;
-    let mut decoder = FrameDecoder::new();
-    decoder.set_max_window_size(most.max(ZSTD_WINDOW_BYTES) as u64);
-    let mut bytes = vec![0; most];
-    let mut made = 0;
-    while !rest.is_empty() {
-        let at = (packed.len() - rest.len()) as u64;
-        let wrong =
-            |problem: String| Problem::damaged(at, format!("no frame of zstd: {problem}"), "one");
-        decoder
-            .init(&mut rest)
-            .map_err(|error| wrong(error.to_string()))?;
-        loop {
-            let piece = BlockDecodingStrategy::UptoBytes(1 << 20);
-            decoder
-                .decode_blocks(&mut rest, piece)
-                .map_err(|error| wrong(error.to_string()))?;
-            made += decoder
-                .read(&mut bytes[made..])
-                .map_err(|error| wrong(error.to_string()))?;
-            if decoder.can_collect() > 0 {
-                return Err(Problem::damaged(
-                    at,
-                    format!("more than {most} bytes"),
-                    "no more than a chunk has",
-                ));
-            }
-            if decoder.is_finished() {
-                break;
-            }
-        }
-        if let (Some(stated), Some(computed)) = (
-            decoder.get_checksum_from_data(),
-            decoder.get_calculated_checksum(),
-        ) && stated != computed
-        {
-            return Err(Problem::Checksum {
-                what: "a frame of zstd".to_owned(),
-                stated,
-                computed,
-            });
-        }
+    // A stream without any frame is one of no bytes.
+    if packed.is_empty() {
+        return Ok(Vec::new());
     }
-    bytes.truncate(made);
-    Ok(bytes)
+    let window = most.max(ZSTD_WINDOW_BYTES).next_power_of_two();
+    let log = u8::try_from(window.ilog2()).unwrap_or(u8::MAX);
+    let wrong =
+        |problem: &dyn Display| Problem::damaged(0, format!("no frame of zstd: {problem}"), "one");
+    let limits = DecodeLimits::default().with_max_window_log(log);
+    let limits = limits.map_err(|error| wrong(&error))?;
+    let limits = limits.with_max_output_bytes(Some(most as u64));
+    let mut decoder = Decompressor::new(DecoderConfig::default().with_limits(limits));
+    let mut bytes = Vec::new();
+    match decoder.decompress_into(packed, &mut bytes) {
+        Ok(_) => Ok(bytes),
+        Err(DecodeError::ChecksumMismatch { expected, computed }) => Err(Problem::Checksum {
+            what: "a frame of zstd".to_owned(),
+            stated: expected,
+            computed,
+        }),
+        Err(DecodeError::OutputLimitExceeded { .. }) => Err(Problem::damaged(
+            0,
+            format!("more than {most} bytes"),
+            "no more than a chunk has",
+        )),
+        Err(error) => Err(wrong(&error)),
+    }
 }
 
 /// One block of LZ4 into all of `bytes`.

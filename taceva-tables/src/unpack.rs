@@ -2,6 +2,10 @@
 
 use std::io::{self, BufRead, Cursor, Read};
 
+use mzstd::{
+    DecodeError, DecodeLimits, DecodeOperation, DecoderConfig, DecoderSessionOwned, Decompressor,
+};
+
 use crate::limits;
 use crate::snappy::SnappyStream;
 
@@ -29,6 +33,8 @@ pub(crate) enum Codec {
 /// What a byte of snappy or of a block of LZ4 can become at most: a copy of 64 bytes takes 3, and 255 of LZ4 take 1.
 const SNAPPY_GROWTH: usize = 64;
 const LZ4_GROWTH: usize = 255;
+/// Windows that Zstandard asks for up to its level 19, bytes.
+const ZSTD_WINDOW_BYTES: u64 = 8 << 20;
 
 /// `packed` unpacked, which must give `size` bytes.
 ///
@@ -74,10 +80,10 @@ pub(crate) fn stream(
         Codec::Plain => Box::new(packed),
         Codec::Gzip => Box::new(flate2::bufread::MultiGzDecoder::new(packed)),
         Codec::Brotli => Box::new(brotli_decompressor::Decompressor::new(packed, 64 << 10)),
-        Codec::Zstd => Box::new(ZstdStream(
-            ruzstd::decoding::StreamingDecoder::new(packed)
-                .map_err(|error| format!("no whole Zstandard frame: {error}"))?,
-        )),
+        Codec::Zstd => Box::new(ZstdStream {
+            packed,
+            session: decompressor(u64::from(size))?.into_session(),
+        }),
         Codec::Snappy => Box::new(SnappyStream::new(packed, size)?),
         Codec::Lz4Block | Codec::Lz4Hadoop | Codec::Lz4Frame => {
             let mut whole = Vec::new();
@@ -94,23 +100,45 @@ pub(crate) fn stream(
     })
 }
 
-/// A frame of Zstandard, its sum checked at its end.
-struct ZstdStream<R: Read>(ruzstd::decoding::StreamingDecoder<R, ruzstd::decoding::FrameDecoder>);
+/// Frames of Zstandard, their sums checked, decoded as they are read.
+struct ZstdStream<R: BufRead> {
+    packed: R,
+    session: DecoderSessionOwned,
+}
 
-impl<R: Read> Read for ZstdStream<R> {
+impl<R: BufRead> Read for ZstdStream<R> {
     fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
-        let read = self.0.read(into)?;
-        if read == 0 && !into.is_empty() {
-            let decoder = &self.0.decoder;
-            let stated = decoder.get_checksum_from_data();
-            if stated.is_some() && stated != decoder.get_calculated_checksum() {
-                return Err(io::Error::other(
-                    "the checksum in the Zstandard frame does not match",
-                ));
+        while !into.is_empty() && !self.session.is_finished() {
+            let input = self.packed.fill_buf()?;
+            let operation = match input.is_empty() {
+                true => DecodeOperation::Finish,
+                false => DecodeOperation::Process,
+            };
+            let progress = self.session.process(input, into, operation);
+            let progress = progress.map_err(|failure| not_whole(&failure.error))?;
+            self.packed.consume(progress.consumed);
+            if progress.produced > 0 {
+                return Ok(progress.produced);
             }
         }
-        Ok(read)
+        Ok(0)
     }
+}
+
+fn not_whole(error: &DecodeError) -> io::Error {
+    io::Error::other(format!("no whole Zstandard frame: {error}"))
+}
+
+/// What decodes frames that give `size` bytes at most, with windows of no more than these or those of level 19.
+fn decompressor(size: u64) -> Result<Decompressor, String> {
+    let window = size.clamp(ZSTD_WINDOW_BYTES, limits::PAGE_BYTES.max(ZSTD_WINDOW_BYTES));
+    let log = u8::try_from(window.next_power_of_two().ilog2()).unwrap_or(u8::MAX);
+    let limits = DecodeLimits::default().with_max_window_log(log);
+    let limits = limits.map_err(|error| error.to_string())?;
+    let limits = limits.with_max_output_bytes(Some(size));
+    Ok(Decompressor::new(
+        DecoderConfig::default().with_limits(limits),
+    ))
 }
 
 /// All that `decoder` gives, up to one byte more than `size`, so that too much is noticed.
@@ -169,27 +197,13 @@ fn lz4_hadoop(packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
 }
 
 fn zstd(packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
-    let mut rest = packed;
-    let mut unpacked = Vec::new();
-    while !rest.is_empty() {
-        let mut decoder = ruzstd::decoding::StreamingDecoder::new(&mut rest)
-            .map_err(|error| format!("no whole Zstandard frame: {error}"))?;
-        let more = (size - unpacked.len()) as u64 + 1;
-        (&mut decoder)
-            .take(more)
-            .read_to_end(&mut unpacked)
-            .map_err(|error| format!("no whole Zstandard frame: {error}"))?;
-        if unpacked.len() > size {
-            break;
-        }
-        let (stated, formed) = (
-            decoder.decoder.get_checksum_from_data(),
-            decoder.decoder.get_calculated_checksum(),
-        );
-        if stated.is_some() && stated != formed {
-            return Err("the checksum in the Zstandard frame does not match".to_owned());
-        }
+    // A stream without any frame is one of no bytes.
+    if packed.is_empty() {
+        return Ok(Vec::new());
     }
+    let mut unpacked = Vec::new();
+    let decoded = decompressor(size as u64)?.decompress_into(packed, &mut unpacked);
+    decoded.map_err(|error| not_whole(&error).to_string())?;
     Ok(unpacked)
 }
 
