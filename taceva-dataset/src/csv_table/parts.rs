@@ -111,8 +111,18 @@ impl CsvParts {
     /// As [`CsvTable::read`].
     pub fn header(&self) -> Result<CsvTable, DatasetError> {
         let (mut file, _) = open_regular(&self.path, u64::MAX)?;
-        let bytes = self.bytes(&mut file, self.header[0]..self.header[1])?;
+        let bytes = self.header_line(&mut file)?;
         CsvTable::of_bytes(&self.path, bytes)
+    }
+
+    /// The header as a line with one end, whichever it has in the file.
+    fn header_line(&self, file: &mut File) -> Result<Vec<u8>, DatasetError> {
+        let mut bytes = self.bytes(file, self.header[0]..self.header[1])?;
+        while matches!(bytes.last(), Some(b'\r' | b'\n')) {
+            bytes.pop();
+        }
+        bytes.push(b'\n');
+        Ok(bytes)
     }
 
     /// The rows of a part as a table, whose errors name lines of the file.
@@ -125,7 +135,7 @@ impl CsvParts {
         };
         let end = self.marks.get(part + 1).map_or(self.end, |next| next.byte);
         let (mut file, _) = open_regular(&self.path, u64::MAX)?;
-        let mut bytes = self.bytes(&mut file, self.header[0]..self.header[1])?;
+        let mut bytes = self.header_line(&mut file)?;
         let lines = bytes.iter().filter(|byte| **byte == b'\n').count() as u64;
         let left_out_lines = mark.line.saturating_sub(lines + 1);
         bytes.extend(self.bytes(&mut file, mark.byte..end)?);
@@ -270,7 +280,7 @@ mod tests {
 
     /// More rows than a part has, some of them quoted where `is_quoted`; blank lines between.
     fn text(is_quoted: bool) -> String {
-        let mut text = "id,Fz,note\r\n".to_owned();
+        let mut text = "id,Fz,note\n".to_owned();
         for row in 0..PART_ROWS + 77 {
             let note = match (is_quoted, row % 1000) {
                 (true, 7) => "\"a, b\n\"\"c\"\"\"",
@@ -304,6 +314,29 @@ mod tests {
                             assert_eq!(table.cell(at, column), whole.cell(row, column));
                         }
                         assert_eq!(table.place(at, 0).line, whole.place(row, 0).line);
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn line_ends_of_another_system_change_no_cell_of_any_part() {
+        for is_quoted in [false, true] {
+            let folder = tempfile::tempdir().expect("a folder");
+            let path = folder.path().join("table.csv");
+            std::fs::write(&path, text(is_quoted).replace('\n', "\r\n")).expect("written");
+            let whole = CsvTable::read(&path).expect("a table");
+            let parts = CsvParts::scan(&path).expect("a table");
+            assert_eq!(parts.rows(), whole.rows() as u64);
+            assert_eq!(parts.digest(), whole.digest());
+            assert_eq!(parts.header().expect("a header").names(), whole.names());
+            for part in 0..2 {
+                let table = parts.read(part).expect("a part");
+                for (at, row) in parts.rows_of(part).enumerate() {
+                    let row = usize::try_from(row).expect("small");
+                    for column in 0..3 {
+                        assert_eq!(table.cell(at, column), whole.cell(row, column));
                     }
                 }
             }
