@@ -325,7 +325,10 @@ fn shards_of_tables_on_two_nodes_end_in_the_scores_of_one_pass() {
     cluster.wait(&bench);
     let joined = fs::read_to_string(bench.path("which.sweep/score.json"));
     let whole = bench.ok("score --truth truth.csv --pred pred.csv --format json -q");
-    assert_eq!(joined.expect(&cluster.logs(&bench)), whole);
+    assert_eq!(
+        joined.unwrap_or_else(|_| panic!("{}", cluster.logs(&bench))),
+        whole
+    );
 }
 
 #[test]
