@@ -145,7 +145,7 @@ fn too_few_points_for_an_interval_leave_open_whether_there_is_skill() {
     assert_eq!(standing, "skill not known: no interval");
     for model in ["ridge", "pls"] {
         bench.ok(&format!(
-            "evaluate data --model {model} --metrics mae --out {model}.json -q"
+            "evaluate data --model {model} --metrics mae --format json --out {model}.json -q"
         ));
     }
     let comparison = bench.json("compare ridge.json pls.json");

@@ -9,6 +9,7 @@ mod mapped_column;
 mod mapped_join;
 mod mapped_pictures;
 mod mapping;
+mod misread;
 mod stream;
 #[cfg(test)]
 mod tests;
@@ -39,7 +40,8 @@ pub use mapped_class::MappedClass;
 pub use mapped_column::MappedColumn;
 pub use mapped_join::MappedJoin;
 pub use mapped_pictures::MappedPictures;
-pub(crate) use mapping::{Mapping, Misread};
+pub(crate) use mapping::Mapping;
+pub(crate) use misread::Misread;
 pub use stream::StreamFacts;
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

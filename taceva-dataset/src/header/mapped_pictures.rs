@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::mapping::{Fact, number, or_none};
+use super::misread::{Fact, number, or_none};
 
 /// How the map of an import read pictures: the same numbers in another range, or counted by another column, are other pictures.
 ///

@@ -4,9 +4,7 @@ use super::mapped_class::MappedClass;
 use super::mapped_column::{MappedColumn, misread};
 use super::mapped_join::MappedJoin;
 use super::mapped_pictures::MappedPictures;
-
-/// A key of a map, and what it says.
-pub(super) type Fact = (String, String);
+use super::misread::{Misread, differing};
 
 /// What decides the values that an import reads from the cells, the rows and the arrays of a lab.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -15,16 +13,6 @@ pub(crate) struct Mapping {
     pub(crate) joins: Vec<MappedJoin>,
     pub(crate) pictures: Vec<MappedPictures>,
     pub(crate) classes: Vec<MappedClass>,
-}
-
-/// A key of a map that reads something otherwise than it was read before.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Misread {
-    pub(crate) key: String,
-    pub(crate) own: String,
-    pub(crate) other: String,
-    /// What may be done about it where the map is right.
-    pub(crate) mend: &'static str,
 }
 
 /// What to do where a join was recorded otherwise.
@@ -100,18 +88,6 @@ impl Mapping {
     }
 }
 
-/// The first fact of `new` that is otherwise than the same one of `known`.
-pub(super) fn differing(known: Vec<Fact>, new: Vec<Fact>, mend: &'static str) -> Option<Misread> {
-    let mut pairs = known.into_iter().zip(new);
-    let ((_, own), (key, other)) = pairs.find(|((_, own), (_, other))| own != other)?;
-    Some(Misread {
-        key,
-        own,
-        other,
-        mend,
-    })
-}
-
 /// Those of `known` and behind them those of `new` that are not among them.
 fn united<T: Clone + PartialEq>(mut known: Vec<T>, new: &[T]) -> Vec<T> {
     for one in new {
@@ -120,20 +96,4 @@ fn united<T: Clone + PartialEq>(mut known: Vec<T>, new: &[T]) -> Vec<T> {
         }
     }
     known
-}
-
-pub(super) fn quoted(names: &[String]) -> String {
-    let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
-    match quoted[..] {
-        [] => "none".to_owned(),
-        _ => quoted.join(", "),
-    }
-}
-
-pub(super) fn number(number: Option<f64>) -> String {
-    number.map_or_else(|| "none".to_owned(), |number| number.to_string())
-}
-
-pub(super) fn or_none(name: Option<&str>) -> String {
-    name.map_or_else(|| "none".to_owned(), |name| format!("`{name}`"))
 }

@@ -16,7 +16,7 @@ impl Run<'_> {
         if self.needs_what_was_skipped(planned) {
             return Ok(true);
         }
-        self.see_hands_out(planned)?;
+        self.ask_to_go_on(planned)?;
         let unchanged = self.change(planned)?;
         if self.needs_what_was_skipped(planned) {
             return Ok(true);
@@ -34,7 +34,7 @@ impl Run<'_> {
                 Ok(Answer::Done) => self.done_by_hand(&question),
                 Ok(Answer::Skip) => {
                     self.skipped.push(question);
-                    self.may_hands_be_in = true;
+                    self.is_reach_unknown = true;
                     return Ok(true);
                 }
                 Ok(Answer::Stop) => return Err(failed(self, StopCause::Cancelled)),
@@ -53,10 +53,10 @@ impl Run<'_> {
 
     /// Somebody who skipped what was asked for has not said that hands are out of reach, and the robot is still halted: that is asked before
     /// anything moves which nobody is asked for.
-    fn see_hands_out(&mut self, planned: &PlannedPress) -> Result<(), RunError> {
+    fn ask_to_go_on(&mut self, planned: &PlannedPress) -> Result<(), RunError> {
         let specimen = planned.press.specimen;
         let is_changed = self.mounted != Some(specimen) && self.is_held_by_changer(specimen);
-        if !self.may_hands_be_in || !is_changed && !self.needed_by_hand(planned).is_empty() {
+        if !self.is_reach_unknown || !is_changed && !self.needed_by_hand(planned).is_empty() {
             return Ok(());
         }
         match self.ask(&Question::GoOn) {
@@ -115,7 +115,7 @@ impl Run<'_> {
         let answer = operator.ask(question, self.tip.cancel);
         if answer == Answer::Done {
             self.tip.release()?;
-            self.may_hands_be_in = false;
+            self.is_reach_unknown = false;
         }
         Ok(answer)
     }

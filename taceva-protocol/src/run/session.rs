@@ -35,7 +35,7 @@ pub(super) struct Run<'a> {
     /// What somebody skipped.
     pub(super) skipped: Vec<Question>,
     /// Whether somebody skipped something and has not said since that hands are out of reach.
-    pub(super) may_hands_be_in: bool,
+    pub(super) is_reach_unknown: bool,
     /// The session that has not begun yet; `None` of a rig without a rig file, and from the first press on.
     pub(super) session: Option<SessionSpec<'a>>,
 }
@@ -103,7 +103,7 @@ impl<'a> Run<'a> {
                 .as_ref()
                 .map_or(0.0, |session| session.rig.patience_s()),
             skipped: Vec::new(),
-            may_hands_be_in: false,
+            is_reach_unknown: false,
             session,
         })
     }

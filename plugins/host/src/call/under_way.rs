@@ -56,12 +56,12 @@ const PAUSE: Duration = Duration::from_millis(100);
 pub(crate) fn watch(tell: impl Fn(&'static str) + Send + 'static) {
     IS_WATCHED.store(true, Ordering::Relaxed);
     let look = move || {
-        let mut told = None;
+        let mut said = None;
         loop {
             std::thread::sleep(PAUSE);
             let long = longest(Instant::now());
-            if long.map(|(number, _)| number) != told {
-                told = long.map(|(number, _)| number);
+            if long.map(|(number, _)| number) != said {
+                said = long.map(|(number, _)| number);
                 tell(long.map_or("", |(_, doing)| doing));
             }
         }
@@ -86,16 +86,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_innermost_call_that_lasts_is_told_and_that_none_does_any_more() {
+    fn the_innermost_call_that_lasts_is_named_and_that_none_does_any_more() {
         drop(begin("nobody looks yet"));
-        let (told, tells) = channel();
+        let (sender, receiver) = channel();
         watch(move |doing| {
             // The test may have ended.
-            let _ = told.send(doing);
+            let _ = sender.send(doing);
         });
         let outer = begin("load");
         let inner = begin("read the force");
-        let heard = || tells.recv_timeout(Duration::from_secs(20));
+        let heard = || receiver.recv_timeout(Duration::from_secs(20));
         assert_eq!(heard(), Ok("read the force"));
         drop(inner);
         assert_eq!(heard(), Ok("load"));

@@ -111,7 +111,7 @@ fn with_a_skipped_light(answer: fn(&Shared, &Question) -> Answer) -> (Bench, Ask
 }
 
 #[test]
-fn after_a_skip_nothing_moves_before_somebody_says_that_hands_are_out_of_reach() {
+fn after_a_skip_nothing_moves_before_somebody_lets_the_robot_go_on() {
     let (mut bench, asked) = with_a_skipped_light(|_, question| match question {
         Question::Light(_) => Answer::Skip,
         _ => Answer::Done,
