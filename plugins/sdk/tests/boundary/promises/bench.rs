@@ -33,7 +33,10 @@ fn a_bench_is_reached_through_the_rig_in_which_its_devices_were_opened() {
         (Specimen::SPHERE, (Status::OK, String::new())),
         (
             Specimen::DOT,
-            (Status::INVALID_ARGUMENT, "dot grating of 2 mm".to_owned()),
+            (
+                Status::INVALID_ARGUMENT,
+                "cannot do it: dot grating of 2 mm".to_owned(),
+            ),
         ),
         (
             9,

@@ -58,7 +58,10 @@ fn the_light_of_a_sensor_is_an_ability_that_some_have() {
     assert_eq!(set("room").0, Status::OK);
     assert_eq!(
         set("moon"),
-        (Status::INVALID_ARGUMENT, "no scene moon".to_owned())
+        (
+            Status::INVALID_ARGUMENT,
+            "cannot do it: no scene moon".to_owned()
+        )
     );
     assert!(
         Open::new(SENSOR_FACTORY, "block")
@@ -96,7 +99,10 @@ fn an_interrupt_ends_a_blocked_capture_and_leaves_the_sensor_usable() {
     });
     assert_eq!(
         interrupted,
-        (Status::INTERRUPTED, "it was interrupted".to_owned())
+        (
+            Status::INTERRUPTED,
+            "cannot do it: it was interrupted".to_owned()
+        )
     );
     assert_eq!(capture(1_000_000).0, Status::TIMEOUT);
 }
@@ -115,10 +121,19 @@ fn the_error_of_a_driver_keeps_its_kind_and_its_reason() {
             error,
         )
     });
-    assert_eq!(ended, (Status::DISCONNECTED, "the cable is out".to_owned()));
+    assert_eq!(
+        ended,
+        (
+            Status::DISCONNECTED,
+            "cannot do it: the cable is out".to_owned()
+        )
+    );
     let refused = Open::in_rig(LIGHTING_FACTORY, "well", std::ptr::null_mut()).err();
     assert_eq!(
         refused,
-        Some((Status::PERMISSION_DENIED, "not for you".to_owned()))
+        Some((
+            Status::PERMISSION_DENIED,
+            "cannot do it: not for you".to_owned()
+        ))
     );
 }
