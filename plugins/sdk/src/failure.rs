@@ -1,6 +1,6 @@
 //! Why a call across the boundary did not do what it was asked.
 
-use taceva_abi::{FaultNumber, Status};
+use taceva_abi::{FaultNumber, MESSAGE_SIZE, Status};
 use taceva_core::{DriverError, ErrorKind, Fault, ModelError};
 
 /// A failure on its way to the host: a status, and a message that needs no context but the call.
@@ -33,10 +33,17 @@ impl Failure {
 }
 
 impl From<DriverError> for Failure {
-    /// What it did and the reason: which driver it was, the host knows, which leaves out what it did where it says the same.
+    /// What it did and the reason, or the reason alone where both are longer than a message may be: which driver it was, the host knows, and what
+    /// it was asked to do.
     fn from(error: DriverError) -> Failure {
         let message = match std::error::Error::source(&error) {
-            Some(reason) => format!("cannot {}: {reason}", error.doing()),
+            Some(reason) => {
+                let both = format!("cannot {}: {reason}", error.doing());
+                match both.len() < MESSAGE_SIZE {
+                    true => both,
+                    false => reason.to_string(),
+                }
+            }
             // The fault is said beside the message.
             None if error.fault().is_some() => String::new(),
             None => error.kind().to_string(),
@@ -61,5 +68,24 @@ fn number(fault: Fault) -> FaultNumber {
 impl From<ModelError> for Failure {
     fn from(error: ModelError) -> Failure {
         Failure::new(error.kind(), error.to_string())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use taceva_core::DriverKey;
+
+    use super::*;
+
+    #[test]
+    fn what_was_done_is_left_out_where_the_reason_alone_fills_a_message() {
+        const KEY: DriverKey = DriverKey::fixed("lab/scale");
+        let said = |reason: &str| {
+            let error = DriverError::new(ErrorKind::Timeout, &KEY, "read the force");
+            Failure::from(error.because(reason)).message
+        };
+        assert_eq!(said("silence"), "cannot read the force: silence");
+        let long = "x".repeat(MESSAGE_SIZE - 1);
+        assert_eq!(said(&long), long);
     }
 }
