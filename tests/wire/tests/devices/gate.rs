@@ -4,7 +4,12 @@ use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpListener, TcpStream};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex};
-use std::time::Duration;
+use std::time::{Duration, Instant};
+
+use taceva_core::{ErrorKind, Robot};
+use taceva_wire::WallBench;
+
+use crate::support::{PATIENCE, lower, speed};
 
 /// Stands between a driver and the port of an arm: what the driver says on some of its connections waits while it is shut.
 pub(crate) struct Gate {
@@ -56,6 +61,27 @@ impl Gate {
             std::thread::sleep(Duration::from_millis(2));
         }
     }
+}
+
+/// Halts `arm` on its way down while `gate` is shut: when it was shut.
+pub(crate) fn halted_while_shut(gate: &Gate, bench: &WallBench, arm: &mut dyn Robot) -> Instant {
+    let (home, _) = arm.pose(PATIENCE).expect("a pose");
+    let handle = arm.halt_handle();
+    let (shut, moved) = std::thread::scope(|scope| {
+        let halting = scope.spawn(|| {
+            while !bench.truth().is_moving {
+                std::thread::yield_now();
+            }
+            let shut = Instant::now();
+            gate.shut(true);
+            handle.halt().expect("it is sent, by whichever connection");
+            shut
+        });
+        let moved = arm.move_to(lower(home, 15.0), speed(2.0), PATIENCE);
+        (halting.join().expect("no panic"), moved)
+    });
+    assert_eq!(moved.expect_err("halted").kind(), ErrorKind::Interrupted);
+    shut
 }
 
 /// Hands on what `from` says, each part once `may` returns, until it says no more.

@@ -1,7 +1,7 @@
 //! `ur/rtde` against the emulated controller, through sockets.
 
 use std::net::Ipv4Addr;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use taceva_core::{Deadline, ErrorKind};
 use taceva_drivers::UrFactory;
@@ -9,7 +9,7 @@ use taceva_wire::ur::Emulator;
 use taceva_wire::{Arm, ArmFault, Device, FaultKind};
 
 use crate::expiring::die_moving;
-use crate::gate::Gate;
+use crate::gate::{Gate, halted_while_shut};
 use crate::setup::Setup;
 use crate::support::{PATIENCE, inject, lower, moved, speed};
 
@@ -86,21 +86,7 @@ fn a_late_stop_is_waited_for() -> bool {
     assert_ne!(gated, setup.arguments());
     let mut arm = setup.opened(&gated).expect("a robot");
     let (home, _) = arm.pose(PATIENCE).expect("a pose");
-    let handle = arm.halt_handle();
-    let (shut, moved) = std::thread::scope(|scope| {
-        let halting = scope.spawn(|| {
-            while !setup.bench.truth().is_moving {
-                std::thread::yield_now();
-            }
-            let shut = Instant::now();
-            gate.shut(true);
-            handle.halt().expect("it is sent");
-            shut
-        });
-        let moved = arm.move_to(lower(home, 15.0), speed(2.0), PATIENCE);
-        (halting.join().expect("no panic"), moved)
-    });
-    assert_eq!(moved.expect_err("halted").kind(), ErrorKind::Interrupted);
+    let shut = halted_while_shut(&gate, &setup.bench, &mut *arm);
     // The stop behind the motion, on its own connection, has stopped it.
     assert!(!setup.bench.truth().is_moving);
     arm.clear_halt(PATIENCE).expect("nothing else is wrong");

@@ -1,13 +1,13 @@
 //! Stops that are late, and a connection for stops that falls silent.
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use taceva_core::{ErrorKind, Robot};
 use taceva_wire::xarm::{Emulator, Port, Ports};
 
 use super::setup::setup;
-use crate::gate::Gate;
+use crate::gate::{Gate, halted_while_shut};
 use crate::setup::Setup;
 use crate::support::{PATIENCE, lower, speed};
 
@@ -35,21 +35,7 @@ fn a_halt_does_not_end_before_every_stop_was_obeyed_so_that_none_ends_the_motion
     for _ in 0..TRIES {
         let (setup, gate, mut arm) = behind_a_gate(|number| number == 1);
         let (home, _) = arm.pose(PATIENCE).expect("a pose");
-        let handle = arm.halt_handle();
-        let (shut, moved) = std::thread::scope(|scope| {
-            let halting = scope.spawn(|| {
-                while !setup.bench.truth().is_moving {
-                    std::thread::yield_now();
-                }
-                let shut = Instant::now();
-                gate.shut(true);
-                handle.halt().expect("it is sent by the other connection");
-                shut
-            });
-            let moved = arm.move_to(lower(home, 15.0), speed(2.0), PATIENCE);
-            (halting.join().expect("no panic"), moved)
-        });
-        assert_eq!(moved.expect_err("halted").kind(), ErrorKind::Interrupted);
+        let shut = halted_while_shut(&gate, &setup.bench, &mut *arm);
         // The connection for stops is given up meanwhile, and another stands in its place: the stop is still under way on the first.
         gate.wait_for(3);
         match arm.clear_halt(PATIENCE) {
