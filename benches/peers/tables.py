@@ -16,6 +16,7 @@ import tempfile
 
 from arrays import measured
 from common import ROOT, need
+from machine import Machine
 
 CODECS = {"parquet": ("none", "snappy", "gzip", "zstd"), "mcap": ("none", "lz4", "zstd")}
 KINDS = ("noisy", "smooth")
@@ -114,7 +115,8 @@ def main(count, rounds=5):
     folder = pathlib.Path(tempfile.mkdtemp())
     try:
         subprocess.run([sys.executable, __file__, str(count), str(folder)], check=True)
-        print(f"{count} pictures; {os.cpu_count()} processors, load {os.getloadavg()[0]:.1f} at the beginning")
+        machine = Machine()
+        print(f"{count} pictures; {machine.said()}")
         print(f"{'form':<10}{'codec':<8}{'pictures':<10}{'MB':>6}{'ours s':>9}{'theirs s':>10}{'ratio':>8}{'ours MiB':>10}{'theirs MiB':>12}")
         for form, codecs in CODECS.items():
             program = PROGRAM.format(imports=READERS[form], loop=LOOPS[form])
@@ -130,8 +132,8 @@ def main(count, rounds=5):
                         theirs.append((float(printed.split()[0]), peak))
                     (mine, my_peak), (other, other_peak) = sorted(ours)[rounds // 2], sorted(theirs)[rounds // 2]
                     size = os.path.getsize(path) / 1e6
-                    print(f"{form:<10}{codec:<8}{kind:<10}{size:>6.1f}{mine:>9.3f}{other:>10.3f}{mine / other:>8.2f}{my_peak:>10.0f}{other_peak:>12.0f}", flush=True)
-        print(f"load {os.getloadavg()[0]:.1f} at the end; medians of {rounds}, in turn")
+                    print(f"{form:<10}{codec:<8}{kind:<10}{size:>6.1f}{mine:>9.3f}{other:>10.3f}{machine.ratio(mine, other):>8}{my_peak:>10.0f}{other_peak:>12.0f}", flush=True)
+        print(f"medians of {rounds}, in turn; {machine.said()}")
     finally:
         shutil.rmtree(folder)
 
