@@ -88,7 +88,11 @@ fn a_flipped_bit_of_what_was_collected_is_noticed_before_it_is_printed() {
     let at = whole.find("made_of").expect("a digest") + 20;
     flipped[at] ^= 1;
     fs::write(&path, flipped).expect("changed");
-    bench.refused("sweep which.toml", 3, "`taceva sweep collect` makes it anew");
+    bench.refused(
+        "sweep which.toml",
+        3,
+        "`taceva sweep collect` makes it anew",
+    );
     // As the message says; the table never depended on it.
     bench.ok("sweep collect which.toml -q");
     bench.ok("sweep which.toml -q");

@@ -21,15 +21,15 @@ const LOOK_EVERY: Duration = Duration::from_millis(200);
 const STOPPED: &str = "stopped while a scene was acquired; the same command goes on from here";
 
 /// What scenes are acquired with.
-pub(in crate::cmd::sweep) struct Acquisition<'a> {
-    pub(in crate::cmd::sweep) folder: &'a SweepFolder,
-    pub(in crate::cmd::sweep) models: &'a Models,
+pub(crate) struct Acquisition<'a> {
+    pub(crate) folder: &'a SweepFolder,
+    pub(crate) models: &'a Models,
     /// Recordings of simulated scenes are found and kept where `taceva run` does.
-    pub(in crate::cmd::sweep) cache: &'a CacheArgs,
+    pub(crate) cache: &'a CacheArgs,
 }
 
 /// Acquires those of `scenes` that are not there yet, one after the other; whether there was one.
-pub(in crate::cmd::sweep) fn acquire(
+pub(crate) fn acquire(
     scenes: &[SweepScene],
     acquisition: &Acquisition<'_>,
     context: &Context,
