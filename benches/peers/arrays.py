@@ -10,6 +10,7 @@ pattern with noise, so that it can be compressed, but not far.
 import os
 import pathlib
 import pickle
+import re
 import shutil
 import subprocess
 import sys
@@ -84,8 +85,8 @@ def measured(command):
     _, status, usage = os.wait4(process.pid, 0)
     if status:
         sys.exit(f"{command}: failed")
-    peak = [word for line in printed.splitlines() if "HWM" in line or "memory" in line for word in line.split() if word.isdigit()]
-    return usage.ru_utime + usage.ru_stime, int(peak[0]) / 1024, printed
+    peak = re.search(r"(\d+) ki?B", printed, re.I)
+    return usage.ru_utime + usage.ru_stime, int(peak[1]) / 1024, printed
 
 
 def main(count):
