@@ -95,9 +95,7 @@ fn a_signal_that_froze_in_the_air_is_counted_on_from_stage_to_stage() {
     watched.supervisor.watch(air, watched.now_s);
     assert!(!watched.supervisor.is_fresh());
     watched.repeat(FROZEN_READINGS / 2, 0.1);
-    watched
-        .supervisor
-        .watch(MotionStage::Search, watched.now_s);
+    watched.supervisor.watch(MotionStage::Search, watched.now_s);
     watched.moved();
     let readings = FROZEN_READINGS;
     assert_eq!(watched.read(0.1), Some(Trip::Frozen { readings }));
