@@ -102,6 +102,27 @@ fn a_signal_that_froze_in_the_air_is_counted_on_from_stage_to_stage() {
 }
 
 #[test]
+fn a_number_that_stands_still_is_counted_on_over_travel() {
+    let mut watched = Watched::new(PRESS);
+    let mut read = |stage: MotionStage, noise_n: f64| {
+        let now_s = watched.now_s;
+        watched.supervisor.watch(stage, now_s);
+        watched.moved();
+        // What it says differs; its number does not.
+        let said = Observation::Numbered(force(0.1 + noise_n), at(now_s), 7);
+        watched.now_s += 0.02;
+        watched.supervisor.observe(&said, now_s).err()
+    };
+    let air = MotionStage::Travel { threshold_n: 5.0 };
+    for reading in 0..FROZEN_READINGS {
+        let stage = if reading < 4 { PRESS } else { air };
+        assert_eq!(read(stage, f64::from(reading) * 1e-6), None);
+    }
+    let readings = FROZEN_READINGS;
+    assert_eq!(read(air, 1.0), Some(Trip::Frozen { readings }));
+}
+
+#[test]
 fn a_transducer_that_sets_its_zero_begins_the_count_anew() {
     let mut watched = Watched::new(MotionStage::Search);
     watched.repeat(FROZEN_READINGS, 0.1);
