@@ -119,7 +119,8 @@ impl Supervisor {
         self.stage = stage;
         self.heard_s = now_s;
         // In the air the zero of the transducer may have moved: what it said before gives no rate. Readings that repeat are counted on, or
-        // a signal that froze in the air would have the tip go on for as long again from each stage to the next.
+        // a signal that froze in the air would have the tip go on for as long again from each stage to the next. Only a zero of the
+        // transducer's own, once a run, begins anew.
         match stage {
             MotionStage::Travel { .. } => self.last = None,
             MotionStage::Zeroing => {
