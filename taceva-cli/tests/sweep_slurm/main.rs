@@ -7,7 +7,7 @@ mod submitted;
 #[path = "../support/mod.rs"]
 mod support;
 
-use support::Bench;
+use support::{Bench, sweeps};
 
 /// What the cluster is asked for.
 const SLURM: &str = r#"[slurm]
