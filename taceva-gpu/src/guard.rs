@@ -2,6 +2,8 @@
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+#[cfg(feature = "cuda")]
+use std::sync::{Mutex, PoisonError};
 
 use taceva_network::NetworkError;
 
@@ -27,6 +29,9 @@ pub(crate) fn contained<T>(work: impl FnOnce() -> T) -> Result<T, String> {
 /// As [`contained`], and the panic is not written to the terminal, since it says what is expected.
 #[cfg(feature = "cuda")]
 pub(crate) fn contained_quietly<T>(work: impl FnOnce() -> T) -> Result<T, String> {
+    // One at a time: of two, the second would take the silence of the first for what stood there, and leave it for good.
+    static QUIET: Mutex<()> = Mutex::new(());
+    let _alone = QUIET.lock().unwrap_or_else(PoisonError::into_inner);
     let hook = std::panic::take_hook();
     std::panic::set_hook(Box::new(|_| {}));
     let result = contained(work);
