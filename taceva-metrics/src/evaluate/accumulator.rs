@@ -69,6 +69,19 @@ impl Accumulator {
             });
         }
         let family = &mut self.family;
+        if family.is_whole() {
+            let is_clustered = match self.clustered_by {
+                ClusteredBy::Sample => true,
+                ClusteredBy::Recording => batch.recordings().is_some(),
+                ClusteredBy::Point => family.clusters(batch).is_some(),
+            };
+            let rows = batch.rows();
+            self.clustering
+                .deposit_whole(&mut self.clusters, rows, is_clustered, |parts| {
+                    family.deposit(parts, batch, None);
+                });
+            return Ok(());
+        }
         let labels = match self.clustered_by {
             ClusteredBy::Sample => Some(Cow::Owned(rows_as_clusters(batch))),
             ClusteredBy::Recording => batch.recordings().map(Cow::Borrowed),
@@ -106,12 +119,22 @@ impl Accumulator {
 
     /// Whether states of `schema` are its own.
     pub(crate) fn reads(&self, schema: &str) -> bool {
-        schema == self.family.schema()
+        schema == self.family.schema() || self.reads_earlier(schema)
+    }
+
+    fn reads_earlier(&self, schema: &str) -> bool {
+        self.family.earlier_schema() == Some(schema)
     }
 
     /// Takes over what another one kept.
     pub(crate) fn merge(&mut self, state: &State) -> Result<(), MetricError> {
-        state.check(&self.shape())?;
+        let mut shape = self.shape();
+        if let Some(earlier) = self.family.earlier_schema()
+            && self.reads_earlier(state.schema())
+        {
+            shape.schema = earlier;
+        }
+        state.check(&shape)?;
         let clusters = state.clusters.try_map(|records| {
             let malformed = |what| MetricError::Malformed {
                 schema: self.family.schema(),
@@ -119,6 +142,11 @@ impl Accumulator {
             };
             self.family.read_records(records).map_err(malformed)
         })?;
+        // Before, families that keep one summary kept one a cluster.
+        let clusters = match self.family.is_whole() {
+            true => self.clustering.whole(&clusters),
+            false => clusters,
+        };
         self.clustering.merge(&mut self.clusters, &clusters);
         Ok(())
     }

@@ -92,7 +92,13 @@ impl Channelwise for Idle {
         channel.unit() == Unit::Newton
     }
 
-    fn deposit(&self, sums: &mut IdleSums, batch: &Batch, position: usize, rows: Option<&[u32]>) {
+    fn deposit(
+        &mut self,
+        sums: &mut IdleSums,
+        batch: &Batch,
+        position: usize,
+        rows: Option<&[u32]>,
+    ) {
         let forces = batch.truth(self.normal_force);
         each_pair(batch, position, rows, |row, pair| {
             let Some(force) = forces.get(row) else {

@@ -11,6 +11,8 @@ use crate::exact::merge::Merge;
 pub const NAMED_CLUSTERS: usize = 64;
 /// Number of clusters to which more locations than that are assigned by hash.
 pub const HASHED_CLUSTERS: usize = 32;
+/// The name of the only cluster of what is kept whole.
+const WHOLE: &str = "all";
 
 /// One summary per cluster of samples.
 ///
@@ -130,6 +132,43 @@ impl<T: Merge + Clone> Clustering<T> {
                 }
             }
             Clusters::Pooled(cell) => add(cell, None),
+        }
+    }
+
+    /// Adds `rows` rows that are kept together: whether their clusters are known stays known, which ones they are does not.
+    pub(crate) fn deposit_whole(
+        &self,
+        clusters: &mut Clusters<T>,
+        rows: usize,
+        are_clustered: bool,
+        add: impl FnOnce(&mut T),
+    ) {
+        if rows == 0 {
+            return;
+        }
+        if !are_clustered {
+            return add(self.pool(clusters));
+        }
+        match clusters {
+            Clusters::Named(cells) => add(self.named(cells, WHOLE)),
+            Clusters::Hashed(_) => {
+                *clusters = self.whole(clusters);
+                self.deposit_whole(clusters, rows, are_clustered, add);
+            }
+            Clusters::Pooled(cell) => add(cell),
+        }
+    }
+
+    /// The same samples as one cluster, or as none where none were known.
+    pub(crate) fn whole(&self, clusters: &Clusters<T>) -> Clusters<T> {
+        match clusters {
+            Clusters::Named(cells) if cells.is_empty() => Clusters::default(),
+            Clusters::Pooled(cell) => Clusters::Pooled(cell.clone()),
+            _ => {
+                let mut cells = BTreeMap::new();
+                cells.insert(WHOLE.to_owned(), self.total(clusters));
+                Clusters::Named(cells)
+            }
         }
     }
 
