@@ -26,6 +26,13 @@ impl Labels {
     /// # Panics
     /// Beyond 2³² distinct names, which no memory holds.
     pub fn push(&mut self, name: &str) {
+        // Rows of one name mostly follow each other.
+        if let Some(&last) = self.index.last()
+            && self.names.get(last as usize).is_some_and(|known| known == name)
+        {
+            self.index.push(last);
+            return;
+        }
         let index = match self.lookup.get(name) {
             Some(&index) => index,
             None => {

@@ -5,20 +5,19 @@ mod erased_sums;
 mod resampling;
 mod scores;
 
-use std::borrow::Cow;
-
 use taceva_core::{Batch, Channels};
 
 use self::any_family::{AnyFamily, Erased};
 use self::erased_sums::ErasedSums;
 use crate::error::MetricError;
-use crate::evaluate::independent::rows_as_clusters;
+use crate::evaluate::batch_clusters::BatchClusters;
 use crate::evaluate::plan::MetricPlan;
 use crate::evaluate::state::{Shape, State, describe, written};
 use crate::families::family::Family;
 use crate::score::ClusteredBy;
 use crate::stats::IntervalMethod;
 use crate::stats::clusters::{Clustering, Clusters};
+use crate::stats::grouped::Grouped;
 
 /// Keeps what the metrics of one family are finished from, apart by contact point.
 ///
@@ -60,8 +59,12 @@ impl Accumulator {
         }
     }
 
-    /// Takes in the samples of `batch`.
-    pub(crate) fn update(&mut self, batch: &Batch) -> Result<(), MetricError> {
+    /// Takes in the samples of `batch`, whose clusters are `clusters`.
+    pub(crate) fn update(
+        &mut self,
+        batch: &Batch,
+        clusters: &BatchClusters<'_>,
+    ) -> Result<(), MetricError> {
         if batch.channels() != &self.channels {
             return Err(MetricError::Channels {
                 expected: describe(&written(&self.channels)),
@@ -69,30 +72,33 @@ impl Accumulator {
             });
         }
         let family = &mut self.family;
+        let rows = batch.rows();
         if family.is_whole() {
-            let is_clustered = match self.clustered_by {
+            let are_clustered = match self.clustered_by {
                 ClusteredBy::Sample => true,
-                ClusteredBy::Recording => batch.recordings().is_some(),
-                ClusteredBy::Point => family.clusters(batch).is_some(),
+                kind => clusters.by(kind).is_some(),
             };
-            let rows = batch.rows();
             self.clustering
-                .deposit_whole(&mut self.clusters, rows, is_clustered, |parts| {
+                .deposit_whole(&mut self.clusters, rows, are_clustered, |parts| {
                     family.deposit(parts, batch, None);
                 });
             return Ok(());
         }
-        let labels = match self.clustered_by {
-            ClusteredBy::Sample => Some(Cow::Owned(rows_as_clusters(batch))),
-            ClusteredBy::Recording => batch.recordings().map(Cow::Borrowed),
-            ClusteredBy::Point => family.clusters(batch),
+        let own;
+        let grouped = match self.clustered_by {
+            ClusteredBy::Point => match family.clusters(batch) {
+                Some(labels) if !clusters.are_points(&labels) => {
+                    own = Grouped::new(labels, self.clustering.seed);
+                    Some(&own)
+                }
+                labels => labels.and_then(|_| clusters.by(ClusteredBy::Point)),
+            },
+            kind => clusters.by(kind),
         };
-        self.clustering.deposit(
-            &mut self.clusters,
-            batch.rows(),
-            labels.as_deref(),
-            |parts, rows| family.deposit(parts, batch, rows),
-        );
+        self.clustering
+            .deposit(&mut self.clusters, rows, grouped, |parts, rows| {
+                family.deposit(parts, batch, rows);
+            });
         Ok(())
     }
 

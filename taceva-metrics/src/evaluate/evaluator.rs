@@ -8,6 +8,7 @@ use taceva_core::{
 
 use crate::error::MetricError;
 use crate::evaluate::accumulator::Accumulator;
+use crate::evaluate::batch_clusters::BatchClusters;
 use crate::evaluate::entry::Entry;
 use crate::evaluate::evaluation::Evaluation;
 use crate::evaluate::number::Number;
@@ -101,8 +102,9 @@ impl Evaluator {
     /// # Errors
     /// [`MetricError::Channels`] if they are of other channels than the plan's; nothing is taken in then.
     pub fn update(&mut self, batch: &Batch) -> Result<(), MetricError> {
+        let clusters = BatchClusters::new(batch, self.plan.seed());
         for accumulator in &mut self.accumulators {
-            accumulator.update(batch)?;
+            accumulator.update(batch, &clusters)?;
         }
         Ok(())
     }

@@ -27,14 +27,11 @@ impl GrowingHull {
 
     /// Widens the hull so that it holds `points` too.
     pub(crate) fn extend(&mut self, points: impl IntoIterator<Item = Place>) {
-        let (core, hull) = (&self.core, &self.hull);
         let mut count = 0;
         let outside = points.into_iter().filter(|&point| {
             count += 1;
-            match core {
-                Some(core) => !core.holds(point) && !hull.contains(point),
-                None => true,
-            }
+            let core = self.core.as_ref();
+            !core.is_some_and(|core| core.holds(point) || core.outline_holds(point))
         });
         let outside: Vec<Place> = outside.collect();
         self.points += count;

@@ -1,7 +1,9 @@
 //! A part of a hull in which a point is seen to lie at once.
 
+use std::cmp::Ordering;
+
 use super::hull::Hull;
-use super::orientation::Place;
+use super::orientation::{Place, turn};
 
 /// Stretches of x: with fewer the part is smaller, with more it takes longer to find and fills more of the cache.
 const STRETCHES: u32 = 64;
@@ -20,6 +22,8 @@ pub(crate) struct Core {
     stretches_per_x: f64,
     /// The points of a stretch whose height lies between these are inside; none where the first is above the second.
     between: Vec<[f64; 2]>,
+    /// The outline that it is the core of.
+    chains: [Vec<Place>; 2],
 }
 
 impl Core {
@@ -58,6 +62,7 @@ impl Core {
             slope,
             ends: [first, last],
             stretches_per_x,
+            chains: [lower, upper],
         })
     }
 
@@ -77,6 +82,21 @@ impl Core {
         let found = self.between.get(stretch as usize);
         let height = y - self.slope * x;
         found.is_some_and(|[low, high]| *low < height && height < *high)
+    }
+}
+
+impl Core {
+    /// Whether the point at `place` lies in the hull that this is the core of, or on its edge: two places of its outline decide.
+    pub(crate) fn outline_holds(&self, place: Place) -> bool {
+        let [first, last] = self.ends;
+        let along = |chain: &[Place]| {
+            let after = chain.partition_point(|corner| corner[0] <= place[0]);
+            let after = after.clamp(1, chain.len() - 1);
+            turn(chain[after - 1], chain[after], place)
+        };
+        let [lower, upper] = &self.chains;
+        let is_beside = place[0] < first || place[0] > last;
+        !is_beside && along(lower) != Ordering::Less && along(upper) != Ordering::Greater
     }
 }
 
@@ -170,6 +190,7 @@ mod tests {
             });
             for place in others.iter().copied().chain(on_edges).chain(corners.iter().copied()) {
                 prop_assert!(!core.holds(place) || hull.contains(place), "{:?}", place);
+                prop_assert_eq!(core.outline_holds(place), hull.contains(place), "{:?}", place);
             }
         }
     }
