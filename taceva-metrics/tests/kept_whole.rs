@@ -5,7 +5,9 @@ mod support;
 use serde_json::Value;
 use support::{Row, batch};
 use taceva_core::{Channel, Channels, FieldSet};
-use taceva_metrics::{Clusters, Evaluator, Interval, MetricPlan, State, UndefinedReason, catalogue};
+use taceva_metrics::{
+    Clusters, Evaluator, Interval, MetricPlan, State, UndefinedReason, catalogue,
+};
 
 /// The schemas of what is kept once.
 const WHOLE: [&str; 2] = ["taceva.joint/2", "taceva.levels/2"];
@@ -26,7 +28,10 @@ fn rows(points: u32) -> Vec<Row> {
     let value = |row: u32, step: u32| f64::from(row * step % 101) * 0.02 - 1.0;
     let row = |row: u32| Row {
         truth: [Some(value(row, 37)), Some(value(row, 53))],
-        prediction: [Some(value(row, 37) * 0.9 + 0.01), Some(value(row, 53) + value(row, 29) * 0.1)],
+        prediction: [
+            Some(value(row, 37) * 0.9 + 0.01),
+            Some(value(row, 53) + value(row, 29) * 0.1),
+        ],
         point: Some(row / 5),
     };
     (0..5 * points).map(row).collect()
@@ -83,8 +88,13 @@ fn a_state_of_clusters_by_hash_joins_a_later_one_to_the_state_of_all() {
     let mut evaluator = of_shear();
     let before: Vec<State> = states_of(some).into_iter().map(earlier).collect();
     evaluator.merge_states(&before).expect("states of before");
-    evaluator.update(&batch(others)).expect("the plan's channels");
-    assert_eq!(evaluator.states().expect("nothing collected"), states_of(&rows));
+    evaluator
+        .update(&batch(others))
+        .expect("the plan's channels");
+    assert_eq!(
+        evaluator.states().expect("nothing collected"),
+        states_of(&rows)
+    );
 }
 
 /// Records of nothing in place of these.
@@ -128,7 +138,11 @@ fn why_a_greatest_value_has_no_interval_still_depends_on_contact_points() {
             .for_each(|rows| evaluator.update(&batch(rows)).expect("the plan's channels"));
         let scores = evaluator.finish().expect("nothing collected");
         let of = |metric, channel| scores.score(metric, channel).map(|score| score.interval);
-        [of("crosstalk", "all"), of("bias_level", "Fx"), of("linearity", "Fx")]
+        [
+            of("crosstalk", "all"),
+            of("bias_level", "Fx"),
+            of("linearity", "Fx"),
+        ]
     };
     let undefined = |reason| [Some(Interval::Undefined(reason)); 3];
     assert_eq!(reasons(&rows), undefined(UndefinedReason::Greatest));

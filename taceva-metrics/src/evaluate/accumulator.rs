@@ -59,6 +59,11 @@ impl Accumulator {
         }
     }
 
+    /// Whether it keeps sums for every contact point.
+    pub(crate) fn is_by_point(&self) -> bool {
+        self.clustered_by == ClusteredBy::Point && !self.family.is_whole()
+    }
+
     /// Takes in the samples of `batch`, whose clusters are `clusters`.
     pub(crate) fn update(
         &mut self,

@@ -32,7 +32,7 @@ pub(crate) trait Family: Send + 'static {
     fn parameters(&self) -> BTreeMap<String, String>;
     /// Nothing kept, for each part.
     fn empty(&self) -> Vec<Self::Sums>;
-    /// Adds `rows` of `batch`, all of them for `None`.
+    /// Adds `rows` of `batch`, which ascend, all of them for `None`.
     fn deposit(&mut self, sums: &mut [Self::Sums], batch: &Batch, rows: Option<&[u32]>);
     /// What the rows of `batch` are clustered by; the contact point unless the family knows better.
     fn clusters<'a>(&self, batch: &'a Batch) -> Option<Cow<'a, Labels>> {

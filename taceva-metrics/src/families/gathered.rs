@@ -1,5 +1,7 @@
 //! Some rows of some columns side by side.
 
+use std::ops::Range;
+
 use taceva_core::Column;
 
 /// The values of the rows that were gathered last; kept so that their memory is used again.
@@ -9,8 +11,8 @@ pub(crate) struct Gathered {
 }
 
 impl Gathered {
-    /// The values of `columns` in `rows`, all of them for `None`, without the rows in which a column has no value; where nothing has to be
-    /// left out they are those of the columns themselves.
+    /// The values of `columns` in `rows`, which ascend, or all of them for `None`, without the rows in which a column has no value; where these
+    /// stand side by side they are those of the columns themselves.
     pub(crate) fn rows<'a>(
         &'a mut self,
         columns: &[&'a Column],
@@ -19,6 +21,10 @@ impl Gathered {
         let is_full = columns.iter().all(|column| column.present().is_none());
         if is_full && rows.is_none() {
             return columns.iter().map(|column| column.values()).collect();
+        }
+        if let Some(range) = rows.and_then(side_by_side).filter(|_| is_full) {
+            let values = columns.iter().map(|column| &column.values()[range.clone()]);
+            return values.collect();
         }
         let all = columns.first().map_or(0, |column| column.len());
         let complete: Option<Vec<u32>> = (!is_full).then(|| {
@@ -45,6 +51,13 @@ impl Gathered {
     }
 }
 
+/// The rows as a range, if they are one.
+fn side_by_side(rows: &[u32]) -> Option<Range<usize>> {
+    let (&first, &last) = (rows.first()?, rows.last()?);
+    let range = first as usize..last as usize + 1;
+    (range.len() == rows.len()).then_some(range)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -59,9 +72,15 @@ mod tests {
         assert_eq!(gathered.rows(&[&full, &full], None), [full.values(); 2]);
         let expected: [&[f64]; 2] = [&[1.0, 3.0, 4.0], &[5.0, 7.0, 8.0]];
         assert_eq!(gathered.rows(&[&full, &partly], None), expected);
-        let expected: [&[f64]; 2] = [&[4.0, 1.0], &[8.0, 5.0]];
-        assert_eq!(gathered.rows(&[&full, &partly], Some(&[3, 1, 0])), expected);
+        let expected: [&[f64]; 2] = [&[1.0, 4.0], &[5.0, 8.0]];
+        assert_eq!(gathered.rows(&[&full, &partly], Some(&[0, 1, 3])), expected);
         let expected: [&[f64]; 1] = [&[2.0, 4.0]];
         assert_eq!(gathered.rows(&[&full], Some(&[1, 3])), expected);
+        assert_eq!(
+            gathered.rows(&[&full], Some(&[1, 2, 3])),
+            [&full.values()[1..]]
+        );
+        let nothing: [&[f64]; 1] = [&[]];
+        assert_eq!(gathered.rows(&[&full], Some(&[])), nothing);
     }
 }

@@ -3,8 +3,8 @@
 use std::borrow::Cow;
 use std::cell::OnceCell;
 
-use taceva_core::random::mix;
 use taceva_core::Labels;
+use taceva_core::random::mix;
 
 use super::fnv::fnv1a64;
 
@@ -41,6 +41,15 @@ impl<'a> Grouped<'a> {
         self.by_name.get_or_init(find)
     }
 
+    /// Takes over what is known of the rows of each cluster, by hash or by name.
+    pub(crate) fn know(&self, is_by_hash: bool, groups: &Groups) {
+        let cell = match is_by_hash {
+            true => &self.by_hash,
+            false => &self.by_name,
+        };
+        cell.get_or_init(|| groups.clone());
+    }
+
     /// The rows of each cluster that names are assigned to by hash.
     pub(crate) fn by_hash(&self) -> &Groups {
         let of_name = |_, name: &str| bucket(self.seed, name);
@@ -57,6 +66,7 @@ pub(super) fn bucket(seed: u64, name: &str) -> usize {
 }
 
 /// The rows of a batch, those of one cluster side by side: a cluster's sums are then visited once per batch.
+#[derive(Clone, Debug)]
 pub(crate) struct Groups {
     rows: Vec<u32>,
     ends: Vec<usize>,
@@ -84,6 +94,19 @@ impl Groups {
             *end += 1;
         }
         Groups { rows, ends }
+    }
+
+    /// The same groups once the rows of each stand side by side, in the order of the groups.
+    pub(crate) fn side_by_side(&self) -> Groups {
+        Groups {
+            rows: (0..).take(self.rows.len()).collect(),
+            ends: self.ends.clone(),
+        }
+    }
+
+    /// All rows, group by group.
+    pub(crate) fn rows(&self) -> &[u32] {
+        &self.rows
     }
 
     /// The groups that have rows.
