@@ -189,7 +189,6 @@ impl Family for Plane {
 mod tests {
     use taceva_core::Channel;
 
-    use super::*;
     use crate::evaluate::{Evaluator, Rows};
     use crate::paired::GREATEST;
 
