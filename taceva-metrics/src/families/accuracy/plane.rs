@@ -197,8 +197,8 @@ mod tests {
         let (far, near) = ([GREATEST; 20], [-GREATEST; 20]);
         let mut evaluator = Evaluator::of_channels([Channel::FX, Channel::FY]).expect("two");
         let rows = Rows::new()
-            .pairs(Channel::FX, &far, &near)
-            .pairs(Channel::FY, &near, &far);
+            .pairs(Channel::FX, far, near)
+            .pairs(Channel::FY, near, far);
         evaluator.update_rows(rows).expect("its channels");
         let scores = evaluator.finish().expect("nothing collected");
         let score = scores.score("mae_euclid", "Fxy").expect("a score");
