@@ -108,7 +108,11 @@ impl IntrinsicSums {
 
     /// The width (axis 0) or height (axis 1) of the hull, mm.
     pub(super) fn extent(&self, axis: usize) -> Finished {
-        let extent = self.hull.hull().extent(axis).ok_or(UndefinedReason::NoContact)?;
+        let extent = self
+            .hull
+            .hull()
+            .extent(axis)
+            .ok_or(UndefinedReason::NoContact)?;
         Ok(extent[1] - extent[0])
     }
 
