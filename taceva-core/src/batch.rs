@@ -134,6 +134,40 @@ impl Batch {
         self
     }
 
+    /// The same samples in another order, which `rows` states: each row once.
+    ///
+    /// ```
+    /// use taceva_core::{Batch, Channel, Channels, Column};
+    /// let column = |values: [f64; 2]| vec![Column::full(values.into())];
+    /// let batch = Batch::from_columns(Channels::new([Channel::FZ])?, column([0.5, 1.5]), column([0.25, 1.25]), None);
+    /// let turned = batch.in_order(&[1, 0]);
+    /// assert_eq!((turned.truth(0).get(0), turned.prediction(0).get(1)), (Some(1.5), Some(0.25)));
+    /// # Ok::<(), taceva_core::ChannelError>(())
+    /// ```
+    ///
+    /// # Panics
+    /// If there are not as many as the batch has, or there is no such row.
+    #[must_use]
+    pub fn in_order(&self, rows: &[u32]) -> Batch {
+        assert_eq!(rows.len(), self.rows, "each row once");
+        let columns = |columns: &[Column]| columns.iter().map(|of| of.in_order(rows)).collect();
+        let labels = |labels: &Labels| labels.in_order(rows);
+        let of_labels = self.labels.iter();
+        let of_numbers = self.numbers.iter();
+        Batch {
+            rows: self.rows,
+            channels: self.channels.clone(),
+            truth: columns(&self.truth),
+            prediction: columns(&self.prediction),
+            points: self.points.as_ref().map(labels),
+            recordings: self.recordings.as_ref().map(labels),
+            labels: of_labels.map(|(field, of)| (*field, labels(of))).collect(),
+            numbers: of_numbers
+                .map(|(field, of)| (*field, of.in_order(rows)))
+                .collect(),
+        }
+    }
+
     /// Number of samples.
     pub fn rows(&self) -> usize {
         self.rows

@@ -3,6 +3,7 @@
 pub(crate) mod accumulator;
 #[cfg(feature = "ndarray")]
 mod arrays;
+pub(crate) mod batch_clusters;
 pub(crate) mod entry;
 pub(crate) mod evaluation;
 pub(crate) mod evaluator;

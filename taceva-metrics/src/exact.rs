@@ -3,8 +3,11 @@
 mod block_sums;
 mod bounds;
 mod canonical;
+mod column_kernel;
+mod columns;
 mod digits;
 mod divided;
+mod fixed;
 mod grid;
 mod integer;
 mod kernel;
@@ -23,6 +26,8 @@ mod vector;
 
 pub(crate) use block_sums::{BlockSums, Counts, Sums};
 pub use canonical::{Canonical, CanonicalError};
+pub(crate) use columns::{ColumnAdder, ColumnSums};
+pub(crate) use fixed::FixedSum;
 pub(crate) use machine::Machine;
 pub(crate) use rational::Dyadic;
 pub use sum::ExactSum;

@@ -1,11 +1,14 @@
 //! Points in the plane and in space: hulls decided without rounding, clouds brought into one frame.
 
+mod growing_hull;
 mod hull;
+mod hull_core;
 mod nearest;
 mod orientation;
 mod register;
 mod rigid;
 
+pub(crate) use growing_hull::GrowingHull;
 pub(crate) use hull::Hull;
 pub(crate) use nearest::NearestPoints;
 pub(crate) use register::{Registration, register_clouds};

@@ -80,6 +80,25 @@ impl Column {
         }
     }
 
+    /// The same rows in another order, which `rows` states.
+    ///
+    /// ```
+    /// use taceva_core::Column;
+    /// let column: Column = [Some(0.5), None, Some(2.5)].into_iter().collect();
+    /// assert_eq!(column.in_order(&[2, 1, 0]), [Some(2.5), None, Some(0.5)].into_iter().collect());
+    /// ```
+    ///
+    /// # Panics
+    /// If there is no such row.
+    #[must_use]
+    pub fn in_order(&self, rows: &[u32]) -> Column {
+        let present = self.present.as_ref();
+        Column {
+            values: rows.iter().map(|&row| self.values[row as usize]).collect(),
+            present: present.map(|present| rows.iter().map(|&row| present[row as usize]).collect()),
+        }
+    }
+
     /// Number of rows.
     pub fn len(&self) -> usize {
         self.values.len()

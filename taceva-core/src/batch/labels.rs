@@ -1,6 +1,7 @@
 //! Names, one per row.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// One name per row, each distinct name kept once; a row may have none.
 ///
@@ -12,8 +13,14 @@ use std::collections::HashMap;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Labels {
-    names: Vec<String>,
+    known: Arc<Known>,
     index: Vec<u32>,
+}
+
+/// The distinct names; labels of the same rows in another order share them.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Known {
+    names: Vec<String>,
     lookup: HashMap<String, u32>,
 }
 
@@ -26,15 +33,26 @@ impl Labels {
     /// # Panics
     /// Beyond 2³² distinct names, which no memory holds.
     pub fn push(&mut self, name: &str) {
-        let index = match self.lookup.get(name) {
+        // Rows of one name mostly follow each other.
+        if let Some(&last) = self.index.last()
+            && self
+                .names()
+                .get(last as usize)
+                .is_some_and(|known| known == name)
+        {
+            self.index.push(last);
+            return;
+        }
+        let index = match self.known.lookup.get(name) {
             Some(&index) => index,
             None => {
-                let index = u32::try_from(self.names.len())
+                let index = u32::try_from(self.names().len())
                     .ok()
                     .filter(|index| *index != Labels::ABSENT)
                     .expect("fewer than 2^32 distinct names fit in memory");
-                self.names.push(name.to_owned());
-                self.lookup.insert(name.to_owned(), index);
+                let known = Arc::make_mut(&mut self.known);
+                known.names.push(name.to_owned());
+                known.lookup.insert(name.to_owned(), index);
                 index
             }
         };
@@ -96,12 +114,30 @@ impl Labels {
 
     /// The distinct names, in the order of their first row.
     pub fn names(&self) -> &[String] {
-        &self.names
+        &self.known.names
     }
 
     /// For each row, which of the names it has; [`ABSENT`](Labels::ABSENT) for none.
     pub fn index(&self) -> &[u32] {
         &self.index
+    }
+
+    /// The labels of the same rows in another order, which `rows` states: each row once. The order of the names stays.
+    ///
+    /// ```
+    /// use taceva_core::Labels;
+    /// let labels = Labels::of_numbers([7, -1, 7]);
+    /// assert_eq!(labels.in_order(&[1, 0]).get(0), Some("-1"));
+    /// ```
+    ///
+    /// # Panics
+    /// If there is no such row.
+    #[must_use]
+    pub fn in_order(&self, rows: &[u32]) -> Labels {
+        Labels {
+            known: Arc::clone(&self.known),
+            index: rows.iter().map(|&row| self.index[row as usize]).collect(),
+        }
     }
 
     /// Whether every row has a name.
@@ -112,7 +148,7 @@ impl Labels {
     /// The name of `row`, if it has one.
     pub fn get(&self, row: usize) -> Option<&str> {
         let index = self.index[row];
-        (index != Labels::ABSENT).then(|| self.names[index as usize].as_str())
+        (index != Labels::ABSENT).then(|| self.names()[index as usize].as_str())
     }
 }
 

@@ -5,20 +5,19 @@ mod erased_sums;
 mod resampling;
 mod scores;
 
-use std::borrow::Cow;
-
 use taceva_core::{Batch, Channels};
 
 use self::any_family::{AnyFamily, Erased};
 use self::erased_sums::ErasedSums;
 use crate::error::MetricError;
-use crate::evaluate::independent::rows_as_clusters;
+use crate::evaluate::batch_clusters::BatchClusters;
 use crate::evaluate::plan::MetricPlan;
 use crate::evaluate::state::{Shape, State, describe, written};
 use crate::families::family::Family;
 use crate::score::ClusteredBy;
 use crate::stats::IntervalMethod;
 use crate::stats::clusters::{Clustering, Clusters};
+use crate::stats::grouped::Grouped;
 
 /// Keeps what the metrics of one family are finished from, apart by contact point.
 ///
@@ -60,8 +59,17 @@ impl Accumulator {
         }
     }
 
-    /// Takes in the samples of `batch`.
-    pub(crate) fn update(&mut self, batch: &Batch) -> Result<(), MetricError> {
+    /// Whether it keeps sums for every contact point.
+    pub(crate) fn is_by_point(&self) -> bool {
+        self.clustered_by == ClusteredBy::Point && !self.family.is_whole()
+    }
+
+    /// Takes in the samples of `batch`, whose clusters are `clusters`.
+    pub(crate) fn update(
+        &mut self,
+        batch: &Batch,
+        clusters: &BatchClusters<'_>,
+    ) -> Result<(), MetricError> {
         if batch.channels() != &self.channels {
             return Err(MetricError::Channels {
                 expected: describe(&written(&self.channels)),
@@ -69,17 +77,33 @@ impl Accumulator {
             });
         }
         let family = &mut self.family;
-        let labels = match self.clustered_by {
-            ClusteredBy::Sample => Some(Cow::Owned(rows_as_clusters(batch))),
-            ClusteredBy::Recording => batch.recordings().map(Cow::Borrowed),
-            ClusteredBy::Point => family.clusters(batch),
+        let rows = batch.rows();
+        if family.is_whole() {
+            let are_clustered = match self.clustered_by {
+                ClusteredBy::Sample => true,
+                kind => clusters.by(kind).is_some(),
+            };
+            self.clustering
+                .deposit_whole(&mut self.clusters, rows, are_clustered, |parts| {
+                    family.deposit(parts, batch, None);
+                });
+            return Ok(());
+        }
+        let own;
+        let grouped = match self.clustered_by {
+            ClusteredBy::Point => match family.clusters(batch) {
+                Some(labels) if !clusters.are_points(&labels) => {
+                    own = Grouped::new(labels, self.clustering.seed);
+                    Some(&own)
+                }
+                labels => labels.and_then(|_| clusters.by(ClusteredBy::Point)),
+            },
+            kind => clusters.by(kind),
         };
-        self.clustering.deposit(
-            &mut self.clusters,
-            batch.rows(),
-            labels.as_deref(),
-            |parts, rows| family.deposit(parts, batch, rows),
-        );
+        self.clustering
+            .deposit(&mut self.clusters, rows, grouped, |parts, rows| {
+                family.deposit(parts, batch, rows);
+            });
         Ok(())
     }
 
@@ -106,12 +130,22 @@ impl Accumulator {
 
     /// Whether states of `schema` are its own.
     pub(crate) fn reads(&self, schema: &str) -> bool {
-        schema == self.family.schema()
+        schema == self.family.schema() || self.reads_earlier(schema)
+    }
+
+    fn reads_earlier(&self, schema: &str) -> bool {
+        self.family.earlier_schema() == Some(schema)
     }
 
     /// Takes over what another one kept.
     pub(crate) fn merge(&mut self, state: &State) -> Result<(), MetricError> {
-        state.check(&self.shape())?;
+        let mut shape = self.shape();
+        if let Some(earlier) = self.family.earlier_schema()
+            && self.reads_earlier(state.schema())
+        {
+            shape.schema = earlier;
+        }
+        state.check(&shape)?;
         let clusters = state.clusters.try_map(|records| {
             let malformed = |what| MetricError::Malformed {
                 schema: self.family.schema(),
@@ -119,6 +153,11 @@ impl Accumulator {
             };
             self.family.read_records(records).map_err(malformed)
         })?;
+        // Before, families that keep one summary kept one a cluster.
+        let clusters = match self.family.is_whole() {
+            true => self.clustering.whole(&clusters),
+            false => clusters,
+        };
         self.clustering.merge(&mut self.clusters, &clusters);
         Ok(())
     }

@@ -8,6 +8,7 @@ use taceva_core::{
 
 use crate::error::MetricError;
 use crate::evaluate::accumulator::Accumulator;
+use crate::evaluate::batch_clusters::{BatchClusters, SideBySide};
 use crate::evaluate::entry::Entry;
 use crate::evaluate::evaluation::Evaluation;
 use crate::evaluate::number::Number;
@@ -20,6 +21,8 @@ const BATCH_ROWS: usize = 1024;
 /// Pairs of one channel that are summed at once: two columns of 32 KiB. Measured from 1,024 to all of a million: fewer cost more in allocations,
 /// more in memory that is touched for the first time.
 const PAIR_ROWS: usize = 4096;
+/// Accumulators by contact point from which on it pays to bring the samples of each point together: fewer gather theirs sooner.
+const LEAST_TO_SORT: usize = 3;
 
 /// Takes samples, one by one or in batches, and finishes a plan's scores.
 ///
@@ -101,8 +104,20 @@ impl Evaluator {
     /// # Errors
     /// [`MetricError::Channels`] if they are of other channels than the plan's; nothing is taken in then.
     pub fn update(&mut self, batch: &Batch) -> Result<(), MetricError> {
+        let seed = self.plan.seed();
+        let by_point = self.accumulators.iter();
+        let by_point = by_point.filter(|accumulator| accumulator.is_by_point());
+        let sorted = match by_point.count() {
+            ..LEAST_TO_SORT => None,
+            _ => SideBySide::of(batch, seed),
+        };
+        let batch = sorted.as_ref().map_or(batch, |sorted| &sorted.batch);
+        let clusters = match &sorted {
+            Some(sorted) => sorted.clusters(seed),
+            None => BatchClusters::new(batch, seed),
+        };
         for accumulator in &mut self.accumulators {
-            accumulator.update(batch)?;
+            accumulator.update(batch, &clusters)?;
         }
         Ok(())
     }

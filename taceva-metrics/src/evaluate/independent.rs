@@ -2,7 +2,7 @@
 
 use taceva_core::{Batch, Column, Labels};
 
-use crate::stats::clusters::{FNV_OFFSET, fnv1a64_from};
+use crate::stats::fnv::{FNV_OFFSET, fnv1a64_from};
 
 /// Names the rows of `batch` by their values of every channel. Rows of equal values have one name, so that names, and all that is made of
 /// them, depend on the set of rows alone.

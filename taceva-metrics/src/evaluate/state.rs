@@ -6,7 +6,8 @@ use taceva_core::{Channels, Unit};
 
 use crate::error::MetricError;
 use crate::exact::ExactSum;
-use crate::stats::clusters::{Clusters, HASHED_CLUSTERS};
+use crate::stats::clusters::Clusters;
+use crate::stats::grouped::HASHED_CLUSTERS;
 
 /// The mergeable summary of some samples.
 ///

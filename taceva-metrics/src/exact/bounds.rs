@@ -28,14 +28,14 @@ pub(super) struct Range {
 
 impl Range {
     /// Exponents from `top` down to `reach` below it.
-    fn new(top: i32, reach: i32) -> Range {
+    pub(super) fn new(top: i32, reach: i32) -> Range {
         Range {
             least: power_of_two((top - reach).max(-1022)),
             greatest: f64::from_bits(power_of_two(top + 1).to_bits() - 1),
         }
     }
 
-    fn holds(self, magnitude: f64) -> bool {
+    pub(super) fn holds(self, magnitude: f64) -> bool {
         (magnitude == 0.0) | ((self.least <= magnitude) & (magnitude <= self.greatest))
     }
 }
@@ -140,7 +140,7 @@ impl Grids {
 
 /// The top of the `reach` + 1 neighbouring exponents that most values have; of several such, the one above the lowest, so that a
 /// value somewhat greater than those seen here fits too.
-fn best_top(values: impl Iterator<Item = f64>, reach: i32) -> i32 {
+pub(super) fn best_top(values: impl Iterator<Item = f64>, reach: i32) -> i32 {
     let usable = -GREATEST_TOP..=GREATEST_TOP;
     let mut exponents: Vec<i32> = values
         .filter(|value| value.abs() > 0.0)

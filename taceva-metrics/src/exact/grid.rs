@@ -24,26 +24,27 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    /// The grid of the squares of values of this one, rounded.
-    pub(super) fn of_squares(self) -> Grid {
+    /// The grid of the products of values of this one and of another, rounded.
+    pub(super) fn of_products(self, other: Grid) -> Grid {
         Grid {
-            top: 2 * self.top + 1,
+            top: self.top + other.top + 1,
         }
     }
 
-    /// The grid of what those squares lost in rounding.
-    pub(super) fn of_errors_of_squares(self) -> Grid {
+    /// The grid of what those products lost in rounding.
+    pub(super) fn of_errors_of_products(self, other: Grid) -> Grid {
         Grid {
-            top: 2 * self.top - FRACTION - 1,
+            top: self.top + other.top - FRACTION - 1,
         }
     }
 
     /// How far below the top a value's exponent may lie so that its last place is still a unit of the fine sum.
     pub(super) const REACH: i32 = -FINE;
-    /// The same of a value whose square is added.
+    /// The same of a value whose square, or whose product with such a value of another grid, is added.
     ///
     /// A square's last place is at twice the exponent less 52, on a grid of twice the top plus 1: half the reach. What the
-    /// square lost ends 104 below twice the exponent, on a grid of twice the top less 53: one more.
+    /// square lost ends 104 below twice the exponent, on a grid of twice the top less 53: one more. Of a product both exponents and both
+    /// tops are added up.
     pub(super) const REACH_OF_SQUARES: i32 = (Grid::REACH - 1) / 2;
 
     /// The powers of two that the units of both sums stand for, the coarse one first.
@@ -102,27 +103,27 @@ impl<V: Vector> GridSum<V> {
     }
 }
 
-/// The sum of squares: rounded ones and what they lost apart.
+/// The sum of products: rounded ones and what they lost apart.
 #[derive(Clone, Copy)]
-pub(super) struct SquareSum<V> {
+pub(super) struct ProductSum<V> {
     rounded: GridSum<V>,
     lost: GridSum<V>,
 }
 
-impl<V: Vector> SquareSum<V> {
-    /// The sum of nothing, of squares of values on `grid`.
+impl<V: Vector> ProductSum<V> {
+    /// The sum of nothing, of products of a value on each of these grids.
     #[inline(always)]
-    pub(super) fn new(proof: V::Proof, grid: Grid) -> SquareSum<V> {
-        SquareSum {
-            rounded: GridSum::new(proof, grid.of_squares()),
-            lost: GridSum::new(proof, grid.of_errors_of_squares()),
+    pub(super) fn new(proof: V::Proof, [left, right]: [Grid; 2]) -> ProductSum<V> {
+        ProductSum {
+            rounded: GridSum::new(proof, left.of_products(right)),
+            lost: GridSum::new(proof, left.of_errors_of_products(right)),
         }
     }
 
-    /// Adds the square of a value that is zero or within the grid's reach of squares.
+    /// Adds the product of two values, each zero or within its grid's reach of squares.
     #[inline(always)]
-    pub(super) fn add_square_of(&mut self, value: V, one: V) {
-        let [rounded, lost] = value.square();
+    pub(super) fn add_product(&mut self, left: V, right: V, one: V) {
+        let [rounded, lost] = left.product(right);
         self.rounded.add(rounded, one);
         self.lost.add(lost, one);
     }
@@ -135,13 +136,13 @@ impl<V: Vector> SquareSum<V> {
 
     /// The units of both sums.
     #[inline(always)]
-    pub(super) fn units(self) -> SquareUnits {
+    pub(super) fn units(self) -> ProductUnits {
         [self.rounded.units(), self.lost.units()]
     }
 }
 
-/// Units of the rounded squares, and of what they lost.
-pub(super) type SquareUnits = [[i64; 2]; 2];
+/// Units of the rounded products, and of what they lost.
+pub(super) type ProductUnits = [[i64; 2]; 2];
 
 /// 2^exponent, of a normal number.
 pub(super) fn power_of_two(exponent: i32) -> f64 {
@@ -165,17 +166,17 @@ mod tests {
     }
 
     impl Job for Add<'_> {
-        type Output = (u32, [i64; 2], SquareUnits);
+        type Output = (u32, [i64; 2], ProductUnits);
 
         #[inline(always)]
         fn run<V: Vector>(self, proof: V::Proof) -> Self::Output {
             let mut sum = GridSum::<V>::new(proof, self.grid);
-            let mut squares = SquareSum::<V>::new(proof, self.grid);
+            let mut squares = ProductSum::<V>::new(proof, [self.grid; 2]);
             let one = V::splat(proof, 1.0);
             for &value in self.values {
                 let value = V::splat(proof, value);
                 sum.add(value, one);
-                squares.add_square_of(value, one);
+                squares.add_product(value, value, one);
             }
             assert!(sum.is_sound() && squares.is_sound());
             let lanes = u32::try_from(V::LANES).expect("a few");
@@ -211,8 +212,12 @@ mod tests {
                             .for_each(|&value| of_squares.add_product(value, -value));
                     }
                     exact(grid, units, &mut sum);
-                    exact(grid.of_squares(), squares[0], &mut of_squares);
-                    exact(grid.of_errors_of_squares(), squares[1], &mut of_squares);
+                    exact(grid.of_products(grid), squares[0], &mut of_squares);
+                    exact(
+                        grid.of_errors_of_products(grid),
+                        squares[1],
+                        &mut of_squares,
+                    );
                     assert_eq!(sum, ExactSum::default(), "{isa}, 2^{top}");
                     assert_eq!(of_squares, ExactSum::default(), "{isa}, 2^{top}, squares");
                 }

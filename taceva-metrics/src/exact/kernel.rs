@@ -5,7 +5,7 @@
 //! within [`Bounds`]; if not, what it summed is dropped.
 
 use super::bounds::{Bounds, Grids, TERMS};
-use super::grid::{DEPTH, GridSum, SquareSum, SquareUnits};
+use super::grid::{DEPTH, GridSum, ProductSum, ProductUnits};
 use super::machine::Machine;
 use super::vector::{Job, Vector};
 use crate::families::accuracy::streams::{Stream, Streams};
@@ -32,7 +32,7 @@ pub(super) struct Block<'a> {
 pub(super) struct ErrorUnits {
     pub(super) absolute: [i64; 2],
     pub(super) residual: [i64; 2],
-    pub(super) squared: SquareUnits,
+    pub(super) squared: ProductUnits,
 }
 
 impl ErrorUnits {
@@ -41,7 +41,7 @@ impl ErrorUnits {
     pub(super) fn add(&mut self, other: &ErrorUnits) {
         add(&mut self.absolute, other.absolute);
         add(&mut self.residual, other.residual);
-        add_squares(&mut self.squared, other.squared);
+        add_products(&mut self.squared, other.squared);
     }
 }
 
@@ -49,7 +49,7 @@ impl ErrorUnits {
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ValueUnits {
     pub(super) truth: [i64; 2],
-    pub(super) squared: SquareUnits,
+    pub(super) squared: ProductUnits,
     pub(super) symmetric: [i64; 2],
     pub(super) gated: [i64; 2],
     pub(super) n_gated: u32,
@@ -60,18 +60,18 @@ impl ValueUnits {
     #[inline]
     pub(super) fn add(&mut self, other: &ValueUnits) {
         add(&mut self.truth, other.truth);
-        add_squares(&mut self.squared, other.squared);
+        add_products(&mut self.squared, other.squared);
         add(&mut self.symmetric, other.symmetric);
         add(&mut self.gated, other.gated);
     }
 }
 
-fn add(units: &mut [i64; 2], other: [i64; 2]) {
+pub(super) fn add(units: &mut [i64; 2], other: [i64; 2]) {
     units[0] += other[0];
     units[1] += other[1];
 }
 
-fn add_squares(units: &mut SquareUnits, [rounded, lost]: SquareUnits) {
+pub(super) fn add_products(units: &mut ProductUnits, [rounded, lost]: ProductUnits) {
     add(&mut units[0], rounded);
     add(&mut units[1], lost);
 }
@@ -133,7 +133,7 @@ const fn has(streams: u8, stream: Stream) -> bool {
 }
 
 /// Something that vectors of pairs are added to.
-trait Visit<V> {
+pub(super) trait Visit<V> {
     fn visit(&mut self, estimate: V, reference: V);
 }
 
@@ -142,7 +142,7 @@ const LINE_ROWS: usize = 8;
 
 /// Shows `visitor` all pairs, and zeros beside the last ones; sends for the lines of `next` meanwhile.
 #[inline(always)]
-fn visit_all<V: Vector>(
+pub(super) fn visit_all<V: Vector>(
     proof: V::Proof,
     pairs: Paired<&[f64]>,
     next: Paired<&[f64]>,
@@ -185,7 +185,7 @@ struct ErrorSums<V, const STREAMS: u8> {
     least_truth: V,
     absolute: GridSum<V>,
     residual: GridSum<V>,
-    squared: SquareSum<V>,
+    squared: ProductSum<V>,
 }
 
 impl<V: Vector, const STREAMS: u8> Visit<V> for ErrorSums<V, STREAMS> {
@@ -205,7 +205,7 @@ impl<V: Vector, const STREAMS: u8> Visit<V> for ErrorSums<V, STREAMS> {
             self.residual.add(residual, self.one);
         }
         if const { has(STREAMS, Stream::Squared) } {
-            self.squared.add_square_of(residual, self.one);
+            self.squared.add_product(residual, residual, self.one);
         }
     }
 }
@@ -225,7 +225,7 @@ impl<const STREAMS: u8> Job for Errors<'_, STREAMS> {
             least_truth: V::splat(proof, f64::MAX),
             absolute: GridSum::new(proof, grid),
             residual: GridSum::new(proof, grid),
-            squared: SquareSum::new(proof, grid),
+            squared: ProductSum::new(proof, [grid; 2]),
         };
         visit_all(proof, block.pairs, block.next, &mut sums);
         let residual = bounds.residual.in_lanes::<V>(proof);
@@ -254,7 +254,7 @@ struct ValueSums<V, const STREAMS: u8, const GATED: bool> {
     epsilon: V,
     gate: V,
     truth: GridSum<V>,
-    squared: SquareSum<V>,
+    squared: ProductSum<V>,
     symmetric: GridSum<V>,
     gated: GridSum<V>,
     n_gated: u32,
@@ -279,7 +279,7 @@ impl<V: Vector, const STREAMS: u8, const GATED: bool> Visit<V> for ValueSums<V, 
             self.truth.add(reference, self.one);
         }
         if const { has(STREAMS, Stream::TruthSquared) } {
-            self.squared.add_square_of(reference, self.one);
+            self.squared.add_product(reference, reference, self.one);
         }
     }
 }
@@ -299,7 +299,7 @@ impl<const STREAMS: u8, const GATED: bool> Job for Values<'_, STREAMS, GATED> {
             epsilon: V::splat(proof, EPSILON),
             gate: V::splat(proof, gate),
             truth: GridSum::new(proof, grid),
-            squared: SquareSum::new(proof, grid),
+            squared: ProductSum::new(proof, [grid; 2]),
             symmetric: GridSum::new(proof, TERMS),
             gated: GridSum::new(proof, TERMS),
             n_gated: 0,

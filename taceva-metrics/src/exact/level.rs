@@ -3,7 +3,15 @@
 use taceva_core::{Nanometre, Unit};
 
 /// `value` in whole millionths of its unit, ties to even; `None` for what is no number up to 2⁵³ of them.
+#[inline]
 pub(crate) fn millionths(value: f64) -> Option<i64> {
+    /// 1.5 × 2⁵²: of a sum with it no place below one is left, and its pattern of bits counts the ones.
+    const ONES: f64 = 6_755_399_441_055_744.0;
+    const GREATEST: f64 = 1_125_899_906_842_624.0;
+    let scaled = value * 1e6;
+    if scaled.abs() <= GREATEST {
+        return Some((scaled + ONES).to_bits().cast_signed() - ONES.to_bits().cast_signed());
+    }
     // What a nanometre is to a millimetre.
     Nanometre::from_millimetres(value).map(|millionths| millionths.0)
 }
@@ -21,5 +29,22 @@ pub(crate) fn step(unit: Unit) -> Option<i64> {
         Unit::Millimetre | Unit::Newton => Some(100_000),
         Unit::Degree | Unit::NewtonMillimetre => Some(1_000_000),
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn millionths_are_the_nanometres_of_as_many_millimetres() {
+        let ties = (-8..8).map(|half| f64::from(half) * 0.5e-6);
+        let lengths = (-900..900).map(|step| f64::from(step) * 1.234_567_8e6);
+        let ends = [2_f64.powi(50) * 1e-6, 2_f64.powi(53) * 1e-6, 9.1e9, -9.1e9];
+        let others = [0.0, -0.0, 1e-300, f64::NAN, f64::INFINITY];
+        for value in ties.chain(lengths).chain(ends).chain(others) {
+            let expected = Nanometre::from_millimetres(value).map(|length| length.0);
+            assert_eq!(millionths(value), expected, "{value:e}");
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! Sums in whole units of grids, before a superaccumulator has them.
 
 use super::bounds::{Bounds, Grids, TERMS};
-use super::grid::{Grid, SquareUnits};
+use super::grid::{Grid, ProductUnits};
 use super::kernel::{ErrorUnits, ValueUnits};
 use super::sum::ExactSum;
 use crate::families::accuracy::streams::{Stream, Streams};
@@ -55,9 +55,9 @@ impl Pending {
         match stream {
             Stream::Absolute => deposit(self.errors.absolute, residual, sum),
             Stream::Residual => deposit(self.errors.residual, residual, sum),
-            Stream::Squared => deposit_squares(self.errors.squared, residual, sum),
+            Stream::Squared => deposit_products(self.errors.squared, [residual; 2], sum),
             Stream::Truth => deposit(self.values.truth, truth, sum),
-            Stream::TruthSquared => deposit_squares(self.values.squared, truth, sum),
+            Stream::TruthSquared => deposit_products(self.values.squared, [truth; 2], sum),
             Stream::Symmetric => deposit(self.values.symmetric, TERMS, sum),
         }
     }
@@ -69,7 +69,12 @@ pub(super) fn deposit(units: [i64; 2], grid: Grid, sum: &mut ExactSum) {
     }
 }
 
-fn deposit_squares([rounded, lost]: SquareUnits, grid: Grid, sum: &mut ExactSum) {
-    deposit(rounded, grid.of_squares(), sum);
-    deposit(lost, grid.of_errors_of_squares(), sum);
+/// Adds units of products of values on these grids to `sum`.
+pub(super) fn deposit_products(
+    [rounded, lost]: ProductUnits,
+    [left, right]: [Grid; 2],
+    sum: &mut ExactSum,
+) {
+    deposit(rounded, left.of_products(right), sum);
+    deposit(lost, left.of_errors_of_products(right), sum);
 }

@@ -31,8 +31,8 @@ pub(crate) trait Vector: Copy {
     fn over(self, other: Self) -> Self;
     /// |self|.
     fn magnitude(self) -> Self;
-    /// RN(self²), and what that differs from self² by, exactly, where neither over- nor underflows.
-    fn square(self) -> [Self; 2];
+    /// RN(self × other), and what that differs from the product by, exactly, where neither over- nor underflows.
+    fn product(self, other: Self) -> [Self; 2];
 
     /// The greater of the two, and `other` where one is NaN.
     fn greatest(self, other: Self) -> Self;

@@ -1,21 +1,26 @@
 //! How the mean error changes over the range of the truth.
 
+mod window;
+
 use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Field, FieldSet, Needs, Unit};
 
 use crate::evaluate::state::Record;
-use crate::exact::level::{from_millionths, millionths, step};
+use crate::exact::level::{from_millionths, step};
 use crate::exact::merge::{Merge, keyed, merge_cells};
 use crate::exact::{Dyadic, ExactSum};
-use crate::families::channelwise::{Channelwise, each_pair};
+use crate::families::channelwise::Channelwise;
 use crate::families::family::{Details, Finished, Numbers, Output};
+use crate::families::gathered::Gathered;
 use crate::metric::{Formula, Metric, ScoreUnit};
+use crate::paired::Paired;
 use crate::score::better::Better;
 use crate::score::curve::Curve;
 use crate::score::range::Range;
 use crate::score::value::{InapplicableReason, UndefinedReason, Value};
 use crate::score::{Count, Parameter, Variant};
+use window::Window;
 
 /// Samples from which on the mean error of a level counts for the score.
 const LEAST_SAMPLES: u64 = 5;
@@ -51,7 +56,11 @@ fn width_and_least(unit: Unit) -> Vec<Parameter> {
 }
 
 /// Errors by level of the truth.
-pub(crate) struct Levels;
+#[derive(Default)]
+pub(crate) struct Levels {
+    window: Window,
+    gathered: Gathered,
+}
 
 /// What is kept of one channel.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -70,6 +79,11 @@ struct LevelErrors {
 }
 
 impl LevelErrors {
+    fn add(&mut self, error: f64) {
+        self.n += 1;
+        self.errors.add(error);
+    }
+
     /// RN(Sd / n).
     fn mean(&self) -> f64 {
         self.errors.to_dyadic().over(&Dyadic::from(self.n))
@@ -109,27 +123,33 @@ fn curve(sums: &LevelSums, unit: Unit, width: i64) -> Curve {
 
 impl Channelwise for Levels {
     type Sums = LevelSums;
-    const SCHEMA: &'static str = "taceva.levels/1";
+    const SCHEMA: &'static str = "taceva.levels/2";
+    const EARLIER_SCHEMA: Option<&'static str> = Some("taceva.levels/1");
+    const IS_WHOLE: bool = true;
 
     fn finishes(&self, metric: &Metric) -> bool {
         matches!(metric.formula, Formula::BiasLevel)
     }
 
-    fn deposit(&self, sums: &mut LevelSums, batch: &Batch, position: usize, rows: Option<&[u32]>) {
+    fn deposit(
+        &mut self,
+        sums: &mut LevelSums,
+        batch: &Batch,
+        position: usize,
+        rows: Option<&[u32]>,
+    ) {
         let Some(width) = step(batch.channels().as_slice()[position].unit()) else {
             return;
         };
-        each_pair(batch, position, rows, |_, pair| {
-            match millionths(pair.reference).filter(|_| pair.is_valid()) {
-                Some(truth) => {
-                    let level = sums.levels.entry(truth.div_euclid(width)).or_default();
-                    level.n += 1;
-                    level.errors.add(pair.residual());
-                    sums.n += 1;
-                }
-                None => sums.n_invalid += 1,
-            }
-        });
+        let columns = [batch.truth(position), batch.prediction(position)];
+        let [reference, estimate] = self.gathered.rows(&columns, rows)[..] else {
+            return;
+        };
+        let pairs = Paired {
+            estimate,
+            reference,
+        };
+        self.window.add(pairs, width, sums);
     }
 
     fn to_record(&self, sums: &LevelSums) -> Record {

@@ -19,6 +19,10 @@ pub(crate) trait Channelwise: Send + 'static {
     type Sums: Merge + Clone + Default + Send + 'static;
     /// The name and version of its states.
     const SCHEMA: &'static str;
+    /// As [`Family::EARLIER_SCHEMA`].
+    const EARLIER_SCHEMA: Option<&'static str> = None;
+    /// As [`Family::IS_WHOLE`].
+    const IS_WHOLE: bool = false;
 
     /// What must agree before states merge.
     fn parameters(&self) -> BTreeMap<String, String> {
@@ -31,7 +35,13 @@ pub(crate) trait Channelwise: Send + 'static {
         true
     }
     /// Adds `rows` of `batch`, all of them for `None`, to what is kept of the channel at `position`.
-    fn deposit(&self, sums: &mut Self::Sums, batch: &Batch, position: usize, rows: Option<&[u32]>);
+    fn deposit(
+        &mut self,
+        sums: &mut Self::Sums,
+        batch: &Batch,
+        position: usize,
+        rows: Option<&[u32]>,
+    );
     /// As a state holds it.
     fn to_record(&self, sums: &Self::Sums) -> Record;
     /// Back from a state.
@@ -42,6 +52,10 @@ pub(crate) trait Channelwise: Send + 'static {
     fn invalid(&self, sums: &Self::Sums) -> u64;
     /// The numbers of `metric`.
     fn numbers(&self, metric: &Metric, output: &Output, sums: &Self::Sums) -> Numbers;
+    /// As [`Family::resampled`].
+    fn resampled(&self, metric: &Metric, output: &Output, sums: &Self::Sums) -> Numbers {
+        self.numbers(metric, output, sums)
+    }
     /// Why there is no value, if so.
     fn inapplicable(&self, _output: &Output) -> Option<InapplicableReason> {
         None
@@ -87,6 +101,8 @@ impl<K: Channelwise> ByChannel<K> {
 impl<K: Channelwise> Family for ByChannel<K> {
     type Sums = K::Sums;
     const SCHEMA: &'static str = K::SCHEMA;
+    const EARLIER_SCHEMA: Option<&'static str> = K::EARLIER_SCHEMA;
+    const IS_WHOLE: bool = K::IS_WHOLE;
 
     fn parameters(&self) -> BTreeMap<String, String> {
         self.kind.parameters()
@@ -128,6 +144,10 @@ impl<K: Channelwise> Family for ByChannel<K> {
 
     fn numbers(&self, metric: &Metric, output: &Output, sums: &K::Sums) -> Numbers {
         self.kind.numbers(metric, output, sums)
+    }
+
+    fn resampled(&self, metric: &Metric, output: &Output, sums: &K::Sums) -> Numbers {
+        self.kind.resampled(metric, output, sums)
     }
 
     fn inapplicable(&self, _metric: &Metric, output: &Output) -> Option<InapplicableReason> {

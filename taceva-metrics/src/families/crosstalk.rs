@@ -5,13 +5,14 @@ mod sums;
 
 use std::collections::BTreeMap;
 
-use taceva_core::{Batch, Channel, Field, FieldSet, Needs, Unit};
+use taceva_core::{Batch, Channel, Column, Field, FieldSet, Needs, Unit};
 
 use crate::evaluate::plan::MetricPlan;
 use crate::evaluate::state::Record;
-use crate::families::family::{Details, Family, Numbers, Output, each_row};
+use crate::exact::ColumnAdder;
+use crate::families::family::{Details, Family, Numbers, Output};
+use crate::families::gathered::Gathered;
 use crate::metric::{Formula, Metric, ScoreUnit};
-use crate::paired::Paired;
 use crate::score::better::Better;
 use crate::score::flag::Flag;
 use crate::score::matrix::Matrix;
@@ -19,7 +20,7 @@ use crate::score::range::Range;
 use crate::score::value::{UndefinedReason, Value};
 use crate::score::{Parameter, Variant};
 use fit::Leaks;
-use sums::JointSums;
+use sums::{JointSums, products};
 
 pub(crate) static CROSSTALK: Metric = Metric {
     id: "crosstalk",
@@ -51,6 +52,8 @@ pub(crate) struct Crosstalk {
     /// Where the channels stand that take part: those of the six.
     positions: Vec<usize>,
     names: Vec<String>,
+    adder: ColumnAdder,
+    gathered: Gathered,
 }
 
 impl Crosstalk {
@@ -60,16 +63,23 @@ impl Crosstalk {
         kept.find(|metric| matches!(metric.formula, Formula::Crosstalk))?;
         let channels = plan.channels().iter().enumerate();
         let six = channels.filter(|(_, channel)| Channel::SIX.contains(channel));
-        let (positions, names) = six
+        let (positions, names): (Vec<usize>, Vec<String>) = six
             .map(|(position, channel)| (position, channel.name().to_owned()))
             .unzip();
-        Some(Crosstalk { positions, names })
+        Some(Crosstalk {
+            adder: ColumnAdder::new(products(positions.len())),
+            gathered: Gathered::default(),
+            positions,
+            names,
+        })
     }
 }
 
 impl Family for Crosstalk {
     type Sums = JointSums;
-    const SCHEMA: &'static str = "taceva.joint/1";
+    const SCHEMA: &'static str = "taceva.joint/2";
+    const EARLIER_SCHEMA: Option<&'static str> = Some("taceva.joint/1");
+    const IS_WHOLE: bool = true;
 
     fn parameters(&self) -> BTreeMap<String, String> {
         BTreeMap::new()
@@ -81,15 +91,14 @@ impl Family for Crosstalk {
 
     fn deposit(&mut self, sums: &mut [JointSums], batch: &Batch, rows: Option<&[u32]>) {
         let [sums] = sums else { return };
-        each_row(batch, rows, |row| {
-            let pairs = self
-                .positions
-                .iter()
-                .map(|&position| Paired::at(batch, position, row));
-            if let Some(pairs) = pairs.collect::<Option<Vec<_>>>() {
-                sums.add(&pairs);
-            }
-        });
+        if self.positions.is_empty() {
+            return sums.count(rows.map_or(batch.rows(), <[u32]>::len));
+        }
+        let positions = || self.positions.iter();
+        let truths = positions().map(|&position| batch.truth(position));
+        let predictions = positions().map(|&position| batch.prediction(position));
+        let columns: Vec<&Column> = truths.chain(predictions).collect();
+        self.adder.add(&self.gathered.rows(&columns, rows), sums);
     }
 
     fn to_record(&self, sums: &JointSums) -> Record {

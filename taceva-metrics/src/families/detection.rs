@@ -6,10 +6,11 @@ use crate::evaluate::plan::MetricPlan;
 use crate::evaluate::state::Record;
 use crate::exact::merge::Merge;
 use crate::exact::moments::Moments;
-use crate::families::channelwise::{Channelwise, each_pair};
+use crate::families::channelwise::Channelwise;
 use crate::families::family::{Numbers, Output};
+use crate::families::gathered::Gathered;
 use crate::metric::{Formula, Metric, ScoreUnit};
-use crate::paired::is_valid;
+use crate::paired::{Paired, is_valid};
 use crate::score::Parameter;
 use crate::score::better::Better;
 use crate::score::range::Range;
@@ -52,6 +53,7 @@ fn factor_and_gate(_: Unit) -> Vec<Parameter> {
 /// Predicted forces where nothing is touched.
 pub(crate) struct Idle {
     normal_force: usize,
+    gathered: Gathered,
 }
 
 /// Count and sums of the predictions of one channel without contact.
@@ -65,7 +67,10 @@ impl Idle {
     /// The kind for `plan`, if it has a normal force.
     pub(crate) fn for_plan(plan: &MetricPlan) -> Option<Idle> {
         let normal_force = plan.channels().position("Fz")?;
-        Some(Idle { normal_force })
+        Some(Idle {
+            normal_force,
+            gathered: Gathered::default(),
+        })
     }
 }
 
@@ -92,18 +97,32 @@ impl Channelwise for Idle {
         channel.unit() == Unit::Newton
     }
 
-    fn deposit(&self, sums: &mut IdleSums, batch: &Batch, position: usize, rows: Option<&[u32]>) {
-        let forces = batch.truth(self.normal_force);
-        each_pair(batch, position, rows, |row, pair| {
-            let Some(force) = forces.get(row) else {
-                return;
-            };
+    fn deposit(
+        &mut self,
+        sums: &mut IdleSums,
+        batch: &Batch,
+        position: usize,
+        rows: Option<&[u32]>,
+    ) {
+        let columns = [
+            batch.prediction(position),
+            batch.truth(position),
+            batch.truth(self.normal_force),
+        ];
+        let [estimate, reference, forces] = self.gathered.rows(&columns, rows)[..] else {
+            return;
+        };
+        let pairs = Paired {
+            estimate,
+            reference,
+        };
+        for (pair, &force) in pairs.iter().zip(forces) {
             if !pair.is_valid() || !is_valid(force) {
                 sums.n_invalid += 1;
             } else if force.abs() < GATE_N {
                 sums.predictions.add(pair.estimate);
             }
-        });
+        }
     }
 
     fn to_record(&self, sums: &IdleSums) -> Record {

@@ -85,7 +85,13 @@ impl Channelwise for Drifts {
         matches!(channel.unit(), Unit::Millimetre | Unit::Newton)
     }
 
-    fn deposit(&self, sums: &mut DriftSums, batch: &Batch, position: usize, rows: Option<&[u32]>) {
+    fn deposit(
+        &mut self,
+        sums: &mut DriftSums,
+        batch: &Batch,
+        position: usize,
+        rows: Option<&[u32]>,
+    ) {
         let Some(times) = batch.numbers(Field::Stamp) else {
             return;
         };

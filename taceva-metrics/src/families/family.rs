@@ -23,12 +23,16 @@ pub(crate) trait Family: Send + 'static {
     type Sums: Merge + Clone + Send + 'static;
     /// The name and version of its states.
     const SCHEMA: &'static str;
+    /// The version before, whose states are read too.
+    const EARLIER_SCHEMA: Option<&'static str> = None;
+    /// Whether one summary of all samples is kept, and none a cluster: where no score has an interval, nobody would read those.
+    const IS_WHOLE: bool = false;
 
     /// What must agree before states merge.
     fn parameters(&self) -> BTreeMap<String, String>;
     /// Nothing kept, for each part.
     fn empty(&self) -> Vec<Self::Sums>;
-    /// Adds `rows` of `batch`, all of them for `None`.
+    /// Adds `rows` of `batch`, which ascend, all of them for `None`.
     fn deposit(&mut self, sums: &mut [Self::Sums], batch: &Batch, rows: Option<&[u32]>);
     /// What the rows of `batch` are clustered by; the contact point unless the family knows better.
     fn clusters<'a>(&self, batch: &'a Batch) -> Option<Cow<'a, Labels>> {
@@ -51,6 +55,10 @@ pub(crate) trait Family: Send + 'static {
     fn invalid(&self, sums: &Self::Sums) -> u64;
     /// The numbers of `metric` that one part gives; an output of two parts is the mean of theirs.
     fn numbers(&self, metric: &Metric, output: &Output, sums: &Self::Sums) -> Numbers;
+    /// The numbers of `metric` that have intervals, for other choices of clusters; those that have none may be left out.
+    fn resampled(&self, metric: &Metric, output: &Output, sums: &Self::Sums) -> Numbers {
+        self.numbers(metric, output, sums)
+    }
     /// The numbers of `metric` where they are no mean of those of its parts; `sums` are those of every part.
     fn joint(&self, _metric: &Metric, _output: &Output, _sums: &[Self::Sums]) -> Option<Numbers> {
         None

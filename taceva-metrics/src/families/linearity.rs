@@ -2,16 +2,21 @@
 
 mod line;
 
+use std::collections::BTreeMap;
+
 use taceva_core::{Batch, Field, FieldSet, Needs, Unit};
 
 use crate::evaluate::state::Record;
-use crate::families::channelwise::{Channelwise, each_pair};
+use crate::exact::ColumnAdder;
+use crate::families::channelwise::Channelwise;
 use crate::families::family::{Numbers, Output};
+use crate::families::gathered::Gathered;
 use crate::metric::{Formula, Metric, ScoreUnit};
 use crate::score::Parameter;
 use crate::score::better::Better;
 use crate::score::range::Range;
-use line::{LEAST_SAMPLES, Line, LineSums};
+use crate::score::value::UndefinedReason;
+use line::{Deviation, LEAST_SAMPLES, Line, LineSums, PRODUCTS};
 
 pub(crate) static LINEARITY: Metric = Metric {
     id: "linearity",
@@ -37,7 +42,12 @@ fn no_constants(_: Unit) -> Vec<Parameter> {
 }
 
 /// Predictions over truth.
-pub(crate) struct Lines;
+#[derive(Default)]
+pub(crate) struct Lines {
+    /// By the position of the channel: channels have magnitudes of their own.
+    adders: BTreeMap<usize, ColumnAdder>,
+    gathered: Gathered,
+}
 
 impl Channelwise for Lines {
     type Sums = LineSums;
@@ -47,10 +57,17 @@ impl Channelwise for Lines {
         matches!(metric.formula, Formula::Linearity)
     }
 
-    fn deposit(&self, sums: &mut LineSums, batch: &Batch, position: usize, rows: Option<&[u32]>) {
-        let mut pairs = Vec::new();
-        each_pair(batch, position, rows, |_, pair| pairs.push(pair));
-        sums.add(&pairs);
+    fn deposit(
+        &mut self,
+        sums: &mut LineSums,
+        batch: &Batch,
+        position: usize,
+        rows: Option<&[u32]>,
+    ) {
+        let columns = [batch.truth(position), batch.prediction(position)];
+        let adder = self.adders.entry(position);
+        let adder = adder.or_insert_with(|| ColumnAdder::new(PRODUCTS.to_vec()));
+        adder.add(&self.gathered.rows(&columns, rows), sums);
     }
 
     fn to_record(&self, sums: &LineSums) -> Record {
@@ -70,16 +87,30 @@ impl Channelwise for Lines {
     }
 
     fn numbers(&self, _metric: &Metric, output: &Output, sums: &LineSums) -> Numbers {
-        let line = Line::through(sums);
-        let of = |number: fn(&Line) -> f64| line.map(|line| number(&line));
-        Numbers::of(of(|line| line.relative_deviation))
-            .with(
-                "greatest_deviation",
-                output.unit,
-                Range::Greatest,
-                of(|line| line.greatest_deviation),
-            )
-            .with("slope", Unit::One, Range::Any, of(|line| line.slope))
-            .with("offset", output.unit, Range::Any, of(|line| line.offset))
+        let deviation = Deviation::of(sums);
+        let numbers = Numbers::of(deviation.map(|deviation| deviation.relative)).with(
+            "greatest_deviation",
+            output.unit,
+            Range::Greatest,
+            deviation.map(|deviation| deviation.greatest),
+        );
+        with_line(numbers, output, sums)
     }
+
+    fn resampled(&self, _metric: &Metric, output: &Output, sums: &LineSums) -> Numbers {
+        with_line(Numbers::of(Err(UndefinedReason::Greatest)), output, sums)
+    }
+}
+
+/// `numbers` with those of the line, which have intervals.
+fn with_line(numbers: Numbers, output: &Output, sums: &LineSums) -> Numbers {
+    let line = Line::through(sums);
+    numbers
+        .with("slope", Unit::One, Range::Any, line.map(|line| line.slope))
+        .with(
+            "offset",
+            output.unit,
+            Range::Any,
+            line.map(|line| line.offset),
+        )
 }

@@ -7,8 +7,9 @@ use crate::evaluate::state::Record;
 use crate::exact::Dyadic;
 use crate::exact::level::{from_millionths, millionths, step};
 use crate::exact::merge::Merge;
-use crate::families::channelwise::{Channelwise, each_pair};
+use crate::families::channelwise::Channelwise;
 use crate::families::family::{Details, Finished, Numbers, Output};
+use crate::families::gathered::Gathered;
 use crate::families::resolution::OF_CONSTANT;
 use crate::metric::{Formula, Metric, ScoreUnit};
 use crate::score::better::Better;
@@ -60,6 +61,7 @@ fn tolerances(unit: Unit) -> Option<[i64; 8]> {
 pub(crate) struct Tolerances {
     /// What the model is measured by, channel by channel, in millionths of the unit; none where the training part is not known.
     constants: Vec<Option<i64>>,
+    gathered: Gathered,
 }
 
 impl Tolerances {
@@ -69,6 +71,7 @@ impl Tolerances {
         let constants = channels.map(|channel| plan.constant(channel.name()).and_then(millionths));
         Tolerances {
             constants: constants.collect(),
+            gathered: Gathered::default(),
         }
     }
 
@@ -86,6 +89,16 @@ impl Tolerances {
             _ => None,
         }
     }
+}
+
+/// Which of `tolerances` is the least that `error` is within; one past the last for none.
+#[inline]
+fn class(error: i64, tolerances: &[i64; 8]) -> usize {
+    // Halving without a branch: which class an error falls into is not foreseen.
+    let mut class = 4 * usize::from(error > tolerances[3]);
+    class += 2 * usize::from(error > tolerances[class + 1]);
+    class += usize::from(error > tolerances[class]);
+    class + usize::from(error > tolerances[7])
 }
 
 /// How many errors of one channel need which tolerance.
@@ -137,7 +150,7 @@ impl Channelwise for Tolerances {
     }
 
     fn deposit(
-        &self,
+        &mut self,
         sums: &mut ErrorCounts,
         batch: &Batch,
         position: usize,
@@ -146,29 +159,31 @@ impl Channelwise for Tolerances {
         let Some(tolerances) = tolerances(batch.channels().as_slice()[position].unit()) else {
             return;
         };
-        each_pair(batch, position, rows, |_, pair| {
-            let steps = millionths(pair.reference).zip(millionths(pair.estimate));
-            let Some((truth, estimate)) = steps else {
-                sums.n_invalid += 1;
-                return;
+        let columns = [batch.truth(position), batch.prediction(position)];
+        let [truths, estimates] = self.gathered.rows(&columns, rows)[..] else {
+            return;
+        };
+        let mut counted = ErrorCounts::default();
+        let mut classes = [0; TOLERANCES.len() + 1];
+        let constant = self.constants[position];
+        let mut met = 0;
+        for (truth, estimate) in truths.iter().zip(estimates) {
+            let Some((truth, estimate)) = millionths(*truth).zip(millionths(*estimate)) else {
+                counted.n_invalid += 1;
+                continue;
             };
-            let of_row = self.constants[position].map(|constant| OfConstant {
-                constant,
-                met: u64::from(truth.abs_diff(constant) <= tolerances[HEADLINE].unsigned_abs()),
-            });
-            sums.of_constant = match sums.n {
-                0 => of_row,
-                _ => sums
-                    .of_constant
-                    .zip(of_row)
-                    .and_then(|(known, new)| known.and(new)),
-            };
-            sums.n += 1;
-            let error = (truth - estimate).abs();
-            if let Some(class) = tolerances.iter().position(|tolerance| error <= *tolerance) {
-                sums.classes[class] += 1;
+            counted.n += 1;
+            classes[class((truth - estimate).abs(), &tolerances)] += 1;
+            if let Some(constant) = constant {
+                met += u64::from(truth.abs_diff(constant) <= tolerances[HEADLINE].unsigned_abs());
             }
-        });
+        }
+        counted
+            .classes
+            .copy_from_slice(&classes[..TOLERANCES.len()]);
+        let constant = constant.filter(|_| counted.n > 0);
+        counted.of_constant = constant.map(|constant| OfConstant { constant, met });
+        sums.merge(&counted);
     }
 
     fn to_record(&self, sums: &ErrorCounts) -> Record {
@@ -272,6 +287,21 @@ impl Merge for ErrorCounts {
         self.n_invalid = self.n_invalid.saturating_add(other.n_invalid);
         for (class, other) in self.classes.iter_mut().zip(other.classes) {
             *class = class.saturating_add(other);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_class_of_an_error_is_the_least_tolerance_that_it_is_within() {
+        let tolerances = tolerances(Unit::Millimetre).expect("levels of millimetres");
+        let near = |tolerance: &i64| [tolerance - 1, *tolerance, tolerance + 1];
+        for error in tolerances.iter().flat_map(near).chain([0, 1, i64::MAX]) {
+            let least = tolerances.iter().position(|tolerance| error <= *tolerance);
+            assert_eq!(class(error, &tolerances), least.unwrap_or(8), "{error}");
         }
     }
 }

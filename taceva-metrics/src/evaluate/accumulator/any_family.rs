@@ -14,6 +14,8 @@ use crate::score::value::{InapplicableReason, UndefinedReason};
 /// A [`Family`] whose sums are [`ErasedSums`]; its methods are documented there.
 pub(super) trait AnyFamily: Send {
     fn schema(&self) -> &'static str;
+    fn earlier_schema(&self) -> Option<&'static str>;
+    fn is_whole(&self) -> bool;
     fn parameters(&self) -> BTreeMap<String, String>;
     fn empty(&self) -> ErasedSums;
     fn deposit(&mut self, parts: &mut ErasedSums, batch: &Batch, rows: Option<&[u32]>);
@@ -27,6 +29,13 @@ pub(super) trait AnyFamily: Send {
     fn invalid(&self, parts: &ErasedSums, part: usize) -> u64;
     fn numbers(&self, metric: &Metric, output: &Output, parts: &ErasedSums, part: usize)
     -> Numbers;
+    fn resampled(
+        &self,
+        metric: &Metric,
+        output: &Output,
+        parts: &ErasedSums,
+        part: usize,
+    ) -> Numbers;
     fn joint(&self, metric: &Metric, output: &Output, parts: &ErasedSums) -> Option<Numbers>;
     fn inapplicable(&self, metric: &Metric, output: &Output) -> Option<InapplicableReason>;
     fn details(&self, metric: &Metric, output: &Output, parts: &ErasedSums) -> Details;
@@ -44,6 +53,14 @@ pub(super) struct Erased<F>(pub(super) F);
 impl<F: Family> AnyFamily for Erased<F> {
     fn schema(&self) -> &'static str {
         F::SCHEMA
+    }
+
+    fn earlier_schema(&self) -> Option<&'static str> {
+        F::EARLIER_SCHEMA
+    }
+
+    fn is_whole(&self) -> bool {
+        F::IS_WHOLE
     }
 
     fn parameters(&self) -> BTreeMap<String, String> {
@@ -106,6 +123,16 @@ impl<F: Family> AnyFamily for Erased<F> {
         part: usize,
     ) -> Numbers {
         self.0.numbers(metric, output, &parts.sums()[part])
+    }
+
+    fn resampled(
+        &self,
+        metric: &Metric,
+        output: &Output,
+        parts: &ErasedSums,
+        part: usize,
+    ) -> Numbers {
+        self.0.resampled(metric, output, &parts.sums()[part])
     }
 
     fn joint(&self, metric: &Metric, output: &Output, parts: &ErasedSums) -> Option<Numbers> {

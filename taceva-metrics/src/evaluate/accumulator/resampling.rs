@@ -63,6 +63,12 @@ impl Resampling {
         }
     }
 
+    /// Whether any of the numbers has an interval: greatest values have none.
+    pub(super) fn is_needed(&self) -> bool {
+        let mut ranges = self.names.iter().map(|(_, range)| range);
+        ranges.any(|range| *range != Range::Greatest)
+    }
+
     /// Takes in the numbers of the others of a cluster of `count` samples.
     pub(super) fn leave_out(&mut self, count: u64, others: &Numbers) {
         let others = self.in_order(others);

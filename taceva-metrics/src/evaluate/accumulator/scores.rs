@@ -40,14 +40,30 @@ impl Accumulator {
 
     /// The numbers of an output: one part's, the mean of two, or what the family makes of them.
     fn numbers(&self, metric: &Metric, output: &Output, sums: &ErasedSums) -> Numbers {
+        self.of_parts(metric, output, sums, |part| {
+            self.family.numbers(metric, output, sums, part)
+        })
+    }
+
+    /// The same numbers as far as they have intervals, of other choices of clusters.
+    fn resampled(&self, metric: &Metric, output: &Output, sums: &ErasedSums) -> Numbers {
+        self.of_parts(metric, output, sums, |part| {
+            self.family.resampled(metric, output, sums, part)
+        })
+    }
+
+    fn of_parts(
+        &self,
+        metric: &Metric,
+        output: &Output,
+        sums: &ErasedSums,
+        of_part: impl Fn(usize) -> Numbers,
+    ) -> Numbers {
         if let Some(numbers) = self.family.joint(metric, output, sums) {
             return numbers;
         }
         let mut parts = output.parts.iter();
-        let mut next = || {
-            let part = parts.next()?;
-            Some(self.family.numbers(metric, output, sums, *part))
-        };
+        let mut next = || parts.next().map(|part| of_part(*part));
         let first = next().unwrap_or_else(|| Numbers::of(Err(UndefinedReason::Empty)));
         match next() {
             Some(second) => first.mean(&second),
@@ -81,13 +97,20 @@ impl Accumulator {
 
     /// Finishes every score again with clusters left out or weighted.
     fn resample(&self, requests: &mut [Request], cells: &[Cell<'_>]) {
+        let requests = requests.iter_mut();
+        let mut requests: Vec<&mut Request> = requests
+            .filter(|request| request.resampling.is_needed())
+            .collect();
+        if requests.is_empty() {
+            return;
+        }
         match self.interval_method {
             IntervalMethod::Jackknife => {
                 each_left_out(&self.clustering.empty, cells, &mut |cell, others| {
-                    for request in &mut *requests {
+                    for request in &mut requests {
                         let count = self.samples(request.metric, &request.output, cell);
                         if count > 0 {
-                            let numbers = self.numbers(request.metric, &request.output, others);
+                            let numbers = self.resampled(request.metric, &request.output, others);
                             request.resampling.leave_out(count, &numbers);
                         }
                     }
@@ -101,7 +124,7 @@ impl Accumulator {
                         .copied()
                         .filter(|(_, cell)| self.samples(metric, output, cell) > 0)
                         .collect();
-                    let finish = |sums: &ErasedSums| self.numbers(metric, output, sums);
+                    let finish = |sums: &ErasedSums| self.resampled(metric, output, sums);
                     let counts = cells.iter();
                     let counts = counts.map(|(_, cell)| self.samples(metric, output, cell));
                     let total = (&request.numbers, counts.fold(0, u64::saturating_add));

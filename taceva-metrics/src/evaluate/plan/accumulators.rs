@@ -35,9 +35,9 @@ impl MetricPlan {
             InterSensor::for_plan(self).map(|family| self.clustered(family)),
             Intrinsic::for_plan(self).map(|family| self.clustered(family)),
             Idle::for_plan(self).and_then(|kind| self.by_channel(kind, MetricPlan::clustered)),
-            self.by_channel(Lines, MetricPlan::as_asked),
+            self.by_channel(Lines::default(), MetricPlan::as_asked),
             Crosstalk::for_plan(self).map(|family| self.as_asked(family)),
-            self.by_channel(Levels, MetricPlan::as_asked),
+            self.by_channel(Levels::default(), MetricPlan::as_asked),
             self.by_channel(Tolerances::for_plan(self), MetricPlan::as_asked),
             self.by_channel(Drifts, MetricPlan::clustered),
         ];

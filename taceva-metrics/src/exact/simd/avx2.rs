@@ -114,9 +114,9 @@ impl Vector for Four {
     }
 
     #[inline(always)]
-    fn square(self) -> [Four; 2] {
-        let rounded = self.times(self);
-        let error = with_avx2!(_mm256_fmsub_pd(self.0, self.0, rounded.0));
+    fn product(self, other: Four) -> [Four; 2] {
+        let rounded = self.times(other);
+        let error = with_avx2!(_mm256_fmsub_pd(self.0, other.0, rounded.0));
         [rounded, Four(error)]
     }
 

@@ -99,9 +99,9 @@ impl Vector for Eight {
     }
 
     #[inline(always)]
-    fn square(self) -> [Eight; 2] {
-        let rounded = self.times(self);
-        let error = with_avx512!(_mm512_fmsub_pd(self.0, self.0, rounded.0));
+    fn product(self, other: Eight) -> [Eight; 2] {
+        let rounded = self.times(other);
+        let error = with_avx512!(_mm512_fmsub_pd(self.0, other.0, rounded.0));
         [rounded, Eight(error)]
     }
 

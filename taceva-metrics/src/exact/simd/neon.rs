@@ -96,9 +96,9 @@ impl Vector for Two {
     }
 
     #[inline(always)]
-    fn square(self) -> [Two; 2] {
-        let rounded = self.times(self);
-        let error = with_neon!(vfmaq_f64(vnegq_f64(rounded.0), self.0, self.0));
+    fn product(self, other: Two) -> [Two; 2] {
+        let rounded = self.times(other);
+        let error = with_neon!(vfmaq_f64(vnegq_f64(rounded.0), self.0, other.0));
         [rounded, Two(error)]
     }
 

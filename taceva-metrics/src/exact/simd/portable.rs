@@ -24,15 +24,22 @@ impl Pair {
     }
 }
 
-/// What RN(x²) differs from x² by, without fused multiplication: Veltkamp's splitting and Dekker's product (1971).
+/// What a rounded product differs from the exact one by, without fused multiplication: Veltkamp's splitting and Dekker's product (1971).
 #[inline(always)]
-fn error_of_square(value: f64, square: f64) -> f64 {
+fn error_of_product(left: f64, right: f64, product: f64) -> f64 {
+    let ([left_high, left_low], [right_high, right_low]) = (split(left), split(right));
+    let above = left_high * right_high - product;
+    ((above + left_high * right_low) + left_low * right_high) + left_low * right_low
+}
+
+/// Both halves of a mantissa; their sum is the value.
+#[inline(always)]
+fn split(value: f64) -> [f64; 2] {
     /// 2²⁷ + 1 cuts a mantissa in the middle.
     const SPLITTER: f64 = 134_217_729.0;
     let scaled = value * SPLITTER;
     let high = scaled - (scaled - value);
-    let low = value - high;
-    ((high * high - square) + 2.0 * (high * low)) + low * low
+    [high, value - high]
 }
 
 impl Vector for Pair {
@@ -83,9 +90,11 @@ impl Vector for Pair {
     }
 
     #[inline(always)]
-    fn square(self) -> [Pair; 2] {
-        let rounded = self.times(self);
-        [rounded, self.lanewise(rounded, error_of_square)]
+    fn product(self, other: Pair) -> [Pair; 2] {
+        let rounded = self.times(other);
+        let ([a, b], [c, d], [p, q]) = (self.0, other.0, rounded.0);
+        let error = [error_of_product(a, c, p), error_of_product(b, d, q)];
+        [rounded, Pair(error)]
     }
 
     #[inline(always)]

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use taceva_core::{Batch, Channels, Column, Unit};
+use taceva_core::{Batch, Channels, Unit};
 
 use super::plane::planes;
 use crate::evaluate::plan::MetricPlan;
@@ -13,6 +13,7 @@ use crate::families::accuracy::pair_sums::{PairSpec, PairSums};
 use crate::families::accuracy::streams::{Stream, Streams};
 use crate::families::accuracy::{Axis, SKILL_STREAMS, constant, gate, skill};
 use crate::families::family::{Details, Family, Numbers, Output};
+use crate::families::gathered::Gathered;
 use crate::metric::{Formula, Metric};
 use crate::paired::{EPSILON, Paired};
 use crate::score::Variant;
@@ -27,7 +28,7 @@ pub(crate) struct Pairs {
     /// What the model is measured by, channel by channel; the mean of truth where absent.
     constants: Vec<Option<f64>>,
     outputs: Vec<Output>,
-    scratch: Paired<Vec<f64>>,
+    gathered: Gathered,
 }
 
 impl Pairs {
@@ -63,7 +64,7 @@ impl Pairs {
                 .map(|channel| plan.constant(channel.name()))
                 .collect(),
             outputs: outputs(channels),
-            scratch: Paired::default(),
+            gathered: Gathered::default(),
         })
     }
 }
@@ -110,11 +111,14 @@ impl Family for Pairs {
 
     fn deposit(&mut self, sums: &mut [PairSums], batch: &Batch, rows: Option<&[u32]>) {
         for (position, sums) in sums.iter_mut().enumerate() {
-            let columns = Paired {
-                estimate: batch.prediction(position),
-                reference: batch.truth(position),
+            let columns = [batch.prediction(position), batch.truth(position)];
+            let [estimate, reference] = self.gathered.rows(&columns, rows)[..] else {
+                return;
             };
-            sums.update(gather(&mut self.scratch, columns, rows));
+            sums.update(Paired {
+                estimate,
+                reference,
+            });
         }
     }
 
@@ -219,52 +223,5 @@ impl Family for Pairs {
     fn inapplicable(&self, metric: &Metric, output: &Output) -> Option<InapplicableReason> {
         let gated = matches!(metric.formula, Formula::Pairs { gated: true, .. });
         (gated && gate(output.unit).is_none()).then_some(InapplicableReason::NoGate(output.unit))
-    }
-}
-
-/// The pairs of `rows` that have both values, side by side; the columns themselves if those are all.
-fn gather<'a>(
-    scratch: &'a mut Paired<Vec<f64>>,
-    columns: Paired<&'a Column>,
-    rows: Option<&[u32]>,
-) -> Paired<&'a [f64]> {
-    let Paired {
-        estimate,
-        reference,
-    } = columns;
-    let full = estimate.present().is_none() && reference.present().is_none();
-    scratch.estimate.clear();
-    scratch.reference.clear();
-    match rows {
-        None if full => {
-            return Paired {
-                estimate: estimate.values(),
-                reference: reference.values(),
-            };
-        }
-        Some(rows) if full => {
-            let pick = |column: &'a Column| {
-                let values = column.values();
-                rows.iter().map(move |&row| values[row as usize])
-            };
-            scratch.estimate.extend(pick(estimate));
-            scratch.reference.extend(pick(reference));
-        }
-        _ => {
-            let mut keep = |row: usize| {
-                if let (Some(estimate), Some(reference)) = (estimate.get(row), reference.get(row)) {
-                    scratch.estimate.push(estimate);
-                    scratch.reference.push(reference);
-                }
-            };
-            match rows {
-                Some(rows) => rows.iter().for_each(|&row| keep(row as usize)),
-                None => (0..estimate.len()).for_each(keep),
-            }
-        }
-    }
-    Paired {
-        estimate: &scratch.estimate,
-        reference: &scratch.reference,
     }
 }

@@ -5,10 +5,12 @@ use std::collections::BTreeMap;
 use taceva_core::{Batch, Channels, Unit};
 
 use crate::evaluate::state::Record;
+use crate::exact::ColumnAdder;
 use crate::families::accuracy::plane_sums::PlaneSums;
-use crate::families::family::{Family, Numbers, Output, each_row};
+use crate::families::family::{Family, Numbers, Output};
+use crate::families::gathered::Gathered;
 use crate::metric::{Formula, Metric};
-use crate::paired::Paired;
+use crate::paired::{Paired, is_valid};
 use crate::score::value::UndefinedReason;
 
 /// Two channels that are the axes of a plane.
@@ -56,6 +58,10 @@ pub(crate) fn planes(channels: &Channels) -> Vec<PlaneAxes> {
 pub(crate) struct Plane {
     planes: Vec<PlaneAxes>,
     outputs: Vec<Output>,
+    /// By plane: planes have magnitudes of their own.
+    adders: Vec<ColumnAdder>,
+    gathered: Gathered,
+    distances: Vec<f64>,
 }
 
 impl Plane {
@@ -73,7 +79,13 @@ impl Plane {
             ..plane.output()
         });
         let outputs = outputs.collect();
-        Some(Plane { planes, outputs })
+        Some(Plane {
+            adders: vec![ColumnAdder::new(Vec::new()); planes.len()],
+            planes,
+            outputs,
+            gathered: Gathered::default(),
+            distances: Vec::new(),
+        })
     }
 }
 
@@ -105,13 +117,31 @@ impl Family for Plane {
     }
 
     fn deposit(&mut self, sums: &mut [PlaneSums], batch: &Batch, rows: Option<&[u32]>) {
-        for (plane, sums) in self.planes.iter().zip(sums) {
-            each_row(batch, rows, |row| {
-                let pair = |axis: usize| Paired::at(batch, axis, row);
-                if let (Some(x), Some(y)) = (pair(plane.axes[0]), pair(plane.axes[1])) {
-                    sums.add(x, y);
+        for ((plane, adder), sums) in self.planes.iter().zip(&mut self.adders).zip(sums) {
+            let [x, y] = plane.axes;
+            let columns = [
+                batch.prediction(x),
+                batch.truth(x),
+                batch.prediction(y),
+                batch.truth(y),
+            ];
+            let columns = self.gathered.rows(&columns, rows);
+            let pairs = |at: usize| {
+                Paired {
+                    estimate: columns[at],
+                    reference: columns[at + 1],
                 }
-            });
+                .iter()
+            };
+            self.distances.clear();
+            for (x, y) in pairs(0).zip(pairs(2)) {
+                match PlaneSums::distance_of(x, y).filter(|distance| is_valid(*distance)) {
+                    Some(distance) => self.distances.push(distance),
+                    // What is no distance is left out, and one that is beyond what columns may hold is added on its own.
+                    None => sums.add(x, y),
+                }
+            }
+            adder.add(&[&self.distances], sums);
         }
     }
 
@@ -152,5 +182,29 @@ impl Family for Plane {
             Formula::Plane(finish) => Numbers::of((finish.evaluate)(sums)),
             _ => Numbers::of(Err(UndefinedReason::Empty)),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use taceva_core::Channel;
+
+    use crate::evaluate::{Evaluator, Rows};
+    use crate::paired::GREATEST;
+
+    #[test]
+    fn a_distance_beyond_usable_numbers_is_summed_all_the_same() {
+        let (far, near) = ([GREATEST; 20], [-GREATEST; 20]);
+        let mut evaluator = Evaluator::of_channels([Channel::FX, Channel::FY]).expect("two");
+        let rows = Rows::new()
+            .pairs(Channel::FX, far, near)
+            .pairs(Channel::FY, near, far);
+        evaluator.update_rows(rows).expect("its channels");
+        let scores = evaluator.finish().expect("nothing collected");
+        let score = scores.score("mae_euclid", "Fxy").expect("a score");
+        let distance = 2.0_f64.powf(1022.5);
+        assert!(distance > GREATEST && (score.n, score.n_invalid) == (20, 0));
+        let found = score.value.scalar().expect("a distance");
+        assert!((found / distance - 1.0).abs() < 1e-14, "{found:e}");
     }
 }

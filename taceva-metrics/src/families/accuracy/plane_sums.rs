@@ -1,7 +1,7 @@
 //! What is kept of the distances between estimate and reference in a plane.
 
-use crate::exact::ExactSum;
 use crate::exact::merge::Merge;
+use crate::exact::{ColumnSums, ExactSum};
 use crate::paired::Paired;
 
 /// Count and exact sum of Euclidean distances.
@@ -22,12 +22,20 @@ pub struct PlaneSums {
 impl PlaneSums {
     /// Adds one sample: its pair along x and along y; if a value is no usable number, the sample is counted and left out.
     pub fn add(&mut self, x: Paired<f64>, y: Paired<f64>) {
-        if x.is_valid() && y.is_valid() {
-            self.n += 1;
-            self.distance.add(hypotenuse(x.residual(), y.residual()));
-        } else {
-            self.n_invalid += 1;
+        match PlaneSums::distance_of(x, y) {
+            Some(distance) => {
+                self.n += 1;
+                self.distance.add(distance);
+            }
+            None => self.n_invalid += 1,
         }
+    }
+
+    /// The distance between estimate and reference; none if a value is no usable number.
+    #[inline]
+    pub(crate) fn distance_of(x: Paired<f64>, y: Paired<f64>) -> Option<f64> {
+        let is_usable = x.is_valid() && y.is_valid();
+        is_usable.then(|| hypotenuse(x.residual(), y.residual()))
     }
 
     /// Number of samples.
@@ -46,6 +54,22 @@ impl PlaneSums {
     }
 }
 
+/// Of one column, the distances.
+impl ColumnSums for PlaneSums {
+    fn sums(&mut self) -> [&mut [ExactSum]; 2] {
+        [std::slice::from_mut(&mut self.distance), &mut []]
+    }
+
+    fn take(&mut self, columns: &[&[f64]]) {
+        let rows = columns.first().map_or(0, |column| column.len());
+        self.n += u64::try_from(rows).expect("no column has 2^64 rows");
+    }
+
+    fn leave_out(&mut self) {
+        self.n_invalid += 1;
+    }
+}
+
 impl Merge for PlaneSums {
     fn merge(&mut self, other: &PlaneSums) {
         self.n = self.n.saturating_add(other.n);
@@ -57,6 +81,7 @@ impl Merge for PlaneSums {
 /// e = RN(√RN(RN(x²) + RN(y²))), scaled by a power of two where a square would over- or underflow.
 ///
 /// Not the machine's `hypot`, whose last bit differs among platforms.
+#[inline]
 fn hypotenuse(x: f64, y: f64) -> f64 {
     /// 2⁶⁰⁰.
     const UP: f64 = f64::from_bits((1023 + 600) << 52);

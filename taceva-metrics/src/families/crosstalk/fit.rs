@@ -165,23 +165,29 @@ fn full_scales(sums: &JointSums, truth: usize, predicted: usize) -> Option<f64> 
 
 #[cfg(test)]
 mod tests {
+    use super::super::sums::products;
     use super::*;
-    use crate::paired::Paired;
+    use crate::exact::ColumnAdder;
+
+    /// The sums of samples, of each the truths and then the predictions.
+    fn of_samples(channels: usize, samples: &[Vec<f64>]) -> JointSums {
+        let mut sums = JointSums::new(channels);
+        let column = |at: usize| samples.iter().map(|sample| sample[at]).collect();
+        let columns: Vec<Vec<f64>> = (0..2 * channels).map(column).collect();
+        let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+        ColumnAdder::new(products(channels)).add(&columns, &mut sums);
+        sums
+    }
 
     /// Samples of three channels: the truths by `truths`, and predictions as their linear functions by `slopes`.
     fn sums(truths: impl Fn(u32) -> [f64; 3], slopes: [[f64; 3]; 3]) -> JointSums {
-        let mut sums = JointSums::new(3);
-        for row in 0..200 {
+        let sample = |row: u32| {
             let x = truths(row);
-            let pairs: Vec<Paired<f64>> = (0..3)
-                .map(|channel| Paired {
-                    estimate: 0.5 + (0..3).map(|j| slopes[channel][j] * x[j]).sum::<f64>(),
-                    reference: x[channel],
-                })
-                .collect();
-            sums.add(&pairs);
-        }
-        sums
+            let estimate =
+                |channel: usize| 0.5 + (0..3).map(|j| slopes[channel][j] * x[j]).sum::<f64>();
+            x.into_iter().chain((0..3).map(estimate)).collect()
+        };
+        of_samples(3, &(0..200).map(sample).collect::<Vec<_>>())
     }
 
     fn spread_out(row: u32) -> [f64; 3] {
@@ -231,14 +237,8 @@ mod tests {
             Err(UndefinedReason::ConstantTruth { perfect: false })
         );
         assert_eq!(Leaks::of(&JointSums::new(3)), Err(UndefinedReason::Empty));
-        let mut alone = JointSums::new(1);
-        (0..4).for_each(|row| {
-            let value = f64::from(row);
-            alone.add(&[Paired {
-                estimate: value,
-                reference: value,
-            }]);
-        });
+        let alone: Vec<Vec<f64>> = (0..4).map(|row| vec![f64::from(row); 2]).collect();
+        let alone = of_samples(1, &alone);
         assert_eq!(Leaks::of(&alone), Err(UndefinedReason::OneChannel));
     }
 }

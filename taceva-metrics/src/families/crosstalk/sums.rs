@@ -2,8 +2,8 @@
 
 use crate::evaluate::state::Record;
 use crate::exact::merge::Merge;
-use crate::exact::{Dyadic, ExactSum};
-use crate::paired::{Paired, is_valid};
+use crate::exact::{ColumnSums, Dyadic, ExactSum};
+use crate::paired::is_valid;
 
 /// Counts, exact sums of values and products, and the range of each truth.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,12 +13,17 @@ pub(crate) struct JointSums {
     n_invalid: u64,
     /// Σ x_j, then Σ y_i.
     values: Vec<ExactSum>,
-    /// Σ x_k x_j, row by row of k ≤ j.
-    truths: Vec<ExactSum>,
-    /// Σ y_i x_j, row by row of i.
-    shared: Vec<ExactSum>,
+    /// Σ x_k x_j, row by row of k ≤ j, then Σ y_i x_j, row by row of i.
+    products: Vec<ExactSum>,
     /// Least and greatest x_j.
     ranges: Vec<[f64; 2]>,
+}
+
+/// The columns whose products are summed, of so many truths and as many predictions behind them.
+pub(super) fn products(channels: usize) -> Vec<[usize; 2]> {
+    let truths = (0..channels).flat_map(|k| (k..channels).map(move |j| [k, j]));
+    let shared = (0..channels).flat_map(|i| (0..channels).map(move |j| [channels + i, j]));
+    truths.chain(shared).collect()
 }
 
 impl JointSums {
@@ -29,37 +34,14 @@ impl JointSums {
             n: 0,
             n_invalid: 0,
             values: vec![ExactSum::default(); 2 * channels],
-            truths: vec![ExactSum::default(); channels * (channels + 1) / 2],
-            shared: vec![ExactSum::default(); channels * channels],
+            products: vec![ExactSum::default(); products(channels).len()],
             ranges: Vec::new(),
         }
     }
 
-    /// Adds a sample, one pair per channel; if a value is no usable number, the sample is counted and left out.
-    pub(super) fn add(&mut self, pairs: &[Paired<f64>]) {
-        if !pairs.iter().all(|pair| pair.is_valid()) {
-            self.n_invalid += 1;
-            return;
-        }
-        self.n += 1;
-        let truths = || pairs.iter().map(|pair| pair.reference);
-        let estimates = || pairs.iter().map(|pair| pair.estimate);
-        for (sum, value) in self.values.iter_mut().zip(truths().chain(estimates())) {
-            sum.add(value);
-        }
-        let products = truths()
-            .enumerate()
-            .flat_map(|(row, left)| truths().skip(row).map(move |right| (left, right)));
-        for (sum, (left, right)) in self.truths.iter_mut().zip(products) {
-            sum.add_product(left, right);
-        }
-        let products = estimates().flat_map(|left| truths().map(move |right| (left, right)));
-        for (sum, (left, right)) in self.shared.iter_mut().zip(products) {
-            sum.add_product(left, right);
-        }
-        // A zero has one sign here, or equal sets would have two ranges.
-        let ranges: Vec<[f64; 2]> = truths().map(|truth| [truth + 0.0; 2]).collect();
-        self.widen(&ranges);
+    /// Counts samples.
+    pub(super) fn count(&mut self, samples: usize) {
+        self.n += u64::try_from(samples).expect("no column has 2^64 rows");
     }
 
     fn widen(&mut self, ranges: &[[f64; 2]]) {
@@ -96,12 +78,14 @@ impl JointSums {
     pub(super) fn truth_products(&self, k: usize, j: usize) -> Dyadic {
         let (k, j) = (k.min(j), k.max(j));
         let row_start = k * self.channels - k * (k + 1) / 2;
-        self.centred(&self.truths[row_start + j], [k, j])
+        self.centred(&self.products[row_start + j], [k, j])
     }
 
     /// n Σ y_i x_j − Σ y_i Σ x_j, exactly.
     pub(super) fn shared_products(&self, i: usize, j: usize) -> Dyadic {
-        self.centred(&self.shared[i * self.channels + j], [self.channels + i, j])
+        let truths = self.channels * (self.channels + 1) / 2;
+        let products = &self.products[truths + i * self.channels + j];
+        self.centred(products, [self.channels + i, j])
     }
 
     fn centred(&self, products: &ExactSum, of: [usize; 2]) -> Dyadic {
@@ -113,7 +97,7 @@ impl JointSums {
     pub(super) fn to_record(&self) -> Record {
         Record {
             counts: vec![self.n, self.n_invalid],
-            sums: [&self.values[..], &self.truths, &self.shared].concat(),
+            sums: [&self.values[..], &self.products].concat(),
             values: self.ranges.concat(),
             ..Record::default()
         }
@@ -122,8 +106,7 @@ impl JointSums {
     /// Back from a state of so many channels.
     pub(super) fn read_record(record: &Record, channels: usize) -> Result<JointSums, String> {
         let mut sums = JointSums::new(channels);
-        let lengths = [sums.values.len(), sums.truths.len(), sums.shared.len()];
-        let expected: usize = lengths.iter().sum();
+        let expected = sums.values.len() + sums.products.len();
         let [n, n_invalid] = record.counts[..] else {
             return Err(format!("{} counts, expected 2", record.counts.len()));
         };
@@ -144,13 +127,33 @@ impl JointSums {
                 record.values.len()
             ));
         }
-        let (values, products) = record.sums.split_at(lengths[0]);
-        let (truths, shared) = products.split_at(lengths[1]);
-        sums.values = values.to_vec();
-        sums.truths = truths.to_vec();
-        sums.shared = shared.to_vec();
+        let (values, products) = record.sums.split_at(sums.values.len());
+        (sums.values, sums.products) = (values.to_vec(), products.to_vec());
         (sums.n, sums.n_invalid, sums.ranges) = (n, n_invalid, ranges);
         Ok(sums)
+    }
+}
+
+impl ColumnSums for JointSums {
+    fn sums(&mut self) -> [&mut [ExactSum]; 2] {
+        [&mut self.values, &mut self.products]
+    }
+
+    fn take(&mut self, columns: &[&[f64]]) {
+        self.count(columns.first().map_or(0, |column| column.len()));
+        let range = |column: &&[f64]| {
+            let first = [column[0]; 2];
+            let wider = |[low, high]: [f64; 2], value: &f64| [low.min(*value), high.max(*value)];
+            // A zero has one sign here, or equal sets would have two ranges.
+            column.iter().fold(first, wider).map(|end| end + 0.0)
+        };
+        let truths = columns.iter().take(self.channels);
+        let ranges: Vec<[f64; 2]> = truths.map(range).collect();
+        self.widen(&ranges);
+    }
+
+    fn leave_out(&mut self) {
+        self.n_invalid += 1;
     }
 }
 
@@ -159,8 +162,7 @@ impl Merge for JointSums {
         self.n = self.n.saturating_add(other.n);
         self.n_invalid = self.n_invalid.saturating_add(other.n_invalid);
         self.values.merge(&other.values);
-        self.truths.merge(&other.truths);
-        self.shared.merge(&other.shared);
+        self.products.merge(&other.products);
         if !other.ranges.is_empty() {
             self.widen(&other.ranges);
         }

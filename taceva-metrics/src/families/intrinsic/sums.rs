@@ -7,10 +7,10 @@ use crate::exact::Dyadic;
 use crate::exact::merge::{Merge, keyed};
 use crate::exact::ordered::Ordered;
 use crate::families::family::Finished;
-use crate::geometry::Hull;
+use crate::geometry::{GrowingHull, Hull};
 use crate::paired::is_valid;
 use crate::score::value::UndefinedReason;
-use crate::stats::clusters::fnv1a64;
+use crate::stats::fnv::fnv1a64;
 
 /// Every time at which there was a frame, and the hull of the places of contact.
 ///
@@ -23,7 +23,7 @@ pub(crate) struct IntrinsicSums {
     timed: u64,
     /// Samples in contact that say where.
     contacts: u64,
-    hull: Hull,
+    hull: GrowingHull,
     frames: BTreeSet<(Ordered, Option<u64>)>,
 }
 
@@ -100,15 +100,19 @@ impl IntrinsicSums {
 
     /// RN of the area of the hull, mm².
     pub(super) fn field_of_view(&self) -> Finished {
-        if self.hull.is_empty() {
+        if self.hull.hull().is_empty() {
             return Err(UndefinedReason::NoContact);
         }
-        Ok(self.hull.area())
+        Ok(self.hull.hull().area())
     }
 
     /// The width (axis 0) or height (axis 1) of the hull, mm.
     pub(super) fn extent(&self, axis: usize) -> Finished {
-        let extent = self.hull.extent(axis).ok_or(UndefinedReason::NoContact)?;
+        let extent = self
+            .hull
+            .hull()
+            .extent(axis)
+            .ok_or(UndefinedReason::NoContact)?;
         Ok(extent[1] - extent[0])
     }
 
@@ -133,7 +137,7 @@ impl IntrinsicSums {
             .filter(|(_, part)| !part.values.is_empty());
         Record {
             counts: vec![self.n_invalid, self.timed, self.contacts],
-            values: self.hull.corners().concat(),
+            values: self.hull.hull().corners().concat(),
             cells: keyed(parts.map(|(name, part)| (name.to_owned(), part))),
             ..Record::default()
         }
@@ -166,7 +170,7 @@ impl IntrinsicSums {
             n_invalid,
             timed,
             contacts,
-            hull,
+            hull: hull.into(),
             frames,
         })
     }
@@ -182,7 +186,7 @@ impl Merge for IntrinsicSums {
         self.n_invalid = self.n_invalid.saturating_add(other.n_invalid);
         self.timed = self.timed.saturating_add(other.timed);
         self.contacts = self.contacts.saturating_add(other.contacts);
-        self.hull.merge(&other.hull);
+        self.hull.merge(other.hull.hull());
         self.frames.extend(&other.frames);
     }
 }

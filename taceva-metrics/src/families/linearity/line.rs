@@ -3,13 +3,16 @@
 use crate::evaluate::state::Record;
 use crate::exact::merge::Merge;
 use crate::exact::single::exactly;
-use crate::exact::{Dyadic, ExactSum};
-use crate::geometry::Hull;
-use crate::paired::{Paired, is_valid};
+use crate::exact::{ColumnSums, Dyadic, ExactSum};
+use crate::geometry::{GrowingHull, Hull};
+use crate::paired::is_valid;
 use crate::score::value::UndefinedReason;
 
 /// Samples below which a line says nothing: two are always on one.
 pub(super) const LEAST_SAMPLES: u64 = 3;
+
+/// The sums of products of the columns x and y: Σ x² and Σ x y.
+pub(super) const PRODUCTS: [[usize; 2]; 2] = [[0, 0], [0, 1]];
 
 /// What is kept of the pairs of one channel: x the truth, y the prediction.
 ///
@@ -18,31 +21,12 @@ pub(super) const LEAST_SAMPLES: u64 = 3;
 pub(crate) struct LineSums {
     n: u64,
     n_invalid: u64,
-    hull: Hull,
+    hull: GrowingHull,
     /// Σ x, Σ y, Σ x², Σ x y.
     sums: [ExactSum; 4],
 }
 
 impl LineSums {
-    /// Adds pairs; those with a value that is no usable number are counted and left out.
-    pub(super) fn add(&mut self, pairs: &[Paired<f64>]) {
-        let valid = || pairs.iter().filter(|pair| pair.is_valid());
-        let points = valid().map(|pair| [pair.reference, pair.estimate]);
-        self.hull.extend(points);
-        for pair in pairs {
-            if !pair.is_valid() {
-                self.n_invalid += 1;
-                continue;
-            }
-            self.n += 1;
-            let [x, y, xx, xy] = &mut self.sums;
-            x.add(pair.reference);
-            y.add(pair.estimate);
-            xx.add_product(pair.reference, pair.reference);
-            xy.add_product(pair.reference, pair.estimate);
-        }
-    }
-
     /// Number of samples.
     pub(super) fn n(&self) -> u64 {
         self.n
@@ -58,7 +42,7 @@ impl LineSums {
         Record {
             counts: vec![self.n, self.n_invalid],
             sums: self.sums.to_vec(),
-            values: self.hull.corners().concat(),
+            values: self.hull.hull().corners().concat(),
             ..Record::default()
         }
     }
@@ -73,9 +57,27 @@ impl LineSums {
         Ok(LineSums {
             n,
             n_invalid,
-            hull,
+            hull: hull.into(),
             sums: sums.clone(),
         })
+    }
+}
+
+impl ColumnSums for LineSums {
+    fn sums(&mut self) -> [&mut [ExactSum]; 2] {
+        let (values, products) = self.sums.split_at_mut(2);
+        [values, products]
+    }
+
+    fn take(&mut self, columns: &[&[f64]]) {
+        let &[truth, estimate] = columns else { return };
+        self.n += u64::try_from(truth.len()).expect("no column has 2^64 rows");
+        let points = truth.iter().zip(estimate);
+        self.hull.extend(points.map(|(&x, &y)| [x, y]));
+    }
+
+    fn leave_out(&mut self) {
+        self.n_invalid += 1;
     }
 }
 
@@ -83,7 +85,7 @@ impl Merge for LineSums {
     fn merge(&mut self, other: &LineSums) {
         self.n = self.n.saturating_add(other.n);
         self.n_invalid = self.n_invalid.saturating_add(other.n_invalid);
-        self.hull.merge(&other.hull);
+        self.hull.merge(other.hull.hull());
         self.sums.merge(&other.sums);
     }
 }
@@ -95,18 +97,34 @@ pub(super) struct Line {
     pub(super) slope: f64,
     /// a = (Sy Sxx − Sx Sxy) / (n Sxx − Sx²).
     pub(super) offset: f64,
-    /// max |y − a − b x|.
-    pub(super) greatest_deviation: f64,
-    /// max |y − a − b x| / (max x − min x).
-    pub(super) relative_deviation: f64,
 }
 
-impl Line {
-    /// The line of the pairs in `sums`.
-    ///
-    /// # Errors
-    /// [`UndefinedReason`] for fewer than three samples, or a truth that does not vary.
-    pub(super) fn through(sums: &LineSums) -> Result<Line, UndefinedReason> {
+/// How far predictions stray from the best line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Deviation {
+    /// max |y − a − b x|.
+    pub(super) greatest: f64,
+    /// max |y − a − b x| / (max x − min x).
+    pub(super) relative: f64,
+}
+
+/// The parts of the line's formulas.
+struct Fit {
+    n: Dyadic,
+    /// Sx and Sy.
+    sums: [Dyadic; 2],
+    /// n Sxy − Sx Sy.
+    shared: Dyadic,
+    /// n Sxx − Sx².
+    spread: Dyadic,
+    /// Sy Sxx − Sx Sxy.
+    rest: Dyadic,
+    /// max x − min x.
+    range: Dyadic,
+}
+
+impl Fit {
+    fn of(sums: &LineSums) -> Result<Fit, UndefinedReason> {
         if sums.n == 0 {
             return Err(UndefinedReason::Empty);
         }
@@ -118,34 +136,58 @@ impl Line {
         let n = Dyadic::from(sums.n);
         let [x, y, xx, xy] = [0, 1, 2, 3].map(|sum| sums.sums[sum].to_dyadic());
         let spread = &(&n * &xx) - &(&x * &x);
-        let range = sums.hull.extent(0).filter(|[low, high]| low < high);
+        let hull = sums.hull.hull();
+        let range = hull.extent(0).filter(|[low, high]| low < high);
         let Some([low, high]) = range.filter(|_| !spread.is_zero()) else {
-            let perfect = sums
-                .hull
-                .corners()
-                .iter()
-                .all(|&[x, y]| exactly_equal(x, y));
+            let mut corners = hull.corners().iter();
+            let perfect = corners.all(|&[x, y]| exactly_equal(x, y));
             return Err(UndefinedReason::ConstantTruth { perfect });
         };
-        let shared = &(&n * &xy) - &(&x * &y);
-        let range = &exactly(high) - &exactly(low);
-        let scale = &n * &spread;
-        let relative_scale = &scale * &range;
-        let (mut greatest_deviation, mut relative_deviation) = (0.0_f64, 0.0_f64);
-        for corner in sums.hull.corners() {
-            let [truth, estimate] = corner.map(exactly);
-            let above_mean = &(&n * &estimate) - &y;
-            let from_mean = &(&n * &truth) - &x;
-            let deviation = &(&above_mean * &spread) - &(&shared * &from_mean);
-            greatest_deviation = greatest_deviation.max(deviation.over(&scale).abs());
-            relative_deviation = relative_deviation.max(deviation.over(&relative_scale).abs());
-        }
-        Ok(Line {
-            slope: shared.over(&spread),
-            offset: (&(&y * &xx) - &(&x * &xy)).over(&spread),
-            greatest_deviation,
-            relative_deviation,
+        Ok(Fit {
+            shared: &(&n * &xy) - &(&x * &y),
+            rest: &(&y * &xx) - &(&x * &xy),
+            range: &exactly(high) - &exactly(low),
+            sums: [x, y],
+            spread,
+            n,
         })
+    }
+}
+
+impl Line {
+    /// The line of the pairs in `sums`.
+    ///
+    /// # Errors
+    /// [`UndefinedReason`] for fewer than three samples, or a truth that does not vary.
+    pub(super) fn through(sums: &LineSums) -> Result<Line, UndefinedReason> {
+        let fit = Fit::of(sums)?;
+        Ok(Line {
+            slope: fit.shared.over(&fit.spread),
+            offset: fit.rest.over(&fit.spread),
+        })
+    }
+}
+
+impl Deviation {
+    /// That of the pairs in `sums`.
+    ///
+    /// # Errors
+    /// As [`Line::through`].
+    pub(super) fn of(sums: &LineSums) -> Result<Deviation, UndefinedReason> {
+        let fit = Fit::of(sums)?;
+        let [x, y] = &fit.sums;
+        let scale = &fit.n * &fit.spread;
+        let relative_scale = &scale * &fit.range;
+        let (mut greatest, mut relative) = (0.0_f64, 0.0_f64);
+        for corner in sums.hull.hull().corners() {
+            let [truth, estimate] = corner.map(exactly);
+            let above_mean = &(&fit.n * &estimate) - y;
+            let from_mean = &(&fit.n * &truth) - x;
+            let deviation = &(&above_mean * &fit.spread) - &(&fit.shared * &from_mean);
+            greatest = greatest.max(deviation.over(&scale).abs());
+            relative = relative.max(deviation.over(&relative_scale).abs());
+        }
+        Ok(Deviation { greatest, relative })
     }
 }
 
@@ -156,31 +198,25 @@ fn exactly_equal(left: f64, right: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::exact::ColumnAdder;
 
     fn sums(pairs: &[[f64; 2]]) -> LineSums {
-        let pairs: Vec<Paired<f64>> = pairs
-            .iter()
-            .map(|&[reference, estimate]| Paired {
-                estimate,
-                reference,
-            })
-            .collect();
+        let column = |axis: usize| pairs.iter().map(|pair| pair[axis]).collect();
+        let [truth, estimate]: [Vec<f64>; 2] = [column(0), column(1)];
         let mut sums = LineSums::default();
-        sums.add(&pairs);
+        ColumnAdder::new(PRODUCTS.to_vec()).add(&[&truth, &estimate], &mut sums);
         sums
     }
 
     #[test]
     fn a_hand_calculation_with_four_points() {
         // y = 0, 1, 3, 2 over x = 0..3: slope 0.8, offset 0.3; deviations −0.3, −0.1, 1.1, −0.7; range 3.
-        let line = Line::through(&sums(&[[0.0, 0.0], [1.0, 1.0], [2.0, 3.0], [3.0, 2.0]]));
-        let line = line.expect("four points");
+        let sums = sums(&[[0.0, 0.0], [1.0, 1.0], [2.0, 3.0], [3.0, 2.0]]);
+        let line = Line::through(&sums).expect("four points");
         assert_eq!((line.slope, line.offset), (0.8, 0.3));
-        assert_eq!(line.greatest_deviation.to_bits(), 1.1_f64.to_bits());
-        assert_eq!(
-            line.relative_deviation.to_bits(),
-            (11.0_f64 / 30.0).to_bits()
-        );
+        let deviation = Deviation::of(&sums).expect("four points");
+        assert_eq!(deviation.greatest.to_bits(), 1.1_f64.to_bits());
+        assert_eq!(deviation.relative.to_bits(), (11.0_f64 / 30.0).to_bits());
     }
 
     #[test]
@@ -189,12 +225,14 @@ mod tests {
         let pairs: Vec<[f64; 2]> = (0..300)
             .map(|row| [at(row), 0.9 * at(row) + at(row * row)])
             .collect();
-        let line = Line::through(&sums(&pairs)).expect("many points");
+        let sums = sums(&pairs);
+        let line = Line::through(&sums).expect("many points");
+        let deviation = Deviation::of(&sums).expect("many points");
         let distance = |&[x, y]: &[f64; 2]| (y - line.offset - line.slope * x).abs();
         let greatest = pairs.iter().map(distance).fold(0.0, f64::max);
         // A few roundings of numbers near 20.
-        assert!((line.greatest_deviation - greatest).abs() < 1e-13);
-        assert!(sums(&pairs).hull.corners().len() < 30);
+        assert!((deviation.greatest - greatest).abs() < 1e-13);
+        assert!(sums.hull.hull().corners().len() < 30);
     }
 
     #[test]
@@ -204,7 +242,7 @@ mod tests {
             constant,
             Err(UndefinedReason::ConstantTruth { perfect: false })
         );
-        let two = Line::through(&sums(&[[0.0, 0.0], [1.0, 1.0]]));
+        let two = Deviation::of(&sums(&[[0.0, 0.0], [1.0, 1.0]]));
         assert_eq!(two, Err(UndefinedReason::TooFew { least: 3 }));
         let broken = Line::through(&sums(&[[f64::NAN, 0.0]]));
         assert_eq!(broken, Err(UndefinedReason::Empty));

@@ -69,7 +69,13 @@ impl Channelwise for Repeats {
         )
     }
 
-    fn deposit(&self, sums: &mut RepeatSums, batch: &Batch, position: usize, rows: Option<&[u32]>) {
+    fn deposit(
+        &mut self,
+        sums: &mut RepeatSums,
+        batch: &Batch,
+        position: usize,
+        rows: Option<&[u32]>,
+    ) {
         let (predictions, points) = (batch.prediction(position), batch.points());
         let truths = batch.truth(position);
         if points.is_none() && batch.rows() > 0 {

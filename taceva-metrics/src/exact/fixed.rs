@@ -1,0 +1,107 @@
+//! An exact sum of not too many numbers of ordinary size, in sixteen bytes.
+
+use super::digits::Binary;
+use super::sum::ExactSum;
+
+/// The unit is 2 to this power: the last place of numbers from 2⁻⁴⁴ on.
+const UNIT: i32 = -96;
+/// Where the mantissa of a number begins that has this unit as its last place, counted from that of the least denormal.
+const LEAST_POSITION: usize = 1074 - 96;
+/// Places from there on, so that numbers are below 2¹⁴.
+const POSITIONS: usize = 58;
+
+/// Whole units of 2⁻⁹⁶, until an [`ExactSum`] takes them.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct FixedSum {
+    units: i128,
+}
+
+impl FixedSum {
+    /// Numbers that can be added before the units must be taken over: each is below 2¹¹⁰ of them.
+    pub(crate) const MOST: usize = 1 << 16;
+
+    /// Adds `value`; false, and nothing added, if its magnitude is 2¹⁴ or more, or so small that its last place is below a unit.
+    #[inline]
+    pub(crate) fn try_add(&mut self, value: f64) -> bool {
+        let Binary {
+            sign,
+            mantissa,
+            position,
+        } = Binary::of(value);
+        let places = position.wrapping_sub(LEAST_POSITION);
+        if places >= POSITIONS {
+            return mantissa == 0;
+        }
+        let units = i128::from(mantissa) << places;
+        self.units += if sign < 0 { -units } else { units };
+        true
+    }
+
+    /// Adds the units to `sum`, after which there are none.
+    pub(crate) fn settle_into(&mut self, sum: &mut ExactSum) {
+        let units = std::mem::take(&mut self.units);
+        let low = |places: u32| i64::try_from((units >> places) & 0xffff_ffff).expect("32 bits");
+        let high = i64::try_from(units >> 64).expect("64 bits are left of 128");
+        for (part, unit) in [(low(0), UNIT), (low(32), UNIT + 32), (high, UNIT + 64)] {
+            sum.add_units(part, unit);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is summed of `values`, those that are not held being added one by one.
+    fn summed(values: &[f64]) -> (ExactSum, usize) {
+        let (mut fixed, mut sum, mut strays) = (FixedSum::default(), ExactSum::default(), 0);
+        for &value in values {
+            if !fixed.try_add(value) {
+                sum.add(value);
+                strays += 1;
+            }
+        }
+        fixed.settle_into(&mut sum);
+        fixed.settle_into(&mut sum);
+        (sum, strays)
+    }
+
+    #[test]
+    fn a_fixed_sum_is_exact_and_says_what_it_does_not_hold() {
+        let two = |power: i32| 2.0_f64.powi(power);
+        let held = [
+            0.1,
+            -0.3,
+            0.0,
+            -0.0,
+            5.5,
+            two(-44),
+            -two(-44),
+            two(14) - two(-39),
+            1e-13,
+        ];
+        let strays = [
+            two(14),
+            -two(14),
+            two(-45),
+            1e300,
+            f64::from_bits(1),
+            -1e-300,
+        ];
+        let both: Vec<f64> = held.iter().chain(&strays).copied().collect();
+        for (values, expected) in [(&held[..], 0), (&strays[..], 6), (&both[..], 6)] {
+            let (sum, strays) = summed(values);
+            assert_eq!((sum, strays), (values.iter().copied().collect(), expected));
+        }
+    }
+
+    #[test]
+    fn as_many_as_are_allowed_of_the_greatest_do_not_overflow() {
+        let greatest = f64::from_bits(2.0_f64.powi(14).to_bits() - 1);
+        for value in [greatest, -greatest] {
+            let values = vec![value; FixedSum::MOST];
+            let (sum, strays) = summed(&values);
+            assert_eq!((sum, strays), (values.into_iter().collect(), 0));
+        }
+    }
+}
