@@ -1,4 +1,5 @@
-//! Images per second of training steps and of predictions: ResNet-18, six outputs, batches of 32 (and single pictures).
+//! Images per second of training steps and of predictions: ResNet-18, six outputs, batches of 32 (and single pictures), predictions in
+//! both forms of convolutions.
 //!
 //! `cargo bench -p taceva-network [-- SIDE [THREADS [REPEATS]]]`; without arguments 64² and 112² on one and two threads. The best
 //! of REPEATS, by processor time of all threads and by the wall clock; and how much memory training takes at most beyond what the
@@ -14,8 +15,8 @@ use std::time::Instant;
 
 use rustix::time::{ClockId, clock_gettime};
 use taceva_network::{
-    Architecture, Depth, Isa, LabelScaling, Labels, Loss, Optimizer, Picture, Recipe, Samples,
-    Schedule, Trainer,
+    Architecture, ConvolutionForm, Depth, Isa, LabelScaling, Labels, Loss, Optimizer, Picture,
+    Recipe, Samples, Schedule, Trainer,
 };
 
 const BATCH: usize = 32;
@@ -91,17 +92,22 @@ fn measure(side: usize, threads: usize, repeats: usize, before: Option<f64>) {
     }
 
     let network = trainer.finish().expect("at hand").network;
-    let mut predictor = network.predictor();
-    let mut outputs = [0.0; BATCH * OUTPUTS];
-    let all = || predictor.predict(&pictures, &mut outputs).expect("finite");
-    report("inference", side, threads, BATCH, best(repeats, all));
-    let one = || {
-        let picture = &pictures[..input.len()];
-        predictor
-            .predict(picture, &mut outputs[..OUTPUTS])
-            .expect("finite");
-    };
-    report("one picture", side, threads, 1, best(4 * repeats, one));
+    for (form, what, one) in [
+        (ConvolutionForm::Winograd, "inference", "one picture"),
+        (ConvolutionForm::Direct, "direct", "one, direct"),
+    ] {
+        let mut predictor = network.predictor_in(form);
+        let mut outputs = [0.0; BATCH * OUTPUTS];
+        let all = || predictor.predict(&pictures, &mut outputs).expect("finite");
+        report(what, side, threads, BATCH, best(repeats, all));
+        let single = || {
+            let picture = &pictures[..input.len()];
+            predictor
+                .predict(picture, &mut outputs[..OUTPUTS])
+                .expect("finite");
+        };
+        report(one, side, threads, 1, best(4 * repeats, single));
+    }
 }
 
 fn report(what: &str, side: usize, threads: usize, images: usize, (busy, wall): (f64, f64)) {

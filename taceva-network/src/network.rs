@@ -154,7 +154,10 @@ impl Network {
     }
 
     /// Room to train in, with batches of `batch` pictures.
-    pub(crate) fn training_space(&self, batch: usize) -> TrainingSpace {
+    ///
+    /// # Errors
+    /// [`NetworkError::Memory`] if there is no room for the weights of one convolution as the passes transform them.
+    pub(crate) fn training_space(&self, batch: usize) -> Result<TrainingSpace, NetworkError> {
         let plans = self.architecture.stages();
         let mut picture = self.architecture.input;
         let input = plans[0].input_layout(picture);
@@ -174,13 +177,14 @@ impl Network {
         }
         let normed = self.stages.iter().flat_map(Stage::normed);
         let largest = normed.map(|(part, _)| part.weights.values().len()).max();
-        TrainingSpace {
+        let transformed = stages.iter().map(StageSpace::transformed_len).max();
+        Ok(TrainingSpace {
             input: Planes::zeros(input.picture, input.border, batch),
             stages,
             features: Vec::new(),
             outputs: Vec::new(),
-            scratch: Scratch::new(largest.unwrap_or(0)),
-        }
+            scratch: Scratch::new(largest.unwrap_or(0), transformed.unwrap_or(0))?,
+        })
     }
 
     /// Passes the first `count` pictures of the space, normalised by their own moments.

@@ -88,9 +88,11 @@ impl Stage {
         scratch: &mut Scratch,
     ) {
         match (self, space) {
-            (Stage::Stem(normed), StageSpace::Stem(space)) => space.forward(normed, machine, input),
+            (Stage::Stem(normed), StageSpace::Stem(space)) => {
+                space.forward(normed, machine, input, scratch)
+            }
             (Stage::Plain(normed), StageSpace::Plain(space)) => {
-                space.forward(normed, machine, input)
+                space.forward(normed, machine, input, scratch)
             }
             (Stage::Block(block), StageSpace::Block(space)) => {
                 space.forward(block, machine, input, scratch)
@@ -130,6 +132,15 @@ impl StageSpace {
             StageSpace::Stem(space) => &space.output,
             StageSpace::Plain(space) => &space.output,
             StageSpace::Block(space) => &space.output,
+        }
+    }
+
+    /// Numbers that the weights of one convolution take at most when a pass transforms them.
+    pub(crate) fn transformed_len(&self) -> usize {
+        match self {
+            StageSpace::Stem(space) => space.normed.transformed_len(),
+            StageSpace::Plain(space) => space.normed.transformed_len(),
+            StageSpace::Block(space) => space.transformed_len(),
         }
     }
 }

@@ -55,8 +55,8 @@ impl<'a> Trainer<'a> {
     /// A training of a network of `architecture` from random weights.
     ///
     /// # Errors
-    /// [`NetworkError`] if the architecture cannot be built, the recipe or the samples cannot be used, or they do not go
-    /// together.
+    /// [`NetworkError`] if the architecture cannot be built, the recipe or the samples cannot be used, they do not go
+    /// together, or memory is short.
     pub fn new(
         architecture: &Architecture,
         recipe: &Recipe,
@@ -107,7 +107,7 @@ impl<'a> Trainer<'a> {
             Labels::Values(labels) => LabelScale::of(recipe.scaling, labels, architecture.outputs)?,
         };
         Ok(Trainer {
-            engine: Box::new(Processor::new(snapshot, recipe)),
+            engine: Box::new(Processor::new(snapshot, recipe)?),
             architecture: architecture.clone(),
             state: TrainingState::default(),
             best: None,

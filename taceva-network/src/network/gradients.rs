@@ -30,7 +30,7 @@ impl Network {
     /// The loss of `samples` as one batch, normalised by its own moments, and its gradients. Running moments are updated.
     ///
     /// # Errors
-    /// [`NetworkError`] if the samples do not go with the network or the loss.
+    /// [`NetworkError`] if the samples do not go with the network or the loss, or memory is short.
     pub fn gradients(
         &mut self,
         samples: Samples<'_>,
@@ -39,7 +39,7 @@ impl Network {
         samples.check(SampleSet::Training, &self.architecture, loss)?;
         let (picture, width) = (self.architecture.input, self.architecture.outputs);
         let batch = samples.pictures.len() / picture.len();
-        let mut space = self.training_space(batch);
+        let mut space = self.training_space(batch)?;
         for (position, values) in samples.pictures.chunks_exact(picture.len()).enumerate() {
             space.input.set(position, values);
         }

@@ -96,6 +96,14 @@ impl BlockSpace {
         }
     }
 
+    /// Numbers that the weights of one convolution take at most when a pass transforms them.
+    pub(super) fn transformed_len(&self) -> usize {
+        let past = self.shortcut.as_ref();
+        let past = past.map_or(0, NormedSpace::transformed_len);
+        let both = self.first.transformed_len();
+        both.max(self.second.transformed_len()).max(past)
+    }
+
     /// What the first convolution gave, normalised and cut: needed in both passes and not kept between them, as it is made in a
     /// hundredth of the time that the convolution took.
     fn middle(&self, machine: Machine, count: usize, scratch: &mut Scratch) -> Planes {
@@ -120,7 +128,7 @@ impl BlockSpace {
         scratch: &mut Scratch,
     ) {
         let first = &mut self.first;
-        block.first.forward(machine, first, (input, count));
+        block.first.forward(machine, first, (input, count), scratch);
         let middle = self.middle(machine, count, scratch);
         let BlockSpace {
             second,
@@ -128,11 +136,12 @@ impl BlockSpace {
             output,
             ..
         } = self;
-        block.second.forward(machine, second, (&middle, count));
+        let normed = &mut block.second;
+        normed.forward(machine, second, (&middle, count), scratch);
         scratch.put(middle);
         let past = match (&mut block.shortcut, shortcut) {
             (Some(normed), Some(space)) => {
-                normed.forward(machine, space, (input, count));
+                normed.forward(machine, space, (input, count), scratch);
                 Shortcut::Normalised(&space.raw, &space.moments)
             }
             _ => Shortcut::Identity(input),

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Moments, Recipe, Samples, Snapshot, Trainer, TrainingState};
 use crate::architecture::Architecture;
+use crate::convolution::ConvolutionForm;
 use crate::error::NetworkError;
 use crate::network::{NamedTensor, Network};
 
@@ -28,11 +29,17 @@ pub struct Summary {
     pub recipe: Recipe,
     /// How many samples it learns from.
     pub samples: usize,
+    /// The form of its convolutions on the processor, on which last digits depend; one that does not say it had the only form of its time.
+    #[serde(default = "ConvolutionForm::unstated")]
+    pub convolutions: ConvolutionForm,
     /// How far it has come.
     pub state: TrainingState,
 }
 
 impl<'a> Trainer<'a> {
+    /// The form of convolutions in which the processor trains.
+    pub const CONVOLUTIONS: ConvolutionForm = ConvolutionForm::Winograd;
+
     /// The training as it stands.
     ///
     /// # Errors
@@ -64,6 +71,7 @@ impl<'a> Trainer<'a> {
             architecture: self.architecture.clone(),
             recipe: self.recipe.clone(),
             samples: self.training.count(&self.architecture),
+            convolutions: Trainer::CONVOLUTIONS,
             state: self.state.clone(),
         }
     }
@@ -71,7 +79,7 @@ impl<'a> Trainer<'a> {
     /// The training that `checkpoint` was saved from, with the same samples.
     ///
     /// # Errors
-    /// [`NetworkError::Checkpoint`] if the samples are others in number, or a tensor of the optimiser does not fit; otherwise as
+    /// [`NetworkError::Checkpoint`] if convolutions had another form, the samples are others in number, or a tensor of the optimiser does not fit; otherwise as
     /// [`new`](Trainer::new) and [`Network::from_tensors`].
     pub fn resume(
         checkpoint: Checkpoint,
@@ -80,6 +88,13 @@ impl<'a> Trainer<'a> {
     ) -> Result<Trainer<'a>, NetworkError> {
         let Checkpoint { summary, tensors } = checkpoint;
         let refuse = |what: String| Err(NetworkError::Checkpoint { what });
+        if summary.convolutions != Trainer::CONVOLUTIONS {
+            return refuse(format!(
+                "its convolutions are `{}`, those of this program are `{}`, which rounds differently",
+                summary.convolutions,
+                Trainer::CONVOLUTIONS
+            ));
+        }
         let mut parts: BTreeMap<String, Vec<NamedTensor>> = BTreeMap::new();
         for tensor in tensors {
             match tensor.name.split_once('.') {

@@ -19,7 +19,10 @@ pub(super) struct Processor {
 
 impl Processor {
     /// A training that goes on from `snapshot`, whose moments are those of `recipe`'s optimiser.
-    pub(super) fn new(snapshot: &Snapshot, recipe: &Recipe) -> Processor {
+    ///
+    /// # Errors
+    /// [`NetworkError::Memory`] if there is no room for transformed weights.
+    pub(super) fn new(snapshot: &Snapshot, recipe: &Recipe) -> Result<Processor, NetworkError> {
         let network = snapshot.network.clone();
         let mut memory = Memory::new(network.slots());
         for tensors in &snapshot.moments {
@@ -27,13 +30,13 @@ impl Processor {
                 moments.push(values);
             }
         }
-        Processor {
-            space: network.training_space(recipe.batch),
+        Ok(Processor {
+            space: network.training_space(recipe.batch)?,
             memory,
             optimizer: recipe.optimizer,
             loss: recipe.loss,
             network,
-        }
+        })
     }
 }
 
