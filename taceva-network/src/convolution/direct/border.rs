@@ -21,24 +21,18 @@ pub(super) struct Reach {
     pub(super) places: Range<usize>,
 }
 
-/// Output positions along one side where pictures of `length` pixels become `positions`: all with all places, or, where the border of
-/// the picture that comes of them is left out, each with those that meet the picture.
-pub(super) fn reaches(
-    convolution: Convolution,
-    (positions, length): (usize, usize),
-    output: Picture,
-) -> Vec<Reach> {
-    if is_left_out(output) {
-        return within(convolution, positions, length);
+impl Reach {
+    /// All of so many positions with all places.
+    pub(super) fn all(convolution: Convolution, positions: usize) -> Reach {
+        Reach {
+            positions: 0..positions,
+            places: 0..convolution.kernel,
+        }
     }
-    vec![Reach {
-        positions: 0..positions,
-        places: 0..convolution.kernel,
-    }]
 }
 
-/// Each of `positions` with the places that meet a picture of `length` pixels along that side.
-fn within(convolution: Convolution, positions: usize, length: usize) -> Vec<Reach> {
+/// Each of so many positions with the places that meet a picture of `length` pixels along that side.
+pub(super) fn reaches(convolution: Convolution, positions: usize, length: usize) -> Vec<Reach> {
     let padding = convolution.padding();
     let reach = |position: usize| {
         let first = position * convolution.stride;
@@ -72,7 +66,7 @@ mod tests {
             stride,
         };
         let places = |kernel, stride, positions, length| -> Vec<Range<usize>> {
-            let reaches = within(convolution(kernel, stride), positions, length);
+            let reaches = reaches(convolution(kernel, stride), positions, length);
             reaches.into_iter().map(|reach| reach.places).collect()
         };
         assert_eq!(places(3, 1, 1, 1), [1..2]);

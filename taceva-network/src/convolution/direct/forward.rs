@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::border::{Reach, reaches};
+use super::border::{Reach, is_left_out, reaches};
 use super::correlation::{Correlation, Tap, are_weights_many};
 use crate::convolution::ending::Epilogue;
 use crate::convolution::source::Source;
@@ -15,12 +15,16 @@ use crate::simd::Pixels;
 /// Pixels of pictures that one thread takes at a time: enough to outweigh the weights that they meet.
 const PIXELS_AT_ONCE: usize = 384;
 
+/// Pictures from which on the border is left out where it may be: as many as a tile of sums has rows.
+const IMAGES_WORTH_CLASSES: usize = 6;
+
 /// A forward pass over pictures of one layout, ready to be run.
 #[derive(Clone, Debug)]
 pub(crate) struct Forward {
-    classes: Vec<Class>,
-    /// Pixels of all classes.
-    pixels: usize,
+    /// All pixels.
+    whole: Class,
+    /// The same without the border, which are several classes; none where it is not left out.
+    apart: Vec<Class>,
     rows: usize,
 }
 
@@ -35,19 +39,33 @@ struct Class {
 impl Forward {
     /// The pass of `convolution` from pictures of layout `input` to those of layout `output`.
     pub(crate) fn new(convolution: Convolution, input: Layout, output: Layout) -> Forward {
-        let picture = output.picture;
-        let side = |positions, length| reaches(convolution, (positions, length), picture);
-        let columns = side(picture.width, input.picture.width);
-        let mut classes = Vec::new();
-        for rows in side(picture.height, input.picture.height) {
-            for columns in &columns {
-                classes.push(Class::new(convolution, (input, output), (&rows, columns)));
+        let layouts = (input, output);
+        let (height, width) = (output.picture.height, output.picture.width);
+        let [down, across] = [height, width].map(|side| Reach::all(convolution, side));
+        let mut apart = Vec::new();
+        if is_left_out(output.picture) {
+            let columns = reaches(convolution, width, input.picture.width);
+            for rows in reaches(convolution, height, input.picture.height) {
+                let classes = columns.iter();
+                apart.extend(
+                    classes.map(|columns| Class::new(convolution, layouts, (&rows, columns))),
+                );
             }
         }
         Forward {
-            classes,
-            pixels: picture.pixels(),
+            whole: Class::new(convolution, layouts, (&down, &across)),
+            apart,
             rows: convolution.taps() * convolution.inputs,
+        }
+    }
+
+    /// What is passed of so many pictures. A class reads the weights for itself, which is worth it where there are pixels enough to read them
+    /// for; as nothing but zeros is left out, the outputs are the same.
+    fn classes(&self, images: usize) -> &[Class] {
+        if self.apart.is_empty() || images < IMAGES_WORTH_CLASSES {
+            std::slice::from_ref(&self.whole)
+        } else {
+            &self.apart
         }
     }
 
@@ -64,7 +82,7 @@ impl Forward {
         let (input_image, output_image) = (source.input.layout().len(), layout.len());
         let panels = layout.picture.channels / PANEL;
         let are_many = are_weights_many(self.rows, panels);
-        let group = images_at_once(self.pixels, count, are_many);
+        let group = images_at_once(self.whole.pixels.len(), count, are_many);
         let inputs = source.pictures().par_chunks(group * input_image);
         let outputs = output.first_mut(count).par_chunks_mut(group * output_image);
         let groups = outputs.zip(inputs).zip(each.par_chunks_mut(group));
@@ -73,10 +91,11 @@ impl Forward {
             .for_each(|(index, ((output, input), each))| {
                 let first = index * group * output_image;
                 let (start, finish) = epilogue.within(first..first + output.len());
-                for class in &self.classes {
+                let images = output.len() / output_image;
+                for class in self.classes(images) {
                     machine.run(Correlation {
                         pixels: &class.pixels,
-                        images: output.len() / output_image,
+                        images,
                         input,
                         input_image,
                         taps: &class.taps,

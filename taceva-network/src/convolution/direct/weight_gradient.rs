@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::border;
+use super::border::{self, Reach};
 use crate::constant::with_constant;
 use crate::convolution::{Convolution, offset};
 use crate::machine::Machine;
@@ -41,12 +41,12 @@ impl WeightGradient {
         let Convolution { inputs, kernel, .. } = convolution;
         let picture = output.picture;
         // Whole rows of places meet all pixels, or each place meets its own.
-        let run = if border::is_left_out(picture) {
-            inputs
-        } else {
-            kernel * inputs
+        let is_left_out = border::is_left_out(picture);
+        let run = if is_left_out { inputs } else { kernel * inputs };
+        let side = |positions, length| match is_left_out {
+            true => border::reaches(convolution, positions, length),
+            false => vec![Reach::all(convolution, positions)],
         };
-        let side = |positions, length| border::reaches(convolution, (positions, length), picture);
         let rows = side(picture.height, input.picture.height);
         let columns = side(picture.width, input.picture.width);
         let (mut pixels, mut blocks) = (Vec::new(), Vec::new());
