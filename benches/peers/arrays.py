@@ -10,12 +10,14 @@ pattern with noise, so that it can be compressed, but not far.
 import os
 import pathlib
 import pickle
+import re
 import shutil
 import subprocess
 import sys
 import tempfile
 
 from common import ROOT, need
+from machine import Machine
 
 READERS = {
     "npy": "a = np.load(path)\nfor k in range(len(a)): t += int(a[k][0, 0, 0])",
@@ -83,8 +85,8 @@ def measured(command):
     _, status, usage = os.wait4(process.pid, 0)
     if status:
         sys.exit(f"{command}: failed")
-    peak = [word for line in printed.splitlines() if "HWM" in line or "memory" in line for word in line.split() if word.isdigit()]
-    return usage.ru_utime + usage.ru_stime, int(peak[0]) / 1024, printed
+    peak = re.search(r"(\d+) ki?B", printed, re.I)
+    return usage.ru_utime + usage.ru_stime, int(peak[1]) / 1024, printed
 
 
 def main(count):
@@ -96,8 +98,9 @@ def main(count):
     os.environ |= {name: "1" for name in ("OMP_NUM_THREADS", "BLOSC_NTHREADS", "NUMEXPR_NUM_THREADS")}
     try:
         subprocess.run([sys.executable, __file__, str(count), str(folder)], check=True)
+        machine = Machine()
         files = {name: folder / f"{name.replace(' ', '-')}.{ENDINGS[name.split()[0]]}" for name in READERS}
-        print(f"{count} frames; {os.cpu_count()} processors, load {os.getloadavg()[0]:.1f} at the beginning")
+        print(f"{count} frames; {machine.said()}")
         print(f"{'form':<22}{'ours s':>9}{'theirs s':>10}{'ratio':>8}{'ours MiB':>10}{'theirs MiB':>12}")
         for name, path in files.items():
             imports = {"hdf5": "import h5py", "zarr": "import zarr, numcodecs; numcodecs.blosc.use_threads = False; zarr.config.set({'threading.max_workers': 1})"}.get(name.split()[0], "")
@@ -110,8 +113,8 @@ def main(count):
                 _, peak, printed = measured([sys.executable, "-c", program, str(path)])
                 theirs.append((float(printed.split()[0]), peak))
             (mine, my_peak), (other, other_peak) = sorted(ours)[2], sorted(theirs)[2]
-            print(f"{name:<22}{mine:>9.3f}{other:>10.3f}{mine / other:>8.2f}{my_peak:>10.0f}{other_peak:>12.0f}", flush=True)
-        print(f"load {os.getloadavg()[0]:.1f} at the end; medians of 5, in turn")
+            print(f"{name:<22}{mine:>9.3f}{other:>10.3f}{machine.ratio(mine, other):>8}{my_peak:>10.0f}{other_peak:>12.0f}", flush=True)
+        print(f"medians of 5, in turn; {machine.said()}")
     finally:
         shutil.rmtree(folder)
 

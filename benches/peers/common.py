@@ -6,6 +6,8 @@ import subprocess
 import sys
 import time
 
+from machine import Machine, processor_seconds
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
@@ -30,24 +32,32 @@ def evaluation(*arguments):
 
 
 def in_turn(repeats, **sides):
-    """Times each side once a round, `repeats` rounds; returns seconds, best first."""
-    times = {name: [] for name in sides}
+    """Times each side once a round, `repeats` rounds; returns seconds by the clock and of the processor, best first, by side, and the machine."""
+    machine = Machine()
+    times = {name: ([], []) for name in sides}
     for _ in range(repeats):
         for name, side in sides.items():
-            start = time.perf_counter()
+            clock, busy = time.perf_counter(), processor_seconds()
             side()
-            times[name].append(time.perf_counter() - start)
-    return {name: sorted(seconds) for name, seconds in times.items()}
+            for seconds, spent in zip(times[name], (time.perf_counter() - clock, processor_seconds() - busy)):
+                seconds.append(spent)
+    return {name: tuple(map(sorted, both)) for name, both in times.items()}, machine
 
 
-def report(times, ours):
-    """Prints best and median of each side, and the ratio to ours."""
-    middle = {name: seconds[len(seconds) // 2] for name, seconds in times.items()}
-    for name, seconds in times.items():
-        print(f"{name:<28} best {seconds[0]:8.3f} s   median {middle[name]:8.3f} s")
-    for name in times:
-        if name != ours:
-            print(f"{name} / {ours}: best {times[name][0] / times[ours][0]:.1f}x, median {middle[name] / middle[ours]:.1f}x")
+def report(times, ours, machine):
+    """Prints best and median of each side by the clock and of the processor, and the ratio to ours."""
+    for name, both in times.items():
+        clock, busy = ([seconds[0], seconds[len(seconds) // 2]] for seconds in both)
+        print(f"{name:<28} best {clock[0]:8.3f} s   median {clock[1]:8.3f} s   of the processor {busy[0]:8.3f} s, {busy[1]:8.3f} s")
+    for name, both in times.items():
+        if name == ours:
+            continue
+        told = []
+        for seconds, base in zip(both, times[ours]):
+            middle = len(seconds) // 2
+            told += [machine.ratio(seconds[0], base[0], 1), machine.ratio(seconds[middle], base[middle], 1)]
+        print(f"{name} / {ours}: by the clock best {told[0]}x, median {told[1]}x; of the processor best {told[2]}x, median {told[3]}x")
+    print(machine.said())
 
 
 def need(*modules):

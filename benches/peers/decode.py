@@ -38,10 +38,10 @@ def main(source, map_file, pattern):
     def ours_decode():
         run("check", decoded, "--only", "TAC004", "--quiet")
 
-    times = in_turn(5, **{"pillow + numpy loop": pillow, "taceva import": ours_import, "taceva decode": ours_decode})
+    times, machine = in_turn(5, **{"pillow + numpy loop": pillow, "taceva import": ours_import, "taceva decode": ours_decode})
     print(f"{len(files)} pictures")
-    report(times, "taceva import")
-    report({name: times[name] for name in ("pillow + numpy loop", "taceva decode")}, "taceva decode")
+    report(times, "taceva import", machine)
+    report({name: times[name] for name in ("pillow + numpy loop", "taceva decode")}, "taceva decode", machine)
     shutil.rmtree(folder)
 
 

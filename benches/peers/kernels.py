@@ -20,6 +20,7 @@ for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[variable] = "1"
 
 from common import ROOT, need  # noqa: E402
+from machine import Machine  # noqa: E402
 
 RANGES = [(-12.5, 12.5, 0.25), (-12.5, 12.5, 0.25), (0.0, 1.0, 0.03), (-0.7, 0.7, 0.025), (-0.7, 0.7, 0.025), (0.02, 1.83, 0.036)]
 EPSILON = 1e-8
@@ -118,6 +119,7 @@ def main(rows, repeats):
             for y, yhat in zip(truth, prediction):
                 file.write(y.astype("<f8").tobytes())
                 file.write(yhat.astype("<f8").tobytes())
+        machine = Machine()
         before = rust_times(columns, repeats)
         peers = {name: timed(side, repeats, pairs) for name, side in sides.items()}
         after = rust_times(columns, repeats)
@@ -130,9 +132,12 @@ def main(rows, repeats):
     floor = times["floor"]
     print(f"{'':<32}{'ns a pair, thread':>22}{'ns a pair, wall':>22}   thread time, best and median")
     for name, (best, median, wall_best, wall_median) in times.items():
-        over_floor = f"{best / floor[0]:5.2f} {median / floor[1]:5.2f} x floor"
-        over_ours = "" if name in alone or name == "floor" else f"   {best / times[fastest][0]:5.2f} {median / times[fastest][1]:5.2f} x {fastest}"
+        over_floor = f"{machine.ratio(best, floor[0]):>5} {machine.ratio(median, floor[1]):>5} x floor"
+        over_ours = ""
+        if name not in alone and name != "floor":
+            over_ours = f"   {machine.ratio(best, times[fastest][0]):>5} {machine.ratio(median, times[fastest][1]):>5} x {fastest}"
         print(f"{name:<32}{best:>11.3f}{median:>11.3f}{wall_best:>11.3f}{wall_median:>11.3f}   {over_floor}{over_ours}")
+    print(machine.said())
 
 
 if __name__ == "__main__":

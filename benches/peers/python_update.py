@@ -16,8 +16,10 @@ import threading
 import time
 
 from common import ROOT, _importable, need
+from machine import Machine
 
 ROUNDS = 5
+MACHINE = Machine()
 
 
 def example():
@@ -56,8 +58,9 @@ def least(sides):
 
 
 def row(name, ours, theirs, bar):
-    verdict = "kept" if ours <= bar * theirs else "MISSED"
-    print(f"{name:<58} {ours:9.2f} ms {theirs:9.2f} ms {ours / theirs:7.2f} (bar {bar}: {verdict})")
+    ratio = MACHINE.ratio(ours, theirs)
+    verdict = "not told" if ratio == "–" else "kept" if ours <= bar * theirs else "MISSED"
+    print(f"{name:<58} {ours:9.2f} ms {theirs:9.2f} ms {ratio:>7} (bar {bar}: {verdict})")
 
 
 def updates(rows):
@@ -220,10 +223,10 @@ def imports():
 if __name__ == "__main__":
     need("numpy", "taceva")
     rows = int(sys.argv[1]) if len(sys.argv) > 1 else 1_000_000
-    print(f"load before: {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
+    print(MACHINE.said())
     imports()
     updates(rows)
     frames()
     other_thread(rows)
     interrupts()
-    print(f"load after: {os.getloadavg()[0]:.1f}")
+    print(MACHINE.said())

@@ -51,7 +51,7 @@ def main(rows):
         def peer():
             subprocess.run([sys.executable, "-c", PEER, truth, pred], check=True, stdout=subprocess.DEVNULL)
 
-        times = in_turn(
+        times, machine = in_turn(
             5,
             **{
                 "taceva, all metrics": lambda: run("score", "--truth", truth, "--pred", pred, "--quiet"),
@@ -59,7 +59,7 @@ def main(rows):
                 "pandas + scikit-learn": peer,
             },
         )
-        report(times, "taceva, all metrics")
+        report(times, "taceva, all metrics", machine)
 
 
 if __name__ == "__main__":

@@ -16,6 +16,8 @@ from pathlib import Path
 import av
 import numpy as np
 
+from machine import Machine
+
 FRAMES = 600
 PEER = """
 import sys, av
@@ -76,7 +78,8 @@ def main():
     arguments.add_argument("--runs", type=int, default=5)
     arguments = arguments.parse_args()
     frames, child = str(arguments.examples / "frames"), str(arguments.examples / "av1_child")
-    print(f"PyAV {av.__version__}, frames of 320×240, least of {arguments.runs} runs, load {os.getloadavg()[0]:.1f} at the beginning")
+    machine = Machine()
+    print(f"PyAV {av.__version__}, frames of 320×240, least of {arguments.runs} runs; {machine.said()}")
     with tempfile.TemporaryDirectory() as folder:
         for name, codec, pixel_format, options, rounds, peer in [
             ("mjpeg.avi", "mjpeg", "yuvj420p", {"qscale": "3"}, 40, PACKETS),
@@ -93,8 +96,8 @@ def main():
                 starts.append(used([sys.executable, "-c", "import sys, av"]))
             ours_s, theirs_s = min(ours), max(min(theirs) - min(starts), 1e-3)
             print(f"{name}, {count} frames, {path.stat().st_size / 1e6:.1f} MB: {ours_s:.3f} s, "
-                  f"PyAV {theirs_s:.3f} s without starting Python: {ours_s / theirs_s:.2f} ×")
-    print(f"load {os.getloadavg()[0]:.1f} at the end")
+                  f"PyAV {theirs_s:.3f} s without starting Python: {machine.ratio(ours_s, theirs_s)} ×")
+    print(machine.said())
 
 
 if __name__ == "__main__":

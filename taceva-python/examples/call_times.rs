@@ -1,7 +1,7 @@
 //! Processor time of the calls that the Python package makes, made from Rust: what `benches/peers/python_update.py` compares with.
 //!
 //! ```text
-//! call_times update ROWS        # milliseconds of `update` of ROWS × 6 ready columns, metrics of accuracy
+//! call_times update ROWS        # milliseconds of `update` of ROWS × 6 ready columns, metrics of accuracy and the skill
 //! call_times frames RECORDING   # milliseconds in which `map_frames` decodes all frames of a recording into one buffer, on one thread
 //! ```
 //!
@@ -17,6 +17,7 @@ use taceva_core::random::mix;
 use taceva_core::{Batch, Channel, Channels, Column, FieldSet, SilentProgress};
 use taceva_dataset::{Dataset, Pass};
 use taceva_metrics::{Evaluator, MetricPlan, catalogue};
+use taceva_study::with_skill;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let words: Vec<String> = std::env::args().skip(1).collect();
@@ -37,7 +38,8 @@ fn drawn(seed: u64, rows: u64) -> Column {
 
 fn update(rows: u64) -> Result<(), Box<dyn Error>> {
     let channels = Channels::new(Channel::SIX)?;
-    let wanted = catalogue::select(["accuracy"])?;
+    // What the package asks for, too: no score is without the skill.
+    let wanted = with_skill(catalogue::select(["accuracy"])?);
     let plan = MetricPlan::new(&wanted, channels.clone(), FieldSet::PAIRS);
     let columns = |first| (first..first + 6).map(|seed| drawn(seed, rows)).collect();
     let batch = Batch::from_columns(channels, columns(0), columns(6), None);

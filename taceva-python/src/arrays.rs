@@ -101,13 +101,28 @@ fn gather<T: Element + Into<f64>>(
     for first in rows.clone().step_by(step) {
         let end = rows.end.min(first + step);
         copy_into(py, array, first * width..end * width, &mut numbers);
-        for (at, column) in columns.iter_mut().enumerate() {
-            let before = column.len();
-            column.extend(numbers.chunks_exact(width).map(|row| row[at].into()));
-            are_all &= are_finite(&column[before..]);
+        are_all &= are_finite(&numbers);
+        // The steps from row to row are those of the code where the width is a usual one.
+        match width {
+            1 => columns[0].extend(numbers.iter().map(|number| (*number).into())),
+            3 => apart::<T, 3>(&numbers, columns),
+            6 => apart::<T, 6>(&numbers, columns),
+            _ => {
+                for (at, column) in columns.iter_mut().enumerate() {
+                    column.extend(numbers.chunks_exact(width).map(|row| row[at].into()));
+                }
+            }
         }
     }
     are_all
+}
+
+/// Rows of `WIDTH` numbers, as a column a channel behind what `columns` hold.
+fn apart<T: Copy + Into<f64>, const WIDTH: usize>(numbers: &[T], columns: &mut [Vec<f64>]) {
+    let (rows, _) = numbers.as_chunks::<WIDTH>();
+    for (at, column) in columns.iter_mut().enumerate().take(WIDTH) {
+        column.extend(rows.iter().map(|row| row[at].into()));
+    }
 }
 
 fn is_finite<T: Element + Into<f64>>(py: Python<'_>, array: &PyBuffer<T>) -> bool {

@@ -16,6 +16,7 @@ pub(crate) mod retried;
 mod schedule;
 mod seen;
 pub(crate) mod sessions;
+mod simulated;
 mod tap;
 mod workshop;
 

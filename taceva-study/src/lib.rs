@@ -69,7 +69,7 @@ pub use rig::{
     teach_rig,
 };
 pub use rows::{DataPart, Divided};
-pub use run::{Existing, RunFolder, run_scene};
+pub use run::{Existing, RunFolder, acquire_scene, run_scene};
 pub use samples::Samples;
 pub use scene::{Instead, PlannedScene, PlannedStudy, SceneText};
 pub use score::{ScoreRequest, ScoreTables, Scored, Scoring, Shard, ShardError};

@@ -34,10 +34,7 @@ pub fn run_scene(
     jobs: NonZeroUsize,
 ) -> Result<Vec<EvaluationReport>, StudyError> {
     scene.check_models(workshop.models)?;
-    if workshop.operator.is_none() {
-        scene.check_unattended(workshop.drivers)?;
-    }
-    let datasets = acquire_all(scene, folder, workshop, jobs)?;
+    let datasets = acquire_scene(scene, folder, workshop, jobs)?;
     let work = Work {
         jobs,
         progress: workshop.progress,
@@ -57,14 +54,22 @@ pub fn run_scene(
     assessed.collect()
 }
 
-/// The recordings of all studies; each worker takes the next study that nobody has taken. Devices that are not simulated are there once, so
-/// that studies take turns on them.
-fn acquire_all(
+/// The recordings of all studies of `scene` in `folder`, in order: acquired, gone on with or found there, as [`run_scene`] does before it fits and
+/// scores anything. Each worker takes the next study that nobody has taken; devices that are not simulated are there once, so that studies
+/// take turns on them.
+///
+/// # Errors
+/// [`StudyError::Open`] and [`StudyError::Acquisition`] as [`run_scene`]; [`StudyError::Request`] for a scene that needs hands where nobody can
+/// be asked; [`StudyError::Dataset`] if it cannot be recorded.
+pub fn acquire_scene(
     scene: &PlannedScene,
     folder: &RunFolder,
     workshop: Workshop<'_>,
     jobs: NonZeroUsize,
 ) -> Result<Vec<Dataset>, StudyError> {
+    if workshop.operator.is_none() {
+        scene.check_unattended(workshop.drivers)?;
+    }
     let studies = &scene.studies;
     let presses: usize = studies.iter().map(|study| study.plan.presses.len()).sum();
     workshop.progress.begin("press", Some(presses as u64));

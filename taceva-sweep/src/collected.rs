@@ -1,11 +1,10 @@
 //! What is made of all results: the table, its digest, and the pages.
 
+mod kept;
 mod made;
 
 use std::fs;
-use std::path::PathBuf;
 
-use taceva_core::shown;
 use taceva_dataset::Digest;
 
 use crate::accepted;
@@ -31,7 +30,7 @@ pub fn collect(folder: &SweepFolder, list: &TaskList, anew: bool) -> Result<Coll
         return shards_joined::join(folder, list, tables);
     }
     let made_of = made_of(folder, list)?;
-    if !anew && let Some(before) = kept(folder, &made_of) {
+    if !anew && let Some(before) = Collected::read(folder, &made_of)? {
         return Ok(before);
     }
     let loaded = analysis::load(folder, list)?;
@@ -93,34 +92,8 @@ fn write_all(
         let table = accepted::table(&collected.units);
         folder.write(&at("units.csv"), table.csv().as_bytes())?;
     }
-    let path = mark(folder);
-    let text = serde_json::to_string(collected).map_err(|error| SweepError::Kept {
-        path: path.clone(),
-        problem: format!("{}", shown(&error.to_string())),
-    })?;
     // The last, so that it speaks of files that are there.
-    folder.write(&path, text.as_bytes())
-}
-
-fn mark(folder: &SweepFolder) -> PathBuf {
-    folder.path().join("collected.json")
-}
-
-/// What was made of the same results before.
-fn kept(folder: &SweepFolder, made_of: &str) -> Option<Collected> {
-    let text = fs::read_to_string(mark(folder)).ok()?;
-    let before: Collected = serde_json::from_str(&text).ok()?;
-    let names = [
-        "table.csv",
-        "table.parquet",
-        "times.csv",
-        "page.html",
-        "times.html",
-    ];
-    let is_there = names.iter().all(|name| folder.path().join(name).is_file());
-    let table = fs::read(folder.path().join("table.csv")).ok()?;
-    let is_same = Digest::of(&table).to_string() == before.digest;
-    (before.made_of == made_of && is_there && is_same).then_some(before)
+    collected.write(folder)
 }
 
 /// The digest of the list of tasks, the limits, and which of the tasks have a result or failed, and why.

@@ -1,5 +1,6 @@
 //! Conditions over tasks: `model = ridge and size = 64x64 or seed != 1`.
 
+mod alternatives;
 mod term;
 
 use std::collections::BTreeSet;
@@ -39,10 +40,12 @@ impl Condition {
         let is_digits = trimmed.bytes().all(|byte| byte.is_ascii_hexdigit());
         let alternatives = match (4..=32).contains(&trimmed.len()) && is_digits {
             true => vec![vec![Term::of_key(trimmed)]],
-            false => term::alternatives(trimmed).map_err(|problem| SweepError::Condition {
-                text: text.to_owned(),
-                problem,
-            })?,
+            false => {
+                alternatives::alternatives(trimmed).map_err(|problem| SweepError::Condition {
+                    text: text.to_owned(),
+                    problem,
+                })?
+            }
         };
         Ok(Condition {
             text: text.to_owned(),

@@ -7,12 +7,14 @@
 //!       /logs/KEY.log           what it did, stage by stage
 //!       /times/KEY.json         how long it took, and where
 //!       /claims/KEY             who is at it
+//!       /scenes/NAME/           the run of a scene whose recordings tasks are of
 //!       /cache/                 what tasks have in common
 //!       /slurm/                 scripts, lists of tasks, words of jobs
 //!       table.csv, table.parquet, times.csv, page.html, times.html
 //! ```
 
-use std::collections::BTreeSet;
+mod keys;
+
 use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -45,6 +47,21 @@ impl SweepFolder {
     /// Where tasks find what they have in common.
     pub fn cache(&self) -> PathBuf {
         self.path.join("cache")
+    }
+
+    /// Where the runs of scenes are, each under the name of its scene.
+    pub fn scenes(&self) -> PathBuf {
+        self.path.join("scenes")
+    }
+
+    /// The claim of whoever acquires the scene called `name`.
+    pub fn scene_claim(&self, name: &str) -> PathBuf {
+        self.path.join(format!("claims/scene-{name}"))
+    }
+
+    /// How long scenes took.
+    pub(crate) fn scene_times(&self) -> PathBuf {
+        self.path.join("times/scenes")
     }
 
     /// Makes the folder and those in it.
@@ -94,35 +111,6 @@ impl SweepFolder {
     /// Scripts of the scheduler.
     pub fn slurm(&self) -> PathBuf {
         self.path.join("slurm")
-    }
-
-    /// The keys of results that are there, found by their names alone.
-    pub(crate) fn results(&self) -> Result<BTreeSet<String>, SweepError> {
-        self.keys("results")
-    }
-
-    /// The keys of tasks that failed.
-    pub(crate) fn failures(&self) -> Result<BTreeSet<String>, SweepError> {
-        self.keys("failed")
-    }
-
-    fn keys(&self, name: &str) -> Result<BTreeSet<String>, SweepError> {
-        let folder = self.path.join(name);
-        let entries = match fs::read_dir(&folder) {
-            Ok(entries) => entries,
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-                return Ok(BTreeSet::new());
-            }
-            Err(error) => return Err(SweepError::io("list", &folder)(error)),
-        };
-        let mut keys = BTreeSet::new();
-        for entry in entries {
-            let entry = entry.map_err(SweepError::io("list", &folder))?;
-            let name = entry.file_name();
-            let key = name.to_str().and_then(|name| name.strip_suffix(".json"));
-            keys.extend(key.filter(|key| TaskKey::is_one(key)).map(str::to_owned));
-        }
-        Ok(keys)
     }
 
     /// Writes a file that is absent or whole at any moment; two that write one file write the same.

@@ -1,5 +1,6 @@
 //! Every combination of what varies, as tasks.
 
+mod builds;
 mod checks;
 mod combined;
 mod recordings;
@@ -12,10 +13,11 @@ use taceva_study::StudyError;
 
 use crate::error::SweepError;
 use crate::file::SweepFile;
+use crate::scene_recording::SceneRecording;
 use crate::task::Task;
 use combined::Common;
 
-pub(crate) use checks::build_of;
+pub(crate) use builds::build_of;
 pub(crate) use shards::PlannedTables;
 
 /// The tasks of a sweep, in the order of its file: recordings, splits, seeds, settings, models; or shards of two tables.
@@ -31,28 +33,34 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// The tasks that `file` asks for. Opens each recording once, for its digest, and reads no frame; looks through tables once.
+    /// The tasks that `file` asks for, of `scenes` too: what its scenes acquire. Opens each recording once, for its digest, and reads no frame; looks
+    /// through tables once. Of a recording that is not acquired yet tasks have keys that no result has: they can be counted and checked, and are
+    /// planned anew once it is there.
     ///
     /// # Errors
     /// [`SweepError`] for a grid that is empty or larger than [`MOST_TASKS`](crate::MOST_TASKS), a model, a setting or a metric that does not
     /// exist, and a recording or a table that cannot be read.
-    pub fn of(file: &SweepFile, models: &Models) -> Result<Grid, SweepError> {
+    pub fn of(
+        file: &SweepFile,
+        scenes: &[SceneRecording],
+        models: &Models,
+    ) -> Result<Grid, SweepError> {
         let metrics = file.metrics.iter().map(String::as_str);
         let known = catalogue::select(metrics).map_err(StudyError::from);
         if let Some(tables) = &file.tables {
             known?;
             return shards::grid(file, tables);
         }
-        let named = recordings::named(file)?;
+        let named = recordings::named(file, scenes)?;
         checks::size(file, named.len())?;
         known?;
         let sensor = sensor_digest(file)?;
         checks::words(file)?;
-        let recordings = recordings::open(file, named)?;
+        let recordings = recordings::open(file, &named)?;
         let common = Common {
             file,
             sensor,
-            builds: checks::builds(file, models)?,
+            builds: builds::builds(file, models)?,
         };
         let grid = common.combined(&recordings);
         if grid.tasks.is_empty() {

@@ -1,11 +1,14 @@
 //! The name of a task's result: the digest of everything that decides it.
 
+mod shard;
+
 use std::collections::BTreeMap;
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
-use taceva_core::Unit;
 use taceva_dataset::Digest;
+
+pub(crate) use shard::ShardParts;
 
 /// Counted on when the result of the same parts becomes another one within a version of this program.
 const VERSION: &str = "2";
@@ -30,19 +33,6 @@ pub(crate) struct KeyParts<'a> {
     pub(crate) sensor: Option<Digest>,
     /// The build of the plugin that offers the model.
     pub(crate) plugin: Option<&'a str>,
-}
-
-/// What decides the result of a shard of two tables.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct ShardParts<'a> {
-    /// The digests of the truth and of the predictions.
-    pub(crate) tables: [Digest; 2],
-    /// Which shard of how many: `2/7`.
-    pub(crate) shard: &'a str,
-    pub(crate) units: &'a [(String, Unit)],
-    pub(crate) allow_invalid: bool,
-    pub(crate) metrics: &'a [String],
-    pub(crate) sensor: Option<Digest>,
 }
 
 /// Parts of a key, each with its length, so that no two sequences of parts run together.
@@ -84,23 +74,6 @@ impl TaskKey {
         bytes.part(&parts.metrics.join(","));
         bytes.part(&text_of(parts.sensor));
         bytes.part(parts.plugin.unwrap_or_default());
-        bytes.finish()
-    }
-
-    pub(crate) fn of_shard(parts: ShardParts<'_>) -> TaskKey {
-        let mut bytes = KeyBytes::new("taceva-sweep of tables");
-        for table in parts.tables {
-            bytes.part(&table.to_string());
-        }
-        bytes.part(parts.shard);
-        bytes.part(&parts.units.len().to_string());
-        for (name, unit) in parts.units {
-            bytes.part(name);
-            bytes.part(unit.symbol());
-        }
-        bytes.part(&parts.allow_invalid.to_string());
-        bytes.part(&parts.metrics.join(","));
-        bytes.part(&text_of(parts.sensor));
         bytes.finish()
     }
 
@@ -168,30 +141,5 @@ mod tests {
         }
         assert_eq!(of("ridge", &[], None, 1, "all", None), keys[0]);
         assert!(!TaskKey::is_one("../../etc/passwd"));
-    }
-
-    #[test]
-    fn every_part_of_a_shard_is_part_of_its_key() {
-        let of = |tables: [&[u8]; 2], shard: &str, units: &[(String, Unit)], allow_invalid| {
-            TaskKey::of_shard(ShardParts {
-                tables: tables.map(Digest::of),
-                shard,
-                units,
-                allow_invalid,
-                metrics: &["all".to_owned()],
-                sensor: None,
-            })
-        };
-        let newton = [("tension".to_owned(), Unit::Newton)];
-        let keys = [
-            of([b"a", b"b"], "1/2", &[], false),
-            of([b"b", b"a"], "1/2", &[], false),
-            of([b"a", b"b"], "2/2", &[], false),
-            of([b"a", b"b"], "1/2", &newton, false),
-            of([b"a", b"b"], "1/2", &[], true),
-        ];
-        for (at, key) in keys.iter().enumerate() {
-            assert!(keys[..at].iter().all(|other| other != key), "{key}");
-        }
     }
 }

@@ -7,6 +7,7 @@ mod command;
 mod queue;
 mod script;
 mod submit;
+mod submitted;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -19,7 +20,8 @@ use command::array_most;
 use script::Script;
 
 pub use queue::{JobState, queue_of};
-pub use submit::{Submitted, submit};
+pub use submit::submit;
+pub use submitted::Submitted;
 
 /// What is submitted.
 #[derive(Clone, Debug)]

@@ -12,6 +12,7 @@ The file:
   sweep_version = 1
   name = \"which network, which size\"
   datasets = [\"monday\", \"units/*\"]         # folders, relative to the file
+  scenes = [\"quick\"]                       # also instead: scenes of the simulated bench, acquired first
   models = [\"ridge\", { name = \"cnn\", set = { epochs = 60 } }]
   seeds = \"1-5\"                            # or [1, 2, 3]
   splits = [\"by-point\"]

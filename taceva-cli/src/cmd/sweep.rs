@@ -1,8 +1,11 @@
 //! `taceva sweep`.
 
 mod jobs;
+mod planned;
 mod run;
+mod scenes;
 mod summary;
+mod tasks;
 
 use taceva_sweep::{TaskList, collect, show};
 
@@ -18,7 +21,7 @@ pub(crate) fn run(args: &Sweep, context: &Context) -> anyhow::Result<u8> {
         Some(SweepSubject::Status(args)) => jobs::status(&args.sweep, context),
         Some(SweepSubject::Cancel(args)) => jobs::cancel(&args.sweep, context),
         Some(SweepSubject::Collect(args)) => collected(args, context),
-        Some(SweepSubject::Task(args)) => run::tasks(args, context),
+        Some(SweepSubject::Task(args)) => tasks::run(args, context),
     }
 }
 

@@ -5,6 +5,7 @@
     reason = "each test file is a program of its own and uses some of it"
 )]
 
+pub(crate) mod kept;
 pub(crate) mod sweeps;
 
 use std::fs;

@@ -6,6 +6,7 @@
 mod enabling;
 mod observation;
 mod reaction;
+mod repeats;
 
 pub use enabling::Enabling;
 pub use observation::{MotionStage, Observation};
@@ -23,6 +24,7 @@ use super::trip::Trip;
 use super::way::{distance, distance_from_way};
 use crate::limits::{FROZEN_READINGS, RigLimits};
 use reaction::Lateness;
+use repeats::Repeats;
 
 /// Farther from where it was sent, or from the way there, the tip has gone astray, in mm.
 const DIVERGED_MM: f64 = 0.5;
@@ -77,13 +79,11 @@ pub struct Supervisor {
     fault: Option<Fault>,
     /// Where it was seen under way last.
     seen: Option<Pose>,
+    /// The last force and when it was true, for its rate.
     last: Option<(Wrench, f64)>,
-    /// The number of the last force, if it has one.
-    number: Option<u64>,
     /// When the last force or, before one, the watch began.
     heard_s: f64,
-    equal: u32,
-    moved: bool,
+    repeats: Repeats,
     tripped: Option<Trip>,
     enabling: Enabling,
     /// How late readings come, while somebody measures that.
@@ -105,10 +105,8 @@ impl Supervisor {
             fault: None,
             seen: None,
             last: None,
-            number: None,
             heard_s: f64::NEG_INFINITY,
-            equal: 0,
-            moved: false,
+            repeats: Repeats::default(),
             tripped: None,
             enabling: Enabling::Held,
             lateness: None,
@@ -120,11 +118,16 @@ impl Supervisor {
     pub fn watch(&mut self, stage: MotionStage, now_s: f64) {
         self.stage = stage;
         self.heard_s = now_s;
-        // In the air the zero of the transducer may have moved; from the search on a frozen signal must not slip through.
-        if let MotionStage::Travel { .. } | MotionStage::Zeroing = stage {
-            self.last = None;
-            self.number = None;
-            self.equal = 0;
+        // In the air the zero of the transducer may have moved: what it said before gives no rate. Readings that repeat are counted on, or
+        // a signal that froze in the air would have the tip go on for as long again from each stage to the next. Only a zero of the
+        // transducer's own, once a run, begins anew.
+        match stage {
+            MotionStage::Travel { .. } => self.last = None,
+            MotionStage::Zeroing => {
+                self.last = None;
+                self.repeats.forget();
+            }
+            _ => {}
         }
     }
 
@@ -225,7 +228,7 @@ impl Supervisor {
 
     /// Whether the last reading of force differs from that before the last motion: at rest, only such a reading is news.
     pub fn is_fresh(&self) -> bool {
-        self.equal == 0
+        self.repeats.count() == 0
     }
 
     /// Takes a reading; if it must not go on, the robot is halted before this returns.
@@ -285,18 +288,8 @@ impl Supervisor {
         }
         let before = self.last.replace((*wrench, stamp.valid_s));
         self.heard_s = stamp.valid_s;
-        // A signal counts as frozen only against motion: at rest, equal readings are news from a quiet gel.
-        let is_equal = match (std::mem::replace(&mut self.number, number), number) {
-            (Some(last), Some(number)) if last == number => true,
-            // A box may count on while what it counts has stopped.
-            _ if !self.limits.signals.equality_is_frozen => false,
-            _ => before.is_some_and(|(last, _)| last == *wrench),
-        };
-        self.equal = match (is_equal, std::mem::take(&mut self.moved)) {
-            (true, true) => self.equal + 1,
-            (true, false) => self.equal,
-            (false, _) => 0,
-        };
+        let equality_is_frozen = self.limits.signals.equality_is_frozen;
+        self.repeats.take(wrench, number, equality_is_frozen);
         let rate = before.and_then(|(last, last_s)| {
             let span_s = stamp.valid_s - last_s;
             let change = (wrench.force[2].0 - last.force[2].0).abs();
@@ -304,8 +297,8 @@ impl Supervisor {
         });
         self.force_trip(wrench).or(match rate {
             Some(rate_n_s) if rate_n_s > RATE_MAX_N_S => Some(Trip::ForceRate { rate_n_s }),
-            _ if self.equal >= FROZEN_READINGS => Some(Trip::Frozen {
-                readings: self.equal,
+            _ if self.repeats.count() >= FROZEN_READINGS => Some(Trip::Frozen {
+                readings: self.repeats.count(),
             }),
             _ => None,
         })
@@ -347,7 +340,7 @@ impl Supervisor {
     }
 
     fn pose(&mut self, pose: &Pose, stamp: &Stamp, target: &Pose, now_s: f64) -> Option<Trip> {
-        self.moved = true;
+        self.repeats.moved();
         self.place(pose, stamp, now_s).or_else(|| {
             let distance_mm = distance(pose, target);
             (distance_mm > self.diverged_mm()).then_some(Trip::Diverged { distance_mm })
@@ -359,7 +352,7 @@ impl Supervisor {
         let seen = *self.seen.get_or_insert(*pose);
         if distance(pose, &seen) > MOVED_MM.max(self.limits.signals.slack_mm()) {
             self.seen = Some(*pose);
-            self.moved = true;
+            self.repeats.moved();
         }
         self.place(pose, stamp, now_s).or_else(|| {
             let [from, to] = self.way.as_ref()?;

@@ -1,5 +1,7 @@
 //! The folder of a run: the scene as it was read, its plans, a recording a study, and the reports.
 
+mod found;
+
 use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -45,20 +47,13 @@ impl RunFolder {
             problem,
         };
         let failed = |error: io::Error| refused(error.to_string());
-        let plans = serde_json::to_string(scene).map_err(|error| refused(error.to_string()))?;
         let folder = RunFolder {
             path: path.to_owned(),
         };
+        let plans = folder.plans_of(scene)?;
         let (is_run, is_there) = (path.join(PLANS).exists(), path.exists());
         match existing {
-            Existing::Resume if is_run => {
-                let before = fs::read_to_string(path.join(PLANS)).map_err(failed)?;
-                if in_todays_words(&before).trim_end() != plans {
-                    return Err(refused(
-                        "the run there has other plans: run the same scene with the same seed, or choose another folder"
-                            .to_owned(),
-                    ));
-                }
+            Existing::Resume if folder.is_begun(scene)? => {
                 for written in ["", REPORTS, FIGURES, RECORDINGS] {
                     remove_partial(&path.join(written)).map_err(failed)?;
                 }
@@ -154,11 +149,6 @@ impl RunFolder {
             Existing::Resume | Existing::Replace => path((free - 1).max(1)),
         }
     }
-}
-
-/// Plans with keys as this version calls them. In a string of JSON the quotation marks of such a key would be escaped.
-fn in_todays_words(plans: &str) -> String {
-    plans.replace("\"gratings_told_by\":", "\"gratings_classified_by\":")
 }
 
 /// A name of a person as a name of a file.

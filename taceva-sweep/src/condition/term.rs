@@ -1,4 +1,4 @@
-//! Terms of a condition, and what stands between them.
+//! One term of a condition: `size != 64x64`.
 
 use crate::task::Task;
 
@@ -11,55 +11,8 @@ const SIGNS: [char; 9] = ['=', '!', '<', '>', '&', '|', '(', ')', '"'];
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Term {
     pub(super) name: String,
-    is_equal: bool,
-    value: String,
-}
-
-/// The terms of each alternative.
-pub(super) fn alternatives(text: &str) -> Result<Vec<Vec<Term>>, String> {
-    let mut alternatives = vec![Vec::new()];
-    for (joint, term) in pieces(text) {
-        if joint == Joint::Or {
-            alternatives.push(Vec::new());
-        }
-        if let Some(terms) = alternatives.last_mut() {
-            terms.push(Term::parse(term)?);
-        }
-    }
-    Ok(alternatives)
-}
-
-/// What stands before a term.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Joint {
-    And,
-    Or,
-}
-
-/// The texts of terms, each with what stands before it; words in quotes join nothing.
-fn pieces(text: &str) -> Vec<(Joint, &str)> {
-    let mut pieces = Vec::new();
-    let (mut joint, mut start, mut quote) = (Joint::And, 0, None);
-    for (at, letter) in text.char_indices() {
-        match (quote, letter) {
-            (None, '"' | '\'') => quote = Some(letter),
-            (Some(open), letter) if open == letter => quote = None,
-            (None, ' ') if at >= start => {
-                let rest = &text[at..];
-                let next = [(" and ", Joint::And), (" or ", Joint::Or)];
-                let found = next.into_iter().find(|(word, _)| rest.starts_with(word));
-                if let Some((word, next)) = found {
-                    pieces.push((joint, &text[start..at]));
-                    joint = next;
-                    // The space after the word may be the one before the next.
-                    start = at + word.len();
-                }
-            }
-            _ => {}
-        }
-    }
-    pieces.push((joint, text.get(start..).unwrap_or_default()));
-    pieces
+    pub(super) is_equal: bool,
+    pub(super) value: String,
 }
 
 impl Term {
@@ -72,7 +25,7 @@ impl Term {
         }
     }
 
-    fn parse(text: &str) -> Result<Term, String> {
+    pub(super) fn parse(text: &str) -> Result<Term, String> {
         let wrong = || format!("`{}`: {UNDERSTOOD}", taceva_core::shown(text.trim()));
         let (name, rest) = text.split_once('=').ok_or_else(wrong)?;
         let (name, is_equal) = match name.strip_suffix('!') {
@@ -113,60 +66,4 @@ fn value(text: &str) -> Option<&str> {
     let is_joint = |word: &str| matches!(word, "and" | "or");
     let is_bare = !text.contains(SIGNS) && !text.contains('\'') && !words.any(is_joint);
     is_bare.then_some(text)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn words(text: &str) -> Vec<Vec<String>> {
-        let alternatives = alternatives(text).expect(text);
-        let word = |term: &Term| {
-            let sign = if term.is_equal { "=" } else { "!=" };
-            format!("{}{sign}{}", term.name, term.value)
-        };
-        alternatives
-            .iter()
-            .map(|terms| terms.iter().map(word).collect())
-            .collect()
-    }
-
-    #[test]
-    fn and_binds_closer_than_or_and_quoted_words_join_nothing() {
-        assert_eq!(
-            words("model = ridge and size != 8x8 or seed=1"),
-            [vec!["model=ridge", "size!=8x8"], vec!["seed=1"]]
-        );
-        assert_eq!(
-            words("split = by-point 50/10/40"),
-            [["split=by-point 50/10/40"]]
-        );
-        assert_eq!(words("dataset = 'a or b'"), [["dataset=a or b"]]);
-        assert_eq!(words("dataset = \"x = y\""), [["dataset=x = y"]]);
-    }
-
-    #[test]
-    fn what_would_be_taken_for_something_else_is_refused_with_the_term() {
-        for (text, term) in [
-            ("model == ridge", "model == ridge"),
-            ("model = ridge size = 8x8", "model = ridge size = 8x8"),
-            ("model = ridge && seed = 1", "model = ridge && seed = 1"),
-            ("(model = ridge)", "(model = ridge)"),
-            ("seed > 1", "seed > 1"),
-            ("seed >= 1", "seed >= 1"),
-            ("not model = ridge", "not model = ridge"),
-            ("model = ridge and", "model = ridge and"),
-            ("model = ridge and or seed = 1", "or seed = 1"),
-            ("model = ridge and seed", "seed"),
-            ("model = 'ridge", "model = 'ridge"),
-            ("model =", "model ="),
-            ("", ""),
-        ] {
-            let error = alternatives(text).expect_err(text);
-            assert!(
-                error.starts_with(&format!("`{term}`: expected NAME = VALUE")),
-                "{text}: {error}"
-            );
-        }
-    }
 }

@@ -14,16 +14,22 @@ pub(super) struct FilePlace<'a> {
 impl FilePlace<'_> {
     /// What is wrong with what stands below `key`, with its line.
     pub(super) fn wrong(&self, key: &str, problem: String) -> SweepError {
-        let line = self.text.lines().position(|line| {
-            let code = line.split('#').next().unwrap_or_default();
-            code.split(|letter: char| !(letter.is_alphanumeric() || "_-".contains(letter)))
-                .any(|word| word == key)
-        });
         SweepError::Meaning {
             path: self.path.to_owned(),
-            line: line.map(|line| line + 1),
+            line: self.line_of(key),
             problem,
         }
+    }
+
+    /// The line where `key` gets its value; else the first one that has it as a word, as that of a model in a list.
+    pub(super) fn line_of(&self, key: &str) -> Option<usize> {
+        let mut lines = self.text.lines();
+        let set = lines.position(|line| {
+            let rest = line.trim_start().strip_prefix(key);
+            rest.is_some_and(|rest| rest.trim_start().starts_with('='))
+        });
+        let line = set.or_else(|| self.text.lines().position(|line| has_word(line, key)));
+        line.map(|line| line + 1)
     }
 
     /// Refuses a value that comes twice.
@@ -39,4 +45,11 @@ impl FilePlace<'_> {
         }
         Ok(())
     }
+}
+
+/// Whether `key` is a word of `line`, outside its comment.
+fn has_word(line: &str, key: &str) -> bool {
+    let code = line.split('#').next().unwrap_or_default();
+    let mut words = code.split(|letter: char| !(letter.is_alphanumeric() || "_-".contains(letter)));
+    words.any(|word| word == key)
 }

@@ -72,6 +72,7 @@ impl TablesEntry {
 pub(super) fn check_alone(written: &WrittenSweep, place: FilePlace<'_>) -> Result<(), SweepError> {
     let others = [
         ("datasets", !written.datasets.is_empty()),
+        ("scenes", !written.scenes.is_empty()),
         ("models", !written.models.is_empty()),
         ("seeds", written.seeds.is_some()),
         ("splits", !written.splits.is_empty()),

@@ -1,15 +1,24 @@
 //! The recordings of a sweep: found by their names, told apart by what they hold.
 
 use std::collections::BTreeSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use taceva_core::shown;
-use taceva_dataset::Digest;
+use taceva_dataset::{DatasetError, Digest};
 
 use crate::error::SweepError;
 use crate::file::SweepFile;
 use crate::glob;
 use crate::recording::opened;
+use crate::scene_recording::SceneRecording;
+
+/// A recording by its name, not looked at yet.
+pub(super) struct Named {
+    name: String,
+    path: PathBuf,
+    /// Of a scene: what stands for its digest until it is there.
+    planned: Option<Digest>,
+}
 
 /// A recording that tasks are of.
 pub(super) struct Recording {
@@ -18,8 +27,28 @@ pub(super) struct Recording {
     pub(super) digest: Digest,
 }
 
-/// The recordings that the file names, patterns resolved.
-pub(super) fn named(file: &SweepFile) -> Result<Vec<String>, SweepError> {
+impl Named {
+    /// The key of the file that names it.
+    fn key(&self) -> &'static str {
+        match self.planned {
+            None => "datasets",
+            Some(_) => "scenes",
+        }
+    }
+
+    /// The digest of the recording at `path`, or what stands for it.
+    fn digest(&self, path: &Path) -> Result<Digest, SweepError> {
+        match (opened(path), self.planned) {
+            (Err(SweepError::Dataset(DatasetError::NoDataset { .. })), Some(planned)) => {
+                Ok(planned)
+            }
+            (found, _) => found.map(|(_, digest)| digest),
+        }
+    }
+}
+
+/// The recordings that the file names, patterns resolved, and those of its scenes.
+pub(super) fn named(file: &SweepFile, scenes: &[SceneRecording]) -> Result<Vec<Named>, SweepError> {
     let mut names: Vec<String> = Vec::new();
     for text in &file.datasets {
         if !glob::is_pattern(text) {
@@ -42,31 +71,49 @@ pub(super) fn named(file: &SweepFile) -> Result<Vec<String>, SweepError> {
     }
     let mut known = BTreeSet::new();
     names.retain(|name| known.insert(name.clone()));
-    Ok(names)
+    for SceneRecording { name, .. } in scenes {
+        if !known.insert(name.clone()) {
+            let problem = format!(
+                "two recordings are called `{name}`, of which one is of a scene: name a folder `./{name}`, or give the scene another `name`",
+                name = shown(name)
+            );
+            return Err(file.wrong("scenes", problem));
+        }
+    }
+    let folders = names.into_iter().map(|name| Named {
+        path: file.folder().join(&name),
+        name,
+        planned: None,
+    });
+    let of_scenes = scenes.iter().map(|scene| Named {
+        path: scene.path.clone(),
+        name: scene.name.clone(),
+        planned: Some(scene.planned),
+    });
+    Ok(folders.chain(of_scenes).collect())
 }
 
 /// Opens each, once, for its digest; no frame is read. Two names of one recording are refused: of both there would be one result.
-pub(super) fn open(file: &SweepFile, names: Vec<String>) -> Result<Vec<Recording>, SweepError> {
-    let mut recordings: Vec<Recording> = Vec::with_capacity(names.len());
-    for name in names {
-        let path = file.folder().join(&name);
+pub(super) fn open(file: &SweepFile, all: &[Named]) -> Result<Vec<Recording>, SweepError> {
+    let mut recordings: Vec<Recording> = Vec::with_capacity(all.len());
+    for one in all {
         // Absolute, since a job of a scheduler begins elsewhere.
-        let path = std::path::absolute(&path).map_err(SweepError::io("find", &path))?;
-        let (_, digest) = opened(&path)?;
-        recordings.push(Recording { name, path, digest });
-    }
-    for (at, one) in recordings.iter().enumerate() {
-        let alike = recordings[..at]
-            .iter()
-            .find(|other| other.digest == one.digest);
+        let path = std::path::absolute(&one.path).map_err(SweepError::io("find", &one.path))?;
+        let digest = one.digest(&path)?;
+        let alike = recordings.iter().find(|other| other.digest == digest);
         if let Some(other) = alike {
             let problem = format!(
                 "`{}` and `{}` are one recording, the same to the last byte of its header; name it once, or give the copy of another unit its serial number",
                 shown(&other.name),
                 shown(&one.name)
             );
-            return Err(file.wrong("datasets", problem));
+            return Err(file.wrong(one.key(), problem));
         }
+        recordings.push(Recording {
+            name: one.name.clone(),
+            path,
+            digest,
+        });
     }
     Ok(recordings)
 }

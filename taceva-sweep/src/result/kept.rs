@@ -3,26 +3,19 @@
 use std::fs;
 
 use taceva_dataset::Digest;
-use taceva_seal::Version;
 
 use super::{SCHEMA, TaskResult};
 use crate::error::SweepError;
 use crate::folder::SweepFolder;
 use crate::key::TaskKey;
+use crate::sealed;
 
 impl TaskResult {
     pub(crate) fn text(&self) -> Result<String, SweepError> {
-        let text =
-            serde_json::to_string(self).map_err(|error| self.unwritable(error.to_string()))?;
-        let text = taceva_seal::json::seal(&text);
-        text.map_err(|error| self.unwritable(error.to_string()))
-    }
-
-    fn unwritable(&self, problem: String) -> SweepError {
-        SweepError::Kept {
+        sealed::text(self).map_err(|problem| SweepError::Kept {
             path: format!("results/{}.json", self.key).into(),
             problem,
-        }
+        })
     }
 
     /// The result of `key` in `folder`; `None` if there is none.
@@ -40,10 +33,7 @@ impl TaskResult {
             path: path.clone(),
             problem: format!("{problem}; remove the file, and the task is carried out again"),
         };
-        taceva_seal::json::check(&text, Version::Sealed)
-            .map_err(|error| wrong(error.to_string()))?;
-        let result: TaskResult =
-            serde_json::from_str(&text).map_err(|error| wrong(error.to_string()))?;
+        let result: TaskResult = sealed::value(&text).map_err(wrong)?;
         if result.schema != SCHEMA {
             return Err(wrong(format!(
                 "schema `{}`, expected `{SCHEMA}`",

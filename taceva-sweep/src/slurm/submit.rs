@@ -1,26 +1,9 @@
-//! Jobs submitted, remembered and cancelled.
+//! Jobs submitted.
 
-use std::fs;
-
-use serde::{Deserialize, Serialize};
-
-use super::Submission;
 use super::command::run;
+use super::{Submission, Submitted};
 use crate::error::SweepError;
 use crate::folder::SweepFolder;
-
-/// The record of what was submitted.
-const RECORD: &str = "jobs.json";
-
-/// What was submitted.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[non_exhaustive]
-pub struct Submitted {
-    /// The numbers of the arrays.
-    pub arrays: Vec<String>,
-    /// The number of the job that collects.
-    pub collect: Option<String>,
-}
 
 /// Submits the arrays, and the job that collects once all of them have ended.
 ///
@@ -34,12 +17,7 @@ pub fn submit(folder: &SweepFolder, submission: &Submission) -> Result<Submitted
         drop(run("scancel", &submitted.arrays));
         return Err(error);
     }
-    let path = folder.slurm().join(RECORD);
-    let text = serde_json::to_string(&submitted).map_err(|error| SweepError::Kept {
-        path: path.clone(),
-        problem: error.to_string(),
-    })?;
-    folder.write(&path, text.as_bytes())?;
+    submitted.write(folder)?;
     Ok(submitted)
 }
 
@@ -71,36 +49,4 @@ fn submit_all(submission: &Submission, submitted: &mut Submitted) -> Result<(), 
     words.push(submission.collect.to_string_lossy().into_owned());
     submitted.collect = Some(number(run("sbatch", &words)?));
     Ok(())
-}
-
-impl Submitted {
-    /// What was submitted last; `None` if nothing was.
-    ///
-    /// # Errors
-    /// [`SweepError`] if the record cannot be read.
-    pub fn read(folder: &SweepFolder) -> Result<Option<Submitted>, SweepError> {
-        let path = folder.slurm().join(RECORD);
-        match fs::read_to_string(&path) {
-            Ok(text) => serde_json::from_str(&text)
-                .map(Some)
-                .map_err(|error| SweepError::Kept {
-                    path,
-                    problem: error.to_string(),
-                }),
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
-            Err(error) => Err(SweepError::io("read", &path)(error)),
-        }
-    }
-
-    pub(super) fn numbers(&self) -> Vec<String> {
-        self.arrays.iter().chain(&self.collect).cloned().collect()
-    }
-
-    /// Cancels all of it.
-    ///
-    /// # Errors
-    /// [`SweepError::Scheduler`] with the words of `scancel`.
-    pub fn cancel(&self) -> Result<(), SweepError> {
-        run("scancel", &self.numbers()).map(drop)
-    }
 }

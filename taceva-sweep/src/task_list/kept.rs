@@ -4,11 +4,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use taceva_dataset::{Digest, SensorFile};
-use taceva_seal::Version;
 
 use super::{SCHEMA, TaskList};
 use crate::error::SweepError;
 use crate::folder::SweepFolder;
+use crate::sealed;
 
 impl TaskList {
     /// Writes the list into `folder`, under a name that only equal lists have, and as the last one; returns where.
@@ -21,8 +21,7 @@ impl TaskList {
             path: latest.clone(),
             problem,
         };
-        let text = serde_json::to_string(self).map_err(|error| unwritable(error.to_string()))?;
-        let text = taceva_seal::json::seal(&text).map_err(|error| unwritable(error.to_string()))?;
+        let text = sealed::text(self).map_err(unwritable)?;
         let digest = Digest::of(text.as_bytes()).as_bytes()[..8]
             .iter()
             .map(|byte| format!("{byte:02x}"))
@@ -63,9 +62,7 @@ impl TaskList {
                 env!("CARGO_PKG_VERSION")
             )));
         }
-        taceva_seal::json::check(&text, Version::Sealed)
-            .map_err(|error| again(error.to_string()))?;
-        serde_json::from_str(&text).map_err(|error| again(error.to_string()))
+        sealed::value(&text).map_err(again)
     }
 
     /// The last list that was written into `folder`.

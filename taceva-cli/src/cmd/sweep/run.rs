@@ -1,20 +1,17 @@
-//! Tasks carried out here, or handed to a scheduler.
+//! A sweep from its file: planned, and its tasks carried out here or handed to others.
 
 use std::path::Path;
 
-use taceva_core::shown;
-use taceva_models::Models;
-use taceva_study::Cache;
 use taceva_sweep::{
-    Condition, Estimate, Grid, Ran, Runner, SweepFile, SweepFolder, TaskList, collect, shell_word,
+    Condition, Estimate, Grid, SweepFile, SweepFolder, TaskList, collect, shell_word,
 };
 
-use super::super::{Context, Usage, cache};
-use super::jobs;
+use super::super::{Context, Usage};
+use super::scenes::{self, Acquisition};
 use super::summary::{all_pass, print};
-use crate::args::{CacheArgs, SweepEngine, SweepRun, SweepTask};
-use crate::cmd::cache::amount::bytes;
-use crate::progress::spoken;
+use super::tasks::{Asked, carried_out, ended};
+use super::{jobs, planned};
+use crate::args::{SweepEngine, SweepRun};
 use crate::{exit, output};
 
 pub(super) fn run(args: &SweepRun, context: &Context) -> anyhow::Result<u8> {
@@ -23,20 +20,32 @@ pub(super) fn run(args: &SweepRun, context: &Context) -> anyhow::Result<u8> {
     };
     let file = SweepFile::read(path)?;
     let only = args.only.as_deref().map(Condition::parse).transpose()?;
-    let models = context.models()?;
-    let grid = Grid::of(&file, &models)?;
-    let skipped = grid.skipped;
-    let list = TaskList::new(&file, grid)?;
-    let wanted = list.matching(only.as_ref())?;
     let folder = match &args.out {
         Some(folder) => SweepFolder::new(folder.clone()),
         None => SweepFolder::beside(path),
     };
+    let models = context.models()?;
+    let scenes = scenes::planned(&file, &folder, context)?;
+    let recordings = scenes::recordings(&scenes);
+    let grid = Grid::of(&file, &recordings, &models)?;
+    let skipped = grid.skipped;
+    let mut list = TaskList::new(&file, grid)?;
+    let mut wanted = list.matching(only.as_ref())?;
     if args.dry_run {
         let estimate = Estimate::of(&folder, &list, &wanted, args.retry_failed)?;
-        return planned(&estimate, skipped, context);
+        return planned::print(&estimate, skipped, (&scenes, &folder), context);
     }
     folder.make()?;
+    let acquisition = Acquisition {
+        folder: &folder,
+        models: &models,
+        cache: &args.cache,
+    };
+    if scenes::acquire(&scenes, &acquisition, context)? {
+        // By what was recorded: a key is of a recording that is there.
+        list = TaskList::new(&file, Grid::of(&file, &recordings, &models)?)?;
+        wanted = list.matching(only.as_ref())?;
+    }
     let written = list.write(&folder)?;
     match args.on {
         SweepEngine::Here => {}
@@ -58,34 +67,6 @@ pub(super) fn run(args: &SweepRun, context: &Context) -> anyhow::Result<u8> {
     Ok(ended(&ran, (&folder, &list), all_pass(&collected), context))
 }
 
-/// How tasks are to be carried out.
-struct Asked<'a> {
-    cache: &'a CacheArgs,
-    retry_failed: bool,
-}
-
-/// Carries out the tasks at `wanted` in this process.
-fn carried_out(
-    (folder, list): (&SweepFolder, &TaskList),
-    (wanted, asked): (&[usize], Asked<'_>),
-    models: &Models,
-    context: &Context,
-) -> anyhow::Result<Ran> {
-    let cache = cache_of(asked.cache, folder);
-    let runner = Runner {
-        list,
-        folder,
-        models,
-        cache: cache.as_ref(),
-        jobs: context.jobs,
-        retry_failed: asked.retry_failed,
-        progress: &context.progress,
-    };
-    let ran = runner.run(wanted)?;
-    cache::note(cache.as_ref(), context);
-    Ok(ran)
-}
-
 /// Prints how the tasks at `left` are carried out by an engine that is none of ours.
 fn listed(left: &[usize], list: &Path, folder: &SweepFolder) -> anyhow::Result<u8> {
     let [list, folder] = [list, folder.path()].map(|path| shell_word(&path.to_string_lossy()));
@@ -94,94 +75,6 @@ fn listed(left: &[usize], list: &Path, folder: &SweepFolder) -> anyhow::Result<u
             writeln!(out, "taceva sweep task {folder} --tasks {list} --at {at}")?;
         }
         writeln!(out, "taceva sweep collect {folder} --tasks {list}")
-    })?;
-    Ok(exit::DONE)
-}
-
-/// A job of a scheduler.
-pub(super) fn tasks(args: &SweepTask, context: &Context) -> anyhow::Result<u8> {
-    let list = TaskList::read(&args.tasks)?;
-    let folder = SweepFolder::new(args.folder.clone());
-    if let Some(at) = args.at.iter().find(|at| **at >= list.tasks.len()) {
-        return Err(Usage::error(format!(
-            "--at {at}: the list has the tasks 0 to {}",
-            list.tasks.len() - 1
-        )));
-    }
-    let models = context.models()?;
-    let asked = Asked {
-        cache: &args.cache,
-        retry_failed: args.retry_failed,
-    };
-    let ran = carried_out((&folder, &list), (&args.at, asked), &models, context)?;
-    Ok(ended(&ran, (&folder, &list), true, context))
-}
-
-/// Names what failed; the exit code.
-fn ended(
-    ran: &Ran,
-    (folder, list): (&SweepFolder, &TaskList),
-    is_passed: bool,
-    context: &Context,
-) -> u8 {
-    for (at, reason) in &ran.failed {
-        let task = &list.tasks[*at];
-        let seed = match list.is_of_tables() {
-            true => String::new(),
-            false => format!(", seed {}", task.seed),
-        };
-        context.say(format_args!(
-            "failed: {} of {}{seed}: {} ({})",
-            task.configuration(),
-            shown(&task.dataset),
-            shown(reason),
-            shown(&folder.log(&task.key))
-        ));
-    }
-    if ran.is_stopped {
-        context.say(format_args!("stopped; the same command goes on from here"));
-        return exit::STOPPED;
-    }
-    match ran.failed.is_empty() && is_passed {
-        true => exit::DONE,
-        false => exit::CHECK_FAILED,
-    }
-}
-
-/// What tasks have in common, in the folder of the sweep unless another is named.
-fn cache_of(args: &CacheArgs, folder: &SweepFolder) -> Option<Cache> {
-    let named = CacheArgs {
-        cache: Some(args.cache.clone().unwrap_or_else(|| folder.cache())),
-        no_cache: args.no_cache,
-    };
-    cache::of(&named).map(Cache::of_many)
-}
-
-fn planned(estimate: &Estimate, skipped: usize, context: &Context) -> anyhow::Result<u8> {
-    let workers = u32::try_from(context.jobs.get()).unwrap_or(1);
-    let time = estimate.time.map_or_else(
-        || "unknown: nothing was measured yet".to_owned(),
-        |time| format!("about {} with {workers} at once", spoken(time / workers)),
-    );
-    let disk = estimate.bytes.map_or_else(
-        || "unknown: nothing was measured yet".to_owned(),
-        |count| {
-            format!(
-                "about {}, features that tasks share not counted",
-                bytes(count)
-            )
-        },
-    );
-    output::write(None, |out| {
-        writeln!(
-            out,
-            "tasks    {}, {skipped} combinations left out",
-            estimate.tasks
-        )?;
-        writeln!(out, "found    {}", estimate.found)?;
-        writeln!(out, "failed   {}", estimate.failed)?;
-        writeln!(out, "time     {time}")?;
-        writeln!(out, "disk     {disk}")
     })?;
     Ok(exit::DONE)
 }

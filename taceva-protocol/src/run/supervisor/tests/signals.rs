@@ -88,15 +88,59 @@ fn a_signal_that_froze_in_the_search_is_frozen_in_the_press() {
 }
 
 #[test]
-fn travel_forgets_the_force_before_it_for_its_zero_may_have_moved() {
+fn a_signal_that_froze_in_the_air_is_counted_on_from_stage_to_stage() {
+    let air = MotionStage::Travel { threshold_n: 5.0 };
+    let mut watched = Watched::new(air);
+    watched.repeat(FROZEN_READINGS / 2, 0.1);
+    watched.supervisor.watch(air, watched.now_s);
+    assert!(!watched.supervisor.is_fresh());
+    watched.repeat(FROZEN_READINGS / 2, 0.1);
+    watched.supervisor.watch(MotionStage::Search, watched.now_s);
+    watched.moved();
+    let readings = FROZEN_READINGS;
+    assert_eq!(watched.read(0.1), Some(Trip::Frozen { readings }));
+}
+
+#[test]
+fn a_number_that_stands_still_is_counted_on_over_travel() {
+    let mut watched = Watched::new(PRESS);
+    let mut read = |stage: MotionStage, noise_n: f64| {
+        let now_s = watched.now_s;
+        watched.supervisor.watch(stage, now_s);
+        watched.moved();
+        // What it says differs; its number does not.
+        let said = Observation::Numbered(force(0.1 + noise_n), at(now_s), 7);
+        watched.now_s += 0.02;
+        watched.supervisor.observe(&said, now_s).err()
+    };
+    let air = MotionStage::Travel { threshold_n: 5.0 };
+    for reading in 0..FROZEN_READINGS {
+        let stage = if reading < 4 { PRESS } else { air };
+        assert_eq!(read(stage, f64::from(reading) * 1e-6), None);
+    }
+    let readings = FROZEN_READINGS;
+    assert_eq!(read(air, 1.0), Some(Trip::Frozen { readings }));
+}
+
+#[test]
+fn a_transducer_that_sets_its_zero_begins_the_count_anew() {
     let mut watched = Watched::new(MotionStage::Search);
     watched.repeat(FROZEN_READINGS, 0.1);
+    let now_s = watched.now_s;
+    watched.supervisor.watch(MotionStage::Zeroing, now_s);
+    assert!(watched.supervisor.is_fresh());
+    watched.supervisor.watch(MotionStage::Search, now_s);
+    watched.repeat(FROZEN_READINGS, 0.1);
+}
+
+#[test]
+fn travel_forgets_the_force_before_it_for_its_zero_may_have_moved() {
+    let mut watched = Watched::new(MotionStage::Search);
+    watched.repeat(1, 0.1);
     let air = MotionStage::Travel { threshold_n: 5.0 };
     watched.supervisor.watch(air, watched.now_s);
-    assert!(watched.supervisor.is_fresh());
-    watched.repeat(FROZEN_READINGS, 0.1);
-    // Nor is a step over the change of zero a rate: 4 N/0.02 s would be one.
-    watched.supervisor.watch(air, watched.now_s);
+    // A step over the change of zero is no rate: 1.6 N in 6 ms would be one.
+    watched.now_s -= 0.014;
     assert_eq!(watched.read(-1.5), None);
 }
 

@@ -1,0 +1,46 @@
+//! What a sweep would do and take, without doing it.
+
+use taceva_sweep::{Estimate, SweepFolder};
+
+use super::super::Context;
+use super::super::cache::amount::bytes;
+use super::scenes::SweepScene;
+use crate::progress::spoken;
+use crate::{exit, output};
+
+/// Prints how many tasks there are, what the rest would take, and what is acquired before any of them.
+pub(super) fn print(
+    estimate: &Estimate,
+    skipped: usize,
+    (scenes, folder): (&[SweepScene], &SweepFolder),
+    context: &Context,
+) -> anyhow::Result<u8> {
+    let workers = u32::try_from(context.jobs.get()).unwrap_or(1);
+    let time = estimate.time.map_or_else(
+        || "unknown: nothing was measured yet".to_owned(),
+        |time| format!("about {} with {workers} at once", spoken(time / workers)),
+    );
+    let disk = estimate.bytes.map_or_else(
+        || "unknown: nothing was measured yet".to_owned(),
+        |count| {
+            format!(
+                "about {}, features that tasks share not counted",
+                bytes(count)
+            )
+        },
+    );
+    output::write(None, |out| {
+        writeln!(
+            out,
+            "tasks    {}, {skipped} combinations left out",
+            estimate.tasks
+        )?;
+        writeln!(out, "found    {}", estimate.found)?;
+        writeln!(out, "failed   {}", estimate.failed)?;
+        writeln!(out, "time     {time}")?;
+        writeln!(out, "disk     {disk}")?;
+        let mut scenes = scenes.iter();
+        scenes.try_for_each(|scene| writeln!(out, "scene    {}", scene.words(folder)))
+    })?;
+    Ok(exit::DONE)
+}

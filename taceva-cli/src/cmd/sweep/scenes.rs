@@ -1,0 +1,153 @@
+//! Scenes of a sweep: planned with the sweep, and acquired once, before any task.
+
+mod acquire;
+
+use taceva_core::shown;
+use taceva_drivers::Drivers;
+use taceva_models::Suggestion;
+use taceva_protocol::BuiltinScene;
+use taceva_study::{PlannedScene, RunFolder, SceneText};
+use taceva_sweep::{SceneRecording, SceneTime, SweepFile, SweepFolder};
+
+use super::super::Context;
+use crate::progress::spoken;
+
+pub(super) use acquire::{Acquisition, acquire};
+
+/// A scene of a sweep.
+pub(super) struct SweepScene {
+    /// As the file of the sweep names it.
+    named: String,
+    planned: PlannedScene,
+    drivers: Drivers,
+    run: RunFolder,
+    /// Whether its recordings are there, to their end.
+    is_acquired: bool,
+}
+
+/// The scenes of `file`, with what there is of them in `folder`. No device is opened and nothing is changed.
+///
+/// # Errors
+/// For a scene that is not there, cannot be meant, is not simulated alone, or shares its folder with another.
+pub(super) fn planned(
+    file: &SweepFile,
+    folder: &SweepFolder,
+    context: &Context,
+) -> anyhow::Result<Vec<SweepScene>> {
+    let mut scenes: Vec<SweepScene> = Vec::with_capacity(file.scenes.len());
+    for named in &file.scenes {
+        let scene = SweepScene::of(named, (file, folder), context)?;
+        let other = scenes
+            .iter()
+            .find(|other| other.run.path() == scene.run.path());
+        if let Some(other) = other {
+            let problem = format!(
+                "`{}` and `{}` would be acquired into one folder, {}: give one of the scenes another `name`",
+                shown(&other.named),
+                shown(&scene.named),
+                shown(scene.run.path())
+            );
+            return Err(file.wrong("scenes", problem).into());
+        }
+        scenes.push(scene);
+    }
+    Ok(scenes)
+}
+
+/// The recordings of all of `scenes`, there already or not.
+pub(super) fn recordings(scenes: &[SweepScene]) -> Vec<SceneRecording> {
+    scenes.iter().flat_map(SweepScene::recordings).collect()
+}
+
+impl SweepScene {
+    fn of(
+        named: &str,
+        (file, folder): (&SweepFile, &SweepFolder),
+        context: &Context,
+    ) -> anyhow::Result<SweepScene> {
+        let wrong =
+            |problem: String| file.wrong("scenes", format!("`{}`: {problem}", shown(named)));
+        // A file of that name comes first, as for `taceva run`.
+        let path = file.folder().join(named);
+        let text = match (path.is_file(), BuiltinScene::from_name(named)) {
+            (true, _) => SceneText::read(&path)?,
+            (false, Some(builtin)) => SceneText::builtin(builtin),
+            (false, None) => return Err(wrong(unknown(named, file)).into()),
+        };
+        let drivers = context.drivers(Some(path.as_path()))?;
+        let planned = PlannedScene::new(text, &drivers, None)?;
+        planned.check_simulated(&drivers).map_err(|error| {
+            wrong(format!(
+                "{error}; a sweep acquires scenes of the simulated bench alone: give the scene to `taceva run`, and name recordings under `datasets`"
+            ))
+        })?;
+        let run = RunFolder::named(&folder.scenes(), &planned);
+        let is_begun = run.is_begun(&planned).map_err(|error| {
+            wrong(format!(
+                "{error}, or remove that folder, and the scene is acquired anew"
+            ))
+        })?;
+        Ok(SweepScene {
+            named: named.to_owned(),
+            is_acquired: is_begun && run.is_acquired(&planned)?,
+            planned,
+            drivers,
+            run,
+        })
+    }
+
+    fn recordings(&self) -> impl Iterator<Item = SceneRecording> + '_ {
+        let studies = self.planned.studies.iter().enumerate();
+        studies.map(|(number, study)| {
+            let study = &study.plan.name;
+            let path = self.run.recording(number, study);
+            SceneRecording::new(&self.planned.scene.name, study, path)
+        })
+    }
+
+    /// Presses of all its studies.
+    fn presses(&self) -> u64 {
+        let studies = self.planned.studies.iter();
+        studies.map(|study| study.plan.cost.presses).sum()
+    }
+
+    /// What would be done for it, and how long that takes by what was timed in `folder`.
+    pub(super) fn words(&self, folder: &SweepFolder) -> String {
+        let name = shown(&self.planned.scene.name);
+        let count = self.planned.studies.len();
+        let recordings = match count {
+            1 => "1 recording".to_owned(),
+            count => format!("{count} recordings"),
+        };
+        if self.is_acquired {
+            return format!("{name}: {recordings}, there already");
+        }
+        let presses = self.presses();
+        let time = match SceneTime::estimate(folder, presses) {
+            Some(time) => format!("about {} before any task", spoken(time)),
+            None => {
+                let studies = self.planned.studies.iter();
+                let minutes: f64 = studies.map(|study| study.plan.cost.minutes).sum();
+                format!(
+                    "{:.0} min of motion on a rig; the simulated bench runs faster",
+                    minutes.ceil()
+                )
+            }
+        };
+        format!("{name}: {recordings} to be acquired, {presses} presses, {time}")
+    }
+}
+
+/// What a name that is no scene may have been meant to be.
+fn unknown(named: &str, file: &SweepFile) -> String {
+    let builtin = BuiltinScene::ALL.map(BuiltinScene::name);
+    let suggestion = match Suggestion::of(named, builtin).nearest() {
+        Some(nearest) => format!("; did you mean `{nearest}`?"),
+        None => String::new(),
+    };
+    format!(
+        "no such scene in {}, expected a file or one of {}{suggestion}",
+        shown(file.folder()),
+        builtin.join(", ")
+    )
+}

@@ -1,0 +1,89 @@
+//! What a family of tests can show at all: how many patterns of signs it tries, and where none of them could do.
+
+use taceva_metrics::{Difference, DifferenceTest, SignFlip};
+
+/// The level of the family.
+const LEVEL: f64 = 0.05;
+/// Flips for each test of the family: so that the least p value is half of what the first step of Holm's procedure takes, `LEVEL` over the tests.
+const FLIPS_A_TEST: usize = 40;
+/// Flips of all tests together, which are kept until the family is decided: 16 bytes each.
+const MOST_FLIPS: usize = 1 << 24;
+
+/// How many patterns of signs each of so many tests tries: with so many, the first step of Holm's procedure is in reach.
+pub(super) fn flips_of(tests: usize) -> u32 {
+    let wanted = tests
+        .saturating_mul(FLIPS_A_TEST)
+        .max(SignFlip::default().flips as usize);
+    let most = (MOST_FLIPS / tests.max(1)).max(1);
+    u32::try_from(wanted.min(most)).unwrap_or(u32::MAX)
+}
+
+/// That nothing can be shown, where no test of the family can have a p value that the first step of Holm's procedure takes.
+pub(super) fn out_of_reach(family: &[Difference]) -> Option<String> {
+    let step = LEVEL / family.len() as f64;
+    let least = family
+        .iter()
+        .filter_map(|difference| match difference.test {
+            DifferenceTest::SignFlip {
+                flips,
+                exhaustive: true,
+                ..
+            } => Some(2.0 / f64::from(flips)),
+            DifferenceTest::SignFlip { flips, .. } => Some(1.0 / (f64::from(flips) + 1.0)),
+            _ => None,
+        });
+    let least = least.min_by(f64::total_cmp)?;
+    (least > step).then(|| {
+        format!(
+            "Nothing can be shown here, whatever the difference: the first of {} tests needs p ≤ {step:.2e}, and with so few contact points or flips no p is below {least:.2e}. Sweep fewer configurations, press more points, or ask one question with taceva compare.",
+            family.len()
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use taceva_metrics::{ClusterSums, Sides, decide};
+
+    use super::*;
+
+    fn sums(points: u32, errors: impl Fn(u32) -> f64) -> ClusterSums {
+        let mut sums = ClusterSums::default();
+        for point in 0..points {
+            sums.try_add(&format!("p{point}"), errors(point))
+                .expect("finite");
+        }
+        sums
+    }
+
+    fn family(tests: usize, points: u32) -> Vec<Difference> {
+        let (a, b) = (
+            sums(points, |_| 1.0),
+            sums(points, |point| 2.0 + f64::from(point)),
+        );
+        let test = SignFlip::default().with_flips(flips_of(tests));
+        let one = test.test(Sides { a: &a, b: &b }).expect("a test");
+        let mut family = vec![one; tests];
+        decide(&mut family);
+        family
+    }
+
+    #[test]
+    fn a_larger_family_has_more_flips_so_that_a_plain_difference_is_shown() {
+        assert_eq!(flips_of(1), 10_000);
+        assert_eq!(flips_of(600), 24_000);
+        let family = family(600, 40);
+        assert!(family.iter().all(|difference| difference.is_shown));
+        assert_eq!(out_of_reach(&family), None);
+    }
+
+    #[test]
+    fn a_family_in_which_nothing_can_be_shown_says_so() {
+        // 2^8 patterns of signs: no p below 2/256, and Holm's first step of ten tests takes 0.005.
+        let family = family(10, 8);
+        assert!(family.iter().all(|difference| !difference.is_shown));
+        let words = out_of_reach(&family).expect("out of reach");
+        assert!(words.contains("Nothing can be shown"), "{words}");
+        assert_eq!(out_of_reach(&[]), None);
+    }
+}

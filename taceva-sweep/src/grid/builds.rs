@@ -1,0 +1,90 @@
+//! The builds of the plugins behind models, which are part of the keys of tasks.
+
+use std::collections::BTreeMap;
+
+use taceva_models::{ChosenModel, Models};
+use taceva_study::StudyError;
+
+use crate::error::SweepError;
+use crate::file::SweepFile;
+
+/// The build of the plugin behind each model that one offers. A model that does not exist has none, and is refused with its settings.
+pub(super) fn builds(
+    file: &SweepFile,
+    models: &Models,
+) -> Result<BTreeMap<String, String>, SweepError> {
+    let mut builds = BTreeMap::new();
+    for model in &file.models {
+        if let Some(build) = build_of(&model.name, models)? {
+            builds.insert(model.name.clone(), build);
+        }
+    }
+    Ok(builds)
+}
+
+/// The build of the plugin that offers the model called `name`; none where it is built in, or not there.
+///
+/// # Errors
+/// [`SweepError`] if the plugin cannot be read.
+pub(crate) fn build_of(name: &str, models: &Models) -> Result<Option<String>, SweepError> {
+    match models.find(name) {
+        Ok(ChosenModel::Offered(factory)) => Ok(factory.build().map_err(StudyError::from)?),
+        _ => Ok(None),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use taceva_core::{DriverKey, EstimatorFactory, FitRequest, ModelError, SavedRegressor};
+
+    use super::*;
+
+    /// A plugin's model of which nothing but the build is asked.
+    struct Built(DriverKey, &'static str);
+
+    impl EstimatorFactory for Built {
+        fn key(&self) -> &DriverKey {
+            &self.0
+        }
+
+        fn title(&self) -> &str {
+            "built"
+        }
+
+        fn fit(&self, _request: &FitRequest<'_>) -> Result<Box<dyn SavedRegressor>, ModelError> {
+            panic!("nothing is fitted")
+        }
+
+        fn load(
+            &self,
+            _saved: &taceva_core::Saved<'_>,
+        ) -> Result<Box<dyn SavedRegressor>, ModelError> {
+            panic!("nothing is loaded")
+        }
+
+        fn build(&self) -> Result<Option<String>, ModelError> {
+            Ok(Some(self.1.to_owned()))
+        }
+    }
+
+    #[test]
+    fn the_build_of_a_plugin_is_known_and_models_that_are_built_in_have_none() {
+        let with = |build| {
+            let key = "org.example/deep".parse().expect("a key");
+            let factory: Arc<dyn EstimatorFactory> = Arc::new(Built(key, build));
+            Models::builtin().with([factory])
+        };
+        let of = |name, build| build_of(name, &with(build)).expect("known");
+        assert_eq!(
+            of("org.example/deep", "sha256:1").as_deref(),
+            Some("sha256:1")
+        );
+        assert_eq!(
+            of("org.example/deep", "sha256:2").as_deref(),
+            Some("sha256:2")
+        );
+        assert_eq!(of("ridge", "sha256:1"), None);
+    }
+}

@@ -1,0 +1,17 @@
+//! Values as JSON with a seal, by which a file that was changed since it was written is known.
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use taceva_seal::Version;
+
+/// `value` as JSON with its seal; why not, where it has no such form.
+pub(crate) fn text(value: &impl Serialize) -> Result<String, String> {
+    let text = serde_json::to_string(value).map_err(|error| error.to_string())?;
+    taceva_seal::json::seal(&text).map_err(|error| error.to_string())
+}
+
+/// What `text` says, if it is what was sealed; what is wrong with it otherwise.
+pub(crate) fn value<T: DeserializeOwned>(text: &str) -> Result<T, String> {
+    taceva_seal::json::check(text, Version::Sealed).map_err(|error| error.to_string())?;
+    serde_json::from_str(text).map_err(|error| error.to_string())
+}
