@@ -10,6 +10,7 @@ use taceva_core::Isa;
 
 use crate::architecture::{Architecture, StagePlan};
 use crate::batch_norm;
+use crate::convolution::ConvolutionForm;
 use crate::error::NetworkError;
 use crate::head::Head;
 use crate::machine::Machine;
@@ -153,11 +154,15 @@ impl Network {
             .collect()
     }
 
-    /// Room to train in, with batches of `batch` pictures.
+    /// Room to train in, with batches of `batch` pictures and convolutions of one form.
     ///
     /// # Errors
     /// [`NetworkError::Memory`] if there is no room for the weights of one convolution as the passes transform them.
-    pub(crate) fn training_space(&self, batch: usize) -> Result<TrainingSpace, NetworkError> {
+    pub(crate) fn training_space(
+        &self,
+        batch: usize,
+        form: ConvolutionForm,
+    ) -> Result<TrainingSpace, NetworkError> {
         let plans = self.architecture.stages();
         let mut picture = self.architecture.input;
         let input = plans[0].input_layout(picture);
@@ -172,6 +177,7 @@ impl Network {
                 border: next_border,
                 batch,
                 is_first: position == 0,
+                form,
             }));
             (picture, border) = (output, next_border);
         }

@@ -183,7 +183,7 @@ impl Normed {
 impl NormedSpace {
     /// Room for `batch` pictures of layout `input`.
     pub(crate) fn new(
-        convolution: Convolution,
+        (convolution, form): (Convolution, ConvolutionForm),
         input: Layout,
         batch: usize,
         asks_for_input_gradient: bool,
@@ -197,10 +197,10 @@ impl NormedSpace {
         };
         let gradient = Layout { picture, border };
         NormedSpace {
-            forward: Forward::new(convolution, input, raw.layout(), ConvolutionForm::Winograd),
-            weight_gradient: WeightGradient::new(convolution, input, gradient),
+            forward: Forward::new(convolution, input, raw.layout(), form),
+            weight_gradient: WeightGradient::new(convolution, input, gradient, form),
             input_gradient: asks_for_input_gradient
-                .then(|| InputGradient::new(convolution, gradient, input.bare())),
+                .then(|| InputGradient::new(convolution, gradient, input.bare(), form)),
             gradient,
             moments: Moments::zeros(picture.channels),
             sums: vec![ChannelSums::zeros(picture.channels); batch],

@@ -9,6 +9,7 @@ pub(crate) use plain::PlainSpace;
 pub(crate) use stem::StemSpace;
 
 use crate::architecture::StagePlan;
+use crate::convolution::ConvolutionForm;
 use crate::machine::Machine;
 use crate::normed::{Back, Normed};
 use crate::planes::{Layout, Planes};
@@ -40,6 +41,8 @@ pub(crate) struct Standing {
     pub(crate) batch: usize,
     /// Whether no part before it needs a gradient.
     pub(crate) is_first: bool,
+    /// The form of its convolutions.
+    pub(crate) form: ConvolutionForm,
 }
 
 impl Stage {

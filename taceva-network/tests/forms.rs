@@ -4,39 +4,22 @@
 mod common;
 #[path = "common/plain.rs"]
 mod plain;
+#[path = "common/tiles.rs"]
+mod tiles;
 
 use common::{doubles, filled, singles};
 use plain::Moments;
 use taceva_network::{
-    Architecture, Body, Checkpoint, ConvolutionForm, Depth, Labels, Loss, NetworkError, Optimizer,
-    Picture, PlainLayer, Pooling, Recipe, Samples, Schedule, Trainer,
+    Architecture, Checkpoint, ConvolutionForm, Depth, Labels, Loss, NetworkError, Optimizer,
+    Picture, Recipe, Samples, Schedule, Trainer,
 };
+use tiles::picture;
 
 const FORMS: [ConvolutionForm; 2] = [ConvolutionForm::Direct, ConvolutionForm::Winograd];
 
-const fn picture(height: usize, width: usize, channels: usize) -> Picture {
-    Picture {
-        height,
-        width,
-        channels,
-    }
-}
-
 /// Three convolutions of 3 × 3 that keep the size of pictures.
 fn same_size(input: Picture) -> Architecture {
-    let layer = |channels| PlainLayer {
-        channels,
-        kernel: 3,
-        stride: 1,
-    };
-    Architecture {
-        input,
-        body: Body::Plain {
-            layers: vec![layer(16), layer(48), layer(16)],
-            pooling: Pooling::Average,
-        },
-        outputs: 2,
-    }
+    tiles::same_size(input, [16, 48, 16])
 }
 
 fn bits(values: &[f64]) -> Vec<u64> {
@@ -88,7 +71,7 @@ fn a_network_without_such_convolutions_has_the_same_bits_in_both_forms() {
 }
 
 #[test]
-fn maps_of_every_size_up_to_two_tiles_and_a_pixel_are_predicted_from_one_picture() {
+fn maps_of_every_size_from_1_to_9_are_predicted_in_both_forms_from_a_batch_of_one() {
     for (height, width) in (1..=9)
         .map(|side| (side, 10 - side))
         .chain((1..=9).map(|s| (s, s)))
@@ -124,40 +107,91 @@ fn samples((pictures, labels): &(Vec<f32>, Vec<f64>)) -> Samples<'_> {
     }
 }
 
-#[test]
-fn a_training_of_tiles_gone_on_with_after_any_step_ends_with_the_same_bits() {
-    let learnt = learnt();
-    let recipe = Recipe {
+fn recipe() -> Recipe {
+    Recipe {
         epochs: 3,
         batch: 8,
         ..Recipe::default()
-    };
-    let architecture = same_size(picture(7, 6, 1));
-    let begin = || Trainer::new(&architecture, &recipe, samples(&learnt), None);
-    let whole = begin().expect("a training").run().expect("finite");
-    let bits = |checkpoint: &Checkpoint| -> Vec<u32> {
-        let tensors = checkpoint.tensors.iter();
-        tensors
-            .flat_map(|tensor| tensor.values.iter().map(|value| value.to_bits()))
-            .collect()
-    };
-    for stop in 0..6 {
-        let mut trainer = begin().expect("a training");
-        for _ in 0..stop {
-            trainer.step().expect("finite");
-        }
-        let checkpoint = trainer.checkpoint().expect("at hand");
-        assert_eq!(checkpoint.summary.convolutions, ConvolutionForm::Winograd);
-        let resumed = Trainer::resume(checkpoint, samples(&learnt), None);
-        let mut resumed = resumed.expect("its own checkpoint");
-        while trainer.step().expect("finite").is_some() {
-            resumed.step().expect("finite");
-        }
-        let [found, expected] = [&resumed, &trainer].map(|t| t.checkpoint().expect("at hand"));
-        assert!(bits(&found) == bits(&expected), "after {stop}");
-        let resumed = resumed.finish().expect("at hand");
-        assert_eq!(resumed.network.tensors(), whole.network.tensors());
     }
+}
+
+fn weights(checkpoint: &Checkpoint) -> Vec<u32> {
+    let tensors = checkpoint.tensors.iter();
+    tensors
+        .flat_map(|tensor| tensor.values.iter().map(|value| value.to_bits()))
+        .collect()
+}
+
+#[test]
+fn a_training_gone_on_with_after_any_step_keeps_its_form_and_ends_with_the_same_bits() {
+    let learnt = learnt();
+    let architecture = same_size(picture(7, 6, 1));
+    let ends = FORMS.map(|form| {
+        let begin = || {
+            let trainer = Trainer::new(&architecture, &recipe(), samples(&learnt), None);
+            trainer.expect("a training").in_form(form).expect("room")
+        };
+        let whole = begin().run().expect("finite");
+        for stop in 0..6 {
+            let mut trainer = begin();
+            for _ in 0..stop {
+                trainer.step().expect("finite");
+            }
+            let checkpoint = trainer.checkpoint().expect("at hand");
+            assert_eq!(checkpoint.summary.convolutions, form);
+            let resumed = Trainer::resume(checkpoint, samples(&learnt), None);
+            let mut resumed = resumed.expect("its own checkpoint");
+            while trainer.step().expect("finite").is_some() {
+                resumed.step().expect("finite");
+            }
+            let [found, expected] = [&resumed, &trainer].map(|t| t.checkpoint().expect("at hand"));
+            assert!(weights(&found) == weights(&expected), "{form} after {stop}");
+            let resumed = resumed.finish().expect("at hand");
+            assert_eq!(resumed.network.tensors(), whole.network.tensors());
+        }
+        whole.network.tensors()
+    });
+    assert_ne!(ends[0], ends[1], "forms round differently");
+}
+
+#[test]
+fn a_checkpoint_of_the_old_form_which_says_none_is_gone_on_with_in_the_direct_one() {
+    let learnt = learnt();
+    let architecture = same_size(picture(7, 6, 1));
+    let trainer = Trainer::new(&architecture, &recipe(), samples(&learnt), None);
+    let trainer = trainer.expect("a training");
+    let mut direct = trainer.in_form(ConvolutionForm::Direct).expect("room");
+    direct.step().expect("finite");
+    let checkpoint = direct.checkpoint().expect("at hand");
+    // As it was written before there was another form than the direct one.
+    let mut summary = serde_json::to_value(&checkpoint.summary).expect("text");
+    let fields = summary.as_object_mut().expect("a summary");
+    assert!(fields.remove("convolutions").is_some());
+    let old = Checkpoint {
+        summary: serde_json::from_value(summary).expect("a summary of that time"),
+        ..checkpoint
+    };
+    let resumed = Trainer::resume(old, samples(&learnt), None).expect("gone on with");
+    let form = resumed.checkpoint().expect("at hand").summary.convolutions;
+    assert_eq!(form, ConvolutionForm::Direct);
+    let (resumed, direct) = (resumed.run(), direct.run());
+    assert_eq!(
+        resumed.expect("finite").network.tensors(),
+        direct.expect("finite").network.tensors()
+    );
+}
+
+#[test]
+fn maps_of_1_by_1_train_to_the_same_bits_in_both_forms() {
+    let input = picture(1, 1, 1);
+    let learnt = (singles(11, 16), doubles(12, 32));
+    let architecture = same_size(input);
+    let ends = FORMS.map(|form| {
+        let trainer = Trainer::new(&architecture, &recipe(), samples(&learnt), None);
+        let trainer = trainer.expect("a training").in_form(form).expect("room");
+        trainer.run().expect("finite").network.tensors()
+    });
+    assert_eq!(ends[0], ends[1]);
 }
 
 #[test]

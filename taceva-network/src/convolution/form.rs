@@ -38,7 +38,7 @@ impl ConvolutionForm {
 
 impl std::fmt::Display for ConvolutionForm {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.name())
+        f.pad(self.name())
     }
 }
 

@@ -1,6 +1,7 @@
 //! The gradient of the input, in the form that goes with its shape.
 
 use super::ending::Onto;
+use super::form::ConvolutionForm;
 use super::weights::ConvolutionWeights;
 use super::winograd::{self, Rooms};
 use super::{Convolution, direct};
@@ -18,12 +19,18 @@ impl InputGradient {
     /// The pass from gradients of the output, of layout `output`, to those of the input, of layout `input`.
     ///
     /// The border of `output` is at least the padding.
-    pub(crate) fn new(convolution: Convolution, output: Layout, input: Layout) -> InputGradient {
-        // The picture keeps its size where the stride is 1.
-        if winograd::is_for(convolution, output.picture) {
-            InputGradient::Winograd(winograd::InputGradient::new(output, input))
-        } else {
-            InputGradient::Direct(direct::InputGradient::new(convolution, output, input))
+    pub(crate) fn new(
+        convolution: Convolution,
+        output: Layout,
+        input: Layout,
+        form: ConvolutionForm,
+    ) -> InputGradient {
+        match form {
+            // The picture keeps its size where the stride is 1.
+            ConvolutionForm::Winograd if winograd::is_for(convolution, output.picture) => {
+                InputGradient::Winograd(winograd::InputGradient::new(output, input))
+            }
+            _ => InputGradient::Direct(direct::InputGradient::new(convolution, output, input)),
         }
     }
 

@@ -53,6 +53,9 @@ fn for_each_product(
     }
 }
 
+/// The form that passes take where their shape goes with it.
+const FORM: ConvolutionForm = ConvolutionForm::Winograd;
+
 /// A convolution of some pictures.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Case {
@@ -191,11 +194,11 @@ pub(crate) fn passes(case: &Case, machine: Machine, numbers: &Numbers) -> [Vec<f
     weights.set_plain(&numbers.weights);
     let gradient = batch_of(output, convolution.padding(), &numbers.gradients);
 
-    let outputs = forward(&weights, &pictures, (machine, ConvolutionForm::Winograd));
+    let outputs = forward(&weights, &pictures, (machine, FORM));
 
     let tiles = TileRooms::default();
     let mut weight_gradient = Aligned::zeros(weights.values().len());
-    let pass = WeightGradient::new(convolution, pictures.layout(), gradient.layout());
+    let pass = WeightGradient::new(convolution, pictures.layout(), gradient.layout(), FORM);
     let rooms = Rooms {
         transformed: &mut Aligned::zeros(pass.transformed_len()),
         tiles: &tiles,
@@ -205,7 +208,12 @@ pub(crate) fn passes(case: &Case, machine: Machine, numbers: &Numbers) -> [Vec<f
 
     let mut input_gradient = Planes::zeros(input, 1, batch);
     if reads_panels(convolution) {
-        let pass = InputGradient::new(convolution, gradient.layout(), input_gradient.layout());
+        let pass = InputGradient::new(
+            convolution,
+            gradient.layout(),
+            input_gradient.layout(),
+            FORM,
+        );
         let mut room = Aligned::zeros(weights.values().len());
         let mut transformed = Aligned::zeros(pass.transformed_len());
         // What lies there is overwritten, and then added to.

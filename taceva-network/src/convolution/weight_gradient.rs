@@ -1,5 +1,6 @@
 //! The gradient of the weights, in the form that goes with its shape.
 
+use super::form::ConvolutionForm;
 use super::winograd::{self, Rooms};
 use super::{Convolution, direct};
 use crate::machine::Machine;
@@ -14,11 +15,17 @@ pub(crate) enum WeightGradient {
 
 impl WeightGradient {
     /// The pass from pictures of layout `input` and gradients of layout `output`.
-    pub(crate) fn new(convolution: Convolution, input: Layout, output: Layout) -> WeightGradient {
-        if winograd::is_for(convolution, output.picture) {
-            WeightGradient::Winograd(winograd::WeightGradient::new(input, output))
-        } else {
-            WeightGradient::Direct(direct::WeightGradient::new(convolution, input, output))
+    pub(crate) fn new(
+        convolution: Convolution,
+        input: Layout,
+        output: Layout,
+        form: ConvolutionForm,
+    ) -> WeightGradient {
+        match form {
+            ConvolutionForm::Winograd if winograd::is_for(convolution, output.picture) => {
+                WeightGradient::Winograd(winograd::WeightGradient::new(input, output))
+            }
+            _ => WeightGradient::Direct(direct::WeightGradient::new(convolution, input, output)),
         }
     }
 

@@ -1,7 +1,7 @@
 //! The gradients of a batch, by name.
 
 use super::{NamedTensor, Network};
-use crate::convolution::plain;
+use crate::convolution::{ConvolutionForm, plain};
 use crate::error::{NetworkError, SampleSet};
 use crate::loss::Loss;
 use crate::stage::Stage;
@@ -39,7 +39,7 @@ impl Network {
         samples.check(SampleSet::Training, &self.architecture, loss)?;
         let (picture, width) = (self.architecture.input, self.architecture.outputs);
         let batch = samples.pictures.len() / picture.len();
-        let mut space = self.training_space(batch)?;
+        let mut space = self.training_space(batch, ConvolutionForm::Winograd)?;
         for (position, values) in samples.pictures.chunks_exact(picture.len()).enumerate() {
             space.input.set(position, values);
         }

@@ -81,15 +81,17 @@ impl BlockSpace {
             input,
             border,
             batch,
+            form,
             ..
         } = standing;
         let picture = block.first.convolution().output(input.picture);
         let middle = Layout { picture, border: 1 };
         let past = block.shortcut.as_ref().map(Normed::convolution);
+        let space = |convolution, input| NormedSpace::new((convolution, form), input, batch, true);
         BlockSpace {
-            first: NormedSpace::new(block.first.convolution(), input, batch, true),
-            second: NormedSpace::new(block.second.convolution(), middle, batch, true),
-            shortcut: past.map(|past| NormedSpace::new(past, input, batch, true)),
+            first: space(block.first.convolution(), input),
+            second: space(block.second.convolution(), middle),
+            shortcut: past.map(|past| space(past, input)),
             output: Planes::zeros(picture, border, batch),
             middle,
             input: input.bare(),

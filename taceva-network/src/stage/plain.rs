@@ -24,10 +24,11 @@ impl PlainSpace {
             border,
             batch,
             is_first,
+            form,
         } = standing;
         let convolution = normed.convolution();
         PlainSpace {
-            normed: NormedSpace::new(convolution, input, batch, !is_first),
+            normed: NormedSpace::new((convolution, form), input, batch, !is_first),
             output: Planes::zeros(convolution.output(input.picture), border, batch),
             input: (!is_first).then_some(input.bare()),
         }

@@ -22,9 +22,10 @@ impl StemSpace {
             input,
             border,
             batch,
+            form,
             ..
         } = standing;
-        let normed = NormedSpace::new(normed.convolution(), input, batch, false);
+        let normed = NormedSpace::new((normed.convolution(), form), input, batch, false);
         let picture = max_pool::output(normed.raw.layout().picture);
         StemSpace {
             normed,

@@ -37,7 +37,7 @@ pub struct Summary {
 }
 
 impl<'a> Trainer<'a> {
-    /// The form of convolutions in which the processor trains.
+    /// The form of convolutions in which the processor trains, unless [another](Trainer::in_form) is asked for.
     pub const CONVOLUTIONS: ConvolutionForm = ConvolutionForm::Winograd;
 
     /// The training as it stands.
@@ -71,15 +71,15 @@ impl<'a> Trainer<'a> {
             architecture: self.architecture.clone(),
             recipe: self.recipe.clone(),
             samples: self.training.count(&self.architecture),
-            convolutions: Trainer::CONVOLUTIONS,
+            convolutions: self.form,
             state: self.state.clone(),
         }
     }
 
-    /// The training that `checkpoint` was saved from, with the same samples.
+    /// The training that `checkpoint` was saved from, with the same samples and in the form that it had.
     ///
     /// # Errors
-    /// [`NetworkError::Checkpoint`] if convolutions had another form, the samples are others in number, or a tensor of the optimiser does not fit; otherwise as
+    /// [`NetworkError::Checkpoint`] if the samples are others in number, or a tensor of the optimiser does not fit; otherwise as
     /// [`new`](Trainer::new) and [`Network::from_tensors`].
     pub fn resume(
         checkpoint: Checkpoint,
@@ -88,13 +88,6 @@ impl<'a> Trainer<'a> {
     ) -> Result<Trainer<'a>, NetworkError> {
         let Checkpoint { summary, tensors } = checkpoint;
         let refuse = |what: String| Err(NetworkError::Checkpoint { what });
-        if summary.convolutions != Trainer::CONVOLUTIONS {
-            return refuse(format!(
-                "its convolutions are `{}`, those of this program are `{}`, which rounds differently",
-                summary.convolutions,
-                Trainer::CONVOLUTIONS
-            ));
-        }
         let mut parts: BTreeMap<String, Vec<NamedTensor>> = BTreeMap::new();
         for tensor in tensors {
             match tensor.name.split_once('.') {
@@ -122,7 +115,8 @@ impl<'a> Trainer<'a> {
             moments: moments?,
             network,
         };
-        let mut trainer = Trainer::from_snapshot(&snapshot, recipe, training, validation)?;
+        let start = (&snapshot, summary.convolutions);
+        let mut trainer = Trainer::from_snapshot(start, recipe, training, validation)?;
         let samples = trainer.summary().samples;
         if samples != summary.samples {
             return refuse(format!(

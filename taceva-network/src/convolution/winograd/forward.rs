@@ -17,8 +17,9 @@ pub(crate) struct Forward {
 impl Forward {
     /// The pass from pictures of layout `input` to those of layout `output`.
     pub(crate) fn new(input: Layout, output: Layout) -> Forward {
-        let products = Products { input, output };
-        Forward { products }
+        Forward {
+            products: Products::new(input, output),
+        }
     }
 
     /// Numbers of transformed weights.

@@ -17,11 +17,9 @@ pub(crate) struct InputGradient {
 impl InputGradient {
     /// The pass from gradients of the output, of layout `output`, to those of the input, of layout `input`.
     pub(crate) fn new(output: Layout, input: Layout) -> InputGradient {
-        let products = Products {
-            input: output,
-            output: input,
-        };
-        InputGradient { products }
+        InputGradient {
+            products: Products::new(output, input),
+        }
     }
 
     /// Numbers of transformed weights.

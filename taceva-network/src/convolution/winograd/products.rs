@@ -22,7 +22,7 @@ const TILES_AT_ONCE_OF_MANY_WEIGHTS: usize = 48;
 
 /// Channels that are summed by themselves before they are added to the sum of the others, so that errors hardly grow with channels: hundreds
 /// in one row lose more digits than the transforms do.
-const CHANNELS_AT_ONCE: usize = 16;
+const CHANNELS_AT_ONCE: usize = 8;
 
 /// Bytes of transformed weights that a cache holds.
 const WEIGHTS_IN_CACHE: usize = 4 << 20;
@@ -32,9 +32,20 @@ const WEIGHTS_IN_CACHE: usize = 4 << 20;
 pub(super) struct Products {
     pub(super) input: Layout,
     pub(super) output: Layout,
+    /// Channels of the input that are summed by themselves.
+    pub(super) channels_at_once: usize,
 }
 
 impl Products {
+    /// The products from pictures of layout `input` to those of layout `output`.
+    pub(super) fn new(input: Layout, output: Layout) -> Products {
+        Products {
+            input,
+            output,
+            channels_at_once: CHANNELS_AT_ONCE,
+        }
+    }
+
     /// Numbers of transformed weights.
     pub(super) fn transformed_len(&self) -> usize {
         transformed_len(self.input.picture.channels, self.output.picture.channels)
@@ -89,6 +100,7 @@ impl Products {
                         count: output.len() / output_image * tiles.per_picture,
                         at_once,
                         channels,
+                        channels_at_once: self.channels_at_once,
                         pictures: (pictures, self.input),
                         weights,
                         output: (&mut *output, self.output),
@@ -111,6 +123,7 @@ struct Group<'a> {
     at_once: usize,
     /// Read and written.
     channels: [usize; 2],
+    channels_at_once: usize,
     pictures: (&'a [f32], Layout),
     weights: &'a [f32],
     output: (&'a mut [f32], Layout),
@@ -192,14 +205,14 @@ impl Group<'_> {
         let runs = &self.room[0][point * slabs[0]..];
         let weights_of_point = &self.weights[(panel * POINTS + point) * weights..];
         let mut tile: Tile<V, ROWS, VECTORS> = Tile::zero(proof);
-        for start in (0..read).step_by(CHANNELS_AT_ONCE) {
+        for start in (0..read).step_by(self.channels_at_once) {
             let mut part: Tile<V, ROWS, VECTORS> = Tile::zero(proof);
             part.add_runs(
                 runs,
                 std::array::from_fn(|row| (first + row) * read + start),
                 &weights_of_point[start * PANEL..],
                 POINTS * weights,
-                CHANNELS_AT_ONCE.min(read - start),
+                self.channels_at_once.min(read - start),
             );
             tile = tile.plus(part);
         }

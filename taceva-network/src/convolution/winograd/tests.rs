@@ -1,5 +1,7 @@
 //! How exact Winograd's passes are, whatever is passed through them, and which convolutions they take.
 
+mod blocks;
+
 use super::*;
 use crate::convolution::tests::{Case, Numbers, batch_of, forward, machines, passes, values};
 use crate::convolution::{ConvolutionForm, ConvolutionWeights};
@@ -96,12 +98,20 @@ fn pictures_where_tiles_multiply_less_are_taken_and_no_others() {
 }
 
 #[test]
-fn every_size_up_to_two_tiles_and_one_pixel_is_exact() {
+fn every_size_of_1_to_9_is_exact_also_pictures_smaller_than_a_tile_and_maps_of_1_by_1() {
     for height in 1..=9 {
         for width in 1..=9 {
             let case = case((16, 32), (height, width), 1 + (height + width) % 3);
             assert_exact(&case, &case.numbers(), "a small picture");
         }
+    }
+}
+
+#[test]
+fn a_batch_of_one_is_exact() {
+    for (height, width) in [(1, 1), (3, 3), (7, 5), (8, 8)] {
+        let case = case((32, 48), (height, width), 1);
+        assert_exact(&case, &case.numbers(), "one picture");
     }
 }
 
