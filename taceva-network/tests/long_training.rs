@@ -88,11 +88,10 @@ fn a_thousand_epochs_of_usual_constant_saturated_large_and_small_pictures_stay_f
             }
             assert_eq!(losses.len() as u64, EPOCHS);
             let [first, last] = [losses[0], losses[losses.len() - 1]];
-            println!("{what} {form} {first} {last} {errors:?}");
             assert!(last < first, "{what}, {form}: {first}, {last}");
-            // Roundings of three layers, early and late.
+            // Roundings of three layers: early and late the same few last digits.
             assert!(
-                errors.iter().all(|error| *error < 1e-5),
+                errors.iter().all(|error| *error < 2e-6),
                 "{what}, {form}: {errors:?}"
             );
         }

@@ -1,6 +1,6 @@
-//! How errors go with the number of channels that are summed by themselves: what `CHANNELS_AT_ONCE` was chosen by.
+//! How errors go with the number of channels that are summed by themselves: what `channels_at_once` was chosen by.
 
-use super::super::products::Products;
+use super::super::products::{Products, channels_at_once};
 use super::super::weights::to_points;
 use super::{Case, ConvolutionWeights, Numbers, TileRooms, batch_of, case, error, values};
 use crate::convolution::ConvolutionForm;
@@ -68,17 +68,21 @@ fn errors_by_block(case: &Case, numbers: &Numbers) -> [[f64; 2]; BLOCKS.len()] {
 }
 
 #[test]
-fn sums_by_eight_channels_are_more_exact_than_by_sixteen_and_by_all() {
+fn channels_are_summed_by_as_many_as_are_most_exact_and_not_all_in_one_row() {
     for (channels, side) in LAYERS {
         let case = case((channels, channels), (side, side), 2);
-        let numbers = rectified(case.numbers());
-        let errors = errors_by_block(&case, &numbers);
+        let errors = errors_by_block(&case, &rectified(case.numbers()));
+        let chosen = BLOCKS
+            .iter()
+            .position(|block| *block == channels_at_once(channels));
+        let chosen = chosen.expect("one of those that are compared");
         for (pass, what) in ["outputs", "gradients of inputs"].into_iter().enumerate() {
-            let [_, eight, sixteen, _, all] = errors.map(|errors| errors[pass]);
-            assert!(
-                eight < sixteen && sixteen < all,
-                "{channels} channels, {what}: {eight:e}, {sixteen:e}, {all:e}"
-            );
+            let errors = errors.map(|errors| errors[pass]);
+            let least = errors.iter().copied().fold(f64::INFINITY, f64::min);
+            let what = format!("{channels} channels, {what}: {errors:e?}");
+            // A tenth is what draws make of it.
+            assert!(errors[chosen] <= 1.1 * least, "{what}");
+            assert!(errors[BLOCKS.len() - 1] >= 1.4 * errors[chosen], "{what}");
         }
     }
 }
