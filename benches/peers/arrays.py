@@ -10,14 +10,13 @@ pattern with noise, so that it can be compressed, but not far.
 import os
 import pathlib
 import pickle
-import re
 import shutil
 import subprocess
 import sys
 import tempfile
 
 from common import ROOT, need
-from machine import Machine
+from machine import Machine, in_turn
 
 READERS = {
     "npy": "a = np.load(path)\nfor k in range(len(a)): t += int(a[k][0, 0, 0])",
@@ -78,17 +77,6 @@ def write(folder, count):
         a[:] = frames
 
 
-def measured(command):
-    """Processor time of a command in seconds, its peak in MiB as it says itself, and what it printed."""
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
-    printed = process.stdout.read()
-    _, status, usage = os.wait4(process.pid, 0)
-    if status:
-        sys.exit(f"{command}: failed")
-    peak = re.search(r"(\d+) ki?B", printed, re.I)
-    return usage.ru_utime + usage.ru_stime, int(peak[1]) / 1024, printed
-
-
 def main(count):
     need("numpy", "h5py", "zarr", "numcodecs")
     target = pathlib.Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
@@ -106,13 +94,7 @@ def main(count):
             imports = {"hdf5": "import h5py", "zarr": "import zarr, numcodecs; numcodecs.blosc.use_threads = False; zarr.config.set({'threading.max_workers': 1})"}.get(name.split()[0], "")
             program = PROGRAM.format(imports=imports, reader=READERS[name])
             array = {"npy": "value"}.get(name.split()[0], "rgb")
-            ours, theirs = [], []
-            for _ in range(5):
-                seconds, peak, _ = measured([str(binary), str(path), array, "1"])
-                ours.append((seconds, peak))
-                _, peak, printed = measured([sys.executable, "-c", program, str(path)])
-                theirs.append((float(printed.split()[0]), peak))
-            (mine, my_peak), (other, other_peak) = sorted(ours)[2], sorted(theirs)[2]
+            (mine, my_peak), (other, other_peak) = in_turn([str(binary), str(path), array, "1"], [sys.executable, "-c", program, str(path)])
             print(f"{name:<22}{mine:>9.3f}{other:>10.3f}{machine.ratio(mine, other):>8}{my_peak:>10.0f}{other_peak:>12.0f}", flush=True)
         print(f"medians of 5, in turn; {machine.said()}")
     finally:

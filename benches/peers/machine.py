@@ -5,7 +5,9 @@ machine less that of this script and its children. No ratio is printed where the
 used more than half a processor since then, unless the script is called with `--anyway`.
 """
 import os
+import re
 import resource
+import subprocess
 import sys
 
 MOST_LOAD = 1.5
@@ -55,3 +57,25 @@ class Machine:
         if not self.is_quiet():
             line += "; too busy for ratios" + (", which are printed anyway" if ANYWAY else ": wait, or ask for them with --anyway")
         return line
+
+
+def measured(command):
+    """Processor time of a command in seconds, its peak in MiB as it says itself, and what it printed."""
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+    printed = process.stdout.read()
+    _, status, usage = os.wait4(process.pid, 0)
+    if status:
+        sys.exit(f"{command}: failed")
+    peak = re.search(r"(\d+) ki?B", printed, re.I)
+    return usage.ru_utime + usage.ru_stime, int(peak[1]) / 1024, printed
+
+
+def in_turn(ours, theirs, rounds=5):
+    """Median processor seconds of both commands, run in turn, each with its peak in MiB: of ours all of it, of theirs what it prints first."""
+    both = [[], []]
+    for _ in range(rounds):
+        seconds, peak, _ = measured(ours)
+        both[0].append((seconds, peak))
+        _, peak, printed = measured(theirs)
+        both[1].append((float(printed.split()[0]), peak))
+    return [sorted(side)[rounds // 2] for side in both]

@@ -14,9 +14,8 @@ import subprocess
 import sys
 import tempfile
 
-from arrays import measured
 from common import ROOT, need
-from machine import Machine
+from machine import Machine, in_turn
 
 CODECS = {"parquet": ("none", "snappy", "gzip", "zstd"), "mcap": ("none", "lz4", "zstd")}
 KINDS = ("noisy", "smooth")
@@ -124,13 +123,7 @@ def main(count, rounds=5):
             for codec in codecs:
                 for kind in KINDS:
                     path = str(file_of(folder, form, codec, kind))
-                    ours, theirs = [], []
-                    for _ in range(rounds):
-                        seconds, peak, _ = measured([binary, path, *column])
-                        ours.append((seconds, peak))
-                        _, peak, printed = measured([sys.executable, "-c", program, path])
-                        theirs.append((float(printed.split()[0]), peak))
-                    (mine, my_peak), (other, other_peak) = sorted(ours)[rounds // 2], sorted(theirs)[rounds // 2]
+                    (mine, my_peak), (other, other_peak) = in_turn([binary, path, *column], [sys.executable, "-c", program, path], rounds)
                     size = os.path.getsize(path) / 1e6
                     print(f"{form:<10}{codec:<8}{kind:<10}{size:>6.1f}{mine:>9.3f}{other:>10.3f}{machine.ratio(mine, other):>8}{my_peak:>10.0f}{other_peak:>12.0f}", flush=True)
         print(f"medians of {rounds}, in turn; {machine.said()}")

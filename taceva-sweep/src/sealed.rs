@@ -1,8 +1,22 @@
 //! Values as JSON with a seal, by which a file that was changed since it was written is known.
 
+use std::fs;
+use std::path::Path;
+
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use taceva_seal::Version;
+
+use crate::error::SweepError;
+
+/// The text of the file at `path`; `None` if there is no such file.
+pub(crate) fn read(path: &Path) -> Result<Option<String>, SweepError> {
+    match fs::read_to_string(path) {
+        Ok(text) => Ok(Some(text)),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(SweepError::io("read", path)(error)),
+    }
+}
 
 /// `value` as JSON with its seal; why not, where it has no such form.
 pub(crate) fn text(value: &impl Serialize) -> Result<String, String> {

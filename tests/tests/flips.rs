@@ -1,4 +1,4 @@
-//! Single bits are flipped in datasets, models, states, results, caches and folders of runs: what comes of them is the same as before, or
+//! Single bits are flipped in datasets, models, states, results, caches and folders of runs and sweeps: what comes of them is the same as before, or
 //! a refusal that names the file. `TACEVA_FLIPS=1000 cargo test --release -p taceva-tests --test flips -- --nocapture` tries as many in all.
 
 use std::collections::BTreeMap;
@@ -44,7 +44,7 @@ struct Kind {
     is_cache: bool,
 }
 
-const KINDS: [Kind; 6] = [
+const KINDS: [Kind; 7] = [
     Kind {
         name: "datasets",
         below: &["data"],
@@ -87,10 +87,18 @@ const KINDS: [Kind; 6] = [
         ],
         is_cache: false,
     },
+    Kind {
+        name: "folders of sweeps",
+        below: &["which.sweep"],
+        commands: &["sweep which.toml", "sweep show which.toml --by model"],
+        is_cache: false,
+    },
 ];
 
 /// A scene of the recording, whose run is small.
 const SCENE: &str = "scene_version = 1\nname = \"drawn\"\nsensor = { dataset = \"data\" }\nmodel = { name = \"ridge\" }\n";
+/// A sweep over it, of two tasks.
+const SWEEP: &str = "sweep_version = 1\ndatasets = [\"data\"]\nmodels = [\"ridge\", \"baseline\"]\nmetrics = [\"accuracy\"]\n";
 
 fn prepare(folder: &Path) {
     let lab = Lab::drawn(Form::Png, 40);
@@ -113,6 +121,8 @@ fn prepare(folder: &Path) {
     );
     std::fs::write(folder.join("drawn.toml"), SCENE).expect("written");
     ok(folder, "run drawn.toml --out run");
+    std::fs::write(folder.join("which.toml"), SWEEP).expect("written");
+    ok(folder, "sweep which.toml");
 }
 
 /// Every file of a kind, in order.

@@ -6,6 +6,7 @@
 )]
 
 pub(crate) mod kept;
+pub(crate) mod list;
 pub(crate) mod sweeps;
 
 use std::fs;

@@ -21,6 +21,26 @@ pub(crate) const TASKS: usize = 48;
 /// What is compared byte by byte.
 const FILES: [&str; 3] = ["table.csv", "table.parquet", "page.html"];
 
+/// A scene of one sensor, pressed at a few places.
+pub(crate) const TINY: &str = r#"scene_version = 1
+name = "tiny"
+seed = 7
+robot = { driver = "sim/robot" }
+force = { driver = "sim/force-transducer" }
+sensor = { driver = "sim/vitactip:reduction=16" }
+model = { name = "ridge", set = { size = "8x8" } }
+metrics = { want = ["accuracy"] }
+protocol = { calibration = { points = 12, indentations = 2 } }
+"#;
+/// A sweep over it: two tasks.
+pub(crate) const TINY_SWEEP: &str = r#"sweep_version = 1
+scenes = ["tiny.toml"]
+models = ["ridge", "baseline"]
+splits = ["by-point 50/10/40"]
+metrics = ["accuracy"]
+[vary]
+size = ["8x8"]
+"#;
 /// A folder with two recordings and the file of a sweep over both, which ends with `more`.
 pub(crate) fn week(more: &str) -> Bench {
     let bench = Bench::new();

@@ -5,6 +5,7 @@ mod changed;
 mod elsewhere;
 mod failed;
 mod kept;
+mod one_node;
 mod page;
 mod refused;
 mod same_bytes;

@@ -1,10 +1,10 @@
 //! Whoever carries tasks out, in whatever order: the table, its digest and the page have the same bytes.
 
 use std::fs;
-use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 
 use crate::kept::{WHOLE, small_bytes, whole};
+use crate::support::list::carry_out;
 use crate::support::sweeps::{TASKS, bytes};
 use crate::{count, small, text, week};
 
@@ -82,25 +82,10 @@ fn the_lines_of_a_list_carried_out_by_any_program_that_starts_commands_give_the_
         .map(|(tasks, last)| (last, tasks))
         .expect("lines");
     assert_eq!(tasks.lines().count(), 8);
-    let program = Path::new(env!("CARGO_BIN_EXE_taceva"))
-        .parent()
-        .expect("a folder");
-    let path = format!(
-        "{}:{}",
-        program.display(),
-        std::env::var("PATH").expect("a path")
-    );
     // Two at once, in the reverse of their order.
     let reversed: Vec<&str> = tasks.lines().rev().collect();
     bench.write("tasks.txt", &reversed.join("\n"));
     let script = format!("xargs -P 2 -I LINE sh -c LINE < tasks.txt && {collect}");
-    let mut shell = Command::new("sh");
-    shell.args(["-c", &script]).current_dir(bench.path("."));
-    let output = shell.env("PATH", path).output().expect("a shell");
-    assert!(
-        output.status.success(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
+    carry_out(&bench, &script);
     assert_eq!(bytes(&bench, "which.sweep"), small_bytes());
 }

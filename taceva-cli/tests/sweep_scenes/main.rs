@@ -11,27 +11,8 @@ use std::sync::LazyLock;
 
 use support::Bench;
 use support::kept::Kept;
+use support::sweeps::{TINY, TINY_SWEEP as SWEEP};
 
-/// One sensor, pressed at a few places.
-const TINY: &str = r#"scene_version = 1
-name = "tiny"
-seed = 7
-robot = { driver = "sim/robot" }
-force = { driver = "sim/force-transducer" }
-sensor = { driver = "sim/vitactip:reduction=16" }
-model = { name = "ridge", set = { size = "8x8" } }
-metrics = { want = ["accuracy"] }
-protocol = { calibration = { points = 12, indentations = 2 } }
-"#;
-/// Its sweep: two tasks.
-const SWEEP: &str = r#"sweep_version = 1
-scenes = ["tiny.toml"]
-models = ["ridge", "baseline"]
-splits = ["by-point 50/10/40"]
-metrics = ["accuracy"]
-[vary]
-size = ["8x8"]
-"#;
 /// Where it is recorded.
 const RECORDING: &str = "which.sweep/scenes/tiny/recordings/1-tiny";
 

@@ -60,10 +60,8 @@ impl Collected {
         made_of: &str,
     ) -> Result<Option<Collected>, SweepError> {
         let path = path_in(folder);
-        let text = match fs::read_to_string(&path) {
-            Ok(text) => text,
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-            Err(error) => return Err(SweepError::io("read", &path)(error)),
+        let Some(text) = sealed::read(&path)? else {
+            return Ok(None);
         };
         let wrong = |problem: String| SweepError::Kept {
             path: path.clone(),

@@ -24,10 +24,8 @@ impl TaskResult {
         key: &TaskKey,
     ) -> Result<Option<TaskResult>, SweepError> {
         let path = folder.result(key);
-        let text = match fs::read_to_string(&path) {
-            Ok(text) => text,
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-            Err(error) => return Err(SweepError::io("read", &path)(error)),
+        let Some(text) = sealed::read(&path)? else {
+            return Ok(None);
         };
         let wrong = |problem: String| SweepError::Kept {
             path: path.clone(),

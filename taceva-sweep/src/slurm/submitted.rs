@@ -1,6 +1,5 @@
 //! The record of what was submitted, as a sealed file; and its end.
 
-use std::fs;
 use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
@@ -51,10 +50,8 @@ impl Submitted {
     /// [`SweepError`] if the record cannot be read, or was changed after it was written: jobs of others would be cancelled by it.
     pub fn read(folder: &SweepFolder) -> Result<Option<Submitted>, SweepError> {
         let path = path_in(folder);
-        let text = match fs::read_to_string(&path) {
-            Ok(text) => text,
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-            Err(error) => return Err(SweepError::io("read", &path)(error)),
+        let Some(text) = sealed::read(&path)? else {
+            return Ok(None);
         };
         let wrong = |problem: String| SweepError::Kept {
             path: path.clone(),

@@ -52,6 +52,8 @@ pub enum Need {
     DeviceFiles,
     /// `slurmctld`, `slurmd`, `munged` and the right to start them: a cluster of two virtual nodes on loopback.
     Slurm,
+    /// `faketime`, which shows a program another time of day.
+    Faketime,
     /// A machine without other load, on which bounds of milliseconds hold. No test can find that out: it is named in `TACEVA_REQUIRE`.
     QuietMachine,
     /// An example that is built where a whole package is tested, and not by a single test of it.
@@ -67,7 +69,7 @@ pub struct UnknownNeed(
 
 impl Need {
     /// Every need.
-    pub const ALL: [Need; 24] = [
+    pub const ALL: [Need; 25] = [
         Need::Browser,
         Need::Axe,
         Need::Latex,
@@ -90,6 +92,7 @@ impl Need {
         Need::Lerobot,
         Need::DeviceFiles,
         Need::Slurm,
+        Need::Faketime,
         Need::QuietMachine,
         Need::Example,
     ];
@@ -119,6 +122,7 @@ impl Need {
             Need::Lerobot => "lerobot",
             Need::DeviceFiles => "device-files",
             Need::Slurm => "slurm",
+            Need::Faketime => "faketime",
             Need::QuietMachine => "quiet-machine",
             Need::Example => "example",
         }
