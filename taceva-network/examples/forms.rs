@@ -81,7 +81,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         done.map(|courses| courses.unwrap_or(Err("a training panicked".into())))
             .collect::<Result<Vec<Vec<Course>>, String>>()
     })?;
-    let all: Vec<Course> = all.into_iter().flatten().collect();
+    let mut all: Vec<Course> = all.into_iter().flatten().collect();
+    // Sums over seeds are then the same, whichever thread was first.
+    all.sort_by_key(|course| course.seed);
     print(FORMS, &all, steps);
     Ok(())
 }
@@ -118,6 +120,7 @@ fn train(
     }
     Ok(Course {
         form,
+        seed,
         losses,
         scores: held_out.determination(&found),
         seconds: start.elapsed().as_secs_f64(),

@@ -10,6 +10,7 @@ const STEPS: [usize; 3] = [10, 50, 100];
 /// What one training gave.
 pub(crate) struct Course {
     pub(crate) form: ConvolutionForm,
+    pub(crate) seed: u64,
     /// Of each step.
     pub(crate) losses: Vec<f64>,
     /// R² of each held-out label.
