@@ -58,24 +58,21 @@ fn digests() {
 fn trainings_have_the_same_bits_under_every_fused_taceva_isa_and_on_1_2_or_3_threads() {
     let program = std::env::current_exe().expect("this program");
     let sets = Isa::available();
-    let printed = sets.into_iter().map(|isa| {
+    let text = sets.into_iter().map(|isa| {
         let mut command = Command::new(&program);
         command.args(["--exact", "digests", "--ignored", "--nocapture"]);
         let output = command.env("TACEVA_ISA", isa.name()).output();
         let output = output.expect("this program runs");
-        let printed = String::from_utf8_lossy(&output.stdout).into_owned();
-        assert!(output.status.success(), "{isa}: {printed}");
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        assert!(output.status.success(), "{isa}: {text}");
         // What the frame of tests prints may stand before it.
-        assert!(
-            printed.contains(&format!("instructions: {isa}")),
-            "{printed}"
-        );
-        let lines = printed.lines().filter(|line| line.contains("digest "));
+        assert!(text.contains(&format!("instructions: {isa}")), "{text}");
+        let lines = text.lines().filter(|line| line.contains("digest "));
         let digests: Vec<String> = lines.map(str::to_owned).collect();
-        assert_eq!(digests.len(), 4, "{isa}: {printed}");
+        assert_eq!(digests.len(), 4, "{isa}: {text}");
         (isa, digests)
     });
-    let fused: Vec<_> = printed.filter(|(isa, _)| *isa != Isa::Portable).collect();
+    let fused: Vec<_> = text.filter(|(isa, _)| *isa != Isa::Portable).collect();
     for pair in fused.windows(2) {
         assert_eq!(pair[0].1, pair[1].1, "{} and {}", pair[0].0, pair[1].0);
     }

@@ -36,8 +36,8 @@ impl Blobs {
                 let place = |at: usize| (at as f64 + 0.5) / side as f64;
                 let (row, column) = (place(pixel / side), place(pixel % side));
                 let distance = ((column - x).powi(2) + (row - y).powi(2)) / size.powi(2);
-                let ground = NOISE * noise.normal(pixel as u64);
-                pictures.push((height * (-distance / 2.0).exp() + ground) as f32);
+                let added = NOISE * noise.normal(pixel as u64);
+                pictures.push((height * (-distance / 2.0).exp() + added) as f32);
             }
         }
         Blobs { pictures, labels }
