@@ -58,7 +58,7 @@ fn digests() {
 fn trainings_have_the_same_bits_under_every_fused_taceva_isa_and_on_1_2_or_3_threads() {
     let program = std::env::current_exe().expect("this program");
     let sets = Isa::available();
-    let text = sets.into_iter().map(|isa| {
+    let runs = sets.into_iter().map(|isa| {
         let mut command = Command::new(&program);
         command.args(["--exact", "digests", "--ignored", "--nocapture"]);
         let output = command.env("TACEVA_ISA", isa.name()).output();
