@@ -72,7 +72,7 @@ fn trainings_have_the_same_bits_under_every_fused_taceva_isa_and_on_1_2_or_3_thr
         assert_eq!(digests.len(), 4, "{isa}: {text}");
         (isa, digests)
     });
-    let fused: Vec<_> = text.filter(|(isa, _)| *isa != Isa::Portable).collect();
+    let fused: Vec<_> = runs.filter(|(isa, _)| *isa != Isa::Portable).collect();
     for pair in fused.windows(2) {
         assert_eq!(pair[0].1, pair[1].1, "{} and {}", pair[0].0, pair[1].0);
     }
