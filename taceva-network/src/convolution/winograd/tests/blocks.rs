@@ -79,7 +79,7 @@ fn channels_are_summed_by_as_many_as_are_most_exact_and_not_all_in_one_row() {
         for (pass, what) in ["outputs", "gradients of inputs"].into_iter().enumerate() {
             let errors = errors.map(|errors| errors[pass]);
             let least = errors.iter().copied().fold(f64::INFINITY, f64::min);
-            let what = format!("{channels} channels, {what}: {errors:e?}");
+            let what = format!("{channels} channels, {what}: {errors:?}");
             // A tenth is what draws make of it.
             assert!(errors[chosen] <= 1.1 * least, "{what}");
             assert!(errors[BLOCKS.len() - 1] >= 1.4 * errors[chosen], "{what}");
