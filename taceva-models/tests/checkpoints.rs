@@ -263,6 +263,48 @@ fn a_damaged_checkpoint_is_refused_whichever_byte_it_is() {
 }
 
 #[test]
+fn a_checkpoint_of_before_convolutions_had_forms_is_refused_by_its_format() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("checkpoint");
+    leave(&path, 4);
+    let bytes = fs::read(&path).expect("a checkpoint");
+    let length = u64::from_le_bytes(*bytes.first_chunk().expect("a header"));
+    let end = 8 + usize::try_from(length).expect("small");
+    let mut header: serde_json::Value = serde_json::from_slice(&bytes[8..end]).expect("a header");
+    let text = &mut header["__metadata__"]["taceva.checkpoint"];
+    let mut card: serde_json::Value =
+        serde_json::from_str(text.as_str().expect("a card")).expect("a card");
+    card["format"] = "2".into();
+    let summary = card["summary"].as_object_mut().expect("a summary");
+    assert!(summary.remove("convolutions").is_some());
+    *text = card.to_string().into();
+    let mut header = header.to_string().into_bytes();
+    header.resize(header.len().next_multiple_of(8), b' ');
+    let mut older = (header.len() as u64).to_le_bytes().to_vec();
+    older.extend(header);
+    older.extend(&bytes[end..]);
+    fs::write(&path, &older).expect("written");
+
+    let fit_with = |foreign| {
+        let checkpoints = Checkpoints {
+            foreign,
+            ..after_each_step(&path)
+        };
+        fit("cnn", &WORDS, Some(checkpoints), &SilentProgress)
+    };
+    let error = fit_with(Foreign::Refuse)
+        .map(|_| ())
+        .expect_err("another form");
+    let said = error.to_string();
+    assert!(
+        said.contains("format 2, expected 3") && said.contains("remove it to begin anew"),
+        "{said}"
+    );
+    assert!(fs::read(&path).expect("there") == older);
+    fit_with(Foreign::Replace).expect("begins anew");
+}
+
+#[test]
 fn a_place_that_cannot_be_written_or_read_is_named() {
     let folder = tempfile::tempdir().expect("a folder");
     let absent = folder.path().join("absent/checkpoint");

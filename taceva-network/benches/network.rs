@@ -1,8 +1,9 @@
-//! Images per second of training steps and of predictions: ResNet-18, six outputs, batches of 32 (and single pictures).
+//! Images per second of training steps and of predictions: ResNet-18, six outputs, batches of 32 (and single pictures), in both forms of
+//! convolutions in turn or in one of them.
 //!
-//! `cargo bench -p taceva-network [-- SIDE [THREADS [REPEATS]]]`; without arguments 64² and 112² on one and two threads. The best
-//! of REPEATS, by processor time of all threads and by the wall clock; and how much memory training takes at most beyond what the
-//! process had before, on Linux and of the first size alone, since a peak is one of the process.
+//! `cargo bench -p taceva-network [-- SIDE [THREADS [REPEATS]]] [winograd | direct]`; without arguments 64² and 112² on one and two threads,
+//! both forms. The best of REPEATS, by processor time of all threads and by the wall clock; and how much memory training takes at most beyond
+//! what the process had before, on Linux and of the first size and form alone, since a peak is one of the process.
 //! `benches/peers/torch_network.py` measures PyTorch alike.
 
 #![expect(
@@ -14,8 +15,8 @@ use std::time::Instant;
 
 use rustix::time::{ClockId, clock_gettime};
 use taceva_network::{
-    Architecture, Depth, Isa, LabelScaling, Labels, Loss, Optimizer, Picture, Recipe, Samples,
-    Schedule, Trainer,
+    Architecture, ConvolutionForm, Depth, Isa, LabelScaling, Labels, Loss, Optimizer, Picture,
+    Recipe, Samples, Schedule, Trainer,
 };
 
 const BATCH: usize = 32;
@@ -26,15 +27,27 @@ fn main() {
     let words = std::env::args()
         .skip(1)
         .filter(|word| !word.starts_with('-'));
-    let words: Vec<usize> = words.map(|word| word.parse().expect("a number")).collect();
-    let repeats = words.get(2).copied().unwrap_or(8);
+    let (mut numbers, mut forms): (Vec<usize>, _) = (Vec::new(), Vec::new());
+    for word in words {
+        match word.as_str() {
+            "winograd" => forms.push(ConvolutionForm::Winograd),
+            "direct" => forms.push(ConvolutionForm::Direct),
+            _ => numbers.push(word.parse().expect("a number, `winograd` or `direct`")),
+        }
+    }
+    if forms.is_empty() {
+        forms = vec![ConvolutionForm::Winograd, ConvolutionForm::Direct];
+    }
+    let repeats = numbers.get(2).copied().unwrap_or(8);
     println!("instructions: {}", Isa::detect());
     let mut before = resident("VmRSS:");
-    for side in words.first().map_or(vec![64, 112], |side| vec![*side]) {
-        for threads in words.get(1).map_or(vec![1, 2], |threads| vec![*threads]) {
+    for side in numbers.first().map_or(vec![64, 112], |side| vec![*side]) {
+        for threads in numbers.get(1).map_or(vec![1, 2], |threads| vec![*threads]) {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-            pool.expect("threads")
-                .install(|| measure(side, threads, repeats, before.take()));
+            let pool = pool.expect("threads");
+            for form in &forms {
+                pool.install(|| measure((side, threads), *form, repeats, before.take()));
+            }
         }
     }
 }
@@ -47,7 +60,12 @@ fn resident(key: &str) -> Option<f64> {
     Some(kib / 1024.0)
 }
 
-fn measure(side: usize, threads: usize, repeats: usize, before: Option<f64>) {
+fn measure(
+    (side, threads): (usize, usize),
+    form: ConvolutionForm,
+    repeats: usize,
+    before: Option<f64>,
+) {
     let input = Picture {
         height: side,
         width: side,
@@ -78,36 +96,43 @@ fn measure(side: usize, threads: usize, repeats: usize, before: Option<f64>) {
         scaling: LabelScaling::MinMax,
         ..Recipe::default()
     };
-    let mut trainer = Trainer::new(&architecture, &recipe, samples, None).expect("a training");
+    let trainer = Trainer::new(&architecture, &recipe, samples, None).expect("a training");
+    let mut trainer = trainer.in_form(form).expect("room");
     let step = || {
         trainer.step().expect("finite").expect("a step is left");
     };
-    report("training", side, threads, BATCH, best(repeats, step));
+    let report = |what, images, times| report(what, (form, side, threads), images, times);
+    report("training", BATCH, best(repeats, step));
     if let Some((peak, before)) = resident("VmHWM:").zip(before) {
         println!(
-            "memory       {side}² {threads} threads {:9.1} MiB at most beyond the process before",
+            "memory       {form:<12} {side}² {threads} threads {:9.1} MiB at most beyond the process before",
             peak - before
         );
     }
 
     let network = trainer.finish().expect("at hand").network;
-    let mut predictor = network.predictor();
+    let mut predictor = network.predictor_in(form);
     let mut outputs = [0.0; BATCH * OUTPUTS];
     let all = || predictor.predict(&pictures, &mut outputs).expect("finite");
-    report("inference", side, threads, BATCH, best(repeats, all));
-    let one = || {
+    report("inference", BATCH, best(repeats, all));
+    let single = || {
         let picture = &pictures[..input.len()];
         predictor
             .predict(picture, &mut outputs[..OUTPUTS])
             .expect("finite");
     };
-    report("one picture", side, threads, 1, best(4 * repeats, one));
+    report("one picture", 1, best(4 * repeats, single));
 }
 
-fn report(what: &str, side: usize, threads: usize, images: usize, (busy, wall): (f64, f64)) {
+fn report(
+    what: &str,
+    (form, side, threads): (ConvolutionForm, usize, usize),
+    images: usize,
+    (busy, wall): (f64, f64),
+) {
     let images = images as f64;
     println!(
-        "{what:<12} {side}² {threads} threads {:9.1} images per processor second {:9.1} images/s",
+        "{what:<12} {form:<12} {side}² {threads} threads {:9.1} images per processor second {:9.1} images/s",
         images / busy,
         images / wall
     );

@@ -1,15 +1,23 @@
 //! Convolution: its shape, its weights, and its three passes.
 
-mod correlation;
+mod direct;
+mod ending;
+mod form;
 mod forward;
 mod input_gradient;
+mod source;
 mod weight_gradient;
 mod weights;
+mod winograd;
 
-pub(crate) use forward::{Epilogue, Forward, Source};
-pub(crate) use input_gradient::{InputGradient, Onto};
+pub(crate) use ending::{Epilogue, Onto};
+pub use form::ConvolutionForm;
+pub(crate) use forward::Forward;
+pub(crate) use input_gradient::InputGradient;
+pub(crate) use source::Source;
 pub(crate) use weight_gradient::WeightGradient;
 pub(crate) use weights::{ConvolutionWeights, plain};
+pub(crate) use winograd::{Rooms, TileRooms};
 
 use crate::picture::Picture;
 use crate::planes::Layout;

@@ -148,6 +148,14 @@ pub enum NetworkError {
         /// What is wrong, as the device reports it.
         problem: String,
     },
+    /// Less memory than transformed weights take.
+    #[error(
+        "no room in memory for {bytes} bytes of transformed weights: free some, or take a network of fewer channels"
+    )]
+    Memory {
+        /// How many they take.
+        bytes: usize,
+    },
     /// Room for results that has another length than there are results.
     #[error("room for {found} numbers where {expected} are written")]
     Room {

@@ -24,6 +24,7 @@ mod training;
 mod update;
 
 pub use architecture::{Architecture, Body, Depth, PlainLayer, Pooling, StagePlan};
+pub use convolution::ConvolutionForm;
 pub use error::{NetworkError, SampleSet};
 pub use loss::Loss;
 pub use network::{Gradients, NamedTensor, Network};

@@ -10,6 +10,7 @@ use taceva_core::Isa;
 
 use crate::architecture::{Architecture, StagePlan};
 use crate::batch_norm;
+use crate::convolution::ConvolutionForm;
 use crate::error::NetworkError;
 use crate::head::Head;
 use crate::machine::Machine;
@@ -153,8 +154,15 @@ impl Network {
             .collect()
     }
 
-    /// Room to train in, with batches of `batch` pictures.
-    pub(crate) fn training_space(&self, batch: usize) -> TrainingSpace {
+    /// Room to train in, with batches of `batch` pictures and convolutions of one form.
+    ///
+    /// # Errors
+    /// [`NetworkError::Memory`] if there is no room for the weights of one convolution as the passes transform them.
+    pub(crate) fn training_space(
+        &self,
+        batch: usize,
+        form: ConvolutionForm,
+    ) -> Result<TrainingSpace, NetworkError> {
         let plans = self.architecture.stages();
         let mut picture = self.architecture.input;
         let input = plans[0].input_layout(picture);
@@ -169,18 +177,20 @@ impl Network {
                 border: next_border,
                 batch,
                 is_first: position == 0,
+                form,
             }));
             (picture, border) = (output, next_border);
         }
         let normed = self.stages.iter().flat_map(Stage::normed);
         let largest = normed.map(|(part, _)| part.weights.values().len()).max();
-        TrainingSpace {
+        let transformed = stages.iter().map(StageSpace::transformed_len).max();
+        Ok(TrainingSpace {
             input: Planes::zeros(input.picture, input.border, batch),
             stages,
             features: Vec::new(),
             outputs: Vec::new(),
-            scratch: Scratch::new(largest.unwrap_or(0)),
-        }
+            scratch: Scratch::new(largest.unwrap_or(0), transformed.unwrap_or(0))?,
+        })
     }
 
     /// Passes the first `count` pictures of the space, normalised by their own moments.

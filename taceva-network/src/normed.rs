@@ -4,7 +4,8 @@ use crate::batch_norm::{
     BatchNorm, ChannelSums, Gate, GradientSums, Moments, gradient_sums, input_gradient,
 };
 use crate::convolution::{
-    Convolution, ConvolutionWeights, Epilogue, Forward, InputGradient, Onto, Source, WeightGradient,
+    Convolution, ConvolutionForm, ConvolutionWeights, Epilogue, Forward, InputGradient, Onto,
+    Rooms, Source, WeightGradient,
 };
 use crate::machine::Machine;
 use crate::panel::{Aligned, PANEL};
@@ -67,18 +68,21 @@ impl Normed {
         machine: Machine,
         space: &mut NormedSpace,
         (input, count): (&Planes, usize),
+        scratch: &mut Scratch,
     ) {
+        let room = &mut scratch.transformed;
         let source = Source {
-            weights: &self.weights,
+            weights: space.forward.weights(machine, &self.weights, room),
             input,
             first: 0,
             count,
         };
         let measure = |sums: &mut ChannelSums, raw: &[f32]| sums.measure(machine, raw);
         let each = (&mut space.sums[..count], measure);
+        let into = (&mut space.raw, Epilogue::Raw);
         space
             .forward
-            .run(machine, source, &mut space.raw, Epilogue::Raw, each);
+            .run(machine, source, into, each, &scratch.tiles);
         let samples = count * space.raw.layout().picture.pixels();
         self.norm
             .update(&space.sums[..count], samples, &mut space.moments);
@@ -136,13 +140,21 @@ impl Normed {
             scratch,
             update,
         } = back;
-        let room = &mut scratch.weights[..self.weights.values().len()];
+        let Scratch {
+            weights,
+            transformed,
+            tiles,
+            ..
+        } = &mut **scratch;
+        let room = &mut weights[..self.weights.values().len()];
         if let (Some(pass), Some(into)) = (&space.input_gradient, into) {
-            pass.run(*machine, &self.weights, (gradient, *count), room, into);
+            let exchanged = (&self.weights, &mut *room);
+            let rooms = Rooms { transformed, tiles };
+            pass.run(*machine, exchanged, (gradient, *count), into, rooms);
         }
-        space
-            .weight_gradient
-            .run(*machine, input, gradient, *count, room);
+        let rooms = Rooms { transformed, tiles };
+        let pass = &space.weight_gradient;
+        pass.run(*machine, (input, gradient), *count, room, rooms);
         update.update(self.slot, self.weights.values_mut(), room);
     }
 
@@ -171,7 +183,7 @@ impl Normed {
 impl NormedSpace {
     /// Room for `batch` pictures of layout `input`.
     pub(crate) fn new(
-        convolution: Convolution,
+        (convolution, form): (Convolution, ConvolutionForm),
         input: Layout,
         batch: usize,
         asks_for_input_gradient: bool,
@@ -185,14 +197,23 @@ impl NormedSpace {
         };
         let gradient = Layout { picture, border };
         NormedSpace {
-            forward: Forward::new(convolution, input, raw.layout()),
-            weight_gradient: WeightGradient::new(convolution, input, gradient),
+            forward: Forward::new(convolution, input, raw.layout(), form),
+            weight_gradient: WeightGradient::new(convolution, input, gradient, form),
             input_gradient: asks_for_input_gradient
-                .then(|| InputGradient::new(convolution, gradient, input.bare())),
+                .then(|| InputGradient::new(convolution, gradient, input.bare(), form)),
             gradient,
             moments: Moments::zeros(picture.channels),
             sums: vec![ChannelSums::zeros(picture.channels); batch],
             raw,
         }
+    }
+
+    /// Numbers that the weights take at most when a pass transforms them.
+    pub(crate) fn transformed_len(&self) -> usize {
+        let back = self.input_gradient.as_ref();
+        self.forward
+            .transformed_len()
+            .max(self.weight_gradient.transformed_len())
+            .max(back.map_or(0, InputGradient::transformed_len))
     }
 }

@@ -2,6 +2,8 @@
 
 use std::ops::{Deref, DerefMut};
 
+use crate::error::NetworkError;
+
 /// Channels that lie beside each other in every tensor: a cache line of numbers, and a multiple of every vector.
 pub(crate) const PANEL: usize = 16;
 
@@ -16,8 +18,27 @@ pub(crate) struct Aligned {
 impl Aligned {
     /// `length` zeros.
     pub(crate) fn zeros(length: usize) -> Aligned {
+        Aligned::within(vec![0.0; length + PANEL], length)
+    }
+
+    /// `length` zeros, if there is memory for them.
+    ///
+    /// # Errors
+    /// [`NetworkError::Memory`] if there is not.
+    pub(crate) fn try_zeros(length: usize) -> Result<Aligned, NetworkError> {
+        let room = length.saturating_add(PANEL);
+        let mut values = Vec::new();
+        let reserved = values.try_reserve_exact(room);
+        reserved.map_err(|_| NetworkError::Memory {
+            bytes: length.saturating_mul(size_of::<f32>()),
+        })?;
+        values.resize(room, 0.0);
+        Ok(Aligned::within(values, length))
+    }
+
+    /// The first `length` of `values` that begin a cache line; a panel more is there.
+    fn within(values: Vec<f32>, length: usize) -> Aligned {
         const LINE: usize = 64;
-        let values = vec![0.0; length + PANEL];
         let skipped = values.as_ptr().align_offset(LINE).min(PANEL);
         let mut aligned = Aligned { values, skipped };
         aligned.values.truncate(skipped + length);
@@ -58,10 +79,21 @@ mod tests {
     use super::*;
 
     #[test]
+    fn more_numbers_than_memory_can_have_are_refused_with_their_bytes() {
+        for length in [usize::MAX / 8, usize::MAX] {
+            let refused = Aligned::try_zeros(length).map(|_| ());
+            let bytes = length.saturating_mul(4);
+            assert_eq!(refused, Err(NetworkError::Memory { bytes }));
+        }
+    }
+
+    #[test]
     fn numbers_begin_a_cache_line_and_keep_their_length() {
         for length in [0, 1, 15, 16, 1000] {
             let numbers = Aligned::of(&vec![2.0; length]).clone();
-            assert_eq!(numbers.len(), length);
+            let zeros = Aligned::try_zeros(length).expect("a few numbers");
+            assert_eq!((numbers.len(), zeros.len()), (length, length));
+            assert_eq!(zeros.as_ptr().align_offset(64), 0);
             assert_eq!(numbers.as_ptr().align_offset(64), 0);
             assert!(
                 numbers

@@ -127,6 +127,12 @@ impl Planes {
         self.layout
     }
 
+    /// How many pictures there is room for.
+    #[cfg(test)]
+    pub(crate) fn batch(&self) -> usize {
+        self.values.len() / self.layout.len()
+    }
+
     /// The first `count` pictures, borders included.
     pub(crate) fn first(&self, count: usize) -> &[f32] {
         self.from(0, count)

@@ -1,10 +1,13 @@
 //! A network ready to predict: running moments are folded into the weights, so that only convolutions are left.
 
 mod folded;
+mod layer;
 
-use self::folded::{Folded, Pass};
+use self::folded::Folded;
+use self::layer::{Layer, Pass};
 
 use crate::architecture::StagePlan;
+use crate::convolution::ConvolutionForm;
 use crate::error::NetworkError;
 use crate::head::Head;
 use crate::machine::Machine;
@@ -25,7 +28,7 @@ pub struct Predictor {
     head: Head,
     features: Vec<f32>,
     outputs: Vec<f64>,
-    batch: usize,
+    form: ConvolutionForm,
 }
 
 /// Pictures that are passed at once.
@@ -35,15 +38,16 @@ const BATCH: usize = 32;
 const PICTURES_IN_CACHE: usize = 256 << 10;
 
 impl Network {
-    /// The network ready to predict.
+    /// The network ready to predict, in the form that is fastest for many pictures at once.
     pub fn predictor(&self) -> Predictor {
-        self.predictor_of(BATCH)
+        self.predictor_in(ConvolutionForm::Winograd)
     }
 
-    /// The network ready to predict `batch` pictures at once; predictions do not depend on it.
-    pub(crate) fn predictor_of(&self, batch: usize) -> Predictor {
+    /// The network ready to predict in one form: however many pictures there are, so that the prediction of a picture does not depend on
+    /// what is predicted beside it. [`ConvolutionForm::Direct`] is the faster one where pictures come one at a time, as from a sensor.
+    pub fn predictor_in(&self, form: ConvolutionForm) -> Predictor {
         let mut layout = self.architecture.stages()[0].input_layout(self.architecture.input);
-        let input = Planes::zeros(layout.picture, layout.border, batch);
+        let input = Planes::zeros(layout.picture, layout.border, BATCH);
         let plans: Vec<StagePlan> = self.architecture.stages();
         let mut stages = Vec::new();
         for (position, (plan, stage)) in self.planned().enumerate() {
@@ -51,7 +55,7 @@ impl Network {
             // At least one even behind the last, so that a block's output lies as its input does.
             let next = plans.get(position + 1);
             let border = next.map_or(1, |next| next.input_layout(output).border);
-            stages.push(Folded::new(stage, layout, border));
+            stages.push(Folded::new(stage, layout, border, form));
             layout = Layout {
                 picture: output,
                 border,
@@ -62,11 +66,11 @@ impl Network {
             input,
             light: stages.iter().take_while(|stage| stage.is_light()).count(),
             stages,
-            scratch: Scratch::new(0),
+            scratch: Scratch::of_pictures(),
             head: self.head.clone(),
             features: Vec::new(),
             outputs: Vec::new(),
-            batch,
+            form,
         }
     }
 }
@@ -82,21 +86,43 @@ impl Predictor {
         self.head.outputs()
     }
 
+    /// The form of its convolutions.
+    pub fn form(&self) -> ConvolutionForm {
+        self.form
+    }
+
     /// The outputs of each picture.
     ///
     /// # Shapes
     /// `pictures`: `[samples, height, width, channels]`; `into`: `[samples, outputs]`, the caller's.
     /// # Errors
-    /// [`NetworkError`] if a length differs or a number is not finite.
+    /// [`NetworkError`] if a length differs, a number is not finite, or there is no room for transformed weights, which are made at the
+    /// first call.
     pub fn predict(&mut self, pictures: &[f32], into: &mut [f64]) -> Result<(), NetworkError> {
         let (picture, outputs) = (self.input(), self.outputs());
         picture.check_prediction(pictures, outputs, into)?;
-        let batches = pictures.chunks(self.batch * picture.len());
-        for (pictures, into) in batches.zip(into.chunks_mut(self.batch * outputs)) {
+        self.prepare()?;
+        let batches = pictures.chunks(BATCH * picture.len());
+        for (pictures, into) in batches.zip(into.chunks_mut(BATCH * outputs)) {
             for (position, values) in pictures.chunks_exact(picture.len()).enumerate() {
                 self.input.set(position, values);
             }
             into.copy_from_slice(self.pass(pictures.len() / picture.len()));
+        }
+        Ok(())
+    }
+
+    /// Transforms the weights that are not yet.
+    fn prepare(&mut self) -> Result<(), NetworkError> {
+        let layers = self.stages.iter_mut().flat_map(Folded::layers_mut);
+        let layers: Vec<&mut Layer> = layers.collect();
+        let numbers: usize = layers.iter().map(|layer| layer.missing()).sum();
+        for layer in layers {
+            let prepared = layer.prepare(self.machine);
+            // What is asked for is all of them, not the one that had no room.
+            prepared.map_err(|_| NetworkError::Memory {
+                bytes: numbers * size_of::<f32>(),
+            })?;
         }
         Ok(())
     }

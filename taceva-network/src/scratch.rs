@@ -1,5 +1,7 @@
 //! Memory that passes lend each other.
 
+use crate::convolution::TileRooms;
+use crate::error::NetworkError;
 use crate::panel::Aligned;
 use crate::planes::{Layout, Planes};
 
@@ -9,15 +11,32 @@ pub(crate) struct Scratch {
     spare: Vec<Aligned>,
     /// For the weights of one convolution: exchanged, and then their gradient.
     pub(crate) weights: Aligned,
+    /// For the same, transformed.
+    pub(crate) transformed: Aligned,
+    pub(crate) tiles: TileRooms,
 }
 
 impl Scratch {
-    /// Room for convolutions of up to `weights` weights; that for pictures comes as it is asked for.
-    pub(crate) fn new(weights: usize) -> Scratch {
+    /// Room for nothing but pictures, which comes as it is asked for.
+    pub(crate) fn of_pictures() -> Scratch {
         Scratch {
             spare: Vec::new(),
-            weights: Aligned::zeros(weights),
+            weights: Aligned::zeros(0),
+            transformed: Aligned::zeros(0),
+            tiles: TileRooms::default(),
         }
+    }
+
+    /// The same with room for convolutions of up to `weights` weights, and `transformed` of them transformed.
+    ///
+    /// # Errors
+    /// [`NetworkError::Memory`] if there is no room for transformed weights.
+    pub(crate) fn new(weights: usize, transformed: usize) -> Result<Scratch, NetworkError> {
+        Ok(Scratch {
+            weights: Aligned::zeros(weights),
+            transformed: Aligned::try_zeros(transformed)?,
+            ..Scratch::of_pictures()
+        })
     }
 
     /// `count` pictures with a border of zeros and anything within, in room that pictures of any size had before.
@@ -47,7 +66,7 @@ mod tests {
 
     #[test]
     fn room_goes_round_between_sizes_and_borders_are_zero_again() {
-        let mut scratch = Scratch::new(0);
+        let mut scratch = Scratch::of_pictures();
         let layout = |side, border| Layout {
             picture: Picture {
                 height: side,

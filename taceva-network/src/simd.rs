@@ -9,6 +9,7 @@ mod neon;
 mod portable;
 mod tile;
 mod vector;
+mod winograd;
 
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx2::Avx2;
@@ -19,3 +20,4 @@ pub(crate) use neon::Neon;
 pub(crate) use portable::Portable;
 pub(crate) use tile::{Pixels, Tile};
 pub(crate) use vector::{Job, Vector};
+pub(crate) use winograd::Spaced;

@@ -9,6 +9,7 @@ pub(crate) use plain::PlainSpace;
 pub(crate) use stem::StemSpace;
 
 use crate::architecture::StagePlan;
+use crate::convolution::ConvolutionForm;
 use crate::machine::Machine;
 use crate::normed::{Back, Normed};
 use crate::planes::{Layout, Planes};
@@ -40,6 +41,8 @@ pub(crate) struct Standing {
     pub(crate) batch: usize,
     /// Whether no part before it needs a gradient.
     pub(crate) is_first: bool,
+    /// The form of its convolutions.
+    pub(crate) form: ConvolutionForm,
 }
 
 impl Stage {
@@ -88,9 +91,11 @@ impl Stage {
         scratch: &mut Scratch,
     ) {
         match (self, space) {
-            (Stage::Stem(normed), StageSpace::Stem(space)) => space.forward(normed, machine, input),
+            (Stage::Stem(normed), StageSpace::Stem(space)) => {
+                space.forward(normed, machine, input, scratch)
+            }
             (Stage::Plain(normed), StageSpace::Plain(space)) => {
-                space.forward(normed, machine, input)
+                space.forward(normed, machine, input, scratch)
             }
             (Stage::Block(block), StageSpace::Block(space)) => {
                 space.forward(block, machine, input, scratch)
@@ -130,6 +135,15 @@ impl StageSpace {
             StageSpace::Stem(space) => &space.output,
             StageSpace::Plain(space) => &space.output,
             StageSpace::Block(space) => &space.output,
+        }
+    }
+
+    /// Numbers that the weights of one convolution take at most when a pass transforms them.
+    pub(crate) fn transformed_len(&self) -> usize {
+        match self {
+            StageSpace::Stem(space) => space.normed.transformed_len(),
+            StageSpace::Plain(space) => space.normed.transformed_len(),
+            StageSpace::Block(space) => space.transformed_len(),
         }
     }
 }

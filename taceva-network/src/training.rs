@@ -23,6 +23,7 @@ use processor::Processor;
 use rayon::prelude::*;
 
 use crate::architecture::Architecture;
+use crate::convolution::ConvolutionForm;
 use crate::error::{NetworkError, SampleSet};
 use crate::network::Network;
 use taceva_core::random::Draws;
@@ -45,6 +46,8 @@ pub struct Trainer<'a> {
     best: Option<Network>,
     /// The samples of the current epoch in their order; made anew when an epoch begins.
     order: Vec<usize>,
+    /// The form of convolutions on the processor.
+    form: ConvolutionForm,
 }
 
 /// Purposes of draws.
@@ -55,8 +58,8 @@ impl<'a> Trainer<'a> {
     /// A training of a network of `architecture` from random weights.
     ///
     /// # Errors
-    /// [`NetworkError`] if the architecture cannot be built, the recipe or the samples cannot be used, or they do not go
-    /// together.
+    /// [`NetworkError`] if the architecture cannot be built, the recipe or the samples cannot be used, they do not go
+    /// together, or memory is short.
     pub fn new(
         architecture: &Architecture,
         recipe: &Recipe,
@@ -79,11 +82,12 @@ impl<'a> Trainer<'a> {
     ) -> Result<Trainer<'a>, NetworkError> {
         let moments = Moments::new();
         let snapshot = Snapshot { network, moments };
-        Trainer::from_snapshot(&snapshot, recipe, training, validation)
+        let start = (&snapshot, Trainer::CONVOLUTIONS);
+        Trainer::from_snapshot(start, recipe, training, validation)
     }
 
     fn from_snapshot(
-        snapshot: &Snapshot,
+        (snapshot, form): (&Snapshot, ConvolutionForm),
         recipe: &Recipe,
         training: Samples<'a>,
         validation: Option<Samples<'a>>,
@@ -107,7 +111,7 @@ impl<'a> Trainer<'a> {
             Labels::Values(labels) => LabelScale::of(recipe.scaling, labels, architecture.outputs)?,
         };
         Ok(Trainer {
-            engine: Box::new(Processor::new(snapshot, recipe)),
+            engine: Box::new(Processor::new(snapshot, recipe, form)?),
             architecture: architecture.clone(),
             state: TrainingState::default(),
             best: None,
@@ -116,7 +120,19 @@ impl<'a> Trainer<'a> {
             training,
             validation,
             scale,
+            form,
         })
+    }
+
+    /// The same training on the processor with convolutions of one form from its present state on. Last digits of what it computes are those
+    /// of that form, and so are those of a training that is gone on with from one of its checkpoints.
+    ///
+    /// # Errors
+    /// Those of the engine that it leaves; [`NetworkError::Memory`].
+    pub fn in_form(mut self, form: ConvolutionForm) -> Result<Trainer<'a>, NetworkError> {
+        self.engine = Box::new(Processor::new(&self.snapshot()?, &self.recipe, form)?);
+        self.form = form;
+        Ok(self)
     }
 
     /// The same training on the engine that `begin` makes from its present state.

@@ -34,6 +34,11 @@ fn architectures() -> Vec<Architecture> {
             Pooling::Flatten,
         ),
         plain(
+            picture(5, 6, 1),
+            vec![layer(16, 3, 1), layer(48, 3, 1), layer(16, 3, 1)],
+            Pooling::Flatten,
+        ),
+        plain(
             picture(11, 14, 1),
             vec![layer(48, 5, 2), layer(16, 5, 1), layer(80, 3, 2)],
             Pooling::Average,
@@ -129,6 +134,7 @@ const CLASSES: [u32; BATCH] = [2, 0, 1, 2];
 #[test]
 fn gradients_are_those_of_finite_differences() {
     let losses = [
+        Loss::SquaredError,
         Loss::SquaredError,
         Loss::Huber { delta: 0.3 },
         Loss::CrossEntropy,

@@ -1,7 +1,8 @@
 //! What comes back of a model that was written.
 
 use taceva_core::{FeatureShape, Features, FrameInfo, Unit};
-use taceva_models::{FeatureError, FeatureKind, FeatureSpec, Model};
+use taceva_models::{FeatureError, FeatureKind, FeatureSpec, Model, ModelRegressor, NetworkCard};
+use taceva_network::ConvolutionForm;
 
 use crate::refused::with_card;
 use crate::{FRAME, SPEC, fit};
@@ -42,6 +43,56 @@ fn a_saved_model_comes_back_with_the_same_bits() {
         3,
         "nothing but the models is left in the folder"
     );
+}
+
+#[test]
+fn a_network_predicts_in_the_form_that_its_card_says_and_an_older_one_in_the_direct_form() {
+    fn card(model: &Model) -> &NetworkCard {
+        match model.regressor() {
+            ModelRegressor::Network(network) => network.card(),
+            other => panic!("{other:?} is no network"),
+        }
+    }
+    // Large enough for tiles.
+    let spec = FeatureSpec {
+        width: 20,
+        height: 15,
+        ..SPEC
+    };
+    let (model, features) = fit("resnet10", &["epochs=1", "batch=20"], spec);
+    let words = ["epochs=1", "batch=20", "convolutions=direct"];
+    let (direct, _) = fit("resnet10", &words, spec);
+    // As it was written before there was another form.
+    let older = with_card(&model.to_bytes().expect("small"), |card| {
+        card["format"] = "1.1".into();
+        let network = card["network"].as_object_mut().expect("a network");
+        assert_eq!(network.remove("convolutions"), Some("winograd-4x4".into()));
+    });
+    let older = Model::from_bytes(&older).expect("an older file");
+    for (model, said, form) in [
+        (
+            &model,
+            Some(ConvolutionForm::Winograd),
+            ConvolutionForm::Winograd,
+        ),
+        (
+            &direct,
+            Some(ConvolutionForm::Direct),
+            ConvolutionForm::Direct,
+        ),
+        (&older, None, ConvolutionForm::Direct),
+    ] {
+        assert_eq!((card(model).convolutions, card(model).form()), (said, form));
+    }
+    let predicted = |model: &Model| model.predict(&features).expect("finite");
+    let bits =
+        |model: &Model| -> Vec<u64> { predicted(model).into_iter().map(f64::to_bits).collect() };
+    // The training is the same.
+    assert!(bits(&older) == bits(&direct));
+    assert!(bits(&model) != bits(&direct));
+    for (one, other) in predicted(&model).into_iter().zip(predicted(&direct)) {
+        assert!((one - other).abs() < 1e-4, "{one}, {other}");
+    }
 }
 
 #[test]

@@ -8,7 +8,7 @@ use crate::panel::Aligned;
 use crate::planes::Planes;
 use taceva_core::random::Draws;
 
-fn random(length: usize, seed: u64) -> Vec<f32> {
+pub(crate) fn random(length: usize, seed: u64) -> Vec<f32> {
     let draws = Draws::new(seed);
     #[expect(
         clippy::cast_possible_truncation,
@@ -53,10 +53,64 @@ fn for_each_product(
     }
 }
 
-struct Case {
-    convolution: Convolution,
-    input: Picture,
-    batch: usize,
+/// The form that passes take where their shape goes with it.
+const FORM: ConvolutionForm = ConvolutionForm::Winograd;
+
+/// A convolution of some pictures.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Case {
+    pub(crate) convolution: Convolution,
+    pub(crate) input: Picture,
+    pub(crate) batch: usize,
+}
+
+/// Numbers for the passes of a case: pictures, weights and gradients of the output, channels last but in weights, which are
+/// `[outputs, inputs, kernel row, kernel column]`.
+pub(crate) struct Numbers {
+    pub(crate) pictures: Vec<f32>,
+    pub(crate) weights: Vec<f32>,
+    pub(crate) gradients: Vec<f32>,
+}
+
+impl Case {
+    pub(crate) fn output(&self) -> Picture {
+        self.convolution.output(self.input)
+    }
+
+    /// Numbers from -½ to ½.
+    pub(crate) fn numbers(&self) -> Numbers {
+        let Convolution {
+            inputs, outputs, ..
+        } = self.convolution;
+        Numbers {
+            pictures: random(self.input.len() * self.batch, 1),
+            weights: random(inputs * outputs * self.convolution.taps(), 2),
+            gradients: random(self.output().len() * self.batch, 3),
+        }
+    }
+
+    /// What the passes are to give, in double precision: outputs, twice the gradients of the input, gradients of the weights.
+    pub(crate) fn definition(&self, numbers: &Numbers) -> [Vec<f64>; 3] {
+        let (input, output) = (self.input, self.output());
+        let mut outputs = vec![0.0; output.len() * self.batch];
+        let mut inputs = vec![0.0; input.len() * self.batch];
+        let mut weights = vec![0.0; numbers.weights.len()];
+        for image in 0..self.batch {
+            let (to_image, from_image) = (image * output.len(), image * input.len());
+            for_each_product(self.convolution, input, |to, from, weight| {
+                let [number, gradient, factor] = [
+                    numbers.pictures[from_image + from],
+                    numbers.gradients[to_image + to],
+                    numbers.weights[weight],
+                ]
+                .map(f64::from);
+                outputs[to_image + to] += number * factor;
+                inputs[from_image + from] += 2.0 * gradient * factor;
+                weights[weight] += number * gradient;
+            });
+        }
+        [outputs, inputs, weights]
+    }
 }
 
 fn cases() -> Vec<Case> {
@@ -83,7 +137,13 @@ fn cases() -> Vec<Case> {
         case(64, 32, 1, 2, 8, 7, 2),
         case(16, 16, 5, 1, 4, 6, 1),
         // So many weights that the passes go in rounds.
-        case(320, 320, 3, 1, 2, 3, 2),
+        case(320, 320, 3, 1, 2, 2, 2),
+        // As Winograd's: parts of tiles beside and below, five panels, several pieces, the last not full.
+        case(32, 80, 3, 1, 13, 6, 7),
+        // Tiles larger than the picture.
+        case(16, 16, 3, 1, 3, 2, 1),
+        // So many tiles that their gradients are summed in several rounds.
+        case(96, 96, 3, 1, 17, 17, 4),
     ]
 }
 
@@ -100,13 +160,13 @@ fn assert_close(found: &[f32], expected: &[f64], terms: usize, what: &str) {
     }
 }
 
-fn machines() -> Vec<(Isa, Machine)> {
+pub(crate) fn machines() -> Vec<(Isa, Machine)> {
     let sets = Isa::available().into_iter();
     sets.map(|isa| (isa, Machine::with(isa).expect("available")))
         .collect()
 }
 
-fn batch_of(picture: Picture, border: usize, values: &[f32]) -> Planes {
+pub(crate) fn batch_of(picture: Picture, border: usize, values: &[f32]) -> Planes {
     let mut planes = Planes::zeros(picture, border, values.len() / picture.len());
     for (position, values) in values.chunks_exact(picture.len()).enumerate() {
         planes.set(position, values);
@@ -114,65 +174,57 @@ fn batch_of(picture: Picture, border: usize, values: &[f32]) -> Planes {
     planes
 }
 
-fn values(planes: &Planes, batch: usize) -> Vec<f32> {
+pub(crate) fn values(planes: &Planes, batch: usize) -> Vec<f32> {
     (0..batch)
         .flat_map(|position| planes.get(position))
         .collect()
 }
 
-/// Outputs, gradients of the input and gradients of the weights.
-fn passes(case: &Case, machine: Machine) -> [Vec<f32>; 3] {
+/// Outputs, gradients of the input, written and then added once more, and gradients of the weights. Where the first convolution of a network
+/// reads channels that are no whole panels, nobody asks for gradients of the input: there are none.
+pub(crate) fn passes(case: &Case, machine: Machine, numbers: &Numbers) -> [Vec<f32>; 3] {
     let Case {
         convolution,
         input,
         batch,
     } = *case;
-    let output = convolution.output(input);
-    let pictures = batch_of(
-        input,
-        convolution.padding() + 1,
-        &random(input.len() * batch, 1),
-    );
+    let output = case.output();
+    let pictures = batch_of(input, convolution.padding() + 1, &numbers.pictures);
     let mut weights = ConvolutionWeights::zeros(convolution);
-    weights.set_plain(&random(weights.values().len(), 2));
-    let gradient = batch_of(
-        output,
-        convolution.padding(),
-        &random(output.len() * batch, 3),
-    );
+    weights.set_plain(&numbers.weights);
+    let gradient = batch_of(output, convolution.padding(), &numbers.gradients);
 
-    let mut outputs = Planes::zeros(output, 1, batch);
-    Forward::new(convolution, pictures.layout(), outputs.layout()).run(
-        machine,
-        Source {
-            weights: &weights,
-            input: &pictures,
-            first: 0,
-            count: batch,
-        },
-        &mut outputs,
-        Epilogue::Raw,
-        (&mut vec![(); batch], |(), _: &[f32]| {}),
-    );
+    let outputs = forward(&weights, &pictures, (machine, FORM));
 
+    let tiles = TileRooms::default();
     let mut weight_gradient = Aligned::zeros(weights.values().len());
-    WeightGradient::new(convolution, pictures.layout(), gradient.layout()).run(
-        machine,
-        &pictures,
-        &gradient,
-        batch,
-        &mut weight_gradient,
-    );
+    let pass = WeightGradient::new(convolution, pictures.layout(), gradient.layout(), FORM);
+    let rooms = Rooms {
+        transformed: &mut Aligned::zeros(pass.transformed_len()),
+        tiles: &tiles,
+    };
+    let read = (&pictures, &gradient);
+    pass.run(machine, read, batch, &mut weight_gradient, rooms);
 
     let mut input_gradient = Planes::zeros(input, 1, batch);
-    if convolution.inputs % crate::panel::PANEL == 0 {
-        let pass = InputGradient::new(convolution, gradient.layout(), input_gradient.layout());
+    if reads_panels(convolution) {
+        let pass = InputGradient::new(
+            convolution,
+            gradient.layout(),
+            input_gradient.layout(),
+            FORM,
+        );
         let mut room = Aligned::zeros(weights.values().len());
+        let mut transformed = Aligned::zeros(pass.transformed_len());
         // What lies there is overwritten, and then added to.
         input_gradient.first_mut(batch).fill(9.0);
         for onto in [Onto::Nothing, Onto::Sum] {
-            let into = (&mut input_gradient, onto);
-            pass.run(machine, &weights, (&gradient, batch), &mut room, into);
+            let rooms = Rooms {
+                transformed: &mut transformed,
+                tiles: &tiles,
+            };
+            let (exchanged, into) = ((&weights, &mut room[..]), (&mut input_gradient, onto));
+            pass.run(machine, exchanged, (&gradient, batch), into, rooms);
         }
     }
     [
@@ -182,47 +234,57 @@ fn passes(case: &Case, machine: Machine) -> [Vec<f32>; 3] {
     ]
 }
 
+/// Whether the gradient of the input can be asked for.
+pub(crate) fn reads_panels(convolution: Convolution) -> bool {
+    convolution.inputs.is_multiple_of(crate::panel::PANEL)
+}
+
+/// The outputs for pictures, as sums alone.
+pub(crate) fn forward(
+    weights: &ConvolutionWeights,
+    pictures: &Planes,
+    how: (Machine, ConvolutionForm),
+) -> Planes {
+    finished(weights, pictures, Epilogue::Raw, how)
+}
+
+fn finished(
+    weights: &ConvolutionWeights,
+    pictures: &Planes,
+    epilogue: Epilogue<'_>,
+    (machine, form): (Machine, ConvolutionForm),
+) -> Planes {
+    let (convolution, input) = (weights.convolution(), pictures.layout());
+    let batch = pictures.batch();
+    let mut outputs = Planes::zeros(convolution.output(input.picture), 1, batch);
+    let pass = Forward::new(convolution, input, outputs.layout(), form);
+    let mut room = Aligned::zeros(pass.transformed_len());
+    let source = Source {
+        weights: pass.weights(machine, weights, &mut room),
+        input: pictures,
+        first: 0,
+        count: batch,
+    };
+    let each = (&mut vec![(); batch][..], |(): &mut (), _: &[f32]| {});
+    let rooms = TileRooms::default();
+    pass.run(machine, source, (&mut outputs, epilogue), each, &rooms);
+    outputs
+}
+
 #[test]
 fn every_pass_agrees_with_its_definition() {
     for case in cases() {
-        let Case {
-            convolution,
-            input,
-            batch,
-        } = case;
-        let output = convolution.output(input);
-        let weights = random(
-            convolution.inputs * convolution.outputs * convolution.taps(),
-            2,
-        );
-        let pictures = random(input.len() * batch, 1);
-        let gradients = random(output.len() * batch, 3);
-        let mut expected = vec![0.0; output.len() * batch];
-        let mut input_gradient = vec![0.0; input.len() * batch];
-        let mut weight_gradient = vec![0.0; weights.len()];
-        for image in 0..batch {
-            let (to_image, from_image) = (image * output.len(), image * input.len());
-            for_each_product(convolution, input, |to, from, weight| {
-                let [number, gradient, factor] = [
-                    pictures[from_image + from],
-                    gradients[to_image + to],
-                    weights[weight],
-                ]
-                .map(f64::from);
-                expected[to_image + to] += number * factor;
-                input_gradient[from_image + from] += gradient * factor;
-                weight_gradient[weight] += number * gradient;
-            });
-        }
+        let convolution = case.convolution;
+        let numbers = case.numbers();
+        let [expected, twice, weight_gradient] = case.definition(&numbers);
         for (isa, machine) in machines() {
-            let [outputs, inputs, rows] = passes(&case, machine);
+            let [outputs, inputs, rows] = passes(&case, machine, &numbers);
             let what = |pass| format!("{isa} {convolution:?} {pass}");
             let terms = convolution.taps() * convolution.inputs;
             assert_close(&outputs, &expected, terms, &what("output"));
-            let terms = output.pixels() * batch;
+            let terms = case.output().pixels() * case.batch;
             assert_close(&rows, &weight_gradient, terms, &what("gradient of weights"));
-            if convolution.inputs % crate::panel::PANEL == 0 {
-                let twice: Vec<f64> = input_gradient.iter().map(|value| 2.0 * value).collect();
+            if reads_panels(convolution) {
                 let terms = 2 * convolution.taps() * convolution.outputs;
                 assert_close(&inputs, &twice, terms, &what("gradient of the input"));
             }
@@ -241,13 +303,14 @@ fn neither_the_number_of_threads_nor_the_width_of_vectors_changes_a_bit() {
         })
     };
     for case in cases() {
+        let numbers = case.numbers();
         let mut fused = Vec::new();
         for (isa, machine) in machines() {
             let with = |threads: usize| {
                 let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
                 pool.build()
                     .expect("threads")
-                    .install(|| bits(passes(&case, machine)))
+                    .install(|| bits(passes(&case, machine, &numbers)))
             };
             let alone = with(1);
             for threads in [2, 3] {
@@ -277,7 +340,7 @@ fn epilogues_add_bias_and_pictures_and_cut_at_zero() {
         input,
         batch,
     } = *case;
-    let output = convolution.output(input);
+    let output = case.output();
     let pictures = batch_of(input, 1, &random(input.len() * batch, 1));
     let mut weights = ConvolutionWeights::zeros(convolution);
     weights.set_plain(&random(weights.values().len(), 2));
@@ -285,36 +348,26 @@ fn epilogues_add_bias_and_pictures_and_cut_at_zero() {
     let other_values = random(output.len() * batch, 5);
     let other = batch_of(output, 1, &other_values);
     for (isa, machine) in machines() {
-        let [raw, ..] = passes(case, machine);
-        let pass = |epilogue| {
-            let mut outputs = Planes::zeros(output, 1, batch);
-            Forward::new(convolution, pictures.layout(), outputs.layout()).run(
-                machine,
-                Source {
-                    weights: &weights,
-                    input: &pictures,
-                    first: 0,
-                    count: batch,
-                },
-                &mut outputs,
-                epilogue,
-                (&mut vec![(); batch], |(), _: &[f32]| {}),
-            );
-            values(&outputs, batch)
-        };
-        let (plain, relu) = (pass(Epilogue::Bias(&bias)), pass(Epilogue::BiasRelu(&bias)));
-        let sum = pass(Epilogue::BiasAddRelu(&bias, other.first(batch)));
-        for place in 0..raw.len() {
-            let biased = raw[place] + bias[place % output.channels];
-            // The bias is where sums begin, so that roundings differ: as many as there are terms.
-            assert!((plain[place] - biased).abs() < 2e-6, "{isa}");
-            assert_eq!(
-                relu[place].to_bits(),
-                plain[place].max(0.0).to_bits(),
-                "{isa}"
-            );
-            let both = (plain[place] + other_values[place]).max(0.0);
-            assert_eq!(sum[place].to_bits(), both.to_bits(), "{isa}");
+        for form in [ConvolutionForm::Direct, ConvolutionForm::Winograd] {
+            let pass = |epilogue| {
+                let outputs = finished(&weights, &pictures, epilogue, (machine, form));
+                values(&outputs, batch)
+            };
+            let raw = pass(Epilogue::Raw);
+            let (plain, relu) = (pass(Epilogue::Bias(&bias)), pass(Epilogue::BiasRelu(&bias)));
+            let sum = pass(Epilogue::BiasAddRelu(&bias, other.first(batch)));
+            for place in 0..raw.len() {
+                let biased = raw[place] + bias[place % output.channels];
+                // Of direct sums the bias is where they begin, so that roundings differ: as many as there are terms.
+                assert!((plain[place] - biased).abs() < 2e-6, "{isa} {form}");
+                assert_eq!(
+                    relu[place].to_bits(),
+                    plain[place].max(0.0).to_bits(),
+                    "{isa} {form}"
+                );
+                let both = (plain[place] + other_values[place]).max(0.0);
+                assert_eq!(sum[place].to_bits(), both.to_bits(), "{isa} {form}");
+            }
         }
     }
 }

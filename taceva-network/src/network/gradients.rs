@@ -1,7 +1,7 @@
 //! The gradients of a batch, by name.
 
 use super::{NamedTensor, Network};
-use crate::convolution::plain;
+use crate::convolution::{ConvolutionForm, plain};
 use crate::error::{NetworkError, SampleSet};
 use crate::loss::Loss;
 use crate::stage::Stage;
@@ -30,7 +30,7 @@ impl Network {
     /// The loss of `samples` as one batch, normalised by its own moments, and its gradients. Running moments are updated.
     ///
     /// # Errors
-    /// [`NetworkError`] if the samples do not go with the network or the loss.
+    /// [`NetworkError`] if the samples do not go with the network or the loss, or memory is short.
     pub fn gradients(
         &mut self,
         samples: Samples<'_>,
@@ -39,7 +39,7 @@ impl Network {
         samples.check(SampleSet::Training, &self.architecture, loss)?;
         let (picture, width) = (self.architecture.input, self.architecture.outputs);
         let batch = samples.pictures.len() / picture.len();
-        let mut space = self.training_space(batch);
+        let mut space = self.training_space(batch, ConvolutionForm::Winograd)?;
         for (position, values) in samples.pictures.chunks_exact(picture.len()).enumerate() {
             space.input.set(position, values);
         }

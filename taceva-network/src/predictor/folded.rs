@@ -1,27 +1,11 @@
 //! The stages of a predictor: convolutions with a bias, into which the running moments are folded.
 
-use crate::convolution::{ConvolutionWeights, Epilogue, Forward, Source};
-use crate::machine::Machine;
+use super::layer::{Ending, Layer, Pass};
+use crate::convolution::ConvolutionForm;
 use crate::max_pool;
-use crate::normed::Normed;
 use crate::planes::{Layout, Planes};
 use crate::scratch::Scratch;
 use crate::stage::Stage;
-
-/// Bytes of weights that stay there too.
-const WEIGHTS_IN_CACHE: usize = 256 << 10;
-
-/// Pixels of a picture that are enough to be worth reading the weights for.
-const PIXELS_WORTH_WEIGHTS: usize = 128;
-
-/// One convolution with a bias.
-#[derive(Debug)]
-pub(super) struct Layer {
-    weights: ConvolutionWeights,
-    bias: crate::panel::Aligned,
-    forward: Forward,
-    output: Layout,
-}
 
 /// A part of the network.
 #[derive(Debug)]
@@ -40,33 +24,28 @@ pub(super) struct FoldedBlock {
     shortcut: Option<Layer>,
 }
 
-/// What a part passes on.
-#[derive(Clone, Copy)]
-pub(super) struct Pass<'a> {
-    pub(super) machine: Machine,
-    pub(super) input: &'a Planes,
-    /// The first picture of the input.
-    pub(super) first: usize,
-    /// How many pictures.
-    pub(super) count: usize,
-}
-
 impl Folded {
-    pub(super) fn new(stage: &Stage, input: Layout, border: usize) -> Folded {
+    pub(super) fn new(
+        stage: &Stage,
+        input: Layout,
+        border: usize,
+        form: ConvolutionForm,
+    ) -> Folded {
+        let layer = |normed, input, border| Layer::new(normed, (input, border), form);
         match stage {
             Stage::Stem(normed) => {
-                let layer = Layer::new(normed, input, 0);
-                let picture = max_pool::output(layer.output.picture);
+                let layer = layer(normed, input, 0);
+                let picture = max_pool::output(layer.output().picture);
                 Folded::Stem(layer, Layout { picture, border })
             }
-            Stage::Plain(normed) => Folded::Plain(Layer::new(normed, input, border)),
+            Stage::Plain(normed) => Folded::Plain(layer(normed, input, border)),
             Stage::Block(block) => {
-                let first = Layer::new(&block.first, input, 1);
+                let first = layer(&block.first, input, 1);
                 // What leads past lies as the output does, so that the two can be added.
                 let past = block.shortcut.as_ref();
                 Folded::Block(Box::new(FoldedBlock {
-                    second: Layer::new(&block.second, first.output, border),
-                    shortcut: past.map(|past| Layer::new(past, input, border)),
+                    second: layer(&block.second, first.output(), border),
+                    shortcut: past.map(|past| layer(past, input, border)),
                     first,
                 }))
             }
@@ -77,8 +56,8 @@ impl Folded {
     pub(super) fn output(&self) -> Layout {
         match self {
             Folded::Stem(_, pooled) => *pooled,
-            Folded::Plain(layer) => layer.output,
-            Folded::Block(block) => block.second.output,
+            Folded::Plain(layer) => layer.output(),
+            Folded::Block(block) => block.second.output(),
         }
     }
 
@@ -87,6 +66,22 @@ impl Folded {
         match self {
             Folded::Stem(layer, _) | Folded::Plain(layer) => layer.is_light(),
             Folded::Block(block) => block.first.is_light() && block.second.is_light(),
+        }
+    }
+
+    /// Its convolutions.
+    pub(super) fn layers_mut(&mut self) -> Vec<&mut Layer> {
+        match self {
+            Folded::Stem(layer, _) | Folded::Plain(layer) => vec![layer],
+            Folded::Block(block) => {
+                let FoldedBlock {
+                    first,
+                    second,
+                    shortcut,
+                } = &mut **block;
+                let both = [first, second];
+                both.into_iter().chain(shortcut.as_mut()).collect()
+            }
         }
     }
 
@@ -116,78 +111,5 @@ impl Folded {
                 output
             }
         }
-    }
-}
-
-/// What follows the bias.
-#[derive(Clone, Copy)]
-enum Ending<'a> {
-    Keep,
-    Relu,
-    /// These pictures lie as the output does.
-    AddThenRelu(&'a [f32]),
-}
-
-impl Layer {
-    fn new(normed: &Normed, input: Layout, border: usize) -> Layer {
-        let convolution = normed.convolution();
-        let output = Layout {
-            picture: convolution.output(input.picture),
-            border,
-        };
-        let (weights, bias) = normed.fold();
-        Layer {
-            weights,
-            bias,
-            forward: Forward::new(convolution, input, output),
-            output,
-        }
-    }
-
-    fn pass(&self, pass: Pass<'_>, ending: Ending<'_>, scratch: &mut Scratch) -> Planes {
-        let mut output = scratch.take(self.output, pass.count);
-        let source = self.source(pass);
-        let epilogue = match ending {
-            Ending::Keep => Epilogue::Bias(&self.bias),
-            Ending::Relu => Epilogue::BiasRelu(&self.bias),
-            Ending::AddThenRelu(other) => Epilogue::BiasAddRelu(&self.bias, other),
-        };
-        // The outputs on the way are not needed.
-        let each = (&mut vec![(); pass.count][..], |(): &mut (), _: &[f32]| {});
-        self.forward
-            .run(pass.machine, source, &mut output, epilogue, each);
-        output
-    }
-
-    /// Pools each picture while it is in a cache.
-    fn pass_pooled(&self, pass: Pass<'_>, layout: Layout, scratch: &mut Scratch) -> Planes {
-        let (machine, count) = (pass.machine, pass.count);
-        let mut raw = scratch.take(self.output, count);
-        let mut pooled = scratch.take(layout, count);
-        let images = pooled.first_mut(count).chunks_exact_mut(layout.len());
-        let mut images: Vec<&mut [f32]> = images.collect();
-        let pool = |into: &mut &mut [f32], raw: &[f32]| {
-            max_pool::pool(machine, (raw, self.output), (into, layout));
-        };
-        let (source, epilogue) = (self.source(pass), Epilogue::BiasRelu(&self.bias));
-        self.forward
-            .run(machine, source, &mut raw, epilogue, (&mut images, pool));
-        scratch.put(raw);
-        pooled
-    }
-
-    fn source<'a>(&'a self, pass: Pass<'a>) -> Source<'a> {
-        Source {
-            weights: &self.weights,
-            input: pass.input,
-            first: pass.first,
-            count: pass.count,
-        }
-    }
-
-    /// Whether its weights are few and its pictures large.
-    fn is_light(&self) -> bool {
-        size_of_val(self.weights.values()) <= WEIGHTS_IN_CACHE
-            && self.output.picture.pixels() >= PIXELS_WORTH_WEIGHTS
     }
 }

@@ -22,6 +22,12 @@ pub(crate) trait Vector: Copy {
     /// # Safety
     /// A number lies at `place`.
     unsafe fn splat(proof: Self::Proof, place: *const f32) -> Self;
+    /// `value` in every lane.
+    #[inline(always)]
+    fn constant(proof: Self::Proof, value: f32) -> Self {
+        // SAFETY: `value` is a number that lies somewhere.
+        unsafe { Self::splat(proof, &value) }
+    }
     /// The numbers from `place` on.
     ///
     /// # Safety

@@ -81,19 +81,29 @@ impl BlockSpace {
             input,
             border,
             batch,
+            form,
             ..
         } = standing;
         let picture = block.first.convolution().output(input.picture);
         let middle = Layout { picture, border: 1 };
         let past = block.shortcut.as_ref().map(Normed::convolution);
+        let space = |convolution, input| NormedSpace::new((convolution, form), input, batch, true);
         BlockSpace {
-            first: NormedSpace::new(block.first.convolution(), input, batch, true),
-            second: NormedSpace::new(block.second.convolution(), middle, batch, true),
-            shortcut: past.map(|past| NormedSpace::new(past, input, batch, true)),
+            first: space(block.first.convolution(), input),
+            second: space(block.second.convolution(), middle),
+            shortcut: past.map(|past| space(past, input)),
             output: Planes::zeros(picture, border, batch),
             middle,
             input: input.bare(),
         }
+    }
+
+    /// Numbers that the weights of one convolution take at most when a pass transforms them.
+    pub(super) fn transformed_len(&self) -> usize {
+        let past = self.shortcut.as_ref();
+        let past = past.map_or(0, NormedSpace::transformed_len);
+        let both = self.first.transformed_len();
+        both.max(self.second.transformed_len()).max(past)
     }
 
     /// What the first convolution gave, normalised and cut: needed in both passes and not kept between them, as it is made in a
@@ -120,7 +130,7 @@ impl BlockSpace {
         scratch: &mut Scratch,
     ) {
         let first = &mut self.first;
-        block.first.forward(machine, first, (input, count));
+        block.first.forward(machine, first, (input, count), scratch);
         let middle = self.middle(machine, count, scratch);
         let BlockSpace {
             second,
@@ -128,11 +138,12 @@ impl BlockSpace {
             output,
             ..
         } = self;
-        block.second.forward(machine, second, (&middle, count));
+        let normed = &mut block.second;
+        normed.forward(machine, second, (&middle, count), scratch);
         scratch.put(middle);
         let past = match (&mut block.shortcut, shortcut) {
             (Some(normed), Some(space)) => {
-                normed.forward(machine, space, (input, count));
+                normed.forward(machine, space, (input, count), scratch);
                 Shortcut::Normalised(&space.raw, &space.moments)
             }
             _ => Shortcut::Identity(input),

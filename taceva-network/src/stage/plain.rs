@@ -6,11 +6,12 @@ use crate::convolution::Onto;
 use crate::machine::Machine;
 use crate::normed::{Back, Normed, NormedSpace};
 use crate::planes::{Layout, Planes};
+use crate::scratch::Scratch;
 
 /// What training keeps between the passes.
 #[derive(Debug)]
 pub(crate) struct PlainSpace {
-    normed: NormedSpace,
+    pub(super) normed: NormedSpace,
     pub(crate) output: Planes,
     /// How the gradient of the input lies, where it is asked for.
     input: Option<Layout>,
@@ -23,10 +24,11 @@ impl PlainSpace {
             border,
             batch,
             is_first,
+            form,
         } = standing;
         let convolution = normed.convolution();
         PlainSpace {
-            normed: NormedSpace::new(convolution, input, batch, !is_first),
+            normed: NormedSpace::new((convolution, form), input, batch, !is_first),
             output: Planes::zeros(convolution.output(input.picture), border, batch),
             input: (!is_first).then_some(input.bare()),
         }
@@ -37,9 +39,10 @@ impl PlainSpace {
         normed: &mut Normed,
         machine: Machine,
         input: (&Planes, usize),
+        scratch: &mut Scratch,
     ) {
         let space = &mut self.normed;
-        normed.forward(machine, space, input);
+        normed.forward(machine, space, input, scratch);
         let raw = (&space.raw, input.1);
         apply(
             machine,

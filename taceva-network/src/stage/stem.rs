@@ -5,11 +5,12 @@ use crate::machine::Machine;
 use crate::max_pool::{self, Pooled};
 use crate::normed::{Back, Normed, NormedSpace};
 use crate::planes::Planes;
+use crate::scratch::Scratch;
 
 /// What training keeps between the passes.
 #[derive(Debug)]
 pub(crate) struct StemSpace {
-    normed: NormedSpace,
+    pub(super) normed: NormedSpace,
     pub(crate) output: Planes,
     /// Which place of its window each output came from.
     choices: Vec<u8>,
@@ -21,9 +22,10 @@ impl StemSpace {
             input,
             border,
             batch,
+            form,
             ..
         } = standing;
-        let normed = NormedSpace::new(normed.convolution(), input, batch, false);
+        let normed = NormedSpace::new((normed.convolution(), form), input, batch, false);
         let picture = max_pool::output(normed.raw.layout().picture);
         StemSpace {
             normed,
@@ -37,9 +39,10 @@ impl StemSpace {
         normed: &mut Normed,
         machine: Machine,
         input: (&Planes, usize),
+        scratch: &mut Scratch,
     ) {
         let space = &mut self.normed;
-        normed.forward(machine, space, input);
+        normed.forward(machine, space, input, scratch);
         let (raw, choices) = ((&space.raw, input.1), &mut self.choices);
         max_pool::pool_normalised(machine, raw, &space.moments, &mut self.output, choices);
     }

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Moments, Recipe, Samples, Snapshot, Trainer, TrainingState};
 use crate::architecture::Architecture;
+use crate::convolution::ConvolutionForm;
 use crate::error::NetworkError;
 use crate::network::{NamedTensor, Network};
 
@@ -28,11 +29,17 @@ pub struct Summary {
     pub recipe: Recipe,
     /// How many samples it learns from.
     pub samples: usize,
+    /// The form of its convolutions on the processor, on which last digits depend; one that does not say it had the only form of its time.
+    #[serde(default = "ConvolutionForm::unstated")]
+    pub convolutions: ConvolutionForm,
     /// How far it has come.
     pub state: TrainingState,
 }
 
 impl<'a> Trainer<'a> {
+    /// The form of convolutions in which the processor trains, unless [another](Trainer::in_form) is asked for.
+    pub const CONVOLUTIONS: ConvolutionForm = ConvolutionForm::Winograd;
+
     /// The training as it stands.
     ///
     /// # Errors
@@ -64,11 +71,12 @@ impl<'a> Trainer<'a> {
             architecture: self.architecture.clone(),
             recipe: self.recipe.clone(),
             samples: self.training.count(&self.architecture),
+            convolutions: self.form,
             state: self.state.clone(),
         }
     }
 
-    /// The training that `checkpoint` was saved from, with the same samples.
+    /// The training that `checkpoint` was saved from, with the same samples and in the form that it had.
     ///
     /// # Errors
     /// [`NetworkError::Checkpoint`] if the samples are others in number, or a tensor of the optimiser does not fit; otherwise as
@@ -107,7 +115,8 @@ impl<'a> Trainer<'a> {
             moments: moments?,
             network,
         };
-        let mut trainer = Trainer::from_snapshot(&snapshot, recipe, training, validation)?;
+        let start = (&snapshot, summary.convolutions);
+        let mut trainer = Trainer::from_snapshot(start, recipe, training, validation)?;
         let samples = trainer.summary().samples;
         if samples != summary.samples {
             return refuse(format!(

@@ -2,6 +2,7 @@
 
 use super::engine::{Batch, Engine, Moments, Snapshot};
 use super::recipe::Recipe;
+use crate::convolution::ConvolutionForm;
 use crate::error::NetworkError;
 use crate::loss::Loss;
 use crate::network::{Network, TrainingSpace};
@@ -15,11 +16,19 @@ pub(super) struct Processor {
     memory: Memory,
     optimizer: Optimizer,
     loss: Loss,
+    form: ConvolutionForm,
 }
 
 impl Processor {
-    /// A training that goes on from `snapshot`, whose moments are those of `recipe`'s optimiser.
-    pub(super) fn new(snapshot: &Snapshot, recipe: &Recipe) -> Processor {
+    /// A training that goes on from `snapshot`, whose moments are those of `recipe`'s optimiser, with convolutions of one form.
+    ///
+    /// # Errors
+    /// [`NetworkError::Memory`] if there is no room for transformed weights.
+    pub(super) fn new(
+        snapshot: &Snapshot,
+        recipe: &Recipe,
+        form: ConvolutionForm,
+    ) -> Result<Processor, NetworkError> {
         let network = snapshot.network.clone();
         let mut memory = Memory::new(network.slots());
         for tensors in &snapshot.moments {
@@ -27,13 +36,14 @@ impl Processor {
                 moments.push(values);
             }
         }
-        Processor {
-            space: network.training_space(recipe.batch),
+        Ok(Processor {
+            space: network.training_space(recipe.batch, form)?,
             memory,
             optimizer: recipe.optimizer,
             loss: recipe.loss,
+            form,
             network,
-        }
+        })
     }
 }
 
@@ -72,7 +82,8 @@ impl Engine for Processor {
     }
 
     fn predict(&mut self, pictures: &[f32], into: &mut [f64]) -> Result<(), NetworkError> {
-        self.network.predictor().predict(pictures, into)
+        let mut predictor = self.network.predictor_in(self.form);
+        predictor.predict(pictures, into)
     }
 
     fn network(&self) -> Result<Network, NetworkError> {

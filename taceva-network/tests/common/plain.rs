@@ -1,5 +1,10 @@
 //! The networks once more in double precision, as plainly as can be: channels before rows, one loop per dimension.
 
+#![allow(
+    dead_code,
+    reason = "each suite that shares this file uses a part of it"
+)]
+
 use std::collections::BTreeMap;
 
 use taceva_network::{Architecture, Body, Depth, Network, PlainLayer, Pooling};

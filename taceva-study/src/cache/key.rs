@@ -61,8 +61,11 @@ impl CachedStage {
             CachedStage::Predict => 3,
             // 2: elastic nets end their descent earlier, Gaussian processes reach as far as they say.
             // 3: the card says the mean of the labels.
-            CachedStage::Fit => 3,
-            CachedStage::Features | CachedStage::Classify => 1,
+            // 4: residual networks train with Winograd's convolutions, and their cards say in which form they predict.
+            CachedStage::Fit => 4,
+            // 2: likewise.
+            CachedStage::Classify => 2,
+            CachedStage::Features => 1,
         }
     }
 }

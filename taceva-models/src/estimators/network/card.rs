@@ -1,7 +1,7 @@
 //! What a model file says of a network, beside its tensors.
 
 use serde::{Deserialize, Serialize};
-use taceva_network::{Architecture, LabelScale};
+use taceva_network::{Architecture, ConvolutionForm, LabelScale};
 
 use super::Preprocessing;
 
@@ -18,9 +18,20 @@ pub struct NetworkCard {
     /// The label of each channel that never changed in the training part, and is predicted as that; nothing for those
     /// that the outputs stand for, one after the other.
     pub constant: Vec<Option<f64>>,
+    /// The form in which convolutions are computed for predictions. A file that does not say one was written when there was one only, and
+    /// its model predicts in that one still.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub convolutions: Option<ConvolutionForm>,
     /// The instructions of the processor: on the same ones predictions have the same bits.
     pub instructions: String,
     /// The GPU that trained it, where the processor did not; trained there anew, it has other bits.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gpu: Option<String>,
+}
+
+impl NetworkCard {
+    /// The form in which it predicts.
+    pub fn form(&self) -> ConvolutionForm {
+        self.convolutions.unwrap_or(ConvolutionForm::unstated())
+    }
 }

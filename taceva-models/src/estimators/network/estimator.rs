@@ -2,7 +2,9 @@
 
 use taceva_core::{FeatureShape, SignalInfo};
 use taceva_gpu::GpuKind;
-use taceva_network::{Architecture, Augmentation, Depth, Jitter, Loss, Optimizer, Recipe};
+use taceva_network::{
+    Architecture, Augmentation, ConvolutionForm, Depth, Jitter, Loss, Optimizer, Recipe,
+};
 
 use super::regressor::picture;
 use super::{Checkpoints, Preprocessing};
@@ -19,6 +21,8 @@ pub struct NetworkEstimator {
     pub(super) preprocessing: Preprocessing,
     /// What replaces this preprocessing where signals are learnt from.
     of_signals: OfSignals,
+    /// The form of convolutions for predictions.
+    pub(super) convolutions: ConvolutionForm,
     /// How the GPU that trains is reached, where the processor does not.
     pub(super) gpu: Option<GpuKind>,
     pub(super) checkpoints: Option<Checkpoints>,
@@ -105,6 +109,12 @@ const CONTRAST: SettingInfo = SettingInfo {
     default: "true, false of signals",
     about: "whether each picture is divided by its standard deviation",
 };
+const CONVOLUTIONS: SettingInfo = SettingInfo {
+    key: "convolutions",
+    accepts: "winograd or direct",
+    default: "winograd",
+    about: "the form of convolutions for predictions: winograd is fastest for batches, direct for one picture at a time, as a sensor gives them",
+};
 const DEVICE: SettingInfo = SettingInfo {
     key: "device",
     accepts: "cpu, cuda or wgpu",
@@ -113,7 +123,18 @@ const DEVICE: SettingInfo = SettingInfo {
 };
 
 const SETTINGS: &[SettingInfo] = &[
-    EPOCHS, BATCH, RATE, DECAY, SEED, PATIENCE, JITTER, NOISE, BRIGHTNESS, LOCAL_MEAN, CONTRAST,
+    EPOCHS,
+    BATCH,
+    RATE,
+    DECAY,
+    SEED,
+    PATIENCE,
+    JITTER,
+    NOISE,
+    BRIGHTNESS,
+    LOCAL_MEAN,
+    CONTRAST,
+    CONVOLUTIONS,
     DEVICE,
 ];
 
@@ -233,6 +254,7 @@ impl NetworkEstimator {
                 preprocessing: preprocessing(0.0, false)?,
                 jitter_px: pixels(0)?,
             },
+            convolutions: settings.value(&CONVOLUTIONS, ConvolutionForm::Winograd, form_of)?,
             gpu,
             checkpoints: None,
         })
@@ -264,6 +286,15 @@ impl NetworkEstimator {
             Kind::FiveLayers => Architecture::five_layers(picture(shape), outputs),
             Kind::Residual(depth) => Architecture::residual(depth, picture(shape), outputs),
         }
+    }
+}
+
+/// The form that `word` means.
+fn form_of(word: &str) -> Option<ConvolutionForm> {
+    match word {
+        "winograd" => Some(ConvolutionForm::Winograd),
+        "direct" => Some(ConvolutionForm::Direct),
+        _ => None,
     }
 }
 

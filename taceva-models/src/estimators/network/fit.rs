@@ -93,6 +93,7 @@ impl ModelEstimator for NetworkEstimator {
             preprocessing: self.preprocessing,
             scale,
             constant: constant.collect(),
+            convolutions: Some(self.convolutions),
             instructions: Isa::detect().name().to_owned(),
             gpu: gpu
                 .filter(|_| !varying.is_empty())

@@ -6,6 +6,7 @@ use taceva_core::{Channels, ErrorKind, FeatureShape, Features, ModelError, Regre
 use taceva_network::{NamedTensor, Network, Picture, Predictor};
 
 use super::NetworkCard;
+use super::training::refused;
 use crate::training::problem::invalid;
 
 /// A fitted network, from features to channels.
@@ -82,10 +83,10 @@ impl NetworkRegressor {
                 .unwrap_or_else(std::sync::PoisonError::into_inner)
         };
         let taken = spare().pop();
-        let mut predictor = taken.unwrap_or_else(|| self.network.predictor());
+        let mut predictor = taken.unwrap_or_else(|| self.network.predictor_in(self.card.form()));
         let result = predictor.predict(pictures, into);
         spare().push(predictor);
-        result.map_err(|error| invalid("predicting").because(error))
+        result.map_err(refused)
     }
 }
 

@@ -99,9 +99,9 @@ fn broken(error: NetworkError, trainer: &Trainer<'_>, shelf: Option<Shelf<'_>>) 
 /// What a network refused, as models say it.
 pub(super) fn refused(error: NetworkError) -> ModelError {
     let kind = match error {
-        NetworkError::LossNotFinite { .. } | NetworkError::WeightNotFinite { .. } => {
-            ErrorKind::OutOfRange
-        }
+        NetworkError::LossNotFinite { .. }
+        | NetworkError::WeightNotFinite { .. }
+        | NetworkError::Memory { .. } => ErrorKind::OutOfRange,
         NetworkError::Device { .. } => ErrorKind::DeviceFault,
         _ => ErrorKind::InvalidArgument,
     };

@@ -13,8 +13,10 @@ use super::identity::{Identity, Origin, add_numbers, hexadecimal};
 
 /// The key of the metadata.
 const KEY: &str = "taceva.checkpoint";
-/// A file of any other version is refused: it is of a training that another program began.
-const FORMAT: &str = "2";
+/// A file of any other version is refused: it is of a training that another program began, which summed otherwise.
+///
+/// 3: convolutions have a form; all before had the direct one.
+const FORMAT: &str = "3";
 
 /// Four times the largest model: its weights now and at their best, and two moments of each.
 pub(super) const FILE_MAX: u64 = 1 << 30;
@@ -76,7 +78,10 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Origin, Checkpoint), String> {
     let text = text.ok_or_else(|| format!("the metadata lack `{KEY}`"))?;
     let card: Card = serde_json::from_str(text).map_err(|error| error.to_string())?;
     if card.format != FORMAT {
-        return Err(format!("format {}, expected {FORMAT}", card.format));
+        return Err(format!(
+            "format {}, expected {FORMAT}: of a training by another version of this program, whose results differ in last digits",
+            taceva_core::shown(&card.format)
+        ));
     }
     let found = SafeTensors::deserialize(bytes).map_err(container)?;
     let mut tensors: Vec<NamedTensor> = Vec::new();

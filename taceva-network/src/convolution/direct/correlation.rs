@@ -1,6 +1,7 @@
 //! What the forward pass and the gradient of the input have in common: sums of runs of pixels times rows of weights.
 
 use crate::constant::with_constant;
+use crate::convolution::ending::{Finish, Start};
 use crate::panel::PANEL;
 use crate::simd::{Job, Pixels, Tile, Vector};
 
@@ -14,28 +15,6 @@ pub(crate) struct Tap {
     pub(crate) offset: usize,
     /// The first row of weights.
     pub(crate) row: usize,
-}
-
-/// What sums begin with.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Start<'a> {
-    /// Nothing.
-    Zero,
-    /// What the output holds.
-    Output,
-    /// One number per channel.
-    Bias(&'a [f32]),
-}
-
-/// What is done with finished sums.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Finish<'a> {
-    /// They are kept.
-    Keep,
-    /// Those below zero become zero.
-    Relu,
-    /// A tensor that lies as the output does is added, then those below zero become zero.
-    AddThenRelu(&'a [f32]),
 }
 
 /// output[pixel, channel] = finish(start + Σ over taps, run: input · weights).

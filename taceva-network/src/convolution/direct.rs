@@ -1,0 +1,11 @@
+//! Convolutions as sums of products of pixels with weights.
+
+mod border;
+mod correlation;
+mod forward;
+mod input_gradient;
+mod weight_gradient;
+
+pub(super) use forward::Forward;
+pub(super) use input_gradient::InputGradient;
+pub(super) use weight_gradient::WeightGradient;

@@ -1,0 +1,154 @@
+//! The forward pass.
+
+use rayon::prelude::*;
+
+use super::border::{Reach, is_left_out, reaches};
+use super::correlation::{Correlation, Tap, are_weights_many};
+use crate::convolution::ending::Epilogue;
+use crate::convolution::source::Source;
+use crate::convolution::{Convolution, offset};
+use crate::machine::Machine;
+use crate::panel::PANEL;
+use crate::planes::{Layout, Planes};
+use crate::simd::Pixels;
+
+/// Pixels of pictures that one thread takes at a time: enough to outweigh the weights that they meet.
+const PIXELS_AT_ONCE: usize = 384;
+
+/// Pictures from which on the border is left out where it may be: as many as a tile of sums has rows.
+const IMAGES_WORTH_CLASSES: usize = 6;
+
+/// A forward pass over pictures of one layout, ready to be run.
+#[derive(Clone, Debug)]
+pub(crate) struct Forward {
+    /// All pixels.
+    whole: Class,
+    /// The same without the border, which are several classes; none where it is not left out.
+    apart: Vec<Class>,
+    rows: usize,
+}
+
+/// Output pixels that read the same places of the kernel.
+#[derive(Clone, Debug)]
+struct Class {
+    pixels: Pixels,
+    taps: Vec<Tap>,
+    run: usize,
+}
+
+impl Forward {
+    /// The pass of `convolution` from pictures of layout `input` to those of layout `output`.
+    pub(crate) fn new(convolution: Convolution, input: Layout, output: Layout) -> Forward {
+        let layouts = (input, output);
+        let (height, width) = (output.picture.height, output.picture.width);
+        let [down, across] = [height, width].map(|side| Reach::all(convolution, side));
+        let mut apart = Vec::new();
+        if is_left_out(output.picture) {
+            let columns = reaches(convolution, width, input.picture.width);
+            for rows in reaches(convolution, height, input.picture.height) {
+                let classes = columns.iter();
+                apart.extend(
+                    classes.map(|columns| Class::new(convolution, layouts, (&rows, columns))),
+                );
+            }
+        }
+        Forward {
+            whole: Class::new(convolution, layouts, (&down, &across)),
+            apart,
+            rows: convolution.taps() * convolution.inputs,
+        }
+    }
+
+    /// What is passed of so many pictures. A class reads the weights for itself, which is worth it where there are pixels enough to read them
+    /// for; as nothing but zeros is left out, the outputs are the same.
+    fn classes(&self, images: usize) -> &[Class] {
+        if self.apart.is_empty() || images < IMAGES_WORTH_CLASSES {
+            std::slice::from_ref(&self.whole)
+        } else {
+            &self.apart
+        }
+    }
+
+    /// Runs it, into the first pictures of `output`; `each` of a picture sees its output while that is still in a cache.
+    pub(crate) fn run<E: Send>(
+        &self,
+        machine: Machine,
+        source: Source<'_>,
+        (output, epilogue): (&mut Planes, Epilogue<'_>),
+        (each, see): (&mut [E], impl Fn(&mut E, &[f32]) + Sync),
+    ) {
+        let count = source.count;
+        let layout = output.layout();
+        let (input_image, output_image) = (source.input.layout().len(), layout.len());
+        let panels = layout.picture.channels / PANEL;
+        let are_many = are_weights_many(self.rows, panels);
+        let group = images_at_once(self.whole.pixels.len(), count, are_many);
+        let inputs = source.pictures().par_chunks(group * input_image);
+        let outputs = output.first_mut(count).par_chunks_mut(group * output_image);
+        let groups = outputs.zip(inputs).zip(each.par_chunks_mut(group));
+        groups
+            .enumerate()
+            .for_each(|(index, ((output, input), each))| {
+                let first = index * group * output_image;
+                let (start, finish) = epilogue.within(first..first + output.len());
+                let images = output.len() / output_image;
+                for class in self.classes(images) {
+                    machine.run(Correlation {
+                        pixels: &class.pixels,
+                        images,
+                        input,
+                        input_image,
+                        taps: &class.taps,
+                        run: class.run,
+                        weights: source.weights,
+                        rows: self.rows,
+                        output: &mut *output,
+                        output_image,
+                        start,
+                        finish,
+                    });
+                }
+                for (each, output) in each.iter_mut().zip(output.chunks_exact(output_image)) {
+                    see(each, output);
+                }
+            });
+    }
+}
+
+impl Class {
+    fn new(
+        convolution: Convolution,
+        (input, output): (Layout, Layout),
+        (rows, columns): (&Reach, &Reach),
+    ) -> Class {
+        let inputs = convolution.inputs;
+        let first = columns.places.start;
+        let taps = rows.places.clone().map(|row| Tap {
+            offset: row * input.row() + first * inputs,
+            row: (row * convolution.kernel + first) * inputs,
+        });
+        let mut offsets = Vec::new();
+        for y in rows.positions.clone() {
+            for x in columns.positions.clone() {
+                let to = output.start_of_row(y) + x * output.picture.channels;
+                offsets.push((offset(convolution.corner(input, y, x)), offset(to)));
+            }
+        }
+        Class {
+            pixels: Pixels::new(offsets),
+            taps: taps.collect(),
+            run: columns.places.len() * inputs,
+        }
+    }
+}
+
+/// How many pictures of `pixels` pixels a thread takes at a time. It changes the time that a pass takes, and no bit of it.
+pub(super) fn images_at_once(pixels: usize, count: usize, are_weights_many: bool) -> usize {
+    let share = count.div_ceil(rayon::current_num_threads()).max(1);
+    if are_weights_many {
+        // Weights are read from memory once for each group.
+        share
+    } else {
+        PIXELS_AT_ONCE.div_ceil(pixels).min(share)
+    }
+}

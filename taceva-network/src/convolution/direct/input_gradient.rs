@@ -1,0 +1,147 @@
+//! The gradient of the input: a correlation of the output's gradient with exchanged weights, one for each class of pixels
+//! that the same places of the kernel reach.
+
+use rayon::prelude::*;
+
+use super::border;
+use super::correlation::{Correlation, Tap, are_weights_many};
+use super::forward::images_at_once;
+use crate::convolution::ending::{Finish, Onto};
+use crate::convolution::{Convolution, offset};
+use crate::machine::Machine;
+use crate::panel::PANEL;
+use crate::planes::{Layout, Planes};
+use crate::simd::Pixels;
+
+/// The pass that gives the gradient of the input, ready to be run.
+#[derive(Clone, Debug)]
+pub(crate) struct InputGradient {
+    classes: Vec<Class>,
+    convolution: Convolution,
+}
+
+/// Input pixels that the same places of the kernel reach; with stride 2, four classes by parity.
+#[derive(Clone, Debug)]
+struct Class {
+    pixels: Pixels,
+    taps: Vec<Tap>,
+}
+
+impl InputGradient {
+    /// The pass from gradients of the output, of layout `output`, to those of the input, of layout `input`.
+    ///
+    /// The border of `output` is at least the padding.
+    pub(crate) fn new(convolution: Convolution, output: Layout, input: Layout) -> InputGradient {
+        let stride = convolution.stride;
+        let classes = (0..stride).flat_map(|y| (0..stride).map(move |x| (y, x)));
+        InputGradient {
+            classes: classes
+                .flat_map(|first| Class::all_of(convolution, output, input, first))
+                .filter(|class| class.pixels.len() > 0)
+                .collect(),
+            convolution,
+        }
+    }
+
+    /// Runs it on the first `count` pictures with exchanged weights.
+    pub(crate) fn run(
+        &self,
+        machine: Machine,
+        exchanged: &[f32],
+        gradient: (&Planes, usize),
+        into: (&mut Planes, Onto),
+    ) {
+        let Convolution {
+            inputs, outputs, ..
+        } = self.convolution;
+        let rows = self.convolution.taps() * outputs;
+
+        let ((gradient, count), (into, onto)) = (gradient, into);
+        let (from_image, to_image) = (gradient.layout().len(), into.layout().len());
+        let are_many = are_weights_many(rows, inputs / PANEL);
+        let group = images_at_once(into.layout().picture.pixels(), count, are_many);
+        let groups = into.first_mut(count).par_chunks_mut(group * to_image);
+        let gradients = gradient.first(count).par_chunks(group * from_image);
+        groups.zip(gradients).for_each(|(into, gradient)| {
+            for class in &self.classes {
+                if class.taps.is_empty() && onto == Onto::Sum {
+                    continue;
+                }
+                machine.run(Correlation {
+                    pixels: &class.pixels,
+                    images: into.len() / to_image,
+                    input: gradient,
+                    input_image: from_image,
+                    taps: &class.taps,
+                    run: outputs,
+                    weights: exchanged,
+                    rows,
+                    output: &mut *into,
+                    output_image: to_image,
+                    start: onto.start(),
+                    finish: Finish::Keep,
+                });
+            }
+        });
+    }
+}
+
+impl Class {
+    /// The classes of input pixels from the first row and column of these on, in steps of the stride: one, or one for each pixel where
+    /// the border is left out.
+    fn all_of(
+        convolution: Convolution,
+        output: Layout,
+        input: Layout,
+        (first_y, first_x): (usize, usize),
+    ) -> Vec<Class> {
+        let (stride, padding) = (convolution.stride, convolution.padding());
+        // Input pixel `first + stride·i` meets kernel place `tap` in output pixel `i + shift`, where it meets it at all.
+        let shift = |first: usize, tap: usize| -> Option<usize> {
+            let distance = (first + padding + stride * padding).checked_sub(tap)?;
+            // Shifts are kept non-negative by `padding` pixels of border.
+            distance.is_multiple_of(stride).then_some(distance / stride)
+        };
+        let places = (0..convolution.kernel)
+            .flat_map(|row| (0..convolution.kernel).map(move |column| (row, column)));
+        let taps = places.filter_map(|(row, column)| {
+            let (y, x) = (shift(first_y, row)?, shift(first_x, column)?);
+            let tap = Tap {
+                offset: y * output.row() + x * convolution.outputs,
+                row: (row * convolution.kernel + column) * convolution.outputs,
+            };
+            Some(((y, x), tap))
+        });
+        let taps: Vec<((usize, usize), Tap)> = taps.collect();
+        let corner = output.border - padding;
+        let mut pixels = Vec::new();
+        for (i, y) in (first_y..input.picture.height).step_by(stride).enumerate() {
+            for (j, x) in (first_x..input.picture.width).step_by(stride).enumerate() {
+                let from = (i + corner) * output.row() + (j + corner) * convolution.outputs;
+                let to = input.start_of_row(y) + x * input.picture.channels;
+                pixels.push(((i, j), (offset(from), offset(to))));
+            }
+        }
+        let class = |pixels: Vec<(u32, u32)>, is_met: &dyn Fn((usize, usize)) -> bool| Class {
+            pixels: Pixels::new(pixels),
+            taps: taps
+                .iter()
+                .filter(|(shift, _)| is_met(*shift))
+                .map(|(_, tap)| *tap)
+                .collect(),
+        };
+        if !border::is_left_out(input.picture) {
+            let pixels = pixels.into_iter().map(|(_, place)| place);
+            return vec![class(pixels.collect(), &|_| true)];
+        }
+        let is_within =
+            |at: usize, length: usize| at.checked_sub(padding).is_some_and(|at| at < length);
+        let picture = output.picture;
+        let alone = pixels.into_iter().map(|((i, j), place)| {
+            class(vec![place], &|(y, x)| {
+                is_within(i + y, picture.height) && is_within(j + x, picture.width)
+            })
+        });
+        alone.collect()
+    }
+}

@@ -1,0 +1,48 @@
+//! Room that the passes work in.
+
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use crate::panel::Aligned;
+
+/// Room for one pass.
+pub(crate) struct Rooms<'a> {
+    /// For transformed weights or their gradient.
+    pub(crate) transformed: &'a mut [f32],
+    pub(crate) tiles: &'a TileRooms,
+}
+
+/// Rooms for transformed tiles: a thread takes one, or makes one, and gives it back.
+#[derive(Debug, Default)]
+pub(crate) struct TileRooms {
+    spare: Mutex<Vec<Aligned>>,
+}
+
+impl TileRooms {
+    /// Does `work` with room for `length` numbers, which holds anything.
+    pub(super) fn with<R>(&self, length: usize, work: impl FnOnce(&mut [f32]) -> R) -> R {
+        let taken = self.spare().pop().filter(|room| length <= room.len());
+        let mut room = taken.unwrap_or_else(|| Aligned::zeros(length));
+        let result = work(&mut room[..length]);
+        self.spare().push(room);
+        result
+    }
+
+    fn spare(&self) -> MutexGuard<'_, Vec<Aligned>> {
+        self.spare.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_room_is_used_again_and_replaced_when_it_is_too_short() {
+        let rooms = TileRooms::default();
+        let first = rooms.with(64, |room| room.as_ptr());
+        let again = rooms.with(32, |room| (room.as_ptr(), room.len()));
+        assert_eq!(again, (first, 32));
+        assert_eq!(rooms.with(128, |room| room.len()), 128);
+        assert_eq!(rooms.spare().len(), 1);
+    }
+}

@@ -1,0 +1,125 @@
+//! How errors go with the number of channels that are summed by themselves: what `channels_at_once` was chosen by.
+
+use super::super::products::{Products, channels_at_once};
+use super::super::weights::to_points;
+use super::{Case, ConvolutionWeights, Numbers, TileRooms, batch_of, case, error, values};
+use crate::convolution::ConvolutionForm;
+use crate::convolution::ending::{Finish, Start};
+use crate::convolution::tests::{forward, machines, passes};
+use crate::machine::Machine;
+use crate::panel::Aligned;
+use crate::planes::Planes;
+
+/// Layers of residual networks that take Winograd's form for pictures of 64² to 112²: channels, and rows and columns of their pictures.
+const LAYERS: [(usize, usize); 4] = [(64, 16), (128, 8), (256, 4), (512, 4)];
+
+/// Channels that are summed by themselves; the last is all of them.
+const BLOCKS: [usize; 5] = [4, 8, 16, 32, 512];
+
+/// Outputs of pictures and gradients of their inputs, summed by so many channels.
+fn summed(case: &Case, machine: Machine, numbers: &Numbers, channels: usize) -> [Vec<f32>; 2] {
+    let mut weights = ConvolutionWeights::zeros(case.convolution);
+    weights.set_plain(&numbers.weights);
+    let mut exchanged = Aligned::zeros(weights.values().len());
+    weights.exchange(machine, &mut exchanged);
+    let (input, output) = (case.input, case.output());
+    let pictures = batch_of(input, 1, &numbers.pictures);
+    let gradients = batch_of(output, 1, &numbers.gradients);
+    let run = |read: &Planes, (weights, is_turned): (&[f32], bool), into| {
+        let mut written = Planes::zeros(into, 1, case.batch);
+        let products = Products {
+            channels_at_once: channels,
+            ..Products::new(read.layout(), written.layout())
+        };
+        let mut room = Aligned::zeros(products.transformed_len());
+        let inputs = read.layout().picture.channels;
+        to_points(machine, (weights, inputs), is_turned, &mut room);
+        let output = (written.first_mut(case.batch), |_| {
+            (Start::Zero, Finish::Keep)
+        });
+        let each = (&mut vec![(); case.batch][..], |(): &mut (), _: &[f32]| {});
+        let read = (read.first(case.batch), &room[..]);
+        products.run(machine, read, output, each, &TileRooms::default());
+        values(&written, case.batch)
+    };
+    [
+        run(&pictures, (weights.values(), false), output),
+        run(&gradients, (&exchanged, true), input),
+    ]
+}
+
+/// Numbers as behind a ReLU: half of the pixels are zero, none is below.
+fn rectified(mut numbers: Numbers) -> Numbers {
+    let pixels = numbers.pictures.iter_mut();
+    pixels.for_each(|value| *value = value.max(0.0));
+    numbers
+}
+
+/// Errors of outputs and of gradients of inputs for each of `BLOCKS`.
+fn errors_by_block(case: &Case, numbers: &Numbers) -> [[f64; 2]; BLOCKS.len()] {
+    let [outputs, twice, _] = case.definition(numbers);
+    let gradients: Vec<f64> = twice.iter().map(|value| value / 2.0).collect();
+    // The fastest: those with fused multiplication have the same bits.
+    let (_, machine) = machines()[0];
+    BLOCKS.map(|channels| {
+        let [found, found_gradients] = summed(case, machine, numbers, channels);
+        [error(&found, &outputs), error(&found_gradients, &gradients)]
+    })
+}
+
+#[test]
+fn channels_are_summed_by_as_many_as_are_most_exact_and_not_all_in_one_row() {
+    for (channels, side) in LAYERS {
+        let case = case((channels, channels), (side, side), 2);
+        let errors = errors_by_block(&case, &rectified(case.numbers()));
+        let chosen = BLOCKS
+            .iter()
+            .position(|block| *block == channels_at_once(channels));
+        let chosen = chosen.expect("one of those that are compared");
+        for (pass, what) in ["outputs", "gradients of inputs"].into_iter().enumerate() {
+            let errors = errors.map(|errors| errors[pass]);
+            let least = errors.iter().copied().fold(f64::INFINITY, f64::min);
+            let what = format!("{channels} channels, {what}: {errors:?}");
+            // A tenth is what draws make of it.
+            assert!(errors[chosen] <= 1.1 * least, "{what}");
+            assert!(errors[BLOCKS.len() - 1] >= 1.4 * errors[chosen], "{what}");
+        }
+    }
+}
+
+/// `cargo test -p taceva-network --lib by_block -- --ignored --nocapture`
+#[test]
+#[ignore = "prints a table"]
+#[expect(clippy::print_stdout, reason = "a table to be read")]
+fn errors_by_block_in_a_table() {
+    println!("| channels, picture, pass | direct | by {BLOCKS:?} channels |");
+    for (channels, side) in LAYERS {
+        let case = case((channels, channels), (side, side), 2);
+        for (what, numbers) in [
+            ("-½ to ½", case.numbers()),
+            ("rectified", rectified(case.numbers())),
+        ] {
+            let (_, machine) = machines()[0];
+            let expected = case.definition(&numbers);
+            let mut weights = ConvolutionWeights::zeros(case.convolution);
+            weights.set_plain(&numbers.weights);
+            let pictures = batch_of(case.input, 1, &numbers.pictures);
+            let direct = forward(&weights, &pictures, (machine, ConvolutionForm::Direct));
+            let direct = error(&values(&direct, case.batch), &expected[0]);
+            let blocks = errors_by_block(&case, &numbers);
+            let of = |pass: usize| {
+                blocks
+                    .map(|errors| format!("{:.2e}", errors[pass]))
+                    .join(" ")
+            };
+            println!(
+                "| {channels} {side}² {what}: outputs | {direct:.2e} | {} |",
+                of(0)
+            );
+            println!("| gradients of inputs | | {} |", of(1));
+            let found = &passes(&case, machine, &numbers)[2];
+            let error = error(found, &expected[2]);
+            println!("| gradients of weights, whose sums are over tiles | | {error:.2e} |");
+        }
+    }
+}

@@ -1,0 +1,195 @@
+//! Tiles of pictures and what lies at their points, `[point, tile, channel]`.
+
+use std::ops::Range;
+
+use super::transform;
+use super::{SIDE, TILE, Tiles};
+use crate::convolution::ending::{Finish, Start};
+use crate::planes::Layout;
+use crate::simd::{Spaced, Vector};
+
+/// Some of the tiles of pictures of one layout.
+#[derive(Clone)]
+pub(super) struct Stretch {
+    pub(super) tiles: Tiles,
+    pub(super) range: Range<usize>,
+    /// Numbers from one point to the next.
+    pub(super) slab: usize,
+}
+
+impl Stretch {
+    /// Writes the inputs of the tiles at each point.
+    ///
+    /// # Shapes
+    /// `pictures`: with a border of at least one.
+    #[inline(always)]
+    pub(super) fn read_inputs<V: Vector>(
+        &self,
+        proof: V::Proof,
+        (pictures, layout): (&[f32], Layout),
+        into: &mut [f32],
+    ) {
+        let (channels, row) = (layout.picture.channels, layout.row());
+        for (position, tile) in self.range.clone().enumerate() {
+            let place = self.tiles.place(tile);
+            // A tile begins a pixel above and beside its outputs; beyond the border of zeros there are more of them.
+            let corner = place.image * layout.len()
+                + (place.y + layout.border - 1) * row
+                + (place.x + layout.border - 1) * channels;
+            let (rows, columns) = (place.below + 2, place.beside + 2);
+            for channel in (0..channels).step_by(V::LANES) {
+                let mut half = [[V::zero(proof); SIDE]; SIDE];
+                for column in 0..SIDE {
+                    let pixels = Spaced {
+                        start: corner + column * channels + channel,
+                        stride: row,
+                        count: if column < columns { rows } else { 0 },
+                    };
+                    let values = transform::input(proof, pixels.load(proof, pictures));
+                    for (half, value) in half.iter_mut().zip(values) {
+                        half[column] = value;
+                    }
+                }
+                for (row, half) in half.into_iter().enumerate() {
+                    let points = self.row_of_points(row, position * channels + channel);
+                    points.store(transform::input(proof, half), into);
+                }
+            }
+        }
+    }
+
+    /// Writes the gradients of the tiles of outputs as those of the sums at each point.
+    #[inline(always)]
+    pub(super) fn read_gradients<V: Vector>(
+        &self,
+        proof: V::Proof,
+        (pictures, layout): (&[f32], Layout),
+        into: &mut [f32],
+    ) {
+        let (channels, row) = (layout.picture.channels, layout.row());
+        for (position, tile) in self.range.clone().enumerate() {
+            let place = self.tiles.place(tile);
+            let corner =
+                place.image * layout.len() + layout.start_of_row(place.y) + place.x * channels;
+            for channel in (0..channels).step_by(V::LANES) {
+                let mut half = [[V::zero(proof); TILE]; SIDE];
+                for column in 0..TILE {
+                    let is_within = column < place.beside;
+                    let pixels = Spaced {
+                        start: corner + column * channels + channel,
+                        stride: row,
+                        count: if is_within { place.below } else { 0 },
+                    };
+                    let values = transform::gradient(proof, pixels.load(proof, pictures));
+                    for (half, value) in half.iter_mut().zip(values) {
+                        half[column] = value;
+                    }
+                }
+                for (row, half) in half.into_iter().enumerate() {
+                    let points = self.row_of_points(row, position * channels + channel);
+                    points.store(transform::gradient(proof, half), into);
+                }
+            }
+        }
+    }
+
+    /// Writes the tiles of outputs from the sums at each point.
+    #[inline(always)]
+    pub(super) fn write_outputs<V: Vector>(
+        &self,
+        proof: V::Proof,
+        sums: &[f32],
+        (pictures, layout): (&mut [f32], Layout),
+        ending: (Start<'_>, Finish<'_>),
+    ) {
+        let (channels, row) = (layout.picture.channels, layout.row());
+        for (position, tile) in self.range.clone().enumerate() {
+            let place = self.tiles.place(tile);
+            let corner =
+                place.image * layout.len() + layout.start_of_row(place.y) + place.x * channels;
+            for channel in (0..channels).step_by(V::LANES) {
+                let mut half = [[V::zero(proof); SIDE]; TILE];
+                for column in 0..SIDE {
+                    let points = Spaced {
+                        start: column * self.slab + position * channels + channel,
+                        stride: SIDE * self.slab,
+                        count: SIDE,
+                    };
+                    let values = transform::output(proof, points.load(proof, sums));
+                    for (half, value) in half.iter_mut().zip(values) {
+                        half[column] = value;
+                    }
+                }
+                for (at, half) in half.into_iter().enumerate() {
+                    if at < place.below {
+                        let pixels = Spaced {
+                            start: corner + at * row + channel,
+                            stride: channels,
+                            count: place.beside,
+                        };
+                        let sums = transform::output(proof, half);
+                        let sums = finished(proof, sums, (pixels, channel), pictures, ending);
+                        pixels.store(sums, pictures);
+                    }
+                }
+            }
+        }
+    }
+
+    /// The points of a row where the numbers of a tile's channels lie at `start` of each.
+    #[inline(always)]
+    fn row_of_points(&self, row: usize, start: usize) -> Spaced {
+        Spaced {
+            start: row * SIDE * self.slab + start,
+            stride: self.slab,
+            count: SIDE,
+        }
+    }
+}
+
+/// Sums of a row of a tile with what they begin and end with; they are of `pixels`, from `channel` on.
+#[inline(always)]
+fn finished<V: Vector>(
+    proof: V::Proof,
+    mut sums: [V; TILE],
+    (pixels, channel): (Spaced, usize),
+    pictures: &[f32],
+    (start, finish): (Start<'_>, Finish<'_>),
+) -> [V; TILE] {
+    let before = match start {
+        Start::Zero => None,
+        Start::Output => Some(pixels.load(proof, pictures)),
+        Start::Bias(bias) => {
+            let place = Spaced {
+                start: channel,
+                stride: 0,
+                count: TILE,
+            };
+            Some(place.load(proof, bias))
+        }
+    };
+    if let Some(before) = before {
+        sums = plus(sums, before);
+    }
+    match finish {
+        Finish::Keep => sums,
+        Finish::Relu => positive_part(sums),
+        Finish::AddThenRelu(other) => positive_part(plus(sums, pixels.load(proof, other))),
+    }
+}
+
+#[inline(always)]
+fn plus<V: Vector>(mut sums: [V; TILE], others: [V; TILE]) -> [V; TILE] {
+    for (sum, other) in sums.iter_mut().zip(others) {
+        *sum = sum.plus(other);
+    }
+    sums
+}
+
+#[inline(always)]
+fn positive_part<V: Vector>(mut sums: [V; TILE]) -> [V; TILE] {
+    for sum in &mut sums {
+        *sum = sum.positive_part();
+    }
+    sums
+}

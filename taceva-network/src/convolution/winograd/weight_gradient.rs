@@ -1,0 +1,112 @@
+//! The gradient of the weights: tiles of inputs times gradients of tiles of outputs, summed at each point.
+//!
+//! Tiles are transformed piece by piece; then each sum, of one point and a few panels, is one thread's, which adds tile after tile: there is
+//! nothing to reduce, and the order is the same on any number of threads.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::rooms::Rooms;
+use super::sums::{PIECE, Pieces};
+use super::tiles::Stretch;
+use super::weights;
+use super::{POINTS, Tiles, slab, transformed_len};
+use crate::machine::Machine;
+use crate::planes::{Layout, Planes};
+use crate::simd::{Job, Vector};
+
+/// Pieces whose sums are taken at once, at least.
+const PIECES_AT_ONCE: usize = 4;
+
+/// Bytes of pieces whose sums are taken at once, where that is more of them.
+const BYTES_AT_ONCE: usize = 2 << 20;
+
+/// The pass that gives the gradient of the weights, ready to be run.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct WeightGradient {
+    input: Layout,
+    output: Layout,
+}
+
+impl WeightGradient {
+    /// The pass from pictures of layout `input` and gradients of layout `output`.
+    pub(crate) fn new(input: Layout, output: Layout) -> WeightGradient {
+        WeightGradient { input, output }
+    }
+
+    /// Numbers of the gradient of transformed weights.
+    pub(crate) fn transformed_len(&self) -> usize {
+        transformed_len(self.input.picture.channels, self.output.picture.channels)
+    }
+
+    /// Runs it on the first `count` pictures.
+    ///
+    /// # Shapes
+    /// `into`: that of the weights.
+    pub(crate) fn run(
+        &self,
+        machine: Machine,
+        (input, gradient): (&Planes, &Planes),
+        count: usize,
+        into: &mut [f32],
+        rooms: Rooms<'_>,
+    ) {
+        let channels = [self.input, self.output].map(|layout| layout.picture.channels);
+        let tiles = Tiles::of(self.output.picture);
+        let total = tiles.per_picture * count;
+        let piece = Pieces::length(channels);
+        let pieces = (BYTES_AT_ONCE / (piece * size_of::<f32>()))
+            .max(PIECES_AT_ONCE)
+            .max(rayon::current_num_threads())
+            .min(total.div_ceil(PIECE));
+        let sums = &mut rooms.transformed[..self.transformed_len()];
+        rooms.tiles.with(pieces * piece, |room| {
+            for first in (0..total).step_by(pieces * PIECE) {
+                let range = first..(first + pieces * PIECE).min(total);
+                let room = &mut room[..range.len().div_ceil(PIECE) * piece];
+                let parts = room.par_chunks_mut(piece).enumerate();
+                parts.for_each(|(index, room)| {
+                    let first = range.start + index * PIECE;
+                    machine.run(Piece {
+                        tiles,
+                        range: first..(first + PIECE).min(range.end),
+                        pictures: (input.first(count), self.input),
+                        gradients: (gradient.first(count), self.output),
+                        room,
+                    });
+                });
+                let pieces = Pieces::new(channels, range.len(), room);
+                pieces.add(machine, first == 0, sums);
+            }
+        });
+        weights::from_points(machine, (sums, channels[0]), into);
+    }
+}
+
+/// Tiles of inputs and gradients of outputs to be transformed.
+struct Piece<'a> {
+    tiles: Tiles,
+    range: Range<usize>,
+    pictures: (&'a [f32], Layout),
+    gradients: (&'a [f32], Layout),
+    /// `[point, tile, channel]`: those of inputs, and then those of outputs.
+    room: &'a mut [f32],
+}
+
+impl Job for Piece<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Vector>(self, proof: V::Proof) {
+        let stretch = |layout: Layout| Stretch {
+            tiles: self.tiles,
+            range: self.range.clone(),
+            slab: slab(PIECE, layout.picture.channels),
+        };
+        let (inputs, outputs) = (stretch(self.pictures.1), stretch(self.gradients.1));
+        let (at_points, gradients) = self.room.split_at_mut(POINTS * inputs.slab);
+        inputs.read_inputs::<V>(proof, self.pictures, at_points);
+        outputs.read_gradients::<V>(proof, self.gradients, gradients);
+    }
+}

@@ -1,0 +1,147 @@
+//! Kernels at the points, and their gradient back from there.
+
+use rayon::prelude::*;
+
+use super::transform;
+use super::{POINTS, SIDE, slab};
+use crate::machine::Machine;
+use crate::panel::PANEL;
+use crate::simd::{Job, Spaced, Vector};
+
+/// Rows, columns and places of a kernel.
+const KERNEL: usize = 3;
+const TAPS: usize = KERNEL * KERNEL;
+
+/// Transforms weights for `inputs` channels; `turned` reads each kernel from its last place to its first.
+///
+/// # Shapes
+/// `weights`: `[panel, tap, input, PANEL]`; `into`: `[panel, point, input, PANEL]`, a panel of nothing after the inputs of each point.
+pub(super) fn to_points(
+    machine: Machine,
+    (weights, inputs): (&[f32], usize),
+    turned: bool,
+    into: &mut [f32],
+) {
+    let panels = into.par_chunks_mut(POINTS * slab(inputs, PANEL));
+    let weights = weights.par_chunks(TAPS * inputs * PANEL);
+    panels.zip(weights).for_each(|(into, weights)| {
+        machine.run(Kernels {
+            weights,
+            width: inputs * PANEL,
+            turned,
+            into,
+        });
+    });
+}
+
+/// Gives the gradient of weights for `inputs` channels from that of transformed ones.
+///
+/// # Shapes
+/// `transformed`: `[point, panel, input, PANEL]`, a panel of nothing after the inputs of each; `into`: `[panel, tap, input, PANEL]`.
+pub(super) fn from_points(
+    machine: Machine,
+    (transformed, inputs): (&[f32], usize),
+    into: &mut [f32],
+) {
+    let panels = into.len() / (TAPS * inputs * PANEL);
+    let gradients = into.par_chunks_mut(TAPS * inputs * PANEL);
+    gradients.enumerate().for_each(|(panel, into)| {
+        machine.run(KernelGradients {
+            transformed: &transformed[panel * slab(inputs, PANEL)..],
+            stride: panels * slab(inputs, PANEL),
+            width: inputs * PANEL,
+            into,
+        });
+    });
+}
+
+/// One panel of kernels.
+struct Kernels<'a> {
+    weights: &'a [f32],
+    /// Numbers of a place of the kernel.
+    width: usize,
+    turned: bool,
+    into: &'a mut [f32],
+}
+
+impl Job for Kernels<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Vector>(self, proof: V::Proof) {
+        let (width, slab) = (self.width, self.width + PANEL);
+        for at in (0..width).step_by(V::LANES) {
+            let mut half = [[V::zero(proof); KERNEL]; SIDE];
+            for column in 0..KERNEL {
+                let tap = if self.turned {
+                    KERNEL - 1 - column
+                } else {
+                    column
+                };
+                let places = Spaced {
+                    start: tap * width + at,
+                    stride: KERNEL * width,
+                    count: KERNEL,
+                };
+                let [first, middle, last] = places.load(proof, self.weights);
+                let kernel = if self.turned {
+                    [last, middle, first]
+                } else {
+                    [first, middle, last]
+                };
+                for (half, value) in half.iter_mut().zip(transform::kernel(proof, kernel)) {
+                    half[column] = value;
+                }
+            }
+            for (row, half) in half.into_iter().enumerate() {
+                let points = Spaced {
+                    start: row * SIDE * slab + at,
+                    stride: slab,
+                    count: SIDE,
+                };
+                points.store(transform::kernel(proof, half), self.into);
+            }
+        }
+    }
+}
+
+/// The gradient of one panel of kernels.
+struct KernelGradients<'a> {
+    /// From the panel at the first point on.
+    transformed: &'a [f32],
+    /// Numbers from one point to the next.
+    stride: usize,
+    width: usize,
+    into: &'a mut [f32],
+}
+
+impl Job for KernelGradients<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Vector>(self, proof: V::Proof) {
+        for at in (0..self.width).step_by(V::LANES) {
+            let mut half = [[V::zero(proof); SIDE]; KERNEL];
+            for column in 0..SIDE {
+                let points = Spaced {
+                    start: column * self.stride + at,
+                    stride: SIDE * self.stride,
+                    count: SIDE,
+                };
+                let values = points.load(proof, self.transformed);
+                let values = transform::kernel_gradient(proof, values);
+                for (half, value) in half.iter_mut().zip(values) {
+                    half[column] = value;
+                }
+            }
+            for (row, half) in half.into_iter().enumerate() {
+                let places = Spaced {
+                    start: row * KERNEL * self.width + at,
+                    stride: self.width,
+                    count: KERNEL,
+                };
+                places.store(transform::kernel_gradient(proof, half), self.into);
+            }
+        }
+    }
+}

@@ -1,0 +1,163 @@
+//! One convolution of a predictor.
+
+use crate::convolution::{ConvolutionForm, ConvolutionWeights, Epilogue, Forward, Source};
+use crate::error::NetworkError;
+use crate::machine::Machine;
+use crate::max_pool;
+use crate::normed::Normed;
+use crate::panel::Aligned;
+use crate::planes::{Layout, Planes};
+use crate::scratch::Scratch;
+
+/// Bytes of weights that stay in a thread's second-level cache beside pictures.
+const WEIGHTS_IN_CACHE: usize = 256 << 10;
+
+/// Pixels of a picture that are enough to be worth reading the weights for.
+const PIXELS_WORTH_WEIGHTS: usize = 128;
+
+/// One convolution with a bias.
+#[derive(Debug)]
+pub(super) struct Layer {
+    weights: Weights,
+    bias: Aligned,
+    forward: Forward,
+    output: Layout,
+    is_light: bool,
+}
+
+/// The weights as they are, or as a pass reads them.
+#[derive(Debug)]
+enum Weights {
+    Plain(ConvolutionWeights),
+    Transformed(Aligned),
+}
+
+/// What a part passes on, once its layers are prepared.
+#[derive(Clone, Copy)]
+pub(super) struct Pass<'a> {
+    pub(super) machine: Machine,
+    pub(super) input: &'a Planes,
+    /// The first picture of the input.
+    pub(super) first: usize,
+    /// How many pictures.
+    pub(super) count: usize,
+}
+
+/// What follows the bias.
+#[derive(Clone, Copy)]
+pub(super) enum Ending<'a> {
+    Keep,
+    Relu,
+    /// These pictures lie as the output does.
+    AddThenRelu(&'a [f32]),
+}
+
+impl Layer {
+    /// The convolution of `normed` from pictures of layout `input` into those with such a border.
+    pub(super) fn new(
+        normed: &Normed,
+        (input, border): (Layout, usize),
+        form: ConvolutionForm,
+    ) -> Layer {
+        let convolution = normed.convolution();
+        let output = Layout {
+            picture: convolution.output(input.picture),
+            border,
+        };
+        let (weights, bias) = normed.fold();
+        let weights_bytes = size_of_val(weights.values());
+        Layer {
+            weights: Weights::Plain(weights),
+            bias,
+            forward: Forward::new(convolution, input, output, form),
+            output,
+            // Of a shape and not of a form, so that forms are passed by as many pictures at a time.
+            is_light: weights_bytes <= WEIGHTS_IN_CACHE
+                && output.picture.pixels() >= PIXELS_WORTH_WEIGHTS,
+        }
+    }
+
+    /// Numbers that are still to be had before its weights can be transformed.
+    pub(super) fn missing(&self) -> usize {
+        match self.weights {
+            Weights::Plain(_) => self.forward.transformed_len(),
+            Weights::Transformed(_) => 0,
+        }
+    }
+
+    /// Transforms its weights, where its form asks for that; the others are dropped.
+    ///
+    /// # Errors
+    /// [`NetworkError::Memory`] if there is no room for them.
+    pub(super) fn prepare(&mut self, machine: Machine) -> Result<(), NetworkError> {
+        let length = self.missing();
+        if let (Weights::Plain(weights), 1..) = (&self.weights, length) {
+            let mut transformed = Aligned::try_zeros(length)?;
+            self.forward.weights(machine, weights, &mut transformed);
+            self.weights = Weights::Transformed(transformed);
+        }
+        Ok(())
+    }
+
+    /// How what it gives lies.
+    pub(super) fn output(&self) -> Layout {
+        self.output
+    }
+
+    /// Passes pictures on, into room of `scratch`.
+    pub(super) fn pass(&self, pass: Pass<'_>, ending: Ending<'_>, scratch: &mut Scratch) -> Planes {
+        let mut output = scratch.take(self.output, pass.count);
+        let source = self.source(pass);
+        let epilogue = match ending {
+            Ending::Keep => Epilogue::Bias(&self.bias),
+            Ending::Relu => Epilogue::BiasRelu(&self.bias),
+            Ending::AddThenRelu(other) => Epilogue::BiasAddRelu(&self.bias, other),
+        };
+        // The outputs on the way are not needed.
+        let each = (&mut vec![(); pass.count][..], |(): &mut (), _: &[f32]| {});
+        let into = (&mut output, epilogue);
+        self.forward
+            .run(pass.machine, source, into, each, &scratch.tiles);
+        output
+    }
+
+    /// Pools each picture while it is in a cache.
+    pub(super) fn pass_pooled(
+        &self,
+        pass: Pass<'_>,
+        layout: Layout,
+        scratch: &mut Scratch,
+    ) -> Planes {
+        let (machine, count) = (pass.machine, pass.count);
+        let mut raw = scratch.take(self.output, count);
+        let mut pooled = scratch.take(layout, count);
+        let images = pooled.first_mut(count).chunks_exact_mut(layout.len());
+        let mut images: Vec<&mut [f32]> = images.collect();
+        let pool = |into: &mut &mut [f32], raw: &[f32]| {
+            max_pool::pool(machine, (raw, self.output), (into, layout));
+        };
+        let into = (&mut raw, Epilogue::BiasRelu(&self.bias));
+        let each = (&mut images[..], pool);
+        self.forward
+            .run(machine, self.source(pass), into, each, &scratch.tiles);
+        scratch.put(raw);
+        pooled
+    }
+
+    fn source<'a>(&'a self, pass: Pass<'a>) -> Source<'a> {
+        Source {
+            weights: match &self.weights {
+                Weights::Plain(weights) => weights.values(),
+                Weights::Transformed(weights) => weights,
+            },
+            input: pass.input,
+            first: pass.first,
+            count: pass.count,
+        }
+    }
+
+    /// Whether its weights are few and its pictures large.
+    pub(super) fn is_light(&self) -> bool {
+        self.is_light
+    }
+}

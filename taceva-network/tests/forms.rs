@@ -1,0 +1,230 @@
+//! The two forms of convolutions: each predicts as it does whatever stands beside, both alike, and training in one of them keeps what a
+//! training promises.
+
+mod common;
+#[path = "common/plain.rs"]
+mod plain;
+#[path = "common/tiles.rs"]
+mod tiles;
+
+use common::{doubles, filled, singles};
+use plain::Moments;
+use taceva_network::{
+    Architecture, Checkpoint, ConvolutionForm, Depth, Labels, Loss, NetworkError, Optimizer,
+    Picture, Recipe, Samples, Schedule, Trainer,
+};
+use tiles::picture;
+
+const FORMS: [ConvolutionForm; 2] = [ConvolutionForm::Direct, ConvolutionForm::Winograd];
+
+/// Three convolutions of 3 × 3 that keep the size of pictures.
+fn same_size(input: Picture) -> Architecture {
+    tiles::same_size(input, [16, 48, 16])
+}
+
+fn bits(values: &[f64]) -> Vec<u64> {
+    values.iter().map(|value| value.to_bits()).collect()
+}
+
+#[test]
+fn both_forms_predict_alike_and_neither_depends_on_the_pictures_beside() {
+    let input = picture(40, 33, 3);
+    let network = filled(&Architecture::residual(Depth::Ten, input, 2), 9);
+    let pictures = singles(3, 35 * input.len());
+    let found = FORMS.map(|form| {
+        let mut predictor = network.predictor_in(form);
+        assert_eq!(predictor.form(), form);
+        let mut all = vec![0.0; 70];
+        predictor.predict(&pictures, &mut all).expect("finite");
+        let each = pictures.chunks_exact(input.len());
+        for (picture, expected) in each.zip(all.chunks_exact(2)).step_by(9) {
+            let mut alone = [0.0; 2];
+            predictor.predict(picture, &mut alone).expect("finite");
+            assert_eq!(bits(&alone), bits(expected), "{form}");
+        }
+        all
+    });
+    let largest = found[0].iter().fold(0.0_f64, |most, v| most.max(v.abs()));
+    for (direct, winograd) in found[0].iter().zip(&found[1]) {
+        assert!((direct - winograd).abs() < 1e-5 * largest);
+    }
+    assert_ne!(bits(&found[0]), bits(&found[1]));
+    let mut usual = vec![0.0; 70];
+    let mut predictor = network.predictor();
+    assert_eq!(predictor.form(), ConvolutionForm::Winograd);
+    predictor.predict(&pictures, &mut usual).expect("finite");
+    assert_eq!(bits(&usual), bits(&found[1]));
+}
+
+#[test]
+fn a_network_without_such_convolutions_has_the_same_bits_in_both_forms() {
+    let input = picture(24, 20, 1);
+    let network = filled(&Architecture::five_layers(input, 3), 9);
+    let pictures = singles(3, 5 * input.len());
+    let [direct, winograd] = FORMS.map(|form| {
+        let mut found = [0.0; 15];
+        let mut predictor = network.predictor_in(form);
+        predictor.predict(&pictures, &mut found).expect("finite");
+        bits(&found)
+    });
+    assert_eq!(direct, winograd);
+}
+
+#[test]
+fn maps_of_every_size_from_1_to_9_are_predicted_in_both_forms_from_a_batch_of_one() {
+    for (height, width) in (1..=9)
+        .map(|side| (side, 10 - side))
+        .chain((1..=9).map(|s| (s, s)))
+    {
+        let input = picture(height, width, 1);
+        let architecture = same_size(input);
+        let network = filled(&architecture, 5);
+        let pictures = singles(7, input.len());
+        let tensors = plain::tensors(&network);
+        let expected = plain::outputs(&architecture, &tensors, &pictures, Moments::Running);
+        let size = expected.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
+        for form in FORMS {
+            let mut found = [0.0; 2];
+            let mut predictor = network.predictor_in(form);
+            predictor.predict(&pictures, &mut found).expect("finite");
+            for (found, expected) in found.iter().zip(&expected) {
+                let error = (found - expected).abs() / size;
+                assert!(error < 1e-5, "{form} {input}: {found}, expected {expected}");
+            }
+        }
+    }
+}
+
+/// Sixteen pictures of 7 × 6, and labels.
+fn learnt() -> (Vec<f32>, Vec<f64>) {
+    (singles(11, 16 * picture(7, 6, 1).len()), doubles(12, 32))
+}
+
+fn samples((pictures, labels): &(Vec<f32>, Vec<f64>)) -> Samples<'_> {
+    Samples {
+        pictures,
+        labels: Labels::Values(labels),
+    }
+}
+
+fn recipe() -> Recipe {
+    Recipe {
+        epochs: 3,
+        batch: 8,
+        ..Recipe::default()
+    }
+}
+
+fn weights(checkpoint: &Checkpoint) -> Vec<u32> {
+    let tensors = checkpoint.tensors.iter();
+    tensors
+        .flat_map(|tensor| tensor.values.iter().map(|value| value.to_bits()))
+        .collect()
+}
+
+#[test]
+fn a_training_gone_on_with_after_any_step_keeps_its_form_and_ends_with_the_same_bits() {
+    let learnt = learnt();
+    let architecture = same_size(picture(7, 6, 1));
+    let ends = FORMS.map(|form| {
+        let begin = || {
+            let trainer = Trainer::new(&architecture, &recipe(), samples(&learnt), None);
+            trainer.expect("a training").in_form(form).expect("room")
+        };
+        let whole = begin().run().expect("finite");
+        for stop in 0..6 {
+            let mut trainer = begin();
+            for _ in 0..stop {
+                trainer.step().expect("finite");
+            }
+            let checkpoint = trainer.checkpoint().expect("at hand");
+            assert_eq!(checkpoint.summary.convolutions, form);
+            let resumed = Trainer::resume(checkpoint, samples(&learnt), None);
+            let mut resumed = resumed.expect("its own checkpoint");
+            while trainer.step().expect("finite").is_some() {
+                resumed.step().expect("finite");
+            }
+            let [found, expected] = [&resumed, &trainer].map(|t| t.checkpoint().expect("at hand"));
+            assert!(weights(&found) == weights(&expected), "{form} after {stop}");
+            let resumed = resumed.finish().expect("at hand");
+            assert_eq!(resumed.network.tensors(), whole.network.tensors());
+        }
+        whole.network.tensors()
+    });
+    assert_ne!(ends[0], ends[1], "forms round differently");
+}
+
+#[test]
+fn a_checkpoint_of_the_old_form_which_says_none_is_gone_on_with_in_the_direct_one() {
+    let learnt = learnt();
+    let architecture = same_size(picture(7, 6, 1));
+    let trainer = Trainer::new(&architecture, &recipe(), samples(&learnt), None);
+    let trainer = trainer.expect("a training");
+    let mut direct = trainer.in_form(ConvolutionForm::Direct).expect("room");
+    direct.step().expect("finite");
+    let checkpoint = direct.checkpoint().expect("at hand");
+    // As it was written before there was another form than the direct one.
+    let mut summary = serde_json::to_value(&checkpoint.summary).expect("text");
+    let fields = summary.as_object_mut().expect("a summary");
+    assert!(fields.remove("convolutions").is_some());
+    let old = Checkpoint {
+        summary: serde_json::from_value(summary).expect("a summary of that time"),
+        ..checkpoint
+    };
+    let resumed = Trainer::resume(old, samples(&learnt), None).expect("gone on with");
+    let form = resumed.checkpoint().expect("at hand").summary.convolutions;
+    assert_eq!(form, ConvolutionForm::Direct);
+    let (resumed, direct) = (resumed.run(), direct.run());
+    assert_eq!(
+        resumed.expect("finite").network.tensors(),
+        direct.expect("finite").network.tensors()
+    );
+}
+
+#[test]
+fn maps_of_1_by_1_train_to_the_same_bits_in_both_forms() {
+    let input = picture(1, 1, 1);
+    let learnt = (singles(11, 16), doubles(12, 32));
+    let architecture = same_size(input);
+    let ends = FORMS.map(|form| {
+        let trainer = Trainer::new(&architecture, &recipe(), samples(&learnt), None);
+        let trainer = trainer.expect("a training").in_form(form).expect("room");
+        trainer.run().expect("finite").network.tensors()
+    });
+    assert_eq!(ends[0], ends[1]);
+}
+
+#[test]
+fn weights_that_stop_being_finite_end_a_training_of_tiles_by_its_step() {
+    let learnt = learnt();
+    let recipe = Recipe {
+        epochs: 50,
+        batch: 8,
+        rate: 1e30,
+        schedule: Schedule::Constant,
+        optimizer: Optimizer::Sgd {
+            momentum: 0.9,
+            weight_decay: 0.0,
+        },
+        loss: Loss::SquaredError,
+        ..Recipe::default()
+    };
+    let architecture = same_size(picture(7, 6, 1));
+    let trainer = Trainer::new(&architecture, &recipe, samples(&learnt), None);
+    let mut trainer = trainer.expect("a training");
+    let error = loop {
+        match trainer.step() {
+            Ok(made) => assert!(made.is_some(), "such a rate breaks any training"),
+            Err(error) => break error,
+        }
+    };
+    let made = trainer.state().step;
+    assert!(
+        matches!(
+            error,
+            NetworkError::LossNotFinite { step } | NetworkError::WeightNotFinite { step }
+                if step == made
+        ),
+        "{error} after {made} steps"
+    );
+}

@@ -1,0 +1,82 @@
+//! What `TACEVA_ISA` asks for changes no bit of a training, as long as products are fused, and neither does the number of threads.
+
+mod common;
+#[path = "common/tiles.rs"]
+mod tiles;
+
+use std::process::Command;
+
+use common::{doubles, singles};
+use taceva_network::{Architecture, ConvolutionForm, Depth, Isa, Labels, Recipe, Samples, Trainer};
+use tiles::{picture, same_size};
+
+/// All weights of two trainings in both forms, on 1, 2 and 3 threads: a digest of their bits.
+#[test]
+#[ignore = "run for each instruction set by the other test"]
+#[expect(clippy::print_stdout, reason = "read by the other test")]
+fn digests() {
+    println!("instructions: {}", Isa::detect());
+    let input = picture(21, 18, 1);
+    let (pictures, labels) = (singles(3, 12 * input.len()), doubles(4, 24));
+    let samples = Samples {
+        pictures: &pictures,
+        labels: Labels::Values(&labels),
+    };
+    let recipe = Recipe {
+        epochs: 2,
+        batch: 5,
+        ..Recipe::default()
+    };
+    let residual = Architecture::residual(Depth::Ten, input, 2);
+    for architecture in [residual, same_size(input, [16, 48, 80])] {
+        for form in [ConvolutionForm::Direct, ConvolutionForm::Winograd] {
+            let with = |threads: usize| {
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+                pool.build().expect("threads").install(|| {
+                    let trainer = Trainer::new(&architecture, &recipe, samples, Some(samples));
+                    let trainer = trainer.expect("a training").in_form(form).expect("room");
+                    let trained = trainer.run().expect("finite");
+                    let tensors = trained.network.tensors();
+                    let values = tensors.iter().flat_map(|tensor| &tensor.values);
+                    // FNV-1a.
+                    let digest = values.fold(0xcbf2_9ce4_8422_2325_u64, |digest, value| {
+                        (digest ^ u64::from(value.to_bits())).wrapping_mul(0x0100_0000_01b3)
+                    });
+                    (digest, trained.state)
+                })
+            };
+            let alone = with(1);
+            for threads in [2, 3] {
+                assert!(with(threads) == alone, "{form} on {threads} threads");
+            }
+            println!("digest {form} {:016x}", alone.0);
+        }
+    }
+}
+
+#[test]
+fn trainings_have_the_same_bits_under_every_fused_taceva_isa_and_on_1_2_or_3_threads() {
+    let program = std::env::current_exe().expect("this program");
+    let sets = Isa::available();
+    let runs = sets.into_iter().map(|isa| {
+        let mut command = Command::new(&program);
+        command.args(["--exact", "digests", "--ignored", "--nocapture"]);
+        let output = command.env("TACEVA_ISA", isa.name()).output();
+        let output = output.expect("this program runs");
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        assert!(output.status.success(), "{isa}: {text}");
+        // What the frame of tests prints may stand before it.
+        assert!(text.contains(&format!("instructions: {isa}")), "{text}");
+        let lines = text.lines().filter(|line| line.contains("digest "));
+        let digests: Vec<String> = lines.map(str::to_owned).collect();
+        assert_eq!(digests.len(), 4, "{isa}: {text}");
+        (isa, digests)
+    });
+    let fused: Vec<_> = runs.filter(|(isa, _)| *isa != Isa::Portable).collect();
+    for pair in fused.windows(2) {
+        assert_eq!(pair[0].1, pair[1].1, "{} and {}", pair[0].0, pair[1].0);
+    }
+    for (isa, digests) in &fused {
+        assert_ne!(digests[0], digests[1], "{isa}: forms round differently");
+    }
+}

@@ -1,0 +1,79 @@
+//! Memory that is short is said before anything is computed. One test in a program of its own, as the limit is one of the process.
+
+#![cfg(target_os = "linux")]
+
+mod common;
+
+use common::{doubles, filled, singles};
+use rustix::process::{Resource, Rlimit, getrlimit, setrlimit};
+use taceva_network::{
+    Architecture, Body, ConvolutionForm, Labels, NetworkError, Picture, PlainLayer, Pooling,
+    Recipe, Samples, Trainer,
+};
+
+/// Bytes of the weights from 512 channels to 512 at 36 points, with a panel of nothing after each point of each panel.
+const TRANSFORMED: usize = 32 * 36 * (512 + 1) * 16 * 4;
+
+/// The most that this process may have of memory beside what it has, with `beside` more bytes.
+fn limit(beside: usize) {
+    let state = std::fs::read_to_string("/proc/self/status").expect("Linux has it");
+    let size = state.lines().find_map(|line| line.strip_prefix("VmSize:"));
+    let kib = size.expect("a size").trim().strip_suffix("kB");
+    let kib: u64 = kib.expect("in kB").trim().parse().expect("a number");
+    let current = Some(kib * 1024 + beside as u64);
+    let maximum = getrlimit(Resource::As).maximum;
+    setrlimit(Resource::As, Rlimit { current, maximum }).expect("below the maximum");
+}
+
+#[test]
+fn transformed_weights_without_room_are_refused_with_their_bytes_and_no_other_form_is_taken() {
+    let input = Picture {
+        height: 3,
+        width: 3,
+        channels: 1,
+    };
+    let layer = PlainLayer {
+        channels: 512,
+        kernel: 3,
+        stride: 1,
+    };
+    let architecture = Architecture {
+        input,
+        body: Body::Plain {
+            layers: vec![layer; 2],
+            pooling: Pooling::Average,
+        },
+        outputs: 2,
+    };
+    let network = filled(&architecture, 1);
+    let (pictures, labels) = (singles(2, 4 * input.len()), doubles(3, 8));
+    let samples = Samples {
+        pictures: &pictures,
+        labels: Labels::Values(&labels),
+    };
+    let recipe = Recipe {
+        batch: 4,
+        ..Recipe::default()
+    };
+    let mut direct = network.predictor_in(ConvolutionForm::Direct);
+    let mut transformed = network.predictor();
+    let mut found = [0.0; 8];
+    // Threads begin, and have what they need, before memory is short.
+    direct.predict(&pictures, &mut found).expect("room");
+
+    // Room for whatever else there is, which has no quarter of the weights.
+    limit(TRANSFORMED - (2 << 20));
+    let short = NetworkError::Memory { bytes: TRANSFORMED };
+    assert_eq!(
+        transformed.predict(&pictures, &mut found),
+        Err(short.clone())
+    );
+    direct.predict(&pictures, &mut found).expect("room");
+    let refused = Trainer::of(network.clone(), &recipe, samples, None);
+    assert_eq!(refused.map(|_| ()), Err(short));
+
+    limit(1 << 30);
+    transformed.predict(&pictures, &mut found).expect("room");
+    let mut trainer = Trainer::of(network, &recipe, samples, None).expect("room");
+    trainer.step().expect("finite");
+}
