@@ -44,11 +44,11 @@ pub use features::{
 };
 pub use file::{FormatError, ModelFileError};
 pub use model::{
-    ChannelCard, FitInput, Form, LabelBounds, Model, ModelCard, Provenance, SampleCounts, Source,
-    SplitCard,
+    ChannelCard, CloserFeatures, FitInput, Form, LabelBounds, Model, ModelCard, Provenance,
+    SampleCounts, Source, SplitCard,
 };
 pub use models::{ChosenModel, Models};
-pub use registry::{ALL, ModelInfo, UnknownModel, find};
+pub use registry::{ALL, ModelInfo, PRESETS, Preset, UnknownModel, find};
 pub use settings::{ModelSettings, SettingError, SettingInfo, Suggestion};
 pub use split::{
     ColumnSplit, Fractions, Part, Split, SplitCounts, SplitError, SplitInput, SplitKind,

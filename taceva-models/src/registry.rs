@@ -1,8 +1,10 @@
 //! The models by name.
 
 mod info;
+mod preset;
 
 pub use info::ModelInfo;
+pub use preset::{PRESETS, Preset};
 
 use std::fmt;
 

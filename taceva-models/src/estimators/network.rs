@@ -6,6 +6,7 @@ mod estimator;
 mod fit;
 mod preprocessing;
 mod regressor;
+mod shortened;
 mod spacing;
 mod training;
 

@@ -53,16 +53,29 @@ pub(crate) use estimator;
 
 /// An estimator whose regressor a model file can keep, and that can say what it chose.
 pub trait ModelEstimator: Estimator {
-    /// The estimator that takes the place of this one on `training`, and why; `None` for every one but that which only chooses.
+    /// The estimator that takes the place of this one on `training`, and why; `None` for every one but that which only chooses. Some of those that it
+    /// chooses from see finer features, `closer`, of the same samples, where there are such.
     ///
     /// # Errors
     /// As [`Estimator::fit`].
     fn choose(
         &self,
         _training: &TrainingSet<'_>,
+        _closer: Option<&Features>,
         _progress: &dyn Progress,
     ) -> Result<Option<Chosen>, ModelError> {
         Ok(None)
+    }
+
+    /// Whether it would look at finer features in [`choose`](ModelEstimator::choose): so many samples of so many such features, and channels. `false`
+    /// for every one but that which only chooses.
+    fn looks_closer(&self, _: [usize; 3]) -> bool {
+        false
+    }
+
+    /// The same with `share` of its training, for a first look at what it can do; `None` for every one but those that are trained step by step.
+    fn first_look(&self, _share: f64) -> Option<Box<dyn ModelEstimator>> {
+        None
     }
 
     /// Learns as [`Estimator::fit`] does.
@@ -115,6 +128,8 @@ pub struct Chosen {
     pub estimator: Box<dyn ModelEstimator>,
     /// What was tried, and what came of it.
     pub card: AutoCard,
+    /// Whether it sees the finer features.
+    pub is_closer: bool,
 }
 
 /// What fitting gave.

@@ -56,6 +56,6 @@ pub(crate) const CASES: &[Case] = &[
     Case {
         least: 5,
         order: None,
-        ..case("auto", &["budget_s=0.02"], 0.6)
+        ..case("auto", &["budget_s=0"], 0.6)
     },
 ];

@@ -91,9 +91,11 @@ fn requests(args: &BenchModels, known: &Models) -> anyhow::Result<Vec<FitRequest
 pub(super) fn request(word: &str, split: &SplitArgs, known: &Models) -> anyhow::Result<FitRequest> {
     let (name, settings) = word.split_once(':').unwrap_or((word, ""));
     let settings = settings.split(',').filter(|setting| !setting.is_empty());
+    let given = ModelSettings::parse(settings).map_err(StudyError::from)?;
+    let (model, settings) = known.asked(name, given).map_err(StudyError::from)?;
     Ok(FitRequest {
-        model: known.find(name).map_err(StudyError::from)?,
-        settings: ModelSettings::parse(settings).map_err(StudyError::from)?,
+        model,
+        settings,
         channels: Vec::new(),
         split: split.split.clone(),
         seed: split.seed.value,
