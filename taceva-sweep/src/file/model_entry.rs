@@ -102,3 +102,23 @@ pub(super) fn word(value: &toml::Value) -> Option<String> {
         _ => None,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_preset_is_its_model_with_its_settings_but_for_those_of_the_file() {
+        let own = BTreeMap::from([("jitter".to_owned(), "0".to_owned())]);
+        let entry = ModelEntry::asked("fast", own);
+        assert_eq!(entry.name, "cnn");
+        let words: Vec<String> = entry
+            .set
+            .iter()
+            .map(|(key, value)| format!("{key}={value}"))
+            .collect();
+        assert_eq!(words, ["jitter=0", "local_mean=3", "size=64x48"]);
+        // What no preset is called stays as it is, to be refused by its name.
+        assert_eq!(ModelEntry::asked("fats", BTreeMap::new()).name, "fats");
+    }
+}
