@@ -28,8 +28,8 @@ pub use estimators::library::{
 pub use estimators::linear::{LinearEstimator, LinearFit, LinearRegressor};
 pub use estimators::neighbours::{NeighbourRegressor, Neighbours};
 pub use estimators::network::{
-    CheckpointError, Checkpoints, Foreign, NetworkCard, NetworkEstimator, NetworkRegressor,
-    Preprocessing, SpacingNetwork, SpacingOutput,
+    CheckpointError, Checkpoints, EnsembleRegressor, Foreign, NetworkCard, NetworkEnsemble,
+    NetworkEstimator, NetworkRegressor, Preprocessing, SpacingNetwork, SpacingOutput,
 };
 pub use estimators::pls::Pls;
 pub use estimators::plugin::{PluginCard, PluginRegressor};

@@ -11,15 +11,16 @@ mod validate;
 
 use taceva_core::{Features, ModelError, Progress, SignalInfo, TrainingSet};
 
-use self::candidates::Candidate;
+use self::candidates::{Candidate, candidates};
+use self::card::FOLDS;
 pub use self::card::{AutoCard, AutoTrial, Untried};
 use self::cost::Sizes;
-use self::race::Race;
-use self::validate::{FOLDS, Folds};
+use self::race::{Made, Race};
+use self::validate::Folds;
 use crate::estimators::library::LibraryModel;
 use crate::estimators::network::{Checkpoints, NetworkEstimator};
 use crate::features::{FeatureError, FeatureSpec};
-use crate::registry::ModelInfo;
+use crate::registry::{ALL, ModelInfo};
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 use crate::training::fit::{Chosen, ModelEstimator, ModelFit, estimator};
 use crate::training::problem::{Problem, invalid};
@@ -89,10 +90,7 @@ impl Auto {
 
 impl Auto {
     /// The model of `info` with default settings, as it learns from what is looked at here.
-    fn candidate(
-        &self,
-        info: &ModelInfo,
-    ) -> Result<Result<Box<dyn ModelEstimator>, FeatureError>, ModelError> {
+    fn candidate(&self, info: &ModelInfo) -> Made {
         let estimator = info
             .estimator(&ModelSettings::default())
             .map_err(|error| invalid(error.to_string()).because(error))?;
@@ -124,7 +122,7 @@ impl ModelEstimator for Auto {
             picture: Some(features as f64),
             channels: channels as f64,
         };
-        let candidates = self.candidates(sizes);
+        let candidates = candidates(ALL, &self.libraries, sizes);
         let mut networks = candidates.iter().filter(|own| own.is_network());
         networks.any(|own| own.first_s() + own.fit_s <= self.budget_s)
     }
@@ -157,8 +155,10 @@ impl ModelEstimator for Auto {
             picture: (shape.height > 1).then_some(shape.len() as f64),
             channels: problem.channels() as f64,
         };
+        let make = |info: &ModelInfo| self.candidate(info);
         let race = Race {
-            auto: self,
+            budget_s: self.budget_s,
+            make: &make,
             folds: Folds::new(training, problem.groups()),
             pictures,
             training: *training,
@@ -168,7 +168,7 @@ impl ModelEstimator for Auto {
             network: Vec::new(),
             untried: Vec::new(),
         };
-        let (taken, card) = race.run(self.candidates(sizes))?;
+        let (taken, card) = race.run(candidates(ALL, &self.libraries, sizes))?;
         let Candidate { info, .. } = taken.ok_or_else(|| invalid("no model could be tried"))?;
         let estimator = self.candidate(info)?;
         let mut estimator = estimator.map_err(|error| invalid(error.to_string()).because(error))?;

@@ -2,6 +2,7 @@
 
 mod card;
 mod checkpoint;
+mod ensemble;
 mod estimator;
 mod fit;
 mod preprocessing;
@@ -12,6 +13,7 @@ mod training;
 
 pub use card::NetworkCard;
 pub use checkpoint::{CheckpointError, Checkpoints, Foreign};
+pub use ensemble::{EnsembleRegressor, NetworkEnsemble};
 pub use estimator::NetworkEstimator;
 pub use preprocessing::Preprocessing;
 pub use regressor::NetworkRegressor;

@@ -28,6 +28,11 @@ pub const PRESETS: &[Preset] = &[
         model: "cnn",
         settings: &[],
     },
+    Preset {
+        name: "best",
+        model: "cnn-ensemble",
+        settings: &[],
+    },
 ];
 
 impl Preset {

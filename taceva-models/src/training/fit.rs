@@ -11,7 +11,7 @@ use crate::estimators::kernel::KernelRegressor;
 use crate::estimators::library::LibraryRegressor;
 use crate::estimators::linear::{LinearEstimator, LinearRegressor};
 use crate::estimators::neighbours::NeighbourRegressor;
-use crate::estimators::network::{Checkpoints, NetworkRegressor};
+use crate::estimators::network::{Checkpoints, EnsembleRegressor, NetworkRegressor};
 use crate::estimators::plugin::PluginRegressor;
 use crate::estimators::projected::ProjectedRegressor;
 use crate::estimators::trees::TreeRegressor;
@@ -161,6 +161,8 @@ pub enum ModelRegressor {
     Trees(Box<TreeRegressor>),
     /// A network that reads features as a picture.
     Network(Box<NetworkRegressor>),
+    /// The mean of several networks.
+    Ensemble(Box<EnsembleRegressor>),
     /// Of another library, whose parameters are kept.
     Library(Box<LibraryRegressor>),
     /// Of a plugin, which answers.
@@ -177,7 +179,7 @@ impl ModelRegressor {
     pub(crate) fn through(self, pca: Pca) -> Result<ModelRegressor, ModelError> {
         match self {
             ModelRegressor::Linear(linear) => linear.through(&pca).map(ModelRegressor::Linear),
-            ModelRegressor::Network(_) => Err(invalid(NO_PICTURE)),
+            ModelRegressor::Network(_) | ModelRegressor::Ensemble(_) => Err(invalid(NO_PICTURE)),
             ModelRegressor::Plugin(_) => Err(invalid(OPAQUE)),
             other => {
                 let projected = ProjectedRegressor::new(pca, other);
@@ -197,6 +199,7 @@ impl ModelRegressor {
             ModelRegressor::Classes(classes) => classes.reads_features(),
             ModelRegressor::Trees(trees) => trees.reads_features(),
             ModelRegressor::Network(network) => network.reads_features(),
+            ModelRegressor::Ensemble(ensemble) => ensemble.reads_features(),
             ModelRegressor::Library(library) => library.reads_features(),
             ModelRegressor::Plugin(_) => true,
             ModelRegressor::Projected(projected) => projected.inner().reads_features(),
@@ -242,6 +245,7 @@ impl ModelRegressor {
                     .map(|tensor| Raw::singles(&tensor.name, tensor.shape, &tensor.values))
                     .collect()
             }
+            ModelRegressor::Ensemble(ensemble) => ensemble.tensors(),
             ModelRegressor::Library(library) => library.tensors(),
             ModelRegressor::Plugin(plugin) => vec![plugin.tensor()],
             ModelRegressor::Projected(projected) => projected.tensors(),
@@ -256,6 +260,7 @@ impl ModelRegressor {
             ModelRegressor::Classes(classes) => &**classes,
             ModelRegressor::Trees(trees) => &**trees,
             ModelRegressor::Network(network) => &**network,
+            ModelRegressor::Ensemble(ensemble) => &**ensemble,
             ModelRegressor::Library(library) => &**library,
             ModelRegressor::Plugin(plugin) => plugin,
             ModelRegressor::Projected(projected) => &**projected,

@@ -53,6 +53,7 @@ pub(crate) const CASES: &[Case] = &[
         deeper: true,
         ..network("resnet34")
     },
+    network("cnn-ensemble"),
     Case {
         least: 5,
         order: None,

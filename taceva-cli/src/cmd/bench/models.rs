@@ -17,7 +17,8 @@ use crate::args::{BenchModels, SplitArgs};
 use crate::{exit, output};
 
 /// Models that run only where they are named: they take minutes to hours, or are no model of their own.
-const NAMED_ONLY: [&str; 6] = [
+const NAMED_ONLY: [&str; 7] = [
+    "cnn-ensemble",
     "resnet10",
     "resnet18",
     "resnet34",

@@ -1,8 +1,8 @@
 //! The models that can be tried, in the order in which they are.
 
-use super::Auto;
 use super::cost::{DEEPER, NETWORK, Sizes, seconds, work};
-use crate::registry::{ALL, ModelInfo};
+use crate::estimators::library::LibraryModel;
+use crate::registry::ModelInfo;
 
 /// The share of its training that a network is first looked at with.
 pub(super) const LOOK: f64 = 0.25;
@@ -45,41 +45,42 @@ impl Candidate {
     }
 }
 
-impl Auto {
-    /// The models that can be tried on samples of these sizes, the cheapest first.
-    pub(super) fn candidates(&self, sizes: Sizes) -> Vec<Candidate> {
-        let models = ALL.iter().filter(|info| info.name != Auto::INFO.name);
-        let own = models.filter_map(|info| {
-            // A network learns from three folds, the others, which are fitted again with the settings that were chosen, from four.
-            let share = match info.name == NETWORK {
-                true => 0.6,
-                false => 0.8,
-            };
-            Some(Candidate {
-                info,
-                fold_s: seconds(work(info.name, sizes.share(share))?),
-                fit_s: seconds(work(info.name, sizes)?),
-            })
-        });
-        let of_libraries = self.libraries.iter().filter_map(|model| {
-            let work = |sizes: Sizes| (model.work)(sizes.of_library());
-            Some(Candidate {
-                info: &model.info,
-                fold_s: seconds(work(sizes.share(0.8))?),
-                fit_s: seconds(work(sizes)?),
-            })
-        });
-        let mut candidates: Vec<Candidate> = own.chain(of_libraries).collect();
-        // Of equals the first in the list comes first: the plainer.
-        candidates.sort_by(|left, right| left.order().total_cmp(&right.order()));
-        candidates
-    }
+/// Those of `models` and `libraries` that can be tried on samples of these sizes, the cheapest first.
+pub(super) fn candidates(
+    models: &'static [ModelInfo],
+    libraries: &[&'static LibraryModel],
+    sizes: Sizes,
+) -> Vec<Candidate> {
+    let own = models.iter().filter_map(|info| {
+        // A network learns from three folds, the others, which are fitted again with the settings that were chosen, from four.
+        let share = match info.name == NETWORK {
+            true => 0.6,
+            false => 0.8,
+        };
+        Some(Candidate {
+            info,
+            fold_s: seconds(work(info.name, sizes.share(share))?),
+            fit_s: seconds(work(info.name, sizes)?),
+        })
+    });
+    let of_libraries = libraries.iter().filter_map(|model| {
+        let work = |sizes: Sizes| (model.work)(sizes.of_library());
+        Some(Candidate {
+            info: &model.info,
+            fold_s: seconds(work(sizes.share(0.8))?),
+            fit_s: seconds(work(sizes)?),
+        })
+    });
+    let mut candidates: Vec<Candidate> = own.chain(of_libraries).collect();
+    // Of equals the first in the list comes first: the plainer.
+    candidates.sort_by(|left, right| left.order().total_cmp(&right.order()));
+    candidates
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::settings::ModelSettings;
+    use crate::registry::ALL;
 
     #[test]
     fn candidates_come_by_work_and_the_small_network_before_what_takes_a_tenth_of_it() {
@@ -89,16 +90,16 @@ mod tests {
             picture: Some(128.0 * 96.0),
             channels: 3.0,
         };
-        let auto = Auto::from_settings(&ModelSettings::default()).expect("no setting");
         let names = |sizes| -> Vec<&str> {
-            let candidates = auto.candidates(sizes).into_iter();
+            let candidates = candidates(ALL, &[], sizes).into_iter();
             candidates.map(|candidate| candidate.info.name).collect()
         };
         let found = names(sizes);
         let position = |name: &str| found.iter().position(|found| *found == name);
         assert_eq!(found[0], "baseline");
         assert_eq!(found.last(), Some(&"resnet34"));
-        assert_eq!(found.len(), ALL.len() - 1);
+        // All but itself, and the ensemble of what it tries.
+        assert_eq!(found.len(), ALL.len() - 2);
         assert!(position("ridge") < position("cnn"), "{found:?}");
         assert!(position("cnn") < position("random-forest"), "{found:?}");
         let flat = names(Sizes {

@@ -4,7 +4,8 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::validate::FOLDS;
+/// Into how many folds a training part is divided.
+pub(super) const FOLDS: usize = 5;
 
 /// How a model was chosen among others.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

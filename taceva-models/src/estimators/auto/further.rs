@@ -3,11 +3,10 @@
 use taceva_core::ModelError;
 
 use super::candidates::Candidate;
-use super::card::AutoCard;
+use super::card::{AutoCard, FOLDS};
 use super::entrant::Entrant;
 use super::race::{ALWAYS, Race};
 use super::standing::{BEYOND_CHANCE, CLEARLY};
-use super::validate::FOLDS;
 use crate::training::progress::interrupted;
 
 /// The share of its squared error that a network is granted to keep after the rest of its training.
@@ -53,7 +52,7 @@ impl Race<'_> {
         if is_over || !self.affords(candidate.fold_s + candidate.fit_s) {
             return Ok(());
         }
-        if let Ok(estimator) = self.auto.candidate(candidate.info)? {
+        if let Ok(estimator) = (self.make)(candidate.info)? {
             let whole = self.first_fold(candidate, estimator, None)?;
             self.network.extend(whole);
         }
@@ -162,7 +161,7 @@ impl Race<'_> {
     pub(super) fn card(self, taken: Option<Candidate>) -> AutoCard {
         let tried = self.entrants.iter().chain(&self.network);
         AutoCard {
-            budget_s: self.auto.budget_s,
+            budget_s: self.budget_s,
             folds: FOLDS,
             by_group: self.folds.by_group,
             tried: tried.map(Entrant::trial).collect(),
@@ -174,7 +173,7 @@ impl Race<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Auto;
+    use super::super::card::Untried;
     use super::*;
     use crate::registry::find;
     use crate::settings::ModelSettings;
@@ -207,9 +206,9 @@ mod tests {
         let labels: Vec<f64> = (0..samples).map(f64::from).collect();
         let targets = taceva_core::Targets::new(&channels, &labels);
         let training = taceva_core::TrainingSet::new(&features, targets);
-        let auto = Auto::from_settings(&ModelSettings::default()).expect("no setting");
         let mut race = Race {
-            auto: &auto,
+            budget_s: 1e6,
+            make: &|_| panic!("nothing is fitted"),
             folds: super::super::validate::Folds::new(&training, None),
             pictures: training,
             training,
@@ -217,7 +216,7 @@ mod tests {
             spent_s: 0.0,
             entrants,
             network,
-            untried: Vec::new(),
+            untried: Vec::<Untried>::new(),
         };
         then(&mut race);
     }

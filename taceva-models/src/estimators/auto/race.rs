@@ -2,20 +2,26 @@
 
 use taceva_core::{ModelError, Progress, TrainingSet};
 
-use super::Auto;
 use super::candidates::{Candidate, LOOK};
 use super::card::{AutoCard, Untried};
 use super::entrant::Entrant;
 use super::validate::Folds;
+use crate::features::FeatureError;
+use crate::registry::ModelInfo;
 use crate::training::fit::ModelEstimator;
 use crate::training::progress::{ReportedStage, interrupted};
 
 /// Models that are tried whatever the budget.
 pub(super) const ALWAYS: [&str; 2] = ["baseline", "ridge"];
 
+/// A model with default settings, not fitted yet; the inner error says why it cannot be fitted to what is looked at here.
+pub(super) type Made = Result<Result<Box<dyn ModelEstimator>, FeatureError>, ModelError>;
+
 /// Models that are tried on the folds of one training part.
 pub(super) struct Race<'a> {
-    pub(super) auto: &'a Auto,
+    /// The work that may be spent on trying models and on the final fit.
+    pub(super) budget_s: f64,
+    pub(super) make: &'a dyn Fn(&ModelInfo) -> Made,
     pub(super) folds: Folds,
     /// The training part as networks see it, and as all others do.
     pub(super) pictures: TrainingSet<'a>,
@@ -66,16 +72,16 @@ impl Race<'_> {
         }
         let needed = candidate.first_s() + fit_s;
         (!self.affords(needed) && !ALWAYS.contains(&info.name)).then(|| {
-            let left = (self.auto.budget_s - self.spent_s).max(0.0);
+            let left = (self.budget_s - self.spent_s).max(0.0);
             format!(
                 "beyond the budget: trying and fitting it takes {needed:.1} s of work, {left:.1} of budget_s={} are left",
-                self.auto.budget_s
+                self.budget_s
             )
         })
     }
 
     pub(super) fn affords(&self, work_s: f64) -> bool {
-        self.spent_s + work_s <= self.auto.budget_s
+        self.spent_s + work_s <= self.budget_s
     }
 
     fn leave(&mut self, candidate: Candidate, reason: String) {
@@ -88,7 +94,7 @@ impl Race<'_> {
 
     /// Tries a model on the first fold, a network with a part of its training.
     fn enter(&mut self, candidate: Candidate) -> Result<(), ModelError> {
-        let estimator = match self.auto.candidate(candidate.info)? {
+        let estimator = match (self.make)(candidate.info)? {
             Ok(estimator) => estimator,
             Err(unsuited) => {
                 self.leave(candidate, unsuited.to_string());

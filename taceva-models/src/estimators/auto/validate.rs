@@ -4,10 +4,9 @@ use std::collections::BTreeMap;
 
 use taceva_core::{ErrorKind, Features, ModelError, Progress, Regressor, Targets, TrainingSet};
 
+use super::card::FOLDS;
 use crate::training::fit::ModelEstimator;
 
-/// Folds of the training part.
-pub(super) const FOLDS: usize = 5;
 /// Groups that each fold must have for them to be the units that losses scatter by.
 const GROUPS_LEAST: usize = 3;
 /// Units of neighbouring samples that a fold is taken as where it has fewer groups.

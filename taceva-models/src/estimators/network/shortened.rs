@@ -1,4 +1,4 @@
-//! A training of fewer epochs.
+//! The same training, shorter or with another seed.
 
 use super::NetworkEstimator;
 
@@ -15,6 +15,14 @@ impl NetworkEstimator {
         let mut own = self.clone();
         let epochs = (share * own.recipe.epochs as f64).round() as u64;
         own.recipe.epochs = epochs.max(1);
+        own.checkpoints = None;
+        own
+    }
+
+    /// The same with a seed that is `by` larger, and no checkpoints.
+    pub(super) fn with_later_seed(&self, by: u64) -> NetworkEstimator {
+        let mut own = self.clone();
+        own.recipe.seed = own.recipe.seed.wrapping_add(by);
         own.checkpoints = None;
         own
     }
