@@ -11,6 +11,8 @@ use crate::training::progress::interrupted;
 
 /// The share of its squared error that a network is granted to keep after the rest of its training.
 const GRANTED: f64 = 0.5;
+/// The share of the squared error of the best of the others that a network may have at most: less is not worth minutes of work.
+const WORTH: f64 = 0.95;
 /// A model that takes more than so many times the work of another must do better.
 const DEARER: f64 = 10.0;
 
@@ -32,7 +34,7 @@ impl Race<'_> {
         let network = self.network.last().filter(|own| own.left.is_none());
         network.is_some_and(|network| {
             let best = self.best();
-            best.is_none_or(|best| best.excess_over(network, 1).is_beyond(CLEARLY))
+            best.is_none_or(|best| is_ahead(network, best, CLEARLY))
         })
     }
 
@@ -144,15 +146,19 @@ impl Race<'_> {
             baseline.filter(is_chance).unwrap_or(best)
         });
         let network = self.network.last().filter(|own| own.left.is_none());
-        let is_better = |network: &&Entrant| {
-            best.is_none_or(|best| best.excess_over(network, 1).is_beyond(BEYOND_CHANCE))
-        };
+        let is_better =
+            |network: &&Entrant| best.is_none_or(|best| is_ahead(network, best, BEYOND_CHANCE));
         if let Some(network) = network.filter(is_better) {
             return Some(network.candidate);
         }
         let taken = best.map(|best| best.candidate);
         if let (Some(taken), Some(network)) = (taken, self.network.last_mut()) {
-            let ahead = || format!("not ahead of {} beyond chance", taken.info.name);
+            let ahead = || {
+                let taken = taken.info.name;
+                format!(
+                    "not ahead of {taken} beyond chance and by a twentieth of its squared error"
+                )
+            };
             network.left.get_or_insert_with(ahead);
         }
         taken
@@ -169,6 +175,12 @@ impl Race<'_> {
             taken: taken.map(|taken| taken.info.name.to_owned()),
         }
     }
+}
+
+/// Whether a network is better than `best` on the first fold, by more than so many standard errors, and by so much that it is worth its work.
+fn is_ahead(network: &Entrant, best: &Entrant, standard_errors: f64) -> bool {
+    let excess = best.excess_over(network, 1);
+    network.loss(1) < WORTH * best.loss(1) && excess.is_beyond(standard_errors)
 }
 
 #[cfg(test)]
@@ -251,7 +263,22 @@ mod tests {
             assert!(!race.network_leads());
             assert_eq!(taken(race), Some("ridge"));
             let left = race.network[0].left.as_deref();
-            assert_eq!(left, Some("not ahead of ridge beyond chance"));
+            assert_eq!(
+                left,
+                Some("not ahead of ridge beyond chance and by a twentieth of its squared error")
+            );
+        });
+    }
+
+    #[test]
+    fn a_network_that_is_ahead_by_a_hair_is_not_worth_its_work() {
+        let hair = PLAIN.map(|loss| 0.99 * loss);
+        let models = vec![entrant("ridge", 0.1, PLAIN)];
+        race_of(models, vec![entrant("cnn", 60.0, hair)], |race| {
+            let excess = race.entrants[0].excess_over(&race.network[0], 1);
+            assert!(excess.is_beyond(CLEARLY));
+            assert!(!race.network_leads());
+            assert_eq!(taken(race), Some("ridge"));
         });
     }
 
