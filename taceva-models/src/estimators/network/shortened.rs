@@ -8,7 +8,6 @@ impl NetworkEstimator {
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        clippy::cast_precision_loss,
         reason = "at most 100,000 epochs"
     )]
     pub(super) fn shortened(&self, share: f64) -> NetworkEstimator {
