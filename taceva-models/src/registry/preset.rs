@@ -16,7 +16,7 @@ pub struct Preset {
     pub settings: &'static [(&'static str, &'static str)],
 }
 
-/// The presets, the quickest first. They were chosen on the validation part of a recording: docs/models.md.
+/// The presets, the quickest first. What they rest on, and what each takes and gives: docs/models.md.
 pub const PRESETS: &[Preset] = &[
     Preset {
         name: "fast",
