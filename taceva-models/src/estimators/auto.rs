@@ -31,8 +31,8 @@ use crate::training::problem::{Problem, invalid};
 /// the next and learns from the other three. All models are tried on the first fold; the small network with a quarter of its epochs, and with all
 /// of them where that leaves open whether it is ahead. If it is clearly ahead it is taken, and what takes more work is not tried. Else the others
 /// go on to the next fold, but for those that the best is clearly ahead of (by three standard errors of the difference, by group) and those that do no
-/// better than another that takes a tenth of their work. Of those left the one of least error is taken; the baseline unless that is better by more than a standard error;
-/// and the network where it is better than that one, on the first fold, by more than a standard error and a twentieth of the squared error.
+/// better than another that takes a tenth of their work. Of those left the one of least error is taken; the baseline unless that is better by more than two standard errors;
+/// and the network where it is better than that one, on the first fold, by more than two and by more than a twentieth of the squared error.
 ///
 /// The budget is counted in work, not by a clock: seconds of a core that does a thousand million multiplications each second. A model is tried if that,
 /// and fitting it then, fit into what is left. What a model takes follows from the numbers of samples, features and channels, so that the same

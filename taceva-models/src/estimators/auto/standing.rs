@@ -2,8 +2,8 @@
 
 /// Standard errors of a difference beyond which one model is clearly better. The best of a dozen is two ahead of the plainest by mere chance.
 pub(super) const CLEARLY: f64 = 3.0;
-/// Standard errors of a difference beyond which a model that takes more work, or more freedom, is preferred.
-pub(super) const BEYOND_CHANCE: f64 = 1.0;
+/// Standard errors of a difference beyond which a network is preferred to the best of the others, and that one to the baseline.
+pub(super) const BEYOND_CHANCE: f64 = 2.0;
 
 /// By how much the losses of one model exceed those of another, mean over units.
 #[derive(Clone, Copy, Debug)]
