@@ -106,9 +106,11 @@ pub(crate) fn fit_request(
     models: &Models,
 ) -> anyhow::Result<FitRequest> {
     let words = settings.set.iter().map(String::as_str);
+    let given = ModelSettings::parse(words).map_err(StudyError::from)?;
+    let (model, own) = models.asked(name, given).map_err(StudyError::from)?;
     Ok(FitRequest {
-        model: models.find(name).map_err(StudyError::from)?,
-        settings: ModelSettings::parse(words).map_err(StudyError::from)?,
+        model,
+        settings: own,
         channels: settings.channels.clone(),
         split: split.split.clone(),
         seed: split.seed.value,

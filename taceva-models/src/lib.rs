@@ -28,8 +28,8 @@ pub use estimators::library::{
 pub use estimators::linear::{LinearEstimator, LinearFit, LinearRegressor};
 pub use estimators::neighbours::{NeighbourRegressor, Neighbours};
 pub use estimators::network::{
-    CheckpointError, Checkpoints, Foreign, NetworkCard, NetworkEstimator, NetworkRegressor,
-    Preprocessing, SpacingNetwork, SpacingOutput,
+    CheckpointError, Checkpoints, EnsembleRegressor, Foreign, NetworkCard, NetworkEnsemble,
+    NetworkEstimator, NetworkRegressor, Preprocessing, SpacingNetwork, SpacingOutput,
 };
 pub use estimators::pls::Pls;
 pub use estimators::plugin::{PluginCard, PluginRegressor};
@@ -44,11 +44,11 @@ pub use features::{
 };
 pub use file::{FormatError, ModelFileError};
 pub use model::{
-    ChannelCard, FitInput, Form, LabelBounds, Model, ModelCard, Provenance, SampleCounts, Source,
-    SplitCard,
+    ChannelCard, CloserFeatures, FitInput, Form, LabelBounds, Model, ModelCard, Provenance,
+    SampleCounts, Source, SplitCard,
 };
 pub use models::{ChosenModel, Models};
-pub use registry::{ALL, ModelInfo, UnknownModel, find};
+pub use registry::{ALL, ModelInfo, PRESETS, Preset, UnknownModel, find};
 pub use settings::{ModelSettings, SettingError, SettingInfo, Suggestion};
 pub use split::{
     ColumnSplit, Fractions, Part, Split, SplitCounts, SplitError, SplitInput, SplitKind,

@@ -2,6 +2,7 @@
 
 mod bounds;
 mod card;
+mod closer;
 mod input;
 mod of_plugin;
 
@@ -12,6 +13,7 @@ use taceva_core::{
 
 pub use self::bounds::LabelBounds;
 pub use self::card::{ChannelCard, Form, ModelCard, Provenance, SampleCounts, Source, SplitCard};
+pub use self::closer::CloserFeatures;
 pub use self::input::FitInput;
 pub(crate) use self::of_plugin::plugin_from;
 use crate::features::choice::FeatureChoice;
@@ -75,7 +77,7 @@ impl Model {
         };
         let of_signals = of_signals.map_err(|error| invalid(error.to_string()).because(error))?;
         let estimator = of_signals.as_deref().unwrap_or(input.estimator);
-        let chosen = estimator.choose(&training, progress)?;
+        let chosen = estimator.choose(&training, None, progress)?;
         let estimator = chosen
             .as_ref()
             .map_or(estimator, |chosen| &*chosen.estimator);

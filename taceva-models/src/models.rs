@@ -10,7 +10,7 @@ use crate::estimators::auto::Auto;
 use crate::estimators::library::LibraryModel;
 use crate::estimators::plugin::PluginEstimator;
 use crate::features::FeatureSpec;
-use crate::registry::{ALL, ModelInfo, UnknownModel, replaced};
+use crate::registry::{ALL, ModelInfo, PRESETS, Preset, UnknownModel, replaced};
 use crate::settings::{ModelSettings, SettingError};
 use crate::training::fit::ModelEstimator;
 
@@ -78,8 +78,34 @@ impl Models {
         let built_in = ALL.iter().find(|info| info.name == name);
         let names = self.compiled().map(|info| info.name);
         built_in.map(ChosenModel::BuiltIn).ok_or_else(|| {
-            UnknownModel::new(name, names.chain(self.offered.keys().map(String::as_str)))
+            let presets = PRESETS.iter().map(|preset| preset.name);
+            let offered = self.offered.keys().map(String::as_str);
+            UnknownModel::new(name, names.chain(presets).chain(offered))
         })
+    }
+
+    /// The model that `name` means, itself or as a [`Preset`], and its settings: those of the preset that `given` does not set, and all of `given`.
+    ///
+    /// ```
+    /// use taceva_models::{Models, ModelSettings};
+    /// let given = ModelSettings::parse(["jitter=0"])?;
+    /// let (model, settings) = Models::builtin().asked("fast", given)?;
+    /// assert_eq!((model.name(), settings.get("jitter")), ("cnn", Some("0")));
+    /// assert!(settings.get("size").is_some());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`find`](Models::find).
+    pub fn asked(
+        &self,
+        name: &str,
+        given: ModelSettings,
+    ) -> Result<(ChosenModel, ModelSettings), UnknownModel> {
+        match Preset::named(name) {
+            Some(preset) => Ok((self.find(preset.model)?, preset.changed_by(given))),
+            None => Ok((self.find(name)?, given)),
+        }
     }
 
     /// The model of a library called `name`, where this program has it.
@@ -145,6 +171,14 @@ impl ChosenModel {
     pub fn features(&self) -> FeatureSpec {
         let own = self.info().and_then(|info| info.features);
         own.unwrap_or_default()
+    }
+
+    /// The finer features that it looks at too where nothing else is asked for: those that networks see, of the one that chooses among models.
+    pub fn closer_features(&self) -> Option<FeatureSpec> {
+        match self {
+            ChosenModel::Auto(_) => Auto::CLOSER,
+            _ => None,
+        }
     }
 
     /// The keys of what can be set.

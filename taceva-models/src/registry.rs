@@ -1,8 +1,10 @@
 //! The models by name.
 
 mod info;
+mod preset;
 
 pub use info::ModelInfo;
+pub use preset::{PRESETS, Preset};
 
 use std::fmt;
 
@@ -13,7 +15,7 @@ use crate::estimators::elastic_net::ElasticNet;
 use crate::estimators::kernel::{GaussianProcess, KernelRidge};
 use crate::estimators::library::library_of;
 use crate::estimators::neighbours::Neighbours;
-use crate::estimators::network::NetworkEstimator;
+use crate::estimators::network::{NetworkEnsemble, NetworkEstimator};
 use crate::estimators::pls::Pls;
 use crate::estimators::ridge::Ridge;
 use crate::estimators::trees::{GradientBoosting, RandomForest};
@@ -35,6 +37,7 @@ pub const ALL: &[ModelInfo] = &[
     NetworkEstimator::RESNET_10,
     NetworkEstimator::RESNET_18,
     NetworkEstimator::RESNET_34,
+    NetworkEnsemble::INFO,
     Auto::INFO,
 ];
 

@@ -77,6 +77,15 @@ impl ModelSettings {
             .map(|(key, value)| format!("{key}={value}"))
     }
 
+    /// These settings, and those of `others` whose keys are not set.
+    pub(crate) fn or(mut self, others: &[(&str, &str)]) -> ModelSettings {
+        for (key, value) in others {
+            let entry = self.values.entry((*key).to_owned());
+            entry.or_insert_with(|| (*value).to_owned());
+        }
+        self
+    }
+
     /// Keys and values, by key.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (&String, &String)> {
         self.values.iter()

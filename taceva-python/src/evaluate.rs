@@ -71,13 +71,17 @@ pub(crate) fn evaluate_named(
     let work = |progress: &dyn taceva_core::Progress| {
         let model = match fitted {
             Some(fitted) => ModelChoice::Fitted(Box::new(fitted)),
-            None => ModelChoice::Fit(FitRequest {
-                model: known.find(&model)?,
-                settings: ModelSettings::parse(settings.iter().map(String::as_str))?,
-                channels,
-                split,
-                seed,
-            }),
+            None => {
+                let given = ModelSettings::parse(settings.iter().map(String::as_str))?;
+                let (model, settings) = known.asked(&model, given)?;
+                ModelChoice::Fit(FitRequest {
+                    model,
+                    settings,
+                    channels,
+                    split,
+                    seed,
+                })
+            }
         };
         let request = EvaluateRequest {
             model,

@@ -73,7 +73,11 @@ impl Effort {
 
     fn of_plan(plan: &FitPlan<'_>) -> Effort {
         let rows = [&plan.train[..], &plan.validation].concat();
-        Effort::of_rows(rows, plan.features(), plan.reads_frames())
+        let closer = plan
+            .closer
+            .map(|spec| Effort::of_rows(rows.clone(), spec, true));
+        let own = Effort::of_rows(rows, plan.features(), plan.reads_frames());
+        own.and(closer.unwrap_or_default())
     }
 
     fn of_rows(rows: Vec<usize>, spec: FeatureSpec, reads_frames: bool) -> Effort {

@@ -191,9 +191,10 @@ impl PlannedStudy {
         let model = self.study.model.as_ref()?;
         let name = model.name.as_ref()?;
         let request = || {
+            let (model, settings) = models.asked(&name.value, settings_of(&model.set)?)?;
             Ok(FitRequest {
-                model: models.find(&name.value)?,
-                settings: settings_of(&model.set)?,
+                model,
+                settings,
                 channels: self.plan.channels.clone(),
                 split: None,
                 seed,

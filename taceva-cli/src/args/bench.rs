@@ -51,7 +51,7 @@ pub(crate) struct BenchModels {
     #[arg(value_name = "DATASET")]
     pub(crate) dataset: Option<PathBuf>,
     /// A model, its settings after a colon: ridge, knn:size=16x16, cnn:epochs=20,batch=16; may be repeated
-    /// [default: all but resnet10, resnet18, resnet34, smartcore/lasso, smartcore/gradient-boosting and auto, which take long]
+    /// [default: all but resnet10, resnet18, resnet34, cnn-ensemble, smartcore/lasso, smartcore/gradient-boosting and auto, which take long]
     #[arg(long = "model", value_name = "NAME[:KEY=VALUE,…]")]
     pub(crate) models: Vec<String>,
     /// How often each model is fitted, in turns; the shortest processor time is reported

@@ -69,6 +69,9 @@ fn checkpoints(args: &Fit) -> Checkpoints {
 fn summary(fitted: &Fitted, args: &Fit, out: &mut dyn Write) -> io::Result<()> {
     let card = fitted.model.card();
     writeln!(out, "model    {} on {}", card.model, card.features)?;
+    if !card.settings.is_empty() {
+        writeln!(out, "settings {}", card.settings.join(" "))?;
+    }
     let counts = &fitted.manifest.counts;
     writeln!(
         out,

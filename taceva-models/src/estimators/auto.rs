@@ -1,31 +1,42 @@
-//! The model that does best on groups left out, within a budget of work.
+//! The model that does best on samples left out, within a budget of work.
 
+mod candidates;
 mod card;
 mod cost;
+mod entrant;
+mod further;
+mod race;
+mod standing;
 mod validate;
 
-use taceva_core::{ModelError, Progress, SignalInfo, TrainingSet};
+use taceva_core::{Features, ModelError, Progress, SignalInfo, TrainingSet};
 
+use self::candidates::{Candidate, candidates};
+use self::card::FOLDS;
 pub use self::card::{AutoCard, AutoTrial, Untried};
-use self::cost::{Sizes, seconds, trying};
-use self::validate::{FOLDS, Folds};
-use crate::estimators::library::{LibraryModel, LibrarySizes};
+use self::cost::Sizes;
+use self::race::{Made, Race};
+use self::validate::Folds;
+use crate::estimators::library::LibraryModel;
+use crate::estimators::network::{Checkpoints, NetworkEstimator};
 use crate::features::{FeatureError, FeatureSpec};
 use crate::registry::{ALL, ModelInfo};
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 use crate::training::fit::{Chosen, ModelEstimator, ModelFit, estimator};
 use crate::training::problem::{Problem, invalid};
-use crate::training::progress::{ReportedStage, interrupted};
 
-/// Tries models, the cheapest first, as long as the budget lasts, and chooses the one of least error.
+/// Tries models, the cheapest first, as long as that is worth it, and chooses one.
 ///
-/// Each is fitted five times: one fold is scored, the next chooses its settings, the other three are learnt from; folds are whole groups of
-/// the training part, or runs of neighbouring samples. Its error is the root mean square over all folds, relative to the deviation of the
-/// labels and averaged over channels that vary.
+/// The training part is divided into five folds: whole groups, or runs of neighbouring samples. A trial scores one fold, chooses its settings on
+/// the next and learns from the other three. All models are tried on the first fold; the small network with a quarter of its epochs, and with all
+/// of them where that leaves open whether it is ahead. If it is clearly ahead it is taken, and what takes more work is not tried. Else the others
+/// go on to the next fold, but for those that the best is clearly ahead of (by three standard errors of the difference, by group) and those that do no
+/// better than another that takes a tenth of their work. Of those left the one of least error is taken; the baseline unless that is better by more than two standard errors;
+/// and the network where it is better than that one, on the first fold, by more than two and by more than a twentieth of the squared error.
 ///
-/// The budget is counted in work, not by a clock: seconds of a core that does a thousand million multiplications each second. What a
-/// model takes follows from the numbers of samples, features and channels, so that the same recording leads to the same choice on every
-/// machine, under any load and on any number of threads. The baseline and ridge are always tried.
+/// The budget is counted in work, not by a clock: seconds of a core that does a thousand million multiplications each second. A model is tried if that,
+/// and fitting it then, fit into what is left. What a model takes follows from the numbers of samples, features and channels, so that the same
+/// recording leads to the same choice on every machine, under any load and on any number of threads. The baseline and ridge are always tried.
 #[derive(Clone, Debug)]
 pub struct Auto {
     budget_s: f64,
@@ -33,20 +44,23 @@ pub struct Auto {
     libraries: Vec<&'static LibraryModel>,
     /// The signals that are learnt from, where they are no pictures.
     of_signals: Option<SignalInfo>,
+    /// Where the training of a network that is taken is kept.
+    checkpoints: Option<Checkpoints>,
 }
 
 const BUDGET: SettingInfo = SettingInfo {
     key: "budget_s",
     accepts: "a number from 0 to 1e6",
-    default: "60",
-    about: "work to spend on trying models, in seconds of a core of a thousand million multiplications each",
+    default: "1800",
+    about: "work to spend on trying models and fitting the one that is taken, in seconds of a core of a thousand million multiplications each: \
+            by docs/models.md about processor seconds; with 1800 a network of some thousand frames can be taken",
 };
 
 impl Auto {
     /// What the registry says of it.
     pub const INFO: ModelInfo = ModelInfo {
         name: "auto",
-        about: "whichever of the others does best on groups left out, within a budget of work",
+        about: "whichever of the others but the residual networks does best on samples left out, within a budget of work",
         settings: &[BUDGET],
         features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(Auto::from_settings(settings)?)),
@@ -59,9 +73,10 @@ impl Auto {
     pub fn from_settings(settings: &ModelSettings) -> Result<Auto, SettingError> {
         settings.check_keys(Auto::INFO.settings)?;
         Ok(Auto {
-            budget_s: settings.value(&BUDGET, 60.0, |text| number(text, 0.0..=1e6))?,
+            budget_s: settings.value(&BUDGET, 1800.0, |text| number(text, 0.0..=1e6))?,
             libraries: Vec::new(),
             of_signals: None,
+            checkpoints: None,
         })
     }
 
@@ -71,42 +86,11 @@ impl Auto {
         self.libraries.extend(libraries);
         self
     }
-
-    /// The models that can be tried on samples of these sizes, the cheapest first, with what each takes.
-    fn candidates(&self, sizes: Sizes) -> Vec<(&'static ModelInfo, f64)> {
-        let models = ALL.iter().filter(|info| info.name != Auto::INFO.name);
-        let costed = models.filter_map(|info| Some((info, seconds(info.name, sizes)?)));
-        let of_libraries = self.libraries.iter().filter_map(|model| {
-            let work = (model.work)(learnt(sizes))?;
-            Some((&model.info, trying(work)))
-        });
-        let mut candidates: Vec<_> = costed.chain(of_libraries).collect();
-        // Of equals the first in the list comes first: the plainer.
-        candidates.sort_by(|left, right| left.1.total_cmp(&right.1));
-        candidates
-    }
-}
-
-/// The sizes of the part of a training part that a trial learns from.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "sizes of a recording in memory"
-)]
-fn learnt(sizes: Sizes) -> LibrarySizes {
-    LibrarySizes {
-        samples: (0.8 * sizes.samples) as usize,
-        features: sizes.features as usize,
-        targets: sizes.channels as usize,
-    }
 }
 
 impl Auto {
     /// The model of `info` with default settings, as it learns from what is looked at here.
-    fn candidate(
-        &self,
-        info: &ModelInfo,
-    ) -> Result<Result<Box<dyn ModelEstimator>, FeatureError>, ModelError> {
+    fn candidate(&self, info: &ModelInfo) -> Made {
         let estimator = info
             .estimator(&ModelSettings::default())
             .map_err(|error| invalid(error.to_string()).because(error))?;
@@ -116,10 +100,10 @@ impl Auto {
             Err(error) => Err(error),
         })
     }
-}
 
-/// Models that are tried whatever the budget.
-const ALWAYS: [&str; 2] = ["baseline", "ridge"];
+    /// What networks see where they are left what they see by themselves.
+    pub(crate) const CLOSER: Option<FeatureSpec> = NetworkEstimator::CNN.features;
+}
 
 impl ModelEstimator for Auto {
     fn of_signals(
@@ -131,9 +115,22 @@ impl ModelEstimator for Auto {
         Ok(Some(Box::new(own)))
     }
 
+    fn looks_closer(&self, [samples, features, channels]: [usize; 3]) -> bool {
+        let sizes = Sizes {
+            samples: samples as f64,
+            features: features as f64,
+            picture: Some(features as f64),
+            channels: channels as f64,
+        };
+        let candidates = candidates(ALL, &self.libraries, sizes);
+        let mut networks = candidates.iter().filter(|own| own.is_network());
+        networks.any(|own| own.first_s() + own.fit_s <= self.budget_s)
+    }
+
     fn choose(
         &self,
         training: &TrainingSet<'_>,
+        closer: Option<&Features>,
         progress: &dyn Progress,
     ) -> Result<Option<Chosen>, ModelError> {
         let problem = Problem::new(*training)?;
@@ -143,66 +140,51 @@ impl ModelEstimator for Auto {
                 "{samples} training samples, at least {FOLDS} are needed to try models on"
             )));
         }
-        let folds = Folds::new(training, problem.groups());
-        let shape = training.features.shape();
+        let mut pictures = *training;
+        pictures.features = closer.unwrap_or(training.features);
+        if pictures.features.samples() != samples {
+            return Err(invalid(format!(
+                "{samples} training samples, of which {} are seen closer",
+                pictures.features.samples()
+            )));
+        }
+        let shape = pictures.features.shape();
         let sizes = Sizes {
             samples: samples as f64,
-            features: shape.len() as f64,
+            features: training.features.shape().len() as f64,
+            picture: (shape.height > 1).then_some(shape.len() as f64),
             channels: problem.channels() as f64,
-            is_picture: shape.height > 1,
         };
-        let candidates = self.candidates(sizes);
-        let mut spent_s = 0.0;
-        let (mut tried, mut untried) = (Vec::new(), Vec::new());
-        let stage = ReportedStage::begin(progress, "models tried", candidates.len());
-        for (info, cost_s) in candidates {
-            interrupted(progress)?;
-            let affordable = spent_s + cost_s <= self.budget_s;
-            if affordable || ALWAYS.contains(&info.name) {
-                let error = match self.candidate(info)? {
-                    Ok(estimator) => folds.error(training, &*estimator, progress)?,
-                    Err(unsuited) => Err(unsuited.to_string()),
-                };
-                match error {
-                    Ok(error) => {
-                        spent_s += cost_s;
-                        tried.push(AutoTrial {
-                            model: info.name.to_owned(),
-                            error,
-                            cost_s,
-                        });
-                    }
-                    Err(reason) => untried.push(Untried {
-                        model: info.name.to_owned(),
-                        cost_s,
-                        reason,
-                    }),
-                }
-            } else {
-                untried.push(Untried {
-                    model: info.name.to_owned(),
-                    cost_s,
-                    reason: "beyond the budget".to_owned(),
-                });
-            }
-            stage.advance();
-        }
-        let card = AutoCard {
+        let make = |info: &ModelInfo| self.candidate(info);
+        let race = Race {
             budget_s: self.budget_s,
-            folds: FOLDS,
-            by_group: folds.by_group,
-            tried,
-            untried,
+            make: &make,
+            folds: Folds::new(training, problem.groups()),
+            pictures,
+            training: *training,
+            progress,
+            spent_s: 0.0,
+            entrants: Vec::new(),
+            network: Vec::new(),
+            untried: Vec::new(),
         };
-        let libraries = self.libraries.iter().map(|model| &model.info);
-        let info = ALL
-            .iter()
-            .chain(libraries)
-            .find(|info| Some(info.name) == card.best().map(|trial| trial.model.as_str()))
-            .ok_or_else(|| invalid("no model could be tried"))?;
+        let (taken, card) = race.run(candidates(ALL, &self.libraries, sizes))?;
+        let Candidate { info, .. } = taken.ok_or_else(|| invalid("no model could be tried"))?;
         let estimator = self.candidate(info)?;
-        let estimator = estimator.map_err(|error| invalid(error.to_string()).because(error))?;
-        Ok(Some(Chosen { estimator, card }))
+        let mut estimator = estimator.map_err(|error| invalid(error.to_string()).because(error))?;
+        if let Some(checkpoints) = &self.checkpoints {
+            estimator.keep_checkpoints(checkpoints.clone());
+        }
+        let is_closer = closer.is_some() && taken.is_some_and(|taken| taken.is_network());
+        Ok(Some(Chosen {
+            estimator,
+            card,
+            is_closer,
+        }))
+    }
+
+    fn keep_checkpoints(&mut self, checkpoints: Checkpoints) {
+        self.checkpoints = Some(checkpoints);
     }
 
     fn fit_model(
@@ -211,40 +193,10 @@ impl ModelEstimator for Auto {
         validation: Option<&TrainingSet<'_>>,
         progress: &dyn Progress,
     ) -> Result<ModelFit, ModelError> {
-        let chosen = self.choose(training, progress)?;
+        let chosen = self.choose(training, None, progress)?;
         let chosen = chosen.expect("this estimator chooses");
         chosen.estimator.fit_model(training, validation, progress)
     }
 }
 
 estimator!(Auto, |_| Auto::INFO.name);
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn candidates_come_by_cost_and_residual_networks_last() {
-        let sizes = Sizes {
-            samples: 500.0,
-            features: 1024.0,
-            channels: 3.0,
-            is_picture: true,
-        };
-        let auto = Auto::from_settings(&ModelSettings::default()).expect("no setting");
-        let candidates = auto.candidates(sizes);
-        assert_eq!(candidates[0].0.name, "baseline");
-        assert_eq!(candidates.last().expect("some").0.name, "resnet34");
-        assert_eq!(candidates.len(), ALL.len() - 1);
-        let flat = Sizes {
-            is_picture: false,
-            ..sizes
-        };
-        let networks = |name: &str| name == "cnn" || name.starts_with("resnet");
-        assert!(
-            auto.candidates(flat)
-                .iter()
-                .all(|(info, _)| !networks(info.name))
-        );
-    }
-}

@@ -2,15 +2,18 @@
 
 mod card;
 mod checkpoint;
+mod ensemble;
 mod estimator;
 mod fit;
 mod preprocessing;
 mod regressor;
+mod shortened;
 mod spacing;
 mod training;
 
 pub use card::NetworkCard;
 pub use checkpoint::{CheckpointError, Checkpoints, Foreign};
+pub use ensemble::{EnsembleRegressor, NetworkEnsemble};
 pub use estimator::NetworkEstimator;
 pub use preprocessing::Preprocessing;
 pub use regressor::NetworkRegressor;

@@ -15,7 +15,7 @@ use crate::estimators::kernel::KernelRegressor;
 use crate::estimators::library::LibraryRegressor;
 use crate::estimators::linear::LinearRegressor;
 use crate::estimators::neighbours::NeighbourRegressor;
-use crate::estimators::network::{NetworkCard, NetworkRegressor};
+use crate::estimators::network::{EnsembleRegressor, NetworkCard, NetworkRegressor};
 use crate::estimators::projected::ProjectedRegressor;
 use crate::estimators::trees::TreeRegressor;
 use crate::model::{Form, Model, ModelCard, channels_of, plugin_from};
@@ -62,6 +62,11 @@ impl Models {
         }
         let tensors = Tensors(opened);
         let regressor = match (&card.network, &card.plugin, card.form) {
+            (None, None, None) if !card.ensemble.is_empty() => {
+                let ready = ensemble_from(&tensors.0, &channels, &card)?;
+                ModelRegressor::Ensemble(Box::new(ready))
+            }
+            _ if !card.ensemble.is_empty() => return Err(FormatError::Card),
             (None, None, None) => {
                 let shape = card.features.shape();
                 ModelRegressor::Linear(LinearRegressor::from_tensors(&tensors, channels, shape)?)
@@ -71,7 +76,8 @@ impl Models {
                 ModelRegressor::Plugin(plugin_from(self, &tensors, (&channels, &card, plugin))?)
             }
             (Some(network), None, None) => {
-                let ready = network_from(&tensors.0, channels, &card, network)?;
+                let found = named_tensors(&tensors.0)?;
+                let ready = network_from(found, channels, &card, network)?;
                 ModelRegressor::Network(Box::new(ready))
             }
             _ => return Err(FormatError::Card),
@@ -162,9 +168,40 @@ fn formed(
     }
 }
 
+/// The networks that tensors hold, those of each under a name of its own.
+fn ensemble_from(
+    tensors: &SafeTensors<'_>,
+    channels: &Channels,
+    card: &ModelCard,
+) -> Result<EnsembleRegressor, FormatError> {
+    let mut found = named_tensors(tensors)?;
+    let mut members = Vec::new();
+    for (number, network) in card.ensemble.iter().enumerate() {
+        let prefix = EnsembleRegressor::prefix(number);
+        let (own, others): (Vec<_>, Vec<_>) = found
+            .into_iter()
+            .partition(|tensor| tensor.name.starts_with(&prefix));
+        found = others;
+        let own = own.into_iter().map(|tensor| NamedTensor {
+            name: tensor.name[prefix.len()..].to_owned(),
+            ..tensor
+        });
+        members.push(network_from(
+            own.collect(),
+            channels.clone(),
+            card,
+            network,
+        )?);
+    }
+    match found.into_iter().next() {
+        Some(tensor) => Err(FormatError::Unexpected { name: tensor.name }),
+        None => Ok(EnsembleRegressor::new(members)?),
+    }
+}
+
 /// The network that tensors hold.
 fn network_from(
-    tensors: &SafeTensors<'_>,
+    found: Vec<NamedTensor>,
     channels: Channels,
     card: &ModelCard,
     network: &NetworkCard,
@@ -189,6 +226,12 @@ fn network_from(
     if parameters as u64 > FILE_MAX / size_of::<f32>() as u64 {
         return Err(FormatError::Card);
     }
+    let ready = Network::from_tensors(&network.architecture, found)?;
+    Ok(NetworkRegressor::new(channels, network.clone(), ready)?)
+}
+
+/// All tensors, which must be of single precision.
+fn named_tensors(tensors: &SafeTensors<'_>) -> Result<Vec<NamedTensor>, FormatError> {
     let found = tensors.tensors().into_iter().map(|(name, tensor)| {
         if tensor.dtype() != Dtype::F32 {
             return Err(FormatError::Type {
@@ -206,9 +249,7 @@ fn network_from(
                 .collect(),
         })
     });
-    let found: Vec<NamedTensor> = found.collect::<Result<_, FormatError>>()?;
-    let ready = Network::from_tensors(&network.architecture, found)?;
-    Ok(NetworkRegressor::new(channels, network.clone(), ready)?)
+    found.collect()
 }
 
 /// Any minor version of our major version can be read: it only adds.

@@ -63,6 +63,9 @@ pub struct ModelCard {
     /// The network, where the model is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub network: Option<NetworkCard>,
+    /// The networks, where the model is the mean of several.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub ensemble: Vec<NetworkCard>,
     /// The library that fitted it and is needed to read it, where the model is of one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub library: Option<LibraryCard>,
@@ -106,9 +109,10 @@ pub enum Form {
 impl Form {
     pub(crate) fn of(regressor: &ModelRegressor) -> Option<Form> {
         match regressor {
-            ModelRegressor::Linear(_) | ModelRegressor::Network(_) | ModelRegressor::Plugin(_) => {
-                None
-            }
+            ModelRegressor::Linear(_)
+            | ModelRegressor::Network(_)
+            | ModelRegressor::Ensemble(_)
+            | ModelRegressor::Plugin(_) => None,
             ModelRegressor::Kernel(kernel) => Some(Form::Kernel {
                 landmarks: kernel.landmarks(),
                 length: kernel.length(),
@@ -241,6 +245,10 @@ impl ModelCard {
             network: match &fit.regressor {
                 ModelRegressor::Network(network) => Some(network.card().clone()),
                 _ => None,
+            },
+            ensemble: match &fit.regressor {
+                ModelRegressor::Ensemble(ensemble) => ensemble.cards(),
+                _ => Vec::new(),
             },
             library: match &fit.regressor {
                 ModelRegressor::Library(library) => Some(library.card().clone()),

@@ -11,7 +11,7 @@ use crate::estimators::kernel::KernelRegressor;
 use crate::estimators::library::LibraryRegressor;
 use crate::estimators::linear::{LinearEstimator, LinearRegressor};
 use crate::estimators::neighbours::NeighbourRegressor;
-use crate::estimators::network::{Checkpoints, NetworkRegressor};
+use crate::estimators::network::{Checkpoints, EnsembleRegressor, NetworkRegressor};
 use crate::estimators::plugin::PluginRegressor;
 use crate::estimators::projected::ProjectedRegressor;
 use crate::estimators::trees::TreeRegressor;
@@ -53,16 +53,29 @@ pub(crate) use estimator;
 
 /// An estimator whose regressor a model file can keep, and that can say what it chose.
 pub trait ModelEstimator: Estimator {
-    /// The estimator that takes the place of this one on `training`, and why; `None` for every one but that which only chooses.
+    /// The estimator that takes the place of this one on `training`, and why; `None` for every one but that which only chooses. Some of those that it
+    /// chooses from see finer features, `closer`, of the same samples, where there are such.
     ///
     /// # Errors
     /// As [`Estimator::fit`].
     fn choose(
         &self,
         _training: &TrainingSet<'_>,
+        _closer: Option<&Features>,
         _progress: &dyn Progress,
     ) -> Result<Option<Chosen>, ModelError> {
         Ok(None)
+    }
+
+    /// Whether it would look at finer features in [`choose`](ModelEstimator::choose): so many samples of so many such features, and channels. `false`
+    /// for every one but that which only chooses.
+    fn looks_closer(&self, _: [usize; 3]) -> bool {
+        false
+    }
+
+    /// The same with `share` of its training, for a first look at what it can do; `None` for every one but those that are trained step by step.
+    fn first_look(&self, _share: f64) -> Option<Box<dyn ModelEstimator>> {
+        None
     }
 
     /// Learns as [`Estimator::fit`] does.
@@ -115,6 +128,8 @@ pub struct Chosen {
     pub estimator: Box<dyn ModelEstimator>,
     /// What was tried, and what came of it.
     pub card: AutoCard,
+    /// Whether it sees the finer features.
+    pub is_closer: bool,
 }
 
 /// What fitting gave.
@@ -146,6 +161,8 @@ pub enum ModelRegressor {
     Trees(Box<TreeRegressor>),
     /// A network that reads features as a picture.
     Network(Box<NetworkRegressor>),
+    /// The mean of several networks.
+    Ensemble(Box<EnsembleRegressor>),
     /// Of another library, whose parameters are kept.
     Library(Box<LibraryRegressor>),
     /// Of a plugin, which answers.
@@ -162,7 +179,7 @@ impl ModelRegressor {
     pub(crate) fn through(self, pca: Pca) -> Result<ModelRegressor, ModelError> {
         match self {
             ModelRegressor::Linear(linear) => linear.through(&pca).map(ModelRegressor::Linear),
-            ModelRegressor::Network(_) => Err(invalid(NO_PICTURE)),
+            ModelRegressor::Network(_) | ModelRegressor::Ensemble(_) => Err(invalid(NO_PICTURE)),
             ModelRegressor::Plugin(_) => Err(invalid(OPAQUE)),
             other => {
                 let projected = ProjectedRegressor::new(pca, other);
@@ -182,6 +199,7 @@ impl ModelRegressor {
             ModelRegressor::Classes(classes) => classes.reads_features(),
             ModelRegressor::Trees(trees) => trees.reads_features(),
             ModelRegressor::Network(network) => network.reads_features(),
+            ModelRegressor::Ensemble(ensemble) => ensemble.reads_features(),
             ModelRegressor::Library(library) => library.reads_features(),
             ModelRegressor::Plugin(_) => true,
             ModelRegressor::Projected(projected) => projected.inner().reads_features(),
@@ -227,6 +245,7 @@ impl ModelRegressor {
                     .map(|tensor| Raw::singles(&tensor.name, tensor.shape, &tensor.values))
                     .collect()
             }
+            ModelRegressor::Ensemble(ensemble) => ensemble.tensors(),
             ModelRegressor::Library(library) => library.tensors(),
             ModelRegressor::Plugin(plugin) => vec![plugin.tensor()],
             ModelRegressor::Projected(projected) => projected.tensors(),
@@ -241,6 +260,7 @@ impl ModelRegressor {
             ModelRegressor::Classes(classes) => &**classes,
             ModelRegressor::Trees(trees) => &**trees,
             ModelRegressor::Network(network) => &**network,
+            ModelRegressor::Ensemble(ensemble) => &**ensemble,
             ModelRegressor::Library(library) => &**library,
             ModelRegressor::Plugin(plugin) => plugin,
             ModelRegressor::Projected(projected) => &**projected,

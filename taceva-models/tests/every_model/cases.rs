@@ -53,9 +53,10 @@ pub(crate) const CASES: &[Case] = &[
         deeper: true,
         ..network("resnet34")
     },
+    network("cnn-ensemble"),
     Case {
         least: 5,
         order: None,
-        ..case("auto", &["budget_s=0.02"], 0.6)
+        ..case("auto", &["budget_s=0"], 0.6)
     },
 ];

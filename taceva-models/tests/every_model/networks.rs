@@ -7,7 +7,7 @@ use taceva_needs::{Need, skip};
 use crate::blobs::{FRAME, numbers, recording};
 use crate::case::{case_of, predict, rms};
 
-const NETWORKS: [&str; 4] = ["cnn", "resnet10", "resnet18", "resnet34"];
+const NETWORKS: [&str; 5] = ["cnn", "resnet10", "resnet18", "resnet34", "cnn-ensemble"];
 
 fn estimator(name: &str, words: &[&str]) -> Box<dyn ModelEstimator> {
     let settings = ModelSettings::parse(words.iter().copied()).expect("well formed");
@@ -209,5 +209,33 @@ fn no_damaged_network_panics_or_opens_as_something_else() {
         model
             .predict(&extractor.extract_all(&frames).expect("one kind"))
             .is_ok()
+    );
+}
+
+#[test]
+fn an_ensemble_predicts_the_mean_of_networks_of_seeds_that_follow_each_other() {
+    let (training, test) = (recording(24, 1), recording(6, 2));
+    let found = |name: &str, word: &str| {
+        let fit = estimator(name, &["epochs=2", "batch=8", word])
+            .fit_model(&training.set(), None, &SilentProgress)
+            .expect("fits");
+        predict(&fit.regressor, &test.features)
+    };
+    let members = ["seed=4", "seed=5", "seed=6"].map(|word| found("cnn", word));
+    let settings = ["epochs=2", "batch=8", "seed=4", "members=3"];
+    let fit = estimator("cnn-ensemble", &settings)
+        .fit_model(&training.set(), None, &SilentProgress)
+        .expect("fits");
+    let mean = predict(&fit.regressor, &test.features);
+    for (at, mean) in mean.iter().enumerate() {
+        let sum: f64 = members.iter().map(|member| member[at]).sum();
+        assert!((mean - sum / 3.0).abs() < 1e-12, "{mean} of {sum}");
+    }
+    let settings = ModelSettings::parse(["members=1"]).expect("a pair");
+    let refused = find("cnn-ensemble").expect("registered");
+    let refused = refused.estimator(&settings).map(drop).expect_err("one");
+    assert_eq!(
+        refused.to_string(),
+        "`members=1`: expected a number from 2 to 16"
     );
 }

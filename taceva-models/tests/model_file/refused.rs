@@ -198,3 +198,36 @@ fn damaged_files_never_panic_and_truncated_ones_are_never_models() {
         }
     }
 }
+
+#[test]
+fn an_ensemble_whose_card_and_tensors_disagree_is_refused() {
+    let spec = taceva_models::FeatureSpec {
+        width: 10,
+        height: 10,
+        ..SPEC
+    };
+    let (model, features) = fit("cnn-ensemble", &["epochs=1", "batch=8"], spec);
+    let bytes = model.to_bytes().expect("small");
+    let again = Model::from_bytes(&bytes).expect("as it was written");
+    assert_eq!(
+        again.predict(&features).expect("finite"),
+        model.predict(&features).expect("finite")
+    );
+    let cards = |card: &mut serde_json::Value| card["ensemble"].as_array().expect("cards").clone();
+    let one = with_card(&bytes, |card| card["ensemble"] = cards(card)[..1].into());
+    assert!(matches!(
+        Model::from_bytes(&one),
+        Err(FormatError::Unexpected { name }) if name.starts_with("member1.")
+    ));
+    let three = with_card(&bytes, |card| {
+        let first = cards(card)[0].clone();
+        card["ensemble"].as_array_mut().expect("cards").push(first);
+    });
+    assert!(Model::from_bytes(&three).is_err());
+    let both = with_card(&bytes, |card| card["network"] = cards(card)[0].clone());
+    assert!(matches!(Model::from_bytes(&both), Err(FormatError::Card)));
+    let none = with_card(&bytes, |card| {
+        card["ensemble"] = serde_json::Value::from(Vec::<u8>::new())
+    });
+    assert!(Model::from_bytes(&none).is_err());
+}

@@ -92,7 +92,7 @@ impl FitPlan<'_> {
     ) -> Result<Vec<f64>, StudyError> {
         let seen = self.see(spec, work)?;
         let left_out = seen.features.select(&parts.left_out);
-        let model = self.learn(estimator, seen, &parts.learnt, work)?;
+        let model = self.learn(estimator, (seen, None), &parts.learnt, work)?;
         self.losses(&model, &left_out, parts)
     }
 

@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Features, FrameInfo, InputInfo, PixelFormat, Targets, TrainingSet};
 use taceva_dataset::{Dataset, Source};
-use taceva_models::{FeatureSpec, FitInput, Model, ModelEstimator, Provenance, SplitCard};
+use taceva_models::{
+    CloserFeatures, FeatureSpec, FitInput, Model, ModelEstimator, Provenance, SplitCard,
+};
 
 use super::{FitPlan, Fitted};
 use crate::error::StudyError;
@@ -27,7 +29,8 @@ impl FitPlan<'_> {
         };
         let whole: Vec<usize> = (0..self.train.len()).collect();
         let seen = self.see(self.features, work)?;
-        let learnt = self.learn(&*self.estimator, seen, &whole, work)?;
+        let closer = self.closer.map(|spec| self.see(spec, work)).transpose()?;
+        let learnt = self.learn(&*self.estimator, (seen, closer), &whole, work)?;
         let model = match choice {
             Some(choice) => learnt.with_features_chosen(choice),
             None => learnt,
@@ -67,24 +70,22 @@ impl FitPlan<'_> {
         })
     }
 
-    /// A model of what was `seen`, fitted on the rows at `positions` of the training part and on the validation part.
+    /// A model of what was `seen`, and seen closer, fitted on the rows at `positions` of the training part and on the validation part.
     pub(super) fn learn(
         &self,
         estimator: &dyn ModelEstimator,
-        seen: Seen,
+        (seen, closer): (Seen, Option<Seen>),
         positions: &[usize],
         work: Work<'_>,
     ) -> Result<Model, StudyError> {
-        let Seen {
-            spec,
-            features: seen,
-            input,
-        } = seen;
         let train: Vec<usize> = positions.iter().map(|&at| self.train[at]).collect();
-        let train_features = seen.select(positions);
-        let held: Vec<usize> = (self.train.len()..seen.samples()).collect();
-        let held_features = seen.select(&held);
-        drop(seen);
+        let parts = |seen: Seen| {
+            let held: Vec<usize> = (self.train.len()..seen.features.samples()).collect();
+            let parts = (seen.features.select(positions), seen.features.select(&held));
+            (seen.spec, seen.input, parts)
+        };
+        let (spec, input, (train_features, held_features)) = parts(seen);
+        let closer = closer.map(parts);
         let (train_labels, held_labels) = (self.labels(&train), self.labels(&self.validation));
         let groups = groups(self.dataset, &train);
         let set = |features, values, groups| {
@@ -100,7 +101,17 @@ impl FitPlan<'_> {
                 .then(|| set(&held_features, &held_labels, None)),
             provenance: self.provenance(),
         };
-        Ok(Model::fit(whole, work.progress)?)
+        Ok(match &closer {
+            None => Model::fit(whole, work.progress)?,
+            Some((spec, _, (training, held))) => {
+                let closer = CloserFeatures {
+                    spec: *spec,
+                    training,
+                    validation: (!self.validation.is_empty()).then_some(held),
+                };
+                Model::fit_closer(whole, closer, work.progress)?
+            }
+        })
     }
 
     pub(super) fn labels(&self, rows: &[usize]) -> Vec<f64> {

@@ -25,6 +25,8 @@ pub(crate) struct FitPlan<'a> {
     pub(super) of_model: ModelSettings,
     pub(super) features: FeatureSpec,
     pub(super) open: Option<OpenFeatures>,
+    /// Finer features that it looks at too.
+    pub(crate) closer: Option<FeatureSpec>,
     pub(crate) channels: Channels,
     pub(crate) divided: Divided,
     pub(crate) train: Vec<usize>,
@@ -56,6 +58,7 @@ impl<'a> FitPlan<'a> {
             of_model,
             features,
             open,
+            closer,
         } = recipe;
         let model_reads = model.reads_features();
         let (frame, signals) = kinds(dataset);
@@ -82,6 +85,13 @@ impl<'a> FitPlan<'a> {
         ];
         let [train, validation] = [&whole[0], &whole[1]].map(|rows| usable(dataset, rows, need()));
         let left_out = whole[0].len() + whole[1].len() - train.len() - validation.len();
+        let fits = |spec: &FeatureSpec| {
+            reads_frames
+                && frame
+                    .is_some_and(|frame| spec.width <= frame.width && spec.height <= frame.height)
+                && estimator.looks_closer([train.len(), spec.shape().len(), channels.len()])
+        };
+        let closer = closer.filter(fits);
         Ok(FitPlan {
             dataset,
             model,
@@ -90,6 +100,7 @@ impl<'a> FitPlan<'a> {
             settings: request.settings.clone(),
             features,
             open: open.filter(|_| model_reads),
+            closer,
             channels,
             divided,
             train,
@@ -111,7 +122,8 @@ impl<'a> FitPlan<'a> {
     /// How many frames [`run`](FitPlan::run) decodes.
     pub(crate) fn frames_to_decode(&self) -> u64 {
         if self.reads_frames() {
-            (self.train.len() + self.validation.len()) as u64
+            let passes = if self.closer.is_some() { 2 } else { 1 };
+            passes * (self.train.len() + self.validation.len()) as u64
         } else {
             0
         }
@@ -123,7 +135,10 @@ impl<'a> FitPlan<'a> {
         if self.model.reads_features() {
             let features = match self.open {
                 Some(_) => format!("{} and others, of which some are chosen", self.features),
-                None => self.features.to_string(),
+                None => match self.closer {
+                    Some(closer) => format!("{} and {closer}", self.features),
+                    None => self.features.to_string(),
+                },
             };
             match self.reads_frames() {
                 true => plan.step("decode", format!("{rows} frames to features {features}")),

@@ -55,6 +55,8 @@ pub(crate) struct Recipe {
     pub(super) features: FeatureSpec,
     /// What of the features is to be chosen.
     pub(super) open: Option<OpenFeatures>,
+    /// Finer features that some of the models see that are chosen from.
+    pub(super) closer: Option<FeatureSpec>,
 }
 
 impl Recipe {
@@ -69,11 +71,20 @@ impl Recipe {
         let mut known = model.setting_keys();
         known.extend(FeatureSpec::SETTINGS.iter().map(|setting| setting.key));
         request.settings.check_names(&known)?;
+        let features = model.features().changed_by(&of_features)?;
+        let closer = model.closer_features();
+        let closer = closer.map(|spec| spec.changed_by(&of_features));
+        // A grid that a person asks for is that of all, and components are of one.
+        let differs = |closer: &FeatureSpec| *closer != features && features.pca.is_none();
         Ok(Recipe {
             model: model.clone(),
             estimator: model.estimator(&of_model)?,
             of_model,
-            features: model.features().changed_by(&of_features)?,
+            closer: closer
+                .transpose()?
+                .filter(differs)
+                .filter(|_| open.is_none()),
+            features,
             open,
         })
     }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use taceva_models::Suggestion;
+use taceva_models::{Preset, Suggestion};
 
 use super::place::FilePlace;
 use crate::error::SweepError;
@@ -21,12 +21,7 @@ impl ModelEntry {
     pub(super) fn of(value: &toml::Value, place: FilePlace<'_>) -> Result<ModelEntry, SweepError> {
         const KEYS: [&str; 2] = ["name", "set"];
         let table = match value {
-            toml::Value::String(name) => {
-                return Ok(ModelEntry {
-                    name: name.clone(),
-                    set: BTreeMap::new(),
-                });
-            }
+            toml::Value::String(name) => return Ok(ModelEntry::asked(name, BTreeMap::new())),
             toml::Value::Table(table) => table,
             _ => {
                 let problem = "`models`: expected names, or { name = \"…\", set = { … } }";
@@ -47,10 +42,26 @@ impl ModelEntry {
                 "`models`: the key `name` of a model is missing".to_owned(),
             )
         })?;
-        Ok(ModelEntry {
-            name: name.to_owned(),
-            set: settings(name, table.get("set"), place)?,
-        })
+        let set = settings(name, table.get("set"), place)?;
+        Ok(ModelEntry::asked(name, set))
+    }
+
+    /// The model that `name` means; a preset is its model with its settings, so that keys and tables say what was fitted.
+    fn asked(name: &str, mut set: BTreeMap<String, String>) -> ModelEntry {
+        let Some(preset) = Preset::named(name) else {
+            return ModelEntry {
+                name: name.to_owned(),
+                set,
+            };
+        };
+        for (key, value) in preset.settings {
+            let entry = set.entry((*key).to_owned());
+            entry.or_insert_with(|| (*value).to_owned());
+        }
+        ModelEntry {
+            name: preset.model.to_owned(),
+            set,
+        }
     }
 }
 
@@ -89,5 +100,25 @@ pub(super) fn word(value: &toml::Value) -> Option<String> {
         toml::Value::Float(number) => Some(number.to_string()),
         toml::Value::Boolean(value) => Some(value.to_string()),
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_preset_is_its_model_with_its_settings_but_for_those_of_the_file() {
+        let own = BTreeMap::from([("jitter".to_owned(), "0".to_owned())]);
+        let entry = ModelEntry::asked("fast", own);
+        assert_eq!(entry.name, "cnn");
+        let words: Vec<String> = entry
+            .set
+            .iter()
+            .map(|(key, value)| format!("{key}={value}"))
+            .collect();
+        assert_eq!(words, ["jitter=0", "local_mean=3", "size=64x48"]);
+        // What no preset is called stays as it is, to be refused by its name.
+        assert_eq!(ModelEntry::asked("fats", BTreeMap::new()).name, "fats");
     }
 }

@@ -17,7 +17,8 @@ use crate::args::{BenchModels, SplitArgs};
 use crate::{exit, output};
 
 /// Models that run only where they are named: they take minutes to hours, or are no model of their own.
-const NAMED_ONLY: [&str; 6] = [
+const NAMED_ONLY: [&str; 7] = [
+    "cnn-ensemble",
     "resnet10",
     "resnet18",
     "resnet34",
@@ -91,9 +92,11 @@ fn requests(args: &BenchModels, known: &Models) -> anyhow::Result<Vec<FitRequest
 pub(super) fn request(word: &str, split: &SplitArgs, known: &Models) -> anyhow::Result<FitRequest> {
     let (name, settings) = word.split_once(':').unwrap_or((word, ""));
     let settings = settings.split(',').filter(|setting| !setting.is_empty());
+    let given = ModelSettings::parse(settings).map_err(StudyError::from)?;
+    let (model, settings) = known.asked(name, given).map_err(StudyError::from)?;
     Ok(FitRequest {
-        model: known.find(name).map_err(StudyError::from)?,
-        settings: ModelSettings::parse(settings).map_err(StudyError::from)?,
+        model,
+        settings,
         channels: Vec::new(),
         split: split.split.clone(),
         seed: split.seed.value,

@@ -4,19 +4,25 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+/// Into how many folds a training part is divided.
+pub(super) const FOLDS: usize = 5;
+
 /// How a model was chosen among others.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AutoCard {
     /// The work that could be spent, in seconds of a core that does a thousand million multiplications each second.
     pub budget_s: f64,
-    /// How many folds each model was tried on.
+    /// How many folds the training part was divided into.
     pub folds: usize,
     /// Whether folds are whole groups of samples; runs of neighbours if not.
     pub by_group: bool,
-    /// The models that were tried, in order.
+    /// The models that were tried, in order; a network twice where its first look did not decide.
     pub tried: Vec<AutoTrial>,
     /// The models that were not.
     pub untried: Vec<Untried>,
+    /// The model that was taken; in files of before it is the one of least error.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub taken: Option<String>,
 }
 
 /// A model that was tried.
@@ -24,10 +30,23 @@ pub struct AutoCard {
 pub struct AutoTrial {
     /// Its name.
     pub model: String,
-    /// Root mean square error on folds left out, relative to the deviation of the labels, mean over the channels that vary.
+    /// Root mean square error on the folds that it was tried on, relative to the deviation of the labels, over the channels that vary.
     pub error: f64,
     /// The work of trying it, in the seconds of the budget.
     pub cost_s: f64,
+    /// How many folds it was tried on, the first ones; in files of before, on all.
+    #[serde(default = "all_folds")]
+    pub folds: usize,
+    /// The share of its training that was done, where it was not all.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub share: Option<f64>,
+    /// Why it was not tried on more folds, or not taken, where that was decided before the end.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub left: Option<String>,
+}
+
+const fn all_folds() -> usize {
+    FOLDS
 }
 
 /// A model that was not tried.
@@ -35,17 +54,33 @@ pub struct AutoTrial {
 pub struct Untried {
     /// Its name.
     pub model: String,
-    /// The work of trying it, in the seconds of the budget.
+    /// The work of trying it on one fold, in the seconds of the budget.
     pub cost_s: f64,
     /// Why not.
     pub reason: String,
 }
 
 impl AutoCard {
-    /// The one of least error; of equals the first that was tried.
+    /// The trial of the model that was taken, the last one if there are several; in files of before, the one of least error.
     pub fn best(&self) -> Option<&AutoTrial> {
-        let trials = self.tried.iter();
-        trials.reduce(|best, next| if next.error < best.error { next } else { best })
+        let mut trials = self.tried.iter();
+        match &self.taken {
+            Some(taken) => trials.rfind(|trial| trial.model == *taken),
+            None => trials.reduce(|best, next| if next.error < best.error { next } else { best }),
+        }
+    }
+}
+
+impl fmt::Display for AutoTrial {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {:.3} on {}", self.model, self.error, self.folds)?;
+        if let Some(share) = self.share {
+            write!(f, ", {:.0} % of its training", 100.0 * share)?;
+        }
+        match &self.left {
+            Some(left) => write!(f, " ({left})"),
+            None => Ok(()),
+        }
     }
 }
 
@@ -61,16 +96,24 @@ impl fmt::Display for AutoCard {
         };
         write!(
             f,
-            "auto took {}: error {:.3} of the deviation of labels on {} {folds}",
-            best.model, best.error, self.folds
+            "auto took {}; error relative to the deviation of labels, on how many of {} {folds}: {best}",
+            best.model, self.folds
         )?;
-        let mut others: Vec<&AutoTrial> =
-            self.tried.iter().filter(|trial| *trial != best).collect();
+        let others = self
+            .tried
+            .iter()
+            .filter(|trial| !std::ptr::eq(*trial, best));
+        let mut others: Vec<&AutoTrial> = others.collect();
         others.sort_by(|left, right| left.error.total_cmp(&right.error));
-        for (position, other) in others.iter().enumerate() {
-            let before = if position == 0 { "; " } else { ", " };
-            write!(f, "{before}{} {:.3}", other.model, other.error)?;
+        for other in others {
+            write!(f, "; {other}")?;
         }
+        let spent: f64 = self.tried.iter().map(|trial| trial.cost_s).sum();
+        write!(
+            f,
+            "; trying took {spent:.1} s of work of {} s",
+            self.budget_s
+        )?;
         for (position, other) in self.untried.iter().enumerate() {
             let before = if position == 0 { "; not tried: " } else { ", " };
             write!(f, "{before}{} ({})", other.model, other.reason)?;
@@ -83,32 +126,56 @@ impl fmt::Display for AutoCard {
 mod tests {
     use super::*;
 
-    #[test]
-    fn a_card_says_what_was_taken_and_why() {
-        let trial = |model: &str, error| AutoTrial {
+    fn card() -> AutoCard {
+        let trial = |model: &str, error, folds| AutoTrial {
             model: model.to_owned(),
             error,
             cost_s: 1.0,
+            folds,
+            share: None,
+            left: None,
         };
-        let card = AutoCard {
+        AutoCard {
             budget_s: 60.0,
             folds: 5,
             by_group: true,
             tried: vec![
-                trial("baseline", 1.01),
-                trial("ridge", 0.25),
-                trial("knn", 0.5),
+                trial("baseline", 1.01, 5),
+                trial("ridge", 0.25, 5),
+                AutoTrial {
+                    share: Some(0.25),
+                    left: Some("why".to_owned()),
+                    ..trial("knn", 0.2, 1)
+                },
             ],
             untried: vec![Untried {
                 model: "cnn".to_owned(),
                 cost_s: 90.0,
-                reason: "beyond the budget".to_owned(),
+                reason: "too dear".to_owned(),
             }],
-        };
+            taken: Some("ridge".to_owned()),
+        }
+    }
+
+    #[test]
+    fn a_card_says_what_was_taken_and_why() {
         assert_eq!(
-            card.to_string(),
-            "auto took ridge: error 0.250 of the deviation of labels on 5 folds of whole groups; \
-             knn 0.500, baseline 1.010; not tried: cnn (beyond the budget)"
+            card().to_string(),
+            "auto took ridge; error relative to the deviation of labels, on how many of 5 folds of whole groups: ridge 0.250 on 5; knn 0.200 \
+             on 1, 25 % of its training (why); baseline 1.010 on 5; trying took 3.0 s of work of 60 s; not tried: cnn (too dear)"
         );
+    }
+
+    #[test]
+    fn a_card_of_before_took_the_model_of_least_error_on_all_folds() {
+        let mut json = serde_json::to_value(card()).expect("a card");
+        json.as_object_mut().expect("an object").remove("taken");
+        for trial in json["tried"].as_array_mut().expect("trials") {
+            let trial = trial.as_object_mut().expect("an object");
+            trial.retain(|key, _| ["model", "error", "cost_s"].contains(&key.as_str()));
+        }
+        let card: AutoCard = serde_json::from_value(json).expect("reads");
+        let best = card.best().expect("tried");
+        assert_eq!((best.model.as_str(), best.folds), ("knn", 5));
     }
 }

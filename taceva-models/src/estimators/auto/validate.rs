@@ -1,17 +1,26 @@
-//! Five folds: each is scored once by a model that never saw it.
+//! Five folds: each can be scored by a model that never saw it.
+
+use std::collections::BTreeMap;
 
 use taceva_core::{ErrorKind, Features, ModelError, Progress, Regressor, Targets, TrainingSet};
 
+use super::card::FOLDS;
 use crate::training::fit::ModelEstimator;
 
-/// Folds of the training part.
-pub(super) const FOLDS: usize = 5;
+/// Groups that each fold must have for them to be the units that losses scatter by.
+const GROUPS_LEAST: usize = 3;
+/// Units of neighbouring samples that a fold is taken as where it has fewer groups.
+const RUNS: usize = 10;
 
-/// The rows of each fold.
+/// The rows of each fold, and the units that they are independent by.
 #[derive(Debug)]
 pub(super) struct Folds {
     rows: Vec<Vec<usize>>,
-    /// Whether they are whole groups.
+    /// The unit of each of these rows, counted from 0 in each fold.
+    units: Vec<Vec<usize>>,
+    /// What is divided out of the squared errors of each channel: the variance of its labels; `None` where they are all the same.
+    variances: Vec<Option<f64>>,
+    /// Whether folds are whole groups.
     pub(super) by_group: bool,
 }
 
@@ -21,10 +30,12 @@ impl Folds {
         let groups = groups.filter(|groups| groups.len() >= FOLDS);
         let by_group = groups.is_some();
         let samples = training.features.samples();
-        let rows = match groups {
+        let mut of_group = BTreeMap::new();
+        let rows: Vec<Vec<usize>> = match groups {
             Some(groups) => {
                 let mut folds = vec![Vec::new(); FOLDS];
                 for (position, group) in groups.into_iter().enumerate() {
+                    of_group.extend(group.iter().map(|&row| (row, position / FOLDS)));
                     folds[position % FOLDS].extend(group);
                 }
                 folds.iter_mut().for_each(|rows| rows.sort_unstable());
@@ -34,68 +45,106 @@ impl Folds {
                 .map(|fold| (fold * samples / FOLDS..(fold + 1) * samples / FOLDS).collect())
                 .collect(),
         };
-        Folds { rows, by_group }
+        let units = rows.iter().map(|rows| units(rows, &of_group)).collect();
+        let channels = 0..training.targets.channels.len();
+        Folds {
+            rows,
+            units,
+            variances: channels
+                .map(|channel| variance(training.targets, channel))
+                .collect(),
+            by_group,
+        }
     }
 
-    /// The error of `estimator` on all folds, relative to the deviation of the labels, mean over the channels that vary; the inner
-    /// error says why it cannot be fitted here.
+    /// The loss of each unit of a fold with a model that learns from three others and chooses its settings on the fourth: squared errors relative
+    /// to the variance of labels, mean over samples and over the channels that vary. The inner error says why the model cannot be fitted here.
     ///
     /// # Errors
     /// [`ModelError`] if `progress` was cancelled.
-    pub(super) fn error(
+    pub(super) fn losses(
         &self,
+        fold: usize,
         training: &TrainingSet<'_>,
         estimator: &dyn ModelEstimator,
         progress: &dyn Progress,
-    ) -> Result<Result<f64, String>, ModelError> {
-        let channels = training.targets.channels.len();
-        let mut squares = vec![0.0; channels];
-        for fold in 0..FOLDS {
-            let choosing = (fold + 1) % FOLDS;
-            let learnt = (0..FOLDS).filter(|&other| other != fold && other != choosing);
-            let learnt: Vec<usize> = learnt.flat_map(|other| self.rows[other].clone()).collect();
-            let parts = [&learnt, &self.rows[choosing], &self.rows[fold]];
-            let [learnt, choosing, held] = parts.map(|rows| Rows::of(training, rows));
-            let result = estimator
-                .fit_model(
-                    &learnt.set(training),
-                    Some(&choosing.set(training)),
-                    progress,
-                )
-                .and_then(|fit| {
-                    let mut found = vec![0.0; held.labels.len()];
-                    fit.regressor.predict(&held.features, &mut found)?;
-                    Ok(found)
-                });
-            let found = match result {
-                Ok(found) => found,
-                Err(error) if error.kind() == ErrorKind::Interrupted => return Err(error),
-                Err(error) => return Ok(Err(error.to_string())),
-            };
-            for (position, (found, label)) in found.iter().zip(&held.labels).enumerate() {
-                squares[position % channels] += (found - label).powi(2);
-            }
-        }
-        let shares = (0..channels).filter_map(|channel| {
-            let labels = || {
-                training
-                    .targets
-                    .values
-                    .iter()
-                    .skip(channel)
-                    .step_by(channels)
-            };
-            let mean = labels().sum::<f64>() / labels().count() as f64;
-            let spread: f64 = labels().map(|label| (label - mean).powi(2)).sum();
-            (spread > 0.0).then(|| (squares[channel] / spread).sqrt())
+    ) -> Result<Result<Vec<f64>, String>, ModelError> {
+        let choosing = (fold + 1) % FOLDS;
+        let learnt = (0..FOLDS).filter(|&other| other != fold && other != choosing);
+        let learnt: Vec<usize> = learnt.flat_map(|other| self.rows[other].clone()).collect();
+        let parts = [&learnt, &self.rows[choosing], &self.rows[fold]];
+        let [learnt, choosing, held] = parts.map(|rows| Rows::of(training, rows));
+        let fit = estimator.fit_model(
+            &learnt.set(training),
+            Some(&choosing.set(training)),
+            progress,
+        );
+        let found = fit.and_then(|fit| {
+            let mut found = vec![0.0; held.labels.len()];
+            fit.regressor.predict(&held.features, &mut found)?;
+            Ok(found)
         });
-        let shares: Vec<f64> = shares.collect();
-        if shares.is_empty() {
-            // Nothing varies: every model is right.
-            return Ok(Ok(0.0));
+        match found {
+            Ok(found) => Ok(Ok(self.by_unit(fold, &found, &held.labels))),
+            Err(error) if error.kind() == ErrorKind::Interrupted => Err(error),
+            Err(error) => Ok(Err(error.to_string())),
         }
-        Ok(Ok(shares.iter().sum::<f64>() / shares.len() as f64))
     }
+
+    fn by_unit(&self, fold: usize, found: &[f64], labels: &[f64]) -> Vec<f64> {
+        let units = &self.units[fold];
+        let channels = self.variances.len();
+        let varying = self.variances.iter().flatten().count().max(1) as f64;
+        let count = units.iter().max().map_or(0, |last| last + 1);
+        let mut sums = vec![(0.0, 0.0_f64); count];
+        for (row, &unit) in units.iter().enumerate() {
+            let own = row * channels..(row + 1) * channels;
+            let pairs = found[own.clone()].iter().zip(&labels[own]);
+            let losses = pairs
+                .zip(&self.variances)
+                .filter_map(|(pair, variance)| Some((pair.0 - pair.1).powi(2) / (*variance)?));
+            sums[unit].0 += losses.sum::<f64>() / varying;
+            sums[unit].1 += 1.0;
+        }
+        sums.into_iter()
+            .map(|(sum, count)| sum / count.max(1.0))
+            .collect()
+    }
+}
+
+/// The unit of each of `rows`: its group where there are enough, else runs of neighbours.
+fn units(rows: &[usize], of_group: &BTreeMap<usize, usize>) -> Vec<usize> {
+    let groups: Option<Vec<usize>> = rows.iter().map(|row| of_group.get(row).copied()).collect();
+    let are_enough = |groups: &Vec<usize>| {
+        groups
+            .iter()
+            .max()
+            .is_some_and(|last| last + 1 >= GROUPS_LEAST)
+    };
+    groups.filter(are_enough).unwrap_or_else(|| {
+        let runs = RUNS.min(rows.len());
+        (0..rows.len()).map(|at| at * runs / rows.len()).collect()
+    })
+}
+
+/// The variance of the labels of a channel; `None` where all are the same. Not by the variance: the rounded mean of equal numbers may be another.
+fn variance(targets: Targets<'_>, channel: usize) -> Option<f64> {
+    let channels = targets.channels.len();
+    let labels = || {
+        targets
+            .values
+            .iter()
+            .skip(channel)
+            .step_by(channels)
+            .copied()
+    };
+    let least = labels().fold(f64::INFINITY, f64::min);
+    if labels().all(|label| label <= least) {
+        return None;
+    }
+    let count = labels().count() as f64;
+    let mean = labels().sum::<f64>() / count;
+    Some(labels().map(|label| (label - mean).powi(2)).sum::<f64>() / count)
 }
 
 /// Some rows of a training part.

@@ -126,6 +126,10 @@ impl ModelEstimator for NetworkEstimator {
         })
     }
 
+    fn first_look(&self, share: f64) -> Option<Box<dyn ModelEstimator>> {
+        Some(Box::new(self.shortened(share)))
+    }
+
     fn keep_checkpoints(&mut self, checkpoints: Checkpoints) {
         self.checkpoints = Some(checkpoints);
     }

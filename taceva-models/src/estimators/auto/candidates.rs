@@ -1,0 +1,112 @@
+//! The models that can be tried, in the order in which they are.
+
+use super::cost::{DEEPER, NETWORK, Sizes, seconds, work};
+use crate::estimators::library::LibraryModel;
+use crate::registry::ModelInfo;
+
+/// The share of its training that a network is first looked at with.
+pub(super) const LOOK: f64 = 0.25;
+/// A network comes as early as models that take this share of the work, since it sees what none of them does.
+const EARLIER: f64 = 0.1;
+
+/// A model that can be tried.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Candidate {
+    pub(super) info: &'static ModelInfo,
+    /// The seconds of the budget that one fold takes; of a network that of its whole training.
+    pub(super) fold_s: f64,
+    /// The seconds of the budget that the final fit takes.
+    pub(super) fit_s: f64,
+}
+
+impl Candidate {
+    pub(super) fn is_network(&self) -> bool {
+        self.info.name == NETWORK
+    }
+
+    /// Whether it is fitted only where a person names it.
+    pub(super) fn is_named_only(&self) -> bool {
+        DEEPER.contains(&self.info.name)
+    }
+
+    /// The seconds of the budget that the first fold takes.
+    pub(super) fn first_s(&self) -> f64 {
+        match self.is_network() {
+            true => LOOK * self.fold_s,
+            false => self.fold_s,
+        }
+    }
+
+    fn order(&self) -> f64 {
+        match self.is_network() {
+            true => EARLIER * self.first_s(),
+            false => self.first_s(),
+        }
+    }
+}
+
+/// Those of `models` and `libraries` that can be tried on samples of these sizes, the cheapest first.
+pub(super) fn candidates(
+    models: &'static [ModelInfo],
+    libraries: &[&'static LibraryModel],
+    sizes: Sizes,
+) -> Vec<Candidate> {
+    let own = models.iter().filter_map(|info| {
+        // A network learns from three folds, the others, which are fitted again with the settings that were chosen, from four.
+        let share = match info.name == NETWORK {
+            true => 0.6,
+            false => 0.8,
+        };
+        Some(Candidate {
+            info,
+            fold_s: seconds(work(info.name, sizes.share(share))?),
+            fit_s: seconds(work(info.name, sizes)?),
+        })
+    });
+    let of_libraries = libraries.iter().filter_map(|model| {
+        let work = |sizes: Sizes| (model.work)(sizes.of_library());
+        Some(Candidate {
+            info: &model.info,
+            fold_s: seconds(work(sizes.share(0.8))?),
+            fit_s: seconds(work(sizes)?),
+        })
+    });
+    let mut candidates: Vec<Candidate> = own.chain(of_libraries).collect();
+    // Of equals the first in the list comes first: the plainer.
+    candidates.sort_by(|left, right| left.order().total_cmp(&right.order()));
+    candidates
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::registry::ALL;
+
+    #[test]
+    fn candidates_come_by_work_and_the_small_network_before_what_takes_a_tenth_of_it() {
+        let sizes = Sizes {
+            samples: 500.0,
+            features: 1024.0,
+            picture: Some(128.0 * 96.0),
+            channels: 3.0,
+        };
+        let names = |sizes| -> Vec<&str> {
+            let candidates = candidates(ALL, &[], sizes).into_iter();
+            candidates.map(|candidate| candidate.info.name).collect()
+        };
+        let found = names(sizes);
+        let position = |name: &str| found.iter().position(|found| *found == name);
+        assert_eq!(found[0], "baseline");
+        assert_eq!(found.last(), Some(&"resnet34"));
+        // All but itself, and the ensemble of what it tries.
+        assert_eq!(found.len(), ALL.len() - 2);
+        assert!(position("ridge") < position("cnn"), "{found:?}");
+        assert!(position("cnn") < position("random-forest"), "{found:?}");
+        let flat = names(Sizes {
+            picture: None,
+            ..sizes
+        });
+        let networks = |name: &&str| *name == "cnn" || name.starts_with("resnet");
+        assert!(!flat.iter().any(networks), "{flat:?}");
+    }
+}

@@ -1,0 +1,144 @@
+//! The race: cheap evidence first. Every model that is worth it is tried on the first fold.
+
+use taceva_core::{ModelError, Progress, TrainingSet};
+
+use super::candidates::{Candidate, LOOK};
+use super::card::{AutoCard, Untried};
+use super::entrant::Entrant;
+use super::validate::Folds;
+use crate::features::FeatureError;
+use crate::registry::ModelInfo;
+use crate::training::fit::ModelEstimator;
+use crate::training::progress::{ReportedStage, interrupted};
+
+/// Models that are tried whatever the budget.
+pub(super) const ALWAYS: [&str; 2] = ["baseline", "ridge"];
+
+/// A model with default settings, not fitted yet; the inner error says why it cannot be fitted to what is looked at here.
+pub(super) type Made = Result<Result<Box<dyn ModelEstimator>, FeatureError>, ModelError>;
+
+/// Models that are tried on the folds of one training part.
+pub(super) struct Race<'a> {
+    /// The work that may be spent on trying models and on the final fit.
+    pub(super) budget_s: f64,
+    pub(super) make: &'a dyn Fn(&ModelInfo) -> Made,
+    pub(super) folds: Folds,
+    /// The training part as networks see it, and as all others do.
+    pub(super) pictures: TrainingSet<'a>,
+    pub(super) training: TrainingSet<'a>,
+    pub(super) progress: &'a dyn Progress,
+    pub(super) spent_s: f64,
+    pub(super) entrants: Vec<Entrant>,
+    /// The first look at the network, and its whole training where that did not decide.
+    pub(super) network: Vec<Entrant>,
+    pub(super) untried: Vec<Untried>,
+}
+
+impl Race<'_> {
+    /// Tries `candidates` until one is chosen: that one, `None` where none could be tried, and how it was chosen.
+    pub(super) fn run(
+        mut self,
+        candidates: Vec<Candidate>,
+    ) -> Result<(Option<Candidate>, AutoCard), ModelError> {
+        let stage = ReportedStage::begin(self.progress, "models tried", candidates.len());
+        for candidate in candidates {
+            interrupted(self.progress)?;
+            match self.unworthy(&candidate) {
+                Some(reason) => self.leave(candidate, reason),
+                None => self.enter(candidate)?,
+            }
+            stage.advance();
+        }
+        drop(stage);
+        self.look_again()?;
+        if !self.network_leads() {
+            self.more_folds()?;
+        }
+        let taken = self.settle();
+        Ok((taken, self.card(taken)))
+    }
+
+    /// Why a candidate is not worth trying at all.
+    fn unworthy(&self, candidate: &Candidate) -> Option<String> {
+        let Candidate { info, fit_s, .. } = *candidate;
+        if candidate.is_named_only() {
+            return Some(format!(
+                "fitting it takes {fit_s:.0} s of work: it is fitted where it is named"
+            ));
+        }
+        if self.network_leads() {
+            let network = self.network.last().map_or("", Entrant::name);
+            return Some(format!("{network} is clearly ahead of all that take less"));
+        }
+        let needed = candidate.first_s() + fit_s;
+        (!self.affords(needed) && !ALWAYS.contains(&info.name)).then(|| {
+            let left = (self.budget_s - self.spent_s).max(0.0);
+            format!(
+                "beyond the budget: trying and fitting it takes {needed:.1} s of work, {left:.1} of budget_s={} are left",
+                self.budget_s
+            )
+        })
+    }
+
+    pub(super) fn affords(&self, work_s: f64) -> bool {
+        self.spent_s + work_s <= self.budget_s
+    }
+
+    fn leave(&mut self, candidate: Candidate, reason: String) {
+        self.untried.push(Untried {
+            model: candidate.info.name.to_owned(),
+            cost_s: candidate.first_s(),
+            reason,
+        });
+    }
+
+    /// Tries a model on the first fold, a network with a part of its training.
+    fn enter(&mut self, candidate: Candidate) -> Result<(), ModelError> {
+        let estimator = match (self.make)(candidate.info)? {
+            Ok(estimator) => estimator,
+            Err(unsuited) => {
+                self.leave(candidate, unsuited.to_string());
+                return Ok(());
+            }
+        };
+        if !candidate.is_network() {
+            let entrant = self.first_fold(candidate, estimator, None)?;
+            self.entrants.extend(entrant);
+        } else if let Some(look) = estimator.first_look(LOOK) {
+            let entrant = self.first_fold(candidate, look, Some(LOOK))?;
+            self.network.extend(entrant);
+        }
+        Ok(())
+    }
+
+    pub(super) fn first_fold(
+        &mut self,
+        candidate: Candidate,
+        estimator: Box<dyn ModelEstimator>,
+        share: Option<f64>,
+    ) -> Result<Option<Entrant>, ModelError> {
+        let seen = match candidate.is_network() {
+            true => &self.pictures,
+            false => &self.training,
+        };
+        let losses = self.folds.losses(0, seen, &*estimator, self.progress)?;
+        match losses {
+            Ok(losses) => {
+                let spent_s = share.unwrap_or(1.0) * candidate.fold_s;
+                self.spent_s += spent_s;
+                Ok(Some(Entrant {
+                    candidate,
+                    estimator,
+                    losses: vec![losses],
+                    spent_s,
+                    share,
+                    left: None,
+                }))
+            }
+            Err(reason) => {
+                self.leave(candidate, reason);
+                Ok(None)
+            }
+        }
+    }
+}

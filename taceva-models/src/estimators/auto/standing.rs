@@ -1,0 +1,61 @@
+//! How two models stand to each other, by their losses on the same units.
+
+/// Standard errors of a difference beyond which one model is clearly better. The best of a dozen is two ahead of the plainest by mere chance.
+pub(super) const CLEARLY: f64 = 3.0;
+/// Standard errors of a difference beyond which a network is preferred to the best of the others, and that one to the baseline.
+pub(super) const BEYOND_CHANCE: f64 = 2.0;
+
+/// By how much the losses of one model exceed those of another, mean over units.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Excess {
+    mean: f64,
+    /// Infinite where there is but one unit: then nothing is beyond chance.
+    standard_error: f64,
+}
+
+impl Excess {
+    /// Of `losses` over `others`, unit by unit.
+    pub(super) fn of(losses: &[f64], others: &[f64]) -> Excess {
+        let differences = losses.iter().zip(others).map(|(own, other)| own - other);
+        let differences: Vec<f64> = differences.collect();
+        let mean = mean(&differences);
+        let count = differences.len() as f64;
+        let squares: f64 = differences.iter().map(|own| (own - mean).powi(2)).sum();
+        Excess {
+            mean,
+            standard_error: match differences.len() {
+                0 | 1 => f64::INFINITY,
+                _ => (squares / (count * (count - 1.0))).sqrt(),
+            },
+        }
+    }
+
+    /// Whether it is positive by more than so many standard errors.
+    pub(super) fn is_beyond(self, standard_errors: f64) -> bool {
+        self.standard_error.is_finite() && self.mean > standard_errors * self.standard_error
+    }
+}
+
+/// The mean; of nothing 0.
+pub(super) fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len().max(1) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_difference_counts_where_it_exceeds_what_units_scatter_by() {
+        let plain = [0.5, 0.7, 0.4, 0.6];
+        let better = plain.map(|loss| loss - 0.1);
+        assert!(Excess::of(&plain, &better).is_beyond(CLEARLY));
+        assert!(!Excess::of(&better, &plain).is_beyond(0.0));
+        // As large on average, and by chance.
+        let scattered = [0.1, 0.9, 0.0, 0.8];
+        assert!(Excess::of(&plain, &scattered).is_beyond(0.0));
+        assert!(!Excess::of(&plain, &scattered).is_beyond(BEYOND_CHANCE));
+        assert!(!Excess::of(&plain, &plain).is_beyond(0.0));
+        assert!(!Excess::of(&[1.0], &[0.0]).is_beyond(0.0));
+    }
+}

@@ -1,0 +1,44 @@
+//! The same training, shorter or with another seed.
+
+use super::NetworkEstimator;
+
+impl NetworkEstimator {
+    /// The same with `share` of its epochs, at least one, and no checkpoints. The cycle of the rate is as much shorter, so that it ends as the whole
+    /// training does.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "at most 100,000 epochs"
+    )]
+    pub(super) fn shortened(&self, share: f64) -> NetworkEstimator {
+        let mut own = self.clone();
+        let epochs = (share * own.recipe.epochs as f64).round() as u64;
+        own.recipe.epochs = epochs.max(1);
+        own.checkpoints = None;
+        own
+    }
+
+    /// The same with a seed that is `by` larger, and no checkpoints.
+    pub(super) fn with_later_seed(&self, by: u64) -> NetworkEstimator {
+        let mut own = self.clone();
+        own.recipe.seed = own.recipe.seed.wrapping_add(by);
+        own.checkpoints = None;
+        own
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::settings::ModelSettings;
+
+    #[test]
+    fn a_shorter_training_has_a_share_of_the_epochs_and_at_least_one() {
+        let of = |words: &[&str]| {
+            let settings = ModelSettings::parse(words.iter().copied()).expect("pairs");
+            NetworkEstimator::cnn(&settings).expect("valid")
+        };
+        assert_eq!(of(&["epochs=80"]).shortened(0.25), of(&["epochs=20"]));
+        assert_eq!(of(&["epochs=1"]).shortened(0.25), of(&["epochs=1"]));
+    }
+}

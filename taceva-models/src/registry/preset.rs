@@ -1,0 +1,99 @@
+//! Names for a model with settings, by how much time there is.
+
+use std::fmt;
+
+use crate::settings::ModelSettings;
+
+/// A name for a model with settings. A card, a report and a results file name the model and its settings, so that a result can be made again
+/// whatever the name comes to mean.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Preset {
+    /// The word people type.
+    pub name: &'static str,
+    /// The name of the model.
+    pub model: &'static str,
+    /// Its settings, as keys and values; those that a person gives go before them.
+    pub settings: &'static [(&'static str, &'static str)],
+}
+
+/// The presets, the quickest first. What they rest on, and what each takes and gives: docs/models.md.
+pub const PRESETS: &[Preset] = &[
+    Preset {
+        name: "fast",
+        model: "cnn",
+        settings: &[("size", "64x48"), ("local_mean", "3"), ("jitter", "2")],
+    },
+    Preset {
+        name: "default",
+        model: "cnn",
+        settings: &[],
+    },
+    Preset {
+        name: "best",
+        model: "cnn-ensemble",
+        settings: &[],
+    },
+];
+
+impl Preset {
+    /// The preset called `name`.
+    pub fn named(name: &str) -> Option<&'static Preset> {
+        PRESETS.iter().find(|preset| preset.name == name)
+    }
+
+    /// Its settings, but for those that `given` has, and all of `given`.
+    #[must_use]
+    pub fn changed_by(&self, given: ModelSettings) -> ModelSettings {
+        given.or(self.settings)
+    }
+}
+
+/// `fast: cnn size=64x48`.
+impl fmt::Display for Preset {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.name, self.model)?;
+        let mut settings = self.settings.iter();
+        settings.try_for_each(|(key, value)| write!(f, " {key}={value}"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::models::Models;
+
+    #[test]
+    fn every_preset_is_a_model_with_settings_that_it_takes_and_no_model_has_its_name() {
+        let models = Models::builtin();
+        for preset in PRESETS {
+            let none = ModelSettings::default();
+            let (model, settings) = models.asked(preset.name, none).expect("known");
+            assert_eq!(model.name(), preset.model);
+            let (features, own) = settings.partition(crate::FeatureSpec::SETTINGS);
+            model.features().changed_by(&features).expect("valid");
+            model.estimator(&own).expect("valid");
+            assert!(crate::find(preset.name).is_err(), "{preset}");
+        }
+    }
+
+    #[test]
+    fn what_a_person_sets_goes_before_what_a_preset_says() {
+        let given = ModelSettings::parse(["jitter=0", "seed=3"]).expect("pairs");
+        let (model, settings) = Models::builtin().asked("fast", given).expect("known");
+        assert_eq!(model.name(), "cnn");
+        let words: Vec<String> = settings.words().collect();
+        assert_eq!(words, ["jitter=0", "local_mean=3", "seed=3", "size=64x48"]);
+    }
+
+    #[test]
+    fn a_misspelt_preset_is_refused_with_the_nearest_name() {
+        let error = Models::builtin()
+            .asked("fats", ModelSettings::default())
+            .map(drop)
+            .expect_err("misspelt");
+        assert_eq!(
+            error.to_string(),
+            "no model is called `fats`, did you mean `fast`?"
+        );
+    }
+}
