@@ -19,6 +19,7 @@ mod manifest;
 mod offer;
 mod package;
 mod python;
+mod sealing;
 mod search;
 mod session;
 mod shown;

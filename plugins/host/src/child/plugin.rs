@@ -7,7 +7,7 @@ use std::os::fd::{AsFd, OwnedFd};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use rustix::fs::{MemfdFlags, SealFlags, fcntl_add_seals, memfd_create};
+use rustix::fs::{MemfdFlags, memfd_create};
 use taceva_core::{ArgSpec, DriverKey, ErrorKind};
 
 use super::main_hook::main_if_child_with;
@@ -19,6 +19,7 @@ use crate::call::under_way;
 use crate::in_process::InProcess;
 use crate::library::{Image, Level, Linked, Source};
 use crate::manifest::{Manifest, Sha256Digest};
+use crate::sealing::seal_all;
 use crate::session::Session;
 
 /// What a child is to serve.
@@ -132,8 +133,7 @@ fn sealed(label: &Label) -> io::Result<OwnedFd> {
     let mut bytes = Vec::new();
     label.write(&mut bytes);
     file.write_all(&bytes)?;
-    let all = SealFlags::WRITE | SealFlags::GROW | SealFlags::SHRINK | SealFlags::SEAL;
-    fcntl_add_seals(&file, all)?;
+    seal_all(&file)?;
     Ok(file.into())
 }
 

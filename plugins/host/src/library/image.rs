@@ -5,12 +5,13 @@ use std::io::{Read, Write};
 use std::os::fd::{AsFd, BorrowedFd, OwnedFd};
 use std::path::{Path, PathBuf};
 
-use rustix::fs::{MemfdFlags, SealFlags, fcntl_add_seals, memfd_create};
+use rustix::fs::{MemfdFlags, memfd_create};
 use sha2::{Digest, Sha256};
 
 use super::elf;
 use super::error::{LoadError, LoadProblem};
 use crate::manifest::{LibraryFile, Sha256Digest};
+use crate::sealing::seal_all;
 
 /// No library is longer, in bytes.
 pub(crate) const LENGTH_MAX: u64 = 1 << 30;
@@ -52,8 +53,7 @@ impl Image {
                 found: digest,
             }));
         }
-        let all = SealFlags::WRITE | SealFlags::GROW | SealFlags::SHRINK | SealFlags::SEAL;
-        fcntl_add_seals(&copy, all).map_err(|error| io(error.into()))?;
+        seal_all(&copy).map_err(|error| io(error.into()))?;
         // After the seals: what is looked at here cannot become something else.
         elf::check(&copy).map_err(failed)?;
         Ok(Image {
