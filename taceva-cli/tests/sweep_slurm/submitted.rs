@@ -39,7 +39,7 @@ fn a_scene_is_acquired_before_its_tasks_are_submitted_and_scored_on_the_nodes() 
     bench.write("which.toml", &format!("{TINY_SWEEP}{SLURM}"));
     bench.ok("sweep which.toml -q --out here");
     let said = cluster.ok(&bench, "sweep which.toml --on slurm");
-    assert!(said.contains("submitted 2 tasks in 1 job"), "{said}");
+    assert!(said.contains("submitted 2 tasks in 1 job: "), "{said}");
     cluster.wait(&bench);
     assert_eq!(
         bytes(&bench, "which.sweep"),

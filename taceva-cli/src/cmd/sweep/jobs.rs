@@ -34,9 +34,9 @@ pub(super) fn submit(
     output::write(None, |out| {
         writeln!(
             out,
-            "submitted {} tasks in {} jobs: {}; collected by {}",
-            submission.tasks,
-            submission.jobs,
+            "submitted {} in {}: {}; collected by {}",
+            counted(submission.tasks, "task"),
+            counted(submission.jobs, "job"),
             submitted.arrays.join(", "),
             submitted.collect.as_deref().unwrap_or("nobody")
         )?;
@@ -47,6 +47,12 @@ pub(super) fn submit(
         shown(folder.path())
     ));
     Ok(exit::DONE)
+}
+
+/// `1 job`, `2 jobs`.
+fn counted(count: usize, what: &str) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{count} {what}{plural}")
 }
 
 /// Options of this call that jobs need too.
