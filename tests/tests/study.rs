@@ -9,9 +9,10 @@ use taceva_tests::power_cut::{Disk, Trace, TraceError, Tree, read_tree};
 use taceva_tests::{Random, scratch, taceva};
 
 const SEED: u64 = 20_261_121;
-const KILLS: usize = 200;
-/// Kills of a run that goes on after a kill.
-const KILLS_OF_RESUMED: usize = 40;
+/// Kills, where `TACEVA_STUDY_KILLS` says no other number.
+const KILLS: usize = 60;
+/// Of so many kills one is of a run that goes on after a kill.
+const RESUMED: usize = 5;
 
 /// Pictures, forces, two units, another light and a board, in little time.
 const SCENE: &str = r#"scene_version = 1
@@ -105,12 +106,14 @@ fn a_study_killed_at_any_moment_goes_on_to_the_same_bytes() {
     let whole_time = start.elapsed();
     let mut random = Random::new(SEED);
     let mut moment = || whole_time.mul_f64(random.below(1_000) as f64 / 1_000.0);
+    let asked = std::env::var("TACEVA_STUDY_KILLS");
+    let most = asked.map_or(KILLS, |asked| asked.parse().expect("a number"));
     let (mut kills, mut again) = (0, 0);
-    while kills < KILLS {
+    while kills < most {
         let folder = with(SCENE);
         let was_killed = killed(folder.path(), moment());
         kills += usize::from(was_killed);
-        if was_killed && again < KILLS_OF_RESUMED {
+        if was_killed && again < most / RESUMED {
             let once_more = killed(folder.path(), moment());
             kills += usize::from(once_more);
             again += usize::from(once_more);
@@ -118,7 +121,7 @@ fn a_study_killed_at_any_moment_goes_on_to_the_same_bytes() {
         let found = finished(folder.path()).and_then(|found| same(&found, &expected));
         assert_eq!(found, Ok(()), "seed {SEED}, kill {kills}");
     }
-    assert_eq!(again, KILLS_OF_RESUMED);
+    assert_eq!(again, most / RESUMED);
     eprintln!(
         "{kills} kills of a study of {whole_time:?}, {again} of them after it had gone on: nothing differs"
     );
