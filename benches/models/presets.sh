@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What presets take and give on a recording: a table of Markdown for docs/models.md, a line for each, of processor seconds of the fit (user and system)
-# and R² with intervals on the test part, then on the validation part, by which alone a preset may be chosen.
+# What presets take and give on a recording: a table of Markdown for docs/models.md, a line for each: processor seconds of the fit (user and system),
+# the mean R² on the validation part, by which alone a preset may be chosen, and R² with intervals on the test part.
 #
 #     presets.sh RECORDING SPLIT CHANNELS MODEL…      presets.sh tactip chronological Fx,Fy,Fz fast default best auto
 #
@@ -13,14 +13,15 @@ trap 'rm -rf "$out"' EXIT
 TIMEFORMAT='%U %S'
 read -ra scores <<<"r2:${channels//,/ r2:}"
 
-echo "| model | processor s${scores[*]/#r2:/ | R² } | ${scores[*]/#r2:/| validation R² } |" | sed 's/| | /| /'
-printf '|---%.0s' - - "${scores[@]}" "${scores[@]}"
-echo '|'
+echo "| model | processor s | validation, mean R² |$(printf ' R² %s |' ${channels//,/ })"
+echo "|---|---|---|$(printf -- '---|%.0s' ${channels//,/ })"
 for model in "$@"; do
     read -ra settings <<<"$(tr ':,' '  ' <<<"$model" | sed 's/ \([^ ]*=\)/ --set \1/g')"
     { time taceva fit "$recording" --no-cache --quiet --split "$split" --channels "$channels" --out "$out/$model.model" \
         --model "${settings[@]}" >"$out/fit.txt" 2>"$out/error.txt" || { cat "$out/error.txt" >&2; exit 1; }; } 2>"$out/time.txt"
     seconds=$(awk '{ printf "%.0f", $1 + $2 }' "$out/time.txt")
-    row() { taceva evaluate "$recording" --no-cache --quiet --format csv --metrics r2 --with "$out/$model.model" "$@" | table_row x "${scores[@]}" | sed 's/^| x |//'; }
-    echo "| \`$model\` | $seconds |$(row | sed 's/ *|$//') |$(row --part validation)"
+    # `| R² with its interval | …`
+    row() { taceva evaluate "$recording" --no-cache --quiet --format csv --metrics r2 --with "$out/$model.model" "$@" | table_row x "${scores[@]}" | sed 's/^| x //'; }
+    validation=$(row --part validation | tr '|' '\n' | awk 'NF { sum += $1; n++ } END { printf "%.3f", sum / n }')
+    echo "| \`$model\` | $seconds | $validation $(row)"
 done

@@ -54,6 +54,9 @@ pub struct CsvTable {
 }
 
 impl CsvTable {
+    /// No text of more bytes is read at once; [`CsvParts`](crate::CsvParts) reads tables of any length.
+    pub const MOST_BYTES: u64 = limits::TABLE_BYTES;
+
     /// Reads the file at `path` on all cores.
     ///
     /// # Errors

@@ -25,7 +25,7 @@ pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
         jobs: context.jobs,
     };
     let attachments = super::Attachments::of(asked);
-    let in_parts = args.shard.is_some() || ScoreTables::are_columns(&request);
+    let in_parts = args.shard.is_some() || ScoreTables::are_in_parts(&request);
     let scored = match in_parts && !attachments.is_any() {
         true => by_shard(&request, args, context)?,
         false => whole(request, (args, attachments.is_any()), context)?,

@@ -1,8 +1,10 @@
 //! Tables of any length, scored shard by shard: of each, a part of the rows is in memory at a time.
 
 use std::collections::BTreeMap;
+use std::fs;
 use std::num::NonZeroUsize;
 use std::ops::Range;
+use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use taceva_core::{Channel, ErrorKind, ModelError, Progress, shown};
@@ -75,11 +77,15 @@ impl ScoreTables {
         })
     }
 
-    /// Whether a table of `request` is no text, so that reading it in parts takes less.
-    pub fn are_columns(request: &ScoreRequest) -> bool {
+    /// Whether the tables of `request` are read in parts: one is no text, so that this takes less, or longer than text in memory may be.
+    pub fn are_in_parts(request: &ScoreRequest) -> bool {
+        let is_long = |path: &Path| {
+            let facts = fs::metadata(path);
+            facts.is_ok_and(|facts| facts.len() > CsvTable::MOST_BYTES)
+        };
         [&request.truth, &request.prediction]
             .into_iter()
-            .any(|path| parquet_parts::is_parquet(path))
+            .any(|path| parquet_parts::is_parquet(path) || is_long(path))
     }
 
     /// Number of rows.
@@ -332,5 +338,42 @@ impl Work<'_> {
             self.progress.advance((end - start) as u64);
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_longer_than_memory_may_hold_is_read_in_parts() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let of_length = |name: &str, bytes: u64| {
+            let path = folder.path().join(name);
+            // Nothing is written: the file is one hole.
+            let file = fs::File::create(&path).expect("created");
+            file.set_len(bytes).expect("a hole takes no room");
+            path
+        };
+        let request = |truth, prediction| ScoreRequest {
+            truth,
+            prediction,
+            units: Vec::new(),
+            sensor: None,
+            metrics: Vec::new(),
+            allow_invalid: false,
+            jobs: NonZeroUsize::MIN,
+        };
+        let short = of_length("short.csv", CsvTable::MOST_BYTES);
+        let long = of_length("long.csv", CsvTable::MOST_BYTES + 1);
+        assert!(!ScoreTables::are_in_parts(&request(
+            short.clone(),
+            short.clone()
+        )));
+        assert!(ScoreTables::are_in_parts(&request(
+            short.clone(),
+            long.clone()
+        )));
+        assert!(ScoreTables::are_in_parts(&request(long, short)));
     }
 }
