@@ -9,7 +9,7 @@ use taceva_models::FrameReduction;
 use crate::support::Bench;
 use crate::{SMALL, with_small};
 
-/// Frames of 67 × 67 pixels of 16 bits, kept at another size.
+/// Frames of 45 × 45 pixels of 16 bits, kept at another size.
 pub(crate) const REDUCED: &str = "recording = { frames = \"40x36\" }\n";
 
 /// Both scenes, carried out in the folders `whole` and `reduced`.
@@ -37,7 +37,7 @@ fn every_frame_is_the_area_averages_of_the_one_that_came_and_all_else_stays_as_i
     let [whole, reduced] = ["whole", "reduced"].map(|run| recording(&bench, run));
     let frames = |dataset: &Dataset| dataset.header().frames.clone().expect("frames");
     let camera = frames(&whole).info;
-    assert_eq!(camera.to_string(), "67×67 gray16");
+    assert_eq!(camera.to_string(), "45×45 gray16");
     assert_eq!(frames(&reduced).info.to_string(), "40×36 gray8");
     assert_eq!(frames(&reduced).of_camera(), camera);
     assert_eq!(reduced.header().format.to_string(), "1.10");
@@ -80,7 +80,7 @@ fn scores_of_forces_are_the_same_and_reports_say_that_frames_were_reduced() {
             "{metric}"
         );
     }
-    let note = "frames were kept as 40×36 gray8: area averages, rounded to 8 bits, of 67×67 gray16";
+    let note = "frames were kept as 40×36 gray8: area averages, rounded to 8 bits, of 45×45 gray16";
     let notes = |report: &Value| report["provenance"]["notes"].to_string();
     assert!(notes(&reduced).contains(note), "{}", notes(&reduced));
     assert!(!notes(&whole).contains("frames were kept"));
@@ -89,13 +89,15 @@ fn scores_of_forces_are_the_same_and_reports_say_that_frames_were_reduced() {
     let again = bench.json(again);
     assert!(notes(&again).contains(note), "{}", notes(&again));
     let resolution = &again["metrics"]["intrinsic"]["resolution"];
-    assert_eq!(resolution["value"], f64::from(67 * 67), "{resolution}");
+    assert_eq!(resolution["value"], f64::from(45 * 45), "{resolution}");
 }
 
 #[test]
 fn a_recording_of_reduced_frames_is_checked_exported_and_imported_again() {
-    let bench = with_small();
-    bench.write("reduced.toml", &format!("{SMALL}{REDUCED}"));
+    let bench = Bench::new();
+    // Every sample has a picture then, which a map asks of every row.
+    let want = "metrics = { want = [\"mae\"] }\n";
+    bench.write("reduced.toml", &format!("{SMALL}{REDUCED}{want}"));
     bench.ok("run reduced.toml --out reduced -q");
     let path = "reduced/recordings/1-small";
     bench.ok(&format!("check {path} -q"));
@@ -104,7 +106,7 @@ fn a_recording_of_reduced_frames_is_checked_exported_and_imported_again() {
     for form in ["csv", "hdf5"] {
         bench.ok(&format!("export {path} --format {form} --out {form}"));
         let map = fs::read_to_string(bench.path(form).join("map.toml")).expect("a map");
-        let said = "# Reduced before they were recorded: area averages, rounded to 8 bits, of 67×67 gray16.";
+        let said = "# Reduced before they were recorded: area averages, rounded to 8 bits, of 45×45 gray16.";
         assert!(map.contains(said), "{map}");
         bench.ok(&format!(
             "import {form} --map {form}/map.toml --out {form}-again"
@@ -119,12 +121,12 @@ fn a_size_beyond_that_of_the_frames_is_refused_before_a_folder_is_made() {
     let bench = Bench::new();
     bench.write(
         "large.toml",
-        &format!("{SMALL}recording = {{ frames = \"68x36\" }}\n"),
+        &format!("{SMALL}recording = {{ frames = \"46x36\" }}\n"),
     );
     bench.refused(
         "run large.toml --out r",
         3,
-        "large.toml, line 10: `frames` is `68x36`, but the frames of study `small` are 67×67 gray16: expected at most `67x67`",
+        "large.toml, line 10: `frames` is `46x36`, but the frames of study `small` are 45×45 gray16: expected at most `45x45`",
     );
     assert!(!bench.path("r").exists());
 }
