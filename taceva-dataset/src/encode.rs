@@ -18,7 +18,7 @@ pub(crate) fn encode_png(frame: &Frame) -> Result<Vec<u8>, String> {
 /// The JPEG file of `frame`, of a quality from 1 to 100; numbers of 16 bits are rounded to the 8 that JPEG holds.
 pub(crate) fn encode_jpeg(frame: &Frame, quality: u8) -> Result<Vec<u8>, String> {
     let info = frame.info();
-    let color = match of_eight_bits(info.format) {
+    let color = match info.format.of_eight_bits() {
         PixelFormat::Gray8 => ExtendedColorType::L8,
         PixelFormat::Rgb8 => ExtendedColorType::Rgb8,
         other => return Err(format!("frames of type {} are not written", other.name())),
@@ -30,15 +30,6 @@ pub(crate) fn encode_jpeg(frame: &Frame, quality: u8) -> Result<Vec<u8>, String>
             .map_err(|error| error.to_string())
     })??;
     Ok(file)
-}
-
-/// The pixel format that a frame of `format` has as JPEG.
-pub(crate) fn of_eight_bits(format: PixelFormat) -> PixelFormat {
-    match format {
-        PixelFormat::Gray16 => PixelFormat::Gray8,
-        PixelFormat::Rgb16 => PixelFormat::Rgb8,
-        other => other,
-    }
 }
 
 fn eight_bits(frame: &Frame) -> Cow<'_, [u8]> {

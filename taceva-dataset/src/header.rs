@@ -10,6 +10,7 @@ mod mapped_join;
 mod mapped_pictures;
 mod mapping;
 mod misread;
+mod reduced;
 mod stream;
 #[cfg(test)]
 mod tests;
@@ -42,6 +43,7 @@ pub use mapped_join::MappedJoin;
 pub use mapped_pictures::MappedPictures;
 pub(crate) use mapping::Mapping;
 pub(crate) use misread::Misread;
+pub use reduced::ReducedFrames;
 pub use stream::StreamFacts;
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

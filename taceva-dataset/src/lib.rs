@@ -54,8 +54,8 @@ pub use export::{ExportForm, ExportPlan, ExportReport, export_csv};
 pub use header::reseal_header;
 pub use header::{
     Extension, Footprint, FrameCodec, FramesInfo, Header, Known, LeftOut, MappedClass,
-    MappedColumn, MappedJoin, MappedPictures, ReferenceInfo, SensorFacts, Shape, Source,
-    StreamFacts, TableInfo,
+    MappedColumn, MappedJoin, MappedPictures, ReducedFrames, ReferenceInfo, SensorFacts, Shape,
+    Source, StreamFacts, TableInfo,
 };
 pub use import::{
     Addition, ArrayFrames, ArrayLayout, ColumnMap, Conversion, DropRules, FrameMap, FrameNames,

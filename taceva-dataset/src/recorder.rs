@@ -13,7 +13,7 @@ use taceva_durable::parent_of;
 use crate::digest::Digest;
 use crate::error::DatasetError;
 use crate::file::make_names_durable;
-use crate::header::{ReferenceInfo, StreamFacts};
+use crate::header::{ReducedFrames, ReferenceInfo, StreamFacts};
 use crate::journal::{Journal, RecordKind};
 use crate::layout;
 use crate::lock::lock_folder;
@@ -56,6 +56,8 @@ pub struct RecordingSpec {
     pub channels: Channels,
     /// The taxels of each sample, of a sensor that has such: then every sample must have their signals.
     pub signals: Option<SignalsSpec>,
+    /// From what each frame was reduced before it came here, where it was.
+    pub reduced: Option<ReducedFrames>,
 }
 
 impl RecordingSpec {
@@ -65,6 +67,7 @@ impl RecordingSpec {
             facts,
             channels,
             signals: None,
+            reduced: None,
         }
     }
 
@@ -73,6 +76,15 @@ impl RecordingSpec {
     pub fn with_signals(self, signals: SignalsSpec) -> RecordingSpec {
         RecordingSpec {
             signals: Some(signals),
+            ..self
+        }
+    }
+
+    /// The same of frames that are not as the camera gave them.
+    #[must_use]
+    pub fn with_reduced(self, reduced: ReducedFrames) -> RecordingSpec {
+        RecordingSpec {
+            reduced: Some(reduced),
             ..self
         }
     }
@@ -106,6 +118,8 @@ pub struct Recorder {
     presses: BTreeMap<String, PressOutcome>,
     stream: Option<StreamFacts>,
     frame_info: Option<FrameInfo>,
+    /// From what frames were reduced before they came here.
+    reduced: Option<ReducedFrames>,
     reference: Option<ReferenceInfo>,
     cut_bytes: u64,
     /// What frames are appended to, once there is one.
@@ -197,10 +211,11 @@ impl Recorder {
         if recorder.facts != spec.facts
             || recorder.table.channels() != &spec.channels
             || taxels != spec.signals.as_ref()
+            || recorder.reduced != spec.reduced
         {
             return Err(DatasetError::Request {
                 path: path.to_owned(),
-                problem: "the recording that was begun there is of another sensor, clock or set of channels or taxels"
+                problem: "the recording that was begun there is of another sensor, clock or set of channels or taxels, or of frames that were reduced otherwise"
                     .to_owned(),
             });
         }
@@ -226,6 +241,7 @@ impl Recorder {
             presses: BTreeMap::new(),
             stream: None,
             frame_info: None,
+            reduced: spec.reduced,
             reference: None,
             cut_bytes: 0,
             pack: None,

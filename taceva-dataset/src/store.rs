@@ -109,9 +109,13 @@ pub(crate) fn write_table_and_header(
     let has_more_codecs = frames
         .as_ref()
         .is_some_and(|frames| !frames.other_codecs.is_empty());
+    let is_reduced = frames
+        .as_ref()
+        .is_some_and(|frames| frames.reduced.is_some());
     let mut written = Header {
         format: match table.source_row().iter().any(Option::is_some) {
-            _ if !beside.mapping.is_empty() => Version::CURRENT,
+            _ if is_reduced => Version::CURRENT,
+            _ if !beside.mapping.is_empty() => Version::WITHOUT_REDUCTION,
             _ if !beside.extended.is_empty() => Version::WITHOUT_COLUMNS,
             _ if !beside.left_out.is_empty() || has_more_codecs => Version::WITHOUT_COLUMNS,
             _ if beside.signals.is_some() => Version::NEVER_EXTENDED,

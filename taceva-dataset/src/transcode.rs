@@ -8,7 +8,7 @@ use taceva_core::{Frame, FrameInfo, Progress};
 use crate::dataset::Dataset;
 use crate::decode::ChannelOrder;
 use crate::digest::Digest;
-use crate::encode::{encode_jpeg, of_eight_bits};
+use crate::encode::encode_jpeg;
 use crate::error::DatasetError;
 use crate::file::write_durable;
 use crate::header::{FramesInfo, Header, ReferenceInfo};
@@ -78,7 +78,7 @@ pub fn write_as_jpeg(
             sha256: entry.digest,
         }),
         info: FrameInfo {
-            format: of_eight_bits(frames.info.format),
+            format: frames.info.format.of_eight_bits(),
             ..frames.info
         },
         ..frames.clone()

@@ -12,7 +12,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 /// ```
 /// use taceva_dataset::Version;
 ///
-/// let newer: Version = "1.10".parse()?;
+/// let newer: Version = "1.11".parse()?;
 /// assert!(newer > Version::CURRENT && newer.is_readable());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -27,7 +27,13 @@ pub struct Version {
 
 impl Version {
     /// The newest that this crate writes.
-    pub const CURRENT: Version = Version { major: 1, minor: 9 };
+    pub const CURRENT: Version = Version {
+        major: 1,
+        minor: 10,
+    };
+
+    /// The version of a header of frames that are as they came, so that it is what it was before 1.10.
+    pub(crate) const WITHOUT_REDUCTION: Version = Version { major: 1, minor: 9 };
 
     /// The version of a header that does not say how a map read labels, joined tables, pictures and classes, so that it is what it was before 1.9.
     pub(crate) const WITHOUT_COLUMNS: Version = Version { major: 1, minor: 8 };

@@ -131,7 +131,9 @@ fn an_existing_target_is_never_written_over() {
 fn a_dataset_of_a_newer_major_is_refused_and_says_so() {
     let lab = Lab::new();
     lab.import().expect("imported");
-    let written = format!("format = \"{}\"", Version::CURRENT);
+    let imported = Dataset::open(&lab.path("set")).expect("opens");
+    let written = format!("format = \"{}\"", imported.header().format);
+    drop(imported);
     lab.replace("set/dataset.toml", &written, "format = \"2.3\"");
     let error = Dataset::open(&lab.path("set")).expect_err("newer");
     assert!(matches!(error, DatasetError::Version { .. }));

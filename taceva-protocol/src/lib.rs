@@ -33,7 +33,7 @@ pub use run::{
     raise, run, run_guarded, run_session, tap, wrench_between,
 };
 pub use scene::{
-    BuiltinScene, Calibration, Contact, DeviceSpec, FootprintSpec, GREATEST_SCENE,
+    BuiltinScene, Calibration, Contact, DeviceSpec, FootprintSpec, FrameSize, GREATEST_SCENE,
     GratingClassifier, Gratings, Hysteresis, Idle, LightSweep, LightingSpec, LimitSpec,
     MetricSettings, MetricsSpec, ModelSpec, Protocol, Repeatability, ReportSpec, Scene, SceneError,
     SceneProblem, SensorSpec, Setting, Shape, Spatial, Study, SurfaceMap,

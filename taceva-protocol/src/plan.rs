@@ -28,7 +28,7 @@ use taceva_metrics::{SensorFacts, catalogue};
 use crate::content_id::{ContentId, Hasher};
 use crate::limits::RigLimits;
 use crate::phase::PhaseKind;
-use crate::scene::{Contact, Scene, SceneError, SceneProblem, Study};
+use crate::scene::{Contact, FrameSize, Scene, SceneError, SceneProblem, Study};
 use crate::source::SourceInfo;
 use collect::Collected;
 pub(crate) use collect::{MetricNeeds, SURFACE};
@@ -67,6 +67,8 @@ pub struct Plan {
     pub opaque: Option<bool>,
     /// Size and format of the frames, if they are known.
     pub frame: Option<FrameInfo>,
+    /// The size to which frames are reduced before they are kept, if they are.
+    pub kept_frames: Option<FrameSize>,
     /// What it will cost.
     pub cost: Cost,
 }
@@ -83,6 +85,10 @@ impl Plan {
             .number(contact.settle_s.value)
             .number(contact.speed_mm_s.value)
             .count(self.presses.len());
+        let hasher = match self.kept_frames {
+            Some(kept) => hasher.text("frames").text(&kept.to_string()),
+            None => hasher,
+        };
         let presses = self.presses.iter();
         presses
             .fold(hasher, |hasher, press| {
@@ -194,6 +200,7 @@ pub(crate) fn plan_study(
         footprint: facts.footprint,
         opaque: facts.opaque,
         frame: facts.frame,
+        kept_frames: facts.kept_frames,
         cost,
     })
 }

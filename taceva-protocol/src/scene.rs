@@ -6,6 +6,7 @@ mod classifier;
 mod counts;
 mod devices;
 mod error;
+mod frame_size;
 mod limits;
 mod metrics;
 mod parse;
@@ -21,6 +22,7 @@ pub use counts::{
 };
 pub use devices::{DeviceSpec, FootprintSpec, LightingSpec, ModelSpec, SensorSpec, Shape};
 pub use error::{SceneError, SceneProblem};
+pub use frame_size::FrameSize;
 pub use limits::LimitSpec;
 pub use metrics::{MetricSettings, MetricsSpec, ReportSpec};
 pub use parse::GREATEST_SCENE;

@@ -10,6 +10,7 @@ mod latency;
 mod log;
 mod of_file;
 mod opened;
+mod reduced;
 mod registered;
 mod rehearse;
 pub(crate) mod retried;
@@ -24,8 +25,8 @@ use std::path::Path;
 
 use taceva_core::Outline;
 use taceva_dataset::{
-    Dataset, DatasetError, Footprint, Known, Recorder, RecordingFacts, RecordingSpec, SensorFacts,
-    Source,
+    Dataset, DatasetError, Footprint, Known, Recorder, RecordingFacts, RecordingSpec,
+    ReducedFrames, SensorFacts, Source,
 };
 use taceva_protocol::{Cancel, Event, Mode, Plan, PressLog, RunSpec, StopCause};
 
@@ -39,6 +40,7 @@ pub(crate) use key::key;
 use log::RecordedPresses;
 pub(crate) use of_file::{FileDevices, FileOpener};
 pub(crate) use opened::Opened;
+use reduced::reduction;
 pub(crate) use registered::Turned;
 pub use rehearse::{AIR_MM, rehearse_scene};
 use schedule::Schedule;
@@ -93,9 +95,17 @@ pub(crate) fn acquire(
                 let is_emulated = study.study.rig.as_ref().is_some_and(|rig| rig.simulated);
                 let is_simulated = is_emulated || rig.is_simulated(workshop.drivers);
                 let spec = recording_spec(study, &open, is_simulated);
+                let reduction = reduction(study, &open)?;
+                let spec = match &reduction {
+                    Some(reduction) => {
+                        spec.with_reduced(ReducedFrames::area_averages(reduction.from()))
+                    }
+                    None => spec,
+                };
                 log.insert(RecordedPresses::new(
                     Recorder::open(path, &spec)?,
                     Sessions::of(path)?,
+                    reduction,
                 ))
             }
         };

@@ -69,6 +69,16 @@ impl SpacingClassifier {
         })))
     }
 
+    /// The cells of a frame that it looks at, along x and y, where it looks at some and not at the whole.
+    pub(crate) fn cells(&self) -> Option<[u32; 2]> {
+        match self {
+            SpacingClassifier::Network(network) => {
+                Some([network.features.width, network.features.height])
+            }
+            SpacingClassifier::Spectrum | SpacingClassifier::Model(_) => None,
+        }
+    }
+
     /// How spacings are predicted, for readers of the report.
     pub(crate) const fn note(&self) -> &'static str {
         match self {

@@ -277,6 +277,7 @@ pub(crate) fn score(
             .chain(clusters.map(Clusters::note))
             .chain(few_points)
             .chain(recordings::extended_notes(dataset))
+            .chain(recordings::reduced_notes(dataset))
             .chain(seen_note(target))
             .chain(elsewhere)
             .chain(copies_note(dataset, target))

@@ -1,6 +1,6 @@
 //! What is known of a sensor beside its samples, as metrics ask for it.
 
-use taceva_dataset::{Dataset, Known, SensorFile};
+use taceva_dataset::{Dataset, FramesInfo, Known, SensorFile};
 use taceva_metrics::SensorFacts;
 
 use crate::error::StudyError;
@@ -23,11 +23,11 @@ pub(crate) fn of_dataset(
         Known::Is(opaque) => Some(opaque),
         Known::Unknown => None,
     };
-    let frames = header.frames.as_ref();
+    let camera = header.frames.as_ref().map(FramesInfo::of_camera);
     let stated = SensorFacts::default()
         .with_footprint(footprint)
         .with_opaque(opaque)
-        .with_frame_size(frames.map(|frames| [frames.info.width, frames.info.height]));
+        .with_frame_size(camera.map(|camera| [camera.width, camera.height]));
     Ok(match file {
         Some(file) => of_file(file, stated),
         None => stated,

@@ -151,6 +151,24 @@ pub(crate) fn extended_notes(dataset: &Dataset) -> Vec<String> {
         });
         lines.collect()
     };
+    of_each(dataset, of)
+}
+
+/// That frames are not as the camera gave them, a line a recording of which that is so.
+pub(crate) fn reduced_notes(dataset: &Dataset) -> Vec<String> {
+    of_each(dataset, |recording, name| {
+        let frames = recording.header().frames.as_ref();
+        let reduced = frames.and_then(|frames| Some((frames.info, frames.reduced.as_ref()?)));
+        let line = reduced.map(|(info, reduced)| {
+            let (from, by) = (reduced.from, shown(&reduced.by));
+            format!("{name}frames were kept as {info}: {by}, of {from}")
+        });
+        line.into_iter().collect()
+    })
+}
+
+/// The lines of each recording; those of several begin with its name.
+fn of_each(dataset: &Dataset, of: impl Fn(&Dataset, &str) -> Vec<String>) -> Vec<String> {
     match dataset.recordings() {
         [] => of(dataset, ""),
         joined => {

@@ -10,12 +10,12 @@ use std::sync::Arc;
 
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 use taceva_core::FieldSet;
-use taceva_dataset::{Dataset, Known};
+use taceva_dataset::{Dataset, FramesInfo, Known};
 use taceva_drivers::Drivers;
 use taceva_models::Models;
 use taceva_protocol::{
-    GratingClassifier, Plan, RecordingInfo, Scene, SceneError, SceneProblem, SourceInfo, Study,
-    plan,
+    GratingClassifier, PhaseKind, Plan, RecordingInfo, Scene, SceneError, SceneProblem, SourceInfo,
+    Study, plan,
 };
 
 use crate::classifier::SpacingClassifier;
@@ -154,16 +154,49 @@ impl PlannedScene {
                     let problem = SceneProblem::Contradiction(error.to_string());
                     self.text.error(name.at(), problem)
                 };
-                request
-                    .and_then(|request| Recipe::of(&request).map(|_| request))
-                    .map_err(refused)
-                    .and_then(|request| match self.seeds.first() {
-                        Some(seed) => request.with_seed(*seed).map(drop),
-                        None => Ok(()),
-                    })?;
+                let (request, recipe) = request
+                    .and_then(|request| Recipe::of(&request).map(|recipe| (request, recipe)))
+                    .map_err(refused)?;
+                if let Some(seed) = self.seeds.first() {
+                    request.with_seed(*seed)?;
+                }
+                self.check_kept(planned, &format!("model `{}`", name.value), recipe.cells())?;
             }
         }
-        self.classifier(models).map(drop)
+        let classifier = self.classifier(models)?;
+        let pressed_on_boards =
+            |planned: &&PlannedStudy| planned.plan.phases.contains(&PhaseKind::Gratings);
+        for planned in self.studies.iter().filter(pressed_on_boards) {
+            self.check_kept(planned, "the classifier of gratings", classifier.cells())?;
+        }
+        Ok(())
+    }
+
+    /// Refuses frames that are kept smaller than what a model looks at, which would be found out after the last press.
+    fn check_kept(
+        &self,
+        planned: &PlannedStudy,
+        who: &str,
+        cells: Option<[u32; 2]>,
+    ) -> Result<(), StudyError> {
+        let kept = planned
+            .study
+            .frames
+            .filter(|_| planned.plan.cost.frames > 0);
+        let (Some(kept), Some(cells)) = (kept, cells) else {
+            return Ok(());
+        };
+        if kept.value.holds(cells) {
+            return Ok(());
+        }
+        let [least_width, least_height] = cells;
+        let problem = SceneProblem::FramesTooSmall {
+            found: kept.value,
+            who: format!("{who} of study `{}`", planned.plan.name),
+            least_width,
+            least_height,
+        };
+        Err(self.text.error(kept.at(), problem))
     }
 
     /// The classifier of the spacings of gratings.
@@ -267,7 +300,7 @@ fn recording(path: &Path) -> Result<RecordingInfo, StudyError> {
             Known::Unknown => None,
         },
         footprint: footprint.transpose().map_err(StudyError::Request)?,
-        frame: header.frames.as_ref().map(|frames| frames.info),
+        frame: header.frames.as_ref().map(FramesInfo::of_camera),
     })
 }
 

@@ -18,6 +18,7 @@ use crate::fit::{FitPlan, FitRequest, Recipe};
 use crate::over_seeds::OverSeeds;
 use crate::predict::{self, Predicted, Predictor, Target};
 use crate::provenance::{ModelProvenance, Provenance, chosen_notes};
+use crate::recordings;
 use crate::report::EvaluationReport;
 use crate::rows::{DataPart, Divided, Need, usable};
 use crate::samples::Samples;
@@ -81,6 +82,7 @@ pub(crate) fn assess(
     });
     notes.extend(spacings.as_ref().map(|_| classifier.note().to_owned()));
     notes.extend(phase_rows.shortfall());
+    notes.extend(recordings::reduced_notes(dataset));
     notes.extend(sessions::note(dataset.path()));
     notes.extend(retried::note(dataset.path()));
     if let Some((predicted, rows)) = &predicted {

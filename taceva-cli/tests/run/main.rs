@@ -3,6 +3,7 @@
 mod limits;
 mod overrides;
 mod recorded;
+mod reduced;
 mod resume;
 #[path = "../support/mod.rs"]
 mod support;

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
 
+use crate::reduced::REDUCED;
 use crate::support::Bench;
 use crate::{SMALL, dataset_of, reports, with_small};
 
@@ -58,6 +59,13 @@ fn survives(bench: &Bench, moments: &[u64]) {
 fn whatever_ends_a_run_it_goes_on_to_the_same_bytes() {
     // Between two presses at one place, in another light, on a board: wherever it happens to be.
     survives(&with_small(), &[3_000, 20_000, 45_000]);
+}
+
+#[test]
+fn a_run_that_keeps_reduced_frames_goes_on_to_the_same_bytes() {
+    let bench = Bench::new();
+    bench.write("small.toml", &format!("{SMALL}{REDUCED}"));
+    survives(&bench, &[3_000, 45_000]);
 }
 
 #[test]

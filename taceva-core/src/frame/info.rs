@@ -48,6 +48,19 @@ impl PixelFormat {
         }
     }
 
+    /// The same with samples of 8 bits.
+    ///
+    /// ```
+    /// use taceva_core::PixelFormat;
+    /// assert_eq!(PixelFormat::Rgb16.of_eight_bits(), PixelFormat::Rgb8);
+    /// ```
+    pub const fn of_eight_bits(self) -> PixelFormat {
+        match self {
+            PixelFormat::Gray8 | PixelFormat::Gray16 => PixelFormat::Gray8,
+            PixelFormat::Rgb8 | PixelFormat::Rgb16 => PixelFormat::Rgb8,
+        }
+    }
+
     /// How the format is written in files.
     pub const fn name(self) -> &'static str {
         match self {

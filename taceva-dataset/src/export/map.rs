@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::exported::Exported;
 use super::form::ExportForm;
 use crate::decode::ChannelOrder;
-use crate::header::{Footprint, SensorFacts};
+use crate::header::{Footprint, ReducedFrames, SensorFacts};
 use crate::table::RESERVED;
 
 /// Where a form has what the map names.
@@ -99,6 +99,13 @@ pub(super) fn text(exported: &Exported<'_>, form: ExportForm, written: &Written)
             quoted(order.name())
         ));
         line(format_args!("reference = {}", quoted(reference)));
+        let frames = header.frames.as_ref();
+        if let Some(reduced) = frames.and_then(|frames| frames.reduced.as_ref()) {
+            let ReducedFrames { from, by } = reduced;
+            line(format_args!(
+                "# Reduced before they were recorded: {by}, of {from}."
+            ));
+        }
     }
     if !table.channels().is_empty() {
         line(format_args!("\n[columns]"));

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 use taceva_core::FrameInfo;
 
+use super::reduced::ReducedFrames;
 use crate::decode::ChannelOrder;
 use crate::digest::Digest;
 
@@ -184,9 +185,21 @@ pub struct FramesInfo {
     /// How the frames of other clips were coded and decoded, where that differs, each way once; absent before format 1.8.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub other_codecs: Vec<FrameCodec>,
+    /// From what frames were reduced before they were recorded; absent where they are as they came, and before format 1.10.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reduced: Option<ReducedFrames>,
     /// The frame without contact; absent if the lab does not know one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reference: Option<ReferenceInfo>,
+}
+
+impl FramesInfo {
+    /// A frame as the camera gave it: what was reduced, or what is there.
+    pub fn of_camera(&self) -> FrameInfo {
+        self.reduced
+            .as_ref()
+            .map_or(self.info, |reduced| reduced.from)
+    }
 }
 
 /// How frames were coded in the clips that they came in, and what decoded them.

@@ -57,6 +57,11 @@ fn header() -> Header {
             channel_order: ChannelOrder::Bgr,
             codec: None,
             other_codecs: Vec::new(),
+            reduced: Some(ReducedFrames::area_averages(FrameInfo {
+                width: 8,
+                height: 6,
+                format: PixelFormat::Rgb16,
+            })),
             reference: None,
         }),
         stream: None,

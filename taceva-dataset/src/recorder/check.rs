@@ -49,14 +49,26 @@ impl Recorder {
     }
 
     pub(super) fn check_frame(&self, id: &str, frame: &Frame) -> Result<(), DatasetError> {
-        match self.frame_info {
-            Some(expected) if expected != frame.info() => Err(DatasetError::Sample {
+        let refused = |problem: String| {
+            Err(DatasetError::Sample {
                 id: id.to_owned(),
-                problem: format!(
-                    "a frame of {}, expected {expected} as the first",
-                    frame.info()
-                ),
-            }),
+                problem,
+            })
+        };
+        if let Some(reduced) = &self.reduced
+            && !reduced.may_give(frame.info())
+        {
+            let (found, from) = (frame.info(), reduced.from);
+            let eight_bits = from.format.of_eight_bits().name();
+            return refused(format!(
+                "a frame of {found}, expected one that was reduced from {from}: no larger, and {eight_bits}"
+            ));
+        }
+        match self.frame_info {
+            Some(expected) if expected != frame.info() => refused(format!(
+                "a frame of {}, expected {expected} as the first",
+                frame.info()
+            )),
             _ => Ok(()),
         }
     }

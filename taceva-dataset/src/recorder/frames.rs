@@ -184,6 +184,7 @@ impl Recorder {
             },
             codec: None,
             other_codecs: Vec::new(),
+            reduced: self.reduced.clone(),
             reference: self.reference.clone(),
         })
     }

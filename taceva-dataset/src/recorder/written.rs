@@ -12,7 +12,7 @@ use super::RecordingSpec;
 use crate::digest::Digest;
 use crate::error::DatasetError;
 use crate::file::check_relative;
-use crate::header::{Footprint, SensorFacts, Source, StreamFacts};
+use crate::header::{Footprint, ReducedFrames, SensorFacts, Source, StreamFacts};
 use crate::signals::WrittenSignals;
 use crate::store::RecordingFacts;
 use crate::table::{FrameEntry, Row};
@@ -31,6 +31,8 @@ pub(super) struct WrittenStart {
     channels: BTreeMap<String, Unit>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     signals: Option<WrittenSignals>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    reduced: Option<ReducedFrames>,
 }
 
 impl WrittenStart {
@@ -47,6 +49,7 @@ impl WrittenStart {
                 .map(|channel| (channel.name().to_owned(), channel.unit()))
                 .collect(),
             signals: spec.signals.as_ref().map(WrittenSignals::of),
+            reduced: spec.reduced.clone(),
         }
     }
 
@@ -76,6 +79,7 @@ impl WrittenStart {
                 settings: written.settings,
             },
             channels,
+            reduced: written.reduced,
         })
     }
 }

@@ -4,6 +4,7 @@ mod killed;
 #[path = "../lab/mod.rs"]
 mod lab;
 mod packs;
+mod reduced;
 mod refused;
 mod resumed;
 

@@ -27,6 +27,20 @@ pub enum FeatureError {
         /// The frame.
         info: FrameInfo,
     },
+    /// A size that frames cannot be reduced to.
+    #[error(
+        "frames of {info} cannot be reduced to {width}×{height}; expected a width from 1 to {} and a height from 1 to {}",
+        info.width,
+        info.height
+    )]
+    Reduction {
+        /// The frame.
+        info: FrameInfo,
+        /// The width that was asked for.
+        width: u32,
+        /// The height that was asked for.
+        height: u32,
+    },
     /// Colour is asked for and there is none.
     #[error("frames of {info} have no colour; `color=gray` would be accepted")]
     Colorless {

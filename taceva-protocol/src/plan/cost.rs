@@ -16,7 +16,7 @@ pub struct Cost {
     pub samples: u64,
     /// Pictures.
     pub frames: u64,
-    /// Bytes of those pictures before compression; `None` if their size is not known.
+    /// Bytes of those pictures as they are kept, before compression; `None` if their size is not known.
     pub bytes: Option<u64>,
     /// Minutes of motion, rest and exposure; exchanging units and boards by hand is not in it.
     pub minutes: f64,
@@ -35,7 +35,11 @@ pub(super) fn cost(presses: &[PlannedPress], facts: &StudyFacts<'_>) -> Cost {
     let samples = |press: &PlannedPress| press.press.samples() as u64;
     let seen = presses.iter().filter(|press| press.frames);
     let frames: u64 = seen.map(samples).sum();
-    let bytes = facts.frame.as_ref().and_then(FrameInfo::byte_len);
+    let kept = facts.frame.map(|frame| match facts.kept_frames {
+        Some(kept) => kept.kept(frame),
+        None => frame,
+    });
+    let bytes = kept.as_ref().and_then(FrameInfo::byte_len);
     let price = Price {
         contact: &phase_inputs.protocol.contact,
         frame_s: 1.0 / facts.frame_rate.unwrap_or(UNKNOWN_RATE),

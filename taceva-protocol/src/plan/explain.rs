@@ -46,6 +46,13 @@ impl fmt::Display for Plan {
             };
             writeln!(f, "read  fields  {}{note}", fields.join(", "))?;
         }
+        if let Some(kept) = self.kept_frames.filter(|_| self.cost.frames > 0) {
+            write!(f, "keep  frames  {kept} in 8 bits, area averages")?;
+            match self.frame {
+                Some(frame) => writeln!(f, " of {frame}")?,
+                None => writeln!(f)?,
+            }
+        }
         for (subjects, reason) in grouped(&self.skipped) {
             let verb = match reason {
                 PlanReason::VisitedBy { .. } => "join",
@@ -145,7 +152,8 @@ impl Serialize for Plan {
                 reason: skip.reason.to_string(),
             })
             .collect();
-        let mut plan = serializer.serialize_struct("Plan", 15)?;
+        let fields = 15 + usize::from(self.kept_frames.is_some());
+        let mut plan = serializer.serialize_struct("Plan", fields)?;
         plan.serialize_field("schema", "taceva.plan/1")?;
         plan.serialize_field("name", &self.name)?;
         plan.serialize_field("digest", &self.digest())?;
@@ -160,6 +168,10 @@ impl Serialize for Plan {
         plan.serialize_field("cost", &self.cost)?;
         plan.serialize_field("skipped", &skipped)?;
         plan.serialize_field("frame", &self.frame)?;
+        // What is recorded depends on it, so that a run which keeps other frames is another run.
+        if let Some(kept) = &self.kept_frames {
+            plan.serialize_field("kept_frames", kept)?;
+        }
         let presses: Vec<_> = self.presses.iter().map(WrittenPress::of).collect();
         plan.serialize_field("presses", &presses)?;
         plan.end()

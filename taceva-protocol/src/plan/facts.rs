@@ -11,7 +11,7 @@ use taceva_metrics::Fact;
 use super::collect::{CHANNELS, SURFACE};
 use crate::limits::{RigLimits, limits};
 use crate::phase::{PhaseInputs, PhaseKind};
-use crate::scene::{Scene, SceneError, SceneProblem, Setting, Study};
+use crate::scene::{FrameSize, Scene, SceneError, SceneProblem, Setting, Study};
 use crate::source::{RecordingInfo, RigInfo, SourceInfo};
 
 /// The model of a study.
@@ -51,6 +51,8 @@ pub(crate) struct StudyFacts<'a> {
     pub(crate) phase_inputs: Option<PhaseInputs<'a>>,
     pub(crate) limits: Option<RigLimits>,
     pub(crate) frame: Option<FrameInfo>,
+    /// The size to which frames are reduced before they are kept.
+    pub(crate) kept_frames: Option<FrameSize>,
     pub(crate) footprint: Option<Footprint>,
     /// Frames a second.
     pub(crate) frame_rate: Option<f64>,
@@ -138,6 +140,7 @@ impl<'a> Gather<'a> {
             sensor.and_then(|sensor| sensor.markers),
         )?;
         let footprint = self.footprint(sensor.and_then(|sensor| sensor.footprint))?;
+        let frame = sensor.and_then(|sensor| sensor.frame);
         self.is_mapped(rig)?;
         // Without a robot nothing is pressed, so there is nothing to limit.
         let limits = match rig.robot {
@@ -174,7 +177,8 @@ impl<'a> Gather<'a> {
             wanted: self.wanted(),
             phase_inputs,
             limits,
-            frame: sensor.and_then(|sensor| sensor.frame),
+            frame,
+            kept_frames: self.kept_frames(frame)?,
             footprint,
             frame_rate: sensor.and_then(|sensor| Some(sensor.rate?.0)),
         })
@@ -197,9 +201,29 @@ impl<'a> Gather<'a> {
             phase_inputs: None,
             limits: None,
             frame: recording.frame,
+            kept_frames: None,
             footprint: self.footprint(recording.footprint)?,
             frame_rate: None,
         })
+    }
+
+    /// The size at which frames are kept, if those of the sensor can be reduced to it; of one that does not state its frames that is seen once
+    /// it is open.
+    fn kept_frames(&self, frame: Option<FrameInfo>) -> Result<Option<FrameSize>, SceneError> {
+        let Some(kept) = self.study.frames else {
+            return Ok(None);
+        };
+        match frame {
+            Some(frame) if !kept.value.is_within(frame) => {
+                let problem = SceneProblem::FramesEnlarged {
+                    found: kept.value,
+                    study: self.study.name.clone(),
+                    frame,
+                };
+                Err(self.refusal(kept.at(), problem))
+            }
+            _ => Ok(Some(kept.value)),
+        }
     }
 
     /// A fact that the scene and the source may both state, if they do not contradict each other.

@@ -2,6 +2,9 @@
 
 use std::fmt;
 
+use taceva_core::FrameInfo;
+
+use super::frame_size::FrameSize;
 use crate::plan::PlanReason;
 
 /// A scene that is refused.
@@ -104,6 +107,43 @@ pub enum SceneProblem {
         above: f64,
         /// The greatest accepted.
         greatest: f64,
+    },
+    /// A size of frames that is none.
+    #[error(
+        "`frames` is `{found}`, expected WIDTHxHEIGHT in pixels, each a whole number from 1 to {}, such as \"64x48\"",
+        FrameSize::SIDE_MAX
+    )]
+    FrameSize {
+        /// As written.
+        found: String,
+    },
+    /// Frames that would have to be enlarged.
+    #[error(
+        "`frames` is `{found}`, but the frames of study `{study}` are {frame}: expected at most `{}x{}`, since frames are reduced and never enlarged",
+        frame.width,
+        frame.height
+    )]
+    FramesEnlarged {
+        /// As written.
+        found: FrameSize,
+        /// The study.
+        study: String,
+        /// The frames that its sensor gives.
+        frame: FrameInfo,
+    },
+    /// Frames with fewer pixels than a model looks at.
+    #[error(
+        "`frames` is `{found}`, but {who} looks at {least_width}×{least_height} cells of each: expected at least `{least_width}x{least_height}`"
+    )]
+    FramesTooSmall {
+        /// As written.
+        found: FrameSize,
+        /// Which model.
+        who: String,
+        /// The cells of its grid along x.
+        least_width: u32,
+        /// The cells of its grid along y.
+        least_height: u32,
     },
     /// A limit that would allow more than the device or the scene above allows.
     #[error("`{key}` is {found}, but {who} allows at most {limit}: limits may only be tightened")]

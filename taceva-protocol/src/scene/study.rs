@@ -6,6 +6,7 @@ use taceva_core::DriverKind;
 
 use super::Scene;
 use super::devices::{DeviceSpec, LightingSpec, ModelSpec, SensorSpec};
+use super::frame_size::FrameSize;
 use super::limits::LimitSpec;
 use super::parse::Text;
 use super::setting::Setting;
@@ -28,6 +29,8 @@ pub struct Study {
     pub limits: LimitSpec,
     /// The model; without one nothing is predicted.
     pub model: Option<ModelSpec>,
+    /// The size to which frames are reduced before they are kept; as they come without one.
+    pub frames: Option<Setting<FrameSize>>,
     /// The rig file that names its devices, where one does.
     pub rig: Option<Arc<RigFile>>,
 }

@@ -1,7 +1,7 @@
 //! Scenes that contradict the devices that they name.
 
-use taceva_core::{Facts, LightingFacts};
-use taceva_protocol::{Scene, SceneProblem, SourceInfo, plan};
+use taceva_core::{Descriptor, Facts, FrameInfo, LightingFacts, PixelFormat};
+use taceva_protocol::{Plan, RigInfo, Scene, SceneProblem, SourceInfo, plan};
 
 use super::{GOOD, descriptor, planned, rig, with};
 
@@ -169,4 +169,64 @@ fn more_presses_than_any_gel_survives_are_refused() {
         Some(SceneProblem::TooManyPresses { found, .. }) => assert!(found > 1_000_000),
         other => panic!("{}", other.is_none()),
     }
+}
+
+/// A rig whose sensor says how large its frames are.
+fn seeing() -> RigInfo {
+    let info = FrameInfo {
+        width: 160,
+        height: 120,
+        format: PixelFormat::Rgb16,
+    };
+    let seen = rig();
+    let sensor = seen.sensor.as_ref().and_then(Descriptor::sensor);
+    let facts = sensor.expect("a sensor").clone().with_frame(Some(info));
+    RigInfo {
+        sensor: Some(descriptor("sim/gelsight", Facts::Sensor(Box::new(facts)))),
+        ..seen
+    }
+}
+
+#[test]
+fn frames_larger_than_those_of_the_sensor_are_refused_with_line_and_size() {
+    for size in ["161x120", "160x121"] {
+        let error = planned(&format!("[recording]\nframes = \"{size}\""), seeing());
+        assert_eq!(
+            error,
+            format!(
+                "s.toml, line 10: `frames` is `{size}`, but the frames of study `my gel` are 160×120 rgb16: expected at most `160x120`, since frames are reduced and never enlarged"
+            )
+        );
+    }
+    let plan = planned("[recording]\nframes = \"160x120\"", seeing());
+    assert!(plan.starts_with("plan  study   my gel"), "{plan}");
+}
+
+#[test]
+fn a_plan_says_at_what_size_frames_are_kept_and_costs_what_they_take() {
+    let planned = |more: &str| {
+        let text = GOOD.replacen("[sensor]", &format!("{more}\n[sensor]"), 1);
+        let text =
+            format!("{text}[model]\nname = \"ridge\"\n[protocol.calibration]\npoints = 10\n");
+        let scene = Scene::parse("s.toml", &text).expect("reads");
+        let source = SourceInfo::Rig(Box::new(seeing()));
+        plan(&scene, |_| source.clone()).expect("a plan").remove(0)
+    };
+    let (whole, kept) = (planned(""), planned("recording = { frames = \"64x48\" }"));
+    assert!(
+        kept.to_string()
+            .contains("keep  frames  64x48 in 8 bits, area averages of 160×120 rgb16"),
+        "{kept}"
+    );
+    assert!(!whole.to_string().contains("keep  frames"), "{whole}");
+    let bytes = |plan: &Plan, frame: u64| plan.cost.frames * frame;
+    assert!(whole.cost.frames > 0);
+    assert_eq!(whole.cost.bytes, Some(bytes(&whole, 160 * 120 * 6)));
+    assert_eq!(kept.cost.bytes, Some(bytes(&kept, 64 * 48 * 3)));
+    // What is recorded is another recording; the camera stays what it is.
+    assert_ne!(whole.digest(), kept.digest());
+    assert_eq!(whole.frame, kept.frame);
+    let written = |plan: &Plan| serde_json::to_value(plan).expect("JSON");
+    assert!(written(&whole).get("kept_frames").is_none());
+    assert_eq!(written(&kept)["kept_frames"]["width"], 64);
 }

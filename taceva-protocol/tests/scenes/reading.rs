@@ -1,7 +1,7 @@
 //! Texts that are no scenes.
 
 use taceva_core::DriverKind;
-use taceva_protocol::{BuiltinScene, Scene};
+use taceva_protocol::{BuiltinScene, Scene, Study};
 
 use super::{GOOD, message, with};
 
@@ -114,6 +114,72 @@ fn zero_points_are_refused_with_their_line() {
     assert!(with("[protocol.calibration]\nindentations = 0").contains("from 1 to 1000"));
     assert!(with("[protocol.repeatability]\ntrials = 1").contains("from 2 to"));
     assert!(with("[protocol.idle]\nframes = 1").contains("from 2 to"));
+}
+
+#[test]
+fn a_size_of_frames_that_is_none_is_refused_with_its_line_and_what_was_expected() {
+    for written in [
+        "\"\"",
+        "\"64\"",
+        "64",
+        "-64",
+        "\"64x\"",
+        "\"x48\"",
+        "\"0x48\"",
+        "\"64x0\"",
+        "\"-64x48\"",
+        "\"+64x48\"",
+        "\"64.5x48\"",
+        "\"64x48x3\"",
+        "\"64 x 48\"",
+        "\"16385x48\"",
+        "\"99999999999999999999x48\"",
+        "\"manyxmany\"",
+    ] {
+        let error = with(&format!("[recording]\nframes = {written}"));
+        let found = written.trim_matches('"');
+        let expected = format!(
+            "s.toml, line 10: `frames` is `{found}`, expected WIDTHxHEIGHT in pixels, each a whole number from 1 to 16384, such as \"64x48\""
+        );
+        assert_eq!(error, expected);
+    }
+    let error = with("[recording]\nframes = true");
+    assert!(
+        error.starts_with("s.toml, line 10: ")
+            && error.contains("expected a size such as `frames = \"64x48\"`"),
+        "{error}"
+    );
+    let error = with("[recording]\nframe = \"64x48\"");
+    assert!(
+        error.starts_with("s.toml, line 10: `frame`: unknown key, did you mean `frames`?"),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_study_keeps_frames_at_its_own_size_or_else_at_that_of_its_scene() {
+    let text = "scene_version = 1\nname = \"two\"\nrobot = { driver = \"sim/robot\" }\n\
+                force = { driver = \"sim/force-transducer\" }\nrecording = { frames = \"64x48\" }\n\
+                [[study]]\nname = \"a\"\nsensor = { driver = \"sim/gelsight\" }\n\
+                [[study]]\nname = \"b\"\nsensor = { driver = \"sim/gelsight\" }\nrecording = { frames = \"32x24\" }\n";
+    let scene = Scene::parse("s.toml", text).expect("reads");
+    let kept = |study: &Study| study.frames.map(|frames| frames.value.to_string());
+    let sizes: Vec<Option<String>> = scene.studies.iter().map(kept).collect();
+    assert_eq!(sizes, ["64x48", "32x24"].map(|size| Some(size.to_owned())));
+    let scene = Scene::parse("s.toml", GOOD).expect("reads");
+    assert_eq!(kept(&scene.studies[0]), None);
+}
+
+#[test]
+fn a_size_of_frames_for_a_study_of_a_recording_is_refused() {
+    let error = message(
+        "scene_version = 1\nname = \"s\"\n[[study]]\nname = \"a\"\nsensor = { dataset = \"old\" }\n\
+         recording = { frames = \"32x24\" }\n",
+    );
+    assert_eq!(
+        error,
+        "s.toml, line 6: `frames` of a study of the recording `old`, whose frames are kept already: expected `driver`, or no `frames`"
+    );
 }
 
 #[test]

@@ -1,11 +1,14 @@
 //! Presses in a recording: what a run asks before it presses, and writes to when it has.
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
 use taceva_core::{Frame, Nanometre, Sample, SinkError};
 use taceva_dataset::Recorder;
+use taceva_models::FrameReduction;
 use taceva_protocol::{ContentId, Plan, PlannedPress, PressLog, PressRecord, SessionRecord};
 
+use super::reduced::reduced;
 use super::sessions::Sessions;
 
 /// The presses of a recording that is being made.
@@ -16,16 +19,23 @@ pub(super) struct RecordedPresses {
     /// The rows of their samples, by name.
     rows: BTreeMap<String, usize>,
     sessions: Sessions,
+    /// What is done to frames before they are recorded.
+    reduction: Option<FrameReduction>,
 }
 
 impl RecordedPresses {
-    /// Goes on with what `recorder` and `sessions` hold.
-    pub(super) fn new(recorder: Recorder, sessions: Sessions) -> RecordedPresses {
+    /// Goes on with what `recorder` and `sessions` hold; frames are kept as `reduction` gives them, or as they come.
+    pub(super) fn new(
+        recorder: Recorder,
+        sessions: Sessions,
+        reduction: Option<FrameReduction>,
+    ) -> RecordedPresses {
         RecordedPresses {
             recorder,
             sessions,
             relived: BTreeSet::new(),
             rows: BTreeMap::new(),
+            reduction,
         }
     }
 
@@ -95,15 +105,22 @@ impl PressLog for RecordedPresses {
             return self.check(&record.samples);
         }
         let name = record.press.to_string();
+        let samples = match &self.reduction {
+            Some(reduction) => Cow::Owned(reduced(&record.samples, reduction)?),
+            None => Cow::Borrowed(&record.samples[..]),
+        };
         self.recorder
-            .append_press(&name, record.outcome, &record.samples)?;
+            .append_press(&name, record.outcome, &samples)?;
         Ok(())
     }
 
     /// A recording has one: that of its first unit.
     fn untouched(&mut self, frame: &Frame) -> Result<(), SinkError> {
         if !self.recorder.has_reference() {
-            self.recorder.append_reference(frame)?;
+            match &self.reduction {
+                Some(reduction) => self.recorder.append_reference(&reduction.reduce(frame)?)?,
+                None => self.recorder.append_reference(frame)?,
+            };
         }
         Ok(())
     }

@@ -1,6 +1,8 @@
 //! What is to be fitted, before any data is looked at.
 
-use taceva_models::{ChosenModel, FeatureSpec, ModelEstimator, ModelSettings, OpenFeatures};
+use taceva_models::{
+    ChosenModel, FeatureKinds, FeatureSpec, ModelEstimator, ModelSettings, OpenFeatures,
+};
 
 use crate::error::StudyError;
 
@@ -60,6 +62,18 @@ pub(crate) struct Recipe {
 }
 
 impl Recipe {
+    /// The cells of a frame that the model looks at, along x and y; `None` where it looks at none, or they are still to be chosen.
+    pub(crate) fn cells(&self) -> Option<[u32; 2]> {
+        let FeatureSpec {
+            kinds,
+            width,
+            height,
+            ..
+        } = self.features;
+        let looks = self.model.reads_features() && kinds != FeatureKinds::SIGNALS;
+        (looks && self.open.is_none()).then_some([width, height])
+    }
+
     /// Reads the settings of the model and of its features.
     pub(crate) fn of(request: &FitRequest) -> Result<Recipe, StudyError> {
         let model = &request.model;

@@ -72,7 +72,10 @@ fn facts(header: &Header) -> [(&'static str, String); 7] {
         ("channels", channels.join(", ")),
         (
             "frames",
-            frames.map_or_else(absent, |frames| frames.info.to_string()),
+            frames.map_or_else(absent, |frames| match &frames.reduced {
+                None => frames.info.to_string(),
+                Some(reduced) => format!("{}, {} of {}", frames.info, reduced.by, reduced.from),
+            }),
         ),
         (
             "signals",

@@ -68,6 +68,7 @@ pub(in crate::import) fn copy_frames(
         channel_order: frames.order,
         codec,
         other_codecs: codecs.collect(),
+        reduced: None,
         reference,
     };
     Ok((Some(shared), folders))

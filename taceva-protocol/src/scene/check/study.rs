@@ -2,10 +2,13 @@
 
 use std::collections::BTreeSet;
 
+use taceva_core::shown;
+
 use super::written::{WrittenScene, WrittenStudy};
 use super::{Check, Checked};
 use crate::scene::devices::{DeviceSpec, SensorSpec};
 use crate::scene::error::{SceneError, SceneProblem};
+use crate::scene::frame_size::{FrameSize, WrittenRecording};
 use crate::scene::limits::LimitSpec;
 use crate::scene::setting::Setting;
 use crate::scene::study::Study;
@@ -24,6 +27,7 @@ impl Check<'_> {
                 lighting: None,
                 limits: LimitSpec::default(),
                 model: None,
+                recording: WrittenRecording::default(),
             };
             return Ok(vec![self.study(written, &alone)?]);
         }
@@ -78,6 +82,16 @@ impl Check<'_> {
                 ("file", &model.value.file),
             )?;
         }
+        let own = self.frames(&study.recording)?;
+        if let (Some(dataset), Some(frames)) = (&sensor.value.dataset, &own)
+            && study.sensor.is_some()
+        {
+            let problem = format!(
+                "`frames` of a study of the recording `{}`, whose frames are kept already: expected `driver`, or no `frames`",
+                shown(&dataset.value)
+            );
+            return self.contradiction(frames.at(), &problem);
+        }
         Ok(Study {
             name: study.name.value.clone(),
             sensor: sensor.value.clone(),
@@ -86,8 +100,26 @@ impl Check<'_> {
             lighting: lighting.cloned(),
             limits: study.limits.or(scene.limits),
             model: model.map(|model| model.value.clone()),
+            frames: own.or(self.frames(&scene.recording)?),
             rig: None,
         })
+    }
+
+    /// The size at which `recording` keeps frames, if it says one.
+    fn frames(
+        &self,
+        recording: &WrittenRecording,
+    ) -> Result<Option<Setting<FrameSize>>, SceneError> {
+        let Some(written) = &recording.frames else {
+            return Ok(None);
+        };
+        match FrameSize::parse(&written.value.0) {
+            Some(size) => Ok(Some(written.clone().map(|_| size))),
+            None => {
+                let found = shown(&written.value.0).to_string();
+                self.refuse(written.at(), SceneProblem::FrameSize { found })
+            }
+        }
     }
 
     fn sensor(&self, sensor: &Setting<SensorSpec>) -> Checked {

@@ -4,6 +4,7 @@ use serde::Deserialize;
 
 use crate::scene::counts::Protocol;
 use crate::scene::devices::{DeviceSpec, LightingSpec, ModelSpec, SensorSpec};
+use crate::scene::frame_size::WrittenRecording;
 use crate::scene::limits::LimitSpec;
 use crate::scene::metrics::{MetricsSpec, ReportSpec};
 use crate::scene::setting::Setting;
@@ -23,6 +24,8 @@ pub(super) struct WrittenScene {
     #[serde(default)]
     pub(super) limits: LimitSpec,
     pub(super) model: Option<Setting<ModelSpec>>,
+    #[serde(default)]
+    pub(super) recording: WrittenRecording,
     #[serde(default)]
     pub(super) metrics: MetricsSpec,
     #[serde(default)]
@@ -44,4 +47,6 @@ pub(super) struct WrittenStudy {
     #[serde(default)]
     pub(super) limits: LimitSpec,
     pub(super) model: Option<Setting<ModelSpec>>,
+    #[serde(default)]
+    pub(super) recording: WrittenRecording,
 }
