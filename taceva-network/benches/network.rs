@@ -1,8 +1,8 @@
 //! Images per second of training steps and of predictions: ResNet-18, six outputs, batches of 32 (and single pictures), in both forms of
 //! convolutions in turn or in one of them.
 //!
-//! `cargo bench -p taceva-network [-- SIDE [THREADS [REPEATS]]] [winograd | direct] [single]`; without arguments 64² and 112² on one and two threads,
-//! both forms; with `single` predictions of single pictures alone. The best of REPEATS, by processor time of all threads and by the wall clock, and of
+//! `cargo bench -p taceva-network [-- SIDE [THREADS [REPEATS]]] [winograd | direct] [single | training]`; without arguments 64² and 112² on one and two threads,
+//! both forms; with `single` predictions of single pictures alone, with `training` steps alone, for a profiler. The best of REPEATS, by processor time of all threads and by the wall clock, and of
 //! single pictures, which are so short that work beside it hits few of them, the median too, of 4 · REPEATS; and how much memory training takes at most beyond
 //! what the process had before, on Linux and of the first size and form alone, since a peak is one of the process.
 //! `benches/peers/torch_network.py` measures PyTorch alike.
@@ -29,12 +29,13 @@ fn main() {
         .skip(1)
         .filter(|word| !word.starts_with('-'));
     let (mut numbers, mut forms): (Vec<usize>, _) = (Vec::new(), Vec::new());
-    let mut is_single = false;
+    let (mut is_single, mut is_training) = (false, false);
     for word in words {
         match word.as_str() {
             "winograd" => forms.push(ConvolutionForm::Winograd),
             "direct" => forms.push(ConvolutionForm::Direct),
             "single" => is_single = true,
+            "training" => is_training = true,
             _ => numbers.push(word.parse().expect("a number or a word of those above")),
         }
     }
@@ -53,9 +54,15 @@ fn main() {
                 if is_single {
                     let network = Network::new(&of_side(side), 1).expect("a network");
                     pool.install(|| measure_single(&network, what, repeats));
-                } else {
-                    pool.install(|| measure(what, repeats, before.take()));
+                    continue;
                 }
+                pool.install(|| {
+                    let network = measure_training(what, repeats, before.take());
+                    if !is_training {
+                        measure_batches(&network, what, repeats);
+                        measure_single(&network, what, repeats);
+                    }
+                });
             }
         }
     }
@@ -89,7 +96,7 @@ fn pictures(input: Picture, count: usize) -> Vec<f32> {
 /// The form, rows of a picture, and threads.
 type What = (ConvolutionForm, usize, usize);
 
-fn measure(what: What, repeats: usize, before: Option<f64>) {
+fn measure_training(what: What, repeats: usize, before: Option<f64>) -> Network {
     let (form, side, threads) = what;
     let architecture = of_side(side);
     let input = architecture.input;
@@ -127,12 +134,15 @@ fn measure(what: What, repeats: usize, before: Option<f64>) {
         );
     }
 
-    let network = trainer.finish().expect("at hand").network;
-    let mut predictor = network.predictor_in(form);
+    trainer.finish().expect("at hand").network
+}
+
+fn measure_batches(network: &Network, what: What, repeats: usize) {
+    let mut predictor = network.predictor_in(what.0);
+    let pictures = pictures(predictor.input(), BATCH);
     let mut outputs = [0.0; BATCH * OUTPUTS];
     let all = || predictor.predict(&pictures, &mut outputs).expect("finite");
     report("inference", what, BATCH, best(repeats, all));
-    measure_single(&network, what, repeats);
 }
 
 fn measure_single(network: &Network, what: What, repeats: usize) {

@@ -6,15 +6,14 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::time::{Duration, Instant};
 
 use rayon::Yield;
 
 /// Threads that divide the work of one picture at most: a layer has not enough for more.
 const MOST: usize = 8;
 
-/// For how long a thread looks for work in vain before it may sleep: several times what a layer takes.
-const PATIENCE: Duration = Duration::from_micros(300);
+/// How many times a thread looks for work in vain before it may sleep: several times as many as a layer takes.
+const PATIENCE: u32 = 3000;
 
 /// How many times a thread looks in vain before it lets other programs have the processor.
 const LOOKS: u32 = 64;
@@ -70,8 +69,10 @@ impl Awake {
                     return;
                 }
                 // The first would otherwise find what is to wake the next.
-                let start = Instant::now();
-                while begun.load(Ordering::Relaxed) < others && start.elapsed() < PATIENCE {
+                for _ in 0..PATIENCE {
+                    if begun.load(Ordering::Relaxed) >= others {
+                        break;
+                    }
                     std::hint::spin_loop();
                 }
                 look_for_work(|| is_over.load(Ordering::Acquire));
@@ -90,18 +91,14 @@ impl Drop for Awake {
 /// Does what work there is until `is_over`, or until there was none for a while: several that look for each other's work would
 /// otherwise wait for ever.
 fn look_for_work(is_over: impl Fn() -> bool) {
-    let mut latest = Instant::now();
-    let mut looks = 0_u32;
-    while !is_over() {
+    let mut in_vain = 0;
+    while in_vain < PATIENCE && !is_over() {
         if rayon::yield_now() == Some(Yield::Executed) {
-            latest = Instant::now();
+            in_vain = 0;
             continue;
         }
-        looks = looks.wrapping_add(1);
-        if looks.is_multiple_of(LOOKS) {
-            if latest.elapsed() > PATIENCE {
-                return;
-            }
+        in_vain += 1;
+        if in_vain.is_multiple_of(LOOKS) {
             std::thread::yield_now();
         }
         std::hint::spin_loop();
