@@ -1,11 +1,11 @@
 """Of what the processor time of a training step is made: shares of `perf`'s samples by kind of pass.
 
-usage: export RUSTFLAGS=-Csymbol-mangling-version=v0 CARGO_TARGET_DIR=target/profile
-       perf record -o step.data cargo bench -p taceva-network -- 64 1 40 winograd training
-       perf report -i step.data --comm COMMAND --stdio --no-children -g none -F overhead,sym | python3 benches/peers/step_shares.py
+usage: RUSTFLAGS=-Csymbol-mangling-version=v0 cargo bench -p taceva-network --bench network --no-run --target-dir target/profile
+       perf record -o step.data EXECUTABLE 64 1 24 winograd training
+       perf report -i step.data --stdio --no-children -g none -F overhead,sym | python3 benches/peers/step_shares.py
 
-COMMAND is the name of the program, as `perf report -i step.data --sort comm` lists it. Names of symbols are those of the language's
-newer form, in which what a loop works on is part of the name.
+EXECUTABLE is that which the first command names. Names of symbols are those of the compiler's newer form, in which what a loop
+works on is part of the name. What the program does before the first step, which is mostly to draw weights, is part of the rest.
 """
 import re
 import sys
