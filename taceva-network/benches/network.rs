@@ -1,8 +1,9 @@
 //! Images per second of training steps and of predictions: ResNet-18, six outputs, batches of 32 (and single pictures), in both forms of
 //! convolutions in turn or in one of them.
 //!
-//! `cargo bench -p taceva-network [-- SIDE [THREADS [REPEATS]]] [winograd | direct]`; without arguments 64² and 112² on one and two threads,
-//! both forms. The best of REPEATS, by processor time of all threads and by the wall clock; and how much memory training takes at most beyond
+//! `cargo bench -p taceva-network [-- SIDE [THREADS [REPEATS]]] [winograd | direct] [single | training]`; without arguments 64² and 112² on one and two threads,
+//! both forms; with `single` predictions of single pictures alone, with `training` steps alone, for a profiler. The best of REPEATS, by processor time of all threads and by the wall clock, and of
+//! single pictures, which are so short that work beside it hits few of them, the median too, of 4 · REPEATS; and how much memory training takes at most beyond
 //! what the process had before, on Linux and of the first size and form alone, since a peak is one of the process.
 //! `benches/peers/torch_network.py` measures PyTorch alike.
 
@@ -15,8 +16,8 @@ use std::time::Instant;
 
 use rustix::time::{ClockId, clock_gettime};
 use taceva_network::{
-    Architecture, ConvolutionForm, Depth, Isa, LabelScaling, Labels, Loss, Optimizer, Picture,
-    Recipe, Samples, Schedule, Trainer,
+    Architecture, ConvolutionForm, Depth, Isa, LabelScaling, Labels, Loss, Network, Optimizer,
+    Picture, Recipe, Samples, Schedule, Trainer,
 };
 
 const BATCH: usize = 32;
@@ -28,11 +29,14 @@ fn main() {
         .skip(1)
         .filter(|word| !word.starts_with('-'));
     let (mut numbers, mut forms): (Vec<usize>, _) = (Vec::new(), Vec::new());
+    let (mut is_single, mut is_training) = (false, false);
     for word in words {
         match word.as_str() {
             "winograd" => forms.push(ConvolutionForm::Winograd),
             "direct" => forms.push(ConvolutionForm::Direct),
-            _ => numbers.push(word.parse().expect("a number, `winograd` or `direct`")),
+            "single" => is_single = true,
+            "training" => is_training = true,
+            _ => numbers.push(word.parse().expect("a number or a word of those above")),
         }
     }
     if forms.is_empty() {
@@ -46,7 +50,19 @@ fn main() {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
             let pool = pool.expect("threads");
             for form in &forms {
-                pool.install(|| measure((side, threads), *form, repeats, before.take()));
+                let what = (*form, side, threads);
+                if is_single {
+                    let network = Network::new(&of_side(side), 1).expect("a network");
+                    pool.install(|| measure_single(&network, what, repeats));
+                    continue;
+                }
+                pool.install(|| {
+                    let network = measure_training(what, repeats, before.take());
+                    if !is_training {
+                        measure_batches(&network, what, repeats);
+                        measure_single(&network, what, repeats);
+                    }
+                });
             }
         }
     }
@@ -60,22 +76,31 @@ fn resident(key: &str) -> Option<f64> {
     Some(kib / 1024.0)
 }
 
-fn measure(
-    (side, threads): (usize, usize),
-    form: ConvolutionForm,
-    repeats: usize,
-    before: Option<f64>,
-) {
+/// ResNet-18 for pictures of so many rows.
+fn of_side(side: usize) -> Architecture {
     let input = Picture {
         height: side,
         width: side,
         channels: 3,
     };
-    let architecture = Architecture::residual(Depth::Eighteen, input, OUTPUTS);
-    let pictures: Vec<f32> = (0_u16..)
+    Architecture::residual(Depth::Eighteen, input, OUTPUTS)
+}
+
+fn pictures(input: Picture, count: usize) -> Vec<f32> {
+    (0_u16..)
         .map(|at| f32::from(at % 251) / 251.0)
-        .take(BATCH * input.len())
-        .collect();
+        .take(count * input.len())
+        .collect()
+}
+
+/// The form, rows of a picture, and threads.
+type What = (ConvolutionForm, usize, usize);
+
+fn measure_training(what: What, repeats: usize, before: Option<f64>) -> Network {
+    let (form, side, threads) = what;
+    let architecture = of_side(side);
+    let input = architecture.input;
+    let pictures = pictures(input, BATCH);
     let labels: Vec<f64> = (0_u8..)
         .take(BATCH * OUTPUTS)
         .map(|at| f64::from(at % 17))
@@ -101,8 +126,7 @@ fn measure(
     let step = || {
         trainer.step().expect("finite").expect("a step is left");
     };
-    let report = |what, images, times| report(what, (form, side, threads), images, times);
-    report("training", BATCH, best(repeats, step));
+    report("training", what, BATCH, best(repeats, step));
     if let Some((peak, before)) = resident("VmHWM:").zip(before) {
         println!(
             "memory       {form:<12} {side}² {threads} threads {:9.1} MiB at most beyond the process before",
@@ -110,45 +134,57 @@ fn measure(
         );
     }
 
-    let network = trainer.finish().expect("at hand").network;
-    let mut predictor = network.predictor_in(form);
-    let mut outputs = [0.0; BATCH * OUTPUTS];
-    let all = || predictor.predict(&pictures, &mut outputs).expect("finite");
-    report("inference", BATCH, best(repeats, all));
-    let single = || {
-        let picture = &pictures[..input.len()];
-        predictor
-            .predict(picture, &mut outputs[..OUTPUTS])
-            .expect("finite");
-    };
-    report("one picture", 1, best(4 * repeats, single));
+    trainer.finish().expect("at hand").network
 }
 
-fn report(
-    what: &str,
-    (form, side, threads): (ConvolutionForm, usize, usize),
-    images: usize,
-    (busy, wall): (f64, f64),
-) {
+fn measure_batches(network: &Network, what: What, repeats: usize) {
+    let mut predictor = network.predictor_in(what.0);
+    let pictures = pictures(predictor.input(), BATCH);
+    let mut outputs = [0.0; BATCH * OUTPUTS];
+    let all = || predictor.predict(&pictures, &mut outputs).expect("finite");
+    report("inference", what, BATCH, best(repeats, all));
+}
+
+fn measure_single(network: &Network, what: What, repeats: usize) {
+    let mut predictor = network.predictor_in(what.0);
+    let picture = pictures(predictor.input(), 1);
+    let mut outputs = [0.0; OUTPUTS];
+    let single = || predictor.predict(&picture, &mut outputs).expect("finite");
+    let times = times(4 * repeats, single);
+    for (measured, position) in [("one picture", 0), ("its median", 2 * repeats)] {
+        let times = [times[0][position], times[1][position]];
+        report(measured, what, 1, times);
+    }
+}
+
+fn report(measured: &str, (form, side, threads): What, images: usize, [busy, wall]: [f64; 2]) {
     let images = images as f64;
     println!(
-        "{what:<12} {form:<12} {side}² {threads} threads {:9.1} images per processor second {:9.1} images/s",
+        "{measured:<12} {form:<12} {side}² {threads} threads {:9.1} images per processor second {:9.1} images/s",
         images / busy,
         images / wall
     );
 }
 
 /// The least processor and wall seconds of `work`, after one warm-up.
-fn best(repeats: usize, mut work: impl FnMut()) -> (f64, f64) {
+fn best(repeats: usize, work: impl FnMut()) -> [f64; 2] {
+    times(repeats, work).map(|times| times[0])
+}
+
+/// The processor and wall seconds of each `work` after one warm-up, from the least on.
+fn times(repeats: usize, mut work: impl FnMut()) -> [Vec<f64>; 2] {
     work();
-    let (mut busy, mut wall) = (f64::INFINITY, f64::INFINITY);
+    let mut times = [Vec::new(), Vec::new()];
     for _ in 0..repeats {
         let (start, start_busy) = (Instant::now(), processor_seconds());
         work();
-        busy = busy.min(processor_seconds() - start_busy);
-        wall = wall.min(start.elapsed().as_secs_f64());
+        times[0].push(processor_seconds() - start_busy);
+        times[1].push(start.elapsed().as_secs_f64());
     }
-    (busy, wall)
+    times.map(|mut times| {
+        times.sort_by(f64::total_cmp);
+        times
+    })
 }
 
 fn processor_seconds() -> f64 {

@@ -1,10 +1,13 @@
 //! Convolution: its shape, its weights, and its three passes.
 
 mod direct;
+mod division;
 mod ending;
 mod form;
 mod forward;
+mod gathering;
 mod input_gradient;
+mod rooms;
 mod source;
 mod weight_gradient;
 mod weights;
@@ -14,10 +17,10 @@ pub(crate) use ending::{Epilogue, Onto};
 pub use form::ConvolutionForm;
 pub(crate) use forward::Forward;
 pub(crate) use input_gradient::InputGradient;
+pub(crate) use rooms::{Rooms, TileRooms};
 pub(crate) use source::Source;
 pub(crate) use weight_gradient::WeightGradient;
 pub(crate) use weights::{ConvolutionWeights, plain};
-pub(crate) use winograd::{Rooms, TileRooms};
 
 use crate::picture::Picture;
 use crate::planes::Layout;

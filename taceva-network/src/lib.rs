@@ -20,6 +20,7 @@ mod schedule;
 mod scratch;
 mod simd;
 mod stage;
+mod team;
 mod training;
 mod update;
 

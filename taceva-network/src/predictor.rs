@@ -15,6 +15,7 @@ use crate::network::Network;
 use crate::picture::Picture;
 use crate::planes::{Layout, Planes};
 use crate::scratch::Scratch;
+use crate::team::{self, Awake};
 
 /// A network ready to predict, and the room that it needs.
 #[derive(Debug)]
@@ -33,6 +34,9 @@ pub struct Predictor {
 
 /// Pictures that are passed at once.
 const BATCH: usize = 32;
+
+/// Products of a picture that are worth waking threads for: several hundred microseconds.
+const PRODUCTS_WORTH_WAKING: usize = 1 << 24;
 
 /// Bytes of pictures between two parts that stay in a thread's second-level cache beside those that they are made of.
 const PICTURES_IN_CACHE: usize = 256 << 10;
@@ -102,6 +106,26 @@ impl Predictor {
         let (picture, outputs) = (self.input(), self.outputs());
         picture.check_prediction(pictures, outputs, into)?;
         self.prepare()?;
+        if self.is_divided(pictures.len() / picture.len()) {
+            // Within the pool, so that it is entered once and not for each layer.
+            rayon::scope(|_| {
+                let _awake = Awake::keep();
+                self.pass_in_batches(pictures, into);
+            });
+        } else {
+            self.pass_in_batches(pictures, into);
+        }
+        Ok(())
+    }
+
+    /// Whether so many pictures are fewer than threads, and one is enough work to wake these for.
+    fn is_divided(&self, pictures: usize) -> bool {
+        let products: usize = self.stages.iter().map(Folded::products).sum();
+        team::parts(pictures) > 1 && products >= PRODUCTS_WORTH_WAKING
+    }
+
+    fn pass_in_batches(&mut self, pictures: &[f32], into: &mut [f64]) {
+        let (picture, outputs) = (self.input(), self.outputs());
         let batches = pictures.chunks(BATCH * picture.len());
         for (pictures, into) in batches.zip(into.chunks_mut(BATCH * outputs)) {
             for (position, values) in pictures.chunks_exact(picture.len()).enumerate() {
@@ -109,7 +133,6 @@ impl Predictor {
             }
             into.copy_from_slice(self.pass(pictures.len() / picture.len()));
         }
-        Ok(())
     }
 
     /// Transforms the weights that are not yet.

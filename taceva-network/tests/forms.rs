@@ -57,6 +57,38 @@ fn both_forms_predict_alike_and_neither_depends_on_the_pictures_beside() {
 }
 
 #[test]
+fn fewer_pictures_than_threads_are_divided_among_these_and_keep_their_bits() {
+    // One channel and three, odd sizes, and one whose last maps are 1 × 1.
+    let inputs = [picture(61, 45, 1), picture(39, 70, 3), picture(20, 20, 1)];
+    for (input, form) in inputs.into_iter().flat_map(|i| FORMS.map(|form| (i, form))) {
+        let network = filled(&Architecture::residual(Depth::Ten, input, 2), 9);
+        let pictures = singles(3, 2 * input.len());
+        let of = |count: usize| {
+            let mut predictor = network.predictor_in(form);
+            let mut found = vec![0.0; 2 * count];
+            let pictures = &pictures[..count * input.len()];
+            // Twice, as the first call has rooms to make.
+            for _ in 0..2 {
+                predictor.predict(pictures, &mut found).expect("finite");
+            }
+            bits(&found)
+        };
+        let on = |threads: usize, count: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+            pool.expect("threads").install(|| of(count))
+        };
+        for count in [0, 1, 2] {
+            let alone = on(1, count);
+            for threads in [2, 3, 8] {
+                let what = format!("{count} of {input} in {form} on {threads} threads");
+                assert_eq!(on(threads, count), alone, "{what}");
+            }
+            assert_eq!(of(count), alone, "{count} of {input} outside any pool");
+        }
+    }
+}
+
+#[test]
 fn a_network_without_such_convolutions_has_the_same_bits_in_both_forms() {
     let input = picture(24, 20, 1);
     let network = filled(&Architecture::five_layers(input, 3), 9);

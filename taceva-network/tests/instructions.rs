@@ -1,4 +1,4 @@
-//! What `TACEVA_ISA` asks for changes no bit of a training, as long as products are fused, and neither does the number of threads.
+//! What `TACEVA_ISA` asks for changes no bit of a training or of a prediction, as long as products are fused, and neither does the number of threads.
 
 mod common;
 #[path = "common/tiles.rs"]
@@ -6,9 +6,37 @@ mod tiles;
 
 use std::process::Command;
 
-use common::{doubles, singles};
+use common::{doubles, filled, singles};
 use taceva_network::{Architecture, ConvolutionForm, Depth, Isa, Labels, Recipe, Samples, Trainer};
 use tiles::{picture, same_size};
+
+/// FNV-1a of numbers.
+fn digest(numbers: impl Iterator<Item = u64>) -> u64 {
+    numbers.fold(0xcbf2_9ce4_8422_2325, |digest, number| {
+        (digest ^ number).wrapping_mul(0x0100_0000_01b3)
+    })
+}
+
+/// One picture of odd sizes in both forms, on 1, 2 and 3 threads: a digest of the bits of what is predicted.
+fn predicted() -> [u64; 2] {
+    let input = picture(51, 45, 1);
+    let network = filled(&Architecture::residual(Depth::Ten, input, 3), 9);
+    let alone = singles(3, input.len());
+    [ConvolutionForm::Direct, ConvolutionForm::Winograd].map(|form| {
+        let with = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+            pool.build().expect("threads").install(|| {
+                let mut found = [0.0; 3];
+                let mut predictor = network.predictor_in(form);
+                predictor.predict(&alone, &mut found).expect("finite");
+                digest(found.iter().map(|value| value.to_bits()))
+            })
+        };
+        let one = with(1);
+        assert_eq!([with(2), with(3)], [one; 2], "{form}");
+        one
+    })
+}
 
 /// All weights of two trainings in both forms, on 1, 2 and 3 threads: a digest of their bits.
 #[test]
@@ -27,6 +55,9 @@ fn digests() {
         batch: 5,
         ..Recipe::default()
     };
+    for predicted in predicted() {
+        println!("digest of a prediction {predicted:016x}");
+    }
     let residual = Architecture::residual(Depth::Ten, input, 2);
     for architecture in [residual, same_size(input, [16, 48, 80])] {
         for form in [ConvolutionForm::Direct, ConvolutionForm::Winograd] {
@@ -38,11 +69,10 @@ fn digests() {
                     let trained = trainer.run().expect("finite");
                     let tensors = trained.network.tensors();
                     let values = tensors.iter().flat_map(|tensor| &tensor.values);
-                    // FNV-1a.
-                    let digest = values.fold(0xcbf2_9ce4_8422_2325_u64, |digest, value| {
-                        (digest ^ u64::from(value.to_bits())).wrapping_mul(0x0100_0000_01b3)
-                    });
-                    (digest, trained.state)
+                    (
+                        digest(values.map(|value| u64::from(value.to_bits()))),
+                        trained.state,
+                    )
                 })
             };
             let alone = with(1);
@@ -55,7 +85,8 @@ fn digests() {
 }
 
 #[test]
-fn trainings_have_the_same_bits_under_every_fused_taceva_isa_and_on_1_2_or_3_threads() {
+fn trainings_and_predictions_have_the_same_bits_under_every_fused_taceva_isa_and_on_1_2_or_3_threads()
+ {
     let program = std::env::current_exe().expect("this program");
     let sets = Isa::available();
     let runs = sets.into_iter().map(|isa| {
@@ -69,7 +100,7 @@ fn trainings_have_the_same_bits_under_every_fused_taceva_isa_and_on_1_2_or_3_thr
         assert!(text.contains(&format!("instructions: {isa}")), "{text}");
         let lines = text.lines().filter(|line| line.contains("digest "));
         let digests: Vec<String> = lines.map(str::to_owned).collect();
-        assert_eq!(digests.len(), 4, "{isa}: {text}");
+        assert_eq!(digests.len(), 6, "{isa}: {text}");
         (isa, digests)
     });
     let fused: Vec<_> = runs.filter(|(isa, _)| *isa != Isa::Portable).collect();
@@ -78,5 +109,6 @@ fn trainings_have_the_same_bits_under_every_fused_taceva_isa_and_on_1_2_or_3_thr
     }
     for (isa, digests) in &fused {
         assert_ne!(digests[0], digests[1], "{isa}: forms round differently");
+        assert_ne!(digests[2], digests[3], "{isa}: forms round differently");
     }
 }

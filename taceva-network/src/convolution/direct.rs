@@ -2,6 +2,7 @@
 
 mod border;
 mod correlation;
+mod divided;
 mod forward;
 mod input_gradient;
 mod weight_gradient;

@@ -46,6 +46,16 @@ pub(super) enum Finish<'a> {
     AddThenRelu(&'a [f32]),
 }
 
+impl Start<'_> {
+    /// The same for the channels from `channel` on.
+    pub(super) fn from(self, channel: usize) -> Self {
+        match self {
+            Start::Bias(bias) => Start::Bias(&bias[channel..]),
+            Start::Zero | Start::Output => self,
+        }
+    }
+}
+
 impl<'a> Epilogue<'a> {
     /// The same for those numbers of the output that lie in `range`.
     pub(super) fn within(self, range: Range<usize>) -> (Start<'a>, Finish<'a>) {

@@ -2,9 +2,10 @@
 
 use super::ending::Epilogue;
 use super::form::ConvolutionForm;
+use super::rooms::TileRooms;
 use super::source::Source;
 use super::weights::ConvolutionWeights;
-use super::winograd::{self, TileRooms};
+use super::winograd;
 use super::{Convolution, direct};
 use crate::machine::Machine;
 use crate::planes::{Layout, Planes};
@@ -64,7 +65,9 @@ impl Forward {
         rooms: &TileRooms,
     ) {
         match self {
-            Forward::Direct(pass) => pass.run(machine, source, (output, epilogue), each),
+            Forward::Direct(pass) => {
+                pass.run(machine, source, (output, epilogue), each, rooms);
+            }
             Forward::Winograd(pass) => {
                 pass.run(machine, source, (output, epilogue), each, rooms);
             }

@@ -2,8 +2,9 @@
 
 use super::ending::Onto;
 use super::form::ConvolutionForm;
+use super::rooms::Rooms;
 use super::weights::ConvolutionWeights;
-use super::winograd::{self, Rooms};
+use super::winograd;
 use super::{Convolution, direct};
 use crate::machine::Machine;
 use crate::planes::{Layout, Planes};

@@ -1,5 +1,7 @@
 //! Every pass against a plain implementation in double precision, on every instruction set of the machine.
 
+mod divided;
+
 use taceva_core::Isa;
 
 use super::*;

@@ -1,7 +1,8 @@
 //! The gradient of the weights, in the form that goes with its shape.
 
 use super::form::ConvolutionForm;
-use super::winograd::{self, Rooms};
+use super::rooms::Rooms;
+use super::winograd;
 use super::{Convolution, direct};
 use crate::machine::Machine;
 use crate::planes::{Layout, Planes};

@@ -59,13 +59,14 @@ impl ConvolutionWeights {
             inputs, outputs, ..
         } = self.convolution;
         let taps = self.convolution.taps();
-        let panels = into.par_chunks_mut(taps * outputs * PANEL);
-        panels.enumerate().for_each(|(panel, into)| {
+        let panels = into.par_chunks_mut(PANELS_AT_ONCE * taps * outputs * PANEL);
+        panels.enumerate().for_each(|(group, into)| {
             machine.run(Exchange {
                 weights: &self.values,
                 taps,
                 inputs,
-                first_input: panel * PANEL,
+                outputs,
+                first_input: group * PANELS_AT_ONCE * PANEL,
                 into,
             });
         });
@@ -89,13 +90,17 @@ fn places(convolution: Convolution) -> impl Iterator<Item = usize> {
     })
 }
 
-/// One panel of inputs of the exchanged weights.
+/// Panels of inputs that are written at once: what they read lies side by side.
+const PANELS_AT_ONCE: usize = 2;
+
+/// Some panels of inputs of the exchanged weights.
 struct Exchange<'a> {
     weights: &'a [f32],
     taps: usize,
     inputs: usize,
+    outputs: usize,
     first_input: usize,
-    /// `[taps, outputs, PANEL]`.
+    /// `[panel of inputs, taps, outputs, PANEL]`.
     into: &'a mut [f32],
 }
 
@@ -104,15 +109,26 @@ impl Job for Exchange<'_> {
 
     #[inline(always)]
     fn run<V: Vector>(self, _proof: V::Proof) {
-        let outputs = self.into.len() / (self.taps * PANEL);
-        let blocks = self.into.as_chunks_mut::<PANEL>().0.chunks_exact_mut(PANEL);
-        for (block, into) in blocks.enumerate() {
-            let (tap, panel) = (block / (outputs / PANEL), block % (outputs / PANEL));
+        let panels = self.outputs / PANEL;
+        let blocks = self.taps * panels;
+        // Square blocks of a length that the compiler knows, which it exchanges with vectors.
+        let (into, _) = self
+            .into
+            .as_chunks_mut::<PANEL>()
+            .0
+            .as_chunks_mut::<PANEL>();
+        let at_once = into.len() / blocks;
+        for block in 0..blocks {
+            let (tap, panel) = (block / panels, block % panels);
             let from = ((panel * self.taps + tap) * self.inputs + self.first_input) * PANEL;
-            let from = self.weights[from..][..PANEL * PANEL].as_chunks::<PANEL>().0;
-            for (lane, row) in into.iter_mut().enumerate() {
-                for (place, from) in row.iter_mut().zip(from) {
-                    *place = from[lane];
+            let from = &self.weights[from..][..at_once * PANEL * PANEL];
+            let (from, _) = from.as_chunks::<PANEL>().0.as_chunks::<PANEL>();
+            for (input, from) in from.iter().enumerate() {
+                let into = &mut into[input * blocks + block];
+                for (place, from) in from.iter().enumerate() {
+                    for lane in 0..PANEL {
+                        into[lane][place] = from[lane];
+                    }
                 }
             }
         }

@@ -6,10 +6,10 @@
 //! # Reference
 //! A. Lavin, S. Gray, "Fast algorithms for convolutional neural networks", CVPR 2016.
 
+mod divided;
 mod forward;
 mod input_gradient;
 mod products;
-mod rooms;
 mod sums;
 mod tiles;
 mod transform;
@@ -18,7 +18,6 @@ mod weights;
 
 pub(super) use forward::Forward;
 pub(super) use input_gradient::InputGradient;
-pub(crate) use rooms::{Rooms, TileRooms};
 pub(super) use weight_gradient::WeightGradient;
 
 use super::Convolution;

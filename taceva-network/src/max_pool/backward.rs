@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::{PLACES, place, window, windows};
+use super::{NOWHERE, PLACES, place, window, windows};
 use crate::batch_norm::{ChannelSums, GradientSums, Moments};
 use crate::machine::Machine;
 use crate::panel::PANEL;
@@ -193,8 +193,9 @@ impl Job for Apply<'_> {
                 let columns = windows(x, output.width);
                 for panel in 0..panels {
                     let mut passed = [0.0_f32; PANEL];
-                    for (row, window_y) in rows {
-                        for (column, window_x) in columns {
+                    // Every other row and column is compared by one window only.
+                    for (row, window_y) in rows.into_iter().filter(is_there) {
+                        for (column, window_x) in columns.into_iter().filter(is_there) {
                             let at = (window_y * output.width + window_x) * panels + panel;
                             let (chosen, place) = (choices[at].map(u32::from), place(row, column));
                             for lane in 0..PANEL {
@@ -213,4 +214,10 @@ impl Job for Apply<'_> {
             }
         }
     }
+}
+
+/// Whether there is such a window.
+#[inline(always)]
+fn is_there(&(place, _): &(u32, usize)) -> bool {
+    place != NOWHERE
 }

@@ -69,6 +69,17 @@ impl Folded {
         }
     }
 
+    /// Products that one picture takes, as sums of pixels and weights.
+    pub(super) fn products(&self) -> usize {
+        match self {
+            Folded::Stem(layer, _) | Folded::Plain(layer) => layer.products(),
+            Folded::Block(block) => {
+                let past = block.shortcut.as_ref().map_or(0, Layer::products);
+                block.first.products() + block.second.products() + past
+            }
+        }
+    }
+
     /// Its convolutions.
     pub(super) fn layers_mut(&mut self) -> Vec<&mut Layer> {
         match self {

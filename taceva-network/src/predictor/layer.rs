@@ -23,6 +23,7 @@ pub(super) struct Layer {
     forward: Forward,
     output: Layout,
     is_light: bool,
+    products: usize,
 }
 
 /// The weights as they are, or as a pass reads them.
@@ -71,6 +72,7 @@ impl Layer {
             bias,
             forward: Forward::new(convolution, input, output, form),
             output,
+            products: output.picture.len() * convolution.taps() * convolution.inputs,
             // Of a shape and not of a form, so that forms are passed by as many pictures at a time.
             is_light: weights_bytes <= WEIGHTS_IN_CACHE
                 && output.picture.pixels() >= PIXELS_WORTH_WEIGHTS,
@@ -97,6 +99,11 @@ impl Layer {
             self.weights = Weights::Transformed(transformed);
         }
         Ok(())
+    }
+
+    /// Products that one picture takes, as sums of pixels and weights.
+    pub(super) fn products(&self) -> usize {
+        self.products
     }
 
     /// How what it gives lies.

@@ -1,5 +1,7 @@
 //! What the forward pass and the gradient of the input have in common: sums of runs of pixels times rows of weights.
 
+use std::ops::Range;
+
 use crate::constant::with_constant;
 use crate::convolution::ending::{Finish, Start};
 use crate::panel::PANEL;
@@ -17,12 +19,21 @@ pub(crate) struct Tap {
     pub(crate) row: usize,
 }
 
+/// How outputs lie.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Lie {
+    /// As pictures of so many numbers do, of which as many as `skipped` stand before those that are written.
+    Pictures { image: usize, skipped: usize },
+    /// One pixel of the range after the other, so many channels each.
+    Apart { channels: usize },
+}
+
 /// output[pixel, channel] = finish(start + Σ over taps, run: input · weights).
 pub(crate) struct Correlation<'a> {
     /// Where each pixel of a picture begins in the input and lies in the output.
     pub(crate) pixels: &'a Pixels,
-    /// How many pictures.
-    pub(crate) images: usize,
+    /// Pixels that are written, counted over all pictures.
+    pub(crate) range: Range<usize>,
     /// The pictures, `input_image` numbers each.
     pub(crate) input: &'a [f32],
     pub(crate) input_image: usize,
@@ -32,9 +43,8 @@ pub(crate) struct Correlation<'a> {
     /// `[panels, rows, PANEL]`.
     pub(crate) weights: &'a [f32],
     pub(crate) rows: usize,
-    /// The pictures that are written, `output_image` numbers each.
     pub(crate) output: &'a mut [f32],
-    pub(crate) output_image: usize,
+    pub(crate) lie: Lie,
     pub(crate) start: Start<'a>,
     pub(crate) finish: Finish<'a>,
 }
@@ -93,10 +103,10 @@ impl Job for Correlation<'_> {
 impl Correlation<'_> {
     #[inline(always)]
     fn round<V: Vector, const VECTORS: usize>(&mut self, proof: V::Proof, round: Round<'_>) {
-        let total = self.images * self.pixels.len();
-        let mut first = 0;
-        while first < total {
-            let count = (total - first).min(V::ROWS);
+        let Range { start, end } = self.range;
+        let mut first = start;
+        while first < end {
+            let count = (end - first).min(V::ROWS);
             with_constant!(
                 ROWS = count, one of [1, 2, 3, 4, 5, 6] =>
                 self.tile::<V, ROWS, VECTORS>(proof, round, first)
@@ -160,7 +170,7 @@ impl Correlation<'_> {
         if let Finish::AddThenRelu(other) = self.finish {
             Tile::<V, ROWS, VECTORS>::prefetch(proof, other, outputs, PANEL);
         }
-        let is_next = next + ROWS <= self.images * self.pixels.len();
+        let is_next = next + ROWS <= self.range.end;
         if let (Some(last), 0, true) = (round.taps.last(), round.panel, is_next) {
             let end = last.offset + self.run;
             let ends = std::array::from_fn(|row| self.place(next + row).0 + end);
@@ -174,9 +184,13 @@ impl Correlation<'_> {
     fn place(&self, position: usize) -> (usize, usize) {
         let image = position / self.pixels.len();
         let (input, output) = self.pixels.at(position % self.pixels.len());
-        (
-            image * self.input_image + input,
-            image * self.output_image + output,
-        )
+        let output = match self.lie {
+            Lie::Pictures {
+                image: length,
+                skipped,
+            } => image * length + output - skipped,
+            Lie::Apart { channels } => (position - self.range.start) * channels,
+        };
+        (image * self.input_image + input, output)
     }
 }

@@ -1,22 +1,30 @@
 //! The forward pass.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::border::{Reach, is_left_out, reaches};
-use super::correlation::{Correlation, Tap, are_weights_many};
+use super::correlation::{Correlation, Lie, Tap, are_weights_many};
+use super::divided::Divided;
+use crate::convolution::division::{Division, Outputs};
 use crate::convolution::ending::Epilogue;
 use crate::convolution::source::Source;
-use crate::convolution::{Convolution, offset};
+use crate::convolution::{Convolution, TileRooms, offset};
 use crate::machine::Machine;
 use crate::panel::PANEL;
 use crate::planes::{Layout, Planes};
 use crate::simd::Pixels;
+use crate::team;
 
 /// Pixels of pictures that one thread takes at a time: enough to outweigh the weights that they meet.
 const PIXELS_AT_ONCE: usize = 384;
 
 /// Pictures from which on the border is left out where it may be: as many as a tile of sums has rows.
 const IMAGES_WORTH_CLASSES: usize = 6;
+
+/// Pixels that a tile of sums has at most.
+pub(super) const ROWS: usize = 6;
 
 /// A forward pass over pictures of one layout, ready to be run.
 #[derive(Clone, Debug)]
@@ -30,10 +38,10 @@ pub(crate) struct Forward {
 
 /// Output pixels that read the same places of the kernel.
 #[derive(Clone, Debug)]
-struct Class {
-    pixels: Pixels,
-    taps: Vec<Tap>,
-    run: usize,
+pub(super) struct Class {
+    pub(super) pixels: Pixels,
+    pub(super) taps: Vec<Tap>,
+    pub(super) run: usize,
 }
 
 impl Forward {
@@ -69,6 +77,17 @@ impl Forward {
         }
     }
 
+    /// What there is to be divided of a picture with so many panels of outputs.
+    pub(in crate::convolution) fn outputs(&self, panels: usize) -> Outputs {
+        Outputs {
+            pixels: self.whole.pixels.len(),
+            together: ROWS,
+            panels,
+            products: self.rows,
+            points: 1,
+        }
+    }
+
     /// Runs it, into the first pictures of `output`; `each` of a picture sees its output while that is still in a cache.
     pub(crate) fn run<E: Send>(
         &self,
@@ -76,11 +95,33 @@ impl Forward {
         source: Source<'_>,
         (output, epilogue): (&mut Planes, Epilogue<'_>),
         (each, see): (&mut [E], impl Fn(&mut E, &[f32]) + Sync),
+        rooms: &TileRooms,
     ) {
         let count = source.count;
         let layout = output.layout();
         let (input_image, output_image) = (source.input.layout().len(), layout.len());
         let panels = layout.picture.channels / PANEL;
+        let division = self.outputs(panels).divided(team::parts(count));
+        if division != Division::Whole {
+            let images = output.first_mut(count).par_chunks_mut(output_image);
+            let images = images.zip(source.pictures().par_chunks(input_image));
+            let images = images.zip(&mut each[..count]).enumerate();
+            images.for_each(|(index, ((output, input), each))| {
+                let divided = Divided {
+                    class: &self.whole,
+                    rows: self.rows,
+                    input,
+                    weights: source.weights,
+                    layout,
+                };
+                let first = index * output_image;
+                let ending =
+                    |part: Range<usize>| epilogue.within(first + part.start..first + part.end);
+                divided.run(machine, division, (&mut *output, ending), rooms);
+                see(each, output);
+            });
+            return;
+        }
         let are_many = are_weights_many(self.rows, panels);
         let group = images_at_once(self.whole.pixels.len(), count, are_many);
         let inputs = source.pictures().par_chunks(group * input_image);
@@ -95,7 +136,7 @@ impl Forward {
                 for class in self.classes(images) {
                     machine.run(Correlation {
                         pixels: &class.pixels,
-                        images,
+                        range: 0..images * class.pixels.len(),
                         input,
                         input_image,
                         taps: &class.taps,
@@ -103,7 +144,10 @@ impl Forward {
                         weights: source.weights,
                         rows: self.rows,
                         output: &mut *output,
-                        output_image,
+                        lie: Lie::Pictures {
+                            image: output_image,
+                            skipped: 0,
+                        },
                         start,
                         finish,
                     });

@@ -4,7 +4,7 @@
 use rayon::prelude::*;
 
 use super::border;
-use super::correlation::{Correlation, Tap, are_weights_many};
+use super::correlation::{Correlation, Lie, Tap, are_weights_many};
 use super::forward::images_at_once;
 use crate::convolution::ending::{Finish, Onto};
 use crate::convolution::{Convolution, offset};
@@ -69,7 +69,7 @@ impl InputGradient {
                 }
                 machine.run(Correlation {
                     pixels: &class.pixels,
-                    images: into.len() / to_image,
+                    range: 0..into.len() / to_image * class.pixels.len(),
                     input: gradient,
                     input_image: from_image,
                     taps: &class.taps,
@@ -77,7 +77,10 @@ impl InputGradient {
                     weights: exchanged,
                     rows,
                     output: &mut *into,
-                    output_image: to_image,
+                    lie: Lie::Pictures {
+                        image: to_image,
+                        skipped: 0,
+                    },
                     start: onto.start(),
                     finish: Finish::Keep,
                 });

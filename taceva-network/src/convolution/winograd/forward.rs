@@ -1,12 +1,19 @@
 //! The forward pass.
 
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::divided::Divided;
 use super::products::Products;
-use super::rooms::TileRooms;
 use super::weights::to_points;
+use crate::convolution::division::{Division, Outputs};
 use crate::convolution::ending::Epilogue;
+use crate::convolution::rooms::TileRooms;
 use crate::convolution::source::Source;
 use crate::machine::Machine;
 use crate::planes::{Layout, Planes};
+use crate::team;
 
 /// A forward pass over pictures of one layout, ready to be run.
 #[derive(Clone, Copy, Debug)]
@@ -20,6 +27,11 @@ impl Forward {
         Forward {
             products: Products::new(input, output),
         }
+    }
+
+    /// What there is to be divided of a picture.
+    pub(in crate::convolution) fn outputs(&self) -> Outputs {
+        self.products.outputs()
     }
 
     /// Numbers of transformed weights.
@@ -50,7 +62,28 @@ impl Forward {
         each: (&mut [E], impl Fn(&mut E, &[f32]) + Sync),
         rooms: &TileRooms,
     ) {
+        let count = source.count;
         let read = (source.pictures(), source.weights);
+        let division = self.outputs().divided(team::parts(count));
+        if division != Division::Whole {
+            let lengths = [self.products.input, self.products.output].map(|layout| layout.len());
+            let images = output.first_mut(count).par_chunks_mut(lengths[1]);
+            let images = images.zip(read.0.par_chunks(lengths[0]));
+            let images = images.zip(&mut each.0[..count]).enumerate();
+            images.for_each(|(index, ((output, input), item))| {
+                let divided = Divided {
+                    products: self.products,
+                    input,
+                    weights: source.weights,
+                };
+                let first = index * lengths[1];
+                let ending =
+                    |part: Range<usize>| epilogue.within(first + part.start..first + part.end);
+                divided.run(machine, division, (&mut *output, ending), rooms);
+                each.1(item, output);
+            });
+            return;
+        }
         let written = (output.first_mut(source.count), |range| {
             epilogue.within(range)
         });

@@ -2,9 +2,9 @@
 //! kernels turned.
 
 use super::products::Products;
-use super::rooms::Rooms;
 use super::weights::to_points;
 use crate::convolution::ending::{Finish, Onto};
+use crate::convolution::rooms::Rooms;
 use crate::machine::Machine;
 use crate::planes::{Layout, Planes};
 

@@ -4,11 +4,11 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::rooms::TileRooms;
 use super::tiles::Stretch;
 use super::{POINTS, Tiles, slab, transformed_len};
 use crate::constant::with_constant;
 use crate::convolution::ending::{Finish, Start};
+use crate::convolution::rooms::TileRooms;
 use crate::machine::Machine;
 use crate::panel::PANEL;
 use crate::planes::Layout;
@@ -34,6 +34,21 @@ pub(super) const fn channels_at_once(channels: usize) -> usize {
 
 /// Bytes of transformed weights that a cache holds.
 const WEIGHTS_IN_CACHE: usize = 4 << 20;
+
+/// How many tiles are taken at once that meet `weights`.
+pub(super) fn tiles_at_once(weights: &[f32]) -> usize {
+    let are_many = size_of_val(weights) > WEIGHTS_IN_CACHE;
+    if are_many {
+        TILES_AT_ONCE_OF_MANY_WEIGHTS
+    } else {
+        TILES_AT_ONCE
+    }
+}
+
+/// Tiles of each stretch of `total`, of at most about `most`: of nearly the same length, which tiles of sums divide.
+pub(super) fn stretch(total: usize, most: usize) -> usize {
+    total.div_ceil(total.div_ceil(most)).next_multiple_of(6)
+}
 
 /// Pictures of one layout and the layout of what comes of them.
 #[derive(Clone, Copy, Debug)]
@@ -78,19 +93,11 @@ impl Products {
         let tiles = Tiles::of(self.output.picture);
         let channels = [self.input, self.output].map(|layout| layout.picture.channels);
         let (input_image, output_image) = (self.input.len(), self.output.len());
-        let are_many = size_of_val(weights) > WEIGHTS_IN_CACHE;
-        let most = if are_many {
-            TILES_AT_ONCE_OF_MANY_WEIGHTS
-        } else {
-            TILES_AT_ONCE
-        };
-        let share = (output.len() / output_image)
-            .div_ceil(rayon::current_num_threads())
-            .max(1);
+        let most = tiles_at_once(weights);
+        let count = output.len() / output_image;
+        let share = count.div_ceil(rayon::current_num_threads()).max(1);
         let images = (most / tiles.per_picture).clamp(1, share);
-        // Stretches of nearly the same length, which tiles of sums divide.
-        let total = images * tiles.per_picture;
-        let at_once = total.div_ceil(total.div_ceil(most)).next_multiple_of(6);
+        let at_once = stretch(images * tiles.per_picture, most);
         let slabs = channels.map(|channels| slab(at_once, channels));
 
         let inputs = pictures.par_chunks(images * input_image);
@@ -105,13 +112,13 @@ impl Products {
                     let (at_points, sums) = room.split_at_mut(POINTS * slabs[0]);
                     machine.run(Group {
                         tiles,
-                        count: output.len() / output_image * tiles.per_picture,
+                        range: 0..output.len() / output_image * tiles.per_picture,
                         at_once,
                         channels,
                         channels_at_once: self.channels_at_once,
                         pictures: (pictures, self.input),
                         weights,
-                        output: (&mut *output, self.output),
+                        output: (&mut *output, self.output, 0),
                         ending,
                         room: [at_points, sums],
                     });
@@ -124,20 +131,21 @@ impl Products {
 }
 
 /// Some pictures.
-struct Group<'a> {
-    tiles: Tiles,
-    /// Tiles of all the pictures.
-    count: usize,
-    at_once: usize,
+pub(super) struct Group<'a> {
+    pub(super) tiles: Tiles,
+    /// Tiles that are written, counted over all the pictures.
+    pub(super) range: Range<usize>,
+    pub(super) at_once: usize,
     /// Read and written.
-    channels: [usize; 2],
-    channels_at_once: usize,
-    pictures: (&'a [f32], Layout),
-    weights: &'a [f32],
-    output: (&'a mut [f32], Layout),
-    ending: (Start<'a>, Finish<'a>),
+    pub(super) channels: [usize; 2],
+    pub(super) channels_at_once: usize,
+    pub(super) pictures: (&'a [f32], Layout),
+    pub(super) weights: &'a [f32],
+    /// The pictures that are written, and how many numbers of them are left out before the first.
+    pub(super) output: (&'a mut [f32], Layout, usize),
+    pub(super) ending: (Start<'a>, Finish<'a>),
     /// `[point, tile, channel]`: inputs and sums.
-    room: [&'a mut [f32]; 2],
+    pub(super) room: [&'a mut [f32]; 2],
 }
 
 impl Job for Group<'_> {
@@ -146,20 +154,21 @@ impl Job for Group<'_> {
     #[inline(always)]
     fn run<V: Vector>(mut self, proof: V::Proof) {
         let [read, written] = self.channels;
-        let mut first = 0;
-        while first < self.count {
-            let range = first..(first + self.at_once).min(self.count);
-            let stretch = |channels| Stretch {
+        let Range { start, end } = self.range;
+        let mut first = start;
+        while first < end {
+            let range = first..(first + self.at_once).min(end);
+            let stretch_of = |channels| Stretch {
                 tiles: self.tiles,
                 range: range.clone(),
                 slab: slab(self.at_once, channels),
             };
-            let (inputs, outputs) = (stretch(read), stretch(written));
+            let (inputs, outputs) = (stretch_of(read), stretch_of(written));
             inputs.read_inputs::<V>(proof, self.pictures, self.room[0]);
             for point in 0..POINTS {
                 self.point::<V>(proof, point, range.len());
             }
-            let output = (&mut *self.output.0, self.output.1);
+            let output = (&mut *self.output.0, self.output.1, self.output.2);
             outputs.write_outputs::<V>(proof, self.room[1], output, self.ending);
             first = range.end;
         }

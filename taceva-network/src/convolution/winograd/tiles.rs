@@ -93,20 +93,21 @@ impl Stretch {
         }
     }
 
-    /// Writes the tiles of outputs from the sums at each point.
+    /// Writes the tiles of outputs from the sums at each point, into pictures of which so many numbers are left out before the first.
     #[inline(always)]
     pub(super) fn write_outputs<V: Vector>(
         &self,
         proof: V::Proof,
         sums: &[f32],
-        (pictures, layout): (&mut [f32], Layout),
+        (pictures, layout, skipped): (&mut [f32], Layout, usize),
         ending: (Start<'_>, Finish<'_>),
     ) {
         let (channels, row) = (layout.picture.channels, layout.row());
         for (position, tile) in self.range.clone().enumerate() {
             let place = self.tiles.place(tile);
             let corner =
-                place.image * layout.len() + layout.start_of_row(place.y) + place.x * channels;
+                place.image * layout.len() + layout.start_of_row(place.y) + place.x * channels
+                    - skipped;
             for channel in (0..channels).step_by(V::LANES) {
                 let mut half = [[V::zero(proof); SIDE]; TILE];
                 for column in 0..SIDE {

@@ -2,8 +2,9 @@
 
 use super::super::products::{Products, channels_at_once};
 use super::super::weights::to_points;
-use super::{Case, ConvolutionWeights, Numbers, TileRooms, batch_of, case, error, values};
+use super::{Case, ConvolutionWeights, Numbers, batch_of, case, error, values};
 use crate::convolution::ConvolutionForm;
+use crate::convolution::TileRooms;
 use crate::convolution::ending::{Finish, Start};
 use crate::convolution::tests::{forward, machines, passes};
 use crate::machine::Machine;

@@ -11,7 +11,7 @@ pub(crate) struct Rooms<'a> {
     pub(crate) tiles: &'a TileRooms,
 }
 
-/// Rooms for transformed tiles: a thread takes one, or makes one, and gives it back.
+/// Rooms for transformed tiles and for outputs that lie apart: a thread takes one, or makes one, and gives it back.
 #[derive(Debug, Default)]
 pub(crate) struct TileRooms {
     spare: Mutex<Vec<Aligned>>,
@@ -20,11 +20,23 @@ pub(crate) struct TileRooms {
 impl TileRooms {
     /// Does `work` with room for `length` numbers, which holds anything.
     pub(super) fn with<R>(&self, length: usize, work: impl FnOnce(&mut [f32]) -> R) -> R {
-        let taken = self.spare().pop().filter(|room| length <= room.len());
-        let mut room = taken.unwrap_or_else(|| Aligned::zeros(length));
+        let mut room = self.taken(length).unwrap_or_else(|| Aligned::zeros(length));
         let result = work(&mut room[..length]);
         self.spare().push(room);
         result
+    }
+
+    /// The latest room that is long enough; where there is none, one that is not makes way for another.
+    fn taken(&self, length: usize) -> Option<Aligned> {
+        let mut spare = self.spare();
+        let position = spare.iter().rposition(|room| length <= room.len());
+        match position {
+            Some(position) => Some(spare.remove(position)),
+            None => {
+                spare.pop();
+                None
+            }
+        }
     }
 
     fn spare(&self) -> MutexGuard<'_, Vec<Aligned>> {

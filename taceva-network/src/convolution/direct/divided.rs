@@ -1,0 +1,136 @@
+//! The forward pass of one picture in parts, each on a thread of its own.
+
+use std::ops::Range;
+
+use super::correlation::{Correlation, Lie};
+use super::forward::{Class, ROWS};
+use crate::convolution::TileRooms;
+use crate::convolution::division::Division;
+use crate::convolution::ending::{Finish, Start};
+use crate::convolution::gathering::Gathering;
+use crate::machine::Machine;
+use crate::panel::PANEL;
+use crate::planes::Layout;
+use crate::team;
+
+/// One picture and what it is convolved with.
+#[derive(Clone, Copy)]
+pub(super) struct Divided<'a> {
+    pub(super) class: &'a Class,
+    /// Rows of weights of each panel.
+    pub(super) rows: usize,
+    pub(super) input: &'a [f32],
+    pub(super) weights: &'a [f32],
+    /// How the output lies.
+    pub(super) layout: Layout,
+}
+
+impl<'a> Divided<'a> {
+    /// Writes the output; `ending` says what stands around the sums of some numbers of it.
+    pub(super) fn run(
+        self,
+        machine: Machine,
+        division: Division,
+        (output, ending): (
+            &mut [f32],
+            impl Fn(Range<usize>) -> (Start<'a>, Finish<'a>) + Sync,
+        ),
+        rooms: &TileRooms,
+    ) {
+        match division {
+            Division::Whole => self.by_pixels(machine, 1, output, ending),
+            Division::Pixels(parts) => self.by_pixels(machine, parts, output, ending),
+            Division::Panels(parts) => {
+                let ending = ending(0..output.len());
+                self.by_panels(machine, parts, (output, ending), rooms);
+            }
+        }
+    }
+
+    /// Each part writes its stretch of the output.
+    fn by_pixels(
+        self,
+        machine: Machine,
+        parts: usize,
+        output: &mut [f32],
+        ending: impl Fn(Range<usize>) -> (Start<'a>, Finish<'a>) + Sync,
+    ) {
+        let pixels = self.class.pixels.len();
+        let share = pixels.div_ceil(parts).next_multiple_of(ROWS);
+        let length = output.len();
+        let (mut rest, mut skipped) = (output, 0);
+        let mut stretches = Vec::with_capacity(parts);
+        for first in (0..pixels).step_by(share) {
+            let range = first..(first + share).min(pixels);
+            let end = if range.end == pixels {
+                length
+            } else {
+                self.class.pixels.at(range.end).1
+            };
+            let (stretch, others) = rest.split_at_mut(end - skipped);
+            stretches.push((range, skipped, stretch));
+            (rest, skipped) = (others, end);
+        }
+        team::divide(stretches, |(range, skipped, output)| {
+            let ending = ending(skipped..skipped + output.len());
+            let image = length;
+            let lie = Lie::Pictures { image, skipped };
+            self.part(machine, (range, self.weights), (output, lie), ending);
+        });
+    }
+
+    /// Each part writes its panels apart, and they are brought together.
+    fn by_panels(
+        self,
+        machine: Machine,
+        parts: usize,
+        (output, (start, finish)): (&mut [f32], (Start<'a>, Finish<'a>)),
+        rooms: &TileRooms,
+    ) {
+        let picture = self.layout.picture;
+        let channels = (picture.channels / PANEL).div_ceil(parts) * PANEL;
+        rooms.with(picture.len(), |room| {
+            let weights = self.weights.chunks(self.rows * channels);
+            let apart = room.chunks_mut(picture.pixels() * channels);
+            let parts = apart.zip(weights).enumerate().collect();
+            team::divide(parts, |(part, (output, weights))| {
+                let lie = Lie::Apart {
+                    channels: output.len() / picture.pixels(),
+                };
+                let ending = (start.from(part * channels), Finish::Keep);
+                let range = 0..self.class.pixels.len();
+                self.part(machine, (range, weights), (output, lie), ending);
+            });
+            machine.run(Gathering {
+                parts: room,
+                channels,
+                output: (output, self.layout),
+                finish,
+            });
+        });
+    }
+
+    fn part(
+        self,
+        machine: Machine,
+        (range, weights): (Range<usize>, &[f32]),
+        (output, lie): (&mut [f32], Lie),
+        (start, finish): (Start<'_>, Finish<'_>),
+    ) {
+        machine.run(Correlation {
+            pixels: &self.class.pixels,
+            range,
+            input: self.input,
+            // There is but one picture.
+            input_image: 0,
+            taps: &self.class.taps,
+            run: self.class.run,
+            weights,
+            rows: self.rows,
+            output,
+            lie,
+            start,
+            finish,
+        });
+    }
+}

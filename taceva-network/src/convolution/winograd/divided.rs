@@ -1,0 +1,169 @@
+//! The forward pass of one picture in parts, each on a thread of its own.
+
+use std::ops::Range;
+
+use super::products::{Group, Products, stretch, tiles_at_once};
+use super::{POINTS, TILE, Tiles, slab};
+use crate::convolution::division::{Division, Outputs};
+use crate::convolution::ending::{Finish, Start};
+use crate::convolution::gathering::Gathering;
+use crate::convolution::rooms::TileRooms;
+use crate::machine::Machine;
+use crate::panel::PANEL;
+use crate::planes::Layout;
+use crate::team;
+
+/// One picture and what it is convolved with.
+#[derive(Clone, Copy)]
+pub(super) struct Divided<'a> {
+    pub(super) products: Products,
+    pub(super) input: &'a [f32],
+    /// Transformed.
+    pub(super) weights: &'a [f32],
+}
+
+/// A part of the picture.
+struct Part<'a> {
+    tiles: Range<usize>,
+    weights: &'a [f32],
+    /// What is written, how it lies, and how many numbers are left out before it.
+    output: (&'a mut [f32], Layout, usize),
+    ending: (Start<'a>, Finish<'a>),
+}
+
+impl Products {
+    /// What there is to be divided of a picture.
+    pub(super) fn outputs(&self) -> Outputs {
+        let tiles = Tiles::of(self.output.picture);
+        Outputs {
+            pixels: tiles.per_picture,
+            // Whole rows of tiles, which write whole rows of the output.
+            together: tiles.across,
+            panels: self.output.picture.channels / PANEL,
+            products: self.input.picture.channels,
+            points: POINTS,
+        }
+    }
+}
+
+impl<'a> Divided<'a> {
+    /// Writes the output; `ending` says what stands around the sums of some numbers of it.
+    pub(super) fn run(
+        self,
+        machine: Machine,
+        division: Division,
+        (output, ending): (
+            &mut [f32],
+            impl Fn(Range<usize>) -> (Start<'a>, Finish<'a>) + Sync,
+        ),
+        rooms: &TileRooms,
+    ) {
+        match division {
+            Division::Whole => self.by_rows(machine, 1, (output, ending), rooms),
+            Division::Pixels(parts) => self.by_rows(machine, parts, (output, ending), rooms),
+            Division::Panels(parts) => {
+                let ending = ending(0..output.len());
+                self.by_panels(machine, parts, (output, ending), rooms);
+            }
+        }
+    }
+
+    /// Each part writes some rows of tiles.
+    fn by_rows(
+        self,
+        machine: Machine,
+        parts: usize,
+        (output, ending): (
+            &mut [f32],
+            impl Fn(Range<usize>) -> (Start<'a>, Finish<'a>) + Sync,
+        ),
+        rooms: &TileRooms,
+    ) {
+        let layout = self.products.output;
+        let tiles = Tiles::of(layout.picture);
+        let all = tiles.per_picture / tiles.across;
+        let share = all.div_ceil(parts);
+        let length = output.len();
+        let (mut rest, mut skipped) = (output, 0);
+        let mut stretches = Vec::with_capacity(parts);
+        for first in (0..all).step_by(share) {
+            let last = (first + share).min(all);
+            let end = if last == all {
+                length
+            } else {
+                (last * TILE + layout.border) * layout.row()
+            };
+            let (stretch, others) = rest.split_at_mut(end - skipped);
+            let ending = ending(skipped..end);
+            stretches.push(Part {
+                tiles: first * tiles.across..last * tiles.across,
+                weights: self.weights,
+                output: (stretch, layout, skipped),
+                ending,
+            });
+            (rest, skipped) = (others, end);
+        }
+        team::divide(stretches, |part| self.part(machine, part, rooms));
+    }
+
+    /// Each part writes its panels apart, and they are brought together.
+    fn by_panels(
+        self,
+        machine: Machine,
+        parts: usize,
+        (output, (start, finish)): (&mut [f32], (Start<'a>, Finish<'a>)),
+        rooms: &TileRooms,
+    ) {
+        let layout = self.products.output;
+        let picture = layout.picture;
+        let channels = (picture.channels / PANEL).div_ceil(parts) * PANEL;
+        let of_panel = POINTS * slab(self.products.input.picture.channels, PANEL);
+        rooms.with(picture.len(), |room| {
+            let weights = self.weights.chunks(channels / PANEL * of_panel);
+            let apart = room.chunks_mut(picture.pixels() * channels).enumerate();
+            let parts = apart.zip(weights).map(|((part, output), weights)| {
+                let mut layout = layout.bare();
+                layout.picture.channels = output.len() / picture.pixels();
+                Part {
+                    tiles: 0..Tiles::of(picture).per_picture,
+                    weights,
+                    output: (output, layout, 0),
+                    ending: (start.from(part * channels), Finish::Keep),
+                }
+            });
+            team::divide(parts.collect(), |part| self.part(machine, part, rooms));
+            machine.run(Gathering {
+                parts: room,
+                channels,
+                output: (output, layout),
+                finish,
+            });
+        });
+    }
+
+    fn part(self, machine: Machine, part: Part<'_>, rooms: &TileRooms) {
+        let Products {
+            input,
+            output,
+            channels_at_once,
+        } = self.products;
+        let channels = [input, part.output.1].map(|layout| layout.picture.channels);
+        let at_once = stretch(part.tiles.len(), tiles_at_once(part.weights));
+        let slabs = channels.map(|channels| slab(at_once, channels));
+        rooms.with(POINTS * (slabs[0] + slabs[1]), |room| {
+            let (at_points, sums) = room.split_at_mut(POINTS * slabs[0]);
+            machine.run(Group {
+                tiles: Tiles::of(output.picture),
+                range: part.tiles,
+                at_once,
+                channels,
+                channels_at_once,
+                pictures: (self.input, input),
+                weights: part.weights,
+                output: part.output,
+                ending: part.ending,
+                room: [at_points, sums],
+            });
+        });
+    }
+}

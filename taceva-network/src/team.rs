@@ -1,0 +1,172 @@
+//! Several threads of the pool at one picture: parts of work that are too short to wake a thread for each.
+//!
+//! A thread of the pool that finds nothing to do falls asleep after about ten microseconds and takes twenty or more to wake
+//! (`examples/waking.rs` measures it), and a layer of a network is passed in a hundred. So those that are to help look for parts all
+//! the while that pictures are predicted, for a while in vain, and whoever waits for a part looks on too.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+use rayon::Yield;
+
+/// Threads that divide the work of one picture at most: a layer has not enough for more.
+const MOST: usize = 8;
+
+/// How many times a thread looks for work in vain before it may sleep: several times as many as a layer takes.
+const PATIENCE: u32 = 3000;
+
+/// How many times a thread looks in vain before it lets other programs have the processor.
+const LOOKS: u32 = 64;
+
+/// Parts that each of so many pictures is to be divided into, so that every thread has something to do.
+pub(crate) fn parts(images: usize) -> usize {
+    let threads = rayon::current_num_threads().min(MOST);
+    if (1..threads).contains(&images) {
+        threads.div_ceil(images)
+    } else {
+        1
+    }
+}
+
+/// Does `work` to each of `parts`, the first on this thread; the others are done by whoever is free.
+pub(crate) fn divide<P: Send>(parts: Vec<P>, work: impl Fn(P) + Sync) {
+    let mut parts = parts.into_iter();
+    let Some(own) = parts.next() else { return };
+    let left = AtomicUsize::new(parts.len());
+    let (work, left) = (&work, &left);
+    // It does not end before its parts have, whatever becomes of them.
+    rayon::in_place_scope(|scope| {
+        for part in parts {
+            scope.spawn(move |_| {
+                work(part);
+                left.fetch_sub(1, Ordering::Release);
+            });
+        }
+        work(own);
+        look_for_work(|| left.load(Ordering::Acquire) == 0);
+    });
+}
+
+/// While it lives the threads that help do not sleep, unless there is nothing to do for a while.
+#[must_use]
+pub(crate) struct Awake {
+    is_over: Arc<AtomicBool>,
+}
+
+impl Awake {
+    /// Wakes as many threads as divide a picture beside this one.
+    pub(crate) fn keep() -> Awake {
+        let is_over = Arc::new(AtomicBool::new(false));
+        let begun = Arc::new(AtomicUsize::new(0));
+        let home = rayon::current_thread_index();
+        let others = rayon::current_num_threads().min(MOST) - 1;
+        for _ in 0..others {
+            let (is_over, begun) = (Arc::clone(&is_over), Arc::clone(&begun));
+            rayon::spawn(move || {
+                begun.fetch_add(1, Ordering::Relaxed);
+                // This thread has found what another was meant to find, and has its own work.
+                if rayon::current_thread_index() == home {
+                    return;
+                }
+                // The first would otherwise find what is to wake the next.
+                for _ in 0..PATIENCE {
+                    if begun.load(Ordering::Relaxed) >= others {
+                        break;
+                    }
+                    std::hint::spin_loop();
+                }
+                look_for_work(|| is_over.load(Ordering::Acquire));
+            });
+        }
+        Awake { is_over }
+    }
+}
+
+impl Drop for Awake {
+    fn drop(&mut self) {
+        self.is_over.store(true, Ordering::Release);
+    }
+}
+
+/// Does what work there is until `is_over`, or until there was none for a while: several that look for each other's work would
+/// otherwise wait for ever.
+fn look_for_work(is_over: impl Fn() -> bool) {
+    let mut in_vain = 0;
+    while in_vain < PATIENCE && !is_over() {
+        if rayon::yield_now() == Some(Yield::Executed) {
+            in_vain = 0;
+            continue;
+        }
+        in_vain += 1;
+        if in_vain.is_multiple_of(LOOKS) {
+            std::thread::yield_now();
+        }
+        std::hint::spin_loop();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn on_threads<R: Send>(threads: usize, work: impl FnOnce() -> R + Send) -> R {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.expect("threads").install(work)
+    }
+
+    #[test]
+    fn every_part_is_done_once_on_any_number_of_threads_and_outside_a_pool() {
+        let all = || {
+            let _awake = Awake::keep();
+            let mut done = vec![0_u32; 37];
+            for _ in 0..200 {
+                divide(done.iter_mut().collect(), |place: &mut u32| *place += 1);
+            }
+            done
+        };
+        for threads in [1, 2, 3, 9] {
+            assert_eq!(on_threads(threads, all), [200; 37], "{threads} threads");
+        }
+        assert_eq!(all(), [200; 37]);
+        divide(Vec::new(), |(): ()| unreachable!("no part"));
+    }
+
+    #[test]
+    fn several_teams_in_one_pool_all_come_to_an_end() {
+        let total = AtomicUsize::new(0);
+        on_threads(3, || {
+            rayon::scope(|scope| {
+                for _ in 0..12 {
+                    scope.spawn(|_| {
+                        let _awake = Awake::keep();
+                        for _ in 0..50 {
+                            divide(vec![1, 2, 3], |part| {
+                                total.fetch_add(part, Ordering::Relaxed);
+                            });
+                        }
+                    });
+                }
+            });
+        });
+        assert_eq!(total.into_inner(), 12 * 50 * 6);
+    }
+
+    #[test]
+    fn a_part_that_panics_is_a_panic_of_the_whole_and_not_a_wait() {
+        let outcome = std::panic::catch_unwind(|| {
+            on_threads(2, || {
+                divide(vec![0, 1, 2, 3], |part| assert!(part != 2, "part 2"));
+            });
+        });
+        assert!(outcome.is_err());
+    }
+
+    #[test]
+    fn pictures_are_divided_only_where_they_are_fewer_than_threads() {
+        on_threads(4, || {
+            assert_eq!([1, 2, 3, 4, 5].map(parts), [4, 2, 2, 1, 1]);
+        });
+        on_threads(1, || assert_eq!([1, 2].map(parts), [1, 1]));
+        on_threads(20, || assert_eq!([1, 8].map(parts), [MOST, 1]));
+    }
+}
