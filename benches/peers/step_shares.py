@@ -13,7 +13,7 @@ import sys
 KINDS = [
     ("Winograd's: outputs and gradients of inputs", r"winograd::products"),
     ("Winograd's: gradients of weights", r"winograd::(sums|weight_gradient)"),
-    ("Winograd's: weights to the points and back", r"winograd::weights|weights::Exchange"),
+    ("weights exchanged, to the points and back", r"winograd::weights|weights::Exchange"),
     ("direct: outputs and gradients of inputs", r"direct::correlation"),
     ("direct: gradients of weights", r"direct::weight_gradient"),
     ("normalisation: moments", r"batch_norm::sums"),
