@@ -5,7 +5,7 @@ mod lab;
 use std::fs;
 
 use lab::{Lab, MAP};
-use taceva_dataset::{Dataset, DatasetError, ImportMap, Version};
+use taceva_dataset::{Dataset, DatasetError, ImportMap};
 
 #[test]
 fn a_missing_column_lists_those_there_are_and_suggests_one() {
