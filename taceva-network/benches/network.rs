@@ -1,7 +1,7 @@
 //! Images per second of training steps and of predictions: ResNet-18, six outputs, batches of 32 (and single pictures), in both forms of
 //! convolutions in turn or in one of them.
 //!
-//! `cargo bench -p taceva-network [-- SIDE [THREADS [REPEATS]]] [winograd | direct] [single | training]`; without arguments 64² and 112² on one and two threads,
+//! `cargo bench -p taceva-network [-- SIDE [THREADS [REPEATS]]] [winograd | mixed | direct] [single | training]`; without arguments 64² and 112² on one and two threads,
 //! both forms; with `single` predictions of single pictures alone, with `training` steps alone, for a profiler. The best of REPEATS, by processor time of all threads and by the wall clock, and of
 //! single pictures, which are so short that work beside it hits few of them, the median too, of 4 · REPEATS; and how much memory training takes at most beyond
 //! what the process had before, on Linux and of the first size and form alone, since a peak is one of the process.
@@ -34,6 +34,7 @@ fn main() {
         match word.as_str() {
             "winograd" => forms.push(ConvolutionForm::Winograd),
             "direct" => forms.push(ConvolutionForm::Direct),
+            "mixed" => forms.push(ConvolutionForm::Mixed),
             "single" => is_single = true,
             "training" => is_training = true,
             _ => numbers.push(word.parse().expect("a number or a word of those above")),

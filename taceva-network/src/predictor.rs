@@ -48,7 +48,7 @@ impl Network {
     }
 
     /// The network ready to predict in one form: however many pictures there are, so that the prediction of a picture does not depend on
-    /// what is predicted beside it. [`ConvolutionForm::Direct`] is the faster one where pictures come one at a time, as from a sensor.
+    /// what is predicted beside it. [`ConvolutionForm::Mixed`] is the fastest one where pictures come one at a time, as from a sensor.
     pub fn predictor_in(&self, form: ConvolutionForm) -> Predictor {
         let mut layout = self.architecture.stages()[0].input_layout(self.architecture.input);
         let input = Planes::zeros(layout.picture, layout.border, BATCH);

@@ -1,4 +1,4 @@
-//! The two forms of convolutions: each predicts as it does whatever stands beside, both alike, and training in one of them keeps what a
+//! The forms of convolutions: each predicts as it does whatever stands beside, all alike, and training in one of them keeps what a
 //! training promises.
 
 mod common;
@@ -15,7 +15,7 @@ use taceva_network::{
 };
 use tiles::picture;
 
-const FORMS: [ConvolutionForm; 2] = [ConvolutionForm::Direct, ConvolutionForm::Winograd];
+const FORMS: [ConvolutionForm; 3] = ConvolutionForm::ALL;
 
 /// Three convolutions of 3 × 3 that keep the size of pictures.
 fn same_size(input: Picture) -> Architecture {
@@ -27,7 +27,7 @@ fn bits(values: &[f64]) -> Vec<u64> {
 }
 
 #[test]
-fn both_forms_predict_alike_and_neither_depends_on_the_pictures_beside() {
+fn all_forms_predict_alike_and_none_depends_on_the_pictures_beside() {
     let input = picture(40, 33, 3);
     let network = filled(&Architecture::residual(Depth::Ten, input, 2), 9);
     let pictures = singles(3, 35 * input.len());
@@ -45,15 +45,18 @@ fn both_forms_predict_alike_and_neither_depends_on_the_pictures_beside() {
         all
     });
     let largest = found[0].iter().fold(0.0_f64, |most, v| most.max(v.abs()));
-    for (direct, winograd) in found[0].iter().zip(&found[1]) {
-        assert!((direct - winograd).abs() < 1e-5 * largest);
+    for other in &found[1..] {
+        for (direct, other) in found[0].iter().zip(other) {
+            assert!((direct - other).abs() < 1e-5 * largest);
+        }
     }
-    assert_ne!(bits(&found[0]), bits(&found[1]));
+    let [direct, mixed, winograd] = found.each_ref().map(|found| bits(found));
+    assert!(direct != mixed && mixed != winograd && direct != winograd);
     let mut usual = vec![0.0; 70];
     let mut predictor = network.predictor();
     assert_eq!(predictor.form(), ConvolutionForm::Winograd);
     predictor.predict(&pictures, &mut usual).expect("finite");
-    assert_eq!(bits(&usual), bits(&found[1]));
+    assert_eq!(bits(&usual), winograd);
 }
 
 #[test]
@@ -89,21 +92,22 @@ fn fewer_pictures_than_threads_are_divided_among_these_and_keep_their_bits() {
 }
 
 #[test]
-fn a_network_without_such_convolutions_has_the_same_bits_in_both_forms() {
+fn a_network_without_such_convolutions_has_the_same_bits_in_every_form() {
     let input = picture(24, 20, 1);
     let network = filled(&Architecture::five_layers(input, 3), 9);
     let pictures = singles(3, 5 * input.len());
-    let [direct, winograd] = FORMS.map(|form| {
+    let [direct, mixed, winograd] = FORMS.map(|form| {
         let mut found = [0.0; 15];
         let mut predictor = network.predictor_in(form);
         predictor.predict(&pictures, &mut found).expect("finite");
         bits(&found)
     });
     assert_eq!(direct, winograd);
+    assert_eq!(direct, mixed);
 }
 
 #[test]
-fn maps_of_every_size_from_1_to_9_are_predicted_in_both_forms_from_a_batch_of_one() {
+fn maps_of_every_size_from_1_to_9_are_predicted_in_every_form_from_a_batch_of_one() {
     for (height, width) in (1..=9)
         .map(|side| (side, 10 - side))
         .chain((1..=9).map(|s| (s, s)))

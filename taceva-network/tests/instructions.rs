@@ -17,12 +17,12 @@ fn digest(numbers: impl Iterator<Item = u64>) -> u64 {
     })
 }
 
-/// One picture of odd sizes in both forms, on 1, 2 and 3 threads: a digest of the bits of what is predicted.
-fn predicted() -> [u64; 2] {
+/// One picture of odd sizes in every form, on 1, 2 and 3 threads: a digest of the bits of what is predicted.
+fn predicted() -> [u64; 3] {
     let input = picture(51, 45, 1);
     let network = filled(&Architecture::residual(Depth::Ten, input, 3), 9);
     let alone = singles(3, input.len());
-    [ConvolutionForm::Direct, ConvolutionForm::Winograd].map(|form| {
+    ConvolutionForm::ALL.map(|form| {
         let with = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
             pool.build().expect("threads").install(|| {
@@ -38,7 +38,7 @@ fn predicted() -> [u64; 2] {
     })
 }
 
-/// All weights of two trainings in both forms, on 1, 2 and 3 threads: a digest of their bits.
+/// All weights of two trainings in every form, on 1, 2 and 3 threads: a digest of their bits.
 #[test]
 #[ignore = "run for each instruction set by the other test"]
 #[expect(clippy::print_stdout, reason = "read by the other test")]
@@ -60,7 +60,7 @@ fn digests() {
     }
     let residual = Architecture::residual(Depth::Ten, input, 2);
     for architecture in [residual, same_size(input, [16, 48, 80])] {
-        for form in [ConvolutionForm::Direct, ConvolutionForm::Winograd] {
+        for form in ConvolutionForm::ALL {
             let with = |threads: usize| {
                 let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
                 pool.build().expect("threads").install(|| {
@@ -100,7 +100,7 @@ fn trainings_and_predictions_have_the_same_bits_under_every_fused_taceva_isa_and
         assert!(text.contains(&format!("instructions: {isa}")), "{text}");
         let lines = text.lines().filter(|line| line.contains("digest "));
         let digests: Vec<String> = lines.map(str::to_owned).collect();
-        assert_eq!(digests.len(), 6, "{isa}: {text}");
+        assert_eq!(digests.len(), 9, "{isa}: {text}");
         (isa, digests)
     });
     let fused: Vec<_> = runs.filter(|(isa, _)| *isa != Isa::Portable).collect();
@@ -108,7 +108,21 @@ fn trainings_and_predictions_have_the_same_bits_under_every_fused_taceva_isa_and
         assert_eq!(pair[0].1, pair[1].1, "{} and {}", pair[0].0, pair[1].0);
     }
     for (isa, digests) in &fused {
-        assert_ne!(digests[0], digests[1], "{isa}: forms round differently");
-        assert_ne!(digests[2], digests[3], "{isa}: forms round differently");
+        let [
+            direct,
+            mixed,
+            winograd,
+            trained_direct,
+            _,
+            trained_winograd,
+            ..,
+        ] = &digests[..]
+        else {
+            panic!("{isa}: {digests:?}");
+        };
+        let predicted = [(direct, mixed), (mixed, winograd), (winograd, direct)];
+        for (one, other) in [&predicted[..], &[(trained_direct, trained_winograd)]].concat() {
+            assert_ne!(one, other, "{isa}: forms round differently");
+        }
     }
 }

@@ -26,11 +26,9 @@ impl Forward {
         output: Layout,
         form: ConvolutionForm,
     ) -> Forward {
-        match form {
-            ConvolutionForm::Winograd if winograd::is_for(convolution, output.picture) => {
-                Forward::Winograd(winograd::Forward::new(input, output))
-            }
-            _ => Forward::Direct(direct::Forward::new(convolution, input, output)),
+        match form.is_winograd(convolution, output.picture) {
+            true => Forward::Winograd(winograd::Forward::new(input, output)),
+            false => Forward::Direct(direct::Forward::new(convolution, input, output)),
         }
     }
 

@@ -26,12 +26,10 @@ impl InputGradient {
         input: Layout,
         form: ConvolutionForm,
     ) -> InputGradient {
-        match form {
-            // The picture keeps its size where the stride is 1.
-            ConvolutionForm::Winograd if winograd::is_for(convolution, output.picture) => {
-                InputGradient::Winograd(winograd::InputGradient::new(output, input))
-            }
-            _ => InputGradient::Direct(direct::InputGradient::new(convolution, output, input)),
+        // The picture keeps its size where the stride is 1.
+        match form.is_winograd(convolution, output.picture) {
+            true => InputGradient::Winograd(winograd::InputGradient::new(output, input)),
+            false => InputGradient::Direct(direct::InputGradient::new(convolution, output, input)),
         }
     }
 

@@ -22,11 +22,11 @@ impl WeightGradient {
         output: Layout,
         form: ConvolutionForm,
     ) -> WeightGradient {
-        match form {
-            ConvolutionForm::Winograd if winograd::is_for(convolution, output.picture) => {
-                WeightGradient::Winograd(winograd::WeightGradient::new(input, output))
+        match form.is_winograd(convolution, output.picture) {
+            true => WeightGradient::Winograd(winograd::WeightGradient::new(input, output)),
+            false => {
+                WeightGradient::Direct(direct::WeightGradient::new(convolution, input, output))
             }
-            _ => WeightGradient::Direct(direct::WeightGradient::new(convolution, input, output)),
         }
     }
 

@@ -42,11 +42,15 @@ pub(super) fn is_for(convolution: Convolution, output: Picture) -> bool {
         stride,
         ..
     } = convolution;
-    let tiles = Tiles::of(output).per_picture;
     kernel == 3
         && stride == 1
         && inputs.is_multiple_of(PANEL)
-        && POINTS * tiles < convolution.taps() * output.pixels()
+        && POINTS * tiles(output) < convolution.taps() * output.pixels()
+}
+
+/// Tiles of a picture of outputs.
+pub(super) fn tiles(output: Picture) -> usize {
+    Tiles::of(output).per_picture
 }
 
 /// Numbers from what lies at one point to what lies at the next: a panel more than needed, as powers of two would send all of them to
@@ -56,7 +60,7 @@ const fn slab(rows: usize, width: usize) -> usize {
 }
 
 /// Numbers of transformed weights, or of their gradient.
-const fn transformed_len(inputs: usize, outputs: usize) -> usize {
+pub(super) const fn transformed_len(inputs: usize, outputs: usize) -> usize {
     outputs / PANEL * POINTS * slab(inputs, PANEL)
 }
 

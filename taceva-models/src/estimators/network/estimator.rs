@@ -111,9 +111,9 @@ const CONTRAST: SettingInfo = SettingInfo {
 };
 const CONVOLUTIONS: SettingInfo = SettingInfo {
     key: "convolutions",
-    accepts: "winograd or direct",
+    accepts: "winograd, mixed or direct",
     default: "winograd",
-    about: "the form of convolutions for predictions: winograd is fastest for batches, direct for one picture at a time, as a sensor gives them",
+    about: "the form of convolutions for predictions: winograd is fastest for batches, mixed for one picture at a time, as a sensor gives them",
 };
 const DEVICE: SettingInfo = SettingInfo {
     key: "device",
@@ -293,6 +293,7 @@ impl NetworkEstimator {
 fn form_of(word: &str) -> Option<ConvolutionForm> {
     match word {
         "winograd" => Some(ConvolutionForm::Winograd),
+        "mixed" => Some(ConvolutionForm::Mixed),
         "direct" => Some(ConvolutionForm::Direct),
         _ => None,
     }
