@@ -2,6 +2,8 @@
 
 mod support;
 
+use std::fs;
+
 use support::Bench;
 
 #[test]
@@ -16,19 +18,21 @@ fn a_preset_is_fitted_and_reported_as_its_model_with_its_settings() {
     assert_eq!(model["name"], "cnn", "{model}");
     for (key, value) in [
         ("jitter", "0"),
-        ("local_mean", "3"),
-        ("size", "64x48"),
-        ("features", "64×48 gray"),
+        ("appearance", "auto"),
+        ("size", "up-to-80x60"),
+        ("features", "64×60 gray"),
     ] {
         assert_eq!(model["settings"][key], value, "{model}");
     }
     // By its model and its settings the same comes out.
-    let spelt = "--set size=64x48 --set local_mean=3 --set jitter=0";
+    let spelt = "--set size=up-to-80x60 --set color=auto --set difference=in-color --set appearance=auto --set jitter=0";
     let same = bench.json(&format!("evaluate data --model cnn {spelt} {short}"));
     assert_eq!(found, same);
     let said = bench.ok("fit data --model fast --set epochs=1 --set batch=4 --out m.safetensors");
     assert!(
-        said.contains("settings batch=4 epochs=1 jitter=2 local_mean=3 size=64x48"),
+        said.contains(
+            "settings appearance=auto batch=4 color=auto difference=in-color epochs=1 size=up-to-80x60"
+        ),
         "{said}"
     );
     bench.refused("evaluate data --model fats", 2, "did you mean `fast`?");
@@ -37,6 +41,72 @@ fn a_preset_is_fitted_and_reported_as_its_model_with_its_settings() {
         2,
         "`strength`: unknown key",
     );
+}
+
+#[test]
+fn a_preset_sees_no_more_cells_than_frames_have_pixels_where_its_model_would_refuse_them() {
+    let bench = Bench::new();
+    bench.record("data", 24);
+    let short = "--set epochs=1 --set batch=4 --metrics mae";
+    for preset in ["fast", "default"] {
+        let found = bench.json(&format!("evaluate data --model {preset} {short}"));
+        let settings = &found["provenance"]["model"]["settings"];
+        assert_eq!(settings["features"], "24×24 gray", "{settings}");
+    }
+    bench.refused(&format!("evaluate data --model cnn {short}"), 3, "128×96");
+}
+
+/// Few presses of a gel whose lamps are coloured.
+const COLORED: &str = r#"
+scene_version = 1
+name = "colored"
+seed = 1
+[sensor]
+driver = "sim/magictac:reduction=8;bits=8"
+[robot]
+driver = "sim/robot"
+[force]
+driver = "sim/force-transducer"
+[metrics]
+want = ["accuracy"]
+[protocol.calibration]
+points = 12
+indentations = 1
+[model]
+name = "fast"
+set = { epochs = 1, batch = 8 }
+"#;
+
+#[test]
+fn a_preset_keeps_the_colours_of_frames_less_those_without_contact_and_their_light() {
+    let bench = Bench::new();
+    bench.write("colored.toml", COLORED);
+    bench.ok("run colored.toml --out ran");
+    let recordings = fs::read_dir(bench.path("ran/recordings")).expect("a folder");
+    let recording = recordings.into_iter().next().expect("one").expect("one");
+    let recording = format!("ran/recordings/{}", recording.file_name().display());
+    let short = "--set epochs=1 --set batch=8 --metrics mae --split by-point";
+    let found = bench.json(&format!("evaluate {recording} --model fast {short}"));
+    let features = |found: &serde_json::Value| {
+        found["provenance"]["model"]["settings"]["features"].to_string()
+    };
+    let said = features(&found);
+    assert!(
+        said.ends_with(" rgb, difference from the reference\""),
+        "{said}"
+    );
+    // As a person would spell it, to the same scores.
+    let size = said.trim_matches('"').split(' ').next().expect("a size");
+    let spelt = format!(
+        "--set size={} --set color=rgb --set difference=true --set appearance=light",
+        size.replace('×', "x")
+    );
+    let same = bench.json(&format!("evaluate {recording} --model cnn {spelt} {short}"));
+    assert_eq!(found["scores"], same["scores"]);
+    let gray = bench.json(&format!(
+        "evaluate {recording} --model fast --set color=gray --set difference=false {short}"
+    ));
+    assert!(features(&gray).ends_with(" gray\""), "{}", features(&gray));
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! From frames and signals to features.
 
 mod area;
+mod by_recording;
 mod cell_features;
 pub(crate) mod choice;
 #[cfg(test)]
@@ -19,6 +20,7 @@ pub(crate) mod signals;
 mod spec;
 mod statistics;
 
+pub use by_recording::{FeaturesByRecording, RecordedFrames};
 pub use error::FeatureError;
 pub use extractor::Extractor;
 pub use kinds::{FeatureKind, FeatureKinds};

@@ -39,8 +39,8 @@ pub use estimators::trees::{GradientBoosting, RandomForest, TreeRegressor};
 pub use features::choice::{FailedFeatures, FeatureChoice, FeatureTrial, OpenFeatures};
 pub use features::gratings::{FourierPlane, RadialSpectrum};
 pub use features::{
-    Color, Extractor, FeatureError, FeatureKind, FeatureKinds, FeatureSpec, FrameReduction, Marker,
-    MarkerTracker, Pca, Polarity, Tracked,
+    Color, Extractor, FeatureError, FeatureKind, FeatureKinds, FeatureSpec, FeaturesByRecording,
+    FrameReduction, Marker, MarkerTracker, Pca, Polarity, RecordedFrames, Tracked,
 };
 pub use file::{FormatError, ModelFileError};
 pub use model::{

@@ -4,6 +4,7 @@ mod info;
 mod preset;
 
 pub use info::ModelInfo;
+pub(crate) use preset::DEFAULT;
 pub use preset::{PRESETS, Preset};
 
 use std::fmt;

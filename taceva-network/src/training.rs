@@ -129,22 +129,47 @@ impl<'a> Trainer<'a> {
     ///
     /// # Errors
     /// Those of the engine that it leaves; [`NetworkError::Memory`].
-    pub fn in_form(mut self, form: ConvolutionForm) -> Result<Trainer<'a>, NetworkError> {
-        self.engine = Box::new(Processor::new(&self.snapshot()?, &self.recipe, form)?);
-        self.form = form;
-        Ok(self)
+    pub fn in_form(self, form: ConvolutionForm) -> Result<Trainer<'a>, NetworkError> {
+        let trainer =
+            self.on(|snapshot, recipe| Ok(Box::new(Processor::new(snapshot, recipe, form)?)))?;
+        Ok(Trainer { form, ..trainer })
     }
 
-    /// The same training on the engine that `begin` makes from its present state.
+    /// The same training on the engine that `begin` makes from its present state. The engine that it leaves is gone by then, and so is the memory that it
+    /// took.
     ///
     /// # Errors
     /// Those of `begin`, and of the engine that it leaves.
     pub fn on(
-        mut self,
+        self,
         begin: impl FnOnce(&Snapshot, &Recipe) -> Result<Box<dyn Engine>, NetworkError>,
     ) -> Result<Trainer<'a>, NetworkError> {
-        self.engine = begin(&self.snapshot()?, &self.recipe)?;
-        Ok(self)
+        let snapshot = self.snapshot()?;
+        let Trainer {
+            engine,
+            architecture,
+            state,
+            best,
+            order,
+            recipe,
+            training,
+            validation,
+            scale,
+            form,
+        } = self;
+        drop(engine);
+        Ok(Trainer {
+            engine: begin(&snapshot, &recipe)?,
+            architecture,
+            state,
+            best,
+            order,
+            recipe,
+            training,
+            validation,
+            scale,
+            form,
+        })
     }
 
     /// Its present state. Of a training that met a number that is not finite, the best network: later weights, and what the optimiser

@@ -14,7 +14,7 @@ use crate::error::StudyError;
 use crate::recordings;
 use crate::work::Work;
 
-pub(crate) use sight::{Sight, kinds};
+pub(crate) use sight::{Sight, kinds, recorded_frames};
 pub use table::{FeatureTable, feature_table};
 
 /// The extractor that `spec` asks for on the frames, or the signals, of `dataset`.

@@ -7,8 +7,9 @@ use clap::{Args, ValueEnum};
 /// The names of models, for the two options that take one.
 const MODEL_HELP: &str = "\
 The model to fit: baseline, ridge, pls, elastic-net, kernel-ridge, gaussian-process, knn, lda, random-forest, \
-gradient-boosting, cnn, resnet10, resnet18, resnet34, cnn-ensemble; fast: cnn with size=64x48 local_mean=3 jitter=2; default: cnn as it is; \
-best: cnn-ensemble as it is, the mean of two cnn; \
+gradient-boosting, cnn, resnet10, resnet18, resnet34, cnn-ensemble; fast: cnn with size=up-to-80x60 epochs=170 color=auto difference=in-color appearance=auto; \
+default: cnn with size=up-to-128x96 color=auto difference=in-color appearance=auto; \
+best: cnn-ensemble with size=up-to-128x96 color=auto difference=in-color appearance=auto, the mean of two cnn; \
 auto: tries models on samples left out, as long as that is worth its work and at most budget_s=1800, and takes one; one of a library: \
 linfa/linear, linfa/pls, linfa/elastic-net, linfa/svr, linfa/logistic, smartcore/ridge, smartcore/lasso, smartcore/svr, \
 smartcore/knn, smartcore/random-forest, smartcore/extra-trees, smartcore/gradient-boosting, which can be stopped only between two \

@@ -14,13 +14,13 @@ use taceva_core::{Features, ModelError, Progress, SignalInfo, TrainingSet};
 use self::candidates::{Candidate, candidates};
 use self::card::FOLDS;
 pub use self::card::{AutoCard, AutoTrial, Untried};
-use self::cost::Sizes;
+use self::cost::{NETWORK, Sizes};
 use self::race::{Made, Race};
 use self::validate::Folds;
 use crate::estimators::library::LibraryModel;
 use crate::estimators::network::{Checkpoints, NetworkEstimator};
 use crate::features::{FeatureError, FeatureSpec};
-use crate::registry::{ALL, ModelInfo};
+use crate::registry::{ALL, DEFAULT, ModelInfo};
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 use crate::training::fit::{Chosen, ModelEstimator, ModelFit, estimator};
 use crate::training::problem::{Problem, invalid};
@@ -89,10 +89,14 @@ impl Auto {
 }
 
 impl Auto {
-    /// The model of `info` with default settings, as it learns from what is looked at here.
+    /// The model of `info` with default settings, the network as the preset of that name, as it learns from what is looked at here.
     fn candidate(&self, info: &ModelInfo) -> Made {
+        let settings = match info.name == NETWORK {
+            true => DEFAULT.of_model(),
+            false => ModelSettings::default(),
+        };
         let estimator = info
-            .estimator(&ModelSettings::default())
+            .estimator(&settings)
             .map_err(|error| invalid(error.to_string()).because(error))?;
         let of_signals = self.of_signals.map(|info| estimator.of_signals(info));
         Ok(match of_signals.transpose() {
@@ -101,7 +105,7 @@ impl Auto {
         })
     }
 
-    /// What networks see where they are left what they see by themselves.
+    /// What networks see where frames are large enough and nobody asks for another grid.
     pub(crate) const CLOSER: Option<FeatureSpec> = NetworkEstimator::CNN.features;
 }
 

@@ -1,5 +1,6 @@
 //! Networks that read features as pictures: a small one of five convolutions, and residual ones.
 
+mod appearance;
 mod card;
 mod checkpoint;
 mod ensemble;

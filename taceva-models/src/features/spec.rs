@@ -78,21 +78,22 @@ pub(super) const KINDS: SettingInfo = SettingInfo {
 };
 pub(crate) const SIZE: SettingInfo = SettingInfo {
     key: "size",
-    accepts: "WIDTHxHEIGHT or one number for both, from 1 to 1024; auto in fit, evaluate and models of scenes",
+    accepts: "WIDTHxHEIGHT or one number for both, from 1 to 1024; auto, or as up-to-64x48, in fit, evaluate and models of scenes",
     default: "32x32, 128x96 for networks; 16x16 with markers, 8x8 with statistics",
-    about: "how many cells every frame is divided into; auto tries grids from a quarter as fine to twice as fine, and takes the coarsest whose error is within a standard error of the least",
+    about: "how many cells every frame is divided into; auto tries grids from a quarter as fine to twice as fine, and takes the coarsest whose error is within a standard error of the least; up-to is no more than a frame has pixels",
 };
 pub(super) const COLOR: SettingInfo = SettingInfo {
     key: "color",
-    accepts: "gray or rgb",
+    accepts: "gray or rgb; auto in fit, evaluate and models of scenes",
     default: "gray",
-    about: "whether colour is kept",
+    about: "whether colour is kept; auto keeps it where frames have it",
 };
 pub(crate) const DIFFERENCE: SettingInfo = SettingInfo {
     key: "difference",
-    accepts: "true or false; auto in fit, evaluate and models of scenes",
+    accepts: "true or false; auto or in-color in fit, evaluate and models of scenes",
     default: "false",
-    about: "whether the no-contact reference frame is subtracted from pixels and statistics; markers and gradients always compare with it",
+    about: "whether the no-contact reference frame is subtracted from pixels and statistics; markers and gradients always compare with it; in-color subtracts it from frames in \
+            colour where there is one",
 };
 const PCA: SettingInfo = SettingInfo {
     key: "pca",
@@ -158,13 +159,7 @@ impl FeatureSpec {
             agrees.then_some(kinds)
         })?;
         let default = self.with_kinds(kinds);
-        let (width, height) = settings.value(&SIZE, (default.width, default.height), |text| {
-            let side = |text| number(text, 1..=FeatureSpec::SIDE_MAX);
-            match text.split_once('x') {
-                Some((width, height)) => Some((side(width)?, side(height)?)),
-                None => side(text).map(|side| (side, side)),
-            }
-        })?;
+        let (width, height) = settings.value(&SIZE, (default.width, default.height), size)?;
         Ok(FeatureSpec {
             kinds,
             width,
@@ -245,6 +240,15 @@ impl FeatureSpec {
             && self
                 .pca
                 .is_none_or(|count| (1..=FeatureSpec::PCA_MAX).contains(&count))
+    }
+}
+
+/// Columns and rows of cells, of two numbers or of one for both.
+pub(super) fn size(text: &str) -> Option<(u32, u32)> {
+    let side = |text| number(text, 1..=FeatureSpec::SIDE_MAX);
+    match text.split_once('x') {
+        Some((width, height)) => Some((side(width)?, side(height)?)),
+        None => side(text).map(|side| (side, side)),
     }
 }
 

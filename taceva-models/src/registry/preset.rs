@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::features::FeatureSpec;
 use crate::settings::ModelSettings;
 
 /// A name for a model with settings. A card, a report and a results file name the model and its settings, so that a result can be made again
@@ -16,24 +17,39 @@ pub struct Preset {
     pub settings: &'static [(&'static str, &'static str)],
 }
 
+/// What the recording and its frames decide: as many cells as frames have pixels for; of frames in colour their colours, less those of one without
+/// contact, light being the signal; of others markers.
+const COLOR: (&str, &str) = ("color", "auto");
+const DIFFERENCE: (&str, &str) = ("difference", "in-color");
+const APPEARANCE: (&str, &str) = ("appearance", "auto");
+
+const FAST: Preset = Preset {
+    name: "fast",
+    model: "cnn",
+    settings: &[
+        ("size", "up-to-80x60"),
+        ("epochs", "170"),
+        COLOR,
+        DIFFERENCE,
+        APPEARANCE,
+    ],
+};
+
+/// The network that [`Auto`](crate::Auto) tries, too.
+pub(crate) const DEFAULT: Preset = Preset {
+    name: "default",
+    model: "cnn",
+    settings: &[("size", "up-to-128x96"), COLOR, DIFFERENCE, APPEARANCE],
+};
+
+const BEST: Preset = Preset {
+    name: "best",
+    model: "cnn-ensemble",
+    settings: DEFAULT.settings,
+};
+
 /// The presets, the quickest first. What they rest on, and what each takes and gives: docs/models.md.
-pub const PRESETS: &[Preset] = &[
-    Preset {
-        name: "fast",
-        model: "cnn",
-        settings: &[("size", "64x48"), ("local_mean", "3"), ("jitter", "2")],
-    },
-    Preset {
-        name: "default",
-        model: "cnn",
-        settings: &[],
-    },
-    Preset {
-        name: "best",
-        model: "cnn-ensemble",
-        settings: &[],
-    },
-];
+pub const PRESETS: &[Preset] = &[FAST, DEFAULT, BEST];
 
 impl Preset {
     /// The preset called `name`.
@@ -46,9 +62,15 @@ impl Preset {
     pub fn changed_by(&self, given: ModelSettings) -> ModelSettings {
         given.or(self.settings)
     }
+
+    /// The settings of its model, without those of what that sees.
+    pub(crate) fn of_model(&self) -> ModelSettings {
+        let all = self.changed_by(ModelSettings::default());
+        all.partition(FeatureSpec::SETTINGS).1
+    }
 }
 
-/// `fast: cnn size=64x48`.
+/// `fast: cnn size=up-to-80x60`.
 impl fmt::Display for Preset {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {}", self.name, self.model)?;
@@ -69,6 +91,7 @@ mod tests {
             let none = ModelSettings::default();
             let (model, settings) = models.asked(preset.name, none).expect("known");
             assert_eq!(model.name(), preset.model);
+            let (_, settings) = crate::FeaturesByRecording::of(&settings).expect("valid");
             let (features, own) = settings.partition(crate::FeatureSpec::SETTINGS);
             model.features().changed_by(&features).expect("valid");
             model.estimator(&own).expect("valid");
@@ -82,7 +105,18 @@ mod tests {
         let (model, settings) = Models::builtin().asked("fast", given).expect("known");
         assert_eq!(model.name(), "cnn");
         let words: Vec<String> = settings.words().collect();
-        assert_eq!(words, ["jitter=0", "local_mean=3", "seed=3", "size=64x48"]);
+        assert_eq!(
+            words,
+            [
+                "appearance=auto",
+                "color=auto",
+                "difference=in-color",
+                "epochs=170",
+                "jitter=0",
+                "seed=3",
+                "size=up-to-80x60"
+            ]
+        );
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use taceva_core::{Field, Frame, FrameInfo, Input, InputInfo, SignalInfo, Signals};
 use taceva_dataset::{Dataset, DatasetError};
-use taceva_models::FeatureSpec;
+use taceva_models::{FeatureSpec, RecordedFrames};
 
 /// The frames or the signals of a recording, and what they are without contact, where that is asked for.
 pub(crate) enum Sight {
@@ -52,6 +52,23 @@ impl Sight {
             Sight::Signals(_, rest) => rest.as_ref().map(Input::from),
         }
     }
+}
+
+/// What features depend on of the frames of `dataset`; of several recordings, whether all have one without contact.
+pub(crate) fn recorded_frames(dataset: &Dataset) -> Option<RecordedFrames> {
+    let (frame, _) = kinds(dataset);
+    let has_reference = |own: &Dataset| {
+        let frames = own.header().frames.as_ref();
+        frames.is_some_and(|frames| frames.reference.is_some())
+    };
+    let has_reference = match dataset.recordings() {
+        [] => has_reference(dataset),
+        joined => joined.iter().all(|own| has_reference(own.dataset())),
+    };
+    frame.map(|info| RecordedFrames {
+        info,
+        has_reference,
+    })
 }
 
 /// The frames and the signals of `dataset`, as far as it has such.

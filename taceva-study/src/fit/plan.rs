@@ -8,7 +8,7 @@ use taceva_models::{
 
 use super::{FitRequest, Recipe};
 use crate::error::StudyError;
-use crate::features::kinds;
+use crate::features::{kinds, recorded_frames};
 use crate::plan::Plan;
 use crate::rows::{
     DataPart, Divided, Need, chosen_channels, require_samples, seen_channels, usable,
@@ -57,13 +57,17 @@ impl<'a> FitPlan<'a> {
             estimator,
             of_model,
             features,
+            by_recording,
+            asked,
             open,
             closer,
         } = recipe;
         let model_reads = model.reads_features();
         let (frame, signals) = kinds(dataset);
+        let frames = recorded_frames(dataset);
+        let features = by_recording.on(features, frames);
         let features = match (model_reads, frame, signals) {
-            (true, _, _) => features.on(&request.settings, frame, signals)?,
+            (true, _, _) => features.on(&asked, frame, signals)?,
             // A model that looks at nothing is of whatever there is.
             (false, None, Some(info)) => features.of_signals(info),
             (false, _, _) => features,
@@ -91,7 +95,9 @@ impl<'a> FitPlan<'a> {
                     .is_some_and(|frame| spec.width <= frame.width && spec.height <= frame.height)
                 && estimator.looks_closer([train.len(), spec.shape().len(), channels.len()])
         };
-        let closer = closer.filter(fits);
+        let closer = closer.map(|(spec, by_recording)| by_recording.on(spec, frames));
+        // A grid that a person asks for is that of all.
+        let closer = closer.filter(|closer| *closer != features && fits(closer));
         Ok(FitPlan {
             dataset,
             model,

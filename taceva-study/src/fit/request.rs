@@ -1,7 +1,8 @@
 //! What is to be fitted, before any data is looked at.
 
 use taceva_models::{
-    ChosenModel, FeatureKinds, FeatureSpec, ModelEstimator, ModelSettings, OpenFeatures,
+    ChosenModel, FeatureKinds, FeatureSpec, FeaturesByRecording, ModelEstimator, ModelSettings,
+    OpenFeatures,
 };
 
 use crate::error::StudyError;
@@ -55,14 +56,19 @@ pub(crate) struct Recipe {
     pub(super) estimator: Box<dyn ModelEstimator>,
     pub(super) of_model: ModelSettings,
     pub(super) features: FeatureSpec,
+    /// What of them is left to the frames of the recording.
+    pub(super) by_recording: FeaturesByRecording,
+    /// The settings without what is left to the frames.
+    pub(super) asked: ModelSettings,
     /// What of the features is to be chosen.
     pub(super) open: Option<OpenFeatures>,
-    /// Finer features that some of the models see that are chosen from.
-    pub(super) closer: Option<FeatureSpec>,
+    /// Finer features that some of the models see that are chosen from, and what of these is left to the frames.
+    pub(super) closer: Option<(FeatureSpec, FeaturesByRecording)>,
 }
 
 impl Recipe {
-    /// The cells of a frame that the model looks at, along x and y; `None` where it looks at none, or they are still to be chosen.
+    /// The cells of a frame that the model looks at, along x and y; `None` where it looks at none, or the frames or a choice
+    /// decide.
     pub(crate) fn cells(&self) -> Option<[u32; 2]> {
         let FeatureSpec {
             kinds,
@@ -71,33 +77,37 @@ impl Recipe {
             ..
         } = self.features;
         let looks = self.model.reads_features() && kinds != FeatureKinds::SIGNALS;
-        (looks && self.open.is_none()).then_some([width, height])
+        let is_known = self.open.is_none() && !self.by_recording.leaves_grid();
+        (looks && is_known).then_some([width, height])
     }
 
     /// Reads the settings of the model and of its features.
     pub(crate) fn of(request: &FitRequest) -> Result<Recipe, StudyError> {
         let model = &request.model;
-        let (open, settings) = match OpenFeatures::of(&request.settings) {
+        let (by_recording, asked) = FeaturesByRecording::of(&request.settings)?;
+        let (open, settings) = match OpenFeatures::of(&asked) {
             Some((open, settings)) => (Some(open), settings),
-            None => (None, request.settings.clone()),
+            None => (None, asked.clone()),
         };
         let (of_features, of_model) = settings.partition(FeatureSpec::SETTINGS);
         let mut known = model.setting_keys();
         known.extend(FeatureSpec::SETTINGS.iter().map(|setting| setting.key));
         request.settings.check_names(&known)?;
         let features = model.features().changed_by(&of_features)?;
-        let closer = model.closer_features();
-        let closer = closer.map(|spec| spec.changed_by(&of_features));
-        // A grid that a person asks for is that of all, and components are of one.
-        let differs = |closer: &FeatureSpec| *closer != features && features.pca.is_none();
+        // Components are of one grid.
+        let is_whole = features.pca.is_none() && open.is_none();
+        let closer = model.closer_features().filter(|_| is_whole);
+        let closer = closer.map(|spec| {
+            let by_recording = by_recording.closer(spec, &of_features);
+            Ok::<_, StudyError>((spec.changed_by(&of_features)?, by_recording))
+        });
         Ok(Recipe {
             model: model.clone(),
             estimator: model.estimator(&of_model)?,
             of_model,
-            closer: closer
-                .transpose()?
-                .filter(differs)
-                .filter(|_| open.is_none()),
+            closer: closer.transpose()?,
+            by_recording,
+            asked,
             features,
             open,
         })

@@ -6,6 +6,7 @@ use taceva_core::{
 use taceva_dataset::{
     Dataset, Recorder, RecordingFacts, RecordingSpec, SensorFacts, SignalsSpec, Source,
 };
+use taceva_models::{ModelSettings, Models};
 use taceva_study::fit;
 
 use crate::drawn::{Draws, record};
@@ -71,6 +72,21 @@ fn a_network_learns_place_and_force_from_a_grid_and_does_nothing_to_it_before() 
     let fitted = fit(&dataset, &asked, None, WORK).expect("fitted");
     let network = fitted.model.card().network.clone().expect("a network");
     assert!(network.preprocessing.contrast);
+}
+
+#[test]
+fn a_preset_asks_nothing_of_frames_where_there_are_none_and_leaves_signals_as_they_are() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let dataset = pressed(&folder.path().join("data"));
+    let none = ModelSettings::parse(["epochs=1"]).expect("a pair");
+    let (_, settings) = Models::builtin().asked("fast", none).expect("a preset");
+    let words: Vec<String> = settings.words().collect();
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    assert!(words.contains(&"size=up-to-80x60"), "{words:?}");
+    let preset = fit(&dataset, &request("cnn", &words), None, WORK).expect("fitted");
+    let plain = fit(&dataset, &request("cnn", &["epochs=1"]), None, WORK).expect("fitted");
+    let network = |fitted: &taceva_study::Fitted| fitted.model.card().network.clone();
+    assert_eq!(network(&preset), network(&plain));
 }
 
 #[test]

@@ -117,7 +117,17 @@ mod tests {
             .iter()
             .map(|(key, value)| format!("{key}={value}"))
             .collect();
-        assert_eq!(words, ["jitter=0", "local_mean=3", "size=64x48"]);
+        assert_eq!(
+            words,
+            [
+                "appearance=auto",
+                "color=auto",
+                "difference=in-color",
+                "epochs=170",
+                "jitter=0",
+                "size=up-to-80x60"
+            ]
+        );
         // What no preset is called stays as it is, to be refused by its name.
         assert_eq!(ModelEntry::asked("fats", BTreeMap::new()).name, "fats");
     }

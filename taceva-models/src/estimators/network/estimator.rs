@@ -2,10 +2,9 @@
 
 use taceva_core::{FeatureShape, SignalInfo};
 use taceva_gpu::GpuKind;
-use taceva_network::{
-    Architecture, Augmentation, ConvolutionForm, Depth, Jitter, Loss, Optimizer, Recipe,
-};
+use taceva_network::{Architecture, Augmentation, ConvolutionForm, Depth, Loss, Optimizer, Recipe};
 
+use super::appearance::Preparation;
 use super::regressor::picture;
 use super::{Checkpoints, Preprocessing};
 use crate::features::{Color, FeatureError, FeatureKinds, FeatureSpec};
@@ -17,23 +16,14 @@ use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 #[derive(Clone, Debug, PartialEq)]
 pub struct NetworkEstimator {
     kind: Kind,
-    pub(super) recipe: Recipe,
-    pub(super) preprocessing: Preprocessing,
-    /// What replaces this preprocessing where signals are learnt from.
-    of_signals: OfSignals,
+    /// But for the noise and the shifts of training pictures, which [`preparation`](Self::preparation) has.
+    recipe: Recipe,
+    preparation: Preparation,
     /// The form of convolutions for predictions.
     pub(super) convolutions: ConvolutionForm,
     /// How the GPU that trains is reached, where the processor does not.
     pub(super) gpu: Option<GpuKind>,
     pub(super) checkpoints: Option<Checkpoints>,
-}
-
-/// What a network does to signals: nothing but what a person asked for. The mean of a picture and its contrast say little about a touch;
-/// those of taxels are the touch, and a taxel that is shifted by one is another.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct OfSignals {
-    preprocessing: Preprocessing,
-    jitter_px: usize,
 }
 
 /// Which network.
@@ -79,35 +69,11 @@ const PATIENCE: SettingInfo = SettingInfo {
     default: "all epochs are made",
     about: "epochs without a better one on the validation part after which training stops",
 };
-const JITTER: SettingInfo = SettingInfo {
-    key: "jitter",
-    accepts: "a number of pixels from 0 to 100",
-    default: "3, 0 of signals",
-    about: "how far training pictures are shifted at most",
-};
-const NOISE: SettingInfo = SettingInfo {
-    key: "noise",
-    accepts: "a number from 0 to 10",
-    default: "0.1",
-    about: "the standard deviation of what is added to training pictures, after preprocessing",
-};
 const BRIGHTNESS: SettingInfo = SettingInfo {
     key: "brightness",
     accepts: "a number from 0 to 1",
     default: "0",
     about: "the largest share by which training pictures are made brighter or darker, after preprocessing",
-};
-const LOCAL_MEAN: SettingInfo = SettingInfo {
-    key: "local_mean",
-    accepts: "a number of pixels from 0 to 100",
-    default: "6, 0 of signals",
-    about: "the standard deviation of the Gaussian whose mean is subtracted around each pixel; 0 subtracts nothing",
-};
-const CONTRAST: SettingInfo = SettingInfo {
-    key: "contrast",
-    accepts: "true or false",
-    default: "true, false of signals",
-    about: "whether each picture is divided by its standard deviation",
 };
 const CONVOLUTIONS: SettingInfo = SettingInfo {
     key: "convolutions",
@@ -122,21 +88,25 @@ const DEVICE: SettingInfo = SettingInfo {
     about: "the device that trains; a GPU needs a program built with the feature of that name, and gives other last digits each time",
 };
 
-const SETTINGS: &[SettingInfo] = &[
-    EPOCHS,
-    BATCH,
-    RATE,
-    DECAY,
-    SEED,
-    PATIENCE,
-    JITTER,
-    NOISE,
-    BRIGHTNESS,
-    LOCAL_MEAN,
-    CONTRAST,
-    CONVOLUTIONS,
-    DEVICE,
-];
+const SETTINGS: &[SettingInfo] = &{
+    let [appearance, jitter, noise, local_mean, contrast] = Preparation::SETTINGS;
+    [
+        EPOCHS,
+        BATCH,
+        RATE,
+        DECAY,
+        SEED,
+        PATIENCE,
+        appearance,
+        jitter,
+        noise,
+        BRIGHTNESS,
+        local_mean,
+        contrast,
+        CONVOLUTIONS,
+        DEVICE,
+    ]
+};
 
 /// The least number of places along a side of a grid: five layers, each of half as many places as the one before, need so many.
 const PLACES_LEAST: u32 = 8;
@@ -214,15 +184,6 @@ impl NetworkEstimator {
             kind.check_built()
                 .map_err(|source| SettingError::Device { kind, source })?;
         }
-        let pixels = |default| settings.value(&JITTER, default, |text| number(text, 0..=100));
-        let preprocessing = |local_mean_px, contrast| {
-            Ok::<_, SettingError>(Preprocessing {
-                local_mean_px: settings.value(&LOCAL_MEAN, local_mean_px, |text| {
-                    number(text, 0.0..=Preprocessing::LOCAL_MEAN_MAX)
-                })?,
-                contrast: settings.value(&CONTRAST, contrast, |text| text.parse().ok())?,
-            })
-        };
         Ok(NetworkEstimator {
             kind,
             recipe: Recipe {
@@ -241,19 +202,11 @@ impl NetworkEstimator {
                 patience: settings.value(&PATIENCE, None, |text| number(text, 1..).map(Some))?,
                 augmentation: Augmentation {
                     brightness: settings.value(&BRIGHTNESS, 0.0, |text| number(text, 0.0..=1.0))?,
-                    noise: settings.value(&NOISE, 0.1, |text| number(text, 0.0..=10.0))?,
-                    jitter: Jitter {
-                        pixels: pixels(3)?,
-                        label_per_pixel: Vec::new(),
-                    },
+                    ..Augmentation::default()
                 },
                 ..Recipe::default()
             },
-            preprocessing: preprocessing(6.0, true)?,
-            of_signals: OfSignals {
-                preprocessing: preprocessing(0.0, false)?,
-                jitter_px: pixels(0)?,
-            },
+            preparation: Preparation::from_settings(settings)?,
             convolutions: settings.value(&CONVOLUTIONS, ConvolutionForm::Winograd, form_of)?,
             gpu,
             checkpoints: None,
@@ -267,9 +220,24 @@ impl NetworkEstimator {
             return Err(FeatureError::NarrowGrid { info, least });
         }
         let mut own = self.clone();
-        own.preprocessing = self.of_signals.preprocessing;
-        own.recipe.augmentation.jitter.pixels = self.of_signals.jitter_px;
+        own.preparation = self.preparation.of_signals();
         Ok(own)
+    }
+
+    /// Its recipe for pictures of `shape`, and what is done to each of them before.
+    pub(super) fn recipe(&self, shape: FeatureShape) -> (Recipe, Preprocessing) {
+        let prepared = self.preparation.of(shape);
+        let mut recipe = self.recipe.clone();
+        recipe.augmentation.noise = prepared.noise;
+        recipe.augmentation.jitter = prepared.jitter();
+        (recipe, prepared.preprocessing)
+    }
+
+    /// The same, with this done to its recipe.
+    pub(super) fn with_recipe(&self, change: impl FnOnce(&mut Recipe)) -> NetworkEstimator {
+        let mut own = self.clone();
+        change(&mut own.recipe);
+        own
     }
 
     pub(super) fn info(&self) -> ModelInfo {

@@ -47,9 +47,10 @@ impl ModelEstimator for NetworkEstimator {
             .filter(|channel| !is_constant(channel))
             .collect();
         let architecture = self.architecture(shape, varying.len().max(1));
+        let (recipe, preprocessing) = self.recipe(shape);
 
         let prepare = |set: &TrainingSet<'_>| {
-            let pictures = self.preprocessing.apply(shape, set.features.values());
+            let pictures = preprocessing.apply(shape, set.features.values());
             (pictures, labels_of(set, &varying))
         };
         let learnt = prepare(training);
@@ -64,7 +65,7 @@ impl ModelEstimator for NetworkEstimator {
             let kept = kept.as_ref().map(|(pictures, labels)| of(pictures, labels));
             let training = Training {
                 architecture: &architecture,
-                recipe: &self.recipe,
+                recipe: &recipe,
                 samples: of(&learnt.0, &learnt.1),
                 validation: kept,
                 gpu: gpu.as_ref(),
@@ -84,13 +85,13 @@ impl ModelEstimator for NetworkEstimator {
             }) => (network, scale, state.best),
             // Nothing varies, so that nothing is to be learnt.
             None => {
-                let network = Network::new(&architecture, self.recipe.seed).map_err(refused)?;
+                let network = Network::new(&architecture, recipe.seed).map_err(refused)?;
                 (network, LabelScale::identity(1), None)
             }
         };
         let card = NetworkCard {
             architecture,
-            preprocessing: self.preprocessing,
+            preprocessing,
             scale,
             constant: constant.collect(),
             convolutions: Some(self.convolutions),

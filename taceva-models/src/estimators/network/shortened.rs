@@ -11,17 +11,17 @@ impl NetworkEstimator {
         reason = "at most 100,000 epochs"
     )]
     pub(super) fn shortened(&self, share: f64) -> NetworkEstimator {
-        let mut own = self.clone();
-        let epochs = (share * own.recipe.epochs as f64).round() as u64;
-        own.recipe.epochs = epochs.max(1);
+        let mut own = self.with_recipe(|recipe| {
+            let epochs = (share * recipe.epochs as f64).round() as u64;
+            recipe.epochs = epochs.max(1);
+        });
         own.checkpoints = None;
         own
     }
 
     /// The same with a seed that is `by` larger, and no checkpoints.
     pub(super) fn with_later_seed(&self, by: u64) -> NetworkEstimator {
-        let mut own = self.clone();
-        own.recipe.seed = own.recipe.seed.wrapping_add(by);
+        let mut own = self.with_recipe(|recipe| recipe.seed = recipe.seed.wrapping_add(by));
         own.checkpoints = None;
         own
     }

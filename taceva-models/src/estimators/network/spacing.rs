@@ -63,12 +63,13 @@ impl NetworkEstimator {
             SpacingOutput::Classes => Labels::Classes(&learnt.classes),
             SpacingOutput::Length => Labels::Values(&learnt.lengths),
         };
-        let values = self.preprocessing.apply(shape, pictures.values());
+        let (recipe, preprocessing) = self.recipe(shape);
+        let values = preprocessing.apply(shape, pictures.values());
         let gpu = self.gpu.map(Gpu::find).transpose().map_err(no_gpu)?;
         let network = if known.len() > 1 {
             let training = Training {
                 architecture: &self.architecture(shape, outputs),
-                recipe: &self.recipe_of(output, spacings.len()),
+                recipe: &recipe_of(recipe, output, spacings.len()),
                 samples: Samples {
                     pictures: &values,
                     labels,
@@ -84,23 +85,23 @@ impl NetworkEstimator {
         };
         Ok(SpacingNetwork {
             shape,
-            preprocessing: self.preprocessing,
+            preprocessing,
             network,
             output,
             known,
         })
     }
+}
 
-    /// The recipe for outputs of that kind, in batches that `samples` make.
-    fn recipe_of(&self, output: SpacingOutput, samples: usize) -> Recipe {
-        Recipe {
-            batch: self.recipe.batch.min(samples),
-            loss: match output {
-                SpacingOutput::Classes => Loss::CrossEntropy,
-                SpacingOutput::Length => self.recipe.loss,
-            },
-            ..self.recipe.clone()
-        }
+/// The recipe for outputs of that kind, in batches that `samples` make.
+fn recipe_of(recipe: Recipe, output: SpacingOutput, samples: usize) -> Recipe {
+    Recipe {
+        batch: recipe.batch.min(samples),
+        loss: match output {
+            SpacingOutput::Classes => Loss::CrossEntropy,
+            SpacingOutput::Length => recipe.loss,
+        },
+        ..recipe
     }
 }
 
