@@ -1,15 +1,22 @@
-"""`taceva score` against pandas + scikit-learn, both from two CSV files to printed scores, in turn.
+"""`taceva score` against pandas + scikit-learn, both from two CSV files to printed scores, in turn: time, and peak resident memory.
 
 usage: python3 benches/peers/score.py [ROWS]
 
 The tables hold six channels and a point_id. The peer computes MAE, R² and sMAPE, without intervals.
+
+A process begins with the peak of the one that starts it, so this one stays small: others draw the tables and import the peer.
 """
+import importlib.util
+import os
 import pathlib
 import subprocess
 import sys
 import tempfile
 
-from common import in_turn, need, report, run
+from common import in_turn, need, report, taceva
+
+MODULES = ("numpy", "pandas", "sklearn")
+WRITE = "--write"
 
 PEER = """
 import sys, pandas
@@ -39,28 +46,51 @@ def write(folder, rows):
     pandas.DataFrame(pred).to_csv(folder / "pred.csv", index=False)
 
 
+class Peaks:
+    """The greatest resident memory of each side, in bytes."""
+
+    def __init__(self):
+        self.of_side = {}
+
+    def run(self, side, command):
+        """Runs a command to its end, and keeps how much memory it held at most."""
+        process = subprocess.Popen([*map(str, command)], stdout=subprocess.DEVNULL)
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        if process.returncode:
+            sys.exit(f"{side}: failed with {process.returncode}")
+        # Linux counts in KiB.
+        self.of_side[side] = max(self.of_side.get(side, 0), usage.ru_maxrss * 1024)
+
+    def print(self):
+        for side, peak in self.of_side.items():
+            print(f"{side:<28} peak resident memory {peak / 1e6:6.0f} MB")
+
+
 def main(rows):
-    need("numpy", "pandas", "sklearn")
+    missing = [module for module in MODULES if importlib.util.find_spec(module) is None]
+    need(*missing)
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        write(folder, rows)
+        subprocess.run([sys.executable, __file__, WRITE, folder, str(rows)], check=True)
         truth, pred = folder / "truth.csv", folder / "pred.csv"
         megabytes = (truth.stat().st_size + pred.stat().st_size) / 1e6
         print(f"{rows} rows x 6 channels, {megabytes:.0f} MB")
-
-        def peer():
-            subprocess.run([sys.executable, "-c", PEER, truth, pred], check=True, stdout=subprocess.DEVNULL)
-
-        times, machine = in_turn(
-            5,
-            **{
-                "taceva, all metrics": lambda: run("score", "--truth", truth, "--pred", pred, "--quiet"),
-                "taceva, accuracy": lambda: run("score", "--truth", truth, "--pred", pred, "--metrics", "accuracy", "--quiet"),
-                "pandas + scikit-learn": peer,
-            },
-        )
+        score = [taceva(), "score", "--truth", truth, "--pred", pred, "--quiet"]
+        commands = {
+            "taceva, all metrics": score,
+            "taceva, accuracy": [*score, "--metrics", "accuracy"],
+            "pandas + scikit-learn": [sys.executable, "-c", PEER, truth, pred],
+        }
+        peaks = Peaks()
+        sides = {side: lambda side=side, command=command: peaks.run(side, command) for side, command in commands.items()}
+        times, machine = in_turn(5, **sides)
         report(times, "taceva, all metrics", machine)
+        peaks.print()
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 1_000_000)
+    if WRITE in sys.argv:
+        write(pathlib.Path(sys.argv[2]), int(sys.argv[3]))
+    else:
+        main(int(sys.argv[1]) if len(sys.argv) > 1 else 1_000_000)

@@ -137,6 +137,41 @@ fn another_setting_of_the_model_presses_nothing_again() {
 }
 
 #[test]
+fn another_setting_of_the_model_alone_takes_its_features_from_the_cache_and_decodes_no_frame() {
+    let bench = with_small();
+    bench.ok("run small.toml --out first -q");
+    let kept = files(&bench.path("user-cache/taceva/2/features"));
+    // Of the presses that are learnt from, and of those that are predicted.
+    assert_eq!(kept.len(), 2);
+    let with_strength = |name: &str, strength: &str| {
+        let size = "size = \"8x8\"";
+        let settings = format!("{size}, strength = \"{strength}\"");
+        bench.write(&format!("{name}.toml"), &SMALL.replace(size, &settings));
+        bench.ok(&format!("run {name}.toml --out {name} -q"));
+        assert_eq!(reused(&bench, name), ["acquire", "classify"]);
+        bench.ok(&format!("run {name}.toml --out {name}-bare --no-cache -q"));
+        assert_eq!(files(&bench.path("user-cache/taceva/2/features")), kept);
+        (
+            written(&bench, name),
+            written(&bench, &format!("{name}-bare")),
+        )
+    };
+    let (found, bare) = with_strength("weak", "0.001");
+    assert_eq!(found, bare);
+    // Others in their place are taken for those of the frames: nobody looks at a frame.
+    for path in &kept {
+        let bytes = fs::read(path).expect("kept");
+        // After the digest, height, width and depth; then the features.
+        let mut others = bytes[72..84].to_vec();
+        others.resize(bytes.len() - 72, 0);
+        let digest = taceva_dataset::Digest::of(&others);
+        fs::write(path, [format!("{digest}\n").into_bytes(), others].concat()).expect("altered");
+    }
+    let (found, bare) = with_strength("strong", "1000");
+    assert_ne!(found, bare);
+}
+
+#[test]
 fn another_seed_press_or_parameter_finds_nothing() {
     let bench = with_small();
     bench.ok("run small.toml --out first -q");

@@ -3,6 +3,11 @@
 mod support;
 
 use std::fs;
+use std::path::Path;
+
+use taceva_core::{Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample};
+use taceva_dataset::{Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
+use taceva_models::{Model, Models};
 
 use support::Bench;
 
@@ -125,6 +130,83 @@ fn a_model_left_open_says_what_was_tried_and_what_a_network_would_have_taken() {
         2,
         "expected a number from 0 to 1e6",
     );
+}
+
+/// What the small network sees by itself. All other models see 32×32 cells of it, of 4×3 pixels each.
+const CLOSER: FrameInfo = FrameInfo {
+    width: 128,
+    height: 96,
+    format: PixelFormat::Gray8,
+};
+
+/// A recording of pictures of which one half, that of the label, is striped: a pixel wide, so that the mean of every cell of four by three is
+/// the same with and without.
+fn record_stripes(path: &Path, samples: u32) {
+    let sensor = SensorFacts::new("drawn").with_serial("1").with_gel("1");
+    let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, sensor);
+    let channels = Channels::new([Channel::PX]).expect("one channel");
+    let mut recorder =
+        Recorder::create(path, &RecordingSpec::new(facts, channels)).expect("a new recording");
+    for number in 0..samples {
+        // Neither half follows the other in turn.
+        let is_right = number * 7 % 10 < 5;
+        let mut bytes = Vec::new();
+        for y in 0..CLOSER.height {
+            for x in 0..CLOSER.width {
+                let is_striped = (x >= CLOSER.width / 2) == is_right;
+                let stripe = [100, 160][(x % 2) as usize];
+                let noise = (x * 7919 + y * 104_729 + number * 1_299_709) % 7;
+                let light = if is_striped { stripe } else { 130 };
+                bytes.push(u8::try_from(light + noise).expect("a byte"));
+            }
+        }
+        let frame = Frame::new(CLOSER, bytes).expect("whole");
+        let place = if is_right { 2.0 } else { -2.0 };
+        let sample = Sample::new(format!("s{number:02}")).with_frame(frame);
+        recorder
+            .append(&sample.with_truth(Readings::from_values([place])))
+            .expect("recorded");
+    }
+    recorder.close().expect("closed");
+}
+
+#[test]
+fn a_network_that_a_model_left_open_takes_sees_the_finer_features_it_would_by_name() {
+    let bench = Bench::new();
+    record_stripes(&bench.path("data"), 60);
+    // 54 are learnt from, so that three folds of five are a batch. Both at once: each trains a network to its end.
+    let fits = ["auto", "cnn"].map(|model| {
+        let words = format!("fit data --model {model} --out {model}.model -q");
+        let mut command = bench.command(&words);
+        let fit = command.args(["--split", "random 90/5/5"]).spawn();
+        fit.expect("the program starts")
+    });
+    for mut fit in fits {
+        assert!(fit.wait().expect("ends").success());
+    }
+    let open = |name: &str| -> Model {
+        let models = Models::builtin();
+        models.open(&bench.path(name)).expect("a model")
+    };
+    let (auto, named) = (open("auto.model"), open("cnn.model"));
+    let card = auto
+        .card()
+        .auto
+        .as_ref()
+        .expect("it says how it was chosen");
+    assert_eq!(card.taken.as_deref(), Some("cnn"), "{card}");
+    assert_eq!(named.card().auto, None);
+    // What was taken is what its name gives, to the last bit.
+    assert_eq!(auto.card().model, named.card().model);
+    assert_eq!(auto.card().features.to_string(), "128×96 gray");
+    assert_eq!(auto.card().features, named.card().features);
+    assert_eq!(auto.regressor(), named.regressor());
+    // The others saw nothing: it was looked at closer while it was chosen too.
+    let others = card.tried.iter().filter(|trial| trial.model != "cnn");
+    let network = card.best().expect("tried");
+    for other in others {
+        assert!(other.error > 3.0 * network.error, "{card}");
+    }
 }
 
 #[test]

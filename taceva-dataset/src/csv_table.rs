@@ -1,11 +1,13 @@
 //! A table of text, read whole and fast: columns are parsed when asked for.
 
+mod cells;
 mod columns;
 pub(crate) mod number;
 pub(crate) mod parts;
 mod quoted;
 mod scan;
 mod split;
+pub(crate) mod stream;
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};

@@ -54,7 +54,7 @@ impl Digest {
 }
 
 /// Digests a sequence of parts so that no two different sequences run together.
-#[derive(Clone, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct PartsDigest(Sha256);
 
 impl PartsDigest {

@@ -45,6 +45,7 @@ mod version;
 pub use arrays::{FrameArray, FrameArrays};
 pub use csv_table::CsvTable;
 pub use csv_table::parts::CsvParts;
+pub use csv_table::stream::CsvStream;
 pub use dataset::{Dataset, JoinedRecording, Pass, StreamReport};
 pub use decode::ChannelOrder;
 pub use digest::{Digest, DigestError};

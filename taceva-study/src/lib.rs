@@ -72,7 +72,7 @@ pub use rows::{DataPart, Divided};
 pub use run::{Existing, RunFolder, acquire_scene, run_scene};
 pub use samples::Samples;
 pub use scene::{Instead, PlannedScene, PlannedStudy, SceneText};
-pub use score::{ScoreRequest, ScoreTables, Scored, Scoring, Shard, ShardError};
+pub use score::{ScoreRequest, ScoreTables, Scored, Scoring, Shard, ShardError, score_in_one_pass};
 pub use skill::with_skill;
 pub use state_file::{STATE_SCHEMA, StateFile, merge};
 pub use subject::Subject;

@@ -38,8 +38,8 @@ pub fn run_scene(
     let work = Work {
         jobs,
         progress: workshop.progress,
-        // Of a run the models and predictions are kept, which are a hundredth of the features they are made from.
-        cache: None,
+        // Beside models and predictions, so that another setting of the model decodes no frame again.
+        cache: workshop.cache,
     };
     let studies = scene.studies.iter().zip(&datasets);
     let assessed = studies.enumerate().map(|(number, (study, dataset))| {

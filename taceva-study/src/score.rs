@@ -2,7 +2,9 @@
 
 mod by_shard;
 mod fields;
+mod id_order;
 mod ids;
+mod one_pass;
 mod paired_rows;
 mod parquet_parts;
 mod request;
@@ -34,6 +36,7 @@ use paired_rows::PairedRows;
 use tables::Pairing;
 
 pub use by_shard::ScoreTables;
+pub use one_pass::score_in_one_pass;
 pub use request::ScoreRequest;
 pub use shard::{Shard, ShardError};
 

@@ -2,7 +2,7 @@
 
 use anyhow::Context as _;
 use taceva_core::{SourceUnit, Unit};
-use taceva_study::{ScoreRequest, ScoreTables, Scored, Scoring, Shard};
+use taceva_study::{ScoreRequest, ScoreTables, Scored, Scoring, Shard, score_in_one_pass};
 
 use super::{Context, Usage};
 use crate::args::Score;
@@ -25,10 +25,15 @@ pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
         jobs: context.jobs,
     };
     let attachments = super::Attachments::of(asked);
+    let scored = match scores_alone(args, context) && !attachments.is_any() {
+        true => score_in_one_pass(&request, &context.progress)?,
+        false => None,
+    };
     let in_parts = args.shard.is_some() || ScoreTables::are_in_parts(&request);
-    let scored = match in_parts && !attachments.is_any() {
-        true => by_shard(&request, args, context)?,
-        false => whole(request, (args, attachments.is_any()), context)?,
+    let scored = match (scored, in_parts && !attachments.is_any()) {
+        (Some(scored), _) => Some(scored),
+        (None, true) => by_shard(&request, args, context)?,
+        (None, false) => whole(request, (args, attachments.is_any()), context)?,
     };
     let Some(mut scored) = scored else {
         return Ok(exit::DONE);
@@ -44,6 +49,11 @@ pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
         output::write(Some(path), |out| scored.state.write(out))?;
     }
     Ok(exit::DONE)
+}
+
+/// Whether nothing is asked for but the scores, and the state, of all rows: no plan, which says how many there are before any is scored.
+fn scores_alone(args: &Score, context: &Context) -> bool {
+    args.shard.is_none() && !args.scoring.explain.is_wanted && !context.verbose
 }
 
 /// Scores tables that fit the memory; `None` where only the plan is asked for.

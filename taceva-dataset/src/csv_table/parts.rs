@@ -117,12 +117,8 @@ impl CsvParts {
 
     /// The header as a line with one end, whichever it has in the file.
     fn header_line(&self, file: &mut File) -> Result<Vec<u8>, DatasetError> {
-        let mut bytes = self.bytes(file, self.header[0]..self.header[1])?;
-        while matches!(bytes.last(), Some(b'\r' | b'\n')) {
-            bytes.pop();
-        }
-        bytes.push(b'\n');
-        Ok(bytes)
+        let bytes = self.bytes(file, self.header[0]..self.header[1])?;
+        Ok(header_line_of(bytes))
     }
 
     /// The rows of a part as a table, whose errors name lines of the file.
@@ -174,7 +170,7 @@ impl CsvParts {
 
 impl CsvTable {
     /// The table that these bytes of the file at `path` are.
-    fn of_bytes(path: &Path, bytes: Vec<u8>) -> Result<CsvTable, DatasetError> {
+    pub(super) fn of_bytes(path: &Path, bytes: Vec<u8>) -> Result<CsvTable, DatasetError> {
         let text = as_text(path, bytes)?;
         let delimiter = delimiter_of(text.lines().next().unwrap_or(""));
         CsvTable::of_text(path, text, delimiter, NonZeroUsize::MIN)
@@ -255,8 +251,17 @@ fn quoted(path: &Path, mut file: File, begin: u64) -> std::io::Result<(Found, Di
     Ok((scan.finish(), digest))
 }
 
+/// A header as a line with one end, whichever it has in the file.
+pub(super) fn header_line_of(mut bytes: Vec<u8>) -> Vec<u8> {
+    while matches!(bytes.last(), Some(b'\r' | b'\n')) {
+        bytes.pop();
+    }
+    bytes.push(b'\n');
+    bytes
+}
+
 /// Where the text begins: after the byte order mark, where there is one.
-fn begin_of(file: &mut File) -> std::io::Result<u64> {
+pub(super) fn begin_of(file: &mut File) -> std::io::Result<u64> {
     let mut start = Vec::new();
     file.by_ref().take(3).read_to_end(&mut start)?;
     let begin = match start == BYTE_ORDER_MARK {

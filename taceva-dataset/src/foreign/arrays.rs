@@ -1,27 +1,26 @@
 //! Arrays as tables: a row is what the arrays hold at one place of their first axis.
 
 mod cells;
+mod column;
 mod form;
 mod frames;
+mod group;
+mod row_pictures;
+mod said;
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use taceva_arrays::{ArrayError, ArrayFile, ArrayFormat, ArrayInfo, Element, Problem};
+use taceva_arrays::{ArrayFile, ArrayFormat, Element, Problem};
 
 use super::columns::{ColumnSource, PictureColumn, Stated};
 use super::pictures::Pictures;
-use crate::import::{FrameNames, OWN_ROW};
-use crate::limits;
-use crate::text::listed;
-use cells::Texts;
+use crate::import::FrameNames;
 pub(crate) use frames::ArrayPictures;
+use group::{Group, candidates, rows_of};
+pub(crate) use said::stated;
+use said::{absent_chunks, problem};
 
-/// The most bytes that a column may take in memory as text.
-const COLUMN_BYTES: u64 = 1 << 30;
-/// The most values of a cell that holds a whole array.
-const CELL_VALUES: u64 = 1 << 16;
 /// Arrays that a draft looks into for pictures.
 const LISTED: usize = 64;
 
@@ -34,12 +33,6 @@ pub(crate) struct ArrayRows {
     groups: Vec<Group>,
     /// Whether the file is one row, each array of it a cell.
     is_whole: bool,
-}
-
-#[derive(Debug)]
-struct Group {
-    path: String,
-    rows: usize,
 }
 
 impl ArrayRows {
@@ -87,86 +80,6 @@ impl ArrayRows {
             groups: vec![whole],
             file: Arc::new(file),
             is_whole: true,
-        })
-    }
-
-    /// A whole array as one cell.
-    fn whole_cell(&self, path: &str, info: &ArrayInfo) -> Result<String, String> {
-        let elements = info
-            .shape
-            .iter()
-            .try_fold(1_u64, |product, side| product.checked_mul(*side));
-        let elements = elements.unwrap_or(u64::MAX);
-        if elements > CELL_VALUES {
-            return Err(format!(
-                "{elements} values, more than the {CELL_VALUES} that a cell holds; without `whole = true` each of them along the first axis is a row"
-            ));
-        }
-        let read = self.file.read(path, 0..info.rows()).map_err(problem)?;
-        let sides = info.shape.iter().map(|side| usize::try_from(*side));
-        let shape: Result<Vec<usize>, _> = sides.collect();
-        let shape = shape.map_err(|error| error.to_string())?;
-        Ok(Texts(&read.values).packed(0, &shape))
-    }
-
-    /// The array of a group that the map calls `name`.
-    fn info(&self, group: &Group, name: &str) -> Option<(String, &ArrayInfo)> {
-        candidates(&group.path, name)
-            .into_iter()
-            .find_map(|path| self.file.info(&path).map(|info| (path, info)))
-    }
-
-    fn attribute(&self, group: &Group, name: &str) -> Option<String> {
-        let (owner, attribute) = name.rsplit_once('@')?;
-        let owner = owner.trim_end_matches('/');
-        let owner = match owner {
-            "" => group.path.clone(),
-            _ => format!("{}/{owner}", group.path),
-        };
-        let owner = if owner.is_empty() { "/" } else { &owner };
-        self.file.attribute(owner, attribute)
-    }
-
-    fn cells(&self, group: &Group, name: &str) -> Result<Vec<String>, String> {
-        if let Some(text) = self.attribute(group, name) {
-            return Ok(vec![text; group.rows]);
-        }
-        if name == "group" && !group.path.is_empty() {
-            let between = if group.path.contains('/') { '/' } else { '.' };
-            let last = group.path.rsplit(between).next().unwrap_or_default();
-            return Ok(vec![last.to_owned(); group.rows]);
-        }
-        let (path, info) = self
-            .info(group, name)
-            .ok_or_else(|| format!("there is no array of this name in `{}`", group.path))?;
-        if self.is_whole {
-            return self.whole_cell(&path, info).map(|cell| vec![cell]);
-        }
-        let across = info.row_elements().ok_or("larger than any memory")?;
-        if across.saturating_mul(info.rows()) > COLUMN_BYTES / 8 {
-            return Err(format!(
-                "{} rows of {across} values are no labels: `[frame] array = \"{name}\"` reads frames",
-                info.rows()
-            ));
-        }
-        let is_scalar = info.shape.is_empty() || (info.rows() == 1 && group.rows != 1);
-        if !is_scalar && info.rows() != group.rows as u64 {
-            return Err(format!(
-                "{} values along its first axis, where the other arrays have {}",
-                info.rows(),
-                group.rows
-            ));
-        }
-        let read = self.file.read(&path, 0..info.rows()).map_err(problem)?;
-        let sides = info.shape.iter().skip(1);
-        let shape: Result<Vec<usize>, _> = sides.map(|side| usize::try_from(*side)).collect();
-        let shape = shape.map_err(|error| error.to_string())?;
-        let texts = Texts(&read.values);
-        let width = usize::try_from(across).map_err(|error| error.to_string())?;
-        let cell = |row: usize| texts.packed(row * width, &shape);
-        Ok(match is_scalar {
-            true => vec![cell(0); group.rows],
-            false => (0..group.rows).map(cell).collect(),
         })
     }
 }
@@ -285,142 +198,6 @@ impl ColumnSource for ArrayRows {
     }
 
     fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, String> {
-        if let FrameNames::Array(array) = names
-            && self.groups.len() > 1
-            && !["row", OWN_ROW].contains(&array.index.as_str())
-        {
-            return Err(format!(
-                "`index = \"{}\"` counts in which of the {} groups? A row of a group has the picture of its own place: leave `index` out",
-                array.index,
-                self.groups.len()
-            ));
-        }
-        let name = match names {
-            FrameNames::Array(array) => array.path.as_deref().unwrap_or("value"),
-            FrameNames::Bytes(column) => column,
-            _ => return Err("frames of another kind than arrays or bytes".to_owned()),
-        };
-        let parts: Result<Vec<String>, String> = self
-            .groups
-            .iter()
-            .map(|group| {
-                let found = self.info(group, name);
-                let pictures = found.as_ref().map_or(0, |(_, info)| info.rows());
-                // Otherwise the pictures of the groups behind it would be those of other rows.
-                if self.groups.len() > 1 && found.is_some() && pictures != group.rows as u64 {
-                    return Err(format!(
-                        "`{name}` of {} has {pictures} pictures for {} rows",
-                        group.path, group.rows
-                    ));
-                }
-                found.map(|(path, _)| path).ok_or_else(|| {
-                    self.why_absent(name).unwrap_or_else(|| {
-                        format!(
-                            "there is no array `{name}` for the frames in {}; there are {}",
-                            match group.path.as_str() {
-                                "" => "it",
-                                path => path,
-                            },
-                            listed(&self.names())
-                        )
-                    })
-                })
-            })
-            .collect();
-        let pictures = ArrayPictures::new((&self.path, Arc::clone(&self.file)), parts?, names)?;
-        Ok(Arc::new(pictures))
-    }
-}
-
-/// What packed numbers are multiplied by and what is added, where they are not packed.
-const UNPACKED: [f64; 2] = [1.0, 0.0];
-
-/// The arrays that `name` may mean in a group: one of the group, a field of the table, one named from the root.
-fn candidates(group: &str, name: &str) -> Vec<String> {
-    let bare = name.trim_start_matches('/');
-    let mut paths = Vec::new();
-    if name.starts_with('/') {
-        paths.push(format!("/{bare}"));
-    }
-    paths.extend([
-        format!("{group}/{bare}"),
-        format!("{group}.{bare}"),
-        bare.to_owned(),
-    ]);
-    paths
-}
-
-/// The rows of a group: the length of the first axis that most of its arrays have, the longest of several.
-fn rows_of(file: &ArrayFile, group: &str) -> Result<usize, String> {
-    let mut lengths: BTreeMap<u64, usize> = BTreeMap::new();
-    let names = file.names();
-    let inside = names.iter().filter(|name| {
-        group.is_empty()
-            || *name == group
-            || name
-                .strip_prefix(group)
-                .is_some_and(|rest| rest.starts_with(['/', '.']))
-    });
-    for info in inside.filter_map(|name| file.info(name)) {
-        if !info.shape.is_empty() {
-            *lengths.entry(info.rows()).or_default() += 1;
-        }
-    }
-    let most = lengths
-        .iter()
-        .max_by_key(|(length, count)| (**count, **length));
-    match most {
-        Some((length, _)) if *length > limits::ROWS => Err(format!(
-            "{length} rows, more than the {} that are accepted",
-            limits::ROWS
-        )),
-        Some((length, _)) => usize::try_from(*length).map_err(|error| error.to_string()),
-        None => Err(format!(
-            "no array with rows {}; there are {}",
-            match group {
-                "" => "in it".to_owned(),
-                group => format!("in `{group}`"),
-            },
-            match names.is_empty() {
-                true => "none that is read".to_owned(),
-                false => listed(&names),
-            }
-        )),
-    }
-}
-
-/// What a file says of the numbers in an array.
-pub(crate) fn stated(file: &ArrayFile, array: &str) -> Stated {
-    let said = |attribute: &str| file.attribute(array, attribute);
-    let number = |attribute: &str| said(attribute)?.trim_matches(['[', ']']).parse().ok();
-    let packed = [number("scale_factor"), number("add_offset")];
-    let is_packed = packed.iter().any(Option::is_some);
-    let packed = [packed[0].unwrap_or(1.0), packed[1].unwrap_or(0.0)];
-    Stated {
-        unit: said("unit").or_else(|| said("units")),
-        packed: (is_packed && packed != UNPACKED).then_some(packed),
-    }
-}
-
-/// The arrays of which some chunks were never written, and how many these are.
-fn absent_chunks<'n>(
-    file: &ArrayFile,
-    names: impl Iterator<Item = &'n str>,
-) -> Result<Vec<(String, u64)>, String> {
-    let counted = names.map(|name| {
-        let count = file.absent_chunks(name).map_err(problem)?;
-        Ok((name.to_owned(), count))
-    });
-    let counted: Result<Vec<(String, u64)>, String> = counted.collect();
-    let mut counted = counted?;
-    counted.retain(|(_, count)| *count > 0);
-    Ok(counted)
-}
-
-/// What is wrong, without the path of the file: the error around it names that.
-fn problem(error: ArrayError) -> String {
-    match error.array {
-        Some(array) => format!("`{array}`: {}", error.problem),
-        None => error.problem.to_string(),
+        Ok(Arc::new(self.pictures_of_rows(names)?))
     }
 }

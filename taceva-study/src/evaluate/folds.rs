@@ -3,7 +3,9 @@
 use taceva_dataset::{Dataset, Digest, JoinedRecording};
 use taceva_models::{Fractions, Split, SplitError, SplitKind, SplitSpec};
 
-use super::{Behind, EvaluateRequest, Evaluated, left_out_note, score};
+use super::notes::left_out_note;
+use super::request::{EvaluateRequest, Evaluated};
+use super::scores::{Behind, score};
 use crate::error::StudyError;
 use crate::fit::{FitPlan, FitRequest, Recipe};
 use crate::plan::Plan;

@@ -7,7 +7,8 @@ use taceva_core::{Channels, Targets, shown};
 use taceva_dataset::Dataset;
 use taceva_models::{LabelBounds, label_means};
 
-use super::{Asked, Behind, Evaluated, score};
+use super::request::{Asked, Evaluated};
+use super::scores::{Behind, score};
 use crate::error::StudyError;
 use crate::predict::{self, Predictor, Target};
 use crate::provenance::ModelProvenance;

@@ -183,7 +183,7 @@ fn is_in_order(
 }
 
 /// Whole numbers in their order, and all other words in some order.
-fn by_length(one: &str, other: &str) -> Ordering {
+pub(super) fn by_length(one: &str, other: &str) -> Ordering {
     one.len().cmp(&other.len()).then_with(|| one.cmp(other))
 }
 

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use taceva_arrays::{ArrayFile, ArrayFormat};
 
 use super::form::{Form, READ_BYTES, form_of};
-use super::{absent_chunks, problem};
+use super::said::{absent_chunks, problem};
 use crate::decode::ChannelOrder;
 use crate::error::DatasetError;
 use crate::foreign::pictures::{Pictures, Visit, damaged};

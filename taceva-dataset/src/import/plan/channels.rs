@@ -1,6 +1,6 @@
 //! What happens to each channel, in the summary of an import.
 
-use super::Reading;
+use super::reading::Reading;
 use crate::import::summary::Conversion;
 use crate::import::suspicion::magnitude_suspicion_in;
 

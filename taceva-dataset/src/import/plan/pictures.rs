@@ -3,8 +3,8 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use super::Reading;
 use super::name_order::counted_otherwise;
+use super::reading::Reading;
 use crate::error::{DatasetError, Place};
 use crate::foreign::{ArrayPictures, ClipPictures, Pictures, SeveralPictures, TableForm};
 use crate::import::map::{FrameNames, OWN_ROW};

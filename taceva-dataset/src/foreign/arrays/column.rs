@@ -1,0 +1,95 @@
+//! Columns of arrays, cell by cell.
+
+use taceva_arrays::ArrayInfo;
+
+use super::ArrayRows;
+use super::cells::Texts;
+use super::group::{Group, candidates};
+use super::said::problem;
+
+/// The most bytes that a column may take in memory as text.
+const COLUMN_BYTES: u64 = 1 << 30;
+/// The most values of a cell that holds a whole array.
+const CELL_VALUES: u64 = 1 << 16;
+
+impl ArrayRows {
+    /// A whole array as one cell.
+    fn whole_cell(&self, path: &str, info: &ArrayInfo) -> Result<String, String> {
+        let elements = info
+            .shape
+            .iter()
+            .try_fold(1_u64, |product, side| product.checked_mul(*side));
+        let elements = elements.unwrap_or(u64::MAX);
+        if elements > CELL_VALUES {
+            return Err(format!(
+                "{elements} values, more than the {CELL_VALUES} that a cell holds; without `whole = true` each of them along the first axis is a row"
+            ));
+        }
+        let read = self.file.read(path, 0..info.rows()).map_err(problem)?;
+        let sides = info.shape.iter().map(|side| usize::try_from(*side));
+        let shape: Result<Vec<usize>, _> = sides.collect();
+        let shape = shape.map_err(|error| error.to_string())?;
+        Ok(Texts(&read.values).packed(0, &shape))
+    }
+
+    /// The array of a group that the map calls `name`.
+    pub(super) fn info(&self, group: &Group, name: &str) -> Option<(String, &ArrayInfo)> {
+        candidates(&group.path, name)
+            .into_iter()
+            .find_map(|path| self.file.info(&path).map(|info| (path, info)))
+    }
+
+    pub(super) fn attribute(&self, group: &Group, name: &str) -> Option<String> {
+        let (owner, attribute) = name.rsplit_once('@')?;
+        let owner = owner.trim_end_matches('/');
+        let owner = match owner {
+            "" => group.path.clone(),
+            _ => format!("{}/{owner}", group.path),
+        };
+        let owner = if owner.is_empty() { "/" } else { &owner };
+        self.file.attribute(owner, attribute)
+    }
+
+    pub(super) fn cells(&self, group: &Group, name: &str) -> Result<Vec<String>, String> {
+        if let Some(text) = self.attribute(group, name) {
+            return Ok(vec![text; group.rows]);
+        }
+        if name == "group" && !group.path.is_empty() {
+            let between = if group.path.contains('/') { '/' } else { '.' };
+            let last = group.path.rsplit(between).next().unwrap_or_default();
+            return Ok(vec![last.to_owned(); group.rows]);
+        }
+        let (path, info) = self
+            .info(group, name)
+            .ok_or_else(|| format!("there is no array of this name in `{}`", group.path))?;
+        if self.is_whole {
+            return self.whole_cell(&path, info).map(|cell| vec![cell]);
+        }
+        let across = info.row_elements().ok_or("larger than any memory")?;
+        if across.saturating_mul(info.rows()) > COLUMN_BYTES / 8 {
+            return Err(format!(
+                "{} rows of {across} values are no labels: `[frame] array = \"{name}\"` reads frames",
+                info.rows()
+            ));
+        }
+        let is_scalar = info.shape.is_empty() || (info.rows() == 1 && group.rows != 1);
+        if !is_scalar && info.rows() != group.rows as u64 {
+            return Err(format!(
+                "{} values along its first axis, where the other arrays have {}",
+                info.rows(),
+                group.rows
+            ));
+        }
+        let read = self.file.read(&path, 0..info.rows()).map_err(problem)?;
+        let sides = info.shape.iter().skip(1);
+        let shape: Result<Vec<usize>, _> = sides.map(|side| usize::try_from(*side)).collect();
+        let shape = shape.map_err(|error| error.to_string())?;
+        let texts = Texts(&read.values);
+        let width = usize::try_from(across).map_err(|error| error.to_string())?;
+        let cell = |row: usize| texts.packed(row * width, &shape);
+        Ok(match is_scalar {
+            true => vec![cell(0); group.rows],
+            false => (0..group.rows).map(cell).collect(),
+        })
+    }
+}

@@ -1,0 +1,69 @@
+//! Groups of arrays: how many rows each has, and what a name means in it.
+
+use std::collections::BTreeMap;
+
+use taceva_arrays::ArrayFile;
+
+use crate::limits;
+use crate::text::listed;
+
+/// The arrays of one group, or of the whole file.
+#[derive(Debug)]
+pub(super) struct Group {
+    pub(super) path: String,
+    pub(super) rows: usize,
+}
+
+/// The arrays that `name` may mean in a group: one of the group, a field of the table, one named from the root.
+pub(super) fn candidates(group: &str, name: &str) -> Vec<String> {
+    let bare = name.trim_start_matches('/');
+    let mut paths = Vec::new();
+    if name.starts_with('/') {
+        paths.push(format!("/{bare}"));
+    }
+    paths.extend([
+        format!("{group}/{bare}"),
+        format!("{group}.{bare}"),
+        bare.to_owned(),
+    ]);
+    paths
+}
+
+/// The rows of a group: the length of the first axis that most of its arrays have, the longest of several.
+pub(super) fn rows_of(file: &ArrayFile, group: &str) -> Result<usize, String> {
+    let mut lengths: BTreeMap<u64, usize> = BTreeMap::new();
+    let names = file.names();
+    let inside = names.iter().filter(|name| {
+        group.is_empty()
+            || *name == group
+            || name
+                .strip_prefix(group)
+                .is_some_and(|rest| rest.starts_with(['/', '.']))
+    });
+    for info in inside.filter_map(|name| file.info(name)) {
+        if !info.shape.is_empty() {
+            *lengths.entry(info.rows()).or_default() += 1;
+        }
+    }
+    let most = lengths
+        .iter()
+        .max_by_key(|(length, count)| (**count, **length));
+    match most {
+        Some((length, _)) if *length > limits::ROWS => Err(format!(
+            "{length} rows, more than the {} that are accepted",
+            limits::ROWS
+        )),
+        Some((length, _)) => usize::try_from(*length).map_err(|error| error.to_string()),
+        None => Err(format!(
+            "no array with rows {}; there are {}",
+            match group {
+                "" => "in it".to_owned(),
+                group => format!("in `{group}`"),
+            },
+            match names.is_empty() {
+                true => "none that is read".to_owned(),
+                false => listed(&names),
+            }
+        )),
+    }
+}

@@ -1,0 +1,58 @@
+//! The pictures of rows, in an array of each group.
+
+use std::sync::Arc;
+
+use super::ArrayRows;
+use super::frames::ArrayPictures;
+use crate::foreign::columns::ColumnSource as _;
+use crate::import::{FrameNames, OWN_ROW};
+use crate::text::listed;
+
+impl ArrayRows {
+    /// The pictures that `names` says, one behind the other.
+    pub(super) fn pictures_of_rows(&self, names: &FrameNames) -> Result<ArrayPictures, String> {
+        if let FrameNames::Array(array) = names
+            && self.groups.len() > 1
+            && !["row", OWN_ROW].contains(&array.index.as_str())
+        {
+            return Err(format!(
+                "`index = \"{}\"` counts in which of the {} groups? A row of a group has the picture of its own place: leave `index` out",
+                array.index,
+                self.groups.len()
+            ));
+        }
+        let name = match names {
+            FrameNames::Array(array) => array.path.as_deref().unwrap_or("value"),
+            FrameNames::Bytes(column) => column,
+            _ => return Err("frames of another kind than arrays or bytes".to_owned()),
+        };
+        let parts: Result<Vec<String>, String> = self
+            .groups
+            .iter()
+            .map(|group| {
+                let found = self.info(group, name);
+                let pictures = found.as_ref().map_or(0, |(_, info)| info.rows());
+                // Otherwise the pictures of the groups behind it would be those of other rows.
+                if self.groups.len() > 1 && found.is_some() && pictures != group.rows as u64 {
+                    return Err(format!(
+                        "`{name}` of {} has {pictures} pictures for {} rows",
+                        group.path, group.rows
+                    ));
+                }
+                found.map(|(path, _)| path).ok_or_else(|| {
+                    self.why_absent(name).unwrap_or_else(|| {
+                        format!(
+                            "there is no array `{name}` for the frames in {}; there are {}",
+                            match group.path.as_str() {
+                                "" => "it",
+                                path => path,
+                            },
+                            listed(&self.names())
+                        )
+                    })
+                })
+            })
+            .collect();
+        ArrayPictures::new((&self.path, Arc::clone(&self.file)), parts?, names)
+    }
+}

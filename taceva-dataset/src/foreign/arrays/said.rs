@@ -1,0 +1,44 @@
+//! What a file says of its arrays beside their numbers.
+
+use taceva_arrays::{ArrayError, ArrayFile};
+
+use crate::foreign::columns::Stated;
+
+/// What packed numbers are multiplied by and what is added, where they are not packed.
+const UNPACKED: [f64; 2] = [1.0, 0.0];
+
+/// What a file says of the numbers in an array.
+pub(crate) fn stated(file: &ArrayFile, array: &str) -> Stated {
+    let said = |attribute: &str| file.attribute(array, attribute);
+    let number = |attribute: &str| said(attribute)?.trim_matches(['[', ']']).parse().ok();
+    let packed = [number("scale_factor"), number("add_offset")];
+    let is_packed = packed.iter().any(Option::is_some);
+    let packed = [packed[0].unwrap_or(1.0), packed[1].unwrap_or(0.0)];
+    Stated {
+        unit: said("unit").or_else(|| said("units")),
+        packed: (is_packed && packed != UNPACKED).then_some(packed),
+    }
+}
+
+/// The arrays of which some chunks were never written, and how many these are.
+pub(super) fn absent_chunks<'n>(
+    file: &ArrayFile,
+    names: impl Iterator<Item = &'n str>,
+) -> Result<Vec<(String, u64)>, String> {
+    let counted = names.map(|name| {
+        let count = file.absent_chunks(name).map_err(problem)?;
+        Ok((name.to_owned(), count))
+    });
+    let counted: Result<Vec<(String, u64)>, String> = counted.collect();
+    let mut counted = counted?;
+    counted.retain(|(_, count)| *count > 0);
+    Ok(counted)
+}
+
+/// What is wrong, without the path of the file: the error around it names that.
+pub(super) fn problem(error: ArrayError) -> String {
+    match error.array {
+        Some(array) => format!("`{array}`: {}", error.problem),
+        None => error.problem.to_string(),
+    }
+}
