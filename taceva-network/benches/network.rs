@@ -1,8 +1,8 @@
-//! Images per second of training steps and of predictions: ResNet-18, six outputs, batches of 32 (and single pictures), in both forms of
+//! Images per second of training steps and of predictions: ResNet-18, six outputs, batches of 32 (and single pictures), in every form of
 //! convolutions in turn or in one of them.
 //!
 //! `cargo bench -p taceva-network [-- SIDE [THREADS [REPEATS]]] [winograd | mixed | direct] [single | training]`; without arguments 64² and 112² on one and two threads,
-//! both forms; with `single` predictions of single pictures alone, with `training` steps alone, for a profiler. The best of REPEATS, by processor time of all threads and by the wall clock, and of
+//! every form; with `single` predictions of single pictures alone, with `training` steps alone, for a profiler. The best of REPEATS, by processor time of all threads and by the wall clock, and of
 //! single pictures, which are so short that work beside it hits few of them, the median too, of 4 · REPEATS; and how much memory training takes at most beyond
 //! what the process had before, on Linux and of the first size and form alone, since a peak is one of the process.
 //! `benches/peers/torch_network.py` measures PyTorch alike.
@@ -41,7 +41,7 @@ fn main() {
         }
     }
     if forms.is_empty() {
-        forms = vec![ConvolutionForm::Winograd, ConvolutionForm::Direct];
+        forms = ConvolutionForm::ALL.into_iter().rev().collect();
     }
     let repeats = numbers.get(2).copied().unwrap_or(8);
     println!("instructions: {}", Isa::detect());
