@@ -132,35 +132,53 @@ fn a_model_left_open_says_what_was_tried_and_what_a_network_would_have_taken() {
     );
 }
 
-/// What the small network sees by itself. All other models see 32×32 cells of it, of 4×3 pixels each.
-const CLOSER: FrameInfo = FrameInfo {
-    width: 128,
-    height: 96,
-    format: PixelFormat::Gray8,
-};
+/// What the small network sees by itself, in gray or in colour. All other models see 32×32 cells of it, of 4×3 pixels each, in gray.
+const fn closer(format: PixelFormat) -> FrameInfo {
+    FrameInfo {
+        width: 128,
+        height: 96,
+        format,
+    }
+}
 
-/// A recording of pictures of which one half, that of the label, is striped: a pixel wide, so that the mean of every cell of four by three is
-/// the same with and without.
-fn record_stripes(path: &Path, samples: u32) {
+/// The numbers of a pixel of gray, by whether its half is that of the label: striped, a pixel wide, so that the mean of every cell of four by three is the
+/// same with and without.
+fn striped(is_labelled: bool, x: u32) -> Vec<u32> {
+    vec![match (is_labelled, x % 2) {
+        (false, _) => 130,
+        (true, 0) => 100,
+        (true, _) => 160,
+    }]
+}
+
+/// The same in colour: more red and blue and less green, or less and more, of one and the same brightness.
+fn colored(is_labelled: bool, _: u32) -> Vec<u32> {
+    match is_labelled {
+        true => vec![130 + 34, 130 - 28, 130 + 55],
+        false => vec![130 - 34, 130 + 28, 130 - 55],
+    }
+}
+
+/// A recording of pictures of which one half, that of the label, differs as `pixel` says.
+fn record_halves(path: &Path, info: FrameInfo, pixel: fn(bool, u32) -> Vec<u32>) {
     let sensor = SensorFacts::new("drawn").with_serial("1").with_gel("1");
     let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, sensor);
     let channels = Channels::new([Channel::PX]).expect("one channel");
     let mut recorder =
         Recorder::create(path, &RecordingSpec::new(facts, channels)).expect("a new recording");
-    for number in 0..samples {
+    for number in 0..60_u32 {
         // Neither half follows the other in turn.
         let is_right = number * 7 % 10 < 5;
         let mut bytes = Vec::new();
-        for y in 0..CLOSER.height {
-            for x in 0..CLOSER.width {
-                let is_striped = (x >= CLOSER.width / 2) == is_right;
-                let stripe = [100, 160][(x % 2) as usize];
+        for y in 0..info.height {
+            for x in 0..info.width {
                 let noise = (x * 7919 + y * 104_729 + number * 1_299_709) % 7;
-                let light = if is_striped { stripe } else { 130 };
-                bytes.push(u8::try_from(light + noise).expect("a byte"));
+                let numbers = pixel((x >= info.width / 2) == is_right, x);
+                let bytes_of = |number| u8::try_from(number + noise).expect("a byte");
+                bytes.extend(numbers.into_iter().map(bytes_of));
             }
         }
-        let frame = Frame::new(CLOSER, bytes).expect("whole");
+        let frame = Frame::new(info, bytes).expect("whole");
         let place = if is_right { 2.0 } else { -2.0 };
         let sample = Sample::new(format!("s{number:02}")).with_frame(frame);
         recorder
@@ -170,12 +188,12 @@ fn record_stripes(path: &Path, samples: u32) {
     recorder.close().expect("closed");
 }
 
-#[test]
-fn a_network_that_a_model_left_open_takes_sees_the_finer_features_it_would_by_name() {
+/// Fits `auto` and `default`, and checks that the one took the network of the other, which alone sees what differs.
+fn assert_auto_takes_the_default(info: FrameInfo, pixel: fn(bool, u32) -> Vec<u32>, seen: &str) {
     let bench = Bench::new();
-    record_stripes(&bench.path("data"), 60);
+    record_halves(&bench.path("data"), info, pixel);
     // 54 are learnt from, so that three folds of five are a batch. Both at once: each trains a network to its end.
-    let fits = ["auto", "cnn"].map(|model| {
+    let fits = ["auto", "default"].map(|model| {
         let words = format!("fit data --model {model} --out {model}.model -q");
         let mut command = bench.command(&words);
         let fit = command.args(["--split", "random 90/5/5"]).spawn();
@@ -188,7 +206,7 @@ fn a_network_that_a_model_left_open_takes_sees_the_finer_features_it_would_by_na
         let models = Models::builtin();
         models.open(&bench.path(name)).expect("a model")
     };
-    let (auto, named) = (open("auto.model"), open("cnn.model"));
+    let (auto, named) = (open("auto.model"), open("default.model"));
     let card = auto
         .card()
         .auto
@@ -198,7 +216,7 @@ fn a_network_that_a_model_left_open_takes_sees_the_finer_features_it_would_by_na
     assert_eq!(named.card().auto, None);
     // What was taken is what its name gives, to the last bit.
     assert_eq!(auto.card().model, named.card().model);
-    assert_eq!(auto.card().features.to_string(), "128×96 gray");
+    assert_eq!(auto.card().features.to_string(), seen);
     assert_eq!(auto.card().features, named.card().features);
     assert_eq!(auto.regressor(), named.regressor());
     // The others saw nothing: it was looked at closer while it was chosen too.
@@ -207,6 +225,16 @@ fn a_network_that_a_model_left_open_takes_sees_the_finer_features_it_would_by_na
     for other in others {
         assert!(other.error > 3.0 * network.error, "{card}");
     }
+}
+
+#[test]
+fn a_network_that_a_model_left_open_takes_sees_the_finer_features_it_would_by_name() {
+    assert_auto_takes_the_default(closer(PixelFormat::Gray8), striped, "128×96 gray");
+}
+
+#[test]
+fn a_network_that_a_model_left_open_takes_sees_the_colours_it_would_by_name() {
+    assert_auto_takes_the_default(closer(PixelFormat::Rgb8), colored, "128×96 rgb");
 }
 
 #[test]
