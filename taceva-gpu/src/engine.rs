@@ -10,6 +10,7 @@ use crate::Gpu;
 use crate::guard::guard;
 use crate::passes::Passes;
 use crate::prediction::{Prediction, pictures_on};
+use crate::products::Products;
 use crate::training::{Course, descend};
 use crate::weights::{Layout, Weights, named, upload};
 
@@ -22,7 +23,7 @@ struct DeviceEngine<B: Backend> {
     architecture: Architecture,
     recipe: Recipe,
     layout: Layout,
-    passes: Passes,
+    passes: Passes<B>,
     weights: Weights<B>,
     moments: Vec<Tensor<B, 1>>,
     /// The last step, for the error that names where a weight was found that is not finite.
@@ -32,7 +33,7 @@ struct DeviceEngine<B: Backend> {
 }
 
 /// A training on `gpu`, the first device of `B`, that goes on from `snapshot`.
-pub(crate) fn begin<B: Backend>(
+pub(crate) fn begin<B: Products>(
     gpu: &Gpu,
     snapshot: &Snapshot,
     recipe: &Recipe,
@@ -42,11 +43,7 @@ pub(crate) fn begin<B: Backend>(
         let tensors = snapshot.network.tensors();
         let architecture = snapshot.network.architecture().clone();
         let layout = Layout::of(&tensors);
-        let passes = Passes::new(&architecture, &layout);
-        if let Some(stride) = passes.gap() {
-            let reason = format!("a stride of {stride} beyond its kernel: not on a GPU");
-            return Err(NetworkError::Architecture { reason });
-        }
+        let passes = Passes::new(&architecture, &layout, device);
         let engine = DeviceEngine::<B> {
             passes,
             weights: Weights::upload(&tensors, device),
@@ -67,7 +64,7 @@ pub(crate) fn begin<B: Backend>(
     })
 }
 
-impl<B: Backend> DeviceEngine<B> {
+impl<B: Products> DeviceEngine<B> {
     fn make_step(&mut self, batch: &Batch<'_>) -> Result<f64, NetworkError> {
         let pictures = pictures_on(
             self.architecture.input,
@@ -97,7 +94,7 @@ impl<B: Backend> DeviceEngine<B> {
     }
 }
 
-impl<B: Backend> Engine for DeviceEngine<B> {
+impl<B: Products> Engine for DeviceEngine<B> {
     fn step(&mut self, batch: &Batch<'_>) -> Result<f64, NetworkError> {
         if let Some(error) = &self.failed {
             return Err(error.clone());
