@@ -22,8 +22,8 @@ pub(crate) struct Convolution<B: Backend> {
 /// Numbers that windows take at most: what a storage buffer of WebGPU holds at least, 128 MiB.
 const MOST: usize = 1 << 25;
 
-/// Cubes that a GPU is busy with: sums over many pixels are formed in so many parts.
-const BUSY: usize = 256;
+/// Tiles of 64 × 64 that a GPU is busy with: products of fewer are formed in parts, which are added up.
+const BUSY: usize = 512;
 
 impl<B: Backend> Convolution<B> {
     /// One whose weights have `shape`, of pictures of `seen` height and width.
@@ -77,19 +77,27 @@ impl<B: Products> Convolution<B> {
     }
 
     /// The gradient of the weights.
-    pub(crate) fn of_weights(&self, pictures: Tensor<B, 4>, gradient: Tensor<B, 4>) -> Tensor<B, 1> {
+    pub(crate) fn of_weights(
+        &self,
+        pictures: Tensor<B, 4>,
+        gradient: Tensor<B, 4>,
+    ) -> Tensor<B, 1> {
         let [height, width] = self.windows.given;
         let inner = self.windows.taps * self.inputs;
-        let parts = self.parts(pictures, Way::Onward).zip(split(gradient, self.at_once(Way::Onward)));
+        let parts = self
+            .parts(pictures, Way::Onward)
+            .zip(split(gradient, self.at_once(Way::Onward)));
         let sums = parts.map(|(windows, gradient)| {
             let [samples, ..] = windows.dims();
             let pixels = samples * height * width;
-            let stack = stack(pixels, inner, self.outputs);
+            let stack = stack(pixels, 1, [inner, self.outputs]);
             let windows = windows.reshape([stack, pixels / stack, inner]);
             let gradient = gradient.reshape([stack, pixels / stack, self.outputs]);
-            B::product(windows.swap_dims(1, 2), gradient).sum_dim(0)
+            added(B::product(windows.swap_dims(1, 2), gradient))
         });
-        let sum = sums.reduce(|sum, next| sum + next).expect("a batch has pictures");
+        let sum = sums
+            .reduce(|sum, next| sum + next)
+            .expect("a batch has pictures");
         let kernel = self.kernel;
         let sum = sum.reshape([kernel, kernel, self.inputs, self.outputs]);
         let count = inner * self.outputs;
@@ -107,7 +115,12 @@ impl<B: Products> Convolution<B> {
         let parts = self.parts(pictures, way).map(|windows| {
             let [samples, ..] = windows.dims();
             let rows = samples * height * width;
-            B::product(windows.reshape([1, rows, inner]), kernels.clone())
+            let stack = stack(inner, LINE, [rows, channels]);
+            let windows = windows
+                .reshape([rows, stack, inner / stack])
+                .swap_dims(0, 1);
+            let kernels = kernels.clone().reshape([stack, inner / stack, channels]);
+            added(B::product(windows, kernels))
         });
         let parts: Vec<_> = parts.collect();
         together(parts, 1).reshape([samples, height, width, channels])
@@ -124,7 +137,9 @@ impl<B: Products> Convolution<B> {
 
     /// Pictures whose windows are gathered at once.
     fn at_once(&self, way: Way) -> usize {
-        let Windows { seen, given, taps, .. } = &self.windows;
+        let Windows {
+            seen, given, taps, ..
+        } = &self.windows;
         let (pixels, channels) = match way {
             Way::Onward => (given, self.inputs),
             Way::Back => (seen, self.outputs),
@@ -154,10 +169,26 @@ fn together<B: Backend>(mut parts: Vec<Tensor<B, 3>>, along: usize) -> Tensor<B,
     }
 }
 
-/// In how many equal parts a sum over `pixels` is formed that gives a matrix of `rows` × `columns`, so that the GPU is busy.
-fn stack(pixels: usize, rows: usize, columns: usize) -> usize {
+/// The sum of a stack.
+fn added<B: Backend>(stack: Tensor<B, 3>) -> Tensor<B, 3> {
+    match stack.dims() {
+        [1, ..] => stack,
+        _ => stack.sum_dim(0),
+    }
+}
+
+/// Numbers of a window that stay together.
+const LINE: usize = 32;
+
+/// Products that a part of a sum has at least.
+const LEAST: usize = 128;
+
+/// In how many equal parts sums of `length` products are formed for a matrix of `size`, so that the GPU is busy; each of whole lines.
+fn stack(length: usize, line: usize, [rows, columns]: [usize; 2]) -> usize {
     let tiles = rows.div_ceil(64) * columns.div_ceil(64);
-    let wanted = (BUSY / tiles).clamp(1, pixels);
+    let wanted = (BUSY / tiles).min(length / LEAST).max(1);
     let mut fitting = (1..=wanted).rev();
-    fitting.find(|parts| pixels % parts == 0).unwrap_or(1)
+    fitting
+        .find(|parts| length % (parts * line) == 0)
+        .unwrap_or(1)
 }

@@ -25,6 +25,8 @@ struct DeviceEngine<B: Backend> {
     layout: Layout,
     passes: Passes<B>,
     weights: Weights<B>,
+    /// These weights ready to predict, once that was asked for.
+    prediction: Option<Prediction<B>>,
     moments: Vec<Tensor<B, 1>>,
     /// The last step, for the error that names where a weight was found that is not finite.
     last: u64,
@@ -47,6 +49,7 @@ pub(crate) fn begin<B: Products>(
         let engine = DeviceEngine::<B> {
             passes,
             weights: Weights::upload(&tensors, device),
+            prediction: None,
             moments: snapshot
                 .moments
                 .iter()
@@ -85,6 +88,7 @@ impl<B: Products> DeviceEngine<B> {
         let gradient = course.backward(&gradient);
         let running = course.followed(&self.weights.running);
         let rule = Rule::new(self.recipe.optimizer, batch.rate, batch.step + 1);
+        self.prediction = None;
         self.weights = Weights {
             learnt: descend(rule, &self.weights.learnt, gradient, &mut self.moments),
             running,
@@ -109,8 +113,11 @@ impl<B: Products> Engine for DeviceEngine<B> {
         let picture = self.architecture.input;
         picture.check_prediction(pictures, self.architecture.outputs, into)?;
         guard(&self.name, || {
-            let prediction = Prediction::new(&self.passes, &self.layout, &self.weights);
-            prediction.run(picture, pictures, into, &self.device);
+            let (passes, layout, weights) = (&self.passes, &self.layout, &self.weights);
+            let prediction = self
+                .prediction
+                .get_or_insert_with(|| Prediction::new(passes, layout, weights));
+            prediction.run(passes, picture, pictures, into, &self.device);
             Ok(())
         })
     }

@@ -11,16 +11,16 @@ use crate::weights::{Layout, Weights, numbers};
 /// Pictures that are passed at once.
 const BATCH: usize = 256;
 
-/// A network ready to predict.
-pub(crate) struct Prediction<'a, B: Backend> {
-    passes: &'a Passes<B>,
+/// The weights of a network ready to predict.
+#[derive(Clone, Debug)]
+pub(crate) struct Prediction<B: Backend> {
     learnt: Vec<Tensor<B, 1>>,
     /// The weights and the bias of each convolution, by the position of its weights.
     folded: Vec<Option<(Tensor<B, 1>, Tensor<B, 1>)>>,
 }
 
-impl<'a, B: Products> Prediction<'a, B> {
-    pub(crate) fn new(passes: &'a Passes<B>, layout: &Layout, weights: &Weights<B>) -> Self {
+impl<B: Products> Prediction<B> {
+    pub(crate) fn new(passes: &Passes<B>, layout: &Layout, weights: &Weights<B>) -> Self {
         let learnt: Vec<_> = layout
             .learnt
             .iter()
@@ -38,16 +38,13 @@ impl<'a, B: Products> Prediction<'a, B> {
             let count = normed.shape.into_iter().product::<usize>();
             folded[normed.weight] = Some((kernels.reshape([count]), shift));
         }
-        Prediction {
-            passes,
-            learnt,
-            folded,
-        }
+        Prediction { learnt, folded }
     }
 
     /// The outputs for `pictures` of size `picture`, written to `into`.
     pub(crate) fn run(
         &self,
+        passes: &Passes<B>,
         picture: Picture,
         pictures: &[f32],
         into: &mut [f64],
@@ -58,7 +55,7 @@ impl<'a, B: Products> Prediction<'a, B> {
         let batches = pictures.chunks(BATCH * picture.len());
         for (pictures, into) in batches.zip(into.chunks_mut((BATCH * outputs).max(1))) {
             let pictures = pictures_on(picture, pictures.to_vec(), device);
-            let found = self.passes.run(pictures, &mut &*self);
+            let found = passes.run(pictures, &mut &*self);
             for (place, output) in into.iter_mut().zip(numbers(found)) {
                 *place = f64::from(output);
             }
@@ -66,7 +63,7 @@ impl<'a, B: Products> Prediction<'a, B> {
     }
 }
 
-impl<B: Products> Pass<B, B> for &Prediction<'_, B> {
+impl<B: Products> Pass<B, B> for &Prediction<B> {
     fn normed(&mut self, normed: &Normed<B>, pictures: Tensor<B, 4>) -> Tensor<B, 4> {
         let (kernels, bias) = self.folded[normed.weight]
             .clone()

@@ -60,9 +60,10 @@ impl<B: Backend> Windows<B> {
         let Some(table) = table else {
             return pixels;
         };
-        let [samples, _, channels] = pixels.dims();
-        let beyond = Tensor::zeros([samples, 1, channels], &pixels.device());
-        let found = Tensor::cat(vec![pixels, beyond], 1).select(1, table.clone());
+        let [samples, count, channels] = pixels.dims();
+        let with_beyond = Tensor::zeros([samples, count + 1, channels], &pixels.device());
+        let with_beyond = with_beyond.slice_assign([0..samples, 0..count, 0..channels], pixels);
+        let found = with_beyond.select(1, table.clone());
         found.reshape([samples, windows[0] * windows[1], self.taps * channels])
     }
 }
@@ -120,12 +121,20 @@ mod tests {
 
     #[test]
     fn a_kernel_of_three_sees_its_neighbours_and_nothing_beyond_the_edge() {
-        assert_eq!(onward([1, 3], [1, 3], 3, 1)[..9], [3, 3, 3, 3, 0, 1, 3, 3, 3]);
+        assert_eq!(
+            onward([1, 3], [1, 3], 3, 1)[..9],
+            [3, 3, 3, 3, 0, 1, 3, 3, 3]
+        );
     }
 
     #[test]
     fn the_way_back_leads_to_every_window_that_a_pixel_is_in_and_to_no_other() {
-        for (seen, kernel, stride) in [([5, 4], 3, 2), ([6, 7], 7, 2), ([5, 5], 1, 2), ([4, 3], 3, 1)] {
+        for (seen, kernel, stride) in [
+            ([5, 4], 3, 2),
+            ([6, 7], 7, 2),
+            ([5, 5], 1, 2),
+            ([4, 3], 3, 1),
+        ] {
             let given = seen.map(|length| given(length, kernel, stride));
             let (onward, back) = (
                 onward(seen, given, kernel, stride),
