@@ -1,11 +1,12 @@
 //! Convolutions as products of matrices: windows of pixels are gathered, and multiplied by the kernels.
 //!
-//! burn's own convolutions are not used: without tensor cores they are formed pixel by pixel, ten times as slow, and with them in TF32;
-//! and burn 0.21 drops the gradient of pixels where a kernel is narrower than its stride (`conv_transpose2d_direct`).
+//! burn's own convolutions are not used: with tensor cores they are formed in TF32, and without them pixel by pixel; and burn 0.21
+//! drops the gradient of pixels where a kernel is narrower than its stride (`conv_transpose2d_direct`).
 
 use burn_tensor::Tensor;
 use burn_tensor::backend::Backend;
 
+use crate::parts::{LINE, added, split, stack, together};
 use crate::products::Products;
 use crate::windows::{Way, Windows, given};
 
@@ -17,13 +18,12 @@ pub(crate) struct Convolution<B: Backend> {
     inputs: usize,
     outputs: usize,
     kernel: usize,
+    /// Numbers that windows take at most.
+    most: usize,
 }
 
 /// Numbers that windows take at most: what a storage buffer of WebGPU holds at least, 128 MiB.
 const MOST: usize = 1 << 25;
-
-/// Tiles of 64 × 64 that a GPU is busy with: products of fewer are formed in parts, which are added up.
-const BUSY: usize = 512;
 
 impl<B: Backend> Convolution<B> {
     /// One whose weights have `shape`, of pictures of `seen` height and width.
@@ -39,6 +39,7 @@ impl<B: Backend> Convolution<B> {
             inputs,
             outputs,
             kernel,
+            most: MOST,
         }
     }
 
@@ -144,51 +145,54 @@ impl<B: Products> Convolution<B> {
             Way::Onward => (given, self.inputs),
             Way::Back => (seen, self.outputs),
         };
-        (MOST / (pixels[0] * pixels[1] * taps * channels)).max(1)
+        (self.most / (pixels[0] * pixels[1] * taps * channels)).max(1)
     }
 }
 
-/// `pictures`, at most `most` at once.
-fn split<B: Backend>(pictures: Tensor<B, 4>, most: usize) -> impl Iterator<Item = Tensor<B, 4>> {
-    let [samples, ..] = pictures.dims();
-    (0..samples).step_by(most).map(move |start| {
-        if samples <= most {
-            pictures.clone()
-        } else {
-            let end = samples.min(start + most);
-            pictures.clone().slice([start..end])
+#[cfg(test)]
+mod tests {
+    use super::Convolution;
+    use crate::devices::on_each;
+    use crate::products::Products;
+    use burn_tensor::{Tensor, TensorData};
+
+    fn numbers<B: Products, const D: usize>(shape: [usize; D], seed: usize) -> Tensor<B, D> {
+        let count = shape.iter().product::<usize>();
+        let values = (0..count).map(|at| ((at * 37 + seed) % 101) as f32 / 50.0 - 1.0);
+        let data = TensorData::new(values.collect::<Vec<f32>>(), shape);
+        Tensor::from_data(data, &B::Device::default())
+    }
+
+    /// What a convolution and its gradients give for five pictures, with windows of so many numbers at once.
+    fn all<B: Products>(most: usize) -> [Vec<f32>; 3] {
+        let device = B::Device::default();
+        let mut convolution = Convolution::<B>::new([8, 4, 3, 3], 2, [9, 7], &device);
+        convolution.most = most;
+        let (pictures, weights) = (numbers([5, 9, 7, 4], 3), numbers([8 * 4 * 9], 5));
+        let gradient = numbers([5, 5, 4, 8], 7);
+        let given = convolution.forward(pictures.clone(), weights.clone());
+        let of_pictures = convolution.backward(gradient.clone(), weights);
+        let of_weights = convolution.of_weights(pictures, gradient);
+        [
+            given.into_data().iter::<f32>().collect(),
+            of_pictures.into_data().iter::<f32>().collect(),
+            of_weights.into_data().iter::<f32>().collect(),
+        ]
+    }
+
+    fn check<B: Products>() {
+        let whole = all::<B>(super::MOST);
+        // Windows of two pictures at once onward (5 × 4 × 9 × 4 numbers each), and of one on the way back.
+        for (found, expected) in all::<B>(1500).iter().zip(&whole) {
+            assert_eq!(found.len(), expected.len());
+            for (found, expected) in found.iter().zip(expected) {
+                assert!((found - expected).abs() < 1e-4, "{found}, {expected}");
+            }
         }
-    })
-}
-
-/// `parts` one behind the other.
-fn together<B: Backend>(mut parts: Vec<Tensor<B, 3>>, along: usize) -> Tensor<B, 3> {
-    match parts.len() {
-        1 => parts.remove(0),
-        _ => Tensor::cat(parts, along),
     }
-}
 
-/// The sum of a stack.
-fn added<B: Backend>(stack: Tensor<B, 3>) -> Tensor<B, 3> {
-    match stack.dims() {
-        [1, ..] => stack,
-        _ => stack.sum_dim(0),
+    #[test]
+    fn pictures_in_parts_give_what_they_give_at_once() {
+        on_each!(check);
     }
-}
-
-/// Numbers of a window that stay together.
-const LINE: usize = 32;
-
-/// Products that a part of a sum has at least.
-const LEAST: usize = 128;
-
-/// In how many equal parts sums of `length` products are formed for a matrix of `size`, so that the GPU is busy; each of whole lines.
-fn stack(length: usize, line: usize, [rows, columns]: [usize; 2]) -> usize {
-    let tiles = rows.div_ceil(64) * columns.div_ceil(64);
-    let wanted = (BUSY / tiles).min(length / LEAST).max(1);
-    let mut fitting = (1..=wanted).rev();
-    fitting
-        .find(|parts| length % (parts * line) == 0)
-        .unwrap_or(1)
 }

@@ -7,12 +7,16 @@ mod gpu;
 mod convolution;
 #[cfg(any(feature = "cuda", feature = "wgpu"))]
 mod device;
+#[cfg(all(test, any(feature = "cuda", feature = "wgpu")))]
+mod devices;
 #[cfg(any(feature = "cuda", feature = "wgpu"))]
 mod engine;
 #[cfg(any(feature = "cuda", feature = "wgpu"))]
 mod guard;
 #[cfg(any(feature = "cuda", feature = "wgpu"))]
 mod normalisation;
+#[cfg(any(feature = "cuda", feature = "wgpu"))]
+mod parts;
 #[cfg(any(feature = "cuda", feature = "wgpu"))]
 mod passes;
 #[cfg(any(feature = "cuda", feature = "wgpu"))]

@@ -71,9 +71,8 @@ where
 #[cfg(test)]
 mod tests {
     use super::{LONG, Products};
-    use crate::{Gpu, GpuKind};
+    use crate::devices::on_each;
     use burn_tensor::{Tensor, TensorData};
-    use taceva_needs::{Need, skip};
 
     /// Stack, rows, inner, columns.
     const SIZES: [[usize; 4]; 12] = [
@@ -100,7 +99,7 @@ mod tests {
         (0..count).map(next).collect()
     }
 
-    fn check<B: Products>(gpu: &Gpu) {
+    fn check<B: Products>() {
         let device = B::Device::default();
         let tensor = |values: &[f32], shape: [usize; 3]| {
             Tensor::<B, 3>::from_data(TensorData::new(values.to_vec(), shape), &device)
@@ -136,28 +135,13 @@ mod tests {
                 }
                 let error = far / (inner as f64).sqrt();
                 let size = [stack, rows, inner, columns];
-                assert!(error < 1e-5, "{gpu}, {size:?}, {how}: {error:e}");
+                assert!(error < 1e-5, "{size:?}, {how}: {error:e}");
             }
         }
     }
 
     #[test]
     fn products_of_every_size_are_those_of_f32() {
-        for kind in GpuKind::ALL
-            .into_iter()
-            .filter(|kind| kind.check_built().is_ok())
-        {
-            match Gpu::find(kind) {
-                Ok(gpu) => match kind {
-                    #[cfg(feature = "cuda")]
-                    GpuKind::Cuda => check::<burn_cuda::Cuda>(&gpu),
-                    #[cfg(feature = "wgpu")]
-                    GpuKind::Wgpu => check::<burn_wgpu::Wgpu>(&gpu),
-                    #[cfg(not(all(feature = "cuda", feature = "wgpu")))]
-                    _ => unreachable!("{gpu} was not built"),
-                },
-                Err(reason) => skip(Need::Gpu, reason),
-            }
-        }
+        on_each!(check);
     }
 }
