@@ -18,7 +18,7 @@ pub(crate) fn stack(length: usize, line: usize, [rows, columns]: [usize; 2]) -> 
     let wanted = (BUSY / tiles).min(length / LEAST).max(1);
     let mut fitting = (1..=wanted).rev();
     fitting
-        .find(|parts| length % (parts * line) == 0)
+        .find(|parts| length.is_multiple_of(parts * line))
         .unwrap_or(1)
 }
 
@@ -32,8 +32,8 @@ pub(crate) fn split<B: Backend>(
         if samples <= most {
             pictures.clone()
         } else {
-            let end = samples.min(start + most);
-            pictures.clone().slice([start..end])
+            let range = start..samples.min(start + most);
+            pictures.clone().slice([range])
         }
     })
 }

@@ -19,6 +19,10 @@ pub(crate) struct Passes<B: Backend> {
 
 /// A layer, or a residual block, that is computed as a whole.
 #[derive(Clone, Debug)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "a network has a few dozen, nearly all of the largest kind"
+)]
 enum Layer<B: Backend> {
     Stem(Normed<B>),
     Plain(Normed<B>),
