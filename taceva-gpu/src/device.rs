@@ -2,5 +2,5 @@
 
 #[cfg(feature = "cuda")]
 pub(crate) mod cuda;
-#[cfg(feature = "wgpu-untuned")]
+#[cfg(feature = "wgpu")]
 pub(crate) mod wgpu;

@@ -10,6 +10,7 @@ use crate::Gpu;
 use crate::guard::guard;
 use crate::passes::Passes;
 use crate::prediction::{Prediction, pictures_on};
+use crate::products::Products;
 use crate::training::{Course, descend};
 use crate::weights::{Layout, Weights, named, upload};
 
@@ -22,8 +23,10 @@ struct DeviceEngine<B: Backend> {
     architecture: Architecture,
     recipe: Recipe,
     layout: Layout,
-    passes: Passes,
+    passes: Passes<B>,
     weights: Weights<B>,
+    /// These weights ready to predict, once that was asked for.
+    prediction: Option<Prediction<B>>,
     moments: Vec<Tensor<B, 1>>,
     /// The last step, for the error that names where a weight was found that is not finite.
     last: u64,
@@ -32,7 +35,7 @@ struct DeviceEngine<B: Backend> {
 }
 
 /// A training on `gpu`, the first device of `B`, that goes on from `snapshot`.
-pub(crate) fn begin<B: Backend>(
+pub(crate) fn begin<B: Products>(
     gpu: &Gpu,
     snapshot: &Snapshot,
     recipe: &Recipe,
@@ -42,14 +45,11 @@ pub(crate) fn begin<B: Backend>(
         let tensors = snapshot.network.tensors();
         let architecture = snapshot.network.architecture().clone();
         let layout = Layout::of(&tensors);
-        let passes = Passes::new(&architecture, &layout);
-        if let Some(stride) = passes.gap() {
-            let reason = format!("a stride of {stride} beyond its kernel: not on a GPU");
-            return Err(NetworkError::Architecture { reason });
-        }
+        let passes = Passes::new(&architecture, &layout, device);
         let engine = DeviceEngine::<B> {
             passes,
             weights: Weights::upload(&tensors, device),
+            prediction: None,
             moments: snapshot
                 .moments
                 .iter()
@@ -67,7 +67,7 @@ pub(crate) fn begin<B: Backend>(
     })
 }
 
-impl<B: Backend> DeviceEngine<B> {
+impl<B: Products> DeviceEngine<B> {
     fn make_step(&mut self, batch: &Batch<'_>) -> Result<f64, NetworkError> {
         let pictures = pictures_on(
             self.architecture.input,
@@ -88,6 +88,7 @@ impl<B: Backend> DeviceEngine<B> {
         let gradient = course.backward(&gradient);
         let running = course.followed(&self.weights.running);
         let rule = Rule::new(self.recipe.optimizer, batch.rate, batch.step + 1);
+        self.prediction = None;
         self.weights = Weights {
             learnt: descend(rule, &self.weights.learnt, gradient, &mut self.moments),
             running,
@@ -97,7 +98,7 @@ impl<B: Backend> DeviceEngine<B> {
     }
 }
 
-impl<B: Backend> Engine for DeviceEngine<B> {
+impl<B: Products> Engine for DeviceEngine<B> {
     fn step(&mut self, batch: &Batch<'_>) -> Result<f64, NetworkError> {
         if let Some(error) = &self.failed {
             return Err(error.clone());
@@ -112,8 +113,11 @@ impl<B: Backend> Engine for DeviceEngine<B> {
         let picture = self.architecture.input;
         picture.check_prediction(pictures, self.architecture.outputs, into)?;
         guard(&self.name, || {
-            let prediction = Prediction::new(&self.passes, &self.layout, &self.weights);
-            prediction.run(picture, pictures, into, &self.device);
+            let (passes, layout, weights) = (&self.passes, &self.layout, &self.weights);
+            let prediction = self
+                .prediction
+                .get_or_insert_with(|| Prediction::new(passes, layout, weights));
+            prediction.run(passes, picture, pictures, into, &self.device);
             Ok(())
         })
     }

@@ -34,7 +34,7 @@ impl GpuKind {
     pub const fn check_built(self) -> Result<(), GpuError> {
         let is_built = match self {
             GpuKind::Cuda => cfg!(feature = "cuda"),
-            GpuKind::Wgpu => cfg!(feature = "wgpu-untuned"),
+            GpuKind::Wgpu => cfg!(feature = "wgpu"),
         };
         if is_built {
             Ok(())
@@ -70,9 +70,9 @@ impl Gpu {
         match kind {
             #[cfg(feature = "cuda")]
             GpuKind::Cuda => crate::device::cuda::find(),
-            #[cfg(feature = "wgpu-untuned")]
+            #[cfg(feature = "wgpu")]
             GpuKind::Wgpu => crate::device::wgpu::find(),
-            #[cfg(not(all(feature = "cuda", feature = "wgpu-untuned")))]
+            #[cfg(not(all(feature = "cuda", feature = "wgpu")))]
             kind => Err(GpuError::NotBuilt { kind }),
         }
     }

@@ -4,22 +4,23 @@ use burn_tensor::backend::Backend;
 use burn_tensor::{Tensor, TensorData};
 use taceva_network::{Network, Picture};
 
-use crate::passes::{Normed, Passes};
+use crate::passes::{Head, Normed, Pass, Passes};
+use crate::products::Products;
 use crate::weights::{Layout, Weights, numbers};
 
 /// Pictures that are passed at once.
 const BATCH: usize = 256;
 
-/// A network ready to predict.
-pub(crate) struct Prediction<'a, B: Backend> {
-    passes: &'a Passes,
+/// The weights of a network ready to predict.
+#[derive(Clone, Debug)]
+pub(crate) struct Prediction<B: Backend> {
     learnt: Vec<Tensor<B, 1>>,
     /// The weights and the bias of each convolution, by the position of its weights.
     folded: Vec<Option<(Tensor<B, 1>, Tensor<B, 1>)>>,
 }
 
-impl<'a, B: Backend> Prediction<'a, B> {
-    pub(crate) fn new(passes: &'a Passes, layout: &Layout, weights: &Weights<B>) -> Self {
+impl<B: Products> Prediction<B> {
+    pub(crate) fn new(passes: &Passes<B>, layout: &Layout, weights: &Weights<B>) -> Self {
         let learnt: Vec<_> = layout
             .learnt
             .iter()
@@ -37,16 +38,13 @@ impl<'a, B: Backend> Prediction<'a, B> {
             let count = normed.shape.into_iter().product::<usize>();
             folded[normed.weight] = Some((kernels.reshape([count]), shift));
         }
-        Prediction {
-            passes,
-            learnt,
-            folded,
-        }
+        Prediction { learnt, folded }
     }
 
     /// The outputs for `pictures` of size `picture`, written to `into`.
     pub(crate) fn run(
         &self,
+        passes: &Passes<B>,
         picture: Picture,
         pictures: &[f32],
         into: &mut [f64],
@@ -57,27 +55,37 @@ impl<'a, B: Backend> Prediction<'a, B> {
         let batches = pictures.chunks(BATCH * picture.len());
         for (pictures, into) in batches.zip(into.chunks_mut((BATCH * outputs).max(1))) {
             let pictures = pictures_on(picture, pictures.to_vec(), device);
-            let found = self.passes.run(pictures, &self.learnt, |normed, pictures| {
-                self.norm(normed, pictures)
-            });
+            let found = passes.run(pictures, &mut &*self);
             for (place, output) in into.iter_mut().zip(numbers(found)) {
                 *place = f64::from(output);
             }
         }
     }
+}
 
-    fn norm(&self, normed: &Normed, pictures: Tensor<B, 4>) -> Tensor<B, 4> {
+impl<B: Products> Pass<B, B> for &Prediction<B> {
+    fn normed(&mut self, normed: &Normed<B>, pictures: Tensor<B, 4>) -> Tensor<B, 4> {
         let (kernels, bias) = self.folded[normed.weight]
             .clone()
             .expect("every convolution was folded");
-        normed.convolve(pictures, kernels, Some(bias))
+        let [outputs, ..] = normed.shape;
+        let given = normed.convolution.forward(pictures, kernels);
+        given + bias.reshape([1, 1, 1, outputs])
+    }
+
+    fn weighted(&self, head: &Head<B>, features: Tensor<B, 4>) -> Tensor<B, 4> {
+        head.convolution.forward(features, self.learnt(head.weight))
+    }
+
+    fn learnt(&self, position: usize) -> Tensor<B, 1> {
+        self.learnt[position].clone()
     }
 }
 
-/// Pictures on the device, seen with their channels before their rows.
+/// Pictures on the device.
 ///
 /// # Shapes
-/// `values`: `[samples, height, width, channels]`; the tensor: `[samples, channels, height, width]`.
+/// `values` and the tensor: `[samples, height, width, channels]`.
 pub(crate) fn pictures_on<B: Backend>(
     picture: Picture,
     values: Vec<f32>,
@@ -90,6 +98,5 @@ pub(crate) fn pictures_on<B: Backend>(
     } = picture;
     let samples = values.len() / picture.len();
     let shape = [samples, height, width, channels];
-    let pictures = Tensor::<B, 4>::from_data(TensorData::new(values, shape), device);
-    pictures.permute([0, 3, 1, 2])
+    Tensor::from_data(TensorData::new(values, shape), device)
 }

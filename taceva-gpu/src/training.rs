@@ -6,7 +6,10 @@ use burn_tensor::Tensor;
 use burn_tensor::backend::Backend;
 use taceva_network::{Network, Rule};
 
-use crate::passes::{Normed, Passes};
+use crate::normalisation::normalised;
+use crate::passes::{Head, Normed, Pass, Passes};
+use crate::products::Products;
+use crate::tracked::convolved;
 use crate::weights::{Layout, Weights, numbers, vector};
 
 /// What a step makes of a batch.
@@ -18,10 +21,10 @@ pub(crate) struct Course<B: Backend> {
     outputs: Tensor<Autodiff<B>, 2>,
 }
 
-impl<B: Backend> Course<B> {
+impl<B: Products> Course<B> {
     /// Passes `pictures`.
     pub(crate) fn forward(
-        passes: &Passes,
+        passes: &Passes<B>,
         layout: &Layout,
         weights: &Weights<B>,
         pictures: Tensor<B, 4>,
@@ -31,9 +34,11 @@ impl<B: Backend> Course<B> {
             .map(|slice| Tensor::from_inner(slice.of(&weights.learnt)).require_grad())
             .collect();
         let mut moments = vec![None; layout.running.len()];
-        let outputs = passes.run(Tensor::from_inner(pictures), &learnt, |normed, pictures| {
-            norm(normed, pictures, &learnt, &mut moments)
-        });
+        let mut step = Step {
+            learnt: &learnt,
+            moments: &mut moments,
+        };
+        let outputs = passes.run(Tensor::from_inner(pictures), &mut step);
         Course {
             learnt,
             moments,
@@ -78,30 +83,32 @@ impl<B: Backend> Course<B> {
     }
 }
 
-/// Convolves `pictures` and normalises them by their own moments, which are kept.
-fn norm<B: Backend>(
-    normed: &Normed,
-    pictures: Tensor<Autodiff<B>, 4>,
-    learnt: &[Tensor<Autodiff<B>, 1>],
-    moments: &mut [Option<Tensor<B, 1>>],
-) -> Tensor<Autodiff<B>, 4> {
-    let raw = normed.convolve(pictures, learnt[normed.weight].clone(), None);
-    let [samples, channels, height, width] = raw.dims();
-    let pixels = samples * height * width;
-    // Channels last, as convolutions write them: then nothing is moved.
-    let raw = raw.permute([0, 2, 3, 1]).reshape([pixels, channels]);
-    let mean = raw.clone().mean_dim(0);
-    let centred = raw - mean.clone();
-    let variance = (centred.clone() * centred.clone()).mean_dim(0);
-    let unbiased = pixels as f64 / (pixels as f64 - 1.0);
-    let kept = |moment: &Tensor<Autodiff<B>, 2>| moment.clone().inner().reshape([channels]);
-    moments[normed.mean] = Some(kept(&mean));
-    moments[normed.variance] = Some(kept(&variance) * unbiased);
-    let row = |position: usize| learnt[position].clone().reshape([1, channels]);
-    let scale = row(normed.gain) / (variance + Network::NORM_EPSILON).sqrt();
-    let normalised = centred * scale + row(normed.bias);
-    let shaped = normalised.reshape([samples, height, width, channels]);
-    shaped.permute([0, 3, 1, 2])
+/// Convolutions in a step: normalised by the moments of the batch, which are kept.
+struct Step<'a, B: Backend> {
+    learnt: &'a [Tensor<Autodiff<B>, 1>],
+    moments: &'a mut [Option<Tensor<B, 1>>],
+}
+
+impl<B: Products> Pass<B, Autodiff<B>> for Step<'_, B> {
+    fn normed(
+        &mut self,
+        normed: &Normed<B>,
+        pictures: Tensor<Autodiff<B>, 4>,
+    ) -> Tensor<Autodiff<B>, 4> {
+        let raw = convolved(&normed.convolution, pictures, self.learnt(normed.weight));
+        let batch = normalised(raw, self.learnt(normed.gain), self.learnt(normed.bias));
+        self.moments[normed.mean] = Some(batch.mean);
+        self.moments[normed.variance] = Some(batch.variance);
+        batch.given
+    }
+
+    fn weighted(&self, head: &Head<B>, features: Tensor<Autodiff<B>, 4>) -> Tensor<Autodiff<B>, 4> {
+        convolved(&head.convolution, features, self.learnt(head.weight))
+    }
+
+    fn learnt(&self, position: usize) -> Tensor<Autodiff<B>, 1> {
+        self.learnt[position].clone()
+    }
 }
 
 /// The weights after a step by `rule`; `moments` are what the optimiser remembers, none before the first step.

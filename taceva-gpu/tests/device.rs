@@ -1,6 +1,6 @@
 //! Each kind of GPU that was built in and is at hand, against the engine of the processor. Where none is, the tests say so and skip.
 
-#![cfg(any(feature = "cuda", feature = "wgpu-untuned"))]
+#![cfg(any(feature = "cuda", feature = "wgpu"))]
 
 #[path = "../../taceva-network/tests/common/mod.rs"]
 mod common;
@@ -19,12 +19,17 @@ const PICTURE: Picture = Picture {
     channels: 3,
 };
 
-/// Every GPU that this program can reach.
+/// Every GPU that this program can reach, or only that of the kind that the variable `TACEVA_GPU` names.
 #[expect(clippy::print_stderr, reason = "a test says where it ran")]
 fn gpus() -> Vec<Gpu> {
-    let built = GpuKind::ALL
-        .into_iter()
-        .filter(|kind| kind.check_built().is_ok());
+    let only = std::env::var("TACEVA_GPU").ok();
+    if let Some(only) = &only {
+        let is_known = GpuKind::ALL.iter().any(|kind| kind.name() == only);
+        assert!(is_known, "TACEVA_GPU={only}: expected `cuda` or `wgpu`");
+    }
+    let built = GpuKind::ALL.into_iter().filter(|kind| {
+        kind.check_built().is_ok() && only.as_ref().is_none_or(|only| kind.name() == only)
+    });
     let found = built.filter_map(|kind| match Gpu::find(kind) {
         Ok(gpu) => {
             eprintln!("on {gpu}");
@@ -94,6 +99,24 @@ fn both<'a>(
     [begin(), there.expect("a training on a device")]
 }
 
+/// Says how far a value was from the processor's, and fails if that is not below `bound`.
+#[expect(clippy::print_stderr, reason = "a test says what it found")]
+fn assert_below(error: f64, bound: f64, what: &str) {
+    eprintln!("{what}: {error:.1e} of {bound:.0e}");
+    assert!(error < bound, "{what}: {error:e}, not below {bound:e}");
+}
+
+/// The greatest of `errors`, and not a number if one is.
+fn worst(errors: impl Iterator<Item = f64>) -> f64 {
+    errors.fold(0.0, |most, error| {
+        if error > most || error.is_nan() {
+            error
+        } else {
+            most
+        }
+    })
+}
+
 /// The length of the difference of two lists of numbers over that of the second.
 fn distance(found: &[f32], expected: &[f32]) -> f64 {
     let length = |numbers: &mut dyn Iterator<Item = f64>| {
@@ -106,18 +129,22 @@ fn distance(found: &[f32], expected: &[f32]) -> f64 {
 
 fn assert_near(found: &[NamedTensor], expected: &[NamedTensor], tolerance: f64, what: &str) {
     assert_eq!(found.len(), expected.len(), "{what}");
-    let pairs = found.iter().zip(expected);
-    let far: Vec<String> = pairs
-        .filter_map(|(found, expected)| {
-            assert_eq!(
-                (&found.name, &found.shape),
-                (&expected.name, &expected.shape)
-            );
-            let apart = distance(&found.values, &expected.values);
-            (apart >= tolerance).then(|| format!("{}: {apart}", found.name))
-        })
-        .collect();
-    assert!(far.is_empty(), "{what}: {far:#?}");
+    let mut apart = found.iter().zip(expected).map(|(found, expected)| {
+        assert_eq!(
+            (&found.name, &found.shape),
+            (&expected.name, &expected.shape)
+        );
+        (distance(&found.values, &expected.values), &found.name)
+    });
+    let first = apart.next().expect("a network has tensors");
+    let (most, name) = apart.fold(first, |most, next| {
+        if next.0 > most.0 || next.0.is_nan() {
+            next
+        } else {
+            most
+        }
+    });
+    assert_below(most, tolerance, &format!("{what}, furthest {name}"));
 }
 
 #[test]
@@ -138,10 +165,9 @@ fn predictions_are_those_of_the_processor() {
             let size = expected
                 .iter()
                 .fold(0.0_f64, |most, value| most.max(value.abs()));
-            for (found, expected) in found.iter().zip(&expected) {
-                let error = (found - expected).abs() / size;
-                assert!(error < 1e-4, "{gpu}, {name}: {found}, {expected}");
-            }
+            let pairs = found.iter().zip(&expected);
+            let error = worst(pairs.map(|(found, expected)| (found - expected).abs() / size));
+            assert_below(error, 1e-4, &format!("{gpu}, {name}: predictions"));
         }
     }
 }
@@ -166,7 +192,8 @@ fn a_step_has_the_loss_the_gradients_and_the_weights_of_the_processor() {
             };
             let (expected, found) = (step(&mut here), step(&mut there));
             let what = format!("{gpu}, {name}");
-            assert!((found.0 / expected.0 - 1.0).abs() < 1e-5, "{what}");
+            let error = (found.0 / expected.0 - 1.0).abs();
+            assert_below(error, 1e-5, &format!("{what}: loss"));
             // After one step the velocity is the gradient with the decay. The last stage has moments of few numbers, which
             // magnify roundings.
             assert_near(&found.1, &expected.1, 2e-3, &format!("{what}: gradients"));
@@ -187,18 +214,15 @@ fn twenty_steps_go_as_on_the_processor_and_the_network_predicts_the_same_there_a
             let recipe = recipe(loss, optimizer);
             let [mut here, mut there] = both(&gpu, &network, &recipe, &eight);
             let mut first = None;
-            for step in 0..20 {
+            let errors = (0..20).map(|_| {
                 let [expected, found] = [&mut here, &mut there].map(|trainer| {
                     let made = trainer.step().expect("finite");
                     made.expect("a step is left").loss
                 });
-                let first = *first.get_or_insert(expected);
-                let error = (found - expected).abs() / first;
-                assert!(
-                    error < 1e-3,
-                    "{gpu}, {name}, step {step}: {found}, {expected}"
-                );
-            }
+                (found - expected).abs() / *first.get_or_insert(expected)
+            });
+            let error = worst(errors);
+            assert_below(error, 1e-3, &format!("{gpu}, {name}: twenty losses"));
             let checkpoint = there.checkpoint().expect("at hand");
             let mut found = vec![0.0; 8 * 6];
             let trained = there.finish().expect("at hand").network;
@@ -212,9 +236,9 @@ fn twenty_steps_go_as_on_the_processor_and_the_network_predicts_the_same_there_a
             let mut expected = found.clone();
             let mut predictor = trained.predictor();
             predictor.predict(&eight.0, &mut expected).expect("finite");
-            for (found, expected) in found.iter().zip(&expected) {
-                assert!((found - expected).abs() < 1e-4, "{gpu}, {name}");
-            }
+            let pairs = found.iter().zip(&expected);
+            let error = worst(pairs.map(|(found, expected)| (found - expected).abs()));
+            assert_below(error, 1e-4, &format!("{gpu}, {name}: there and here"));
             // A checkpoint made there can be read here, to the bit.
             let again = Trainer::resume(checkpoint.clone(), samples(&eight), None);
             let again = again.expect("its own checkpoint").checkpoint();
@@ -273,10 +297,9 @@ fn a_training_put_aside_goes_on_and_the_best_epoch_is_kept() {
         let epochs: Vec<f64> = epochs.filter_map(|epoch| epoch.validation_loss).collect();
         assert_eq!((whole.len(), rest.len()), (6, 4));
         let pairs = whole.iter().zip(&epochs);
-        for (found, expected) in pairs.chain(rest.iter().zip(&epochs[2..])) {
-            let error = (found - expected).abs() / expected;
-            assert!(error < 1e-2, "{gpu}: {found}, {expected}");
-        }
+        let pairs = pairs.chain(rest.iter().zip(&epochs[2..]));
+        let error = worst(pairs.map(|(found, expected)| (found - expected).abs() / expected));
+        assert_below(error, 1e-2, &format!("{gpu}: a training resumed"));
     }
 }
 

@@ -1,6 +1,6 @@
 //! What stands in the list of skips where no feature builds an engine of a GPU, and `device.rs` with all its tests is not there.
 
-#![cfg(not(any(feature = "cuda", feature = "wgpu-untuned")))]
+#![cfg(not(any(feature = "cuda", feature = "wgpu")))]
 
 use taceva_needs::{Need, skip};
 
