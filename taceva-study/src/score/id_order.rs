@@ -46,7 +46,7 @@ impl IdOrder {
     }
 
     /// Whether the ids of all blocks that were seen ascend from each to the next, so that none comes twice.
-    pub(super) fn is_kept(self) -> bool {
+    pub(super) fn ascends(self) -> bool {
         let ends = self.ends.into_inner();
         let mut ends = ends.unwrap_or_else(PoisonError::into_inner);
         ends.sort_unstable();
@@ -72,7 +72,7 @@ mod tests {
             let block = table(ids);
             order.is_kept_in(*number, [&block, &block])
         });
-        each && order.is_kept()
+        each && order.ascends()
     }
 
     #[test]

@@ -55,7 +55,7 @@ pub fn score_in_one_pass(
     progress.begin("score", None);
     let evaluator = pass.evaluate(request.jobs.get());
     progress.end();
-    let is_in_order = pass.order.is_none_or(IdOrder::is_kept);
+    let is_in_order = pass.order.is_none_or(IdOrder::ascends);
     let Some(evaluator) = evaluator?.filter(|_| is_in_order) else {
         return Ok(None);
     };
