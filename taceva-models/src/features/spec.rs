@@ -78,7 +78,7 @@ pub(super) const KINDS: SettingInfo = SettingInfo {
 };
 pub(crate) const SIZE: SettingInfo = SettingInfo {
     key: "size",
-    accepts: "WIDTHxHEIGHT or one number for both, from 1 to 1024; auto, or as up-to-64x48, in fit, evaluate and models of scenes",
+    accepts: "WIDTHxHEIGHT or one number for both, from 1 to 1024; up-to-64x48 or auto in fit, evaluate and models of scenes",
     default: "32x32, 128x96 for networks; 16x16 with markers, 8x8 with statistics",
     about: "how many cells every frame is divided into; auto tries grids from a quarter as fine to twice as fine, and takes the coarsest whose error is within a standard error of the least; up-to is no more than a frame has pixels",
 };
