@@ -97,7 +97,8 @@ fn what_a_network_alone_sees_is_given_to_the_network_after_one_look() {
     let said = reason(&model, "random-forest");
     assert_eq!(said, "cnn is clearly ahead of all that take less");
     assert!(reason(&model, "resnet18").contains("fitted where it is named"));
-    let alone = fit("cnn", &[], &recording, None);
+    // As the preset `default` has it.
+    let alone = fit("cnn", &["appearance=auto"], &recording, None);
     assert_eq!(model.regressor(), alone.regressor());
     assert_eq!(model.card().model, "cnn");
 }
@@ -183,7 +184,7 @@ fn networks_see_finer_features_where_there_are_such_and_others_do_not() {
     let model = fit("auto", &[], &coarse, Some(closer));
     assert_eq!(model.card().model, "cnn", "{}", card(&model));
     assert_eq!(model.card().features, closer.spec);
-    let alone = fit("cnn", &[], &finer, None);
+    let alone = fit("cnn", &["appearance=auto"], &finer, None);
     assert_eq!(model.regressor(), alone.regressor());
     let plain = fit("auto", &["budget_s=0"], &coarse, Some(closer));
     assert_eq!(plain.card().features, spec());
