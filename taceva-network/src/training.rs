@@ -145,30 +145,10 @@ impl<'a> Trainer<'a> {
         begin: impl FnOnce(&Snapshot, &Recipe) -> Result<Box<dyn Engine>, NetworkError>,
     ) -> Result<Trainer<'a>, NetworkError> {
         let snapshot = self.snapshot()?;
-        let Trainer {
-            engine,
-            architecture,
-            state,
-            best,
-            order,
-            recipe,
-            training,
-            validation,
-            scale,
-            form,
-        } = self;
-        drop(engine);
+        drop(self.engine);
         Ok(Trainer {
-            engine: begin(&snapshot, &recipe)?,
-            architecture,
-            state,
-            best,
-            order,
-            recipe,
-            training,
-            validation,
-            scale,
-            form,
+            engine: begin(&snapshot, &self.recipe)?,
+            ..self
         })
     }
 
