@@ -1,6 +1,6 @@
 """What PyTorch makes of the same weights and pictures: the golden numbers of taceva-network's tests.
 
-usage: python3 benches/peers/torch_golden.py > taceva-network/tests/golden/torch.json
+usage: python3 benches/peers/torch_golden.py > crates/network/tests/golden/torch.json
 
 Weights and pictures are draws of a counter (SplitMix64), so that both sides make them anew and the file stays small. Losses are
 those of double precision, beside how far PyTorch's own single precision strays from them.

@@ -66,7 +66,7 @@ fn entropy_coded(whole: &[u8]) -> (usize, usize) {
 
 /// Drawn pictures as encoders write them, and some real ones where they are.
 fn whole_pictures() -> Vec<(PathBuf, Vec<u8>)> {
-    let mut paths = jpegs_below(&root().join("taceva-dataset/tests/fixtures/jpeg"));
+    let mut paths = jpegs_below(&root().join("crates/recordings/dataset/tests/fixtures/jpeg"));
     assert!(paths.len() >= 12, "{paths:?}");
     if let Some(folder) = recording("gelsight-wedge-grasp") {
         let real = jpegs_below(&folder);

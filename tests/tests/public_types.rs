@@ -8,7 +8,7 @@ use taceva_tests::source::{rust_files, without_tests};
 /// The crates whose interface is a promise, by folder.
 const PROMISED: [&str; 5] = [
     "taceva-core",
-    "taceva-dataset",
+    "crates/recordings/dataset",
     "taceva-metrics",
     "plugins/abi",
     "plugins/sdk",

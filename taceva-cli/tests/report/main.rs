@@ -3,7 +3,7 @@
 mod accepted;
 mod compared;
 mod documents;
-#[path = "../../../taceva-report/tests/support/latex.rs"]
+#[path = "../../../crates/results/report/tests/support/latex.rs"]
 mod latex;
 #[path = "../schema/mod.rs"]
 mod schema;

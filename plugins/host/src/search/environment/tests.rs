@@ -1,4 +1,4 @@
-//! What interpreters say, by scripts that say it: what a real one says is tried where there is one (`taceva-python/tests`).
+//! What interpreters say, by scripts that say it: what a real one says is tried where there is one (`python/tests`).
 
 use std::fs::{self, Permissions};
 use std::os::unix::fs::PermissionsExt;

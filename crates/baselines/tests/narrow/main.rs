@@ -1,0 +1,23 @@
+//! A model that needs at least as many samples as features keeps what every model promises, on pictures of few pixels.
+#![cfg(feature = "smartcore")]
+
+mod blobs;
+#[path = "../../../../taceva-models/tests/every_model/case.rs"]
+mod case;
+mod cases;
+#[path = "../../../../taceva-models/tests/every_model/determinism.rs"]
+mod determinism;
+#[path = "../../../../taceva-models/tests/every_model/files.rs"]
+mod files;
+#[path = "../../../../taceva-models/tests/every_model/fits.rs"]
+mod fits;
+#[path = "../../../../taceva-models/tests/every_model/refusals.rs"]
+mod refusals;
+mod wide;
+
+use taceva_models::Models;
+
+/// The models that are tested here.
+fn models() -> Models {
+    Models::builtin().with_libraries(taceva_baselines::all())
+}

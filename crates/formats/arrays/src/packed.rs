@@ -1,0 +1,313 @@
+//! Bytes that lie deflated or as they are within a file: members of an archive, variables of MATLAB.
+
+use std::ops::Range;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use crc32fast::Hasher;
+
+use crate::error::Problem;
+use crate::inflate::{Inflater, Wrapping, inflated};
+use crate::limits;
+use crate::scalar::shown;
+use crate::source::{ByteSource, FileBytes, bytes_of};
+
+/// Checksums are formed, and bytes that nobody asked for passed, in pieces of so many bytes.
+const PIECE_BYTES: u64 = 1 << 20;
+/// What headers lie within, nearly always: nothing but this is inflated to list arrays.
+const BEGINNING_BYTES: u64 = 4 << 10;
+
+/// Where packed bytes lie.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Packed {
+    pub(crate) name: String,
+    /// How they are deflated, if they are.
+    pub(crate) wrapping: Option<Wrapping>,
+    /// The checksum of the bytes as they were before, where the file has one.
+    pub(crate) crc32: Option<u32>,
+    pub(crate) at: u64,
+    /// Bytes in the file.
+    pub(crate) packed_bytes: u64,
+    /// Bytes once they are inflated.
+    pub(crate) bytes: u64,
+}
+
+impl Packed {
+    /// Refuses what cannot be, and what is made to fill a memory or to cost hours.
+    pub(crate) fn check_size(&self) -> Result<(), Problem> {
+        let wrong = |expected: u64| {
+            Problem::damaged(
+                self.at,
+                format!(
+                    "`{}` of {} bytes, said to become {}",
+                    shown(&self.name),
+                    self.packed_bytes,
+                    self.bytes
+                ),
+                format!("at most {expected}"),
+            )
+        };
+        if self.wrapping.is_none() {
+            return if self.bytes == self.packed_bytes {
+                Ok(())
+            } else {
+                Err(wrong(self.packed_bytes))
+            };
+        }
+        let most = self.packed_bytes.saturating_mul(limits::DEFLATE_RATIO);
+        if self.bytes > most {
+            return Err(wrong(most));
+        }
+        let usual = self.packed_bytes.saturating_mul(limits::USUAL_RATIO);
+        if self.bytes > limits::INFLATED_BYTES && self.bytes > usual {
+            return Err(Problem::too_large(
+                format!(
+                    "bytes of `{}` once inflated, {} times as many as it has (above {} times, no more than the limit is accepted; save it without compression)",
+                    shown(&self.name),
+                    self.bytes / self.packed_bytes.max(1),
+                    limits::USUAL_RATIO
+                ),
+                self.bytes,
+                limits::INFLATED_BYTES,
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// How many bytes of one file are held inflated so far.
+#[derive(Debug, Default)]
+pub(crate) struct Budget {
+    held_bytes: u64,
+}
+
+impl Budget {
+    /// Whether so many more may be held.
+    fn takes(&mut self, bytes: u64) -> bool {
+        let is_held = bytes <= limits::HELD_BYTES.saturating_sub(self.held_bytes);
+        self.held_bytes += if is_held { bytes } else { 0 };
+        is_held
+    }
+}
+
+/// Bytes as they were before they were packed.
+///
+/// What is stored is read in place, once its checksum was compared. What is deflated is inflated as a whole and held where all such
+/// members take 64 MiB at most; of larger ones it is inflated from where the last rows ended, and from the beginning for rows before
+/// them: their checksum is compared whenever the last byte is reached.
+#[derive(Debug)]
+pub(crate) struct PackedBytes {
+    file: Arc<FileBytes>,
+    member: Packed,
+    is_held: bool,
+    read: Mutex<Read>,
+}
+
+/// What was read of a member so far.
+#[derive(Debug)]
+enum Read {
+    Nothing,
+    /// Stored, and its checksum agrees.
+    Checked,
+    Whole(Arc<Vec<u8>>),
+    Part(Box<Part>),
+}
+
+/// How far a member was inflated.
+#[derive(Debug)]
+struct Part {
+    inflater: Inflater,
+    at: u64,
+    sum: Hasher,
+}
+
+impl ByteSource for PackedBytes {
+    fn length(&self) -> u64 {
+        self.member.bytes
+    }
+
+    fn read_at(&self, at: u64, into: &mut [u8]) -> Result<(), Problem> {
+        let is_beginning = at + into.len() as u64 <= BEGINNING_BYTES;
+        let mut read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
+        if self.member.wrapping.is_none() {
+            if matches!(*read, Read::Nothing) && !is_beginning {
+                self.check_stored()?;
+                *read = Read::Checked;
+            }
+            drop(read);
+            return self.file.read_at(self.member.at + at, into);
+        }
+        if self.is_held && !is_beginning && !matches!(*read, Read::Whole(_)) {
+            *read = Read::Whole(Arc::new(self.whole()?));
+        }
+        if let Read::Whole(whole) = &*read {
+            let whole = Arc::clone(whole);
+            drop(read);
+            return whole.read_at(at, into);
+        }
+        let mut part = match std::mem::replace(&mut *read, Read::Nothing) {
+            Read::Part(part) if part.at <= at => part,
+            _ => Box::new(Part {
+                inflater: Inflater::new(self.packed(), self.wrapping()),
+                at: 0,
+                sum: Hasher::new(),
+            }),
+        };
+        self.pass(&mut part, at)?;
+        self.fill(&mut part, into)?;
+        *read = Read::Part(part);
+        Ok(())
+    }
+}
+
+impl PackedBytes {
+    pub(crate) fn new(file: &Arc<FileBytes>, member: Packed, budget: &mut Budget) -> PackedBytes {
+        let is_held = member.wrapping.is_some() && budget.takes(member.bytes);
+        PackedBytes {
+            file: Arc::clone(file),
+            member,
+            is_held,
+            read: Mutex::new(Read::Nothing),
+        }
+    }
+
+    fn wrapping(&self) -> Wrapping {
+        self.member.wrapping.unwrap_or(Wrapping::Raw)
+    }
+
+    fn packed(&self) -> Range<u64> {
+        self.member.at..self.member.at + self.member.packed_bytes
+    }
+
+    fn whole(&self) -> Result<Vec<u8>, Problem> {
+        let packed = bytes_of(&*self.file, self.member.at, self.member.packed_bytes)?;
+        let bytes = usize::try_from(self.member.bytes).unwrap_or(usize::MAX);
+        let whole = inflated(&packed, bytes, self.wrapping())?;
+        self.check(crc32fast::hash(&whole))?;
+        Ok(whole)
+    }
+
+    /// Inflates what lies before `at`.
+    fn pass(&self, part: &mut Part, at: u64) -> Result<(), Problem> {
+        let size = usize::try_from(PIECE_BYTES.min(at - part.at)).unwrap_or(0);
+        let mut passed = vec![0; size];
+        while part.at < at {
+            let size = usize::try_from(PIECE_BYTES.min(at - part.at)).unwrap_or(0);
+            self.fill(part, &mut passed[..size])?;
+        }
+        Ok(())
+    }
+
+    fn fill(&self, part: &mut Part, into: &mut [u8]) -> Result<(), Problem> {
+        let filled = part.inflater.read(&*self.file, into)?;
+        part.at += filled as u64;
+        part.sum.update(&into[..filled]);
+        if filled < into.len() {
+            return Err(Problem::damaged(
+                self.packed().end,
+                format!("the end of what is deflated, after {} bytes", part.at),
+                format!("{} bytes", self.member.bytes),
+            ));
+        }
+        if part.at == self.member.bytes && !into.is_empty() {
+            if part.inflater.read(&*self.file, &mut [0])? > 0 {
+                return Err(Problem::damaged(
+                    self.packed().end,
+                    "more bytes than are stated",
+                    format!("{} bytes", self.member.bytes),
+                ));
+            }
+            self.check(part.sum.clone().finalize())?;
+        }
+        Ok(())
+    }
+
+    fn check_stored(&self) -> Result<(), Problem> {
+        let mut sum = Hasher::new();
+        let mut at = 0;
+        while at < self.member.bytes {
+            let count = PIECE_BYTES.min(self.member.bytes - at);
+            sum.update(&bytes_of(&*self.file, self.member.at + at, count)?);
+            at += count;
+        }
+        self.check(sum.finalize())
+    }
+
+    fn check(&self, computed: u32) -> Result<(), Problem> {
+        let Some(stated) = self.member.crc32.filter(|stated| *stated != computed) else {
+            return Ok(());
+        };
+        Err(Problem::Checksum {
+            what: format!("member `{}`", shown(&self.member.name)),
+            stated,
+            computed,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use crate::archive::members;
+
+    use super::*;
+
+    fn member(is_held: bool, name: &str) -> PackedBytes {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("../../../tests/recordings/npz-deflated/run.npz");
+        let file = FileBytes::open(&path).expect("there");
+        let mut all = members(&file).expect("an archive").into_iter();
+        PackedBytes {
+            member: all.find(|member| member.name == name).expect("listed"),
+            file: Arc::new(file),
+            is_held,
+            read: Mutex::new(Read::Nothing),
+        }
+    }
+
+    #[test]
+    fn what_is_inflated_in_pieces_equals_what_is_held() {
+        let (held, pieces) = (member(true, "images.npy"), member(false, "images.npy"));
+        let length = held.length();
+        // Forwards, backwards, across the window, up to the end.
+        for (at, count) in [
+            (0, 128),
+            (9_000, 70_000),
+            (80_000, 10),
+            (200, 5_000),
+            (length - 3, 3),
+            (1, 0),
+            (5_000, 200_000),
+        ] {
+            let whole = bytes_of(&held, at, count).expect("there");
+            assert_eq!(
+                bytes_of(&pieces, at, count).expect("there"),
+                whole,
+                "{count} from {at}"
+            );
+        }
+        assert!(bytes_of(&pieces, length, 1).is_err());
+    }
+
+    #[test]
+    fn a_wrong_checksum_is_found_at_the_end_of_what_is_inflated_in_pieces() {
+        for is_held in [true, false] {
+            let mut changed = member(is_held, "images.npy");
+            changed.member.crc32 = changed.member.crc32.map(|sum| sum ^ 1);
+            let length = changed.length();
+            let result = bytes_of(&changed, 128, length - 128);
+            assert!(
+                matches!(result, Err(Problem::Checksum { .. })),
+                "{result:?}"
+            );
+            let mut longer = member(is_held, "images.npy");
+            longer.member.bytes += 1;
+            let result = bytes_of(&longer, 128, length - 127);
+            assert!(matches!(result, Err(Problem::Damaged { .. })), "{result:?}");
+            let mut shorter = member(is_held, "images.npy");
+            shorter.member.bytes -= 1;
+            let result = bytes_of(&shorter, 128, length - 129);
+            assert!(matches!(result, Err(Problem::Damaged { .. })), "{result:?}");
+        }
+    }
+}

@@ -1,0 +1,196 @@
+//! A clip, whatever container and codec it has.
+
+use std::cell::Cell;
+use std::ffi::OsString;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+use crate::av1::Av1Clip;
+use crate::clip::{Colours, Picture, VideoInfo};
+use crate::error::{VideoError, VisitError};
+use crate::ffmpeg::{ForeignClip, Known};
+use crate::h264::{H264Clip, Refusal};
+use crate::open;
+use crate::packets::JpegClip;
+
+/// Programs that decode the codecs which this process does not.
+///
+/// It gets no further field: a codec is decoded in this process, in a confined child process, or by ffmpeg.
+///
+/// ```
+/// use std::path::PathBuf;
+/// use taceva_video::Decoders;
+/// // An ffmpeg that somebody named, or that of the path; this program itself as the child, if it has such a command.
+/// let named = std::env::var_os("TACEVA_FFMPEG").map(PathBuf::from);
+/// let this = std::env::current_exe()?;
+/// let decoders = Decoders {
+///     ffmpeg: Some(named.unwrap_or_else(|| "ffmpeg".into())),
+///     av1: Some(vec![this.into(), "decode-av1".into()]),
+/// };
+/// assert!(decoders != Decoders::default());
+/// # Ok::<(), std::io::Error>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Decoders {
+    /// The program ffmpeg, which decodes every codec and container that nothing else here does.
+    pub ffmpeg: Option<PathBuf>,
+    /// A program and its arguments that runs `taceva_video::av1::serve` between its standard input and output, for AV1.
+    pub av1: Option<Vec<OsString>>,
+}
+
+/// A clip whose frames are read by their place in the order of presentation.
+///
+/// ```
+/// use taceva_video::{Colours, Decoders, Video};
+/// # let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../tests/recordings/mp4-h264-baseline/clip.mp4");
+/// let clip = Video::open(file.as_ref(), &Decoders::default())?;
+/// let mut shown = Vec::new();
+/// clip.visit(&[3, 10], Colours::Luma, &mut |index, picture| {
+///     shown.push((index, format!("{picture:?}")));
+///     Ok::<(), std::convert::Infallible>(())
+/// })?;
+/// assert_eq!(shown, [(3, "Pixels(64×48)".to_owned()), (10, "Pixels(64×48)".to_owned())]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct Video {
+    info: VideoInfo,
+    path: PathBuf,
+    frames: Frames,
+}
+
+/// How frames are come by.
+#[derive(Debug)]
+pub(crate) enum Frames {
+    Jpeg(JpegClip),
+    H264 {
+        clip: Box<H264Clip>,
+        /// ffmpeg, for tools of the codec that only show once a frame is decoded.
+        else_by: Option<PathBuf>,
+    },
+    Av1(Box<Av1Clip>),
+    Foreign(ForeignClip),
+}
+
+impl Video {
+    /// Reads what the container says of the clip at `path`, and finds who decodes it.
+    ///
+    /// # Errors
+    /// [`VideoError`]: what is wrong with the file, or [`VideoError::NoDecoder`] if nothing at hand decodes its codec.
+    pub fn open(path: &Path, decoders: &Decoders) -> Result<Video, VideoError> {
+        let (info, frames) = open::open(path, decoders)?;
+        Ok(Video {
+            info,
+            path: path.to_owned(),
+            frames,
+        })
+    }
+
+    /// What is known of it.
+    pub fn info(&self) -> &VideoInfo {
+        &self.info
+    }
+
+    /// Hands the frames whose numbers are in `sorted` to `each`, with the number: strictly ascending, from 0 in the order of presentation.
+    ///
+    /// Nothing but what lies between the key frame before a frame and that frame is decoded. One picture is in memory at a time, and those
+    /// that the codec keeps to decode the next. Threads may share the clip, each with a visit of its own.
+    ///
+    /// # Errors
+    /// [`VisitError::Video`] for what cannot be read, [`VisitError::Caller`] for what `each` returned.
+    pub fn visit<E>(
+        &self,
+        sorted: &[u64],
+        colours: Colours,
+        each: &mut dyn FnMut(u64, Picture) -> Result<(), E>,
+    ) -> Result<(), VisitError<E>> {
+        self.check(sorted)?;
+        let mut refused = None;
+        let shown = Cell::new(0);
+        let mut show = |index, picture| {
+            shown.set(shown.get() + 1);
+            match each(index, picture) {
+                Ok(()) => ControlFlow::Continue(()),
+                Err(error) => {
+                    refused = Some(error);
+                    ControlFlow::Break(())
+                }
+            }
+        };
+        match &self.frames {
+            Frames::Jpeg(clip) => clip.visit(sorted, &mut show)?,
+            Frames::H264 { clip, else_by } => match clip.visit(sorted, colours, &mut show) {
+                Ok(()) => {}
+                Err(Refusal::Video(error)) => return Err(error.into()),
+                Err(Refusal::Tool(tool)) => {
+                    let rest = &sorted[shown.get()..];
+                    self.go_on(else_by.as_deref(), &tool, rest, colours, &mut show)?;
+                }
+            },
+            Frames::Av1(clip) => clip.visit(sorted, colours, &mut show)?,
+            Frames::Foreign(clip) => clip.visit(sorted, colours, &mut show)?,
+        }
+        refused.map_or(Ok(()), |error| Err(VisitError::Caller(error)))
+    }
+
+    /// Shows the frames of `rest` by ffmpeg, since the stream needs a `tool` that the decoder of this process does not have.
+    fn go_on(
+        &self,
+        program: Option<&Path>,
+        tool: &str,
+        rest: &[u64],
+        colours: Colours,
+        show: &mut dyn FnMut(u64, Picture) -> ControlFlow<()>,
+    ) -> Result<(), VideoError> {
+        let known = Known::new("MP4", Some(self.info.codec.clone()), tool);
+        let Some(program) = program else {
+            return Err(known.no_decoder(&self.path));
+        };
+        let (info, clip) = ForeignClip::open(&self.path, program, &known)?;
+        let (found, expected) = (
+            (info.width, info.height, info.frames),
+            (self.info.width, self.info.height, self.info.frames),
+        );
+        if found != expected {
+            return Err(VideoError::Process {
+                path: self.path.clone(),
+                program: program.display().to_string(),
+                problem: format!(
+                    "finds {} frames of {}×{}, the container says {} of {}×{}",
+                    found.2, found.0, found.1, expected.2, expected.0, expected.1
+                ),
+            });
+        }
+        clip.visit(rest, colours, show)
+    }
+
+    /// Whether there are such frames, in such an order.
+    fn check(&self, sorted: &[u64]) -> Result<(), VideoError> {
+        if let Some(pair) = sorted.windows(2).find(|pair| pair[0] >= pair[1]) {
+            return Err(VideoError::Unsorted {
+                path: self.path.clone(),
+                index: pair[1],
+                after: pair[0],
+            });
+        }
+        match sorted.last() {
+            Some(&index) if index >= self.info.frames => Err(VideoError::NoFrame {
+                path: self.path.clone(),
+                index,
+                frames: self.info.frames,
+            }),
+            _ => Ok(()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn threads_may_share_a_clip() {
+        fn shared<T: Send + Sync>() {}
+        shared::<Video>();
+    }
+}

@@ -1,0 +1,270 @@
+//! Why a plan leaves something out or joins it with something else.
+
+use std::fmt;
+
+use taceva_core::{Field, SkipReason};
+
+use crate::phase::PhaseKind;
+
+/// Something that a plan does not do, and why.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PlanSkip {
+    /// What is left out.
+    pub subject: Subject,
+    /// Why it is left out.
+    pub reason: PlanReason,
+}
+
+/// What a plan can leave out.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Subject {
+    /// A metric by its id, or some of its channels: `repeatability (Fx, Fy)`.
+    Metric(String),
+    /// A part of the protocol, or some of its presses.
+    Phase(PhaseKind),
+    /// A model that predicts this field.
+    Fit(Field),
+    /// A field of samples.
+    Field(Field),
+    /// A channel of the truth.
+    Channel(String),
+}
+
+impl Subject {
+    /// How it is written in data: `metric:r_light`.
+    pub fn key(&self) -> String {
+        match self {
+            Subject::Metric(id) => format!("metric:{id}"),
+            Subject::Phase(kind) => format!("phase:{kind}"),
+            Subject::Fit(field) => format!("fit:{field}"),
+            Subject::Field(field) => format!("field:{field}"),
+            Subject::Channel(name) => format!("channel:{name}"),
+        }
+    }
+}
+
+impl fmt::Display for Subject {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Subject::Metric(id) => write!(f, "metric  {id}"),
+            Subject::Phase(kind) => write!(f, "phase   {kind}"),
+            Subject::Fit(field) => write!(f, "model   {field}"),
+            Subject::Field(field) => write!(f, "field   {field}"),
+            Subject::Channel(name) => write!(f, "channel {name}"),
+        }
+    }
+}
+
+/// Why a plan leaves something out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum PlanReason {
+    /// A reason that any stream of samples may have.
+    Skip(SkipReason),
+    /// A field without a source, and what its source would need.
+    Unresolved {
+        /// The field.
+        field: Field,
+        /// What is missing.
+        cause: Cause,
+    },
+    /// A channel that no device of the rig measures.
+    Unmeasured {
+        /// The channel.
+        channel: String,
+        /// What is missing.
+        cause: Cause,
+    },
+    /// The gel has no markers: shear leaves no trace that repeats.
+    NoMarkers,
+    /// No metric that is computed needs it.
+    NoMetricNeeds,
+    /// Presses that another phase makes too: they are visited once.
+    VisitedBy {
+        /// The other phase.
+        phase: PhaseKind,
+        /// How many presses are shared.
+        presses: usize,
+    },
+}
+
+/// What is missing for a field or channel to have a source.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Cause {
+    /// No sensor.
+    NoSensor,
+    /// No robot.
+    NoRobot,
+    /// No force transducer.
+    NoForce,
+    /// The force transducer does not measure this axis.
+    NoAxis,
+    /// No model.
+    NoModel,
+    /// No model that can be fitted: a finished one predicts its own labels only.
+    NoEstimator,
+    /// The light cannot be set.
+    NoLighting,
+    /// One scene of light, where two are compared.
+    OneLight,
+    /// One unit, where two are compared.
+    OneUnit,
+}
+
+impl Cause {
+    /// Every cause.
+    pub const ALL: [Cause; 9] = [
+        Cause::NoSensor,
+        Cause::NoRobot,
+        Cause::NoForce,
+        Cause::NoAxis,
+        Cause::NoModel,
+        Cause::NoEstimator,
+        Cause::NoLighting,
+        Cause::OneLight,
+        Cause::OneUnit,
+    ];
+}
+
+impl fmt::Display for Cause {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Cause::NoSensor => "a sensor: the scene has none",
+            Cause::NoRobot => "a robot: the scene has none",
+            Cause::NoForce => "a force transducer: the scene has none",
+            Cause::NoAxis => "a force transducer that measures it: this one does not",
+            Cause::NoModel => "a model: none chosen",
+            Cause::NoEstimator => {
+                "a model that is fitted: a finished one predicts its own labels only"
+            }
+            Cause::NoLighting => "light that can be set: the scene has none",
+            Cause::OneLight => "two scenes of light: there is one",
+            Cause::OneUnit => "two units of the sensor: the scene has one",
+        })
+    }
+}
+
+impl PlanReason {
+    /// One of each kind, so that tests can visit every line.
+    pub fn all() -> Vec<PlanReason> {
+        let skips = SkipReason::all().into_iter().map(PlanReason::Skip);
+        let causes = Cause::ALL.into_iter().map(|cause| PlanReason::Unresolved {
+            field: Field::Prediction,
+            cause,
+        });
+        skips
+            .chain(causes)
+            .chain([
+                PlanReason::Unmeasured {
+                    channel: "Fx".to_owned(),
+                    cause: Cause::NoAxis,
+                },
+                PlanReason::NoMarkers,
+                PlanReason::NoMetricNeeds,
+                PlanReason::VisitedBy {
+                    phase: PhaseKind::Spatial,
+                    presses: 100,
+                },
+            ])
+            .collect()
+    }
+}
+
+impl fmt::Display for PlanReason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            PlanReason::Skip(reason) => write!(f, "{reason}"),
+            PlanReason::Unresolved { field, cause } => write!(f, "needs `{field}` ← needs {cause}"),
+            PlanReason::Unmeasured { channel, cause } => {
+                write!(f, "needs `{channel}` ← needs {cause}")
+            }
+            PlanReason::NoMarkers => {
+                f.write_str("the gel has no markers, and how well shear repeats is asked of gels with markers alone")
+            }
+            PlanReason::NoMetricNeeds => f.write_str("no kept metric needs it"),
+            PlanReason::VisitedBy { phase, presses } => {
+                write!(f, "{presses} presses are those of {phase}: visited once")
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    /// The place of a kind of reason; a kind without a place does not compile.
+    fn place(reason: &PlanReason) -> usize {
+        match reason {
+            PlanReason::Skip(_) => 0,
+            PlanReason::Unresolved { .. } => 1,
+            PlanReason::Unmeasured { .. } => 2,
+            PlanReason::NoMarkers => 3,
+            PlanReason::NoMetricNeeds => 4,
+            PlanReason::VisitedBy { .. } => 5,
+        }
+    }
+
+    /// The place of a cause among all; a cause without a place does not compile.
+    fn place_of_cause(cause: Cause) -> usize {
+        match cause {
+            Cause::NoSensor => 0,
+            Cause::NoRobot => 1,
+            Cause::NoForce => 2,
+            Cause::NoAxis => 3,
+            Cause::NoModel => 4,
+            Cause::NoEstimator => 5,
+            Cause::NoLighting => 6,
+            Cause::OneLight => 7,
+            Cause::OneUnit => 8,
+        }
+    }
+
+    #[test]
+    fn every_kind_of_reason_and_every_cause_is_among_all() {
+        let places: BTreeSet<usize> = PlanReason::all().iter().map(place).collect();
+        assert_eq!(places, (0..6).collect());
+        let causes: Vec<usize> = Cause::ALL.into_iter().map(place_of_cause).collect();
+        assert_eq!(causes, (0..9).collect::<Vec<_>>());
+        for cause in Cause::ALL {
+            let field = Field::Prediction;
+            assert!(PlanReason::all().contains(&PlanReason::Unresolved { field, cause }));
+        }
+    }
+
+    /// The reasons of samples are declared in another crate, which may add to them: its text is asked, for no match can be.
+    #[test]
+    fn every_reason_that_a_stream_may_have_is_among_all() {
+        let source = concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/../../../taceva-core/src/skip.rs"
+        );
+        let source = std::fs::read_to_string(source).expect("the crate beside this one");
+        let (_, list) = source
+            .split_once("pub enum SkipReason {")
+            .expect("declared");
+        let (list, _) = list.split_once("\n}").expect("ends");
+        let declared: BTreeSet<&str> = list
+            .lines()
+            .map(str::trim)
+            .filter(|line| line.starts_with(|first: char| first.is_ascii_uppercase()))
+            .map(word)
+            .collect();
+        let debug: Vec<String> = SkipReason::all()
+            .iter()
+            .map(|reason| format!("{reason:?}"))
+            .collect();
+        let listed: BTreeSet<&str> = debug.iter().map(|reason| word(reason)).collect();
+        assert_eq!(declared, listed);
+        assert!(listed.len() >= 7, "{listed:?}");
+    }
+
+    /// The letters with which `text` begins.
+    fn word(text: &str) -> &str {
+        let end = text.find(|letter: char| !letter.is_ascii_alphanumeric());
+        &text[..end.unwrap_or(text.len())]
+    }
+}
