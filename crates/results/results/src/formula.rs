@@ -1,0 +1,55 @@
+//! Cells of CSV that a spreadsheet would take for a formula.
+
+/// Cell of words in a CSV table, with an apostrophe before what begins like a formula.
+///
+/// [`unescape_csv`] takes it away again, so that names keep their meaning for programs:
+///
+/// ```
+/// use taceva_results::{escape_csv, unescape_csv};
+/// assert_eq!(escape_csv("=1+1"), "'=1+1");
+/// assert_eq!(unescape_csv(&escape_csv("'=1+1")), "'=1+1");
+/// ```
+pub fn escape_csv(text: &str) -> String {
+    match begins_like_a_formula(text) {
+        true => format!("'{text}"),
+        false => text.to_owned(),
+    }
+}
+
+/// Words of a cell that [`escape_csv`] has written.
+pub fn unescape_csv(cell: &str) -> &str {
+    match cell.strip_prefix('\'') {
+        Some(text) if begins_like_a_formula(text) => text,
+        _ => cell,
+    }
+}
+
+/// Whether a spreadsheet may take a text for a formula, or for one that was escaped; signs of full width are signs there too.
+fn begins_like_a_formula(text: &str) -> bool {
+    text.trim_start_matches('\'')
+        .starts_with(['=', '+', '-', '@', '\t', '\r', '\n', '＝', '＋', '－', '＠'])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_that_begin_like_a_formula_are_words() {
+        let cells = ["=1+1", "+1", "-x", "@x", "plain"].map(escape_csv);
+        assert_eq!(cells, ["'=1+1", "'+1", "'-x", "'@x", "plain"]);
+    }
+
+    #[test]
+    fn whatever_a_name_is_a_cell_gives_it_back() {
+        let odd = ["'", "''", "'=x", "''=x", "it's", "'\t"];
+        for text in naughty_strings::BLNS.iter().chain(&odd) {
+            let cell = escape_csv(text);
+            assert_eq!(unescape_csv(&cell), *text);
+            assert!(
+                !cell.starts_with(['=', '+', '-', '@', '\t', '\r', '\n']),
+                "{text:?}"
+            );
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! Confidence intervals.
+
+use taceva_metrics::Scale;
+
+/// A confidence interval of 95 %.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Interval {
+    /// Both ends with their method.
+    Ends {
+        /// The lower and the upper end, in the unit of the score.
+        ends: [f64; 2],
+        /// The method: `jackknife by point_id, G=32`.
+        method: String,
+        /// The standard error behind the ends, in the unit of the score.
+        standard_error: Option<f64>,
+        /// The number of clusters.
+        clusters: Option<u64>,
+        /// Degrees of freedom of Student's t.
+        degrees_of_freedom: Option<f64>,
+    },
+    /// No interval, with the reason.
+    Absent(String),
+}
+
+impl Interval {
+    /// The interval that `taceva-metrics` computed.
+    pub fn of(interval: &taceva_metrics::Interval) -> Interval {
+        if let taceva_metrics::Interval::Undefined(reason) = interval {
+            return Interval::Absent(reason.to_string());
+        }
+        Interval::Ends {
+            ends: interval.ends().unwrap_or([f64::NAN; 2]),
+            method: interval.method().unwrap_or_default(),
+            standard_error: interval.standard_error(),
+            clusters: interval.clusters().map(|clusters| clusters as u64),
+            degrees_of_freedom: interval.freedom(),
+        }
+    }
+
+    /// Both ends, if there is an interval.
+    pub fn ends(&self) -> Option<[f64; 2]> {
+        match self {
+            Interval::Ends { ends, .. } => Some(*ends),
+            Interval::Absent(_) => None,
+        }
+    }
+
+    /// The method in words.
+    pub fn method(&self) -> Option<&str> {
+        match self {
+            Interval::Ends { method, .. } => Some(method),
+            Interval::Absent(_) => None,
+        }
+    }
+
+    /// Degrees of freedom of Student's t, if the result states them.
+    pub fn degrees_of_freedom(&self) -> Option<f64> {
+        match self {
+            Interval::Ends {
+                degrees_of_freedom, ..
+            } => *degrees_of_freedom,
+            Interval::Absent(_) => None,
+        }
+    }
+
+    /// The scale on which the ends lie about the value, by the words of the method.
+    pub fn scale(&self) -> Scale {
+        const SCALES: [Scale; 4] = [Scale::Logarithm, Scale::Logit, Scale::Cut, Scale::Wilson];
+        let method = self.method().unwrap_or_default();
+        let is_named = |scale: &Scale| method.contains(&scale.to_string());
+        SCALES.into_iter().find(is_named).unwrap_or(Scale::Own)
+    }
+
+    /// The number of clusters, if the result or its method states it.
+    pub fn clusters(&self) -> Option<usize> {
+        if let Interval::Ends {
+            clusters: Some(clusters),
+            ..
+        } = self
+        {
+            return usize::try_from(*clusters).ok();
+        }
+        let (_, rest) = self.method()?.split_once("G=")?;
+        let digits = rest.find(|letter: char| !letter.is_ascii_digit());
+        rest[..digits.unwrap_or(rest.len())].parse().ok()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_scale_of_an_interval_is_read_off_its_method() {
+        let scale = |method: &str| {
+            let interval = Interval::Ends {
+                ends: [0.4, 0.6],
+                method: method.to_owned(),
+                standard_error: None,
+                clusters: None,
+                degrees_of_freedom: None,
+            };
+            interval.scale()
+        };
+        assert_eq!(scale("jackknife by point_id, G=10"), Scale::Own);
+        let logarithmic = "jackknife by point_id, G=10, logarithmic";
+        assert_eq!(scale(logarithmic), Scale::Logarithm);
+        let share = "jackknife by point_id, G=10, Wilson with effective samples";
+        assert_eq!(scale(share), Scale::Wilson);
+    }
+}

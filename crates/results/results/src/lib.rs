@@ -1,0 +1,26 @@
+#![doc = include_str!("../README.md")]
+
+mod error;
+mod formula;
+mod interval;
+mod ordered;
+mod provenance;
+mod report;
+mod samples;
+mod schema;
+mod score;
+mod seeds;
+mod subject;
+mod value;
+
+pub use error::ResultsError;
+pub use formula::{escape_csv, unescape_csv};
+pub use interval::Interval;
+pub use provenance::{ModelProvenance, Provenance, RecordingProvenance};
+pub use report::{EvaluationReport, RecordingScores, Skip};
+pub use samples::{SampleChannel, Samples, SamplesError};
+pub use schema::{EVALUATION_SCHEMA, RUN_SCHEMA, RunReport, read, sealed};
+pub use score::{Score, Variant, scores};
+pub use seeds::{OverSeeds, SeedScore};
+pub use subject::Subject;
+pub use value::Value;

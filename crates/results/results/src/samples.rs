@@ -1,0 +1,369 @@
+//! Table of the samples behind scores.
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+use taceva_core::{Channel, Column, Unit, shown};
+
+use crate::formula::{escape_csv, unescape_csv};
+
+/// Columns of words.
+const WORDS: [&str; 9] = [
+    "id",
+    "recording",
+    "protocol",
+    "part",
+    "point_id",
+    "unit_id",
+    "scene",
+    "phase",
+    "kind",
+];
+/// Columns of numbers that are no channel.
+const NUMBERS: [&str; 6] = [
+    "depth_step",
+    "repeat",
+    "t_s",
+    "spacing_mm",
+    "spacing_predicted_mm",
+    "intensity",
+];
+/// Suffix of the name of a column of predictions.
+const PREDICTED: &str = "_predicted";
+
+/// Samples, column by column: `id`, covariates, and truth and prediction of each channel.
+///
+/// # Shapes
+/// Every column has one value a sample, or none.
+/// # Units
+/// Channels in their own unit; `t_s` in s; spacings in mm; `intensity` in grey levels.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Samples {
+    rows: usize,
+    columns: Vec<(String, SampleColumn)>,
+    recordings: Vec<PathBuf>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum SampleColumn {
+    Words(Vec<Option<String>>),
+    Numbers(Column),
+}
+
+/// Truth and prediction of one channel.
+#[derive(Clone, Copy, Debug)]
+pub struct SampleChannel<'a> {
+    /// The name of the channel.
+    pub name: &'a str,
+    rows: usize,
+    truth: Option<&'a Column>,
+    prediction: Option<&'a Column>,
+}
+
+/// Reasons why a table of samples is refused.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SamplesError {
+    /// The text is no CSV, or a row has another length than the head.
+    #[error("samples: {0}")]
+    Csv(#[from] csv::Error),
+    /// A cell holds no finite number.
+    #[error("samples, line {line}, column `{column}`: expected a finite number, found `{found}`")]
+    Cell {
+        /// The line, counted from 1.
+        line: u64,
+        /// The name of the column.
+        column: String,
+        /// The cell.
+        found: String,
+    },
+    /// No column is called `id`.
+    #[error("samples: no column `id`")]
+    NoId,
+}
+
+impl Samples {
+    /// Samples called `ids`, of the recordings in these folders.
+    pub fn new(ids: Vec<Option<String>>, recordings: Vec<PathBuf>) -> Samples {
+        Samples {
+            rows: ids.len(),
+            columns: vec![("id".to_owned(), SampleColumn::Words(ids))],
+            recordings,
+        }
+    }
+
+    /// Adds a column of words or of covariates as text.
+    pub fn push_words(&mut self, name: &str, words: Vec<Option<String>>) {
+        self.columns
+            .push((name.to_owned(), SampleColumn::Words(words)));
+    }
+
+    /// Adds the parts of the protocol of each sample, behind `id`.
+    pub fn insert_protocol(&mut self, parts: Vec<Option<String>>) {
+        let column = ("protocol".to_owned(), SampleColumn::Words(parts));
+        self.columns.insert(1.min(self.columns.len()), column);
+    }
+
+    /// Adds a column of numbers: the truth of a channel, or a covariate.
+    pub fn push_numbers(&mut self, name: &str, numbers: Column) {
+        self.columns
+            .push((name.to_owned(), SampleColumn::Numbers(numbers)));
+    }
+
+    /// Adds the predictions of `channel`.
+    pub fn push_prediction(&mut self, channel: &Channel, numbers: Column) {
+        self.push_numbers(&format!("{}{PREDICTED}", channel.name()), numbers);
+    }
+
+    /// Reads a table with a head: `id`, covariates, and for each channel its truth under its name and its prediction under
+    /// `<name>_predicted`.
+    ///
+    /// ```
+    /// use taceva_results::Samples;
+    /// let samples = Samples::read("id,point_id,Fz,Fz_predicted\na,p1,0.5,0.4\nb,p1,0.7,\n")?;
+    /// let force = samples.channel("Fz").expect("there");
+    /// assert_eq!((force.pair(0), force.pair(1)), (Some([0.5, 0.4]), None));
+    /// # Ok::<(), taceva_results::SamplesError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`SamplesError`] with the line and the column.
+    pub fn read(table: &str) -> Result<Samples, SamplesError> {
+        let mut reader = csv::Reader::from_reader(table.as_bytes());
+        let names = reader.headers()?.iter().map(unescape_csv);
+        let column = |name: &str| match WORDS.contains(&name) {
+            true => SampleColumn::Words(Vec::new()),
+            false => SampleColumn::Numbers(Column::default()),
+        };
+        let mut samples = Samples {
+            columns: names.map(|name| (name.to_owned(), column(name))).collect(),
+            ..Samples::default()
+        };
+        if !samples.columns.iter().any(|(name, _)| name == "id") {
+            return Err(SamplesError::NoId);
+        }
+        let mut record = csv::StringRecord::new();
+        while reader.read_record(&mut record)? {
+            samples.rows += 1;
+            let line = record.position().map_or(0, csv::Position::line);
+            for ((name, column), cell) in samples.columns.iter_mut().zip(&record) {
+                match column {
+                    SampleColumn::Words(words) => {
+                        let word = unescape_csv(cell);
+                        words.push((!word.is_empty()).then(|| word.to_owned()));
+                    }
+                    SampleColumn::Numbers(numbers) => numbers.push(number(cell, name, line)?),
+                }
+            }
+        }
+        Ok(samples)
+    }
+
+    /// Writes the table that [`Samples::read`] reads, with numbers in shortest round-trip form.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        let mut writer = csv::Writer::from_writer(out);
+        writer.write_record(self.columns.iter().map(|(name, _)| escape_csv(name)))?;
+        for row in 0..self.rows {
+            for (_, column) in &self.columns {
+                let cell = match column {
+                    SampleColumn::Words(words) => words[row].as_deref().map(escape_csv),
+                    SampleColumn::Numbers(numbers) => {
+                        numbers.get(row).map(|number| format!("{number:?}"))
+                    }
+                };
+                writer.write_field(cell.unwrap_or_default())?;
+            }
+            writer.write_record(None::<&[u8]>)?;
+        }
+        writer.flush()
+    }
+
+    /// The folders of the recordings, in the order in which they were joined; none of two tables.
+    pub fn recordings(&self) -> &[PathBuf] {
+        &self.recordings
+    }
+
+    /// The number of samples.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// The channels, in the order of the table.
+    pub fn channels(&self) -> Vec<SampleChannel<'_>> {
+        let mut names: Vec<&str> = Vec::new();
+        for (name, column) in &self.columns {
+            let name = name.strip_suffix(PREDICTED).unwrap_or(name);
+            let is_channel = matches!(column, SampleColumn::Numbers(_)) && !NUMBERS.contains(&name);
+            if is_channel && !names.contains(&name) {
+                names.push(name);
+            }
+        }
+        let channels = names.into_iter();
+        channels.filter_map(|name| self.channel(name)).collect()
+    }
+
+    /// The channel called `name`.
+    pub fn channel(&self, name: &str) -> Option<SampleChannel<'_>> {
+        let truth = self.numbers(name);
+        let prediction = self.numbers(&format!("{name}{PREDICTED}"));
+        let named = truth.or(prediction).filter(|_| !NUMBERS.contains(&name))?;
+        Some(SampleChannel {
+            name: named.0.strip_suffix(PREDICTED).unwrap_or(named.0),
+            rows: self.rows,
+            truth: truth.map(|(_, column)| column),
+            prediction: prediction.map(|(_, column)| column),
+        })
+    }
+
+    fn column(&self, name: &str) -> Option<&(String, SampleColumn)> {
+        self.columns.iter().find(|(own, _)| own == name)
+    }
+
+    fn numbers(&self, name: &str) -> Option<(&str, &Column)> {
+        match self.column(name)? {
+            (name, SampleColumn::Numbers(numbers)) => Some((name, numbers)),
+            _ => None,
+        }
+    }
+
+    /// The word of a sample in a column; `None` if it is empty or the column is absent.
+    pub fn word(&self, column: &str, row: usize) -> Option<&str> {
+        match &self.column(column)?.1 {
+            SampleColumn::Words(words) => {
+                words.get(row)?.as_deref().filter(|word| !word.is_empty())
+            }
+            SampleColumn::Numbers(_) => None,
+        }
+    }
+
+    /// The number of a sample in a column that is no channel.
+    pub fn number(&self, column: &str, row: usize) -> Option<f64> {
+        match &self.column(column)?.1 {
+            SampleColumn::Numbers(numbers) => numbers.get(row),
+            SampleColumn::Words(words) => words.get(row)?.as_deref()?.parse().ok(),
+        }
+    }
+
+    /// The samples of a part of the protocol; all of them where the table names no parts.
+    pub fn of_protocol(&self, part: &str) -> Vec<usize> {
+        let is_of = |row: &usize| {
+            let parts = self.word("protocol", *row);
+            parts.is_some_and(|parts| parts.split(' ').any(|own| own == part))
+        };
+        let rows = 0..self.rows;
+        match self.has_protocol() {
+            true => rows.filter(is_of).collect(),
+            false => rows.collect(),
+        }
+    }
+
+    /// Whether the table names the part of the protocol of each sample.
+    pub fn has_protocol(&self) -> bool {
+        self.column("protocol").is_some()
+    }
+}
+
+impl SampleChannel<'_> {
+    /// The reading of the reference instrument for a sample, in the unit of the channel.
+    pub fn truth(&self, row: usize) -> Option<f64> {
+        self.truth?.get(row)
+    }
+
+    /// The prediction for a sample, in the unit of the channel.
+    pub fn prediction(&self, row: usize) -> Option<f64> {
+        self.prediction?.get(row)
+    }
+
+    /// Truth and prediction of a sample, where both are known.
+    pub fn pair(&self, row: usize) -> Option<[f64; 2]> {
+        Some([self.truth(row)?, self.prediction(row)?])
+    }
+
+    /// Every known truth, in the order of samples.
+    pub fn truths(&self) -> impl Iterator<Item = f64> {
+        (0..self.rows).filter_map(|row| self.truth(row))
+    }
+
+    /// Whether any sample has a prediction.
+    pub fn is_predicted(&self) -> bool {
+        (0..self.rows).any(|row| self.prediction(row).is_some())
+    }
+
+    /// The unit of a channel by its name; 1 of an unknown channel.
+    pub fn unit(&self) -> Unit {
+        let six = [
+            Channel::PX,
+            Channel::PY,
+            Channel::PZ,
+            Channel::FX,
+            Channel::FY,
+            Channel::FZ,
+        ];
+        let known = six.iter().find(|channel| channel.name() == self.name);
+        match known {
+            Some(channel) => channel.unit(),
+            None if self.name == "surface_z" => Unit::Millimetre,
+            None => Unit::One,
+        }
+    }
+}
+
+fn number(cell: &str, column: &str, line: u64) -> Result<Option<f64>, SamplesError> {
+    if cell.is_empty() {
+        return Ok(None);
+    }
+    match cell.parse::<f64>() {
+        Ok(number) if number.is_finite() => Ok(Some(number)),
+        _ => Err(SamplesError::Cell {
+            line,
+            column: column.to_owned(),
+            found: shown(cell).to_string(),
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn samples_are_found_by_the_part_of_the_protocol() {
+        let table = "id,protocol,scene\n1,calibration light-sweep,\n2,idle,S1\n";
+        let samples = Samples::read(table).expect("samples");
+        assert_eq!(samples.of_protocol("light-sweep"), [0]);
+        assert_eq!(samples.word("scene", 0), None);
+        assert_eq!(samples.word("scene", 1), Some("S1"));
+    }
+
+    #[test]
+    fn names_that_begin_like_a_formula_are_read_as_they_were() {
+        let table = "id,point_id\n'=1+1,'=p\n'a,b\n";
+        let samples = Samples::read(table).expect("samples");
+        let words = |row: usize| (samples.word("id", row), samples.word("point_id", row));
+        assert_eq!(words(0), (Some("=1+1"), Some("=p")));
+        assert_eq!(words(1), (Some("'a"), Some("b")));
+    }
+
+    #[test]
+    fn a_table_is_written_as_it_was_read() {
+        let table = "id,part,depth_step,Fz,Fz_predicted\n'=a,test,2.0,0.5,\nb,,,0.25,0.1\n";
+        let samples = Samples::read(table).expect("samples");
+        let mut text = Vec::new();
+        samples.write(&mut text).expect("written");
+        assert_eq!(String::from_utf8(text).expect("text"), table);
+        assert_eq!(samples.channels().len(), 1);
+    }
+
+    #[test]
+    fn what_is_no_number_is_refused_by_its_place() {
+        let error = Samples::read("id,Fz\na,1\nb,nan\n").expect_err("no number");
+        assert_eq!(
+            error.to_string(),
+            "samples, line 3, column `Fz`: expected a finite number, found `nan`"
+        );
+        assert!(matches!(Samples::read("Fz\n1\n"), Err(SamplesError::NoId)));
+    }
+}

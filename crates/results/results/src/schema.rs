@@ -1,0 +1,130 @@
+//! Schema numbers, seals, and the reading and writing of texts.
+
+use std::borrow::Cow;
+
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use taceva_core::shown;
+use taceva_seal::Version;
+
+use crate::error::ResultsError;
+use crate::report::EvaluationReport;
+
+/// Schema of one evaluation.
+///
+/// Unreleased versions wrote `taceva.evaluation/1` and 1.1 to 1.4; the schema after this one is 1.5.
+pub const EVALUATION_SCHEMA: &str = "taceva.evaluation/1.0";
+/// Schema of the evaluations of a scene, in versions as [`EVALUATION_SCHEMA`].
+pub const RUN_SCHEMA: &str = "taceva.run/1.0";
+
+/// Evaluations of the studies of a scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RunReport<'a> {
+    /// [`RUN_SCHEMA`].
+    pub schema: Cow<'a, str>,
+    /// One report a study.
+    pub studies: Cow<'a, [EvaluationReport]>,
+}
+
+impl<'a> RunReport<'a> {
+    /// The reports of a run.
+    pub fn new(studies: &'a [EvaluationReport]) -> RunReport<'a> {
+        RunReport {
+            schema: Cow::Borrowed(RUN_SCHEMA),
+            studies: Cow::Borrowed(studies),
+        }
+    }
+}
+
+/// Reads the evaluations in a text of [`EVALUATION_SCHEMA`] or [`RUN_SCHEMA`].
+///
+/// Edits that were accepted by hand are added to the provenance of each evaluation.
+///
+/// ```
+/// let error = taceva_results::read(r#"{"schema": "taceva.evaluation/1.3", "provenance": {"taceva": "0.1.0"}}"#).unwrap_err();
+/// assert_eq!(
+///     error.to_string(),
+///     "schema `taceva.evaluation/1.3`, written by TacEva 0.1.0: expected `taceva.evaluation/1.0`; run `taceva evaluate …` again with this version"
+/// );
+/// ```
+///
+/// # Errors
+/// [`ResultsError`] if the text is no JSON, of another schema, unsealed or changed, or if a place holds an unexpected value.
+pub fn read(text: &str) -> Result<Vec<EvaluationReport>, ResultsError> {
+    let head: Head = serde_json::from_str(text)?;
+    let Some(serde_json::Value::String(schema)) = &head.schema else {
+        return Err(ResultsError::Schema {
+            found: "no schema".to_owned(),
+        });
+    };
+    let is_run = match schema.as_str() {
+        EVALUATION_SCHEMA => false,
+        RUN_SCHEMA => true,
+        other if other.starts_with("taceva.evaluation/") => {
+            return Err(head.refusal(other, EVALUATION_SCHEMA, "taceva evaluate"));
+        }
+        other if other.starts_with("taceva.run/") => {
+            return Err(head.refusal(other, RUN_SCHEMA, "taceva run"));
+        }
+        other => {
+            return Err(ResultsError::Schema {
+                found: format!("schema `{}`", shown(other)),
+            });
+        }
+    };
+    let seal = taceva_seal::json::check(text, Version::Sealed)?;
+    let mut reports = match is_run {
+        true => place_named::<RunReport<'_>>(text)?.studies.into_owned(),
+        false => vec![place_named(text)?],
+    };
+    for report in &mut reports {
+        let edits = seal.history.iter();
+        report
+            .provenance
+            .edits
+            .extend(edits.map(|edit| format!("results, {edit}")));
+    }
+    Ok(reports)
+}
+
+/// The JSON of `report`, one line a value, with its seal.
+///
+/// # Errors
+/// [`ResultsError`] if `report` is no JSON object.
+pub fn sealed(report: &impl Serialize) -> Result<String, ResultsError> {
+    let text = serde_json::to_string_pretty(report)?;
+    Ok(taceva_seal::json::seal(&text)?)
+}
+
+/// Schema of a text, with the version that wrote it.
+#[derive(Default, Deserialize)]
+struct Head {
+    schema: Option<serde_json::Value>,
+    #[serde(default)]
+    provenance: serde_json::Value,
+    #[serde(default)]
+    studies: serde_json::Value,
+}
+
+impl Head {
+    fn refusal(&self, found: &str, expected: &'static str, command: &'static str) -> ResultsError {
+        let own = &self.provenance["taceva"];
+        let of_first = &self.studies[0]["provenance"]["taceva"];
+        let version = own.as_str().or_else(|| of_first.as_str());
+        ResultsError::Version {
+            found: shown(found).to_string(),
+            version: shown(version.unwrap_or("of an unknown version")).to_string(),
+            expected,
+            command,
+        }
+    }
+}
+
+/// Reads `text`, and names the place of what cannot be read.
+fn place_named<T: DeserializeOwned>(text: &str) -> Result<T, ResultsError> {
+    let mut json = serde_json::Deserializer::from_str(text);
+    serde_path_to_error::deserialize(&mut json).map_err(|error| ResultsError::Place {
+        place: shown(&error.path().to_string()).to_string(),
+        problem: shown(&error.inner().to_string()).to_string(),
+    })
+}

@@ -1,0 +1,124 @@
+//! Scores of a metric on a channel or plane.
+
+pub(crate) mod by_metric;
+mod object;
+
+use taceva_core::Unit;
+use taceva_metrics::{Better, Evaluation, Metric, Standing, catalogue};
+
+use crate::interval::Interval;
+use crate::value::Value;
+
+/// Score of a metric on a channel or plane.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Score {
+    /// The metric: `mae`.
+    pub metric: String,
+    /// The channel or plane: `Fz`, `Pxy`.
+    pub channel: String,
+    /// The value, in `unit`.
+    pub value: Value,
+    /// The unit of value and interval.
+    pub unit: Unit,
+    /// The number of samples that it is computed from.
+    pub n: u64,
+    /// The number of samples without a usable number, which are ignored.
+    pub n_invalid: u64,
+    /// The 95 % interval; `None` where an interval has no meaning.
+    pub interval: Option<Interval>,
+    /// The definition that was computed: `mae/1`.
+    pub definition: String,
+    /// Constants of the definition by name.
+    pub parameters: Vec<(String, f64)>,
+    /// Counts made during the computation by name.
+    pub counts: Vec<(String, u64)>,
+    /// Warnings: `one bin`.
+    pub flags: Vec<String>,
+    /// The part that the score takes in verdicts.
+    pub standing: Standing,
+    /// Share of its predictions beyond the bounds of the model; `None` without predictions or bounds.
+    pub bounded_share: Option<f64>,
+    /// The channels that it is computed from, where they are several.
+    pub of: Vec<String>,
+    /// Further values of the same metric and channel.
+    pub variants: Vec<Variant>,
+}
+
+/// Further value of the same metric and channel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Variant {
+    /// Its name: `slope`, `map`.
+    pub name: String,
+    /// The value, in `unit`.
+    pub value: Value,
+    /// The unit of value and interval.
+    pub unit: Unit,
+    /// The 95 % interval; `None` where an interval has no meaning.
+    pub interval: Option<Interval>,
+}
+
+/// Every score of an evaluation, in its order.
+pub fn scores(evaluation: &Evaluation) -> Vec<Score> {
+    let all = evaluation.scores();
+    all.map(|(metric, channel, score)| Score::of(metric, channel, score))
+        .collect()
+}
+
+impl Score {
+    /// The score that `taceva-metrics` computed for `metric` on `channel`.
+    pub fn of(metric: &Metric, channel: &str, score: &taceva_metrics::Score) -> Score {
+        Score {
+            metric: metric.id.to_owned(),
+            channel: channel.to_owned(),
+            value: Value::of(&score.value),
+            unit: score.unit,
+            n: score.n,
+            n_invalid: score.n_invalid,
+            interval: (score.value.scalar()).map(|_| Interval::of(&score.interval)),
+            definition: score.definition.to_owned(),
+            parameters: named(&score.parameters, |own| (own.name, own.value)),
+            counts: named(&score.counts, |own| (own.name, own.value)),
+            flags: score.flags.iter().map(ToString::to_string).collect(),
+            standing: score.standing,
+            bounded_share: score.bounded_share,
+            of: score.of.clone(),
+            variants: score.variants.iter().map(Variant::of).collect(),
+        }
+    }
+
+    /// The variant called `name`.
+    pub fn variant(&self, name: &str) -> Option<&Variant> {
+        self.variants.iter().find(|variant| variant.name == name)
+    }
+
+    /// The part in verdicts of the score or of its variant called `variant`: reference constants always count.
+    pub fn standing_of(&self, variant: Option<&str>) -> Standing {
+        match variant {
+            Some("of_constant" | "constant") => Standing::Counts,
+            _ => self.standing,
+        }
+    }
+
+    /// The direction of good values; `Described` of metrics that are not in the catalogue.
+    pub fn better(&self) -> Better {
+        catalogue::find(&self.metric).map_or(Better::Described, |metric| metric.better)
+    }
+}
+
+impl Variant {
+    fn of(variant: &taceva_metrics::Variant) -> Variant {
+        Variant {
+            name: variant.name.to_string(),
+            value: Value::of(&variant.value),
+            unit: variant.unit,
+            interval: (variant.value.scalar()).and(variant.interval.as_ref().map(Interval::of)),
+        }
+    }
+}
+
+fn named<T, N>(all: &[T], entry: impl Fn(&T) -> (&'static str, N)) -> Vec<(String, N)> {
+    let entries = all.iter().map(entry);
+    entries
+        .map(|(name, value)| (name.to_owned(), value))
+        .collect()
+}

@@ -1,0 +1,409 @@
+//! Keys of a score and of a variant in JSON.
+
+use std::fmt;
+
+use serde::de::{Deserialize, Deserializer, Error, MapAccess, Visitor};
+use serde::ser::{Serialize, SerializeMap, Serializer};
+use taceva_core::{Unit, shown};
+use taceva_metrics::{Band, Curve, Map, Matrix, Standing};
+
+use super::{Score, Variant};
+use crate::interval::Interval;
+use crate::ordered::Ordered;
+use crate::value::Value;
+
+impl Serialize for Score {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut object = serializer.serialize_map(None)?;
+        serialize_value(&mut object, &self.value, self.unit)?;
+        if !matches!(self.value, Value::NotApplicable(_)) {
+            self.serialize_details(&mut object)?;
+        }
+        object.serialize_entry("better", self.better().name())?;
+        object.end()
+    }
+}
+
+impl Score {
+    fn serialize_details<M: SerializeMap>(&self, object: &mut M) -> Result<(), M::Error> {
+        if !self.of.is_empty() {
+            object.serialize_entry("of", &self.of)?;
+        }
+        object.serialize_entry("n", &self.n)?;
+        object.serialize_entry("n_invalid", &self.n_invalid)?;
+        serialize_interval(object, &self.value, self.interval.as_ref())?;
+        object.serialize_entry("definition", &self.definition)?;
+        if !self.parameters.is_empty() {
+            object.serialize_entry("parameters", &Ordered(self.parameters.clone()))?;
+        }
+        if !self.counts.is_empty() {
+            object.serialize_entry("counts", &Ordered(self.counts.clone()))?;
+        }
+        if !self.flags.is_empty() {
+            object.serialize_entry("flags", &self.flags)?;
+        }
+        if let Some(standing) = self.standing.words() {
+            object.serialize_entry("standing", standing)?;
+        }
+        if let Some(share) = self.bounded_share {
+            object.serialize_entry("bounded_share", &share)?;
+        }
+        for variant in &self.variants {
+            object.serialize_entry(&variant.name, variant)?;
+        }
+        Ok(())
+    }
+}
+
+impl Serialize for Variant {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut object = serializer.serialize_map(None)?;
+        serialize_value(&mut object, &self.value, self.unit)?;
+        serialize_interval(&mut object, &self.value, self.interval.as_ref())?;
+        object.end()
+    }
+}
+
+/// Writes the value, and its unit if there is a value.
+fn serialize_value<M: SerializeMap>(
+    object: &mut M,
+    value: &Value,
+    unit: Unit,
+) -> Result<(), M::Error> {
+    match value {
+        Value::Number(value) => object.serialize_entry("value", value)?,
+        Value::Undefined(reason) => return object.serialize_entry("undefined", reason),
+        Value::NotApplicable(reason) => return object.serialize_entry("not_applicable", reason),
+        Value::Map(map) => {
+            object.serialize_entry("x_mm", &map.x_mm)?;
+            object.serialize_entry("y_mm", &map.y_mm)?;
+            object.serialize_entry("values", &map.values)?;
+            object.serialize_entry("counts", &map.counts)?;
+        }
+        Value::Curve(curve) => {
+            object.serialize_entry("x", &curve.x)?;
+            object.serialize_entry("x_unit", &curve.x_unit)?;
+            object.serialize_entry("values", &curve.values)?;
+            object.serialize_entry("counts", &curve.counts)?;
+            if let Some(band) = &curve.band {
+                object.serialize_entry("low", &band.low)?;
+                object.serialize_entry("high", &band.high)?;
+            }
+        }
+        Value::Matrix(matrix) => {
+            object.serialize_entry("rows", &matrix.rows)?;
+            object.serialize_entry("columns", &matrix.columns)?;
+            object.serialize_entry("values", &matrix.values)?;
+        }
+    }
+    object.serialize_entry("unit", &unit)
+}
+
+/// Writes the interval of a number with its method.
+fn serialize_interval<M: SerializeMap>(
+    object: &mut M,
+    value: &Value,
+    interval: Option<&Interval>,
+) -> Result<(), M::Error> {
+    match interval.filter(|_| value.number().is_some()) {
+        Some(Interval::Ends {
+            ends,
+            method,
+            standard_error,
+            clusters,
+            degrees_of_freedom,
+        }) => {
+            object.serialize_entry("ci95", ends)?;
+            object.serialize_entry("method", method)?;
+            if let Some(standard_error) = standard_error {
+                object.serialize_entry("standard_error", standard_error)?;
+            }
+            if let Some(clusters) = clusters {
+                object.serialize_entry("clusters", clusters)?;
+            }
+            if let Some(freedom) = degrees_of_freedom {
+                object.serialize_entry("degrees_of_freedom", freedom)?;
+            }
+            Ok(())
+        }
+        Some(Interval::Absent(reason)) => object.serialize_entry(
+            "ci95",
+            &Reason {
+                undefined: reason.clone(),
+            },
+        ),
+        None => Ok(()),
+    }
+}
+
+/// `{"undefined": reason}`.
+#[derive(serde::Serialize, serde::Deserialize)]
+struct Reason {
+    undefined: String,
+}
+
+impl<'de> Deserialize<'de> for Score {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Score, D::Error> {
+        deserializer.deserialize_map(ScoreVisitor)
+    }
+}
+
+struct ScoreVisitor;
+
+impl<'de> Visitor<'de> for ScoreVisitor {
+    type Value = Score;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("an object with a value, a map, a curve, a matrix or a reason")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Score, A::Error> {
+        let mut keys = Keys::default();
+        while let Some(key) = map.next_key::<String>()? {
+            keys.read(key, &mut map)?;
+        }
+        keys.score()
+    }
+}
+
+/// Keys of a score or variant, each absent where the object lacks it.
+#[derive(Default)]
+struct Keys {
+    value: Option<f64>,
+    undefined: Option<String>,
+    not_applicable: Option<String>,
+    unit: Option<Unit>,
+    x: Option<Vec<f64>>,
+    x_unit: Option<Unit>,
+    x_mm: Option<Vec<f64>>,
+    y_mm: Option<Vec<f64>>,
+    rows: Option<Vec<String>>,
+    columns: Vec<String>,
+    values: Option<Values>,
+    low: Option<Vec<Option<f64>>>,
+    high: Vec<Option<f64>>,
+    counts: Option<Counts>,
+    of: Vec<String>,
+    n: u64,
+    n_invalid: u64,
+    ci95: Option<Ends>,
+    method: Option<String>,
+    standard_error: Option<f64>,
+    clusters: Option<u64>,
+    degrees_of_freedom: Option<f64>,
+    definition: String,
+    parameters: Ordered<f64>,
+    flags: Vec<String>,
+    standing: Standing,
+    bounded_share: Option<f64>,
+    variants: Vec<Variant>,
+}
+
+/// Values of a curve, or of a map or matrix.
+#[derive(serde::Deserialize)]
+#[serde(untagged, expecting = "a list or grid of numbers and nulls")]
+enum Values {
+    Levels(Vec<Option<f64>>),
+    Grid(Vec<Vec<Option<f64>>>),
+}
+
+/// Counts of a curve, of a map, or of a computation by name.
+#[derive(serde::Deserialize)]
+#[serde(untagged, expecting = "counts")]
+enum Counts {
+    Levels(Vec<u64>),
+    Grid(Vec<Vec<u64>>),
+    Named(Ordered<u64>),
+}
+
+/// Ends of an interval, or the reason why there are none.
+#[derive(serde::Deserialize)]
+#[serde(untagged, expecting = "two ends or a reason")]
+enum Ends {
+    Known([f64; 2]),
+    Absent(Reason),
+}
+
+impl Keys {
+    fn read<'de, A: MapAccess<'de>>(&mut self, key: String, map: &mut A) -> Result<(), A::Error> {
+        match key.as_str() {
+            "value" => self.value = Some(map.next_value()?),
+            "undefined" => self.undefined = Some(map.next_value()?),
+            "not_applicable" => self.not_applicable = Some(map.next_value()?),
+            "unit" => self.unit = Some(map.next_value()?),
+            "x" => self.x = Some(map.next_value()?),
+            "x_unit" => self.x_unit = Some(map.next_value()?),
+            "x_mm" => self.x_mm = Some(map.next_value()?),
+            "y_mm" => self.y_mm = Some(map.next_value()?),
+            "rows" => self.rows = Some(map.next_value()?),
+            "columns" => self.columns = map.next_value()?,
+            "values" => self.values = Some(map.next_value()?),
+            "low" => self.low = Some(map.next_value()?),
+            "high" => self.high = map.next_value()?,
+            "counts" => self.counts = Some(map.next_value()?),
+            "of" => self.of = map.next_value()?,
+            "n" => self.n = map.next_value()?,
+            "n_invalid" => self.n_invalid = map.next_value()?,
+            "ci95" => self.ci95 = Some(map.next_value()?),
+            "method" => self.method = Some(map.next_value()?),
+            "standard_error" => self.standard_error = Some(map.next_value()?),
+            "clusters" => self.clusters = Some(map.next_value()?),
+            "degrees_of_freedom" => self.degrees_of_freedom = Some(map.next_value()?),
+            "definition" => self.definition = map.next_value()?,
+            "parameters" => self.parameters = map.next_value()?,
+            "flags" => self.flags = map.next_value()?,
+            "standing" => self.standing = map.next_value::<Words>()?.0,
+            "bounded_share" => self.bounded_share = Some(map.next_value()?),
+            // The catalogue states the direction.
+            "better" => drop(map.next_value::<String>()?),
+            _ => {
+                let Score {
+                    value,
+                    unit,
+                    interval,
+                    ..
+                } = map.next_value()?;
+                self.variants.push(Variant {
+                    name: key,
+                    value,
+                    unit,
+                    interval,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// The score, of no metric and channel yet.
+    fn score<E: Error>(mut self) -> Result<Score, E> {
+        let interval = self.interval();
+        let counts = match self.counts.take() {
+            Some(Counts::Named(counts)) => counts.0,
+            other => {
+                self.counts = other;
+                Vec::new()
+            }
+        };
+        let (value, unit) = match (self.undefined.take(), self.not_applicable.take()) {
+            (Some(reason), _) => (Value::Undefined(reason), Unit::One),
+            (None, Some(reason)) => (Value::NotApplicable(reason), Unit::One),
+            (None, None) => {
+                let unit = self.unit.ok_or_else(|| E::missing_field("unit"))?;
+                (self.known_value()?, unit)
+            }
+        };
+        Ok(Score {
+            metric: String::new(),
+            channel: String::new(),
+            value,
+            unit,
+            n: self.n,
+            n_invalid: self.n_invalid,
+            interval,
+            definition: self.definition,
+            parameters: self.parameters.0,
+            counts,
+            flags: self.flags,
+            standing: self.standing,
+            bounded_share: self.bounded_share,
+            of: self.of,
+            variants: self.variants,
+        })
+    }
+
+    fn interval(&mut self) -> Option<Interval> {
+        Some(match self.ci95.take()? {
+            Ends::Absent(reason) => Interval::Absent(reason.undefined),
+            Ends::Known(ends) => Interval::Ends {
+                ends,
+                method: self.method.take().unwrap_or_else(|| "unstated".to_owned()),
+                standard_error: self.standard_error,
+                clusters: self.clusters,
+                degrees_of_freedom: self.degrees_of_freedom,
+            },
+        })
+    }
+
+    fn known_value<E: Error>(&mut self) -> Result<Value, E> {
+        if let Some(number) = self.value {
+            return Ok(Value::Number(number));
+        }
+        let (values, counts) = (self.values.take(), self.counts.take());
+        if let Some(x_mm) = self.x_mm.take() {
+            let y_mm = self.y_mm.take().ok_or_else(|| E::missing_field("y_mm"))?;
+            return match (values, counts) {
+                (Some(Values::Grid(values)), Some(Counts::Grid(counts)))
+                    if fills(&values, &x_mm, &y_mm) && fills(&counts, &x_mm, &y_mm) =>
+                {
+                    Ok(Value::Map(Map::new(x_mm, y_mm, values, counts)))
+                }
+                _ => Err(shape()),
+            };
+        }
+        if let Some(x) = self.x.take() {
+            let x_unit = self.x_unit.ok_or_else(|| E::missing_field("x_unit"))?;
+            let high = std::mem::take(&mut self.high);
+            let band = self.low.take().map(|low| Band { low, high });
+            let levels = x.len();
+            let fits = |band: &Band| band.low.len() == levels && band.high.len() == levels;
+            return match (values.unwrap_or(Values::Levels(Vec::new())), counts) {
+                (Values::Levels(values), Some(Counts::Levels(counts)))
+                    if values.len() == levels
+                        && counts.len() == levels
+                        && band.as_ref().is_none_or(fits) =>
+                {
+                    Ok(Value::Curve(
+                        Curve::new(x, x_unit, values, counts).with_band(band),
+                    ))
+                }
+                _ => Err(shape()),
+            };
+        }
+        if let Some(rows) = self.rows.take() {
+            let columns = std::mem::take(&mut self.columns);
+            let values = match values {
+                Some(Values::Grid(values)) => values,
+                // A list without an item is either.
+                Some(Values::Levels(values)) if values.is_empty() => Vec::new(),
+                _ => return Err(shape()),
+            };
+            return match values.len() == rows.len()
+                && values.iter().all(|row| row.len() == columns.len())
+            {
+                true => Ok(Value::Matrix(Matrix::new(rows, columns, values))),
+                false => Err(shape()),
+            };
+        }
+        Err(E::custom(
+            "expected a value, a map, a curve, a matrix or a reason, found none of them",
+        ))
+    }
+}
+
+/// Whether `grid` has one cell between each two edges of `x` and of `y`.
+fn fills<T>(grid: &[Vec<T>], x: &[f64], y: &[f64]) -> bool {
+    grid.len() + 1 == y.len() && grid.iter().all(|row| row.len() + 1 == x.len())
+}
+
+fn shape<E: Error>() -> E {
+    E::custom("expected as many values as there are places for them, found another number")
+}
+
+/// Standing by its words.
+struct Words(Standing);
+
+impl<'de> Deserialize<'de> for Words {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Words, D::Error> {
+        let words = String::deserialize(deserializer)?;
+        let standing = Standing::from_words(&words).ok_or_else(|| {
+            let known = Standing::ALL.into_iter().filter_map(Standing::words);
+            let known: Vec<String> = known.map(|words| format!("`{words}`")).collect();
+            D::Error::custom(format!(
+                "expected one of {}, found `{}`",
+                known.join(", "),
+                shown(&words)
+            ))
+        })?;
+        Ok(Words(standing))
+    }
+}
