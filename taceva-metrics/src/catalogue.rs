@@ -1,10 +1,12 @@
 //! Every metric there is: the only source of names, units, directions, definitions and texts.
 
+mod accumulators;
 mod better;
 mod unknown;
 
 pub use unknown::UnknownMetric;
 
+use crate::evaluate::metric::Metric;
 use crate::families::accuracy::{BIAS, MAE, MAE_EUCLID, R2, RMSE, SKILL, SMAPE, SMAPE_GATED};
 use crate::families::bias_level::BIAS_LEVEL;
 use crate::families::crosstalk::CROSSTALK;
@@ -20,7 +22,6 @@ use crate::families::resolution::SR;
 use crate::families::spatial::R_SPATIAL;
 use crate::families::surface::{SENSITIVITY, UNIFORMITY};
 use crate::families::tolerance::TOLERANCE;
-use crate::metric::Metric;
 
 /// Every metric, in the order of reports.
 pub static ALL: [&Metric; 24] = [

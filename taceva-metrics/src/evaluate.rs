@@ -7,8 +7,9 @@ pub(crate) mod batch_clusters;
 pub(crate) mod entry;
 pub(crate) mod evaluation;
 pub(crate) mod evaluator;
-pub(crate) mod facts;
+pub(crate) mod family;
 pub(crate) mod independent;
+pub(crate) mod metric;
 pub(crate) mod number;
 #[cfg(feature = "rayon")]
 mod parallel;
@@ -20,9 +21,9 @@ pub(crate) mod state;
 
 pub use evaluation::Evaluation;
 pub use evaluator::Evaluator;
-pub use facts::{Fact, SensorFacts};
+pub use metric::{Metric, ScoreUnit};
 pub use number::Number;
 pub use plan::MetricPlan;
 pub use rows::Rows;
 pub use settings::Settings;
-pub use state::{Record, State};
+pub use state::State;

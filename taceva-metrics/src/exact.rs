@@ -18,9 +18,11 @@ pub(crate) mod moments;
 pub(crate) mod ordered;
 mod pending;
 mod rational;
+pub(crate) mod record;
 mod round;
 mod simd;
 pub(crate) mod single;
+pub(crate) mod streams;
 mod sum;
 mod vector;
 
@@ -30,6 +32,8 @@ pub(crate) use columns::{ColumnAdder, ColumnSums};
 pub(crate) use fixed::FixedSum;
 pub(crate) use machine::Machine;
 pub(crate) use rational::Dyadic;
+pub use record::Record;
+pub use streams::{Stream, Streams};
 pub use sum::ExactSum;
 #[cfg(feature = "bench")]
 pub(crate) use vector::{Job, Vector};

@@ -1,6 +1,6 @@
 //! Families of metrics, one folder or file each: what is kept of the samples, and the formulas that are finished from it.
 //!
-//! [`family`] says what every family implements, [`channelwise`] what those that keep the same of each channel share, [`cells`] what those
+//! [`Family`](crate::evaluate::family::Family) says what every family implements, [`channelwise`] what those that keep the same of each channel share, [`cells`] what those
 //! that compare presses of one contact point and depth keep, [`gathered`] how some rows of several columns come side by side.
 
 pub(crate) mod accuracy;
@@ -10,7 +10,6 @@ pub(crate) mod channelwise;
 pub(crate) mod crosstalk;
 pub(crate) mod detection;
 pub(crate) mod drift;
-pub(crate) mod family;
 pub(crate) mod gathered;
 pub(crate) mod hysteresis;
 pub(crate) mod inter_sensor;

@@ -8,7 +8,6 @@ mod evaluate;
 mod exact;
 mod families;
 mod geometry;
-mod metric;
 mod paired;
 mod score;
 mod stats;
@@ -16,13 +15,11 @@ mod stats;
 pub use catalogue::UnknownMetric;
 pub use error::MetricError;
 pub use evaluate::{
-    Evaluation, Evaluator, Fact, MetricPlan, Number, Record, Rows, SensorFacts, Settings, State,
+    Evaluation, Evaluator, Metric, MetricPlan, Number, Rows, ScoreUnit, Settings, State,
 };
-pub use exact::{Canonical, CanonicalError, ExactSum};
+pub use exact::{Canonical, CanonicalError, ExactSum, Record, Stream, Streams};
 pub use families::accuracy::pair_sums::{PairSpec, PairSums};
 pub use families::accuracy::plane_sums::PlaneSums;
-pub use families::accuracy::streams::{Stream, Streams};
-pub use metric::{Metric, ScoreUnit};
 pub use paired::{EPSILON, GREATEST, Paired};
 pub use score::better::Better;
 pub use score::curve::{Band, Curve};
@@ -32,7 +29,10 @@ pub use score::matrix::Matrix;
 pub use score::range::Range;
 pub use score::standing::{GREATEST_BOUNDED_SHARE, Standing};
 pub use score::value::{InapplicableReason, UndefinedReason, Value};
-pub use score::{BootstrapEnds, ClusteredBy, Count, Interval, Parameter, Scale, Score, Variant};
+pub use score::{
+    BootstrapEnds, ClusteredBy, Count, Fact, Interval, Parameter, Scale, Score, SensorFacts,
+    Variant,
+};
 pub use stats::{
     ClusterSum, ClusterSums, Clusters, ComparisonError, Difference, DifferenceTest, Estimate,
     HASHED_CLUSTERS, IntervalMethod, NAMED_CLUSTERS, PoissonBootstrap, Question, Repeats, Side,

@@ -3,8 +3,10 @@
 pub(crate) mod better;
 mod bootstrap_ends;
 pub(crate) mod curve;
+pub(crate) mod facts;
 pub(crate) mod flag;
 mod interval;
+pub(crate) mod least;
 pub(crate) mod map;
 pub(crate) mod matrix;
 pub(crate) mod range;
@@ -13,6 +15,7 @@ pub(crate) mod standing;
 pub(crate) mod value;
 
 pub use bootstrap_ends::BootstrapEnds;
+pub use facts::{Fact, SensorFacts};
 pub use interval::{ClusteredBy, Interval};
 pub use scale::Scale;
 

@@ -13,7 +13,6 @@ pub(crate) mod fnv;
 pub(crate) mod grouped;
 mod holm;
 pub(crate) mod jackknife;
-pub(crate) mod least;
 mod logarithm;
 mod method;
 mod paired_clusters;

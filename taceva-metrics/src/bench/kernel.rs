@@ -4,11 +4,11 @@ use taceva_core::Isa;
 
 use super::compensated::{Kahan, Neumaier, Plain, Single, pairwise};
 use super::textbook::{in_halves, length, mean_error, number, one_pass, two_pass, welford};
+use crate::evaluate::metric::{Formula, Metric};
 use crate::exact::Machine;
+use crate::exact::streams::{Stream, Streams};
 use crate::families::accuracy::pair_sums::{PairSpec, PairSums};
-use crate::families::accuracy::streams::{Stream, Streams};
 use crate::families::accuracy::{MAE, R2, SMAPE};
-use crate::metric::{Formula, Metric};
 use crate::paired::Paired;
 
 /// A way to form MAE, R² and sMAPE of two columns.

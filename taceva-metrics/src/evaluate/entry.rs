@@ -1,6 +1,6 @@
 //! One finished score with the metric and the channel that it is of.
 
-use crate::metric::Metric;
+use crate::evaluate::metric::Metric;
 use crate::score::Score;
 
 /// One score, with what it is of.

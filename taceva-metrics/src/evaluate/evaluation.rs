@@ -10,8 +10,8 @@ use std::collections::BTreeMap;
 use taceva_core::Skipped;
 
 use crate::evaluate::entry::Entry;
+use crate::evaluate::metric::Metric;
 use crate::evaluate::standing;
-use crate::metric::Metric;
 use crate::score::Score;
 use crate::score::standing::Standing;
 

@@ -1,6 +1,5 @@
 //! Which metrics are computed, which are not and why, and what that takes.
 
-mod accumulators;
 mod decide;
 
 use std::collections::BTreeMap;
@@ -8,11 +7,11 @@ use std::collections::BTreeMap;
 use taceva_core::{Channels, Field, FieldSet, Skipped};
 
 use crate::error::MetricError;
-use crate::evaluate::facts::SensorFacts;
+use crate::evaluate::metric::Metric;
 use crate::evaluate::settings::Settings;
-use crate::metric::Metric;
 use crate::paired::is_valid;
 use crate::score::ClusteredBy;
+use crate::score::facts::SensorFacts;
 use crate::stats::IntervalMethod;
 
 /// What an evaluation of given channels and fields will compute.

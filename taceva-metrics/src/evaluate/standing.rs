@@ -7,8 +7,8 @@
 use taceva_core::Field;
 
 use crate::evaluate::entry::Entry;
+use crate::evaluate::metric::{Formula, Metric};
 use crate::families::resolution::OF_CONSTANT;
-use crate::metric::{Formula, Metric};
 use crate::score::flag::Flag;
 use crate::score::standing::Standing;
 use crate::score::value::UndefinedReason;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use taceva_core::{Channels, Unit};
 
 use crate::error::MetricError;
-use crate::exact::ExactSum;
+use crate::exact::record::Record;
 use crate::stats::clusters::Clusters;
 use crate::stats::grouped::HASHED_CLUSTERS;
 
@@ -82,82 +82,6 @@ impl State {
             }
             _ => Ok(()),
         }
-    }
-}
-
-/// Counts and exact sums; the schema says of what.
-///
-/// ```
-/// use taceva_metrics::Record;
-/// assert!(Record::default().counts.is_empty());
-/// ```
-#[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[non_exhaustive]
-pub struct Record {
-    /// Counts, those of the schema in its order.
-    pub counts: Vec<u64>,
-    /// Sums, those of the schema in its order.
-    pub sums: Vec<ExactSum>,
-    /// Numbers that are kept as they are, those of the schema in its order; absent where the schema has none.
-    #[cfg_attr(
-        feature = "serde",
-        serde(default, skip_serializing_if = "Vec::is_empty")
-    )]
-    pub values: Vec<f64>,
-    /// Records of places, scenes and the like by their key; only of those that have samples.
-    #[cfg_attr(
-        feature = "serde",
-        serde(default, skip_serializing_if = "BTreeMap::is_empty")
-    )]
-    pub cells: BTreeMap<String, Record>,
-}
-
-impl Record {
-    /// The counts and sums of a record that holds `C` and `S` of them and nothing else.
-    pub(crate) fn exactly<const C: usize, const S: usize>(
-        &self,
-    ) -> Result<(&[u64; C], &[ExactSum; S]), String> {
-        if !self.values.is_empty() || !self.cells.is_empty() {
-            return Err("values or cells in a record that has none".to_owned());
-        }
-        self.with_cells()
-    }
-
-    /// The counts and sums of a record that holds `C` and `S` of them, and perhaps values and cells.
-    pub(crate) fn with_cells<const C: usize, const S: usize>(
-        &self,
-    ) -> Result<(&[u64; C], &[ExactSum; S]), String> {
-        match (
-            self.counts.as_slice().try_into(),
-            self.sums.as_slice().try_into(),
-        ) {
-            (Ok(counts), Ok(sums)) => Ok((counts, sums)),
-            _ => {
-                let found = (self.counts.len(), self.sums.len());
-                Err(format!(
-                    "{} counts and {} sums, expected {C} and {S}",
-                    found.0, found.1
-                ))
-            }
-        }
-    }
-
-    /// The cells by key, each read by `read`; a key that `parse` does not know is refused.
-    pub(crate) fn read_cells<K: Ord, T>(
-        &self,
-        parse: impl Fn(&str) -> Option<K>,
-        read: impl Fn(&Record) -> Result<T, String>,
-    ) -> Result<BTreeMap<K, T>, String> {
-        let mut cells = BTreeMap::new();
-        for (name, record) in &self.cells {
-            let key = parse(name).ok_or_else(|| format!("`{name}` is no key of a cell"))?;
-            let sums = read(record).map_err(|what| format!("cell `{name}`: {what}"))?;
-            if cells.insert(key, sums).is_some() {
-                return Err(format!("cell `{name}` comes twice"));
-            }
-        }
-        Ok(cells)
     }
 }
 

@@ -12,7 +12,7 @@ use super::machine::Machine;
 use super::pending::{Pending, deposit};
 use super::sum::ExactSum;
 use crate::exact::merge::Merge;
-use crate::families::accuracy::streams::{Stream, Streams};
+use crate::exact::streams::{Stream, Streams};
 use crate::paired::Paired;
 
 /// Fewer rows than this are added one by one: that is sooner done than a block.

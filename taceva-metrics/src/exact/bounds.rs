@@ -2,7 +2,7 @@
 
 use super::grid::{Grid, power_of_two};
 use super::vector::Vector;
-use crate::families::accuracy::streams::{Stream, Streams};
+use crate::exact::streams::{Stream, Streams};
 use crate::paired::Paired;
 
 /// The greatest exponent of a grid: squares and all bits that rounding takes from them stay far from over- and underflow.

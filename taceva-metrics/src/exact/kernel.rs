@@ -8,7 +8,7 @@ use super::bounds::{Bounds, Grids, TERMS};
 use super::grid::{DEPTH, GridSum, ProductSum, ProductUnits};
 use super::machine::Machine;
 use super::vector::{Job, Vector};
-use crate::families::accuracy::streams::{Stream, Streams};
+use crate::exact::streams::{Stream, Streams};
 use crate::paired::{EPSILON, Paired};
 
 /// Rows of the longest block.

@@ -1,7 +1,7 @@
 //! Count, sum and sum of squares: mean and spread without rounding before the end.
 
-use crate::evaluate::state::Record;
 use crate::exact::merge::Merge;
+use crate::exact::record::Record;
 use crate::exact::{Dyadic, ExactSum};
 
 /// Count and exact sums of values and of their squares.

@@ -4,7 +4,7 @@ use super::bounds::{Bounds, Grids, TERMS};
 use super::grid::{Grid, ProductUnits};
 use super::kernel::{ErrorUnits, ValueUnits};
 use super::sum::ExactSum;
-use crate::families::accuracy::streams::{Stream, Streams};
+use crate::exact::streams::{Stream, Streams};
 
 /// Grids move once more than one of so many rows did not fit, and a handful besides.
 const ROWS_PER_STRAY: usize = 16;

@@ -12,7 +12,6 @@ mod r2;
 mod rmse;
 mod skill;
 mod smape;
-pub(crate) mod streams;
 
 pub(crate) use bias::BIAS;
 pub(crate) use gate::gate;

@@ -6,19 +6,19 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Field, FieldSet, Needs, Unit};
 
-use crate::evaluate::state::Record;
+use crate::evaluate::family::{Details, Numbers, Output};
+use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
 use crate::exact::level::{from_millionths, step};
 use crate::exact::merge::{Merge, keyed, merge_cells};
+use crate::exact::record::Record;
 use crate::exact::{Dyadic, ExactSum};
 use crate::families::channelwise::Channelwise;
-use crate::families::family::{Details, Finished, Numbers, Output};
 use crate::families::gathered::Gathered;
-use crate::metric::{Formula, Metric, ScoreUnit};
 use crate::paired::Paired;
 use crate::score::better::Better;
 use crate::score::curve::Curve;
 use crate::score::range::Range;
-use crate::score::value::{InapplicableReason, UndefinedReason, Value};
+use crate::score::value::{Finished, InapplicableReason, UndefinedReason, Value};
 use crate::score::{Count, Parameter, Variant};
 use window::Window;
 

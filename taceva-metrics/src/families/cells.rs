@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::evaluate::state::Record;
 use crate::exact::merge::{Merge, keyed};
+use crate::exact::record::Record;
 
 /// Where presses belong together: a contact point, and a depth step within it where that matters.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]

@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Channel};
 
+use crate::evaluate::family::{Details, Family, Numbers, Output, each_row};
+use crate::evaluate::metric::Metric;
 use crate::evaluate::plan::MetricPlan;
-use crate::evaluate::state::Record;
 use crate::exact::merge::Merge;
+use crate::exact::record::Record;
 use crate::families::accuracy::outputs;
-use crate::families::family::{Details, Family, Numbers, Output, each_row};
-use crate::metric::Metric;
 use crate::paired::Paired;
 use crate::score::value::InapplicableReason;
 

@@ -7,12 +7,12 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Channel, Column, Field, FieldSet, Needs, Unit};
 
+use crate::evaluate::family::{Details, Family, Numbers, Output};
+use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
 use crate::evaluate::plan::MetricPlan;
-use crate::evaluate::state::Record;
 use crate::exact::ColumnAdder;
-use crate::families::family::{Details, Family, Numbers, Output};
+use crate::exact::record::Record;
 use crate::families::gathered::Gathered;
-use crate::metric::{Formula, Metric, ScoreUnit};
 use crate::score::better::Better;
 use crate::score::flag::Flag;
 use crate::score::matrix::Matrix;

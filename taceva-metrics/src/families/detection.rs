@@ -2,14 +2,14 @@
 
 use taceva_core::{Batch, Channel, Field, FieldSet, Needs, Unit};
 
+use crate::evaluate::family::{Numbers, Output};
+use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
 use crate::evaluate::plan::MetricPlan;
-use crate::evaluate::state::Record;
 use crate::exact::merge::Merge;
 use crate::exact::moments::Moments;
+use crate::exact::record::Record;
 use crate::families::channelwise::Channelwise;
-use crate::families::family::{Numbers, Output};
 use crate::families::gathered::Gathered;
-use crate::metric::{Formula, Metric, ScoreUnit};
 use crate::paired::{Paired, is_valid};
 use crate::score::Parameter;
 use crate::score::better::Better;

@@ -2,17 +2,17 @@
 
 use taceva_core::{Batch, Channel, Field, FieldSet, Needs, Unit};
 
-use crate::evaluate::state::Record;
+use crate::evaluate::family::{Numbers, Output};
+use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
 use crate::exact::merge::Merge;
+use crate::exact::record::Record;
 use crate::exact::{Dyadic, ExactSum};
 use crate::families::channelwise::{Channelwise, each_pair};
-use crate::families::family::{Finished, Numbers, Output};
-use crate::metric::{Formula, Metric, ScoreUnit};
 use crate::paired::is_valid;
 use crate::score::Parameter;
 use crate::score::better::Better;
 use crate::score::range::Range;
-use crate::score::value::UndefinedReason;
+use crate::score::value::{Finished, UndefinedReason};
 
 /// Seconds in an hour.
 const HOUR_S: u64 = 3600;

@@ -8,7 +8,7 @@ pub(crate) use loops::Loops;
 
 use taceva_core::{Field, FieldSet, Needs, Unit};
 
-use crate::metric::{Formula, Metric, ScoreUnit};
+use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
 use crate::score::Parameter;
 use crate::score::better::Better;
 use crate::score::range::Range;

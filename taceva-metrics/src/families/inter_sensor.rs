@@ -8,10 +8,10 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Field, FieldSet, Needs, Unit};
 
+use crate::evaluate::family::{Details, Family, Numbers, Output, each_row};
+use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
 use crate::evaluate::plan::MetricPlan;
-use crate::evaluate::state::Record;
-use crate::families::family::{Details, Family, Numbers, Output, each_row};
-use crate::metric::{Formula, Metric, ScoreUnit};
+use crate::exact::record::Record;
 use crate::score::better::Better;
 use crate::score::range::Range;
 use crate::score::value::Value;

@@ -11,12 +11,12 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Field, Unit};
 
+use crate::evaluate::family::{Details, Family, Intervals, Numbers, Output, each_row};
+use crate::evaluate::metric::{Formula, Metric};
 use crate::evaluate::plan::MetricPlan;
-use crate::evaluate::state::Record;
 use crate::exact::merge::Merge;
+use crate::exact::record::Record;
 use crate::families::accuracy::outputs;
-use crate::families::family::{Details, Family, Intervals, Numbers, Output, each_row};
-use crate::metric::{Formula, Metric};
 use crate::paired::Paired;
 use crate::score::Variant;
 use crate::score::value::Value;

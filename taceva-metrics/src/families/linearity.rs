@@ -6,12 +6,12 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Field, FieldSet, Needs, Unit};
 
-use crate::evaluate::state::Record;
+use crate::evaluate::family::{Numbers, Output};
+use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
 use crate::exact::ColumnAdder;
+use crate::exact::record::Record;
 use crate::families::channelwise::Channelwise;
-use crate::families::family::{Numbers, Output};
 use crate::families::gathered::Gathered;
-use crate::metric::{Formula, Metric, ScoreUnit};
 use crate::score::Parameter;
 use crate::score::better::Better;
 use crate::score::range::Range;

@@ -9,8 +9,8 @@ pub(crate) use signal::SIGNAL_TO_REPEATABILITY;
 
 use taceva_core::{Field, FieldSet, Needs, Unit};
 
-use crate::families::family::Numbers;
-use crate::metric::{Formula, Metric, ScoreUnit};
+use crate::evaluate::family::Numbers;
+use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
 use crate::score::Parameter;
 use crate::score::better::Better;
 use crate::score::range::Range;

@@ -10,11 +10,11 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Field, GratingKind, Labels, Nanometre, Unit};
 
+use crate::evaluate::family::{Details, Family, Numbers, Output, each_row};
+use crate::evaluate::metric::{Formula, Metric};
 use crate::evaluate::plan::MetricPlan;
-use crate::evaluate::state::Record;
 use crate::exact::merge::keyed;
-use crate::families::family::{Details, Family, Numbers, Output, each_row};
-use crate::metric::{Formula, Metric};
+use crate::exact::record::Record;
 use histogram::Histogram;
 
 /// Histograms of the errors of spacing, of each kind of grating.

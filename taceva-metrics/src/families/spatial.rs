@@ -9,17 +9,17 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Nanometre, Unit};
 
-use crate::evaluate::facts;
+use crate::evaluate::family::{Details, Family, Numbers, Output, each_row};
+use crate::evaluate::metric::{Formula, Metric};
 use crate::evaluate::plan::MetricPlan;
 use crate::evaluate::settings::Settings;
-use crate::evaluate::state::Record;
 use crate::exact::merge::keyed;
 use crate::exact::moments::Moments;
+use crate::exact::record::Record;
 use crate::families::accuracy::outputs;
-use crate::families::family::{Details, Family, Numbers, Output, each_row};
-use crate::metric::{Formula, Metric};
 use crate::paired::Paired;
 use crate::score::curve::Curve;
+use crate::score::facts;
 use crate::score::value::Value;
 use crate::score::{Count, Parameter, Variant};
 use sums::{BINS, Reach, SpatialSums};

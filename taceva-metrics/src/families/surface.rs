@@ -13,14 +13,14 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Unit};
 
-use crate::evaluate::facts;
+use crate::evaluate::family::{Details, Family, Numbers, Output, each_row};
+use crate::evaluate::metric::{Formula, Metric};
 use crate::evaluate::plan::MetricPlan;
 use crate::evaluate::settings::Settings;
-use crate::evaluate::state::Record;
 use crate::exact::merge::keyed;
-use crate::families::family::{Details, Family, Numbers, Output, each_row};
-use crate::metric::{Formula, Metric};
+use crate::exact::record::Record;
 use crate::paired::is_valid;
+use crate::score::facts;
 use crate::score::flag::Flag;
 use crate::score::map::Map;
 use crate::score::value::{InapplicableReason, Value};

@@ -2,20 +2,20 @@
 
 use taceva_core::{Batch, Field, FieldSet, Needs, Unit};
 
+use crate::evaluate::family::{Details, Numbers, Output};
+use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
 use crate::evaluate::plan::MetricPlan;
-use crate::evaluate::state::Record;
 use crate::exact::Dyadic;
 use crate::exact::level::{from_millionths, millionths, step};
 use crate::exact::merge::Merge;
+use crate::exact::record::Record;
 use crate::families::channelwise::Channelwise;
-use crate::families::family::{Details, Finished, Numbers, Output};
 use crate::families::gathered::Gathered;
 use crate::families::resolution::OF_CONSTANT;
-use crate::metric::{Formula, Metric, ScoreUnit};
 use crate::score::better::Better;
 use crate::score::curve::Curve;
 use crate::score::range::Range;
-use crate::score::value::{InapplicableReason, UndefinedReason, Value};
+use crate::score::value::{Finished, InapplicableReason, UndefinedReason, Value};
 use crate::score::{Parameter, Variant};
 
 /// Tolerances in thousandths of the unit's [`step`]: 0.01 to 2 mm or N, 0.1 to 20 degrees or N mm.

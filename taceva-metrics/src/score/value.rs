@@ -42,6 +42,9 @@ impl Value {
     }
 }
 
+/// A number, or why there is none; never a number that is not finite.
+pub(crate) type Finished = Result<f64, UndefinedReason>;
+
 impl From<Result<f64, UndefinedReason>> for Value {
     fn from(result: Result<f64, UndefinedReason>) -> Value {
         match result {
@@ -215,11 +218,11 @@ impl fmt::Display for UndefinedReason {
             UndefinedReason::NoChange => f.write_str("neither light nor error changed"),
             UndefinedReason::Overflow => f.write_str("beyond the range of binary64"),
             UndefinedReason::TooFewClusters { have } => {
-                let least = crate::stats::least::LEAST_CLUSTERS;
+                let least = crate::score::least::LEAST_CLUSTERS;
                 write!(f, "{have} clusters, {least} are needed")
             }
             UndefinedReason::TooFewReplicates { defined, drawn } => {
-                let least = crate::stats::least::LEAST_REPLICATES;
+                let least = crate::score::least::LEAST_REPLICATES;
                 write!(
                     f,
                     "{defined} of {drawn} replicates have a value, 95 % and at least {least} are needed"

@@ -1,9 +1,9 @@
 //! How far a score would move with other contact points: the Poisson bootstrap.
 
 use super::ends::{Ends, Estimated, Moved};
-use super::least::{LEAST_CLUSTERS, LEAST_REPLICATES};
 use super::poisson::weight;
 use super::random::bits;
+use crate::score::least::{LEAST_CLUSTERS, LEAST_REPLICATES};
 use crate::score::value::UndefinedReason;
 use crate::score::{BootstrapEnds, ClusteredBy, Interval, Scale};
 

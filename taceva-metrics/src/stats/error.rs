@@ -3,8 +3,8 @@
 use std::error::Error;
 use std::fmt;
 
-use super::least::LEAST_CLUSTERS;
 use super::sides::{Side, Sides};
+use crate::score::least::LEAST_CLUSTERS;
 use crate::score::value::{InapplicableReason, UndefinedReason};
 
 /// Why there is no answer to a comparison.

@@ -2,10 +2,10 @@
 
 use super::error::ComparisonError;
 use super::exponential::exponential;
-use super::least::LEAST_CLUSTERS;
 use super::logarithm::logarithm;
 use super::sides::{Side, Sides};
 use super::student::quantile;
+use crate::score::least::LEAST_CLUSTERS;
 use crate::score::value::{InapplicableReason, UndefinedReason, Value};
 use crate::score::{COVERAGE, Interval, Scale, Score};
 

@@ -1,7 +1,7 @@
 //! How far a score would move with other contact points: the delete-one-cluster jackknife.
 
 use super::ends::{Ends, Estimated, Moved};
-use super::least::LEAST_CLUSTERS;
+use crate::score::least::LEAST_CLUSTERS;
 use crate::score::range::Range;
 use crate::score::value::UndefinedReason;
 use crate::score::{ClusteredBy, Interval};

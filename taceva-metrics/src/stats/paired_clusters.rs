@@ -3,9 +3,9 @@
 use super::cluster_sums::{ClusterSum, ClusterSums};
 use super::error::ComparisonError;
 use super::jackknife::{self, LeftOut};
-use super::least::LEAST_CLUSTERS;
 use super::sides::{Side, Sides};
 use crate::exact::{Dyadic, ExactSum};
+use crate::score::least::LEAST_CLUSTERS;
 use crate::score::value::UndefinedReason;
 
 /// A difference of means, and how far it would move with other clusters.

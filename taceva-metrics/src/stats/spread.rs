@@ -2,8 +2,7 @@
 
 use crate::exact::moments::Moments;
 use crate::exact::{Dyadic, ExactSum};
-use crate::families::family::Finished;
-use crate::score::value::UndefinedReason;
+use crate::score::value::{Finished, UndefinedReason};
 
 /// One bin, with all that is rounded of it: formed once, asked for several spreads.
 #[derive(Clone, Copy, Debug)]

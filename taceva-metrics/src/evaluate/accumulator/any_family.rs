@@ -6,9 +6,9 @@ use std::collections::BTreeMap;
 use taceva_core::{Batch, Labels};
 
 use super::erased_sums::ErasedSums;
-use crate::evaluate::state::Record;
-use crate::families::family::{Details, Family, Intervals, Numbers, Output};
-use crate::metric::Metric;
+use crate::evaluate::family::{Details, Family, Intervals, Numbers, Output};
+use crate::evaluate::metric::Metric;
+use crate::exact::record::Record;
 use crate::score::value::{InapplicableReason, UndefinedReason};
 
 /// A [`Family`] whose sums are [`ErasedSums`]; its methods are documented there.

@@ -3,11 +3,11 @@
 use std::borrow::Cow;
 
 use super::erased_sums::ErasedSums;
+use crate::evaluate::family::Numbers;
 use crate::exact::merge::Merge;
-use crate::families::family::{Finished, Numbers};
 use crate::score::Interval;
 use crate::score::range::Range;
-use crate::score::value::UndefinedReason;
+use crate::score::value::{Finished, UndefinedReason};
 use crate::stats::jackknife::{self, LeftOut};
 use crate::stats::{Estimated, PoissonBootstrap};
 

@@ -6,12 +6,12 @@ use taceva_core::{Channels, Field, FieldSet, SkipReason, Skipped};
 
 use super::MetricPlan;
 use crate::catalogue;
-use crate::evaluate::facts::SensorFacts;
+use crate::evaluate::metric::{Formula, Metric};
 use crate::evaluate::settings::Settings;
 use crate::families::accuracy::Plane;
 use crate::families::intrinsic::{self, Intrinsic};
-use crate::metric::{Formula, Metric};
 use crate::score::ClusteredBy;
+use crate::score::facts::SensorFacts;
 use crate::stats::IntervalMethod;
 
 impl MetricPlan {

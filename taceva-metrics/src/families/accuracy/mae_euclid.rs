@@ -1,9 +1,9 @@
 //! Mean Euclidean error in a plane.
 
 use super::{needs, no_constants};
+use crate::evaluate::metric::{Finish, Formula, Metric, ScoreUnit};
 use crate::exact::Dyadic;
 use crate::families::accuracy::plane_sums::PlaneSums;
-use crate::metric::{Finish, Formula, Metric, ScoreUnit};
 use crate::score::better::Better;
 use crate::score::range::Range;
 use crate::score::value::UndefinedReason;

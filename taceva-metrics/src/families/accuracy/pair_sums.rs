@@ -4,8 +4,8 @@ use taceva_core::{Isa, IsaError};
 
 use crate::error::MetricError;
 use crate::exact::merge::Merge;
+use crate::exact::streams::{Stream, Streams};
 use crate::exact::{BlockSums, Counts, Dyadic, ExactSum, Machine, Sums};
-use crate::families::accuracy::streams::{Stream, Streams};
 use crate::paired::Paired;
 
 /// What is to be summed, and from which magnitude of truth on the gated score counts a sample.

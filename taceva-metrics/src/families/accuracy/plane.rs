@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Channels, Unit};
 
-use crate::evaluate::state::Record;
+use crate::evaluate::family::{Family, Numbers, Output};
+use crate::evaluate::metric::{Formula, Metric};
 use crate::exact::ColumnAdder;
+use crate::exact::record::Record;
 use crate::families::accuracy::plane_sums::PlaneSums;
-use crate::families::family::{Family, Numbers, Output};
 use crate::families::gathered::Gathered;
-use crate::metric::{Formula, Metric};
 use crate::paired::{Paired, is_valid};
 use crate::score::value::UndefinedReason;
 

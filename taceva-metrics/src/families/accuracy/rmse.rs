@@ -1,9 +1,9 @@
 //! Root mean square error.
 
 use super::{needs, no_constants, not_empty};
+use crate::evaluate::metric::{Finish, Formula, Metric, ScoreUnit};
+use crate::exact::streams::{Stream, Streams};
 use crate::families::accuracy::pair_sums::PairSums;
-use crate::families::accuracy::streams::{Stream, Streams};
-use crate::metric::{Finish, Formula, Metric, ScoreUnit};
 use crate::score::better::Better;
 use crate::score::range::Range;
 use crate::score::value::UndefinedReason;

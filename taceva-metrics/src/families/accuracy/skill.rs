@@ -1,11 +1,11 @@
 //! Skill: how much better than a constant.
 
 use super::{needs, no_constants};
+use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
 use crate::exact::Dyadic;
 use crate::exact::single::exactly;
+use crate::exact::streams::{Stream, Streams};
 use crate::families::accuracy::pair_sums::PairSums;
-use crate::families::accuracy::streams::{Stream, Streams};
-use crate::metric::{Formula, Metric, ScoreUnit};
 use crate::score::better::Better;
 use crate::score::range::Range;
 use crate::score::value::UndefinedReason;

@@ -3,10 +3,10 @@
 use taceva_core::Unit;
 
 use super::{gate, needs, not_empty};
+use crate::evaluate::metric::{Finish, Formula, Metric, ScoreUnit};
 use crate::exact::Dyadic;
+use crate::exact::streams::{Stream, Streams};
 use crate::families::accuracy::pair_sums::PairSums;
-use crate::families::accuracy::streams::{Stream, Streams};
-use crate::metric::{Finish, Formula, Metric, ScoreUnit};
 use crate::paired::EPSILON;
 use crate::score::Parameter;
 use crate::score::better::Better;

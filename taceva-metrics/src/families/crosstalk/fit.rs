@@ -2,8 +2,7 @@
 
 use super::sums::JointSums;
 use crate::exact::single::exactly;
-use crate::families::family::Finished;
-use crate::score::value::UndefinedReason;
+use crate::score::value::{Finished, UndefinedReason};
 
 /// How far predictions move with truths, as shares of full scale.
 #[derive(Clone, Debug, PartialEq)]

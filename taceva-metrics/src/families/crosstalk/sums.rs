@@ -1,7 +1,7 @@
 //! What is kept of several channels together: x the truths, y the predictions.
 
-use crate::evaluate::state::Record;
 use crate::exact::merge::Merge;
+use crate::exact::record::Record;
 use crate::exact::{ColumnSums, Dyadic, ExactSum};
 use crate::paired::is_valid;
 

@@ -6,9 +6,9 @@ use std::sync::OnceLock;
 use taceva_core::Phase;
 
 use super::press::Press;
-use crate::evaluate::state::Record;
 use crate::exact::merge::{Merge, keyed};
 use crate::exact::ordered::Ordered;
+use crate::exact::record::Record;
 use crate::exact::{Dyadic, ExactSum};
 use crate::paired::is_valid;
 use crate::score::value::UndefinedReason;

@@ -6,19 +6,19 @@ use taceva_core::{Batch, Field, Phase, Unit};
 
 use super::branches::Branches;
 use super::press::Press;
+use crate::evaluate::family::{Details, Family, Numbers, Output, each_row};
+use crate::evaluate::metric::{Formula, Metric};
 use crate::evaluate::plan::MetricPlan;
-use crate::evaluate::state::Record;
 use crate::exact::merge::Merge;
 use crate::exact::moments::Moments;
+use crate::exact::record::Record;
 use crate::exact::{Dyadic, ExactSum};
 use crate::families::cells::{Cells, add_times};
-use crate::families::family::{Details, Family, Finished, Numbers, Output, each_row};
 use crate::families::surface::Grid;
-use crate::metric::{Formula, Metric};
 use crate::paired::is_valid;
 use crate::score::map::Map;
 use crate::score::range::Range;
-use crate::score::value::{UndefinedReason, Value};
+use crate::score::value::{Finished, UndefinedReason, Value};
 use crate::score::{Count, Variant};
 
 /// Force over depth of each point, on both branches.

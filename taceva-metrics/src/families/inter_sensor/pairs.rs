@@ -4,10 +4,9 @@ use super::gap::Gap;
 use super::surfaces::{Cloud, SurfaceClouds};
 use crate::exact::merge::keyed;
 use crate::exact::{Dyadic, ExactSum};
-use crate::families::family::Finished;
 use crate::geometry::{Motion, Point, Registration, register_clouds};
 use crate::score::matrix::Matrix;
-use crate::score::value::UndefinedReason;
+use crate::score::value::{Finished, UndefinedReason};
 
 /// The gaps of all pairs of units.
 pub(super) struct UnitGaps {

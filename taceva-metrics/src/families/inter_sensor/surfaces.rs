@@ -2,10 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::evaluate::state::Record;
 use crate::exact::level::millionths;
 use crate::exact::merge::Merge;
 use crate::exact::ordered::Ordered;
+use crate::exact::record::Record;
 use crate::exact::{Dyadic, ExactSum};
 use crate::families::cells::{Cells, add_times};
 use crate::geometry::Point;

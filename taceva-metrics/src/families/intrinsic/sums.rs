@@ -2,14 +2,13 @@
 
 use std::collections::BTreeSet;
 
-use crate::evaluate::state::Record;
 use crate::exact::Dyadic;
 use crate::exact::merge::{Merge, keyed};
 use crate::exact::ordered::Ordered;
-use crate::families::family::Finished;
+use crate::exact::record::Record;
 use crate::geometry::{GrowingHull, Hull};
 use crate::paired::is_valid;
-use crate::score::value::UndefinedReason;
+use crate::score::value::{Finished, UndefinedReason};
 use crate::stats::fnv::fnv1a64;
 
 /// Every time at which there was a frame, and the hull of the places of contact.

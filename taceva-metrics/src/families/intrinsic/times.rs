@@ -3,8 +3,7 @@
 use super::sums::IntrinsicSums;
 use crate::exact::Dyadic;
 use crate::exact::moments::Moments;
-use crate::families::family::Finished;
-use crate::score::value::UndefinedReason;
+use crate::score::value::{Finished, UndefinedReason};
 
 /// The intervals between successive times, in s, ascending.
 pub(super) struct Intervals {

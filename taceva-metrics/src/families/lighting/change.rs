@@ -2,8 +2,7 @@
 
 use super::sums::SceneSums;
 use crate::exact::Dyadic;
-use crate::families::family::Finished;
-use crate::score::value::UndefinedReason;
+use crate::score::value::{Finished, UndefinedReason};
 
 /// Brightness and error of a scene (c) and of the reference scene (o), each a binary64 number that is not negative.
 #[derive(Clone, Copy, Debug)]

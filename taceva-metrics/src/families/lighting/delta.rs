@@ -3,11 +3,11 @@
 use super::change::Change;
 use super::robustness::{changes, variant_of};
 use super::sums::{LightingSums, SceneSums};
+use crate::evaluate::family::Intervals;
 use crate::exact::merge::Merge;
-use crate::families::family::{Finished, Intervals};
 use crate::score::Interval;
 use crate::score::range::Range;
-use crate::score::value::UndefinedReason;
+use crate::score::value::{Finished, UndefinedReason};
 use crate::stats::jackknife::{self, LeftOut};
 
 /// The intervals of one channel's scores, from the jackknife variances of ln MAE of each scene.

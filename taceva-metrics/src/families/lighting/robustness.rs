@@ -4,15 +4,15 @@ use taceva_core::{Field, FieldSet, Needs, Unit};
 
 use super::change::Change;
 use super::sums::LightingSums;
-use crate::evaluate::facts::Fact;
+use crate::evaluate::family::{Details, Numbers};
+use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
 use crate::exact::{Dyadic, ExactSum};
-use crate::families::family::{Details, Finished, Numbers};
-use crate::metric::{Formula, Metric, ScoreUnit};
 use crate::score::better::Better;
+use crate::score::facts::Fact;
 use crate::score::flag::Flag;
 use crate::score::matrix::Matrix;
 use crate::score::range::Range;
-use crate::score::value::{UndefinedReason, Value};
+use crate::score::value::{Finished, UndefinedReason, Value};
 use crate::score::{Count, Variant};
 
 pub(crate) static R_LIGHT: Metric = Metric {
@@ -167,7 +167,7 @@ pub(super) fn of_plane(parts: [&LightingSums; 2], reference: &str) -> Finished {
     };
     mean_of_defined(x.iter().filter_map(|(scene, change)| {
         let [along_x, along_y] = [change.error, along_y(scene)?];
-        let error = [0, 1].map(|at| crate::families::family::midpoint(along_x[at], along_y[at]));
+        let error = [0, 1].map(|at| crate::evaluate::family::midpoint(along_x[at], along_y[at]));
         Some(Change { error, ..*change }.robustness())
     }))
 }

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::evaluate::state::Record;
 use crate::exact::merge::{Merge, keyed, merge_cells};
+use crate::exact::record::Record;
 use crate::exact::{Dyadic, ExactSum};
 use crate::paired::{Paired, is_valid};
 

@@ -1,7 +1,7 @@
 //! The least-squares line of predictions on the truth, and the greatest distance from it.
 
-use crate::evaluate::state::Record;
 use crate::exact::merge::Merge;
+use crate::exact::record::Record;
 use crate::exact::single::exactly;
 use crate::exact::{ColumnSums, Dyadic, ExactSum};
 use crate::geometry::{GrowingHull, Hull};

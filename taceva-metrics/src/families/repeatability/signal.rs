@@ -2,12 +2,12 @@
 
 use super::NEEDS;
 use super::spread::SpreadSums;
-use crate::families::family::{Finished, Numbers};
-use crate::metric::{Formula, Metric, ScoreUnit};
+use crate::evaluate::family::Numbers;
+use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
 use crate::score::Parameter;
 use crate::score::better::Better;
 use crate::score::range::Range;
-use crate::score::value::UndefinedReason;
+use crate::score::value::{Finished, UndefinedReason};
 use taceva_core::{Field, Needs, Unit};
 
 pub(crate) static SIGNAL_TO_REPEATABILITY: Metric = Metric {

@@ -6,8 +6,7 @@ use crate::exact::merge::Merge;
 use crate::exact::moments::Moments;
 use crate::exact::{Dyadic, ExactSum};
 use crate::families::cells::Cells;
-use crate::families::family::Finished;
-use crate::score::value::UndefinedReason;
+use crate::score::value::{Finished, UndefinedReason};
 
 /// The repeats of one cell, and their spread, which is computed when it is first needed.
 #[derive(Clone, Debug, Default)]

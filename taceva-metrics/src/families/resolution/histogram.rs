@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::evaluate::state::Record;
 use crate::exact::Dyadic;
 use crate::exact::merge::{Merge, keyed};
+use crate::exact::record::Record;
 
 /// Counts of samples by |r̂ − r| in whole nanometres, so that every tolerance can be asked afterwards, and by r, so that it is known how
 /// often one answer for all of them would be right.

@@ -3,8 +3,8 @@
 use taceva_core::{Field, FieldSet, Nanometre, Needs, Unit};
 
 use super::histogram::Histogram;
-use crate::families::family::{Details, Numbers};
-use crate::metric::{Formula, Metric, ScoreUnit};
+use crate::evaluate::family::{Details, Numbers};
+use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
 use crate::score::better::Better;
 use crate::score::curve::Curve;
 use crate::score::range::Range;

@@ -3,14 +3,14 @@
 use taceva_core::{Field, FieldSet, Needs, Unit};
 
 use super::sums::SpatialSums;
-use crate::evaluate::facts::Fact;
+use crate::evaluate::family::{Numbers, midpoint};
+use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
 use crate::evaluate::settings::Settings;
 use crate::exact::moments::Moments;
-use crate::families::family::{Finished, Numbers, midpoint};
-use crate::metric::{Formula, Metric, ScoreUnit};
 use crate::score::better::Better;
+use crate::score::facts::Fact;
 use crate::score::range::Range;
-use crate::score::value::UndefinedReason;
+use crate::score::value::{Finished, UndefinedReason};
 use crate::stats::spread::{Bin, Spread};
 
 pub(crate) static R_SPATIAL: Metric = Metric {

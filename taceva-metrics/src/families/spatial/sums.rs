@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Footprint, Nanometre};
 
-use crate::evaluate::state::Record;
 use crate::exact::merge::{Merge, keyed, merge_cells};
 use crate::exact::moments::Moments;
+use crate::exact::record::Record;
 use crate::paired::{Paired, is_valid};
 
 /// Bins along each axis.

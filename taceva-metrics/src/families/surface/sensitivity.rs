@@ -3,12 +3,12 @@
 use taceva_core::{Field, FieldSet, Needs, Unit};
 
 use super::sums::{NORMAL_ONLY, SurfaceSums, Total, contact};
+use crate::evaluate::family::Numbers;
+use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
 use crate::exact::Dyadic;
-use crate::families::family::{Finished, Numbers};
-use crate::metric::{Formula, Metric, ScoreUnit};
 use crate::score::better::Better;
 use crate::score::range::Range;
-use crate::score::value::UndefinedReason;
+use crate::score::value::{Finished, UndefinedReason};
 
 pub(crate) static SENSITIVITY: Metric = Metric {
     id: "sensitivity",

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use super::grid::Cell;
-use crate::evaluate::state::Record;
 use crate::exact::ExactSum;
 use crate::exact::merge::{Merge, keyed, merge_cells};
 use crate::exact::moments::Moments;
+use crate::exact::record::Record;
 use crate::paired::is_valid;
 use crate::score::value::UndefinedReason;
 

@@ -3,14 +3,14 @@
 use taceva_core::{Field, FieldSet, Needs, Unit};
 
 use super::sums::{NORMAL_ONLY, SurfaceSums, contact};
-use crate::evaluate::facts::Fact;
+use crate::evaluate::family::Numbers;
+use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
 use crate::evaluate::settings::Settings;
 use crate::exact::Dyadic;
-use crate::families::family::{Finished, Numbers};
-use crate::metric::{Formula, Metric, ScoreUnit};
 use crate::score::better::Better;
+use crate::score::facts::Fact;
 use crate::score::range::Range;
-use crate::score::value::UndefinedReason;
+use crate::score::value::{Finished, UndefinedReason};
 use crate::stats::spread::{Bin, Spread};
 
 pub(crate) static UNIFORMITY: Metric = Metric {

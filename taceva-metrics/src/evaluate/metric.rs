@@ -2,12 +2,12 @@
 
 use taceva_core::{Field, Needs, Unit};
 
-use crate::evaluate::facts::Fact;
+use crate::exact::streams::Streams;
 use crate::families::accuracy::pair_sums::PairSums;
 use crate::families::accuracy::plane_sums::PlaneSums;
-use crate::families::accuracy::streams::Streams;
 use crate::score::Parameter;
 use crate::score::better::Better;
+use crate::score::facts::Fact;
 use crate::score::range::Range;
 use crate::score::value::UndefinedReason;
 

@@ -5,12 +5,12 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Labels, Unit};
 
-use crate::evaluate::state::Record;
+use crate::evaluate::metric::Metric;
 use crate::exact::merge::Merge;
-use crate::metric::Metric;
+use crate::exact::record::Record;
 use crate::score::flag::Flag;
 use crate::score::range::Range;
-use crate::score::value::{InapplicableReason, UndefinedReason};
+use crate::score::value::{Finished, InapplicableReason, UndefinedReason};
 use crate::score::{Count, Interval, Parameter, Variant};
 
 /// What is kept of a batch, and which scores come of it.
@@ -103,9 +103,6 @@ pub(crate) struct Output {
     /// Which sums it is finished from; one or two.
     pub(crate) parts: Vec<usize>,
 }
-
-/// A number, or why there is none; never a number that is not finite.
-pub(crate) type Finished = Result<f64, UndefinedReason>;
 
 /// The value of a score and its variants: all that has an interval.
 #[derive(Clone, Debug, PartialEq)]

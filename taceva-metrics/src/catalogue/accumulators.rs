@@ -1,14 +1,14 @@
 //! The accumulators of a plan: one for all metrics that are finished from the same sums.
 
-use super::MetricPlan;
 use crate::evaluate::accumulator::Accumulator;
+use crate::evaluate::family::Family;
+use crate::evaluate::plan::MetricPlan;
 use crate::families::accuracy::{Pairs, Plane};
 use crate::families::bias_level::Levels;
 use crate::families::channelwise::{ByChannel, Channelwise};
 use crate::families::crosstalk::Crosstalk;
 use crate::families::detection::Idle;
 use crate::families::drift::Drifts;
-use crate::families::family::Family;
 use crate::families::hysteresis::Loops;
 use crate::families::inter_sensor::InterSensor;
 use crate::families::intrinsic::Intrinsic;
@@ -25,7 +25,7 @@ impl MetricPlan {
     pub(crate) fn accumulators(&self) -> Vec<Accumulator> {
         let families = [
             Pairs::for_plan(self).map(|family| self.as_asked(family)),
-            Plane::for_metrics(&self.kept, &self.channels).map(|family| self.as_asked(family)),
+            Plane::for_metrics(self.kept(), self.channels()).map(|family| self.as_asked(family)),
             Resolution::for_plan(self).map(|family| self.clustered(family)),
             Surface::for_plan(self).map(|family| self.clustered(family)),
             Spatial::for_plan(self).map(|family| self.clustered(family)),
@@ -60,7 +60,7 @@ impl MetricPlan {
     where
         F: Family,
     {
-        Accumulator::new(family, self).clustered_by(self.clustered_by)
+        Accumulator::new(family, self).clustered_by(self.clustered_by())
     }
 
     fn clustered<F>(&self, family: F) -> Accumulator
