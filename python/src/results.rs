@@ -4,22 +4,22 @@ use std::collections::BTreeMap;
 
 use pyo3::prelude::*;
 use serde::Serialize;
+use taceva_files::seal::Version;
 use taceva_report::{CompareRequest, Layout, ScoreTable, Study, Table, compare};
-use taceva_seal::Version;
 
 use crate::errors::value_error;
 
 /// `report` as the text of a results file: what the program writes with `--format json`.
 pub(crate) fn sealed(report: &impl Serialize) -> PyResult<String> {
     let text = serde_json::to_string_pretty(report).map_err(value_error)?;
-    let sealed = taceva_seal::json::seal(&text).map_err(value_error)?;
+    let sealed = taceva_files::seal::json::seal(&text).map_err(value_error)?;
     Ok(sealed + "\n")
 }
 
 /// Refuses a results file that was changed after it was written.
 #[pyfunction]
 pub(crate) fn check_seal(text: &str) -> PyResult<()> {
-    let checked = taceva_seal::json::check(text, Version::BeforeSeals);
+    let checked = taceva_files::seal::json::check(text, Version::BeforeSeals);
     checked.map(drop).map_err(value_error)
 }
 

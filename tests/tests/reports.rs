@@ -48,7 +48,7 @@ fn study(name: &str, model: &str, split: &str) -> Option<Study> {
         .expect("evaluated")
         .report;
     let text = serde_json::to_string(&written).expect("JSON");
-    let text = taceva_seal::json::seal(&text).expect("an object");
+    let text = taceva_files::seal::json::seal(&text).expect("an object");
     let mut study = Study::read(&text).expect("what we write we read").remove(0);
     let mut table = Vec::new();
     written

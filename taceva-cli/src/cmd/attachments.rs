@@ -53,7 +53,7 @@ pub(super) fn note_samples(report: &mut EvaluationReport) -> anyhow::Result<()> 
     if let Some(samples) = &report.samples {
         let mut table = Vec::new();
         samples.write(&mut table, escape_csv)?;
-        report.provenance.samples_table = Some(taceva_seal::digest_of_bytes(&table));
+        report.provenance.samples_table = Some(taceva_files::seal::digest_of_bytes(&table));
     }
     Ok(())
 }

@@ -7,7 +7,7 @@ use taceva_dataset::{
     Addition, DatasetError, Decoders, ImportMap, ImportPlan, MapDraft, Preset, UnpackedArchive,
     settle,
 };
-use taceva_durable::parent_of;
+use taceva_files::parent_of;
 
 use super::{Context, Usage};
 use crate::args::Import;

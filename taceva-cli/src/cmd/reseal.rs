@@ -31,7 +31,7 @@ pub(crate) fn run(args: &Reseal, context: &Context) -> anyhow::Result<u8> {
     let is_header = path.file_name().is_some_and(|name| name == HEADER);
     let accepted = match is_header {
         true => taceva_dataset::reseal_header(&text, &date, reason),
-        false => taceva_seal::json::reseal(&text, &date, reason),
+        false => taceva_files::seal::json::reseal(&text, &date, reason),
     };
     let accepted = accepted.with_context(|| path.display().to_string())?;
     if accepted == text {

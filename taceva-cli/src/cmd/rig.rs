@@ -29,7 +29,7 @@ fn write_anew(path: &Path, text: &str) -> anyhow::Result<()> {
     name.push(path.file_name().unwrap_or_default());
     name.push(".partial");
     let beside = path.with_file_name(name);
-    let written = taceva_durable::replace(path, &beside, |beside| -> io::Result<()> {
+    let written = taceva_files::replace(path, &beside, |beside| -> io::Result<()> {
         fs::write(beside, text)
     });
     written.with_context(|| shown(path).to_string())

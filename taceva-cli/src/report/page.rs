@@ -139,7 +139,7 @@ impl Page {
 /// A finished evaluation as it is read from its JSON, with its samples.
 pub(crate) fn study(report: &EvaluationReport) -> anyhow::Result<Study> {
     // As it would be read from a file, so that a page shows what others read.
-    let text = taceva_seal::json::seal(&serde_json::to_string(report)?)?;
+    let text = taceva_files::seal::json::seal(&serde_json::to_string(report)?)?;
     let mut studies = Study::read(&text)?;
     let mut study = studies.pop().context("one evaluation is one study")?;
     if let Some(samples) = &report.samples {

@@ -27,7 +27,7 @@ fn a_result_of_another_version_or_one_that_was_changed_is_refused_by_name() {
     );
     // As that version wrote it, sealed.
     json.as_object_mut().expect("an object").remove("seal");
-    let sealed = taceva_seal::json::seal(&json.to_string()).expect("JSON");
+    let sealed = taceva_files::seal::json::seal(&json.to_string()).expect("JSON");
     fs::write(&first, sealed).expect("written");
     bench.refused("sweep collect which.toml", 3, "a result of TacEva 0.0.9");
     fs::remove_file(&first).expect("removed");

@@ -84,7 +84,7 @@ fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
         name.to_string_lossy(),
         std::process::id()
     ));
-    taceva_durable::replace(path, &beside, |beside| {
+    taceva_files::replace(path, &beside, |beside| {
         File::create_new(beside)?.write_all(bytes)
     })
 }

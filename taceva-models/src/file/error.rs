@@ -1,8 +1,8 @@
 //! Why bytes are no model.
 
 use taceva_core::ModelError;
+use taceva_files::seal::SealError;
 use taceva_network::NetworkError;
-use taceva_seal::SealError;
 
 use super::limits::{CARD, FILE_MAX, FORMAT, HEADER_MAX};
 

@@ -21,7 +21,7 @@ pub(super) fn digested(
 pub(super) fn seal_over(card: &str, tensors: &[(String, Vec<u8>)]) -> Result<String, FormatError> {
     let mut attached = attached(tensors);
     attached.sort_unstable();
-    Ok(taceva_seal::json::seal_with(card, &attached)?)
+    Ok(taceva_files::seal::json::seal_with(card, &attached)?)
 }
 
 fn attached(tensors: &[(String, Vec<u8>)]) -> Vec<(&str, &[u8])> {
@@ -45,10 +45,10 @@ pub(super) fn check_seal(
     let mut attached = attached(&digested);
     attached.sort_unstable();
     let version = match is_sealed(version) {
-        true => taceva_seal::Version::Sealed,
-        false => taceva_seal::Version::BeforeSeals,
+        true => taceva_files::seal::Version::Sealed,
+        false => taceva_files::seal::Version::BeforeSeals,
     };
-    taceva_seal::json::check_with(card, &attached, version)?;
+    taceva_files::seal::json::check_with(card, &attached, version)?;
     Ok(())
 }
 

@@ -39,7 +39,7 @@ fn sealed(card: &str, bytes: &[u8]) -> String {
         .iter()
         .map(|(name, digest)| (name.as_str(), digest.as_slice()))
         .collect();
-    taceva_seal::json::seal_with(card, &attached).expect("a card")
+    taceva_files::seal::json::seal_with(card, &attached).expect("a card")
 }
 
 /// A model's bytes with its card rewritten, and a seal that holds where its version has one.

@@ -5,7 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use taceva_core::{ErrorKind, SinkError};
-use taceva_seal::SealError;
+use taceva_files::seal::SealError;
 
 use crate::digest::Digest;
 use crate::text::{shown, shown_path};

@@ -4,7 +4,7 @@ use std::fs::{self, File, Metadata};
 use std::io::{Read, Write};
 use std::path::{Component, Path, PathBuf};
 
-use taceva_durable::sync_folder;
+use taceva_files::sync_folder;
 
 use crate::error::DatasetError;
 

@@ -30,7 +30,7 @@ use crate::signals::{SignalsInfo, WrittenSignals};
 use crate::store::{dataset_digest, digest_with};
 use crate::toml_file::{parse_toml, toml_error, utf8};
 use crate::version::Version;
-use taceva_seal::{Edit, Opened, SealError};
+use taceva_files::seal::{Edit, Opened, SealError};
 
 pub use extended::Extension;
 pub use facts::{FrameCodec, FramesInfo, Known, ReferenceInfo, SensorFacts, Source, TableInfo};
@@ -186,16 +186,17 @@ impl Header {
             });
         }
         let version = match format >= Version::SEALED {
-            true => taceva_seal::Version::Sealed,
-            false => taceva_seal::Version::BeforeSeals,
+            true => taceva_files::seal::Version::Sealed,
+            false => taceva_files::seal::Version::BeforeSeals,
         };
         // A text that is no TOML is refused with its line.
         parse_toml::<toml::Table>(path, &text)?;
-        let seal =
-            taceva_seal::toml_text::check(&text, version).map_err(|source| DatasetError::Seal {
+        let seal = taceva_files::seal::toml_text::check(&text, version).map_err(|source| {
+            DatasetError::Seal {
                 path: path.to_owned(),
                 source,
-            })?;
+            }
+        })?;
         let written: Written = parse_toml(path, &text)?;
         let channels = written
             .channels
@@ -244,7 +245,7 @@ impl Header {
 
     /// The text of the header, sealed.
     pub(crate) fn to_toml(&self) -> String {
-        taceva_seal::toml_text::seal(&self.body()).expect("what was just written is TOML")
+        taceva_files::seal::toml_text::seal(&self.body()).expect("what was just written is TOML")
     }
 
     /// What the text says.
@@ -308,5 +309,5 @@ pub fn reseal_header(text: &str, date: &str, reason: &str) -> Result<String, Sea
         ),
         None => text.to_owned(),
     };
-    taceva_seal::toml_text::reseal(&text, date, reason)
+    taceva_files::seal::toml_text::reseal(&text, date, reason)
 }

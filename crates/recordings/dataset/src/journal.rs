@@ -13,7 +13,7 @@ use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest as _, Sha256};
-use taceva_durable::parent_of;
+use taceva_files::parent_of;
 
 use crate::error::DatasetError;
 use crate::file::{make_names_durable, open_regular};

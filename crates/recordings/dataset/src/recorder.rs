@@ -8,7 +8,7 @@ use taceva_core::{
     Channels, Field, FieldSet, Frame, FrameInfo, PressOutcome, Sample, SampleSink, Signals,
     SinkError,
 };
-use taceva_durable::parent_of;
+use taceva_files::parent_of;
 
 use crate::digest::Digest;
 use crate::error::DatasetError;

@@ -10,7 +10,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use taceva_durable::parent_of;
+use taceva_files::parent_of;
 
 use crate::error::DatasetError;
 use crate::file::make_names_durable;

@@ -4,7 +4,7 @@ use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use taceva_durable::parent_of;
+use taceva_files::parent_of;
 
 use crate::error::DatasetError;
 use crate::file::make_names_durable;

@@ -16,7 +16,7 @@ use crate::samples::to_parquet;
 use crate::signals::SignalsInfo;
 use crate::table::Table;
 use crate::version::Version;
-use taceva_seal::{Edit, Opened};
+use taceva_files::seal::{Edit, Opened};
 
 /// What is known about a recording before its first sample.
 ///
@@ -159,12 +159,10 @@ pub(crate) fn write_table_and_header(
         },
     };
     let text = written.to_toml();
-    written.seal =
-        taceva_seal::toml_text::check(&text, taceva_seal::Version::Sealed).map_err(|source| {
-            DatasetError::Seal {
-                path: header.to_owned(),
-                source,
-            }
+    written.seal = taceva_files::seal::toml_text::check(&text, taceva_files::seal::Version::Sealed)
+        .map_err(|source| DatasetError::Seal {
+            path: header.to_owned(),
+            source,
         })?;
     write_durable(header, text.as_bytes())?;
     Ok(written)

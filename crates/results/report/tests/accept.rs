@@ -28,7 +28,7 @@ fn study() -> Study {
             }}
         }
     });
-    let sealed = taceva_seal::json::seal(&json.to_string()).expect("an object");
+    let sealed = taceva_files::seal::json::seal(&json.to_string()).expect("an object");
     Study::read(&sealed).expect("a result").remove(0)
 }
 

@@ -9,7 +9,7 @@ pub enum ResultsError {
     Json(#[from] serde_json::Error),
     /// The seal is missing, unreadable or of other content.
     #[error("{0}")]
-    Seal(#[from] taceva_seal::SealError),
+    Seal(#[from] taceva_files::seal::SealError),
     /// The text names no schema of results.
     #[error("{found}: expected `taceva.evaluation/1.0` or `taceva.run/1.0`")]
     Schema {

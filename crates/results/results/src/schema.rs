@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use taceva_core::shown;
-use taceva_seal::Version;
+use taceva_files::seal::Version;
 
 use crate::error::ResultsError;
 use crate::report::EvaluationReport;
@@ -72,7 +72,7 @@ pub fn read(text: &str) -> Result<Vec<EvaluationReport>, ResultsError> {
             });
         }
     };
-    let seal = taceva_seal::json::check(text, Version::Sealed)?;
+    let seal = taceva_files::seal::json::check(text, Version::Sealed)?;
     let mut reports = match is_run {
         true => place_named::<RunReport<'_>>(text)?.studies.into_owned(),
         false => vec![place_named(text)?],
@@ -93,7 +93,7 @@ pub fn read(text: &str) -> Result<Vec<EvaluationReport>, ResultsError> {
 /// [`ResultsError`] if `report` is no JSON object.
 pub fn sealed(report: &impl Serialize) -> Result<String, ResultsError> {
     let text = serde_json::to_string_pretty(report)?;
-    Ok(taceva_seal::json::seal(&text)?)
+    Ok(taceva_files::seal::json::seal(&text)?)
 }
 
 /// Schema of a text, with the version that wrote it.

@@ -8,8 +8,8 @@ use std::io::{self, Read, Write};
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
+use taceva_files::seal::{Edit, Version};
 use taceva_metrics::{Evaluation, Evaluator, State};
-use taceva_seal::{Edit, Version};
 
 use crate::bounded::Bounded;
 use crate::error::StudyError;
@@ -143,8 +143,8 @@ impl StateFile {
                 )));
             }
         };
-        let opened =
-            taceva_seal::json::check(&text, version).map_err(|error| wrong(error.to_string()))?;
+        let opened = taceva_files::seal::json::check(&text, version)
+            .map_err(|error| wrong(error.to_string()))?;
         let mut file: StateFile =
             serde_json::from_str(&text).map_err(|error| wrong(error.to_string()))?;
         let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -172,7 +172,7 @@ impl StateFile {
         writeln!(
             out,
             "{}",
-            taceva_seal::json::seal(&text).map_err(io::Error::other)?
+            taceva_files::seal::json::seal(&text).map_err(io::Error::other)?
         )
     }
 }

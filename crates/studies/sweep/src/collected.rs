@@ -75,7 +75,7 @@ fn write_all(
     let parquet = at("table.parquet");
     let hidden = beside(&parquet);
     let table = TidyTable::of(loaded);
-    taceva_durable::replace(&parquet, &hidden, |hidden| {
+    taceva_files::replace(&parquet, &hidden, |hidden| {
         table.write_parquet(hidden).map_err(std::io::Error::other)
     })
     .map_err(SweepError::io("write", &parquet))?;

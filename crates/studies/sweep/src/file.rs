@@ -74,5 +74,5 @@ impl SweepFile {
 }
 
 fn folder_of(path: &Path) -> &Path {
-    taceva_durable::parent_of(path)
+    taceva_files::parent_of(path)
 }

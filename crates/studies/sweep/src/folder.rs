@@ -119,7 +119,7 @@ impl SweepFolder {
     /// [`SweepError::Io`].
     pub fn write(&self, path: &Path, bytes: &[u8]) -> Result<(), SweepError> {
         let beside = beside(path);
-        taceva_durable::replace(path, &beside, |beside| {
+        taceva_files::replace(path, &beside, |beside| {
             let mut file = fs::File::create(beside)?;
             file.write_all(bytes)
         })

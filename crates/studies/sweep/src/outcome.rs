@@ -125,7 +125,7 @@ pub(crate) fn sealed(report: &EvaluationReport) -> Result<String, SweepError> {
         problem,
     };
     let text = serde_json::to_string_pretty(report).map_err(|error| wrong(error.to_string()))?;
-    taceva_seal::json::seal(&text).map_err(|error| wrong(error.to_string()))
+    taceva_files::seal::json::seal(&text).map_err(|error| wrong(error.to_string()))
 }
 
 /// What settings were chosen by, and the error of each channel there.

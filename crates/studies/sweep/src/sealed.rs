@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use taceva_seal::Version;
+use taceva_files::seal::Version;
 
 use crate::error::SweepError;
 
@@ -21,11 +21,11 @@ pub(crate) fn read(path: &Path) -> Result<Option<String>, SweepError> {
 /// `value` as JSON with its seal; why not, where it has no such form.
 pub(crate) fn text(value: &impl Serialize) -> Result<String, String> {
     let text = serde_json::to_string(value).map_err(|error| error.to_string())?;
-    taceva_seal::json::seal(&text).map_err(|error| error.to_string())
+    taceva_files::seal::json::seal(&text).map_err(|error| error.to_string())
 }
 
 /// What `text` says, if it is what was sealed; what is wrong with it otherwise.
 pub(crate) fn value<T: DeserializeOwned>(text: &str) -> Result<T, String> {
-    taceva_seal::json::check(text, Version::Sealed).map_err(|error| error.to_string())?;
+    taceva_files::seal::json::check(text, Version::Sealed).map_err(|error| error.to_string())?;
     serde_json::from_str(text).map_err(|error| error.to_string())
 }

@@ -91,10 +91,10 @@ fn reach(allowed: &BTreeSet<Need>) -> String {
 /// Writes the settings: whole or as they were. A link stays one, and the file keeps who may read it.
 fn write(path: &Path, text: &str) -> io::Result<()> {
     let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
-    let folder = taceva_durable::parent_of(&path);
+    let folder = taceva_files::parent_of(&path);
     fs::create_dir_all(folder)?;
     let beside: PathBuf = folder.join(format!(".config.toml.{}.partial", std::process::id()));
-    taceva_durable::replace(&path, &beside, |beside| {
+    taceva_files::replace(&path, &beside, |beside| {
         fs::write(beside, text)?;
         match fs::metadata(&path) {
             Ok(metadata) => fs::set_permissions(beside, metadata.permissions()),

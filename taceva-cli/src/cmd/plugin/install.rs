@@ -139,7 +139,7 @@ fn check(host: &PluginHost, plugin: &Plugin) -> anyhow::Result<()> {
 
 /// Copies the manifest, the library of this machine and the licences beside `target`, then exchanges the names.
 fn replace(plugin: &Plugin, target: &Path) -> io::Result<()> {
-    let above = taceva_durable::parent_of(target);
+    let above = taceva_files::parent_of(target);
     fs::create_dir_all(above)?;
     let name = target.file_name().unwrap_or_default().display();
     let beside = |word: &str| above.join(format!(".{name}.{}.{word}", std::process::id()));
@@ -160,13 +160,13 @@ fn replace(plugin: &Plugin, target: &Path) -> io::Result<()> {
     drop(fs::remove_dir_all(&partial));
     drop(fs::remove_dir_all(&former));
     copied?;
-    taceva_durable::sync_folder(above)
+    taceva_files::sync_folder(above)
 }
 
 fn copy(plugin: &Plugin, into: &Path) -> io::Result<()> {
     for file in plugin.files()? {
         let to = into.join(&file);
-        fs::create_dir_all(taceva_durable::parent_of(&to))?;
+        fs::create_dir_all(taceva_files::parent_of(&to))?;
         fs::copy(plugin.folder.join(&file), &to)?;
         fs::File::open(&to)?.sync_all()?;
     }

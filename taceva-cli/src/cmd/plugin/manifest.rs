@@ -105,7 +105,7 @@ fn library(args: &PluginManifest, text: &str, manifest: &Path) -> anyhow::Result
 }
 
 fn write(path: &Path, text: &str) -> io::Result<()> {
-    let folder = taceva_durable::parent_of(path);
+    let folder = taceva_files::parent_of(path);
     let beside: PathBuf = folder.join(format!(".plugin.toml.{}.partial", std::process::id()));
-    taceva_durable::replace(path, &beside, |beside| fs::write(beside, text))
+    taceva_files::replace(path, &beside, |beside| fs::write(beside, text))
 }

@@ -23,7 +23,7 @@ pub(super) fn run(args: &PluginPack, context: &Context) -> anyhow::Result<u8> {
     let partial = format!(".{}.{}.partial", name.display(), std::process::id());
     let beside = path.with_file_name(partial);
     let mut names = Vec::new();
-    taceva_durable::replace(&path, &beside, |beside: &Path| -> Result<(), Failed> {
+    taceva_files::replace(&path, &beside, |beside: &Path| -> Result<(), Failed> {
         let mut file = fs::File::create_new(beside)?;
         names = pack(&plugin, &mut file)?;
         Ok(())

@@ -71,7 +71,7 @@ fn read(path: &Path, study: &Study) -> anyhow::Result<Samples> {
     let table = fs::read_to_string(path).with_context(|| format!("cannot read {}", shown(path)))?;
     let mut provenance = study.provenance.iter();
     let expected = provenance.find_map(|(name, text)| (name == "samples_table").then_some(text));
-    let found = taceva_seal::digest_of_bytes(table.as_bytes());
+    let found = taceva_files::seal::digest_of_bytes(table.as_bytes());
     if let Some(expected) = expected.filter(|expected| **expected != found) {
         bail!(
             "{}: damaged or of other results: expected digest {expected}, found {found}",

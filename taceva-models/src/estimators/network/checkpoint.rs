@@ -101,7 +101,7 @@ impl Checkpoints {
     /// Writes the checkpoint of `trainer`, whose training is `identity`.
     fn put(&self, identity: &Identity, trainer: &Trainer<'_>) -> Result<(), CheckpointError> {
         let checkpoint = trainer.checkpoint().map_err(CheckpointError::Unread)?;
-        taceva_durable::replace(&self.path, &self.beside(), |beside| {
+        taceva_files::replace(&self.path, &self.beside(), |beside| {
             bytes::write(identity, &checkpoint, File::create(beside)?)
         })
         .map_err(|source| CheckpointError::Write {

@@ -34,7 +34,7 @@ pub(super) fn file_column<'t>(
     table: &'t SeenTable<'_>,
 ) -> Option<(&'t SeenColumn, bool)> {
     let own = folder.path().join(table.group.first());
-    let own = taceva_durable::parent_of(&own);
+    let own = taceva_files::parent_of(&own);
     let names_files = |column: &SeenColumn, base: &Path| {
         let mut cells = column
             .cells
@@ -70,7 +70,7 @@ pub(super) fn of(
         }
         let base = match is_below_source {
             true => folder.path().to_owned(),
-            false => taceva_durable::parent_of(&folder.path().join(main.group.first())).to_owned(),
+            false => taceva_files::parent_of(&folder.path().join(main.group.first())).to_owned(),
         };
         let first = column.cells.iter().find(|cell| !cell.is_empty());
         return Some(FrameLines {

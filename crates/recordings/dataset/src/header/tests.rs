@@ -110,7 +110,7 @@ fn a_newer_major_is_refused_before_anything_else_is_understood() {
 fn a_newer_minor_may_say_more() {
     let current = format!("\"{}\"", Version::CURRENT);
     let text = header().body().replace(&current, "\"1.9\"");
-    let text = taceva_seal::toml_text::seal(&format!("humidity = 40\n{text}"));
+    let text = taceva_files::seal::toml_text::seal(&format!("humidity = 40\n{text}"));
     let text = text.expect("TOML").into_bytes();
     let header = Header::parse(Path::new("dataset.toml"), text);
     assert_eq!(

@@ -255,7 +255,7 @@ impl<'a> MappedTable<'a> {
 
     /// The folder of the table.
     pub(super) fn folder(&self) -> PathBuf {
-        taceva_durable::parent_of(self.table.path()).to_owned()
+        taceva_files::parent_of(self.table.path()).to_owned()
     }
 
     /// The rules that leave the row out.

@@ -1,7 +1,7 @@
 //! The frames of a recording: each frame, and the name of its pack, is durable before the journal names it.
 
 use taceva_core::{Frame, FrameError, Sample};
-use taceva_durable::parent_of;
+use taceva_files::parent_of;
 
 use super::{Recorder, Streamed};
 use crate::decode::{ChannelOrder, decode};

@@ -307,7 +307,7 @@ fn a_dataset_that_does_not_say_how_it_was_read_is_not_extended() {
                 kept += &format!("{line}\n");
             }
         }
-        taceva_seal::toml_text::seal(&kept).expect("TOML")
+        taceva_files::seal::toml_text::seal(&kept).expect("TOML")
     };
     for (tables, what) in [
         (&["columns", "joins", "pictures", "classes"][..], "labels"),

@@ -9,7 +9,7 @@ pub enum ResultsError {
     Json(#[from] serde_json::Error),
     /// They were changed after they were sealed, or their seal is missing or unreadable.
     #[error("{0}")]
-    Seal(#[from] taceva_seal::SealError),
+    Seal(#[from] taceva_files::seal::SealError),
     /// They have no schema, or one that is not known here.
     #[error("{found}: expected `taceva.evaluation/1` or `taceva.run/1`")]
     Schema {

@@ -8,14 +8,16 @@ use super::{Made, ResultsError, Skip, Study, standing};
 use crate::json::Json;
 use place::Place;
 use taceva_core::shown;
-use taceva_seal::{Opened, Version};
+use taceva_files::seal::{Opened, Version};
 
 /// The evaluations in `text`.
 pub(super) fn studies(text: &str) -> Result<Vec<Study>, ResultsError> {
     let json: Json = serde_json::from_str(text)?;
     let root = Place::root(&json);
     let seal = match json.get("schema").and_then(Json::text) {
-        Some(schema) if is_known(schema) => taceva_seal::json::check(text, version_of(schema))?,
+        Some(schema) if is_known(schema) => {
+            taceva_files::seal::json::check(text, version_of(schema))?
+        }
         _ => Opened::default(),
     };
     let mut studies = unchecked(&json, &root)?;

@@ -54,7 +54,7 @@ mod tests {
         let text = format!(
             r#"{{"schema": "{schema}", "subject": {{"sensor": "x"}}, "metrics": {{{metrics}}}}}"#
         );
-        let text = taceva_seal::json::seal(&text).expect("an object");
+        let text = taceva_files::seal::json::seal(&text).expect("an object");
         Study::read(&text).expect("results").remove(0)
     }
 
@@ -111,7 +111,7 @@ mod tests {
     fn a_standing_that_nobody_knows_is_refused_by_its_place() {
         let text = r#"{"schema": "taceva.evaluation/1.2", "subject": {"sensor": "x"}, "metrics": {"mae": {"Pz":
             {"value": 1, "unit": "mm", "standing": "champion"}}}}"#;
-        let text = taceva_seal::json::seal(text).expect("an object");
+        let text = taceva_files::seal::json::seal(text).expect("an object");
         let error = Study::read(&text).expect_err("unknown").to_string();
         assert!(error.contains("metrics.mae.Pz.standing"), "{error}");
         assert!(error.contains("`champion`"), "{error}");

@@ -122,7 +122,7 @@ impl Sessions {
         name.push(self.path.file_name().unwrap_or_default());
         name.push(".partial");
         let beside = self.path.with_file_name(name);
-        taceva_durable::replace(&self.path, &beside, |beside| {
+        taceva_files::replace(&self.path, &beside, |beside| {
             let mut table = csv::Writer::from_path(beside)?;
             self.rows.iter().try_for_each(|row| table.serialize(row))?;
             table.flush()

@@ -9,7 +9,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use taceva_dataset::{Dataset, Digest};
-use taceva_durable::sync_folder;
+use taceva_files::sync_folder;
 
 use super::tree::link;
 use super::{Cache, Key, remove};

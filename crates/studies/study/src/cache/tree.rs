@@ -4,7 +4,7 @@ use std::fs::{self, File};
 use std::io;
 use std::path::Path;
 
-use taceva_durable::sync_folder;
+use taceva_files::sync_folder;
 
 /// Files of fewer bytes are copied: they save nothing, and what somebody edits in one folder stays as it was in another.
 const LINKED: u64 = 1 << 16;

@@ -7,7 +7,7 @@ use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use taceva_durable::{parent_of, sync_folder};
+use taceva_files::{parent_of, sync_folder};
 use taceva_models::Checkpoints;
 
 use super::layout::{FIGURES, PLANS, RECORDINGS, REPORTS, SCENE, STAGES};

@@ -103,7 +103,7 @@ impl<'a> Joined<'a> {
 
     /// The folder of the table that `row` is matched with.
     pub(super) fn folder(&self, row: usize) -> &Path {
-        taceva_durable::parent_of(self.tables[self.matches[row].table].table.path())
+        taceva_files::parent_of(self.tables[self.matches[row].table].table.path())
     }
 
     /// Whether every file says that it holds integers in `column`.

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::canonical::Canonical;
-use crate::written::hexadecimal;
+use crate::seal::canonical::Canonical;
+use crate::seal::digest::hexadecimal;
 
 /// How deep keys within keys are distinguished.
 const LEVELS: usize = 3;

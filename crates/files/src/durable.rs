@@ -44,8 +44,8 @@ pub fn sync_folder(folder: &Path) -> io::Result<()> {
 /// ```
 /// use std::path::Path;
 ///
-/// assert_eq!(taceva_durable::parent_of(Path::new("a/b")), Path::new("a"));
-/// assert_eq!(taceva_durable::parent_of(Path::new("b")), Path::new("."));
+/// assert_eq!(taceva_files::parent_of(Path::new("a/b")), Path::new("a"));
+/// assert_eq!(taceva_files::parent_of(Path::new("b")), Path::new("."));
 /// ```
 pub fn parent_of(path: &Path) -> &Path {
     match path.parent() {

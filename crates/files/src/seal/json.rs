@@ -2,11 +2,11 @@
 
 use sha2::{Digest as _, Sha256};
 
-use crate::canonical::Canonical;
-use crate::error::SealError;
-use crate::history::{Edit, Opened, Version};
-use crate::keys::{self, Keys};
-use crate::written::text_of;
+use crate::seal::canonical::Canonical;
+use crate::seal::digest::text_of;
+use crate::seal::error::SealError;
+use crate::seal::history::{Edit, Opened, Version};
+use crate::seal::keys::{self, Keys};
 
 /// The last key.
 const SEAL: &str = "seal";
@@ -140,7 +140,7 @@ impl Parsed {
             hasher.update(digest);
             beside.insert(
                 (*name).to_owned(),
-                crate::written::hexadecimal(&digest[..4]),
+                crate::seal::digest::hexadecimal(&digest[..4]),
             );
         }
         Ok(Parsed {

@@ -1,10 +1,10 @@
 //! TOML whose last table is its seal, over every byte before it: comments count as well.
 
-use crate::canonical::Canonical;
-use crate::error::SealError;
-use crate::history::{Edit, Opened, Version};
-use crate::keys::{self, Keys};
-use crate::written::{PREFIX, digest_of_bytes};
+use crate::seal::canonical::Canonical;
+use crate::seal::digest::{PREFIX, digest_of_bytes};
+use crate::seal::error::SealError;
+use crate::seal::history::{Edit, Opened, Version};
+use crate::seal::keys::{self, Keys};
 
 /// The line with which the seal begins.
 const SEAL: &str = "[seal]";

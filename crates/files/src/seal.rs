@@ -1,14 +1,14 @@
-#![doc = include_str!("../README.md")]
+//! Seals of text files: a digest over their content, and a history of accepted edits.
 
 mod canonical;
+mod digest;
 mod error;
 mod history;
 mod keys;
-mod written;
 
 pub mod json;
 pub mod toml_text;
 
+pub use digest::digest_of_bytes;
 pub use error::SealError;
 pub use history::{Edit, Opened, Version};
-pub use written::digest_of_bytes;
