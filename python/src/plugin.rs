@@ -20,7 +20,8 @@ mod waiting;
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use taceva_host::{Linked, ModuleToImport, run_within, serve_as_child};
+use taceva_conformance::serve_as_child;
+use taceva_host::{Linked, ModuleToImport, run_within};
 use taceva_plugin::Level;
 
 use self::offered::Offered;

@@ -39,7 +39,7 @@ use cmd::Context;
 /// ```
 pub fn main_if_child() {
     #[cfg(target_os = "linux")]
-    taceva_host::main_if_child();
+    taceva_conformance::main_if_child();
     #[cfg(feature = "av1")]
     av1_child::main_if_child();
 }

@@ -19,6 +19,7 @@ mod model;
 mod nanometre;
 mod needs;
 mod outcome;
+mod panic;
 mod phase;
 mod progress;
 mod quantity;
@@ -62,6 +63,7 @@ pub use model::{
 pub use nanometre::{Nanometre, NanometreError};
 pub use needs::Needs;
 pub use outcome::{Limit, PressOutcome};
+pub use panic::contained;
 pub use phase::Phase;
 pub use progress::{Progress, SilentProgress};
 pub use quantity::{Degree, Hertz, Lux, Millimetre, Newton, NewtonMillimetre};

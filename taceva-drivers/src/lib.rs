@@ -7,14 +7,12 @@ mod ati;
 #[cfg(feature = "camera")]
 mod camera;
 mod clock;
-pub mod conformance;
 mod devices;
 pub mod doctor;
 mod drivers;
 pub mod fault;
 #[cfg(all(feature = "gcode", unix))]
 mod gcode;
-mod guard;
 #[cfg(all(feature = "hid", target_os = "linux"))]
 mod hid;
 #[cfg(feature = "link")]

@@ -148,7 +148,7 @@ fn lints_are_never_switched_off_and_unsafe_code_stands_where_the_architecture_sa
                 .parent()
                 .is_some_and(|folder| folder.ends_with("simd"));
             let may_hold_it = match package.name.as_str() {
-                "taceva-abi" | "taceva-plugin" | "taceva-host" => true,
+                "taceva-abi" | "taceva-conformance" | "taceva-host" | "taceva-plugin" => true,
                 "taceva-metrics" | "taceva-network" | "taceva-sim" => is_simd,
                 "taceva-v4l2" => source.ends_with("kernel.rs") || source.ends_with("mapped.rs"),
                 "taceva-video" => source.ends_with("av1/rav1d.rs"),

@@ -3,11 +3,12 @@
 mod arguments;
 mod table;
 mod taken;
-pub(crate) mod under_way;
+pub mod under_way;
 
-pub(crate) use self::arguments::ArgList;
-pub(crate) use self::table::{Table, table};
-pub(crate) use self::taken::{Taken, take};
+pub use self::arguments::ArgList;
+pub use self::table::Table;
+pub(crate) use self::table::table;
+pub use self::taken::{Taken, take};
 
 use std::fmt;
 
@@ -54,7 +55,8 @@ impl Failure {
         }
     }
 
-    pub(crate) fn message(self) -> String {
+    /// Words of the plugin, or of the host.
+    pub fn message(self) -> String {
         self.message
     }
 }
@@ -68,7 +70,7 @@ impl fmt::Display for Failure {
 impl std::error::Error for Failure {}
 
 /// Makes a call with an empty error and reads how it ended.
-pub(crate) fn call(run: impl FnOnce(&mut abi::Error) -> abi::Status) -> Result<(), Failure> {
+pub fn call(run: impl FnOnce(&mut abi::Error) -> abi::Status) -> Result<(), Failure> {
     let mut error = abi::Error::new();
     let status = run(&mut error);
     if status.is_ok() {
@@ -112,7 +114,7 @@ fn fault(number: abi::FaultNumber) -> Option<Fault> {
 }
 
 /// The deadline in the interface's unit.
-pub(crate) fn timeout(deadline: Deadline) -> u64 {
+pub fn timeout(deadline: Deadline) -> u64 {
     u64::try_from(deadline.remaining().as_nanos()).unwrap_or(u64::MAX)
 }
 

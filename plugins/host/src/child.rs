@@ -45,9 +45,11 @@ pub(crate) mod wire;
 
 pub use error::ChildError;
 pub use exit_status::Fate;
-pub(crate) use log::CALL;
+pub use log::CALL;
 pub use main_hook::{CHILD_ARGUMENT, main_if_child_with};
-pub use plugin::{ModuleToImport, main_if_child, serve_as_child};
+pub use plugin::{
+    Examiner, ModuleToImport, main_if_child, main_if_child_examining, serve_as_child,
+};
 pub use quarantine::{Quarantine, Quarantined};
 pub use sandbox::{Confinement, Isolation};
 pub(crate) use sandbox::{NOBODY, no_port};

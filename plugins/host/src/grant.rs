@@ -12,7 +12,7 @@ use crate::manifest::{DeclaredNeed, Need};
 use crate::search::{Place, Plugin};
 
 /// Why a device is not opened whose arguments name what its plugin may not reach.
-pub(crate) const NOT_ALLOWED: &str = "its user does not allow what its arguments name";
+pub const NOT_ALLOWED: &str = "its user does not allow what its arguments name";
 
 /// What a session may reach.
 #[derive(Clone, Debug)]
@@ -56,7 +56,7 @@ impl Withheld {
     }
 
     /// `why`, and the line that allows what is withheld, if a want of permission is what `why` says.
-    pub(crate) fn explain(&self, why: &str) -> Option<String> {
+    pub fn explain(&self, why: &str) -> Option<String> {
         let is_refusal = [
             "permission denied",
             "permission-denied",

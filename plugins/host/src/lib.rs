@@ -2,13 +2,13 @@
 
 mod call;
 #[cfg(target_os = "linux")]
-mod check;
-#[cfg(target_os = "linux")]
 mod child;
 mod config;
 mod descriptor;
 mod device;
 mod estimator;
+#[cfg(target_os = "linux")]
+mod examination;
 mod grant;
 mod host;
 mod id;
@@ -28,12 +28,10 @@ mod wire_version;
 
 pub use call::Failure;
 #[cfg(target_os = "linux")]
-pub use check::{Check, CheckOutcome, CheckRequest, CheckResult, checks};
-#[cfg(target_os = "linux")]
 pub use child::{
-    CHILD_ARGUMENT, Child, ChildError, ChildSession, ChildSpec, Confinement, Fate, Isolation,
-    ModuleToImport, Patience, Quarantine, Quarantined, main_if_child, main_if_child_with,
-    serve_as_child,
+    CHILD_ARGUMENT, Child, ChildError, ChildSession, ChildSpec, Confinement, Examiner, Fate,
+    Isolation, ModuleToImport, Patience, Quarantine, Quarantined, main_if_child,
+    main_if_child_examining, main_if_child_with, serve_as_child,
 };
 // For the fuzzer alone.
 #[cfg(target_os = "linux")]
@@ -41,7 +39,9 @@ pub use child::{
 pub use child::read_any_message;
 pub use config::{ConfigError, Delivery, PluginConfig, Trust};
 pub use device::{LentFrame, PluginSensor};
-pub use grant::Withheld;
+#[cfg(target_os = "linux")]
+pub use examination::{Examination, ExaminationError, ExaminationOrder};
+pub use grant::{NOT_ALLOWED, Withheld};
 pub use host::{Children, Keeping, PluginDriver, PluginHost, PluginLog};
 pub use id::{PluginId, PluginIdError};
 pub use in_process::InProcess;
@@ -59,3 +59,13 @@ pub use search::{
 };
 pub use session::{FitRequest, Saved, SavedRegressor, Session};
 pub use wire_version::WIRE;
+
+/// Loaded libraries and their bare tables, for a program that examines a plugin.
+#[cfg(target_os = "linux")]
+pub mod bare {
+    pub use crate::call::under_way::{self, UnderWay};
+    pub use crate::call::{ArgList, Table, Taken, call, take, timeout};
+    pub use crate::child::CALL;
+    pub use crate::device::{Handle, Opened, Owned, RigHandle, open};
+    pub use crate::library::{Entry, Source};
+}

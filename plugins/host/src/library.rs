@@ -28,14 +28,15 @@ use libloading::os::unix::{Library as Loaded, RTLD_LOCAL, RTLD_NOW};
 use taceva_abi as abi;
 use taceva_core::{DriverError, DriverKey, ErrorKind};
 
-pub(crate) use self::entry::{Entry, Place};
+pub use self::entry::Entry;
+pub(crate) use self::entry::Place;
 pub use self::error::{LoadError, LoadProblem};
 pub use self::host::{Level, Log};
 pub use self::image::Image;
 pub(crate) use self::image::LENGTH_MAX;
 use self::mapped::Mapped;
 pub use self::source::Linked;
-pub(crate) use self::source::Source;
+pub use self::source::Source;
 use crate::call::{call, table};
 use crate::id::PluginId;
 use crate::manifest::Manifest;
@@ -150,11 +151,12 @@ impl Library {
     }
 
     /// The entry of `key`, whatever it is.
-    pub(crate) fn any(&self, key: &DriverKey) -> Option<&Entry> {
+    pub fn any(&self, key: &DriverKey) -> Option<&Entry> {
         self.entries.get(key)
     }
 
-    pub(crate) fn plugin(&self) -> &abi::Plugin {
+    /// The table that it exports.
+    pub fn plugin(&self) -> &abi::Plugin {
         &self.plugin
     }
 

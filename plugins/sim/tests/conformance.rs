@@ -1,8 +1,8 @@
 //! Every device of the bench keeps the contract that every driver must keep.
 
+use taceva_conformance::{self as conformance, Trial};
 use taceva_core::DriverKind;
 use taceva_drivers::Drivers;
-use taceva_drivers::conformance::{self, Trial};
 use taceva_sim::{ForceTransducerFactory, LightingFactory, Model, RobotFactory, SensorFactory};
 
 #[test]

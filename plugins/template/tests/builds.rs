@@ -7,11 +7,11 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;
 
+use taceva_conformance::{self as conformance, Report, Trial};
 use taceva_core::{
     Changer, Channel, Channels, Device, DriverKey, Factory, FeatureShape, Features,
     ForceTransducer, Lighting, Robot, Sensor, SilentProgress, Targets, TrainingSet,
 };
-use taceva_drivers::conformance::{self, Report, Trial};
 use taceva_host::{FitRequest, PluginConfig, PluginDriver, PluginHost, Plugins, Saved, SearchPath};
 use taceva_template::{Kind, Name, Sources, project};
 

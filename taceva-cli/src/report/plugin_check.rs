@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use serde::Serialize;
-use taceva_host::{CheckOutcome, CheckResult};
+use taceva_conformance::{CheckOutcome, CheckResult};
 
 use super::json;
 use crate::args::ListFormat;

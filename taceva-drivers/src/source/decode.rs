@@ -5,10 +5,9 @@ use std::io::Cursor;
 use image::codecs::jpeg::JpegDecoder;
 use image::codecs::png::PngDecoder;
 use image::{ColorType, ImageDecoder, ImageError, Limits};
-use taceva_core::{FrameInfo, FrameMut, PixelFormat};
+use taceva_core::{FrameInfo, FrameMut, PixelFormat, contained};
 
 use super::limits;
-use crate::guard::contained;
 
 /// Size and format of the image in `bytes`; nothing is decoded.
 pub(crate) fn info(bytes: &[u8]) -> Result<FrameInfo, String> {

@@ -4,7 +4,7 @@ use taceva_abi as abi;
 use taceva_core::{ArgSpec, ArgValue, Args};
 
 /// Arguments in the interface's form; they borrow from the texts kept beside them.
-pub(crate) struct ArgList {
+pub struct ArgList {
     items: Vec<abi::Arg>,
     // What the items point to, on the heap: moving the list moves none of it.
     _texts: Vec<(String, String)>,
@@ -12,7 +12,7 @@ pub(crate) struct ArgList {
 
 impl ArgList {
     /// The arguments that `args` holds, out of those that `specs` declare.
-    pub(crate) fn new(args: &Args, specs: &[ArgSpec]) -> ArgList {
+    pub fn new(args: &Args, specs: &[ArgSpec]) -> ArgList {
         let given = specs
             .iter()
             .filter_map(|spec| Some((spec, args.get(&spec.key)?)));
@@ -44,7 +44,7 @@ impl ArgList {
     }
 
     /// What is handed over; it borrows from the list.
-    pub(crate) fn args(&self) -> abi::Args {
+    pub fn args(&self) -> abi::Args {
         abi::Args {
             items: self.items.as_ptr(),
             count: self.items.len(),

@@ -17,7 +17,7 @@ use super::Failure;
 ///
 /// # Safety
 /// The type is `repr(C)`, begins with its size as a `u32`, and is a value where all its bytes are 0.
-pub(crate) unsafe trait Table: Copy {
+pub unsafe trait Table: Copy {
     /// Its name, for messages.
     const NAME: &'static str;
 }

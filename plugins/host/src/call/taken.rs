@@ -11,7 +11,7 @@ use super::Failure;
 
 /// What a plugin lists: one text a call.
 #[derive(Debug, Default)]
-pub(crate) struct Taken {
+pub struct Taken {
     texts: Vec<String>,
     bytes: usize,
     fault: Option<&'static str>,
@@ -24,12 +24,12 @@ const BYTES_MAX: usize = 1 << 20;
 
 impl Taken {
     /// What [`take`] is called with.
-    pub(crate) fn context(&mut self) -> *mut c_void {
+    pub fn context(&mut self) -> *mut c_void {
         std::ptr::from_mut(self).cast()
     }
 
     /// The texts, unless one of them was none.
-    pub(crate) fn texts(self) -> Result<Vec<String>, Failure> {
+    pub fn texts(self) -> Result<Vec<String>, Failure> {
         match self.fault {
             None => Ok(self.texts),
             Some(fault) => Err(Failure::new(ErrorKind::Abi, fault)),
@@ -37,7 +37,7 @@ impl Taken {
     }
 
     /// All texts as one.
-    pub(crate) fn whole(self) -> Result<String, Failure> {
+    pub fn whole(self) -> Result<String, Failure> {
         Ok(self.texts()?.concat())
     }
 
@@ -61,7 +61,7 @@ impl Taken {
 }
 
 /// Takes one text into the [`Taken`] that `context` is.
-pub(crate) unsafe extern "C" fn take(context: *mut c_void, text: abi::Text) {
+pub unsafe extern "C" fn take(context: *mut c_void, text: abi::Text) {
     // SAFETY: `context` is what `Taken::context` gave for the call that is under way, and nobody else looks at it meanwhile.
     let taken = unsafe { &mut *context.cast::<Taken>() };
     taken.add(text);

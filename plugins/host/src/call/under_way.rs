@@ -25,10 +25,10 @@ fn calls() -> MutexGuard<'static, Calls> {
 
 /// A call that is under way until this is dropped.
 #[derive(Debug)]
-pub(crate) struct UnderWay(Option<u64>);
+pub struct UnderWay(Option<u64>);
 
 /// Notes a call, if anybody looks.
-pub(crate) fn begin(doing: &'static str) -> UnderWay {
+pub fn begin(doing: &'static str) -> UnderWay {
     if !IS_WATCHED.load(Ordering::Relaxed) {
         return UnderWay(None);
     }

@@ -58,7 +58,7 @@ pub(super) fn send(level: Level, target: &str, message: &str) -> bool {
 }
 
 /// What a line is about that says in which call a check is.
-pub(crate) const CALL: &str = "taceva-call";
+pub const CALL: &str = "taceva-call";
 
 /// In the child: says that the call to do `doing` lasts; nothing where none does any more.
 pub(super) fn tell_call(doing: &'static str) {

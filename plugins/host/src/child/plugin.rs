@@ -45,6 +45,11 @@ variants!(Label, "what is to be served" {
     1 => Module { folder, name, preload, manifest },
 });
 
+/// Examines the plugin of a source as the file orders, in a child that would serve it otherwise.
+///
+/// A session stands for success; a kind and words say why there is none.
+pub type Examiner = fn(File, Source, &Manifest) -> Result<Arc<dyn Session>, (ErrorKind, String)>;
+
 /// A module that a runtime is to import, in a process that is confined by then.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ModuleToImport {
@@ -142,14 +147,24 @@ fn sealed(label: &Label) -> io::Result<OwnedFd> {
 ///
 /// A program that embeds the host calls this before anything else in `main`, while there is one thread and no file is open.
 pub fn main_if_child() {
+    serve_libraries(None);
+}
+
+/// The same as [`main_if_child`], for a program that also examines plugins.
+pub fn main_if_child_examining(examiner: Examiner) {
+    serve_libraries(Some(examiner));
+}
+
+fn serve_libraries(examiner: Option<Examiner>) {
     main_if_child_with(|files| {
-        // Nothing is sealed here: what is no library is refused.
-        load(files, &Isolation::default(), |module| {
+        let import = |module: &ModuleToImport| {
             Err(format!(
                 "`{}` is a module of Python, and this process is none of Python's",
                 module.name
             ))
-        })
+        };
+        // Nothing is sealed here: what is no library is refused.
+        load(files, &Isolation::default(), import, examiner)
     });
 }
 
@@ -158,9 +173,12 @@ pub fn main_if_child() {
 ///
 /// For runtimes of other languages, whose `main` is not ours. They call it first of all: while there is one thread, and nothing is imported
 /// that begins others, which would not be confined. Every file that is open but the standard ones is closed. `import` gives the table
-/// that it made of the module, or says in words why there is none. The process must end without running what is registered for its end.
-pub fn serve_as_child(import: impl FnOnce(&ModuleToImport) -> Result<Linked, String>) -> i32 {
-    super::main_hook::serve_host(|files, isolation| load(files, isolation, import))
+/// that it made of the module, or says in words why there is none. `examiner` carries out orders to examine the module. The process must end without running what is registered for its end.
+pub fn serve_as_child(
+    import: impl FnOnce(&ModuleToImport) -> Result<Linked, String>,
+    examiner: Option<Examiner>,
+) -> i32 {
+    super::main_hook::serve_host(|files, isolation| load(files, isolation, import, examiner))
 }
 
 /// The plugin that `files` are, loaded.
@@ -168,6 +186,7 @@ fn load(
     files: Vec<File>,
     isolation: &Isolation,
     import: impl FnOnce(&ModuleToImport) -> Result<Linked, String>,
+    examiner: Option<Examiner>,
 ) -> Result<Arc<dyn Session>, (ErrorKind, String)> {
     let broken = |why: &str| (ErrorKind::Abi, format!("its host gave it {why}"));
     let mut files = files.into_iter();
@@ -198,7 +217,7 @@ fn load(
                 name,
                 preload,
             };
-            // What comes behind is a check.
+            // What comes behind is an order to examine it.
             if files.len() > 0 {
                 under_way::watch(super::log::tell_call);
             }
@@ -212,8 +231,12 @@ fn load(
     };
     let manifest = text.as_deref().map(Manifest::parse).transpose();
     let manifest = manifest.map_err(|error| (ErrorKind::Protocol, error.to_string()))?;
-    if let Some((manifest, probe)) = manifest.as_ref().zip(files.next()) {
-        return Ok(Arc::new(crate::check::run(probe, source, manifest)?));
+    if let Some((manifest, order)) = manifest.as_ref().zip(files.next()) {
+        let examiner = examiner.ok_or_else(|| {
+            let why = "the program of this child examines no plugins";
+            (ErrorKind::Unsupported, why.to_owned())
+        })?;
+        return examiner(order, source, manifest);
     }
     let loaded = source.load(manifest.as_ref(), Box::new(log));
     let library = loaded.map_err(|error| (error.problem().kind(), error.to_string()))?;

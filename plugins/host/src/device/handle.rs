@@ -17,7 +17,7 @@ use crate::call::{ArgList, Failure, Table, call, table, under_way};
 use crate::library::Entry;
 
 /// An open device, shared by its owner and by whoever may interrupt or halt it.
-pub(crate) struct Handle {
+pub struct Handle {
     raw: *mut c_void,
     calls: abi::DeviceCalls,
     driver: DriverKey,
@@ -36,13 +36,15 @@ unsafe impl Send for Handle {}
 unsafe impl Sync for Handle {}
 
 /// A device that was opened, with the table of its kind. Dropping it closes the device.
-pub(crate) struct Opened<T> {
-    pub(crate) handle: Owned,
-    pub(crate) calls: T,
+pub struct Opened<T> {
+    /// The device itself.
+    pub handle: Owned,
+    /// The functions of its kind.
+    pub calls: T,
 }
 
 /// The one owner of a handle.
-pub(crate) struct Owned(Arc<Handle>);
+pub struct Owned(Arc<Handle>);
 
 /// A kind of device as the tables of a library have it.
 pub(crate) trait PluginDevice: Sized {
@@ -61,7 +63,7 @@ pub(crate) trait PluginDevice: Sized {
 }
 
 /// Opens the driver of `entry` in `rig`.
-pub(crate) fn open<T: Table>(
+pub fn open<T: Table>(
     rig: &Arc<RigHandle>,
     entry: &Entry,
     list: &ArgList,
@@ -131,7 +133,7 @@ impl Handle {
     }
 
     /// Makes a call on the device, unless the plugin has panicked in it before; a panic now is remembered.
-    pub(crate) fn call(
+    pub fn call(
         &self,
         doing: &'static str,
         run: impl FnOnce(*mut c_void, &mut abi::Error) -> abi::Status,
@@ -157,7 +159,7 @@ impl Handle {
     }
 
     /// Whether the device has a table under `id`.
-    pub(crate) fn extension_is_there(&self, id: &str) -> bool {
+    pub fn extension_is_there(&self, id: &str) -> bool {
         self.calls.extension.is_some_and(|extension| {
             // SAFETY: [owner & open]: only the owner asks.
             let found = unsafe { extension(self.raw, abi::Text::from(id)) };
@@ -193,7 +195,7 @@ impl Owned {
     }
 
     /// What ends a pending call, where the device can.
-    pub(crate) fn interrupt(&self) -> Option<Arc<dyn Interrupt>> {
+    pub fn interrupt(&self) -> Option<Arc<dyn Interrupt>> {
         let interrupt = self.0.calls.interrupt?;
         Some(Arc::new(Interrupter {
             handle: self.share(),
@@ -226,11 +228,7 @@ impl Owned {
     }
 
     /// A function of the table that this kind of device cannot do without.
-    pub(crate) fn needs<F>(
-        &self,
-        function: Option<F>,
-        name: &'static str,
-    ) -> Result<F, DriverError> {
+    pub fn needs<F>(&self, function: Option<F>, name: &'static str) -> Result<F, DriverError> {
         function.ok_or_else(|| {
             let why = format!("its `{name}` is NULL");
             self.failed(ErrorKind::Unsupported, "open the device", why)

@@ -14,7 +14,7 @@ use crate::call::call;
 use crate::library::Library;
 
 /// An open rig of a plugin, or nothing where the plugin knows none; closed once its last device is.
-pub(crate) struct RigHandle {
+pub struct RigHandle {
     rig: *mut abi::Rig,
     /// After the rig: its functions live there.
     library: Arc<Library>,
@@ -26,7 +26,11 @@ unsafe impl Send for RigHandle {}
 unsafe impl Sync for RigHandle {}
 
 impl RigHandle {
-    pub(crate) fn open(library: &Arc<Library>) -> Result<Arc<RigHandle>, DriverError> {
+    /// Opens a rig of `library`.
+    ///
+    /// # Errors
+    /// [`DriverError`] if the plugin refuses.
+    pub fn open(library: &Arc<Library>) -> Result<Arc<RigHandle>, DriverError> {
         let mut rig = std::ptr::null_mut();
         if let Some(open) = library.plugin().open_rig {
             // SAFETY: [any], with a place for the rig and an error that outlive the call.
@@ -39,7 +43,8 @@ impl RigHandle {
         }))
     }
 
-    pub(crate) fn raw(&self) -> *mut abi::Rig {
+    /// The plugin's own pointer; NULL where it knows no rigs.
+    pub fn raw(&self) -> *mut abi::Rig {
         self.rig
     }
 

@@ -17,14 +17,15 @@ use crate::manifest::{Manifest, Provided};
 
 /// A driver or an estimator that can be opened.
 #[derive(Debug)]
-pub(crate) struct Entry {
+pub struct Entry {
     pub(crate) place: Place,
     /// Its number in the factory.
-    pub(crate) number: u32,
+    pub number: u32,
     /// The factory of its kind; that of estimators is asked for anew.
-    pub(crate) factory: Option<abi::Factory>,
+    pub factory: Option<abi::Factory>,
     pub(crate) estimators: Option<abi::EstimatorFactory>,
-    pub(crate) provided: Provided,
+    /// The manifest's description of it.
+    pub provided: Provided,
     /// The table that it was read from, as the library writes it.
     pub(crate) text: String,
 }
@@ -47,7 +48,7 @@ impl fmt::Display for Place {
 
 impl Entry {
     /// The arguments it takes.
-    pub(crate) fn arguments(&self) -> &[ArgSpec] {
+    pub fn arguments(&self) -> &[ArgSpec] {
         match &self.provided {
             Provided::Driver { descriptor, .. } => descriptor.arguments(),
             Provided::Estimator(estimator) => &estimator.settings,

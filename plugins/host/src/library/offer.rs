@@ -5,7 +5,7 @@ use crate::offer::Offer;
 
 impl Library {
     /// What it offers and needs.
-    pub(crate) fn offer(&self) -> Result<Offer, LoadProblem> {
+    pub fn offer(&self) -> Result<Offer, LoadProblem> {
         let said = self.plugin();
         let needs = text("`needs`", said.needs, None)?;
         let needs = needs.lines().map(str::trim).filter(|need| !need.is_empty());

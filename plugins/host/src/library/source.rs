@@ -38,18 +38,19 @@ impl Linked {
 
 /// Where the tables of a plugin come from.
 #[derive(Debug)]
-pub(crate) enum Source {
+pub enum Source {
+    /// A file that was read.
     Image(Image),
+    /// A table of this program.
     Linked(Linked),
 }
 
 impl Source {
     /// Loads it, for `manifest` if there is one.
-    pub(crate) fn load(
-        &self,
-        manifest: Option<&Manifest>,
-        log: Log,
-    ) -> Result<Arc<Library>, LoadError> {
+    ///
+    /// # Errors
+    /// [`LoadError`], as by [`Library::load`].
+    pub fn load(&self, manifest: Option<&Manifest>, log: Log) -> Result<Arc<Library>, LoadError> {
         match self {
             Source::Image(image) => Library::begin(image, manifest, log),
             Source::Linked(linked) => linked.load(manifest, log),

@@ -4,11 +4,11 @@ use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant};
 
+use taceva_conformance::{self as conformance, Report, Trial};
 use taceva_core::{
     Args, Deadline, Descriptor, DriverError, DriverKind, ErrorKind, Fault, FrameMut, Guard,
     GuardedStop, Millimetre, Newton, Pose, Sensor, Speed,
 };
-use taceva_drivers::conformance::{self, Report, Trial};
 use taceva_host::{PluginSensor, Session};
 
 use crate::fixture::{ARM, EYE, Fixture, LAMP, WRIST};

@@ -7,8 +7,8 @@ use std::sync::{Arc, Mutex};
 
 use taceva_core::DriverKey;
 use taceva_host::{
-    Image, InProcess, Level, Library, LoadError, Place, Plugin, PluginConfig, PluginHost, Plugins,
-    SearchPath,
+    Children, Image, InProcess, Level, Library, LibraryFile, LoadError, Offer, Place, Plugin,
+    PluginConfig, PluginHost, Plugins, SearchPath,
 };
 use taceva_needs::{Need, skip};
 use tempfile::TempDir;
@@ -75,6 +75,50 @@ key = "mean"
 title = "mean"
 "#;
 
+/// The plugin of `../cpp/NAME.cpp` in a folder, with the manifest that its library gives; `None` where there is no compiler of C++.
+pub(crate) fn cpp(name: &str, children: &Children) -> Option<TempDir> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let compiler = std::env::var("CXX").unwrap_or_else(|_| "c++".to_owned());
+    let built = Command::new(&compiler)
+        .args([
+            "-std=c++17",
+            "-O1",
+            "-Wall",
+            "-Wextra",
+            "-Wpedantic",
+            "-Werror",
+        ])
+        .args(["-shared", "-fPIC", "-fvisibility=hidden", "-pthread", "-I"])
+        .arg(here.join("../abi/include"))
+        .arg(here.join(format!("../host/tests/cpp/{name}.cpp")))
+        .arg("-o")
+        .arg(folder.path().join(format!("lib{name}.so")))
+        .output();
+    match built {
+        Ok(done) => assert!(
+            done.status.success(),
+            "{}",
+            String::from_utf8_lossy(&done.stderr)
+        ),
+        Err(error) => {
+            skip(Need::CppCompiler, format!("`{compiler}`: {error}"));
+            return None;
+        }
+    }
+    let library = LibraryFile {
+        path: format!("lib{name}.so"),
+        sha256: None,
+    };
+    let image = Image::read(folder.path(), &library).expect("a library");
+    let offer = Offer::of(&image, children).unwrap_or_else(|error| panic!("{error}"));
+    let manifest = offer
+        .manifest("", &library, Some("MIT"))
+        .expect("a manifest");
+    fs::write(folder.path().join("plugin.toml"), manifest).expect("written");
+    Some(folder)
+}
+
 /// A folder with the plugin in it.
 pub(crate) struct Fixture {
     folder: TempDir,
@@ -90,7 +134,7 @@ impl Fixture {
             .args(["-std=c11", "-shared", "-fPIC", "-fvisibility=hidden", "-I"])
             .arg(plugins.join("../abi/include"))
             .args(macros.iter().map(|macro_| format!("-D{macro_}")))
-            .arg(plugins.join("tests/fixture/plugin.c"))
+            .arg(plugins.join("../host/tests/fixture/plugin.c"))
             .arg("-o")
             .arg(folder.path().join("libfixture.so"))
             .arg("-lm");
@@ -136,7 +180,7 @@ impl Fixture {
         let beside = ["-Wl,--no-as-needed,-rpath,$ORIGIN", "-lneighbour", "-lm"];
         cc(
             &beside,
-            &plugins.join("tests/fixture/plugin.c"),
+            &plugins.join("../host/tests/fixture/plugin.c"),
             "libfixture.so",
         );
         self

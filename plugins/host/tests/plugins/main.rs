@@ -1,8 +1,6 @@
 //! A plugin in C, built here in many ways: right ones give devices, wrong ones a message that says what is wrong.
 
 #[cfg(target_os = "linux")]
-mod check;
-#[cfg(target_os = "linux")]
 mod children;
 #[cfg(target_os = "linux")]
 mod cpp;

@@ -14,7 +14,7 @@ mod side_by_side;
 
 #[cfg(target_os = "linux")]
 fn main() -> std::process::ExitCode {
-    taceva_host::main_if_child();
+    taceva_conformance::main_if_child();
     runner::run(&[
         (
             "every_device_of_the_bench_passes_every_check_of_plugins",

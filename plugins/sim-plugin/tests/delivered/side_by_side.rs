@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
+use taceva_conformance::{self as conformance, Report, Trial};
 use taceva_core::{
     Args, Deadline, Device, Factory, ForceTransducer, FrameMut, Lighting, Rig, Robot, Sensor,
     Stamp, Wrench,
 };
-use taceva_drivers::conformance::{self, Report, Trial};
 use taceva_host::{PluginDriver, PluginHost};
 use taceva_sim::{ForceTransducerFactory, Model, SensorFactory};
 use tempfile::TempDir;

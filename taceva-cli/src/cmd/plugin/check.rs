@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 use std::time::Duration;
 
+use taceva_conformance::{CheckOutcome, CheckRequest};
 use taceva_core::DriverKey;
 use taceva_drivers::Selector;
-use taceva_host::{CheckOutcome, CheckRequest};
 
 use crate::args::{ListFormat, PluginCheck};
 use crate::cmd::{Context, Usage};
@@ -37,7 +37,7 @@ pub(super) fn run(args: &PluginCheck, context: &Context) -> anyhow::Result<u8> {
     // On standard output each check is printed when it is done; JSON and files are written at the end.
     let is_watched = to.format == ListFormat::Text && to.path.is_none();
     let mut results = Vec::new();
-    host.check(plugin, &request, &mut |result| {
+    taceva_conformance::check(&host, plugin, &request, &mut |result| {
         if is_watched {
             // A closed standard output is reported by the summary.
             let _ = output::write(None, |out| report::plugin_check::line(&result, out));

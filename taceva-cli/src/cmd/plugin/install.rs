@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use anyhow::{Context as _, bail};
+use taceva_conformance::{CheckOutcome, CheckRequest};
 use taceva_core::shown;
-use taceva_host::{CheckOutcome, CheckRequest, Place, Plugin, PluginHost, Plugins, SearchPath};
+use taceva_host::{Place, Plugin, PluginHost, Plugins, SearchPath};
 
 use crate::args::PluginInstall;
 use crate::cmd::Context;
@@ -129,7 +130,7 @@ fn check(host: &PluginHost, plugin: &Plugin) -> anyhow::Result<()> {
         ..CheckRequest::default()
     };
     let mut failed = None;
-    host.check(plugin, &request, &mut |result| {
+    taceva_conformance::check(host, plugin, &request, &mut |result| {
         if let CheckOutcome::Failed(why) = result.outcome {
             failed.get_or_insert(format!("{}: {}: {why}", plugin.id(), result.check));
         }

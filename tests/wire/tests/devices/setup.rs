@@ -3,8 +3,8 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use taceva_conformance::{self as conformance, Trial};
 use taceva_core::{DriverError, ErrorKind, Factory, Rig, Robot, RobotWatch};
-use taceva_drivers::conformance::{self, Trial};
 use taceva_wire::{Arm, BenchOptions, WallBench, WireError};
 
 use crate::support::{PATIENCE, lower, speed};

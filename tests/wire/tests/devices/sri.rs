@@ -4,8 +4,8 @@ use std::io::{Read, Write};
 use std::net::{Ipv4Addr, TcpListener};
 use std::time::{Duration, Instant};
 
+use taceva_conformance::{self as conformance, Trial};
 use taceva_core::{Deadline, DriverError, ErrorKind, Factory, ForceTransducer, Millimetre, Rig};
-use taceva_drivers::conformance::{self, Trial};
 use taceva_drivers::{M8128Factory, XarmFactory};
 use taceva_wire::sri::Emulator;
 use taceva_wire::{BenchOptions, Device, FaultKind, WallBench, xarm};

@@ -5,10 +5,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
+use taceva_conformance::{self as conformance, Trial};
 use taceva_core::{
     Deadline, DriverError, EnablingSwitch as _, ErrorKind, Factory, ForceTransducer, Rig,
 };
-use taceva_drivers::conformance::{self, Trial};
 use taceva_drivers::{Pedal, ScaleFactory};
 use taceva_wire::uhid::{Emulator, PEDAL, SCALE};
 

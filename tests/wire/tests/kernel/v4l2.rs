@@ -2,11 +2,11 @@
 
 use std::time::Duration;
 
+use taceva_conformance::{self as conformance, Trial};
 use taceva_core::{
     Deadline, DriverError, ErrorKind, Factory, FrameInfo, FrameMut, PixelFormat, Rig, Sensor,
 };
 use taceva_drivers::V4l2Factory;
-use taceva_drivers::conformance::{self, Trial};
 use taceva_v4l2::{Camera, ControlKind};
 
 use crate::machine::carry_out;

@@ -6,11 +6,11 @@ use std::time::{Duration, Instant};
 
 use image::codecs::jpeg::JpegEncoder;
 use image::{ExtendedColorType, ImageEncoder};
+use taceva_conformance::{self as conformance, Trial};
 use taceva_core::{
     Deadline, DriverError, ErrorKind, Factory, FrameInfo, FrameMut, PixelFormat, Rig, Sensor, Stamp,
 };
 use taceva_drivers::MjpegFactory;
-use taceva_drivers::conformance::{self, Trial};
 use taceva_wire::mjpeg::{Emulator, Style};
 use taceva_wire::{BenchOptions, Device, Fault, FaultKind, WallBench};
 

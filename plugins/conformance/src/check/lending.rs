@@ -13,8 +13,8 @@ use taceva_core::{Deadline, DriverError, DriverKind, ErrorKind};
 
 use super::subject::{Ending, PATIENT, Subject, ensure, expect_failure};
 use super::{Check, Of};
-use crate::call::timeout;
-use crate::device::Opened;
+use taceva_host::bare::Opened;
+use taceva_host::bare::timeout;
 
 pub(super) const CHECKS: &[Check] = &[
     check("sensor/counts-its-frames", counts),

@@ -10,8 +10,8 @@ use taceva_abi as abi;
 use super::subject::{Ending, Subject, ensure};
 use super::surroundings::Surroundings;
 use super::{Check, Of};
-use crate::device::RigHandle;
-use crate::library::Library;
+use taceva_host::Library;
+use taceva_host::bare::RigHandle;
 
 /// The check whose child must have printed nothing.
 pub(super) const QUIET: &str = "library/quiet";

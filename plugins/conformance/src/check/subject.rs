@@ -10,12 +10,14 @@ use taceva_core::{
 
 use super::probe::Probe;
 use super::surroundings::Surroundings;
-use crate::call::{ArgList, Failure, Table, call};
-use crate::device::{Opened, RigHandle, open};
-use crate::in_process::InProcess;
-use crate::library::{Entry, Library, Source};
-use crate::manifest::{Manifest, Provided};
-use crate::session::Session;
+use taceva_host::Failure;
+use taceva_host::InProcess;
+use taceva_host::Library;
+use taceva_host::Session;
+use taceva_host::bare::{ArgList, Table, call};
+use taceva_host::bare::{Entry, Source};
+use taceva_host::bare::{Opened, RigHandle, open};
+use taceva_host::{Manifest, Provided};
 
 /// How a check ended that did not pass.
 #[derive(Debug)]
@@ -121,7 +123,7 @@ impl Subject {
     pub(super) fn descriptor(&self) -> Result<&Descriptor, Ending> {
         match &self.entry()?.provided {
             Provided::Driver { descriptor, .. } => Ok(descriptor),
-            Provided::Estimator(_) => Err(Ending::Broken("it is an estimator".to_owned())),
+            _ => Err(Ending::Broken("it is no driver".to_owned())),
         }
     }
 

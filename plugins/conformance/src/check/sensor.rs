@@ -9,7 +9,7 @@ use taceva_core::{
 use super::streaming::{self, Streams};
 use super::subject::{Ending, PATIENT, Subject, ensure};
 use super::{Check, Of};
-use crate::device::PluginSensor;
+use taceva_host::PluginSensor;
 
 pub(super) const CHECKS: &[Check] = &[
     check(
@@ -92,7 +92,7 @@ fn same_frames(subject: &Subject) -> Result<(), Ending> {
         return Err(Ending::Skipped("it is no simulation".to_owned()));
     }
     let frames = || -> Result<Vec<Vec<u8>>, Ending> {
-        let rig = crate::in_process::InProcess::open(&subject.library)?;
+        let rig = taceva_host::InProcess::open(&subject.library)?;
         let mut sensor = subject.opened(rig.open_sensor(subject.key()?, &subject.args()?))?;
         sensor.start(PATIENT)?;
         let frames = (0..3).map(|_| Ok(capture(&mut sensor, PATIENT)?.1));

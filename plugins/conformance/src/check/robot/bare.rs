@@ -10,7 +10,7 @@ use taceva_core::{DriverError, ErrorKind, SiPose};
 
 use super::{facts, here, open};
 use crate::check::subject::{Ending, SOON, Subject, ensure, expect_failure, timed};
-use crate::device::Opened;
+use taceva_host::bare::Opened;
 
 pub(super) type Bare = Opened<abi::RobotCalls>;
 

@@ -7,7 +7,7 @@ use taceva_core::{Axis, Deadline, DriverError, DriverKind, ForceTransducer, Inte
 use super::streaming::{self, Streams};
 use super::subject::{Ending, PATIENT, Subject, ensure};
 use super::{Check, Of};
-use crate::session::Session;
+use taceva_host::Session;
 
 pub(super) const CHECKS: &[Check] = &[
     check("force/reads", streaming::gives::<Transducer>),

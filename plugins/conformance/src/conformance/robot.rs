@@ -12,7 +12,7 @@ use taceva_core::{
 
 use super::bench::{Bench, Test, Unmet, broken, expect, in_order, refused, run};
 use super::{Report, Trial};
-use crate::guard::contained;
+use taceva_core::contained;
 
 /// Tries a robot, which moves: see the [module](super).
 pub fn robot(factory: &dyn Factory<dyn Robot>, trial: &Trial) -> Report {

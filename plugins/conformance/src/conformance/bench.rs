@@ -9,7 +9,7 @@ use taceva_core::{
 
 use super::Trial;
 use super::report::{Check, Outcome, Report};
-use crate::guard::contained;
+use taceva_core::contained;
 
 /// A driver under test.
 pub(super) struct Bench<'a, D: ?Sized> {

@@ -15,8 +15,8 @@ use super::subject::{
     AT_ONCE, Draw, Ending, PATIENT, SOON, Subject, ensure, expect_failure, timed,
 };
 use super::{Check, Of};
-use crate::call::{Taken, take, timeout};
-use crate::session::Session;
+use taceva_host::Session;
+use taceva_host::bare::{Taken, take, timeout};
 
 pub(super) const CHECKS: &[Check] = &[
     check("changer/brings-each-thing", brings_each),
@@ -64,7 +64,7 @@ fn brings_each(subject: &Subject) -> Result<(), Ending> {
     Ok(())
 }
 
-type Bare = crate::device::Opened<abi::ChangerCalls>;
+type Bare = taceva_host::bare::Opened<abi::ChangerCalls>;
 
 /// Past the host, which knows what it holds and refuses the rest.
 fn bare_bring(

@@ -1,34 +1,35 @@
 //! The checks of a plugin: all hold for a good one, and each kind of mistake is found by the check that is about it.
 
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-use taceva_host::{CheckOutcome, CheckRequest, CheckResult, Children, PluginConfig, PluginHost};
+use taceva_conformance::{CheckOutcome, CheckRequest, CheckResult, check};
+use taceva_host::{Children, PluginConfig, PluginHost, Plugins, SearchPath};
 
-use crate::fixture::Fixture;
+use crate::fixture::{Fixture, cpp};
+use crate::runner::Test;
 
 fn checked(fixture: &Fixture, only: &[&str]) -> Vec<CheckResult> {
-    let children = Children {
-        program: Some(PathBuf::from(env!("CARGO_BIN_EXE_taceva-host-child"))),
-        quarantine: None,
-    };
     let log = Arc::new(|_: &_, _, _: &str, _: &str| {});
-    let host = PluginHost::with_children(fixture.found(), PluginConfig::default(), log, children);
+    let host = PluginHost::with_children(
+        fixture.found(),
+        PluginConfig::default(),
+        log,
+        Children::default(),
+    );
     let request = CheckRequest {
         only: only.iter().map(|name| (*name).to_owned()).collect(),
         limit: Duration::from_secs(10),
         ..CheckRequest::default()
     };
     let mut results = Vec::new();
-    host.check(&fixture.plugin(), &request, &mut |result| {
+    check(&host, &fixture.plugin(), &request, &mut |result| {
         results.push(result)
     })
     .expect("its library can be read");
     results
 }
 
-#[test]
 fn a_good_plugin_passes_every_check() {
     let Some(fixture) = Fixture::built(&["LEND"]) else {
         return;
@@ -53,6 +54,29 @@ fn a_good_plugin_passes_every_check() {
     assert!(results.len() > 100, "{} checks", results.len());
 }
 
+pub(crate) const TESTS: &[Test] = &[
+    (
+        "a_good_plugin_passes_every_check",
+        a_good_plugin_passes_every_check,
+    ),
+    (
+        "every_kind_of_mistake_is_found_by_a_check",
+        every_kind_of_mistake_is_found_by_a_check,
+    ),
+    (
+        "what_a_library_says_that_it_needs_stands_in_its_manifest",
+        what_a_library_says_that_it_needs_stands_in_its_manifest,
+    ),
+    (
+        "readings_with_one_number_are_found_frozen",
+        readings_with_one_number_are_found_frozen,
+    ),
+    (
+        "a_device_of_each_kind_in_cpp_keeps_every_promise",
+        a_device_of_each_kind_in_cpp_keeps_every_promise,
+    ),
+];
+
 /// Expects that `check` fails on the plugin built with `macros`, for a reason in these words.
 fn finds(macros: &[&str], check: &str, words: &str) {
     let Some(fixture) = Fixture::built(macros) else {
@@ -65,7 +89,6 @@ fn finds(macros: &[&str], check: &str, words: &str) {
     assert!(found, "{macros:?}: {results:#?}");
 }
 
-#[test]
 fn every_kind_of_mistake_is_found_by_a_check() {
     for (macros, check, words) in [
         (
@@ -121,7 +144,6 @@ fn every_kind_of_mistake_is_found_by_a_check() {
     }
 }
 
-#[test]
 fn what_a_library_says_that_it_needs_stands_in_its_manifest() {
     finds(&["NEEDS=\"hid\""], "library/needs", "it needs \"hid\"");
     let Some(fixture) = Fixture::built(&["NEEDS=\"hid\\nlisten:5025\""]) else {
@@ -134,7 +156,6 @@ fn what_a_library_says_that_it_needs_stands_in_its_manifest() {
     assert_eq!(results[0].outcome, CheckOutcome::Passed, "{results:#?}");
 }
 
-#[test]
 fn readings_with_one_number_are_found_frozen() {
     for (macros, words) in [
         (&["NUMBERED"][..], None),
@@ -154,4 +175,31 @@ fn readings_with_one_number_are_found_frozen() {
             (outcome, _) => panic!("{macros:?}: {outcome:?}"),
         }
     }
+}
+
+fn a_device_of_each_kind_in_cpp_keeps_every_promise() {
+    let Some(folder) = cpp("kinds", &Children::default()) else {
+        return;
+    };
+    let path = SearchPath::empty().given([folder.path().to_owned()]);
+    let log = Arc::new(|_: &_, _, _: &str, _: &str| {});
+    let plugins = Plugins::search(path, &[]);
+    let host =
+        PluginHost::with_children(plugins, PluginConfig::default(), log, Children::default());
+    let plugin = host.plugins().get("org.example.kinds").expect("found");
+    assert_eq!(plugin.manifest.drivers().count(), 5);
+    let (mut made, mut failed) = (0, Vec::new());
+    check(&host, plugin, &CheckRequest::default(), &mut |result| {
+        made += 1;
+        // How long a wait takes that is ended within 50 ms depends on what else the machine does.
+        let is_timed = result.check.ends_with("within-50-ms");
+        if let CheckOutcome::Failed(why) = result.outcome
+            && !is_timed
+        {
+            failed.push(format!("{} of {:?}: {why}", result.check, result.subject));
+        }
+    })
+    .expect("it can be checked");
+    assert!(failed.is_empty(), "{}", failed.join("\n"));
+    assert!(made > 90, "{made} checks");
 }

@@ -14,7 +14,7 @@ use taceva_core::{
 use self::bare::{Bare, bare_move, bare_pose, no_speeds, no_targets, outside, wait_without};
 use super::subject::{AT_ONCE, Ending, PATIENT, SOON, Subject, ensure, expect_failure, timed};
 use super::{Check, Of};
-use crate::session::Session;
+use taceva_host::Session;
 
 pub(super) const CHECKS: &[Check] = &[
     check("robot/says-its-pose", poses),

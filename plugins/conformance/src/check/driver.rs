@@ -13,9 +13,9 @@ use taceva_core::{ArgKind, ArgValue, Args, DriverKind, ErrorKind};
 
 use super::subject::{Draw, Ending, Subject, bare, ensure, expect_failure, writable_memory};
 use super::{Check, Of};
-use crate::call::{ArgList, Taken, take};
-use crate::device::Opened;
-use crate::session::Session;
+use taceva_host::Session;
+use taceva_host::bare::Opened;
+use taceva_host::bare::{ArgList, Taken, take};
 
 pub(super) const CHECKS: &[Check] = &[
     check("driver/describes-the-same-twice", describes_twice),
@@ -53,7 +53,7 @@ enum Device {
 }
 
 impl Device {
-    fn handle(&self) -> &crate::device::Owned {
+    fn handle(&self) -> &taceva_host::bare::Owned {
         match self {
             Device::Sensor(opened) => &opened.handle,
             Device::Robot(opened) => &opened.handle,
@@ -160,7 +160,7 @@ fn raw_open(
 ) -> Result<(abi::Status, abi::Device), Ending> {
     let open = factory(subject)?.open;
     let open = open.ok_or_else(|| Ending::Broken("`open` is NULL".to_owned()))?;
-    let rig = crate::device::RigHandle::open(&subject.library)?;
+    let rig = taceva_host::bare::RigHandle::open(&subject.library)?;
     let mut device = abi::Device {
         handle: std::ptr::null_mut(),
         calls: std::ptr::null(),

@@ -3,17 +3,17 @@
 use std::fs::File;
 use std::io::{Read, Seek};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
 
 use taceva_core::ErrorKind;
 
 use super::checks;
 use super::probe::Probe;
 use super::subject::{Ending, Subject};
-use crate::call::under_way;
-use crate::child::wire::decode;
-use crate::in_process::InProcess;
-use crate::library::Source;
-use crate::manifest::Manifest;
+use taceva_host::Manifest;
+use taceva_host::Session;
+use taceva_host::bare::Source;
+use taceva_host::bare::under_way;
 
 /// How the answer of a check begins that could not be made.
 pub(super) const SKIPPED: &str = "skipped: ";
@@ -26,11 +26,12 @@ pub(crate) fn run(
     mut file: File,
     source: Source,
     manifest: &Manifest,
-) -> Result<InProcess, (ErrorKind, String)> {
+) -> Result<Arc<dyn Session>, (ErrorKind, String)> {
     let mut bytes = Vec::new();
     let read = file.rewind().and_then(|()| file.read_to_end(&mut bytes));
     read.map_err(|error| (ErrorKind::Internal, error.to_string()))?;
-    let probe: Probe = decode(&bytes).map_err(|error| (ErrorKind::Abi, error.to_string()))?;
+    let probe: Probe =
+        serde_json::from_slice(&bytes).map_err(|error| (ErrorKind::Abi, error.to_string()))?;
     let check = checks().find(|check| check.name == probe.check);
     let check = check.ok_or_else(|| (ErrorKind::Abi, format!("no check `{}`", probe.check)))?;
     let made = catch_unwind(AssertUnwindSafe(|| {
@@ -40,7 +41,7 @@ pub(crate) fn run(
         Ok(subject.session)
     }));
     match made {
-        Ok(Ok(session)) => Ok(session),
+        Ok(Ok(session)) => Ok(Arc::new(session)),
         Ok(Err(Ending::Broken(why))) => Err((ErrorKind::DeviceFault, why)),
         Ok(Err(Ending::Skipped(why))) => Err((ErrorKind::Unsupported, format!("{SKIPPED}{why}"))),
         Err(_) => Err((ErrorKind::Internal, "the check itself panicked".to_owned())),

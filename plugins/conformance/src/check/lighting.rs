@@ -10,7 +10,7 @@ use taceva_core::{DriverKind, ErrorKind, Facts};
 
 use super::subject::{Draw, Ending, PATIENT, SOON, Subject, ensure, expect_failure, timed};
 use super::{Check, Of};
-use crate::call::timeout;
+use taceva_host::bare::timeout;
 
 pub(super) const CHECKS: &[Check] = &[
     check("lighting/sets-each-scene", sets_each),
@@ -26,7 +26,7 @@ const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Ending>) -> C
     }
 }
 
-type Lamp = crate::device::Opened<abi::LightingCalls>;
+type Lamp = taceva_host::bare::Opened<abi::LightingCalls>;
 
 fn set(lamp: &Lamp, scene: abi::Text, within: u64) -> Result<(), taceva_core::DriverError> {
     let set = lamp.handle.needs(lamp.calls.set, "set")?;

@@ -1,4 +1,4 @@
-//! Catches panics of third-party decoders and of drivers under test and returns their messages.
+//! Panics of code that is not ours, caught and returned as their messages.
 
 use std::cell::Cell;
 use std::panic::{self, AssertUnwindSafe};
@@ -10,7 +10,7 @@ thread_local! {
 }
 
 /// What `run` gives, or the message of its panic. Nothing is printed for a panic in here; elsewhere the hook of the program still runs.
-pub(crate) fn contained<T>(run: impl FnOnce() -> T) -> Result<T, String> {
+pub fn contained<T>(run: impl FnOnce() -> T) -> Result<T, String> {
     static HOOK: Once = Once::new();
     HOOK.call_once(|| {
         let of_the_program = panic::take_hook();

@@ -9,7 +9,7 @@ use taceva_core::{
 
 use super::subject::{Draw, Ending, Subject, ensure, expect_failure, writable_memory};
 use super::{Check, Of};
-use crate::session::{FitRequest, Session};
+use taceva_host::{FitRequest, Session};
 
 pub(super) const CHECKS: &[Check] = &[
     check("estimator/fits-and-predicts", fits),

@@ -8,7 +8,8 @@
 //! **A robot moves**: by [`Trial::travel`] away from the gel and back. **A changer moves**: it brings what it holds. Nothing else moves, and no check presses the gel.
 //!
 //! ```
-//! use taceva_drivers::{ReplayFactory, conformance::{self, Trial}};
+//! use taceva_conformance::{self as conformance, Trial};
+//! use taceva_drivers::ReplayFactory;
 //! # let folder = tempfile::tempdir()?;
 //! # for name in ["1.png", "2.png", "3.png", "4.png"] {
 //! #     image::GrayImage::from_pixel(4, 3, image::Luma([7])).save(folder.path().join(name))?;

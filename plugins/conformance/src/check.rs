@@ -1,0 +1,334 @@
+//! Whether a plugin keeps its promises: many small checks, each in a confined process of its own with a time limit.
+//!
+//! A check runs beside the plugin, in the child, and calls the functions of its tables as a host would, and as no host should. Whatever it
+//! does to its process, the others go on. A plugin that its user trusts is checked as it runs: in a process that nothing is kept from.
+
+mod changer;
+mod driver;
+mod estimator;
+mod force;
+mod lending;
+mod library;
+mod lighting;
+mod probe;
+mod robot;
+mod run;
+mod sensor;
+mod streaming;
+mod subject;
+mod surroundings;
+
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use serde::Serialize;
+use taceva_core::{DriverError, DriverKey, DriverKind, ErrorKind};
+
+use self::probe::Probe;
+use self::run::run;
+use self::subject::{Ending, Subject};
+use taceva_host::bare::CALL;
+use taceva_host::{
+    ChildError, Examination, ExaminationError, ExaminationOrder, Fate, Linked, Log, ModuleToImport,
+    NOT_ALLOWED, Plugin, PluginHost, Provided,
+};
+
+/// One thing that a plugin promises.
+#[derive(Clone, Copy)]
+pub struct Check {
+    /// Its name: the group, and what holds.
+    pub name: &'static str,
+    /// What it is about.
+    pub(crate) of: Of,
+    pub(crate) run: fn(&Subject) -> Result<(), Ending>,
+}
+
+/// What a check is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Of {
+    /// The library as a whole.
+    Plugin,
+    /// Each driver.
+    Driver,
+    /// Each driver of a kind.
+    Kind(DriverKind),
+    /// Each estimator.
+    Estimator,
+}
+
+/// Serves as the child of a host and ends, if this process was started as one; such a child makes checks too.
+///
+/// A program that checks plugins calls this in the place of [`taceva_host::main_if_child`].
+pub fn main_if_child() {
+    taceva_host::main_if_child_examining(run);
+}
+
+/// The same as [`taceva_host::serve_as_child`], and makes checks of the module.
+pub fn serve_as_child(import: impl FnOnce(&ModuleToImport) -> Result<Linked, String>) -> i32 {
+    taceva_host::serve_as_child(import, Some(run))
+}
+
+impl std::fmt::Debug for Check {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name)
+    }
+}
+
+/// Every check, group by group.
+pub fn checks() -> impl Iterator<Item = &'static Check> {
+    [
+        library::CHECKS,
+        driver::CHECKS,
+        sensor::CHECKS,
+        lending::CHECKS,
+        robot::CHECKS,
+        force::CHECKS,
+        lighting::CHECKS,
+        changer::CHECKS,
+        estimator::CHECKS,
+    ]
+    .into_iter()
+    .flatten()
+}
+
+/// How a plugin is checked.
+#[derive(Clone, Debug)]
+pub struct CheckRequest {
+    /// The seed of everything that is drawn at random.
+    pub seed: u64,
+    /// The checks whose names begin with one of these; all, where there is none.
+    pub only: Vec<String>,
+    /// The arguments of drivers by their keys; a driver that is not named is opened with its defaults.
+    pub arguments: BTreeMap<DriverKey, String>,
+    /// Whether robots and changers that are not simulated may be moved.
+    pub moves: bool,
+    /// How long one check may take.
+    pub limit: Duration,
+}
+
+impl Default for CheckRequest {
+    fn default() -> CheckRequest {
+        CheckRequest {
+            seed: 0,
+            only: Vec::new(),
+            arguments: BTreeMap::new(),
+            moves: false,
+            limit: Duration::from_secs(60),
+        }
+    }
+}
+
+/// In the message of a device that did not open.
+const NOT_OPENED: &str = ": cannot open the device: ";
+
+/// How a check ended.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[serde(tag = "outcome", content = "why", rename_all = "lowercase")]
+pub enum CheckOutcome {
+    /// The promise holds.
+    Passed,
+    /// It does not, for this reason.
+    Failed(String),
+    /// It could not be looked at, for this reason.
+    Skipped(String),
+}
+
+/// A check that was made.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CheckResult {
+    /// Its name.
+    pub check: &'static str,
+    /// The driver or estimator that was looked at; the plugin as a whole without.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub subject: Option<String>,
+    /// How it ended.
+    #[serde(flatten)]
+    pub outcome: CheckOutcome,
+    /// How long it took, in seconds.
+    pub took_s: f64,
+}
+
+/// Makes the checks of `request` on `plugin`, and calls `tell` with the result of each.
+///
+/// # Errors
+/// [`DriverError`] if its library cannot even be read.
+pub fn check(
+    host: &PluginHost,
+    plugin: &Plugin,
+    request: &CheckRequest,
+    tell: &mut dyn FnMut(CheckResult),
+) -> Result<(), DriverError> {
+    // One that cannot be run at all breaks no promise: its user hears why, once.
+    let examination = host.examination(plugin)?;
+    let is_wanted = |check: &&Check| {
+        let mut only = request.only.iter();
+        request.only.is_empty() || only.any(|begin| check.name.starts_with(begin))
+    };
+    // Of each driver, why a check failed or could not be made, and which one was the first: a cause is told once.
+    let mut causes: BTreeMap<(Option<String>, String), &'static str> = BTreeMap::new();
+    for check in checks().filter(is_wanted) {
+        for key in subjects(check, plugin) {
+            let probe = Probe {
+                check: check.name.to_owned(),
+                driver: key.map(ToString::to_string).unwrap_or_default(),
+                arguments: key
+                    .and_then(|key| request.arguments.get(key))
+                    .cloned()
+                    .unwrap_or_default(),
+                seed: request.seed,
+                moves: request.moves,
+            };
+            let begun = Instant::now();
+            let mut outcome = made(&examination, &probe, request.limit);
+            let cause = match &outcome {
+                CheckOutcome::Failed(why) => Some((why.clone(), "failed")),
+                CheckOutcome::Skipped(why) => Some((why.clone(), "was skipped")),
+                CheckOutcome::Passed => None,
+            };
+            if let Some((why, how)) = cause {
+                match causes.entry((key.map(ToString::to_string), why)) {
+                    Entry::Occupied(first) => {
+                        let why = format!("for the reason why `{}` {how}", first.get());
+                        outcome = CheckOutcome::Skipped(why);
+                    }
+                    Entry::Vacant(first) => {
+                        first.insert(check.name);
+                    }
+                }
+            }
+            tell(CheckResult {
+                check: check.name,
+                subject: key.map(ToString::to_string),
+                outcome,
+                took_s: begun.elapsed().as_secs_f64(),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// One check, in a child.
+fn made(examination: &Examination<'_>, probe: &Probe, limit: Duration) -> CheckOutcome {
+    let call = Arc::new(Mutex::new(String::new()));
+    let order = ExaminationOrder {
+        driver: &probe.driver,
+        arguments: &probe.arguments,
+        limit,
+        log: noting(&call),
+    };
+    let printed = examination.run(order, |arguments| {
+        let probe = Probe {
+            arguments,
+            ..probe.clone()
+        };
+        serde_json::to_vec(&probe).expect("texts and numbers")
+    });
+    let (error, withheld, lacks_bound) = match printed {
+        Ok(printed) if probe.check == library::QUIET && !printed.is_empty() => {
+            return CheckOutcome::Failed(format!("it printed {printed:?}"));
+        }
+        Ok(_) => return CheckOutcome::Passed,
+        Err(ExaminationError::Unready(why)) => return CheckOutcome::Failed(why),
+        Err(ExaminationError::Child {
+            error,
+            withheld,
+            lacks_bound,
+        }) => (error, withheld, lacks_bound),
+    };
+    let call = call.lock().unwrap_or_else(PoisonError::into_inner);
+    let outcome = ended(hung_in(error, &call));
+    // A plugin may take what it may not reach for what is not there, which would be no failure.
+    match &outcome {
+        // What its arguments name is not allowed, so the name of a machine was not looked up for it either: one cause, whatever it is
+        // that the plugin noticed.
+        CheckOutcome::Failed(why) | CheckOutcome::Skipped(why)
+            if lacks_bound && (why.starts_with(subject::NO_DEVICE) || why.contains(NOT_OPENED)) =>
+        {
+            CheckOutcome::Failed(format!("{NOT_ALLOWED}; {withheld}"))
+        }
+        CheckOutcome::Failed(why) | CheckOutcome::Skipped(why) => {
+            let explained = withheld.explain(why);
+            explained.map_or(outcome, CheckOutcome::Failed)
+        }
+        CheckOutcome::Passed => outcome,
+    }
+}
+
+/// A log that notes in `call` which call a check says that it is in.
+fn noting(call: &Arc<Mutex<String>>) -> Log {
+    let call = Arc::clone(call);
+    Box::new(move |_, target, message| {
+        if target == CALL {
+            message.clone_into(&mut call.lock().unwrap_or_else(PoisonError::into_inner));
+        }
+    })
+}
+
+/// The error of a check that was ended, in whose place the call stands that did not return, where it is known.
+fn hung_in(error: ChildError, call: &str) -> ChildError {
+    match error {
+        ChildError::Gone {
+            plugin,
+            fate: Fate::Late { after, .. },
+            printed,
+        } if !call.is_empty() => ChildError::Gone {
+            plugin,
+            fate: Fate::Late {
+                doing: call.to_owned(),
+                after,
+            },
+            printed,
+        },
+        other => other,
+    }
+}
+
+fn ended(error: ChildError) -> CheckOutcome {
+    match error {
+        ChildError::Refused {
+            kind: ErrorKind::Unsupported,
+            why,
+            ..
+        } if why.starts_with(run::SKIPPED) => {
+            CheckOutcome::Skipped(why[run::SKIPPED.len()..].to_owned())
+        }
+        ChildError::Refused { why, .. } => CheckOutcome::Failed(why),
+        ChildError::Gone { fate, printed, .. } if printed.is_empty() => {
+            CheckOutcome::Failed(format!("the process ended: {fate}"))
+        }
+        ChildError::Gone { fate, printed, .. } => {
+            CheckOutcome::Failed(format!("the process ended: {fate}; it printed {printed:?}"))
+        }
+        other => CheckOutcome::Failed(other.to_string()),
+    }
+}
+
+/// The keys that a check is made on; one nothing for the plugin as a whole.
+fn subjects<'a>(check: &Check, plugin: &'a Plugin) -> Vec<Option<&'a DriverKey>> {
+    if check.of == Of::Plugin {
+        return vec![None];
+    }
+    let provides = plugin.manifest.provides.iter();
+    let fitting = provides.filter(|provided| match (check.of, provided) {
+        (Of::Driver, Provided::Driver { .. }) => true,
+        (Of::Kind(kind), Provided::Driver { descriptor, .. }) => descriptor.kind() == kind,
+        (Of::Estimator, Provided::Estimator(_)) => true,
+        _ => false,
+    });
+    fitting.map(|provided| Some(provided.key())).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn there_are_at_least_48_checks_and_no_two_of_one_name() {
+        let names: BTreeSet<&str> = checks().map(|check| check.name).collect();
+        assert_eq!(names.len(), checks().count());
+        assert!(names.len() >= 48, "{}", names.len());
+    }
+}

@@ -1,0 +1,147 @@
+//! Examination of a plugin: code of this program that a child runs beside the plugin instead of serving it.
+
+use std::fs::File;
+use std::io::{self, Write};
+use std::os::fd::OwnedFd;
+use std::sync::Arc;
+use std::time::Duration;
+
+use rustix::fs::{MemfdFlags, memfd_create};
+use taceva_core::{Args, DriverError};
+
+use crate::child::{Child, ChildError, no_port};
+use crate::grant::{self, Grant, Withheld};
+use crate::host::PluginHost;
+use crate::host::code::ReadCode;
+use crate::library::Log;
+use crate::search::Plugin;
+
+/// A plugin whose code was read and can be run, ready to be examined in children.
+pub struct Examination<'a> {
+    host: &'a PluginHost,
+    plugin: &'a Plugin,
+    code: ReadCode,
+}
+
+/// One examination in a child of its own.
+pub struct ExaminationOrder<'a> {
+    /// The key of the driver or estimator; empty for the plugin as a whole.
+    pub driver: &'a str,
+    /// The arguments of the driver, `key=value;key=value`.
+    pub arguments: &'a str,
+    /// The time after which the child is ended.
+    pub limit: Duration,
+    /// Receives lines of the log; those of the target [`CALL`](crate::bare::CALL) name the call that lasts.
+    pub log: Log,
+}
+
+/// An examination that did not succeed.
+#[derive(Debug)]
+pub enum ExaminationError {
+    /// The child was not started.
+    Unready(String),
+    /// The child refused to serve, or ended.
+    Child {
+        /// The end of the child.
+        error: ChildError,
+        /// Needs that the user does not allow.
+        withheld: Withheld,
+        /// True if the withheld needs may be those that arguments name.
+        lacks_bound: bool,
+    },
+}
+
+impl PluginHost {
+    /// Reads the code of `plugin` for examinations.
+    ///
+    /// # Errors
+    /// [`DriverError`] if the plugin cannot be run at all.
+    pub fn examination<'a>(&'a self, plugin: &'a Plugin) -> Result<Examination<'a>, DriverError> {
+        let whole = plugin.id().as_driver();
+        let code = plugin.read(&whole)?;
+        plugin.child(&code, &whole, self.children())?;
+        Ok(Examination {
+            host: self,
+            plugin,
+            code,
+        })
+    }
+
+    /// What an examination of `driver` may reach: what a device may that is opened with `arguments`; and these, with addresses for names of machines.
+    fn grant_of(
+        &self,
+        plugin: &Plugin,
+        driver: &str,
+        arguments: &str,
+    ) -> Result<(Grant, String), DriverError> {
+        let mut drivers = plugin.manifest.drivers();
+        let descriptor = drivers.find(|descriptor| descriptor.key().as_str() == driver);
+        let args = descriptor.and_then(|descriptor| {
+            let args = Args::parse(descriptor.arguments(), arguments).ok()?;
+            Some((descriptor, args))
+        });
+        let Some((descriptor, args)) = args else {
+            // The check itself says which arguments it lacks.
+            return Ok((self.config().grant(plugin), arguments.to_owned()));
+        };
+        let (key, specs) = (descriptor.key(), descriptor.arguments());
+        let grant = self.config().grant_for(plugin, key, &args)?;
+        let is_trusted = self.config().trust(plugin).is_some();
+        if is_trusted || !grant.is_bound || grant.lacks_bound() {
+            return Ok((grant, arguments.to_owned()));
+        }
+        let args = grant::resolved(plugin, key, specs, &args)?;
+        let given = specs.iter().filter_map(|spec| {
+            let value = args.get(&spec.key)?.to_string();
+            Some(format!("{}={}", spec.key, value.replace(';', ";;")))
+        });
+        Ok((grant, given.collect::<Vec<_>>().join(";")))
+    }
+}
+
+impl Examination<'_> {
+    /// Runs the [`Examiner`](crate::Examiner) of the child's program on what `encode` makes of the arguments; returns what the child printed.
+    ///
+    /// # Errors
+    /// [`ExaminationError`] if the child was not started, or if it did not end with a session.
+    pub fn run(
+        &self,
+        order: ExaminationOrder<'_>,
+        encode: impl FnOnce(String) -> Vec<u8>,
+    ) -> Result<String, ExaminationError> {
+        let unready = |error: &dyn ToString| ExaminationError::Unready(error.to_string());
+        let granted = self
+            .host
+            .grant_of(self.plugin, order.driver, order.arguments);
+        let (grant, arguments) = granted.map_err(|error| unready(&error))?;
+        let whole = self.plugin.id().as_driver();
+        let spec = self.plugin.child(&self.code, &whole, self.host.children());
+        let mut spec = spec.map_err(|error| unready(&error))?;
+        spec.files
+            .push(in_memory(&encode(arguments)).map_err(|error| unready(&error))?);
+        // An examination does what nobody should; a plugin that does not live through it may start again.
+        spec.quarantine = None;
+        spec.confinement.needs = grant.reached.iter().cloned().collect();
+        if let Some(why) = no_port(&spec.confinement.needs) {
+            return Err(ExaminationError::Unready(why));
+        }
+        spec.confinement.is_trusted = self.host.config().trust(self.plugin).is_some();
+        spec.log = Some(order.log);
+        spec.patience.start = order.limit;
+        let child = Child::start(spec).map_err(|error| ExaminationError::Child {
+            error,
+            lacks_bound: grant.lacks_bound(),
+            withheld: grant.withheld,
+        })?;
+        let life = Arc::clone(child.life());
+        drop(child);
+        Ok(life.watch.printed())
+    }
+}
+
+/// A file in memory that holds `bytes`.
+fn in_memory(bytes: &[u8]) -> io::Result<OwnedFd> {
+    let mut file = File::from(memfd_create(c"taceva-order", MemfdFlags::CLOEXEC)?);
+    file.write_all(bytes)?;
+    Ok(file.into())
+}
