@@ -9,7 +9,7 @@ the process has once PyTorch is loaded. On a machine with other work pin both si
 processors (`taskset -c 0`) and run them in turn.
 
 With `--device cuda` the same on a GPU, by the wall clock, and without ONNX Runtime, for comparison with the example `speed` of
-taceva-gpu: pictures and labels go to the device in each step, as they do there, and the device has finished when time is taken.
+taceva-network: pictures and labels go to the device in each step, as they do there, and the device has finished when time is taken.
 """
 import sys
 import time

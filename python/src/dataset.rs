@@ -262,5 +262,5 @@ pub(crate) fn jobs_of(jobs: usize) -> NonZeroUsize {
 
 /// Every model: those built in and those of libraries.
 pub(crate) fn models() -> Models {
-    Models::builtin().with_libraries(taceva_baselines::all())
+    Models::builtin().with_libraries(taceva_models::library_models())
 }

@@ -2,13 +2,8 @@
 
 mod bytes;
 mod disk;
-mod error;
-mod limits;
 mod read;
 mod seal;
-pub(crate) mod tensors;
 
 pub use self::disk::ModelFileError;
-pub use self::error::FormatError;
-pub(crate) use self::limits::FORMAT;
 pub(crate) use self::seal::is_sealed;

@@ -23,7 +23,7 @@ pub use estimators::kernel::{GaussianProcess, KernelRegressor, KernelRidge, NORM
 pub use estimators::library::{
     LibraryCard, LibraryLearner, LibraryModel, LibraryPredictor, LibraryRegressor, LibrarySettings,
     LibrarySizes, LibraryTask, LibraryTensor, LibraryTensors, LoadedPredictor, Numbers,
-    library_estimator,
+    library_estimator, library_models,
 };
 pub use estimators::linear::{LinearEstimator, LinearFit, LinearRegressor};
 pub use estimators::neighbours::{NeighbourRegressor, Neighbours};
@@ -42,18 +42,20 @@ pub use features::{
     Color, Extractor, FeatureError, FeatureKind, FeatureKinds, FeatureSpec, FeaturesByRecording,
     FrameReduction, Marker, MarkerTracker, Pca, Polarity, RecordedFrames, Tracked,
 };
-pub use file::{FormatError, ModelFileError};
+pub use file::ModelFileError;
 pub use model::{
     ChannelCard, CloserFeatures, FitInput, Form, LabelBounds, Model, ModelCard, Provenance,
     SampleCounts, Source, SplitCard,
 };
 pub use models::{ChosenModel, Models};
-pub use registry::{ALL, ModelInfo, PRESETS, Preset, UnknownModel, find};
+pub use registry::{ALL, PRESETS, Preset, UnknownModel, find};
 pub use settings::{ModelSettings, SettingError, SettingInfo, Suggestion};
 pub use split::{
     ColumnSplit, Fractions, Part, Split, SplitCounts, SplitError, SplitInput, SplitKind,
     SplitManifest, SplitSpec,
 };
 pub use training::choice::{ChannelChoice, Choice, ChosenBy};
+pub use training::file::error::FormatError;
 pub use training::fit::{Chosen, ModelEstimator, ModelFit, ModelRegressor};
+pub use training::info::ModelInfo;
 pub use training::label_scaling::{LabelScaling, label_means};

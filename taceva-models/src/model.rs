@@ -19,8 +19,8 @@ pub(crate) use self::of_plugin::plugin_from;
 use crate::features::choice::FeatureChoice;
 use crate::features::signals::{divided, spread};
 use crate::features::{Extractor, FeatureError, Pca};
+use crate::linalg::invalid;
 use crate::training::fit::ModelRegressor;
-use crate::training::problem::invalid;
 
 /// A fitted model: from pixels, or from signals, to the channels, in their units.
 ///

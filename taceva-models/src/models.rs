@@ -10,9 +10,10 @@ use crate::estimators::auto::Auto;
 use crate::estimators::library::LibraryModel;
 use crate::estimators::plugin::PluginEstimator;
 use crate::features::FeatureSpec;
-use crate::registry::{ALL, ModelInfo, PRESETS, Preset, UnknownModel, replaced};
+use crate::registry::{ALL, PRESETS, Preset, UnknownModel, replaced};
 use crate::settings::{ModelSettings, SettingError};
 use crate::training::fit::ModelEstimator;
+use crate::training::info::ModelInfo;
 
 /// The models that people can choose, by name. It is a value that a program makes and passes on, as its drivers are: nothing of it is global.
 ///

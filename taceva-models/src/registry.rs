@@ -1,9 +1,7 @@
 //! The models by name.
 
-mod info;
 mod preset;
 
-pub use info::ModelInfo;
 pub(crate) use preset::DEFAULT;
 pub use preset::{PRESETS, Preset};
 
@@ -21,6 +19,7 @@ use crate::estimators::pls::Pls;
 use crate::estimators::ridge::Ridge;
 use crate::estimators::trees::{GradientBoosting, RandomForest};
 use crate::settings::Suggestion;
+use crate::training::info::ModelInfo;
 
 /// Every model, the plainest first.
 pub const ALL: &[ModelInfo] = &[

@@ -1,15 +1,12 @@
 //! How `auto` chooses: by evidence that is worth its work, and never by a clock.
 
-#[path = "blobs/mod.rs"]
-mod blobs;
-
 use taceva_core::{Features, SilentProgress};
 use taceva_models::{
     AutoCard, CloserFeatures, FeatureSpec, FitInput, Model, ModelSettings, Provenance,
     SettingError, find,
 };
 
-use blobs::{FRAME, Recording, SHAPE, numbers};
+use crate::blobs::{FRAME, Recording, SHAPE, numbers};
 
 /// Blobs that are as often darker as brighter than a slope of light that dwarfs them: what is linear in pixels, or compares whole pictures, sees
 /// nothing of where they are.
@@ -39,7 +36,7 @@ fn hidden(samples: usize, seed: u64) -> Recording {
     Recording {
         features,
         labels,
-        ..blobs::recording(2, 1)
+        ..crate::blobs::recording(2, 1)
     }
 }
 
@@ -149,7 +146,12 @@ fn a_network_that_is_beyond_the_budget_is_named_with_what_it_takes() {
 #[test]
 fn models_that_are_clearly_beaten_are_not_tried_again() {
     // Blobs on an even ground, which most models see.
-    let model = fit("auto", &["budget_s=0.5"], &blobs::recording(120, 5), None);
+    let model = fit(
+        "auto",
+        &["budget_s=0.5"],
+        &crate::blobs::recording(120, 5),
+        None,
+    );
     let card = card(&model);
     let left = card.tried.iter().filter(|trial| trial.folds == 1);
     let left: Vec<&str> = left.filter_map(|trial| trial.left.as_deref()).collect();
@@ -166,7 +168,7 @@ fn models_that_are_clearly_beaten_are_not_tried_again() {
 
 #[test]
 fn networks_see_finer_features_where_there_are_such_and_others_do_not() {
-    let coarse = blobs::recording(240, 6);
+    let coarse = crate::blobs::recording(240, 6);
     let finer = hidden(240, 1);
     // Of the coarse features nothing can be learnt, since the labels are those of the finer.
     let coarse = Recording {

@@ -1,10 +1,8 @@
 //! What every linear estimator promises.
 
-mod common;
-
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use common::{Recording, both_shapes, distance, fit, model, predict, recording};
+use crate::linear_recordings::{Recording, both_shapes, distance, fit, model, predict, recording};
 use taceva_core::{
     ErrorKind, FeatureShape, Features, ModelError, Progress, Regressor, SilentProgress,
 };
@@ -315,7 +313,8 @@ fn without_a_penalty_an_exact_map_is_found_to_the_last_digits_or_refused() {
     let fit = fit(&*model("ridge", &["strength=0"]), &exact.set());
     let found = predict(&fit.regressor, &exact.features);
     assert!(distance(&found, &exact.labels) < 1e-14);
-    let penalised = common::fit(&*model("ridge", &["strength=1e-12"]), &exact.set());
+    let penalised =
+        crate::linear_recordings::fit(&*model("ridge", &["strength=1e-12"]), &exact.set());
     let found = predict(&penalised.regressor, &exact.features);
     assert!(distance(&found, &exact.labels) < 1e-9);
     let few = recording(6, 8, 0.0, 14);

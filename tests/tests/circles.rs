@@ -12,12 +12,6 @@ const LEAST: usize = 3;
 /// Circles that stay, each by one of its files and with the reason; none may have more files than are stated.
 const KNOWN: &[(&str, &str, usize, &str)] = &[
     (
-        "taceva-gpu",
-        "gpu",
-        5,
-        "a GPU opens the engine of its kind, and engines and errors say which GPU they are of",
-    ),
-    (
         "taceva-host",
         "child/kind",
         6,

@@ -1,13 +1,9 @@
 //! A training that goes from one engine to another.
 
-mod common;
-#[path = "common/small.rs"]
-mod small;
-
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use small::{architecture, recipe, sums, values};
+use crate::common::small::{architecture, recipe, sums, values};
 use taceva_network::{Batch, ConvolutionForm, Engine, Moments, Network, NetworkError, Trainer};
 
 /// An engine that computes nothing and says when it is gone.

@@ -1,19 +1,13 @@
 //! The forms of convolutions: each predicts as it does whatever stands beside, all alike, and training in one of them keeps what a
 //! training promises.
 
-mod common;
-#[path = "common/plain.rs"]
-mod plain;
-#[path = "common/tiles.rs"]
-mod tiles;
-
-use common::{doubles, filled, singles};
-use plain::Moments;
+use crate::common::plain::{self, Moments};
+use crate::common::tiles::{self, picture};
+use crate::draws::{doubles, filled, singles};
 use taceva_network::{
     Architecture, Checkpoint, ConvolutionForm, Depth, Labels, Loss, NetworkError, Optimizer,
     Picture, Recipe, Samples, Schedule, Trainer,
 };
-use tiles::picture;
 
 const FORMS: [ConvolutionForm; 3] = ConvolutionForm::ALL;
 

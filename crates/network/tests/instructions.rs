@@ -1,14 +1,10 @@
 //! What `TACEVA_ISA` asks for changes no bit of a training or of a prediction, as long as products are fused, and neither does the number of threads.
 
-mod common;
-#[path = "common/tiles.rs"]
-mod tiles;
-
 use std::process::Command;
 
-use common::{doubles, filled, singles};
+use crate::common::tiles::{picture, same_size};
+use crate::draws::{doubles, filled, singles};
 use taceva_network::{Architecture, ConvolutionForm, Depth, Isa, Labels, Recipe, Samples, Trainer};
-use tiles::{picture, same_size};
 
 /// FNV-1a of numbers.
 fn digest(numbers: impl Iterator<Item = u64>) -> u64 {
@@ -91,7 +87,12 @@ fn trainings_and_predictions_have_the_same_bits_under_every_fused_taceva_isa_and
     let sets = Isa::available();
     let runs = sets.into_iter().map(|isa| {
         let mut command = Command::new(&program);
-        command.args(["--exact", "digests", "--ignored", "--nocapture"]);
+        command.args([
+            "--exact",
+            "instructions::digests",
+            "--ignored",
+            "--nocapture",
+        ]);
         let output = command.env("TACEVA_ISA", isa.name()).output();
         let output = output.expect("this program runs");
         let text = String::from_utf8_lossy(&output.stdout).into_owned();

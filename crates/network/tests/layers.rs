@@ -1,11 +1,7 @@
 //! Every kind of layer against a plain network in double precision: its outputs, and its gradients by finite differences.
 
-mod common;
-#[path = "common/plain.rs"]
-mod plain;
-
-use common::{doubles, filled, singles, unit};
-use plain::{Moments, Tensors};
+use crate::common::plain::{self, Moments, Tensors};
+use crate::draws::{doubles, filled, singles, unit};
 use taceva_network::{
     Architecture, Body, Depth, Isa, Labels, Loss, Network, Picture, PlainLayer, Pooling, Samples,
 };

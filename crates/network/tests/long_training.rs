@@ -1,17 +1,11 @@
 //! Trainings of a thousand epochs: whatever the pictures, every number stays finite and errors do not grow.
 
-mod common;
-#[path = "common/plain.rs"]
-mod plain;
-#[path = "common/tiles.rs"]
-mod tiles;
-
-use common::{doubles, singles};
-use plain::Moments;
+use crate::common::plain::{self, Moments};
+use crate::common::tiles::{picture, same_size};
+use crate::draws::{doubles, singles};
 use taceva_network::{
     ConvolutionForm, Labels, Network, Picture, Recipe, Samples, Schedule, Trainer,
 };
-use tiles::{picture, same_size};
 
 const INPUT: Picture = picture(6, 5, 1);
 const SAMPLES: usize = 16;

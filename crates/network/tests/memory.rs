@@ -2,9 +2,9 @@
 
 #![cfg(target_os = "linux")]
 
-mod common;
+mod draws;
 
-use common::{doubles, filled, singles};
+use draws::{doubles, filled, singles};
 use rustix::process::{Resource, Rlimit, getrlimit, setrlimit};
 use taceva_network::{
     Architecture, Body, ConvolutionForm, Labels, NetworkError, Picture, PlainLayer, Pooling,

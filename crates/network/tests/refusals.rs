@@ -1,10 +1,6 @@
 //! What cannot be trained or built is refused by name.
 
-mod common;
-#[path = "common/small.rs"]
-mod small;
-
-use small::{PICTURE, architecture, recipe, sums, values};
+use crate::common::small::{PICTURE, architecture, recipe, sums, values};
 use taceva_network::{
     Architecture, Augmentation, Body, Depth, Jitter, LabelScaling, Labels, Loss, NamedTensor,
     Network, Optimizer, Picture, Recipe, Samples, Schedule, Trainer,

@@ -1,10 +1,8 @@
 //! Against PyTorch, with the same weights and pictures: `benches/peers/torch_golden.py` made the numbers.
 
-mod common;
-
 use std::collections::BTreeMap;
 
-use common::{doubles, filled, singles, unit};
+use crate::draws::{doubles, filled, singles, unit};
 use serde::Deserialize;
 use taceva_network::{
     Architecture, Augmentation, Depth, LabelScaling, Labels, Loss, Optimizer, Picture, Recipe,

@@ -1,11 +1,7 @@
 //! What a training promises: the same bits however it is run, whole or in parts, and the best of it at the end.
 
-mod common;
-#[path = "common/small.rs"]
-mod small;
-
-use common::{doubles, singles};
-use small::{PICTURE, architecture, recipe, sums, values};
+use crate::common::small::{PICTURE, architecture, recipe, sums, values};
+use crate::draws::{doubles, singles};
 use taceva_network::{
     Architecture, Augmentation, Checkpoint, Depth, Labels, Loss, NamedTensor, Network,
     NetworkError, Optimizer, Picture, Recipe, Samples, Schedule, Trained, Trainer,
@@ -175,7 +171,7 @@ fn predictions_do_not_depend_on_what_is_predicted_beside_them() {
         width: 33,
         channels: 3,
     };
-    let network = common::filled(&Architecture::residual(Depth::Ten, picture, 2), 9);
+    let network = crate::draws::filled(&Architecture::residual(Depth::Ten, picture, 2), 9);
     let pictures = singles(3, 35 * picture.len());
     let mut predictor = network.predictor();
     let mut all = vec![0.0; 70];

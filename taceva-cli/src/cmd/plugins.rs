@@ -18,7 +18,7 @@ use crate::stderr;
 
 /// The models that this program was built with.
 fn compiled() -> Models {
-    Models::builtin().with_libraries(taceva_baselines::all())
+    Models::builtin().with_libraries(taceva_models::library_models())
 }
 
 impl Context {

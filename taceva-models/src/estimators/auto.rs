@@ -20,10 +20,12 @@ use self::validate::Folds;
 use crate::estimators::library::LibraryModel;
 use crate::estimators::network::{Checkpoints, NetworkEstimator};
 use crate::features::{FeatureError, FeatureSpec};
-use crate::registry::{ALL, DEFAULT, ModelInfo};
+use crate::linalg::invalid;
+use crate::registry::{ALL, DEFAULT};
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 use crate::training::fit::{Chosen, ModelEstimator, ModelFit, estimator};
-use crate::training::problem::{Problem, invalid};
+use crate::training::info::ModelInfo;
+use crate::training::problem::Problem;
 
 /// Tries models, the cheapest first, as long as that is worth it, and chooses one.
 ///

@@ -3,10 +3,10 @@
 use taceva_core::{ModelError, Progress, TrainingSet};
 
 use crate::estimators::linear::{LinearEstimator, LinearFit, LinearRegressor};
-use crate::registry::ModelInfo;
 use crate::settings::{ModelSettings, SettingError};
 use crate::training::choice::{Choice, rmse};
 use crate::training::fit::estimator;
+use crate::training::info::ModelInfo;
 use crate::training::label_scaling::label_means;
 use crate::training::problem::Problem;
 

@@ -13,13 +13,14 @@ pub use self::classes::Discriminant;
 pub use self::regressor::ClassRegressor;
 use self::regressor::Planes;
 use crate::features::FeatureSpec;
+use crate::linalg::invalid;
+use crate::linalg::progress::{ReportedStage, interrupted};
 use crate::linalg::{Design, FeatureScale};
-use crate::registry::ModelInfo;
 use crate::settings::{ModelSettings, SettingError};
 use crate::training::choice::{Choice, errors};
 use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
-use crate::training::problem::{Problem, invalid};
-use crate::training::progress::{ReportedStage, interrupted};
+use crate::training::info::ModelInfo;
+use crate::training::problem::Problem;
 
 /// Linear discriminants: a channel is predicted as one of the values that it takes in the training part, that whose mean picture is
 /// nearest once features are whitened by the scatter within values ([`Discriminant`]).

@@ -11,12 +11,12 @@ use self::descent::{Penalty, path};
 use self::predictors::{Predictors, Target};
 use crate::estimators::linear::{LinearEstimator, LinearFit, LinearRegressor};
 use crate::features::FeatureSpec;
+use crate::linalg::progress::interrupted;
 use crate::linalg::{Design, FeatureScale};
-use crate::registry::ModelInfo;
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 use crate::training::fit::estimator;
+use crate::training::info::ModelInfo;
 use crate::training::problem::{Problem, centred};
-use crate::training::progress::interrupted;
 use crate::training::trials::{Trials, rows_of};
 
 /// The elastic net: minimises ½n⁻¹ Σ (y − b − wᵀx)² + λ (α‖w‖₁ + ½(1 − α)‖w‖²) for each channel, the intercept b unpenalised.

@@ -3,12 +3,26 @@
 //! An adapter implements [`LibraryLearner`] and [`LibraryPredictor`] and registers a [`LibraryModel`]; checks, scaling of features and
 //! labels, the choice of settings and the model file are the same as for every other model.
 
+#[cfg(any(feature = "linfa", feature = "smartcore"))]
+mod adapter;
 mod card;
 mod estimator;
 mod fit;
 mod fitted;
+#[cfg(any(feature = "linfa", feature = "smartcore"))]
+mod guard;
+#[cfg(feature = "linfa")]
+mod linfa;
+#[cfg(any(feature = "linfa", feature = "smartcore"))]
+mod predictor;
 mod regressor;
 mod settings;
+#[cfg(feature = "smartcore")]
+mod smartcore;
+#[cfg(any(feature = "linfa", feature = "smartcore"))]
+mod span;
+#[cfg(any(feature = "linfa", feature = "smartcore"))]
+mod support_vector;
 mod task;
 mod tensor;
 
@@ -21,9 +35,9 @@ pub use self::settings::LibrarySettings;
 pub use self::task::{LibraryPredictor, LibrarySizes, LibraryTask, LoadedPredictor};
 pub use self::tensor::{LibraryTensor, LibraryTensors, Numbers};
 use crate::features::FeatureSpec;
-use crate::registry::ModelInfo;
 use crate::settings::{ModelSettings, SettingError, SettingInfo};
 use crate::training::fit::ModelEstimator;
+use crate::training::info::ModelInfo;
 
 /// Libraries whose models a program may offer; each is a feature of the program, called as the library.
 pub(crate) const LIBRARIES: [&str; 2] = ["linfa", "smartcore"];
@@ -32,6 +46,25 @@ pub(crate) const LIBRARIES: [&str; 2] = ["linfa", "smartcore"];
 pub(crate) fn library_of(name: &str) -> Option<&'static str> {
     let (library, _) = name.split_once('/')?;
     LIBRARIES.into_iter().find(|known| *known == library)
+}
+
+/// Every model of linfa and smartcore that this build has, the plainest of each first; none without the features `linfa` and `smartcore`.
+///
+/// ```
+/// use taceva_models::{Models, library_models};
+/// let models = Models::builtin().with_libraries(library_models());
+/// assert_eq!(models.find("linfa/pls").is_ok(), cfg!(feature = "linfa"));
+/// ```
+pub fn library_models() -> impl Iterator<Item = &'static LibraryModel> {
+    #[cfg(feature = "linfa")]
+    let of_linfa = linfa::ALL;
+    #[cfg(not(feature = "linfa"))]
+    let of_linfa: &[&LibraryModel] = &[];
+    #[cfg(feature = "smartcore")]
+    let of_smartcore = smartcore::ALL;
+    #[cfg(not(feature = "smartcore"))]
+    let of_smartcore: &[&LibraryModel] = &[];
+    of_linfa.iter().chain(of_smartcore).copied()
 }
 
 /// A model of another library: its entry in the registry, what trying it takes, and how a fitted one is read back.

@@ -8,13 +8,14 @@ use taceva_core::{
 };
 
 use crate::features::Pca;
-use crate::file::FormatError;
-use crate::file::tensors::{Raw, Tensors};
 use crate::linalg::Design;
+use crate::linalg::invalid;
 use crate::training::choice::Choice;
+use crate::training::file::error::FormatError;
+use crate::training::file::tensors::{Raw, Tensors};
 use crate::training::label_scaling::LabelScaling;
 use crate::training::output::{check_call, check_finite};
-use crate::training::problem::{Problem, invalid};
+use crate::training::problem::Problem;
 
 /// An estimator whose regressor is linear, and that can say what it chose.
 pub trait LinearEstimator: Estimator {

@@ -10,14 +10,14 @@ pub use self::regressor::NeighbourRegressor;
 use self::regressor::{nearest, weighted};
 use crate::features::FeatureSpec;
 use crate::linalg::FeatureScale;
+use crate::linalg::progress::interrupted;
 use crate::linalg::standard::Standard;
-use crate::registry::ModelInfo;
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 use crate::training::choice::Errors;
 use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
+use crate::training::info::ModelInfo;
 use crate::training::output::OutputScale;
 use crate::training::problem::Problem;
-use crate::training::progress::interrupted;
 use crate::training::trials::{Trials, rows_of};
 
 /// k nearest neighbours: the labels of the k training samples of least distance, each weighted by 1 / distance.

@@ -9,10 +9,10 @@ use self::simpls::Directions;
 use crate::estimators::linear::{LinearEstimator, LinearFit, LinearRegressor};
 use crate::features::FeatureSpec;
 use crate::linalg::{Design, FeatureScale};
-use crate::registry::ModelInfo;
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 use crate::training::choice::{ChannelChoice, Choice, ChosenBy, Errors, least, rmse};
 use crate::training::fit::estimator;
+use crate::training::info::ModelInfo;
 use crate::training::problem::{Problem, Validation, centred, joined, stacked};
 use crate::training::trials::{FOLDS, folds, folds_of};
 

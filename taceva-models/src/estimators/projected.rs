@@ -3,8 +3,8 @@
 use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
 
 use crate::features::Pca;
-use crate::file::FormatError;
-use crate::file::tensors::{Raw, Tensors};
+use crate::training::file::error::FormatError;
+use crate::training::file::tensors::{Raw, Tensors};
 use crate::training::fit::ModelRegressor;
 use crate::training::output::check_call;
 

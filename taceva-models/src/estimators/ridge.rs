@@ -10,13 +10,13 @@ use taceva_core::{Features, ModelError, Progress, TrainingSet};
 use self::leave_out::LeaveOut;
 use crate::estimators::linear::{LinearEstimator, LinearFit, LinearRegressor};
 use crate::features::FeatureSpec;
+use crate::linalg::progress::ReportedStage;
 use crate::linalg::{Design, FeatureScale, Spectrum};
-use crate::registry::ModelInfo;
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 use crate::training::choice::{ChannelChoice, Choice, ChosenBy, Errors, least, rmse};
 use crate::training::fit::estimator;
+use crate::training::info::ModelInfo;
 use crate::training::problem::{Problem, Validation, centred, joined, stacked};
-use crate::training::progress::ReportedStage;
 
 /// Ridge regression: minimises Σ (y − b − wᵀx)² + λ‖w‖² for each channel, the intercept b unpenalised.
 ///

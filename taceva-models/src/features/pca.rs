@@ -3,8 +3,8 @@
 use faer::Mat;
 use taceva_core::{FeatureShape, Features, ModelError, Progress};
 
+use crate::linalg::invalid;
 use crate::linalg::{Design, FeatureScale, Spectrum};
-use crate::training::problem::invalid;
 
 /// The directions in which the training part varies most, orthonormal, largest first.
 #[derive(Clone, Debug, PartialEq)]

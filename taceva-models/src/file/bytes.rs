@@ -4,11 +4,11 @@ use std::collections::HashMap;
 
 use safetensors::tensor::TensorView;
 
-use super::error::FormatError;
-use super::limits::{CARD, FILE_MAX, HEADER_MAX};
 use super::seal::{digested, is_sealed, seal_over};
 use crate::model::Model;
 use crate::models::Models;
+use crate::training::file::error::FormatError;
+use crate::training::file::limits::{CARD, FILE_MAX, HEADER_MAX};
 
 impl Model {
     /// The model as a file would hold it; equal models give equal bytes.

@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-use super::error::FormatError;
-use super::limits::FILE_MAX;
 use crate::model::Model;
 use crate::models::Models;
+use crate::training::file::error::FormatError;
+use crate::training::file::limits::FILE_MAX;
 
 impl Model {
     /// Writes the model to `path`, in place of what was there: into a file beside it first, then renamed, so that a

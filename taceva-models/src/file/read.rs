@@ -6,10 +6,7 @@ use taceva_core::{Channels, FeatureShape, InputInfo};
 use taceva_network::{NamedTensor, Network, Picture};
 
 use super::bytes::check_sizes;
-use super::error::FormatError;
-use super::limits::{CARD, FILE_MAX};
 use super::seal::check_seal;
-use super::tensors::Tensors;
 use crate::estimators::discriminant::ClassRegressor;
 use crate::estimators::kernel::KernelRegressor;
 use crate::estimators::library::LibraryRegressor;
@@ -20,6 +17,9 @@ use crate::estimators::projected::ProjectedRegressor;
 use crate::estimators::trees::TreeRegressor;
 use crate::model::{Form, Model, ModelCard, channels_of, plugin_from};
 use crate::models::Models;
+use crate::training::file::error::FormatError;
+use crate::training::file::limits::{CARD, FILE_MAX};
+use crate::training::file::tensors::Tensors;
 use crate::training::fit::ModelRegressor;
 
 /// The part of a card that every version has.

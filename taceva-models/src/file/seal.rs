@@ -3,7 +3,7 @@
 use safetensors::tensor::{Dtype, SafeTensors};
 use sha2::{Digest as _, Sha256};
 
-use super::error::FormatError;
+use crate::training::file::error::FormatError;
 
 /// A tensor's name, and a digest of its type, its shape and its numbers.
 pub(super) fn digested(

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use taceva_core::{ModelError, Progress};
 
 use super::design::Design;
-use crate::training::progress::{ReportedStage, interrupted};
+use crate::linalg::progress::{ReportedStage, interrupted};
 
 /// Rows and columns of a tile.
 const TILE: usize = 256;

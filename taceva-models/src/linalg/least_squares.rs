@@ -11,7 +11,7 @@ use taceva_core::ModelError;
 
 use self::double::Double;
 use self::householder::Householder;
-use crate::training::problem::invalid;
+use crate::linalg::invalid;
 
 /// A matrix whose numbers may be known beyond double precision.
 #[derive(Clone, Copy, Debug)]

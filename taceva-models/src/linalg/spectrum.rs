@@ -8,7 +8,7 @@ use taceva_core::{ErrorKind, ModelError, Progress};
 
 use super::design::Design;
 use super::gram::{Side, gram, multiply};
-use crate::training::progress::{ReportedStage, interrupted};
+use crate::linalg::progress::{ReportedStage, interrupted};
 
 /// Eigenvalues in ascending order and their vectors, of a symmetric matrix whose lower triangle is `matrix`.
 ///

@@ -2,8 +2,8 @@
 
 use taceva_core::{Features, ModelError};
 
+use crate::linalg::invalid;
 use crate::linalg::{Design, FeatureScale};
-use crate::training::problem::invalid;
 
 /// (feature − centre) · factor, rounded to single precision.
 #[derive(Clone, Debug, PartialEq)]

@@ -202,7 +202,7 @@ pub struct SplitCard {
 
 impl ModelCard {
     /// The version of the format that this crate writes.
-    pub const FORMAT: &'static str = crate::file::FORMAT;
+    pub const FORMAT: &'static str = crate::training::file::limits::FORMAT;
 
     pub(super) fn new(
         input: &FitInput<'_>,

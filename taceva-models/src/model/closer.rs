@@ -4,7 +4,7 @@ use taceva_core::{Features, ModelError, Progress};
 
 use super::{FitInput, Model, with_features};
 use crate::features::FeatureSpec;
-use crate::training::problem::invalid;
+use crate::linalg::invalid;
 
 /// Finer features of the samples of a fit.
 #[derive(Clone, Copy, Debug)]

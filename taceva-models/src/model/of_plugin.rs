@@ -5,9 +5,9 @@ use taceva_core::{Channels, Saved};
 
 use super::card::ModelCard;
 use crate::estimators::plugin::{PluginCard, PluginRegressor, TENSOR};
-use crate::file::FormatError;
-use crate::file::tensors::Tensors;
 use crate::models::Models;
+use crate::training::file::error::FormatError;
+use crate::training::file::tensors::Tensors;
 
 /// The model that the tensor holds, loaded by its plugin.
 pub(crate) fn plugin_from(

@@ -1,7 +1,7 @@
 //! Why settings cannot be used.
 
 use taceva_core::ArgError;
-use taceva_gpu::{GpuError, GpuKind};
+use taceva_network::{GpuError, GpuKind};
 
 use super::Suggestion;
 

@@ -16,10 +16,10 @@ use crate::estimators::plugin::PluginRegressor;
 use crate::estimators::projected::ProjectedRegressor;
 use crate::estimators::trees::TreeRegressor;
 use crate::features::{FeatureError, Pca};
-use crate::file::tensors::Raw;
+use crate::linalg::invalid;
 use crate::training::choice::Choice;
+use crate::training::file::tensors::Raw;
 use crate::training::label_scaling::LabelScaling;
-use crate::training::problem::invalid;
 
 /// The error of a network on features that are a list.
 pub(crate) const NO_PICTURE: &str = "a network reads pictures, and principal components are none";

@@ -2,7 +2,8 @@
 
 use taceva_core::{Channels, ErrorKind, FeatureShape, Features, ModelError};
 
-use crate::training::problem::{Problem, invalid};
+use crate::linalg::invalid;
+use crate::training::problem::Problem;
 
 /// Refuses features of another shape and a buffer of another length.
 pub(crate) fn check_call(

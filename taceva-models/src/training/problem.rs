@@ -1,8 +1,9 @@
 //! What every estimator starts from: checked features and labels, scaled and centred.
 
 use faer::Mat;
-use taceva_core::{ErrorKind, Features, ModelError, TrainingSet};
+use taceva_core::{Features, ModelError, TrainingSet};
 
+use crate::linalg::invalid;
 use crate::training::label_scaling::LabelScaling;
 
 /// A training part that something can be learnt from.
@@ -168,8 +169,4 @@ fn check(part: &TrainingSet<'_>, name: &str) -> Result<(), ModelError> {
         )));
     }
     Ok(())
-}
-
-pub(crate) fn invalid(message: impl Into<String>) -> ModelError {
-    ModelError::new(ErrorKind::InvalidArgument, message)
 }

@@ -5,9 +5,9 @@ use std::borrow::Cow;
 use faer::Mat;
 use taceva_core::{Features, ModelError, Progress};
 
+use crate::linalg::progress::{ReportedStage, interrupted};
 use crate::training::choice::{ChannelChoice, Choice, ChosenBy, Errors, least, rmse};
 use crate::training::problem::{Problem, Validation, joined, stacked};
-use crate::training::progress::{ReportedStage, interrupted};
 
 /// Fits that choosing without a validation part costs at most.
 pub(crate) const FOLDS: usize = 10;

@@ -1,6 +1,8 @@
 //! Pictures of a blob, drawn to any size.
 
-use taceva_core::{Channel, Channels, FeatureShape, Features, Targets, TrainingSet};
+use taceva_core::{
+    Channel, Channels, FeatureShape, Features, FrameInfo, PixelFormat, Targets, TrainingSet,
+};
 
 /// Pictures, and where the blob is in each.
 #[derive(Clone)]
@@ -21,6 +23,7 @@ pub(crate) fn numbers(seed: u64) -> impl FnMut() -> f64 {
     }
 }
 
+#[derive(Clone, Copy)]
 /// What pictures to draw; lengths in pixels.
 pub(crate) struct Blob {
     pub(crate) shape: FeatureShape,
@@ -35,6 +38,16 @@ pub(crate) struct Blob {
 }
 
 impl Blob {
+    /// Frames that these features could be of.
+    pub(crate) fn frame(&self) -> FrameInfo {
+        let twice = |side: usize| 2 * u32::try_from(side).expect("small");
+        FrameInfo {
+            width: twice(self.shape.width),
+            height: twice(self.shape.height),
+            format: PixelFormat::Gray8,
+        }
+    }
+
     #[expect(
         clippy::cast_possible_truncation,
         reason = "features are kept in single precision"

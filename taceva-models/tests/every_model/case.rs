@@ -2,10 +2,12 @@
 
 use taceva_core::{Features, ModelError, Regressor, SilentProgress};
 use taceva_models::{
-    FeatureSpec, FitInput, Model, ModelEstimator, ModelFit, ModelSettings, Provenance,
+    FeatureSpec, FitInput, Model, ModelEstimator, ModelFit, ModelSettings, Models, Provenance,
+    library_models,
 };
 
-use crate::blobs::{FRAME, Recording, SHAPE};
+use super::cases::{BUILT_IN, LIBRARIES};
+use crate::blobs::{BLOB, Blob, Recording};
 
 /// A model as the suite fits it, and what it promises beyond what all do.
 pub(crate) struct Case {
@@ -23,9 +25,14 @@ pub(crate) struct Case {
     pub(crate) components: bool,
     /// The largest root mean square error on the blobs, whose labels deviate by 4.
     pub(crate) error: f64,
+    /// The pictures that it learns from.
+    pub(crate) blob: Blob,
 }
 
-pub(crate) use crate::cases::CASES;
+/// Every case of this build: models that are built in, and those of libraries.
+pub(crate) fn cases() -> impl Iterator<Item = &'static Case> {
+    BUILT_IN.iter().chain(LIBRARIES)
+}
 
 pub(crate) const fn case(name: &'static str, words: &'static [&'static str], error: f64) -> Case {
     Case {
@@ -36,18 +43,30 @@ pub(crate) const fn case(name: &'static str, words: &'static [&'static str], err
         deeper: false,
         components: true,
         error,
+        blob: BLOB,
     }
 }
 
 pub(crate) fn case_of(name: &str) -> &'static Case {
-    let mut cases = CASES.iter();
-    cases.find(|case| case.name == name).expect("listed")
+    cases().find(|case| case.name == name).expect("listed")
 }
 
 impl Case {
+    /// The models among which it is found: without those of libraries, which `auto` would try too, unless it is of one.
+    pub(crate) fn models(&self) -> Models {
+        match self.name.contains('/') {
+            false => Models::builtin(),
+            true => Models::builtin().with_libraries(library_models()),
+        }
+    }
+
+    pub(crate) fn recording(&self, samples: usize, seed: u64) -> Recording {
+        self.blob.recording(samples, seed)
+    }
+
     pub(crate) fn estimator(&self) -> Box<dyn ModelEstimator> {
         let settings = ModelSettings::parse(self.words.iter().copied()).expect("well formed");
-        let model = crate::models().find(self.name).expect("registered");
+        let model = self.models().find(self.name).expect("registered");
         model.estimator(&settings).expect("valid settings")
     }
 
@@ -86,8 +105,8 @@ impl Case {
         let settings = ModelSettings::parse(self.words.iter().copied()).expect("well formed");
         let estimator = self.estimator();
         let features = FeatureSpec {
-            width: u32::try_from(SHAPE.width).expect("small"),
-            height: u32::try_from(SHAPE.height).expect("small"),
+            width: u32::try_from(self.blob.shape.width).expect("small"),
+            height: u32::try_from(self.blob.shape.height).expect("small"),
             pca,
             ..FeatureSpec::default()
         };
@@ -95,7 +114,7 @@ impl Case {
             estimator: &*estimator,
             settings: &settings,
             features,
-            input: FRAME.into(),
+            input: self.blob.frame().into(),
             training: training.set(),
             validation: None,
             provenance: Provenance::default(),

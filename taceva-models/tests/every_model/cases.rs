@@ -1,6 +1,7 @@
-//! Our own models, as the suite fits them.
+//! Every registered model, as the suite fits it.
 
-use crate::case::{Case, case};
+use super::case::{Case, case};
+use crate::blobs::SMALL;
 
 const fn network(name: &'static str) -> Case {
     Case {
@@ -11,7 +12,7 @@ const fn network(name: &'static str) -> Case {
     }
 }
 
-pub(crate) const CASES: &[Case] = &[
+pub(crate) const BUILT_IN: &[Case] = &[
     case("baseline", &[], 5.0),
     case("ridge", &[], 0.6),
     case("pls", &[], 0.6),
@@ -60,3 +61,51 @@ pub(crate) const CASES: &[Case] = &[
         ..case("auto", &["budget_s=0"], 0.6)
     },
 ];
+
+/// Models of linfa and smartcore, where this build has both.
+pub(crate) const LIBRARIES: &[Case] = match cfg!(all(feature = "linfa", feature = "smartcore")) {
+    false => &[],
+    true => &[
+        case("linfa/linear", &[], 0.6),
+        case("linfa/pls", &[], 0.6),
+        // The descent ends where a sweep changes little.
+        Case {
+            order: Some(1e-3),
+            ..case("linfa/elastic-net", &["strength=0.01"], 0.9)
+        },
+        Case {
+            order: Some(1e-2),
+            ..case("linfa/svr", &[], 0.6)
+        },
+        // As many values as samples: the label of the nearest picture is predicted.
+        case("linfa/logistic", &["strength=100"], 1.5),
+        case("smartcore/ridge", &["strength=0.01"], 0.6),
+        Case {
+            order: Some(1e-2),
+            ..case("smartcore/lasso", &["strength=0.1"], 0.9)
+        },
+        // It needs at least as many samples as features.
+        Case {
+            least: 16,
+            order: Some(1e-2),
+            blob: SMALL,
+            ..case("smartcore/svr", &[], 1.0)
+        },
+        Case {
+            order: Some(1e-5),
+            ..case("smartcore/knn", &[], 1.0)
+        },
+        Case {
+            order: None,
+            ..case("smartcore/random-forest", &["trees=40", "share=0.1"], 1.5)
+        },
+        Case {
+            order: None,
+            ..case("smartcore/extra-trees", &["trees=40", "share=0.1"], 1.5)
+        },
+        Case {
+            order: None,
+            ..case("smartcore/gradient-boosting", &["trees=30"], 1.5)
+        },
+    ],
+};

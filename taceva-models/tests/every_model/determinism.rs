@@ -1,12 +1,15 @@
 //! What predictions do not depend on.
 
-use crate::blobs::recording;
-use crate::case::{CASES, bits, predict};
+use super::case::{bits, cases, predict};
 
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {
-    let (training, held, test) = (recording(80, 11), recording(30, 12), recording(70, 13));
-    for case in CASES.iter().filter(|case| !case.deeper) {
+    for case in cases().filter(|case| !case.deeper) {
+        let (training, held, test) = (
+            case.recording(80, 11),
+            case.recording(30, 12),
+            case.recording(70, 13),
+        );
         let with = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
             pool.build().expect("threads").install(|| {
@@ -23,8 +26,8 @@ fn any_number_of_threads_gives_the_same_bits() {
 
 #[test]
 fn a_sample_is_predicted_alone_as_among_others() {
-    let (training, test) = (recording(40, 14), recording(33, 15));
-    for case in CASES.iter().filter(|case| !case.deeper) {
+    for case in cases().filter(|case| !case.deeper) {
+        let (training, test) = (case.recording(40, 14), case.recording(33, 15));
         let regressor = case.fitted(&training, None).regressor;
         let together = predict(&regressor, &test.features);
         for (sample, expected) in together.chunks_exact(2).enumerate() {
@@ -36,10 +39,14 @@ fn a_sample_is_predicted_alone_as_among_others() {
 
 #[test]
 fn the_order_of_training_samples_does_not_matter_where_nothing_is_drawn() {
-    let (training, held, test) = (recording(80, 18), recording(30, 19), recording(40, 20));
-    let rows: Vec<usize> = (0..80).map(|row| (row * 7 + 3) % 80).collect();
-    let permuted = training.select(&rows);
-    for case in CASES {
+    for case in cases() {
+        let (training, held, test) = (
+            case.recording(80, 18),
+            case.recording(30, 19),
+            case.recording(40, 20),
+        );
+        let rows: Vec<usize> = (0..80).map(|row| (row * 7 + 3) % 80).collect();
+        let permuted = training.select(&rows);
         let Some(tolerance) = case.order else {
             continue;
         };

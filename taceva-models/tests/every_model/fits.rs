@@ -2,13 +2,16 @@
 
 use taceva_core::Features;
 
-use crate::blobs::{SHAPE, recording};
-use crate::case::{CASES, bits, predict, rms};
+use super::case::{bits, cases, predict, rms};
 
 #[test]
 fn a_blob_is_found_with_and_without_a_validation_part() {
-    let (training, held, test) = (recording(160, 1), recording(40, 2), recording(60, 3));
-    for case in CASES.iter().filter(|case| case.error.is_finite()) {
+    for case in cases().filter(|case| case.error.is_finite()) {
+        let (training, held, test) = (
+            case.recording(160, 1),
+            case.recording(40, 2),
+            case.recording(60, 3),
+        );
         for validation in [None, Some(&held)] {
             let fit = case.fitted(&training, validation);
             let found = predict(&fit.regressor, &test.features);
@@ -25,13 +28,13 @@ fn a_blob_is_found_with_and_without_a_validation_part() {
 
 #[test]
 fn a_constant_label_is_predicted_exactly_and_named() {
-    let mut training = recording(24, 1);
-    let second = training.labels.iter_mut().skip(1).step_by(2);
-    second.for_each(|label| *label = 0.1);
-    for case in CASES.iter().filter(|case| !case.deeper) {
+    for case in cases().filter(|case| !case.deeper) {
+        let mut training = case.recording(24, 1);
+        let second = training.labels.iter_mut().skip(1).step_by(2);
+        second.for_each(|label| *label = 0.1);
         for held in [None, Some(&training)] {
             let fit = case.fitted(&training, held);
-            let found = predict(&fit.regressor, &recording(5, 7).features);
+            let found = predict(&fit.regressor, &case.recording(5, 7).features);
             let exact = |value: &f64| value.to_bits() == 0.1_f64.to_bits();
             assert!(found.iter().skip(1).step_by(2).all(exact), "{}", case.name);
             assert!(!fit.scaling.is_constant(0) && fit.scaling.is_constant(1));
@@ -41,13 +44,14 @@ fn a_constant_label_is_predicted_exactly_and_named() {
 
 #[test]
 fn features_that_never_change_give_a_number() {
-    let mut training = recording(24, 1);
-    training.features = Features::new(SHAPE, vec![0.25; 24 * SHAPE.len()]).expect("whole");
-    let (least, most) = training.labels.iter().step_by(2).fold(
-        (f64::INFINITY, f64::NEG_INFINITY),
-        |(least, most), label| (least.min(*label), most.max(*label)),
-    );
-    for case in CASES.iter().filter(|case| case.error.is_finite()) {
+    for case in cases().filter(|case| case.error.is_finite()) {
+        let mut training = case.recording(24, 1);
+        training.features =
+            Features::new(case.blob.shape, vec![0.25; 24 * case.blob.shape.len()]).expect("whole");
+        let (least, most) = training.labels.iter().step_by(2).fold(
+            (f64::INFINITY, f64::NEG_INFINITY),
+            |(least, most), label| (least.min(*label), most.max(*label)),
+        );
         let fit = case.fitted(&training, None);
         let found = predict(&fit.regressor, &training.features)[0];
         assert!((least..=most).contains(&found), "{}: {found}", case.name);
@@ -56,11 +60,11 @@ fn features_that_never_change_give_a_number() {
 
 #[test]
 fn the_unit_of_labels_does_not_matter() {
-    let (training, test) = (recording(60, 16), recording(20, 17));
-    let mut larger = training.clone();
-    // A power of two changes no digit on the way.
-    larger.labels.iter_mut().for_each(|label| *label *= 1024.0);
-    for case in CASES.iter().filter(|case| !case.deeper) {
+    for case in cases().filter(|case| !case.deeper) {
+        let (training, test) = (case.recording(60, 16), case.recording(20, 17));
+        let mut larger = training.clone();
+        // A power of two changes no digit on the way.
+        larger.labels.iter_mut().for_each(|label| *label *= 1024.0);
         let small = predict(&case.fitted(&training, None).regressor, &test.features);
         let large = predict(&case.fitted(&larger, None).regressor, &test.features);
         let expected: Vec<f64> = small.iter().map(|value| value * 1024.0).collect();

@@ -3,8 +3,8 @@
 use taceva_core::Features;
 use taceva_models::Model;
 
+use super::case::{case_of, predict};
 use crate::blobs::{Recording, SHAPE, recording};
-use crate::case::{case_of, predict};
 
 #[test]
 fn deviations_of_a_gaussian_process_cover_its_errors() {

@@ -4,8 +4,8 @@ use taceva_core::{ErrorKind, Frame, SilentProgress};
 use taceva_models::{Model, ModelEstimator, ModelRegressor, ModelSettings, find};
 use taceva_needs::{Need, skip};
 
+use super::case::{case_of, predict, rms};
 use crate::blobs::{FRAME, numbers, recording};
-use crate::case::{case_of, predict, rms};
 
 const NETWORKS: [&str; 5] = ["cnn", "resnet10", "resnet18", "resnet34", "cnn-ensemble"];
 

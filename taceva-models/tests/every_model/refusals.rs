@@ -4,14 +4,14 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use taceva_core::{ErrorKind, FeatureShape, Features, Progress, Regressor};
 
-use crate::blobs::{Recording, SHAPE, recording};
-use crate::case::CASES;
+use super::case::cases;
+use crate::blobs::Recording;
 
 #[test]
 fn as_many_samples_as_are_needed_are_enough_and_one_less_is_refused() {
-    for case in CASES {
-        case.fitted(&recording(case.least, 7), None);
-        let said = case.refusal(&recording(case.least - 1, 7), None);
+    for case in cases() {
+        case.fitted(&case.recording(case.least, 7), None);
+        let said = case.refusal(&case.recording(case.least - 1, 7), None);
         let few = format!("{} training samples, ", case.least - 1);
         assert!(said.starts_with(&few), "{}: {said}", case.name);
     }
@@ -19,16 +19,16 @@ fn as_many_samples_as_are_needed_are_enough_and_one_less_is_refused() {
 
 #[test]
 fn numbers_that_are_not_finite_are_refused_where_they_stand() {
-    let clean = recording(24, 8);
-    let mut values = clean.features.values().to_vec();
-    values[SHAPE.len() * 3 + 2] = f32::NAN;
-    let broken = Recording {
-        features: Features::new(SHAPE, values).expect("whole"),
-        ..clean.clone()
-    };
-    let mut mislabelled = clean.clone();
-    mislabelled.labels[2 * 5 + 1] = f64::INFINITY;
-    for case in CASES {
+    for case in cases() {
+        let clean = case.recording(24, 8);
+        let mut values = clean.features.values().to_vec();
+        values[case.blob.shape.len() * 3 + 2] = f32::NAN;
+        let broken = Recording {
+            features: Features::new(case.blob.shape, values).expect("whole"),
+            ..clean.clone()
+        };
+        let mut mislabelled = clean.clone();
+        mislabelled.labels[2 * 5 + 1] = f64::INFINITY;
         let said = case.refusal(&broken, None);
         assert_eq!(
             said, "training sample 3: feature 2 is not finite",
@@ -52,14 +52,14 @@ fn numbers_that_are_not_finite_are_refused_where_they_stand() {
 
 #[test]
 fn parts_that_do_not_fit_each_other_are_refused() {
-    let training = recording(24, 9);
-    let mut other = recording(24, 9);
-    other.features = Features::new(FeatureShape::flat(20), vec![0.5; 480]).expect("whole");
-    for case in CASES {
+    for case in cases() {
+        let training = case.recording(24, 9);
+        let mut other = case.recording(24, 9);
+        other.features = Features::new(FeatureShape::flat(20), vec![0.5; 480]).expect("whole");
         let said = case.refusal(&training, Some(&other));
         let expected = format!(
             "validation samples of 20 features, training samples of {}",
-            SHAPE.len()
+            case.blob.shape.len()
         );
         assert_eq!(said, expected, "{}", case.name);
         let regressor = case.fitted(&training, None).regressor;
@@ -88,8 +88,8 @@ impl Progress for Cancel {
 
 #[test]
 fn a_cancelled_fit_stops_with_an_error() {
-    let training = recording(24, 25);
-    for case in CASES.iter().filter(|case| case.name != "baseline") {
+    for case in cases().filter(|case| case.name != "baseline") {
+        let training = case.recording(24, 25);
         for after in 0..2 {
             let progress = Cancel(after, AtomicUsize::new(0));
             let result = case.estimator().fit_model(&training.set(), None, &progress);

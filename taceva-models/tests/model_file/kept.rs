@@ -4,8 +4,8 @@ use taceva_core::{FeatureShape, Features, FrameInfo, Unit};
 use taceva_models::{FeatureError, FeatureKind, FeatureSpec, Model, ModelRegressor, NetworkCard};
 use taceva_network::ConvolutionForm;
 
-use crate::refused::with_card;
-use crate::{FRAME, SPEC, fit};
+use super::refused::with_card;
+use super::{FRAME, SPEC, fit};
 
 #[test]
 fn a_saved_model_comes_back_with_the_same_bits() {

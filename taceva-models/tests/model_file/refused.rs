@@ -4,7 +4,7 @@ use std::path::Path;
 
 use taceva_models::{FormatError, Model, ModelFileError, ModelRegressor};
 
-use crate::{SPEC, fit};
+use super::{SPEC, fit};
 
 #[test]
 fn a_path_that_cannot_be_is_named() {

@@ -9,8 +9,8 @@ use taceva_models::{
     find,
 };
 
-use crate::refused::with_card;
-use crate::{SPEC, fit};
+use super::refused::with_card;
+use super::{SPEC, fit};
 
 fn grid() -> SignalInfo {
     SignalInfo::new(3, 2, 2, Unit::Count).expect("twelve numbers")
@@ -162,16 +162,16 @@ fn frames_and_signals_are_not_taken_for_each_other() {
         error.to_string(),
         "signals of 3×2 places of 2 in count, expected a frame of 20×15 rgb8"
     );
-    assert!(of_taxels.extractor(crate::FRAME, None).is_err());
+    assert!(of_taxels.extractor(super::FRAME, None).is_err());
     let wide = SignalInfo::new(2, 3, 2, Unit::Count).expect("twelve numbers");
     assert!(of_taxels.extractor(wide, None).is_err());
     let settings = ModelSettings::default();
-    let both = FeatureSpec::DEFAULT.on(&settings, Some(crate::FRAME), Some(grid()));
+    let both = FeatureSpec::DEFAULT.on(&settings, Some(super::FRAME), Some(grid()));
     assert_eq!(both, Err(FeatureError::TwoInputs));
     let frame = ModelSettings::parse(["input=frame"]).expect("a pair");
-    let frame = FeatureSpec::DEFAULT.on(&frame, Some(crate::FRAME), Some(grid()));
+    let frame = FeatureSpec::DEFAULT.on(&frame, Some(super::FRAME), Some(grid()));
     assert_eq!(frame, Ok(FeatureSpec::DEFAULT));
     let signals = ModelSettings::parse(["input=signals"]).expect("a pair");
-    let none = FeatureSpec::DEFAULT.on(&signals, Some(crate::FRAME), None);
+    let none = FeatureSpec::DEFAULT.on(&signals, Some(super::FRAME), None);
     assert_eq!(none, Err(FeatureError::NoSignals));
 }

@@ -4,7 +4,7 @@ use taceva_network::{
     Architecture, Augmentation, Body, Jitter, Labels, Picture, PlainLayer, Pooling, Recipe, Samples,
 };
 
-use crate::common::singles;
+use crate::draws::singles;
 
 pub(crate) const PICTURE: Picture = Picture {
     height: 12,

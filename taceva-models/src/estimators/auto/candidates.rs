@@ -2,7 +2,7 @@
 
 use super::cost::{DEEPER, NETWORK, Sizes, seconds, work};
 use crate::estimators::library::LibraryModel;
-use crate::registry::ModelInfo;
+use crate::training::info::ModelInfo;
 
 /// The share of its training that a network is first looked at with.
 pub(super) const LOOK: f64 = 0.25;

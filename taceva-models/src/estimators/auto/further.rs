@@ -7,7 +7,7 @@ use super::card::{AutoCard, FOLDS};
 use super::entrant::Entrant;
 use super::race::{ALWAYS, Race};
 use super::standing::{BEYOND_CHANCE, CLEARLY};
-use crate::training::progress::interrupted;
+use crate::linalg::progress::interrupted;
 
 /// The share of its squared error that a network is granted to keep after the rest of its training.
 const GRANTED: f64 = 0.5;

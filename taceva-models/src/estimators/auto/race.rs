@@ -7,9 +7,9 @@ use super::card::{AutoCard, Untried};
 use super::entrant::Entrant;
 use super::validate::Folds;
 use crate::features::FeatureError;
-use crate::registry::ModelInfo;
+use crate::linalg::progress::{ReportedStage, interrupted};
 use crate::training::fit::ModelEstimator;
-use crate::training::progress::{ReportedStage, interrupted};
+use crate::training::info::ModelInfo;
 
 /// Models that are tried whatever the budget.
 pub(super) const ALWAYS: [&str; 2] = ["baseline", "ridge"];

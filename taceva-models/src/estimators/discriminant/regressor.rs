@@ -3,9 +3,9 @@
 use rayon::prelude::*;
 use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
 
-use crate::file::FormatError;
-use crate::file::tensors::{Raw, Tensors};
 use crate::linalg::Design;
+use crate::training::file::error::FormatError;
+use crate::training::file::tensors::{Raw, Tensors};
 use crate::training::output::{check_call, check_finite};
 
 /// The planes of one channel over raw features.

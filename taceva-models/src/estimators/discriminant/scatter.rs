@@ -5,8 +5,8 @@ use std::ops::Range;
 use faer::Mat;
 use taceva_core::{ModelError, Progress};
 
+use crate::linalg::progress::interrupted;
 use crate::linalg::{multiply, symmetric_eigen};
-use crate::training::progress::interrupted;
 
 /// Samples by blocks, standardised where they are: `[features, samples]` of a range.
 pub(super) type Blocks<'a> = dyn Fn(Range<usize>) -> Mat<f64> + Sync + 'a;

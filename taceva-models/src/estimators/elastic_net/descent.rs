@@ -3,7 +3,7 @@
 use taceva_core::{ModelError, Progress};
 
 use super::predictors::{Predictors, Residual, Target};
-use crate::training::progress::interrupted;
+use crate::linalg::progress::interrupted;
 
 /// The penalty on weights.
 #[derive(Clone, Copy, Debug)]

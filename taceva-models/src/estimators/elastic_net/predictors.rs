@@ -3,8 +3,8 @@
 use faer::Mat;
 use taceva_core::{ModelError, Progress};
 
+use crate::linalg::invalid;
 use crate::linalg::{Design, dot, feature_gram};
-use crate::training::problem::invalid;
 
 /// Features X of all samples, a column a feature.
 #[derive(Debug)]

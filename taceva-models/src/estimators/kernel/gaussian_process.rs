@@ -12,13 +12,13 @@ use super::uncertainty::Uncertainty;
 use super::{Kernel, Mapped};
 use crate::estimators::linear::LinearRegressor;
 use crate::features::FeatureSpec;
+use crate::linalg::progress::interrupted;
 use crate::linalg::{Design, FeatureScale, Spectrum};
-use crate::registry::ModelInfo;
 use crate::settings::{ModelSettings, SettingError};
 use crate::training::choice::{ChannelChoice, Choice, ChosenBy, rmse};
 use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
+use crate::training::info::ModelInfo;
 use crate::training::problem::{Problem, Validation, centred, joined, stacked};
-use crate::training::progress::interrupted;
 
 /// Gaussian process regression in Nyström's form, which also says how sure it is.
 ///

@@ -4,9 +4,9 @@ use rayon::prelude::*;
 use taceva_core::{Features, ModelError, Progress};
 
 use crate::linalg::distance::from_all;
+use crate::linalg::progress::{ReportedStage, interrupted};
 use crate::linalg::standard::Standard;
 use crate::linalg::{FeatureScale, dot};
-use crate::training::progress::{ReportedStage, interrupted};
 
 /// The length of the kernel by which landmarks are chosen.
 const LENGTH: f64 = 1.0;

@@ -6,9 +6,9 @@ use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
 use super::nystrom::Nystrom;
 use super::uncertainty::Uncertainty;
 use crate::estimators::linear::LinearRegressor;
-use crate::file::FormatError;
-use crate::file::tensors::{Raw, Tensors};
 use crate::linalg::standard::Standard;
+use crate::training::file::error::FormatError;
+use crate::training::file::tensors::{Raw, Tensors};
 use crate::training::output::{check_call, check_finite};
 
 /// A fitted kernel method.

@@ -6,11 +6,11 @@ use super::{Kernel, Mapped};
 use crate::estimators::linear::{LinearEstimator, LinearFit};
 use crate::estimators::ridge::Ridge;
 use crate::features::FeatureSpec;
-use crate::registry::ModelInfo;
+use crate::linalg::progress::interrupted;
 use crate::settings::{ModelSettings, SettingError};
 use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
+use crate::training::info::ModelInfo;
 use crate::training::problem::Problem;
-use crate::training::progress::interrupted;
 
 use super::regressor::KernelRegressor;
 

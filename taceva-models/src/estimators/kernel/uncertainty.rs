@@ -1,8 +1,8 @@
 //! How sure a Gaussian process is of a prediction.
 
-use crate::file::FormatError;
-use crate::file::tensors::{Raw, Tensors};
 use crate::linalg::dot;
+use crate::training::file::error::FormatError;
+use crate::training::file::tensors::{Raw, Tensors};
 
 /// The posterior of the weights, channel by channel.
 ///

@@ -6,8 +6,8 @@ use taceva_core::{Features, ModelError, Progress};
 use super::LibraryLearner;
 use super::fitted::Fitted;
 use super::task::{LibrarySizes, LibraryTask};
+use crate::linalg::progress::interrupted;
 use crate::linalg::standard::Standard;
-use crate::training::progress::interrupted;
 
 /// Fits `learner` on `features` and `labels`, a row a sample; `values` are those of the setting that is chosen, a channel each.
 pub(super) fn fit(

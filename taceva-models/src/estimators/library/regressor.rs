@@ -10,9 +10,9 @@ use super::card::LibraryCard;
 use super::fitted::Fitted;
 use super::task::{LibraryPredictor, LibrarySizes, LoadedPredictor};
 use super::tensor::LibraryTensors;
-use crate::file::FormatError;
-use crate::file::tensors::{Raw, Tensors};
 use crate::linalg::standard::Standard;
+use crate::training::file::error::FormatError;
+use crate::training::file::tensors::{Raw, Tensors};
 use crate::training::output::{OutputScale, check_call, check_finite};
 
 /// A fitted model of another library.

@@ -3,7 +3,7 @@
 use safetensors::tensor::Dtype;
 use taceva_core::{ErrorKind, ModelError};
 
-use crate::file::tensors::{Raw, Tensors};
+use crate::training::file::tensors::{Raw, Tensors};
 
 /// Before the names of tensors that are a library's parameters.
 const PREFIX: &str = "library.model.";

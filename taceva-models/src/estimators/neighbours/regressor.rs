@@ -4,10 +4,10 @@ use faer::Mat;
 use rayon::prelude::*;
 use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
 
-use crate::file::FormatError;
-use crate::file::tensors::{Raw, Tensors};
 use crate::linalg::distance::squared_distance;
 use crate::linalg::standard::Standard;
+use crate::training::file::error::FormatError;
+use crate::training::file::tensors::{Raw, Tensors};
 use crate::training::output::{OutputScale, check_call, check_finite};
 
 /// Training samples, their labels, and how many of the nearest each channel is the mean of.

@@ -8,11 +8,11 @@ pub use self::regressor::EnsembleRegressor;
 use self::regressor::MEMBERS_MOST;
 use super::NetworkEstimator;
 use crate::features::FeatureError;
-use crate::registry::ModelInfo;
+use crate::linalg::invalid;
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 use crate::training::choice::{Choice, errors};
 use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
-use crate::training::problem::invalid;
+use crate::training::info::ModelInfo;
 
 /// Small networks that are fitted to the same samples one after the other, each with a seed of its own, and whose predictions are averaged.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,15 +1,15 @@
 //! Networks before they are fitted: what can be set.
 
 use taceva_core::{FeatureShape, SignalInfo};
-use taceva_gpu::GpuKind;
+use taceva_network::GpuKind;
 use taceva_network::{Architecture, Augmentation, ConvolutionForm, Depth, Loss, Optimizer, Recipe};
 
 use super::appearance::Preparation;
 use super::regressor::picture;
 use super::{Checkpoints, Preprocessing};
 use crate::features::{Color, FeatureError, FeatureKinds, FeatureSpec};
-use crate::registry::ModelInfo;
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
+use crate::training::info::ModelInfo;
 
 /// A network to be fitted: AdamW, one cycle of the rate, Huber's loss on standardised labels, the epoch that does best on the
 /// validation part.

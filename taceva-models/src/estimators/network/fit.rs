@@ -1,15 +1,16 @@
 //! How a network is fitted: what is learnt from which samples, and what its card says of it.
 
 use taceva_core::{ModelError, Progress, SignalInfo, TrainingSet};
-use taceva_gpu::Gpu;
+use taceva_network::Gpu;
 use taceva_network::{Isa, LabelScale, Labels, Network, Samples, Trained};
 
 use super::training::{Training, no_gpu, refused};
 use super::{Checkpoints, NetworkCard, NetworkEstimator, NetworkRegressor};
 use crate::features::FeatureError;
+use crate::linalg::invalid;
 use crate::training::choice::{ChannelChoice, Choice, ChosenBy, errors};
 use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, NO_PICTURE, estimator};
-use crate::training::problem::{Problem, invalid};
+use crate::training::problem::Problem;
 
 /// The labels of a part whose channel is among `varying`.
 fn labels_of(set: &TrainingSet<'_>, varying: &[usize]) -> Vec<f64> {

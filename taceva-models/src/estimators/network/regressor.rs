@@ -7,7 +7,7 @@ use taceva_network::{NamedTensor, Network, Picture, Predictor};
 
 use super::NetworkCard;
 use super::training::refused;
-use crate::training::problem::invalid;
+use crate::linalg::invalid;
 
 /// A fitted network, from features to channels.
 #[derive(Debug)]

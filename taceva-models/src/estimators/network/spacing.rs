@@ -1,13 +1,13 @@
 //! The spacing of a grating, predicted by a network.
 
 use taceva_core::{FeatureShape, Features, ModelError, Nanometre, Progress};
-use taceva_gpu::Gpu;
+use taceva_network::Gpu;
 use taceva_network::{LabelScale, Labels, Loss, Network, Recipe, Samples, Trained};
 
 use super::Preprocessing;
 use super::estimator::NetworkEstimator;
 use super::training::{Training, no_gpu, refused};
-use crate::training::problem::invalid;
+use crate::linalg::invalid;
 
 /// What the outputs of a network say of a spacing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,12 +2,12 @@
 
 use taceva_core::shown;
 use taceva_core::{ErrorKind, ModelError, Progress};
-use taceva_gpu::{Gpu, GpuError};
 use taceva_network::{Architecture, NetworkError, Recipe, Samples, Trained, Trainer};
+use taceva_network::{Gpu, GpuError};
 
 use super::Checkpoints;
 use super::checkpoint::{Identity, Shelf};
-use crate::training::progress::{ReportedStage, interrupted};
+use crate::linalg::progress::{ReportedStage, interrupted};
 
 /// What a training is made of.
 pub(super) struct Training<'a> {

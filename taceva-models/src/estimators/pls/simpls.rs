@@ -3,8 +3,8 @@
 use faer::{Mat, MatRef};
 use taceva_core::{ModelError, Progress};
 
+use crate::linalg::progress::{ReportedStage, interrupted};
 use crate::linalg::{Design, multiply, symmetric_eigen};
-use crate::training::progress::{ReportedStage, interrupted};
 
 /// A part of the features' norm below which a direction is rounding, not data.
 const NOISE: f64 = 1e-10;

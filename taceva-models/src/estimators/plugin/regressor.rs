@@ -10,7 +10,7 @@ use taceva_core::{
 };
 
 use super::card::PluginCard;
-use crate::file::tensors::Raw;
+use crate::training::file::tensors::Raw;
 
 /// The tensor of a file that holds its maker's bytes.
 pub(crate) const TENSOR: &str = "plugin";

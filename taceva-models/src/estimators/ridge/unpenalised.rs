@@ -5,9 +5,9 @@ use taceva_core::{ModelError, Progress, TrainingSet};
 
 use super::{Ridge, STRENGTH};
 use crate::estimators::linear::{LinearFit, LinearRegressor};
+use crate::linalg::progress::interrupted;
 use crate::linalg::{Design, Wide, least_squares};
 use crate::training::problem::{Problem, Validation, centred};
-use crate::training::progress::interrupted;
 use crate::training::trials::{Trials, rows_of};
 
 impl Ridge {

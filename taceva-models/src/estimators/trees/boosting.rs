@@ -9,12 +9,12 @@ use super::forest::{draw, part, share};
 use super::grow::{Growth, Samples, Tree};
 use super::regressor::{Member, TreeRegressor};
 use crate::features::FeatureSpec;
-use crate::registry::ModelInfo;
+use crate::linalg::progress::{ReportedStage, interrupted};
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
+use crate::training::info::ModelInfo;
 use crate::training::output::OutputScale;
 use crate::training::problem::{Problem, centred};
-use crate::training::progress::{ReportedStage, interrupted};
 use crate::training::trials::{Trials, rows_of};
 
 /// Gradient boosting of squared errors: each tree is fitted to what those before it left, and a share of it is added.

@@ -9,13 +9,13 @@ use super::bins::Binned;
 use super::grow::{Growth, Samples};
 use super::regressor::{Member, TreeRegressor};
 use crate::features::FeatureSpec;
-use crate::registry::ModelInfo;
+use crate::linalg::progress::{ReportedStage, interrupted};
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 use crate::training::choice::Choice;
 use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
+use crate::training::info::ModelInfo;
 use crate::training::output::OutputScale;
 use crate::training::problem::{Problem, centred};
-use crate::training::progress::{ReportedStage, interrupted};
 use crate::training::trials::{Trials, rows_of};
 
 /// A random forest a channel: the mean of trees that each saw its own draw of the samples, and at each split its own draw of the features.

@@ -4,8 +4,8 @@ use rayon::prelude::*;
 use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
 
 use super::grow::Tree;
-use crate::file::FormatError;
-use crate::file::tensors::{Raw, Tensors};
+use crate::training::file::error::FormatError;
+use crate::training::file::tensors::{Raw, Tensors};
 use crate::training::output::{OutputScale, check_call, check_finite};
 
 /// Trees, each for one channel or for all.

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
-use taceva_gpu::GpuKind;
+use taceva_network::GpuKind;
 use taceva_network::{Architecture, Isa, Labels, Recipe, Samples, Summary};
 
 /// What identifies a training: everything that its result depends on.

@@ -3,8 +3,8 @@
 use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
 
 use super::super::{NetworkCard, NetworkRegressor};
-use crate::file::tensors::Raw;
-use crate::training::problem::invalid;
+use crate::linalg::invalid;
+use crate::training::file::tensors::Raw;
 
 /// The most members of an ensemble.
 pub(super) const MEMBERS_MOST: usize = 16;

@@ -9,8 +9,8 @@ use taceva_core::{ModelError, Progress};
 
 use super::{LeaveOut, rows};
 use crate::linalg::multiply;
+use crate::linalg::progress::{ReportedStage, interrupted};
 use crate::training::choice::Errors;
-use crate::training::progress::{ReportedStage, interrupted};
 
 /// What is computed once for the rows of one group, whatever the penalty.
 struct Group {

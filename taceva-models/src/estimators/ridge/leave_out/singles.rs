@@ -6,8 +6,8 @@ use taceva_core::{ModelError, Progress};
 
 use super::{LeaveOut, rows};
 use crate::linalg::multiply;
+use crate::linalg::progress::{ReportedStage, interrupted};
 use crate::training::choice::Errors;
-use crate::training::progress::{ReportedStage, interrupted};
 
 /// Samples a block.
 const BLOCK: usize = 256;

@@ -1,0 +1,40 @@
+//! A device by way of CUDA.
+
+use burn_cuda::Cuda;
+use cudarc::driver::result as driver;
+use cudarc::nvrtc;
+
+use super::Device;
+use crate::gpu::engine::begin;
+use crate::gpu::guard::contained_quietly;
+use crate::gpu::{GpuError, GpuKind};
+
+/// What is needed.
+const LOOKED_FOR: &str =
+    "NVIDIA's driver (libcuda), its compiler NVRTC (libnvrtc of CUDA 11 or later) and a GPU";
+
+/// The first device.
+pub(crate) fn find() -> Result<Device, GpuError> {
+    // A library that is not there makes cudarc panic, and it has no other way to ask.
+    let found = contained_quietly(|| {
+        let name = driver::init()
+            .and_then(|()| driver::device::get(0))
+            .and_then(driver::device::get_name)
+            .map_err(|error| format!("the driver says {error}"))?;
+        match nvrtc::compile_ptx("") {
+            Ok(_) => Ok(name),
+            Err(error) => Err(format!("NVRTC says {error}")),
+        }
+    });
+    let name = found
+        .and_then(|name| name)
+        .map_err(|found| GpuError::NotFound {
+            kind: GpuKind::Cuda,
+            looked_for: LOOKED_FOR,
+            found,
+        })?;
+    Ok(Device {
+        name,
+        begin: begin::<Cuda>,
+    })
+}

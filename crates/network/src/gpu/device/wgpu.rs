@@ -1,0 +1,72 @@
+//! A device by way of wgpu.
+
+use std::pin::pin;
+use std::sync::Mutex;
+use std::task::{Context, Poll, Waker};
+
+use burn_wgpu::graphics::{AutoGraphicsApi, GraphicsApi};
+use burn_wgpu::{Wgpu, WgpuDevice};
+use wgpu::{Backend, Instance, InstanceDescriptor, PowerPreference, RequestAdapterOptions};
+
+use super::Device;
+use crate::gpu::engine::begin;
+use crate::gpu::guard::contained;
+use crate::gpu::{GpuError, GpuKind};
+
+/// The name of the device that burn uses, once it was initialised, which may be done only once in a process.
+static READY: Mutex<Option<String>> = Mutex::new(None);
+
+/// The first device.
+pub(crate) fn find() -> Result<Device, GpuError> {
+    let backend = AutoGraphicsApi::backend();
+    let refuse = |found: String| GpuError::NotFound {
+        kind: GpuKind::Wgpu,
+        looked_for: looked_for(backend),
+        found,
+    };
+    let mut ready = READY
+        .lock()
+        .unwrap_or_else(std::sync::PoisonError::into_inner);
+    let name = match &*ready {
+        Some(name) => name.clone(),
+        None => {
+            let name = adapter(backend).map_err(refuse)?;
+            let device = WgpuDevice::DefaultDevice;
+            contained(|| burn_wgpu::init_setup::<AutoGraphicsApi>(&device, Default::default()))
+                .map_err(|problem| refuse(format!("{name} cannot be used: {problem}")))?;
+            ready.insert(name).clone()
+        }
+    };
+    Ok(Device {
+        name,
+        begin: begin::<Wgpu>,
+    })
+}
+
+const fn looked_for(backend: Backend) -> &'static str {
+    match backend {
+        Backend::Vulkan => "a driver of Vulkan (libvulkan and a file in vulkan/icd.d)",
+        Backend::Metal => "a device of Metal",
+        Backend::Dx12 => "a device of DirectX 12",
+        _ => "a graphics adapter",
+    }
+}
+
+/// The name of the adapter that burn would choose, or why there is none.
+fn adapter(backend: Backend) -> Result<String, String> {
+    let instance = Instance::new(InstanceDescriptor {
+        backends: backend.into(),
+        ..InstanceDescriptor::new_without_display_handle()
+    });
+    let options = RequestAdapterOptions {
+        power_preference: PowerPreference::HighPerformance,
+        ..RequestAdapterOptions::default()
+    };
+    let future = pin!(instance.request_adapter(&options));
+    // Outside of browsers the answer is there at once.
+    match future.poll(&mut Context::from_waker(Waker::noop())) {
+        Poll::Ready(Ok(adapter)) => Ok(adapter.get_info().name),
+        Poll::Ready(Err(error)) => Err(error.to_string()),
+        Poll::Pending => Err("the system did not answer".to_owned()),
+    }
+}

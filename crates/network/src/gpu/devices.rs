@@ -1,0 +1,25 @@
+//! The devices that tests find.
+
+/// Calls a function of a backend for each kind of GPU that is built in and at hand; skips, and says so, where none is.
+macro_rules! on_each {
+    ($check:ident) => {
+        for kind in crate::gpu::GpuKind::ALL {
+            if kind.check_built().is_err() {
+                continue;
+            }
+            match crate::gpu::Gpu::find(kind) {
+                Ok(_) => match kind {
+                    #[cfg(feature = "cuda")]
+                    crate::gpu::GpuKind::Cuda => $check::<burn_cuda::Cuda>(),
+                    #[cfg(feature = "wgpu")]
+                    crate::gpu::GpuKind::Wgpu => $check::<burn_wgpu::Wgpu>(),
+                    #[cfg(not(all(feature = "cuda", feature = "wgpu")))]
+                    _ => unreachable!("{kind} was not built"),
+                },
+                Err(reason) => taceva_needs::skip(taceva_needs::Need::Gpu, reason),
+            }
+        }
+    };
+}
+
+pub(crate) use on_each;

@@ -1,0 +1,131 @@
+//! Weights in and out: on a device a network is two long vectors, what it learns and its running moments, so that an optimiser's
+//! step is a few kernels however many layers there are.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use crate::{Architecture, NamedTensor, Network, NetworkError};
+use burn_tensor::backend::Backend;
+use burn_tensor::{Tensor, TensorData};
+
+/// Where each tensor of a network lies in the two vectors.
+#[derive(Clone, Debug)]
+pub(crate) struct Layout {
+    pub(crate) learnt: Vec<Slice>,
+    pub(crate) running: Vec<Slice>,
+}
+
+/// Where a tensor lies in its vector.
+#[derive(Clone, Debug)]
+pub(crate) struct Slice {
+    pub(crate) name: String,
+    pub(crate) shape: Vec<usize>,
+    pub(crate) range: Range<usize>,
+}
+
+/// The two vectors.
+#[derive(Clone, Debug)]
+pub(crate) struct Weights<B: Backend> {
+    pub(crate) learnt: Tensor<B, 1>,
+    pub(crate) running: Tensor<B, 1>,
+}
+
+impl Layout {
+    /// That of `tensors`, which are all of a network.
+    pub(crate) fn of(tensors: &[NamedTensor]) -> Layout {
+        let (mut learnt, mut running) = (Vec::new(), Vec::new());
+        for tensor in tensors {
+            let slices = if tensor.is_learnt() {
+                &mut learnt
+            } else {
+                &mut running
+            };
+            let start = slices.last().map_or(0, |last: &Slice| last.range.end);
+            slices.push(Slice {
+                name: tensor.name.clone(),
+                shape: tensor.shape.clone(),
+                range: start..start + tensor.values.len(),
+            });
+        }
+        Layout { learnt, running }
+    }
+
+    /// The position of each tensor among its kind, by name.
+    pub(crate) fn positions(&self) -> BTreeMap<&str, usize> {
+        let kinds = [&self.learnt, &self.running];
+        kinds
+            .into_iter()
+            .flat_map(|slices| slices.iter().enumerate())
+            .map(|(position, slice)| (slice.name.as_str(), position))
+            .collect()
+    }
+}
+
+impl Slice {
+    /// Its part of `vector`.
+    pub(crate) fn of<B: Backend>(&self, vector: &Tensor<B, 1>) -> Tensor<B, 1> {
+        vector.clone().slice([self.range.clone()])
+    }
+
+    fn named(&self, vector: &[f32]) -> NamedTensor {
+        NamedTensor {
+            name: self.name.clone(),
+            shape: self.shape.clone(),
+            values: vector[self.range.clone()].to_vec(),
+        }
+    }
+}
+
+impl<B: Backend> Weights<B> {
+    /// Those of a network whose tensors are `tensors`.
+    pub(crate) fn upload(tensors: &[NamedTensor], device: &B::Device) -> Weights<B> {
+        let (learnt, running): (Vec<&NamedTensor>, Vec<_>) =
+            tensors.iter().partition(|tensor| tensor.is_learnt());
+        Weights {
+            learnt: upload(learnt, device),
+            running: upload(running, device),
+        }
+    }
+
+    /// The network with these weights.
+    pub(crate) fn download(
+        &self,
+        layout: &Layout,
+        architecture: &Architecture,
+    ) -> Result<Network, NetworkError> {
+        let learnt = named(&layout.learnt, &self.learnt);
+        let running = named(&layout.running, &self.running);
+        Network::from_tensors(architecture, learnt.into_iter().chain(running))
+    }
+}
+
+/// The numbers of `tensors` one behind the other.
+pub(crate) fn upload<'a, B: Backend>(
+    tensors: impl IntoIterator<Item = &'a NamedTensor>,
+    device: &B::Device,
+) -> Tensor<B, 1> {
+    let tensors = tensors.into_iter();
+    vector(
+        tensors
+            .flat_map(|tensor| tensor.values.iter().copied())
+            .collect(),
+        device,
+    )
+}
+
+/// `values` on the device.
+pub(crate) fn vector<B: Backend>(values: Vec<f32>, device: &B::Device) -> Tensor<B, 1> {
+    let count = values.len();
+    Tensor::from_data(TensorData::new(values, [count]), device)
+}
+
+/// The tensors that lie in `vector`.
+pub(crate) fn named<B: Backend>(slices: &[Slice], vector: &Tensor<B, 1>) -> Vec<NamedTensor> {
+    let values = numbers(vector.clone());
+    slices.iter().map(|slice| slice.named(&values)).collect()
+}
+
+/// The numbers of `tensor`, once the device has them.
+pub(crate) fn numbers<B: Backend, const D: usize>(tensor: Tensor<B, D>) -> Vec<f32> {
+    tensor.into_data().iter::<f32>().collect()
+}

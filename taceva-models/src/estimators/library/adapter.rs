@@ -1,0 +1,155 @@
+//! An estimator of a library as a table: its entry in the registry, the numbers that can be set, and the call of the library.
+
+use taceva_core::{ModelError, TrainingSet};
+
+use crate::estimators::library::{
+    LibraryLearner, LibraryModel, LibraryPredictor, LibrarySettings, LibraryTask, LoadedPredictor,
+    library_estimator,
+};
+use crate::settings::{ModelSettings, SettingError, SettingInfo};
+use crate::training::fit::ModelEstimator;
+
+/// An estimator of a library.
+pub(crate) struct Adapter {
+    pub(crate) model: LibraryModel,
+    pub(crate) numbers: &'static [Number],
+    /// Whether labels are classes.
+    pub(crate) is_classifier: bool,
+    /// Refuses what the library cannot learn from.
+    pub(crate) check: fn(&TrainingSet<'_>) -> Result<(), ModelError>,
+    /// Fits the library's estimator with these numbers.
+    pub(crate) fit: fn(&Numbers<'_>, &LibraryTask<'_>) -> LoadedPredictor,
+}
+
+/// A number that can be set.
+pub(crate) struct Number {
+    pub(crate) info: SettingInfo,
+    /// The least and the greatest value.
+    pub(crate) range: [f64; 2],
+    pub(crate) is_whole: bool,
+    pub(crate) unset: Unset,
+}
+
+/// The value of a number that is not set.
+#[derive(Clone, Copy)]
+pub(crate) enum Unset {
+    /// This value.
+    Is(f64),
+    /// One of these, by error, for each channel: the plainest model last.
+    ChosenAmong(&'static [f64]),
+}
+
+/// The values of an adapter's numbers; `None` where one is chosen by error.
+pub(crate) struct Numbers<'a> {
+    adapter: &'a Adapter,
+    values: &'a [Option<f64>],
+}
+
+/// Every training set that has whole, finite samples.
+pub(crate) fn any(_: &TrainingSet<'_>) -> Result<(), ModelError> {
+    Ok(())
+}
+
+impl Adapter {
+    /// The estimator as `settings` ask for.
+    ///
+    /// # Errors
+    /// [`SettingError`] for an unknown key or a value out of range.
+    pub(crate) fn estimator(
+        &'static self,
+        settings: &ModelSettings,
+    ) -> Result<Box<dyn ModelEstimator>, SettingError> {
+        settings.check_keys(self.model.info.settings)?;
+        let common = LibrarySettings::from_settings(settings)?;
+        let values = self.numbers.iter().map(|number| number.of(settings));
+        Ok(library_estimator(Learner {
+            adapter: self,
+            settings: common,
+            values: values.collect::<Result<_, _>>()?,
+        }))
+    }
+}
+
+impl Number {
+    /// The value that `settings` give; `None` where it is chosen.
+    fn of(&self, settings: &ModelSettings) -> Result<Option<f64>, SettingError> {
+        let [least, greatest] = self.range;
+        let read = |text: &str| {
+            let value: f64 = match self.is_whole {
+                true => f64::from(text.parse::<u32>().ok()?),
+                false => text.parse().ok()?,
+            };
+            (least..=greatest).contains(&value).then_some(Some(value))
+        };
+        let default = match self.unset {
+            Unset::Is(value) => Some(value),
+            Unset::ChosenAmong(_) => None,
+        };
+        settings.value(&self.info, default, read)
+    }
+}
+
+impl Numbers<'_> {
+    /// The value of a number that is not chosen by error; of one that is, NaN.
+    pub(crate) fn real(&self, number: &Number) -> f64 {
+        let mut numbers = self.adapter.numbers.iter();
+        let place = numbers.position(|known| known.info.key == number.info.key);
+        let value = place.and_then(|place| self.values.get(place).copied().flatten());
+        value.unwrap_or(f64::NAN)
+    }
+
+    /// The value of a whole number.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "read as a whole number of 32 bits"
+    )]
+    #[cfg(feature = "smartcore")]
+    pub(crate) fn whole(&self, number: &Number) -> u32 {
+        self.real(number) as u32
+    }
+}
+
+/// An adapter with its settings.
+struct Learner {
+    adapter: &'static Adapter,
+    settings: LibrarySettings,
+    values: Vec<Option<f64>>,
+}
+
+impl LibraryLearner for Learner {
+    fn model(&self) -> &'static LibraryModel {
+        &self.adapter.model
+    }
+
+    fn settings(&self) -> LibrarySettings {
+        self.settings
+    }
+
+    fn candidates(&self) -> Option<(&'static str, Vec<f64>)> {
+        let mut numbers = self.adapter.numbers.iter().zip(&self.values);
+        numbers.find_map(|(number, set)| match number.unset {
+            Unset::Is(_) => None,
+            Unset::ChosenAmong(tried) => {
+                let values = set.map_or_else(|| tried.to_vec(), |value| vec![value]);
+                Some((number.info.key, values))
+            }
+        })
+    }
+
+    fn is_classifier(&self) -> bool {
+        self.adapter.is_classifier
+    }
+
+    fn check(&self, training: &TrainingSet<'_>) -> Result<(), ModelError> {
+        (self.adapter.check)(training)
+    }
+
+    fn fit(&self, task: &LibraryTask<'_>) -> Result<Box<dyn LibraryPredictor>, ModelError> {
+        let numbers = Numbers {
+            adapter: self.adapter,
+            values: &self.values,
+        };
+        (self.adapter.fit)(&numbers, task)
+    }
+}

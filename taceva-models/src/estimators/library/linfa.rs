@@ -1,0 +1,54 @@
+//! Models of linfa: each gives a checked task to the library and keeps what it fitted as tensors.
+
+mod elastic_net;
+mod linear;
+mod logistic;
+mod pls;
+mod svr;
+
+use ndarray::{Array1, Array2, ShapeBuilder as _};
+use taceva_core::{ErrorKind, ModelError};
+
+use crate::estimators::library::{LibraryModel, LibraryTask};
+
+/// The release that this was built with.
+const RELEASE: &str = "linfa 0.8.1";
+
+/// Every model, the plainest first.
+pub(crate) const ALL: &[&LibraryModel] = &[
+    &linear::ADAPTER.model,
+    &pls::ADAPTER.model,
+    &elastic_net::ADAPTER.model,
+    &svr::ADAPTER.model,
+    &logistic::ADAPTER.model,
+];
+
+/// `values` as a matrix of `rows` rows.
+fn matrix(values: &[f64], rows: usize) -> Result<Array2<f64>, ModelError> {
+    let columns = values.len() / rows.max(1);
+    Array2::from_shape_vec((rows, columns), values.to_vec()).map_err(|error| {
+        ModelError::new(ErrorKind::Internal, "a task of broken rows").because(error)
+    })
+}
+
+/// The rows of a task.
+fn records(task: &LibraryTask<'_>) -> Result<Array2<f64>, ModelError> {
+    matrix(task.rows, task.sizes.samples)
+}
+
+/// The rows of a task, kept column by column: for methods that go through features one by one.
+fn columns(task: &LibraryTask<'_>) -> Result<Array2<f64>, ModelError> {
+    let (samples, features) = (task.sizes.samples, task.sizes.features);
+    let by_column = (0..features).flat_map(|feature| {
+        let own = task.rows.iter().skip(feature);
+        own.step_by(features).copied()
+    });
+    Array2::from_shape_vec((samples, features).f(), by_column.collect()).map_err(|error| {
+        ModelError::new(ErrorKind::Internal, "a task of broken rows").because(error)
+    })
+}
+
+/// The labels of one target.
+fn labels(task: &LibraryTask<'_>, target: usize) -> Array1<f64> {
+    Array1::from_vec(task.target(target))
+}

@@ -1,0 +1,88 @@
+//! `linfa/linear`: least squares without a penalty.
+
+use linfa::Dataset;
+use linfa::traits::Fit;
+use linfa_linear::LinearRegression;
+use ndarray::Array1;
+use taceva_core::ModelError;
+
+use super::{RELEASE, labels, matrix};
+
+use crate::estimators::library::adapter::{Adapter, Numbers, any};
+use crate::estimators::library::guard::{guarded, interrupted};
+use crate::estimators::library::predictor::{Linear, Weighted};
+use crate::estimators::library::span::Span;
+use crate::estimators::library::{
+    LibraryModel, LibrarySettings, LibrarySizes, LibraryTask, LoadedPredictor,
+};
+use crate::training::info::ModelInfo;
+
+const NAME: &str = "linfa/linear";
+
+/// Ordinary least squares by Householder's decomposition, each target alone.
+///
+/// Where there are no more samples than features, or features depend on each other, the library is handed the samples in the coordinates
+/// of the space that they span, and the answer is the shortest of all solutions.
+pub(super) static ADAPTER: Adapter = Adapter {
+    model: LibraryModel {
+        info: ModelInfo::of_library(
+            NAME,
+            "linfa: least squares without a penalty; follows noise where samples are few",
+            &[LibrarySettings::SCALE, LibrarySettings::REFIT],
+            |settings| ADAPTER.estimator(settings),
+        ),
+        release: RELEASE,
+        work: |LibrarySizes {
+                   samples,
+                   features,
+                   targets,
+               }| {
+            let (small, large) = (samples.min(features) as f64, samples.max(features) as f64);
+            Some(2.0 * (4.0 + 8.0 * targets as f64) * small * small * large)
+        },
+        load: Linear::load,
+    },
+    numbers: &[],
+    is_classifier: false,
+    check: any,
+    fit,
+};
+
+/// The weights of one target.
+fn solved(rows: &[f64], labels: &Array1<f64>) -> Result<Vec<f64>, ModelError> {
+    let records = matrix(rows, labels.len())?;
+    let dataset = Dataset::new(records, labels.clone());
+    let fitted = guarded(NAME, || {
+        LinearRegression::new().with_intercept(false).fit(&dataset)
+    })?;
+    Ok(fitted.params().to_vec())
+}
+
+fn fit(_: &Numbers<'_>, task: &LibraryTask<'_>) -> LoadedPredictor {
+    let LibrarySizes {
+        samples,
+        features,
+        targets,
+    } = task.sizes;
+    let whole = || -> Result<Vec<Weighted>, ModelError> {
+        let one = |target: usize| {
+            interrupted(task.progress)?;
+            Ok((solved(task.rows, &labels(task, target))?, 0.0))
+        };
+        (0..targets).map(one).collect()
+    };
+    let spanned = || -> Result<Vec<Weighted>, ModelError> {
+        let span = Span::new(task.rows, features);
+        let one = |target: usize| {
+            interrupted(task.progress)?;
+            let weights = solved(&span.rows, &labels(task, target))?;
+            Ok(span.weights(&weights))
+        };
+        (0..targets).map(one).collect()
+    };
+    let weights = match samples > features {
+        true => whole().or_else(|_| spanned())?,
+        false => spanned()?,
+    };
+    Ok(Box::new(Linear::new(NAME, weights)?))
+}

@@ -1,0 +1,126 @@
+//! `linfa/logistic`: multinomial logistic regression, a classifier.
+
+use linfa::Dataset;
+use linfa::traits::Fit;
+use linfa_logistic::MultiLogisticRegression;
+use ndarray::Array1;
+use rayon::prelude::*;
+use taceva_core::{ErrorKind, ModelError, TrainingSet};
+
+use super::{RELEASE, records};
+
+use crate::estimators::library::adapter::{Adapter, Number, Numbers, Unset};
+use crate::estimators::library::guard::{guarded, interrupted};
+use crate::estimators::library::predictor::{Classes, Planes};
+use crate::estimators::library::{
+    LibraryModel, LibrarySettings, LibrarySizes, LibraryTask, LoadedPredictor,
+};
+use crate::settings::SettingInfo;
+use crate::training::info::ModelInfo;
+
+const NAME: &str = "linfa/logistic";
+
+/// Classes of a channel at most.
+const VALUES_MAX: usize = 256;
+
+const STRENGTH: Number = Number {
+    info: SettingInfo {
+        key: "strength",
+        accepts: "a number from 1e-6 to 1e6",
+        default: "chosen for each channel",
+        about: "the penalty on squared weights, beside the summed loss of all samples",
+    },
+    range: [1e-6, 1e6],
+    is_whole: false,
+    unset: Unset::ChosenAmong(&STRENGTHS),
+};
+
+/// From the weakest to the strongest.
+const STRENGTHS: [f64; 5] = [1e-1, 1.0, 1e1, 1e2, 1e3];
+
+/// Multinomial logistic regression with a penalty on squared weights, each target alone: a channel is predicted as one of the values that it
+/// takes in the training part, for boards, kinds, spacings and levels.
+pub(super) static ADAPTER: Adapter = Adapter {
+    model: LibraryModel {
+        info: ModelInfo::of_library(
+            NAME,
+            "linfa: logistic regression, which predicts one of the labels of the training part",
+            &[
+                LibrarySettings::SCALE,
+                STRENGTH.info,
+                LibrarySettings::REFIT,
+            ],
+            |settings| ADAPTER.estimator(settings),
+        ),
+        release: RELEASE,
+        work: |LibrarySizes {
+                   samples,
+                   features,
+                   targets,
+               }| {
+            // A hundred steps at six strengths; two products a step for each class, of which there are tens.
+            Some(6.0 * 100.0 * 2.0 * 40.0 * targets as f64 * samples as f64 * features as f64)
+        },
+        load: Planes::load,
+    },
+    numbers: &[STRENGTH],
+    is_classifier: true,
+    check,
+    fit,
+};
+
+/// Labels ascending, each once.
+fn levels(mut labels: Vec<f64>) -> Vec<f64> {
+    labels.sort_by(f64::total_cmp);
+    labels.dedup_by(|a, b| a.total_cmp(b).is_eq());
+    labels
+}
+
+/// The planes of one target, `strength` the penalty.
+fn planes(task: &LibraryTask<'_>, target: usize, strength: f64) -> Result<Classes, ModelError> {
+    let labels = task.target(target);
+    let known = levels(labels.clone());
+    let class = |label: &f64| known.partition_point(|level| level.total_cmp(label).is_lt());
+    let classes: Array1<usize> = labels.iter().map(class).collect();
+    let dataset = Dataset::new(records(task)?, classes);
+    let fitted = guarded(NAME, || {
+        MultiLogisticRegression::default()
+            .alpha(strength)
+            .fit(&dataset)
+    })?;
+    // `[features, classes]`, of the classes ascending.
+    let weights = fitted.params().t();
+    Ok(Classes {
+        labels: fitted.classes().iter().map(|&class| known[class]).collect(),
+        offsets: fitted.intercept().to_vec(),
+        weights: weights.iter().copied().collect(),
+    })
+}
+
+fn check(training: &TrainingSet<'_>) -> Result<(), ModelError> {
+    let channels = training.targets.channels.as_slice();
+    for (position, channel) in channels.iter().enumerate() {
+        let labels = training.targets.values.iter().skip(position);
+        let values = levels(labels.step_by(channels.len()).copied().collect()).len();
+        if values > VALUES_MAX {
+            return Err(ModelError::new(
+                ErrorKind::InvalidArgument,
+                format!(
+                    "`{channel}` takes {values} values in the training part, {NAME} has at most {VALUES_MAX} classes: for what \
+                     varies freely choose another model, such as linfa/elastic-net"
+                ),
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn fit(_: &Numbers<'_>, task: &LibraryTask<'_>) -> LoadedPredictor {
+    let one = |target: usize| {
+        interrupted(task.progress)?;
+        planes(task, target, task.values[target])
+    };
+    let targets = (0..task.sizes.targets).into_par_iter();
+    let targets: Vec<Classes> = targets.map(one).collect::<Result<_, ModelError>>()?;
+    Ok(Box::new(Planes::new(NAME, targets)?))
+}

@@ -1,0 +1,79 @@
+//! Predictions that are linear in the features.
+
+use taceva_core::ModelError;
+
+use crate::estimators::library::guard::finite;
+use crate::estimators::library::{LibraryPredictor, LibrarySizes, LibraryTensor, LibraryTensors};
+
+/// For each target a bias and a weight a feature.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Linear {
+    /// `[targets, features]`.
+    weights: Vec<f64>,
+    /// `[targets]`.
+    bias: Vec<f64>,
+}
+
+/// The weights of one target, and its bias.
+pub(crate) type Weighted = (Vec<f64>, f64);
+
+const BIAS: &str = "bias";
+const WEIGHTS: &str = "weights";
+
+impl Linear {
+    /// Of the weights and the bias of each target.
+    ///
+    /// # Errors
+    /// [`ModelError`] of kind `OutOfRange` if a number is not finite.
+    pub(crate) fn new(name: &str, targets: Vec<Weighted>) -> Result<Linear, ModelError> {
+        let (weights, bias): (Vec<Vec<f64>>, Vec<f64>) = targets.into_iter().unzip();
+        let weights = weights.concat();
+        finite(name, weights.iter().chain(&bias))?;
+        Ok(Linear { weights, bias })
+    }
+
+    /// That which a file keeps.
+    pub(crate) fn load(
+        tensors: &LibraryTensors,
+        sizes: LibrarySizes,
+    ) -> Result<Box<dyn LibraryPredictor>, ModelError> {
+        Ok(Box::new(Linear {
+            weights: tensors.doubles(WEIGHTS, &[sizes.targets, sizes.features])?,
+            bias: tensors.doubles(BIAS, &[sizes.targets])?,
+        }))
+    }
+}
+
+impl LibraryPredictor for Linear {
+    fn tensors(&self) -> Vec<LibraryTensor> {
+        let targets = self.bias.len();
+        let shape = vec![targets, self.weights.len() / targets.max(1)];
+        vec![
+            LibraryTensor::doubles(BIAS, vec![targets], self.bias.clone()),
+            LibraryTensor::doubles(WEIGHTS, shape, self.weights.clone()),
+        ]
+    }
+
+    fn predict(&self, sample: &[f32], into: &mut [f64]) -> Result<(), ModelError> {
+        let rows = self.weights.chunks_exact(sample.len().max(1));
+        for ((place, row), bias) in into.iter_mut().zip(rows).zip(&self.bias) {
+            *place = bias + dot(row, sample);
+        }
+        Ok(())
+    }
+}
+
+/// Eight partial sums, always in the same order.
+pub(super) fn dot(weights: &[f64], values: &[f32]) -> f64 {
+    let (weights, last_weights) = weights.as_chunks::<8>();
+    let (values, last_values) = values.as_chunks::<8>();
+    let mut sums = [0.0; 8];
+    for (weights, values) in weights.iter().zip(values) {
+        for ((sum, weight), &value) in sums.iter_mut().zip(weights).zip(values) {
+            *sum += weight * f64::from(value);
+        }
+    }
+    let last = last_weights.iter().zip(last_values);
+    let rest: f64 = last.map(|(weight, &value)| weight * f64::from(value)).sum();
+    sums.iter().sum::<f64>() + rest
+}

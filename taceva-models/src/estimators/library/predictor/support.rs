@@ -1,0 +1,133 @@
+//! Support vectors: sums of Gaussian kernels, of training samples that are kept.
+
+use taceva_core::ModelError;
+
+use super::damaged;
+
+use crate::estimators::library::guard::finite;
+use crate::estimators::library::{LibraryPredictor, LibrarySizes, LibraryTensor, LibraryTensors};
+
+/// Σ coefficient · exp(−rate ‖x − v‖²) + bias for each target, over the training samples that have a coefficient in any target.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Support {
+    rate: f64,
+    /// `[vectors, features]`.
+    vectors: Vec<f32>,
+    /// `[vectors, targets]`.
+    coefficients: Vec<f64>,
+    /// `[targets]`.
+    bias: Vec<f64>,
+}
+
+/// What a library found for one target.
+pub(crate) struct Machine {
+    /// A coefficient a training sample; 0 for one that is no support vector of the target.
+    pub(crate) coefficients: Vec<f64>,
+    pub(crate) bias: f64,
+}
+
+const BIAS: &str = "bias";
+const COEFFICIENTS: &str = "coefficients";
+const RATE: &str = "rate";
+const VECTORS: &str = "vectors";
+
+impl Support {
+    /// Of `rows`, `[samples, features]`, whose numbers are single-precision ones, and a machine a target.
+    ///
+    /// # Errors
+    /// [`ModelError`] of kind `OutOfRange` if a number is not finite.
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "the numbers are single-precision ones"
+    )]
+    pub(crate) fn new(
+        name: &str,
+        (rows, features): (&[f64], usize),
+        rate: f64,
+        machines: &[Machine],
+    ) -> Result<Support, ModelError> {
+        let (mut vectors, mut coefficients) = (Vec::new(), Vec::new());
+        for (sample, row) in rows.chunks_exact(features).enumerate() {
+            let own = machines.iter().map(|machine| machine.coefficients[sample]);
+            let own: Vec<f64> = own.collect();
+            if own
+                .iter()
+                .any(|coefficient| coefficient.abs() > 0.0 || coefficient.is_nan())
+            {
+                vectors.extend(row.iter().map(|value| *value as f32));
+                coefficients.extend(own);
+            }
+        }
+        let bias: Vec<f64> = machines.iter().map(|machine| machine.bias).collect();
+        finite(name, coefficients.iter().chain(&bias))?;
+        Ok(Support {
+            rate,
+            vectors,
+            coefficients,
+            bias,
+        })
+    }
+
+    /// That which a file keeps.
+    pub(crate) fn load(
+        tensors: &LibraryTensors,
+        sizes: LibrarySizes,
+    ) -> Result<Box<dyn LibraryPredictor>, ModelError> {
+        let vectors = tensors.rows(VECTORS)?;
+        let rate = tensors.doubles(RATE, &[1])?[0];
+        if rate < 0.0 {
+            return Err(damaged("the rate of a kernel is negative"));
+        }
+        Ok(Box::new(Support {
+            rate,
+            vectors: tensors.singles(VECTORS, &[vectors, sizes.features])?,
+            coefficients: tensors.doubles(COEFFICIENTS, &[vectors, sizes.targets])?,
+            bias: tensors.doubles(BIAS, &[sizes.targets])?,
+        }))
+    }
+}
+
+impl LibraryPredictor for Support {
+    fn tensors(&self) -> Vec<LibraryTensor> {
+        let targets = self.bias.len();
+        let vectors = self.coefficients.len() / targets.max(1);
+        let features = self.vectors.len() / vectors.max(1);
+        vec![
+            LibraryTensor::doubles(BIAS, vec![targets], self.bias.clone()),
+            LibraryTensor::doubles(
+                COEFFICIENTS,
+                vec![vectors, targets],
+                self.coefficients.clone(),
+            ),
+            LibraryTensor::doubles(RATE, vec![1], vec![self.rate]),
+            LibraryTensor::singles(VECTORS, vec![vectors, features], self.vectors.clone()),
+        ]
+    }
+
+    fn predict(&self, sample: &[f32], into: &mut [f64]) -> Result<(), ModelError> {
+        into.copy_from_slice(&self.bias);
+        let vectors = self.vectors.chunks_exact(sample.len().max(1));
+        for (vector, coefficients) in vectors.zip(self.coefficients.chunks_exact(into.len())) {
+            let kernel = (-self.rate * squared_distance(vector, sample)).exp();
+            for (place, coefficient) in into.iter_mut().zip(coefficients) {
+                *place += coefficient * kernel;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Eight partial sums, always in the same order.
+fn squared_distance(left: &[f32], right: &[f32]) -> f64 {
+    let (left, last_left) = left.as_chunks::<8>();
+    let (right, last_right) = right.as_chunks::<8>();
+    let mut sums = [0.0; 8];
+    let square = |left: f32, right: f32| (f64::from(left) - f64::from(right)).powi(2);
+    for (left, right) in left.iter().zip(right) {
+        for ((sum, &left), &right) in sums.iter_mut().zip(left).zip(right) {
+            *sum += square(left, right);
+        }
+    }
+    let rest = last_left.iter().zip(last_right);
+    sums.iter().sum::<f64>() + rest.map(|(&left, &right)| square(left, right)).sum::<f64>()
+}

@@ -1,0 +1,170 @@
+//! Trees whose leaves are added up.
+
+use taceva_core::ModelError;
+
+use super::damaged;
+
+use crate::estimators::library::guard::finite;
+use crate::estimators::library::{LibraryPredictor, LibrarySizes, LibraryTensor, LibraryTensors};
+
+/// For each target base + factor · Σ leaf, over its trees.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Trees {
+    /// `[targets]`.
+    base: Vec<f64>,
+    /// `[targets]`.
+    factor: Vec<f64>,
+    /// How many trees each target has, one target's after the other's.
+    counts: Vec<u32>,
+    trees: Vec<Tree>,
+}
+
+/// The nodes of a tree; the first is its root.
+pub(crate) type Tree = Vec<Node>;
+
+/// A comparison, or a leaf where `low` is 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Node {
+    pub(crate) feature: u32,
+    /// A feature of at most this goes on at `low`, any other at `high`.
+    pub(crate) threshold: f64,
+    /// Places of nodes in the tree, behind this one.
+    pub(crate) low: u32,
+    pub(crate) high: u32,
+    pub(crate) value: f64,
+}
+
+const BASE: &str = "base";
+const COUNTS: &str = "counts";
+const FACTOR: &str = "factor";
+const NODES: &str = "nodes";
+const PLACES: &str = "places";
+const SIZES: &str = "sizes";
+
+impl Trees {
+    /// Of (base, factor, trees) a target.
+    ///
+    /// # Errors
+    /// [`ModelError`] of kind `OutOfRange` if a number is not finite.
+    pub(crate) fn new(
+        name: &str,
+        targets: Vec<(f64, f64, Vec<Tree>)>,
+    ) -> Result<Trees, ModelError> {
+        let mut joined = Trees {
+            base: Vec::new(),
+            factor: Vec::new(),
+            counts: Vec::new(),
+            trees: Vec::new(),
+        };
+        for (base, factor, trees) in targets {
+            joined.base.push(base);
+            joined.factor.push(factor);
+            joined.counts.push(small(trees.len()));
+            joined.trees.extend(trees);
+        }
+        let nodes = joined.trees.iter().flatten();
+        finite(name, nodes.flat_map(|node| [&node.threshold, &node.value]))?;
+        finite(name, joined.base.iter().chain(&joined.factor))?;
+        Ok(joined)
+    }
+
+    /// Those which a file keeps.
+    pub(crate) fn load(
+        tensors: &LibraryTensors,
+        sizes: LibrarySizes,
+    ) -> Result<Box<dyn LibraryPredictor>, ModelError> {
+        let counts = tensors.integers(COUNTS, &[sizes.targets])?;
+        let lengths = tensors.integers(SIZES, &[tensors.rows(SIZES)?])?;
+        let total = tensors.rows(NODES)?;
+        let nodes = tensors.doubles(NODES, &[total, 2])?;
+        let places = tensors.integers(PLACES, &[total, 3])?;
+        let sum = |list: &[u32]| list.iter().map(|&one| u64::from(one)).sum::<u64>();
+        if sum(&counts) != lengths.len() as u64 || sum(&lengths) != total as u64 {
+            return Err(damaged("trees of other sizes than there are nodes"));
+        }
+        let mut rest = nodes
+            .as_chunks::<2>()
+            .0
+            .iter()
+            .zip(places.as_chunks::<3>().0);
+        let mut trees = Vec::with_capacity(lengths.len());
+        for length in lengths {
+            let own = rest.by_ref().take(length as usize);
+            let tree: Tree = own
+                .map(|(&[threshold, value], &[feature, low, high])| Node {
+                    feature,
+                    threshold,
+                    low,
+                    high,
+                    value,
+                })
+                .collect();
+            trees.push(checked(tree, sizes.features)?);
+        }
+        Ok(Box::new(Trees {
+            base: tensors.doubles(BASE, &[sizes.targets])?,
+            factor: tensors.doubles(FACTOR, &[sizes.targets])?,
+            counts,
+            trees,
+        }))
+    }
+}
+
+/// Refuses a tree that compares a feature which does not exist, or in which some node leads to no leaf.
+fn checked(tree: Tree, features: usize) -> Result<Tree, ModelError> {
+    let leads_on = |(place, node): (usize, &Node)| {
+        let behind = |child: u32| (place + 1..tree.len()).contains(&(child as usize));
+        let asks = behind(node.low) && behind(node.high) && (node.feature as usize) < features;
+        node.low == 0 || asks
+    };
+    if !tree.is_empty() && tree.iter().enumerate().all(leads_on) {
+        Ok(tree)
+    } else {
+        Err(damaged("a tree leads nowhere"))
+    }
+}
+
+/// The value of the leaf that `sample` comes to.
+fn leaf(tree: &Tree, sample: &[f32]) -> f64 {
+    let mut node = &tree[0];
+    while node.low > 0 {
+        let is_low = f64::from(sample[node.feature as usize]) <= node.threshold;
+        let next = if is_low { node.low } else { node.high };
+        node = &tree[next as usize];
+    }
+    node.value
+}
+
+/// A count that a file can keep.
+pub(crate) fn small(count: usize) -> u32 {
+    u32::try_from(count).expect("fewer than a file holds")
+}
+
+impl LibraryPredictor for Trees {
+    fn tensors(&self) -> Vec<LibraryTensor> {
+        let targets = self.base.len();
+        let sizes: Vec<u32> = self.trees.iter().map(|tree| small(tree.len())).collect();
+        let nodes = || self.trees.iter().flatten();
+        let numbers = nodes().flat_map(|node| [node.threshold, node.value]);
+        let places = nodes().flat_map(|node| [node.feature, node.low, node.high]);
+        let total = nodes().count();
+        vec![
+            LibraryTensor::doubles(BASE, vec![targets], self.base.clone()),
+            LibraryTensor::integers(COUNTS, vec![targets], self.counts.clone()),
+            LibraryTensor::doubles(FACTOR, vec![targets], self.factor.clone()),
+            LibraryTensor::doubles(NODES, vec![total, 2], numbers.collect()),
+            LibraryTensor::integers(PLACES, vec![total, 3], places.collect()),
+            LibraryTensor::integers(SIZES, vec![sizes.len()], sizes),
+        ]
+    }
+
+    fn predict(&self, sample: &[f32], into: &mut [f64]) -> Result<(), ModelError> {
+        let mut trees = self.trees.iter();
+        for (target, place) in into.iter_mut().enumerate() {
+            let own = trees.by_ref().take(self.counts[target] as usize);
+            let sum: f64 = own.map(|tree| leaf(tree, sample)).sum();
+            *place = self.base[target] + self.factor[target] * sum;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,45 @@
+//! Models of smartcore: each gives a checked task to the library and keeps what it fitted as tensors.
+
+mod boosting;
+mod forest;
+mod knn;
+mod lasso;
+mod ridge;
+mod svr;
+
+use smartcore::linalg::basic::matrix::DenseMatrix;
+use taceva_core::ModelError;
+
+use crate::estimators::library::guard::guarded;
+use crate::estimators::library::{LibraryModel, LibraryTask};
+
+/// The release that this was built with.
+const RELEASE: &str = "smartcore 0.7.0";
+
+/// Every model, the plainest first.
+pub(crate) const ALL: &[&LibraryModel] = &[
+    &ridge::ADAPTER.model,
+    &lasso::ADAPTER.model,
+    &svr::ADAPTER.model,
+    &knn::ADAPTER.model,
+    &forest::FOREST.model,
+    &forest::EXTRA_TREES.model,
+    &boosting::ADAPTER.model,
+];
+
+/// `values` as a matrix of `rows` rows, kept column by column, as the library reads it.
+fn matrix(name: &str, values: &[f64], rows: usize) -> Result<DenseMatrix<f64>, ModelError> {
+    let columns = values.len() / rows.max(1);
+    let by_column = (0..columns).flat_map(|column| {
+        let own = values.iter().skip(column);
+        own.step_by(columns).copied()
+    });
+    guarded(name, || {
+        DenseMatrix::new(rows, columns, by_column.collect(), true)
+    })
+}
+
+/// The rows of a task.
+fn records(name: &str, task: &LibraryTask<'_>) -> Result<DenseMatrix<f64>, ModelError> {
+    matrix(name, task.rows, task.sizes.samples)
+}

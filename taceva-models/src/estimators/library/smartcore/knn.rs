@@ -1,0 +1,188 @@
+//! `smartcore/knn`: the mean of the nearest training samples, which the library looks up.
+
+use smartcore::algorithm::neighbour::linear_search::LinearKNNSearch;
+use smartcore::metrics::distance::euclidian::Euclidian;
+use taceva_core::{ErrorKind, ModelError};
+
+use super::RELEASE;
+
+use crate::estimators::library::adapter::{Adapter, Number, Numbers, Unset, any};
+use crate::estimators::library::guard::guarded;
+use crate::estimators::library::predictor::damaged;
+use crate::estimators::library::{
+    LibraryModel, LibraryPredictor, LibrarySettings, LibrarySizes, LibraryTask, LibraryTensor,
+    LibraryTensors, LoadedPredictor,
+};
+use crate::settings::SettingInfo;
+use crate::training::info::ModelInfo;
+
+const NAME: &str = "smartcore/knn";
+
+const COUNT: Number = Number {
+    info: SettingInfo {
+        key: "neighbours",
+        accepts: "a whole number from 1 to 1000",
+        default: "chosen for each channel",
+        about: "how many of the nearest training samples a prediction is the mean of",
+    },
+    range: [1.0, 1000.0],
+    is_whole: true,
+    unset: Unset::ChosenAmong(&COUNTS),
+};
+
+/// From the fewest to the most: of equals the last is the smoothest.
+const COUNTS: [f64; 8] = [1.0, 2.0, 3.0, 4.0, 5.0, 8.0, 12.0, 20.0];
+
+/// Nearest neighbours by Euclidean distance, each weighted by 1 / distance; samples at no distance count alone.
+pub(super) static ADAPTER: Adapter = Adapter {
+    model: LibraryModel {
+        info: ModelInfo::of_library(
+            NAME,
+            "smartcore: the mean of the nearest training samples",
+            &[LibrarySettings::SCALE, COUNT.info, LibrarySettings::REFIT],
+            |settings| ADAPTER.estimator(settings),
+        ),
+        release: RELEASE,
+        work: |LibrarySizes {
+                   samples,
+                   features,
+                   targets,
+               }| {
+            let samples = samples as f64;
+            Some(9.0 * targets as f64 * samples * samples * features as f64)
+        },
+        load: Lookup::load,
+    },
+    numbers: &[COUNT],
+    is_classifier: false,
+    check: any,
+    fit,
+};
+
+/// Training samples that the library searches, and their labels.
+struct Lookup {
+    search: LinearKNNSearch<Vec<f64>, Euclidian<f64>>,
+    features: usize,
+    rows: Vec<f32>,
+    /// `[samples, targets]`.
+    labels: Vec<f64>,
+    /// `[targets]`.
+    counts: Vec<u32>,
+}
+
+const COUNTS_TENSOR: &str = "counts";
+const LABELS: &str = "labels";
+const ROWS: &str = "samples";
+
+impl Lookup {
+    fn new(
+        (rows, features): (Vec<f32>, usize),
+        labels: Vec<f64>,
+        counts: Vec<u32>,
+    ) -> Result<Lookup, ModelError> {
+        let samples = rows.chunks_exact(features);
+        let samples: Vec<Vec<f64>> = samples
+            .map(|row| row.iter().map(|&value| f64::from(value)).collect())
+            .collect();
+        let search = guarded(NAME, || LinearKNNSearch::new(samples, Euclidian::new()))?;
+        Ok(Lookup {
+            search,
+            features,
+            rows,
+            labels,
+            counts,
+        })
+    }
+
+    fn load(
+        tensors: &LibraryTensors,
+        sizes: LibrarySizes,
+    ) -> Result<Box<dyn LibraryPredictor>, ModelError> {
+        let samples = tensors.rows(ROWS)?;
+        let counts = tensors.integers(COUNTS_TENSOR, &[sizes.targets])?;
+        let is_met = |count: &u32| *count > 0 && *count as usize <= samples;
+        if !counts.iter().all(is_met) {
+            return Err(damaged("more neighbours than samples, or none"));
+        }
+        let rows = tensors.singles(ROWS, &[samples, sizes.features])?;
+        let labels = tensors.doubles(LABELS, &[samples, sizes.targets])?;
+        Ok(Box::new(Lookup::new(
+            (rows, sizes.features),
+            labels,
+            counts,
+        )?))
+    }
+}
+
+impl LibraryPredictor for Lookup {
+    fn tensors(&self) -> Vec<LibraryTensor> {
+        let targets = self.counts.len();
+        let samples = self.labels.len() / targets.max(1);
+        vec![
+            LibraryTensor::integers(COUNTS_TENSOR, vec![targets], self.counts.clone()),
+            LibraryTensor::doubles(LABELS, vec![samples, targets], self.labels.clone()),
+            LibraryTensor::singles(ROWS, vec![samples, self.features], self.rows.clone()),
+        ]
+    }
+
+    fn predict(&self, sample: &[f32], into: &mut [f64]) -> Result<(), ModelError> {
+        let asked: Vec<f64> = sample.iter().map(|&value| f64::from(value)).collect();
+        let targets = into.len();
+        let mut last: Option<(u32, Vec<(usize, f64)>)> = None;
+        for (target, place) in into.iter_mut().enumerate() {
+            let count = self.counts[target];
+            let near = match last.take() {
+                Some((known, near)) if known == count => near,
+                _ => self.nearest(&asked, count)?,
+            };
+            let (mut sum, mut total) = (0.0, 0.0);
+            for (sample, weight) in &near {
+                sum += weight * self.labels[sample * targets + target];
+                total += weight;
+            }
+            *place = sum / total;
+            last = Some((count, near));
+        }
+        Ok(())
+    }
+}
+
+impl Lookup {
+    /// The nearest samples with their weights, in the order of samples.
+    fn nearest(&self, asked: &Vec<f64>, count: u32) -> Result<Vec<(usize, f64)>, ModelError> {
+        let found = guarded(NAME, || self.search.find(asked, count as usize))?;
+        let mut near: Vec<(usize, f64)> = found
+            .into_iter()
+            .map(|(sample, distance, _)| (sample, distance))
+            .collect();
+        if near.is_empty() {
+            let why = format!("{NAME}: no training sample is at a finite distance");
+            return Err(ModelError::new(ErrorKind::OutOfRange, why));
+        }
+        near.sort_by_key(|(sample, _)| *sample);
+        let is_met = near.iter().any(|(_, distance)| *distance <= 0.0);
+        for (_, weight) in &mut near {
+            *weight = match is_met {
+                true => f64::from(u8::from(*weight <= 0.0)),
+                false => 1.0 / *weight,
+            };
+        }
+        Ok(near)
+    }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "whole numbers of neighbours, and rows that are single-precision numbers"
+)]
+fn fit(_: &Numbers<'_>, task: &LibraryTask<'_>) -> LoadedPredictor {
+    let rows = task.rows.iter().map(|&value| value as f32).collect();
+    let most = task.sizes.samples.min(1000) as f64;
+    let counts = task.values.iter().map(|value| value.min(most) as u32);
+    Ok(Box::new(Lookup::new(
+        (rows, task.sizes.features),
+        task.labels.to_vec(),
+        counts.collect(),
+    )?))
+}

@@ -1,0 +1,133 @@
+//! Samples in the coordinates of the space that they span, where there are no more of them than features.
+//!
+//! Least squares without a penalty (the shortest solution) and ridge regression do not change when features are rotated, and weights
+//! outside the space that samples span are 0. So a library that needs more samples than features gives the same answer from these
+//! coordinates, of which there are fewer than samples.
+
+use crate::estimators::library::predictor::Weighted;
+
+/// An orthonormal basis of the space that rows span about their mean, and the rows in it.
+pub(crate) struct Span {
+    /// The mean row, `[features]`.
+    centre: Vec<f64>,
+    /// `[dimensions, features]`.
+    basis: Vec<f64>,
+    features: usize,
+    /// `[samples, dimensions]`.
+    pub(crate) rows: Vec<f64>,
+}
+
+/// A row of which less is left once those before it are projected out, relative to the longest row, adds no direction.
+const TOLERANCE: f64 = 1e-10;
+
+impl Span {
+    /// That of `rows`, `[samples, features]`, by Gram–Schmidt with each projection done twice.
+    pub(crate) fn new(rows: &[f64], features: usize) -> Span {
+        // Rows of single-precision numbers are centred up to their rounding only, which would count as one dimension more.
+        let centre = mean(rows, features);
+        let rows: Vec<f64> = (rows.chunks_exact(features))
+            .flat_map(|row| {
+                row.iter()
+                    .zip(&centre)
+                    .map(|(value, centre)| value - centre)
+            })
+            .collect();
+        let mut basis: Vec<f64> = Vec::new();
+        let longest = rows.chunks_exact(features).map(norm).fold(0.0, f64::max);
+        for row in rows.chunks_exact(features) {
+            let mut left = row.to_vec();
+            for _ in 0..2 {
+                for direction in basis.chunks_exact(features) {
+                    let along = dot(&left, direction);
+                    let places = left.iter_mut().zip(direction);
+                    places.for_each(|(place, value)| *place -= along * value);
+                }
+            }
+            let length = norm(&left);
+            if length > TOLERANCE * longest {
+                basis.extend(left.iter().map(|value| value / length));
+            }
+        }
+        let coordinates = rows.chunks_exact(features).flat_map(|row| {
+            let directions = basis.chunks_exact(features);
+            directions
+                .map(|direction| dot(row, direction))
+                .collect::<Vec<_>>()
+        });
+        Span {
+            rows: coordinates.collect(),
+            centre,
+            features,
+            basis,
+        }
+    }
+
+    /// The weights of features and the bias that equal `weights` of coordinates.
+    pub(crate) fn weights(&self, weights: &[f64]) -> Weighted {
+        let mut of_features = vec![0.0; self.features];
+        for (weight, direction) in weights.iter().zip(self.basis.chunks_exact(self.features)) {
+            let places = of_features.iter_mut().zip(direction);
+            places.for_each(|(place, value)| *place += weight * value);
+        }
+        let bias = -dot(&of_features, &self.centre);
+        (of_features, bias)
+    }
+}
+
+/// The mean of `rows`.
+fn mean(rows: &[f64], features: usize) -> Vec<f64> {
+    let samples = (rows.len() / features) as f64;
+    let mut mean = vec![0.0; features];
+    for row in rows.chunks_exact(features) {
+        let places = mean.iter_mut().zip(row);
+        places.for_each(|(place, value)| *place += value / samples);
+    }
+    mean
+}
+
+/// Eight partial sums, always in the same order.
+fn dot(left: &[f64], right: &[f64]) -> f64 {
+    let (left, last_left) = left.as_chunks::<8>();
+    let (right, last_right) = right.as_chunks::<8>();
+    let mut sums = [0.0; 8];
+    for (left, right) in left.iter().zip(right) {
+        for ((sum, left), right) in sums.iter_mut().zip(left).zip(right) {
+            *sum += left * right;
+        }
+    }
+    let rest = last_left.iter().zip(last_right);
+    sums.iter().sum::<f64>() + rest.map(|(left, right)| left * right).sum::<f64>()
+}
+
+fn norm(values: &[f64]) -> f64 {
+    dot(values, values).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_keep_their_products_and_dependent_ones_add_no_dimension() {
+        // Four points of a plane.
+        let rows = [1.0, 2.0, -1.0, 0.5, 0.0, 3.0, 1.5, 2.0, 2.0, 0.0, 0.0, 0.0];
+        let span = Span::new(&rows, 3);
+        assert_eq!(span.rows.len(), 4 * 2);
+        let weights = [0.3, -0.7];
+        let (of_features, bias) = span.weights(&weights);
+        for (row, own) in rows.chunks_exact(3).zip(span.rows.chunks_exact(2)) {
+            // What coordinates say of a row is what the weights of features say of it.
+            let found = dot(row, &of_features) + bias;
+            assert!((found - dot(own, &weights)).abs() < 1e-12);
+        }
+        let centred = |row: usize| -> Vec<f64> {
+            let own = rows[row * 3..row * 3 + 3].iter().zip(&span.centre);
+            own.map(|(value, centre)| value - centre).collect()
+        };
+        for (one, other) in [(0, 0), (0, 1), (1, 2), (2, 3)] {
+            let expected = dot(&centred(one), &centred(other));
+            let own = |row: usize| &span.rows[row * 2..row * 2 + 2];
+            assert!((dot(own(one), own(other)) - expected).abs() < 1e-12);
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! What a model file is called by, and how large it may be.
+
+/// The version of the file format.
+pub(crate) const FORMAT: &str = "1.2";
+
+/// The key of the card in the metadata.
+pub(crate) const CARD: &str = "taceva.model";
+
+/// Longest header: a card is a few kilobytes.
+pub(crate) const HEADER_MAX: u64 = 1 << 20;
+
+/// Largest file: 1000 × 1000 RGB weights of ten channels are 240 MB.
+pub(crate) const FILE_MAX: u64 = 1 << 28;

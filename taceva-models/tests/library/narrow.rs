@@ -1,0 +1,22 @@
+//! Fewer samples than features are refused before the library sees them.
+
+use taceva_core::{ErrorKind, SilentProgress};
+
+use crate::every_model::case::case_of;
+
+#[test]
+fn fewer_samples_than_features_are_refused_with_the_reason() {
+    let case = case_of("smartcore/svr");
+    case.fitted(&case.recording(16, 7), None);
+    let training = case.recording(15, 7);
+    let fit = case
+        .estimator()
+        .fit_model(&training.set(), None, &SilentProgress);
+    let error = fit.expect_err("refused");
+    assert_eq!(error.kind(), ErrorKind::InvalidArgument);
+    assert_eq!(
+        error.to_string(),
+        "15 training samples, smartcore/svr needs at least as many as features, of which there are 16: smartcore 0.7.0 cuts each \
+         sample to as many numbers as there are samples; a smaller `size`, `pca` or linfa/svr would be accepted"
+    );
+}

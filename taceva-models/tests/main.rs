@@ -1,0 +1,16 @@
+//! Promises of models: fits, predictions, files, splits and choices.
+
+mod auto;
+mod blobs;
+mod checkpoints;
+mod every_model;
+#[cfg(all(feature = "linfa", feature = "smartcore"))]
+mod library;
+mod linear;
+mod linear_models;
+mod linear_recordings;
+mod model_file;
+mod plugin_models;
+mod sections;
+mod spacings;
+mod splits;
