@@ -4,7 +4,7 @@
 use crate::error::Problem;
 use crate::inflate::Wrapping;
 use crate::limits;
-use crate::packed::Packed;
+use crate::member_bytes::Packed;
 use crate::scalar::shown;
 use crate::source::{ByteSource, bytes_of};
 

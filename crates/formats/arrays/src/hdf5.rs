@@ -2,14 +2,14 @@
 
 mod attribute;
 mod element;
+mod element_type;
 mod heap;
 mod link;
 mod lookup3;
 mod soft_links;
 mod structures;
-mod walk;
-mod write;
-mod written_element;
+mod tree;
+mod writer;
 
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -18,9 +18,9 @@ use hdf5_pure::{
     ChunkCacheConfig, Dataset, DatasetAccessProperties, File, FormatError, Layout, Source,
 };
 
+use crate::cache::Cache;
 use crate::error::Problem;
 use crate::fields::{Field, Item};
-use crate::kept::Kept;
 use crate::limits;
 use crate::source::{ByteSource, FileBytes, bytes_of};
 use crate::store::{Arrays, Store, chunks_of};
@@ -29,8 +29,8 @@ use crate::values::ArrayData;
 use heap::GlobalHeap;
 use soft_links::{LONGEST_PATCH, Patches};
 
-pub use write::Hdf5Writer;
-pub use written_element::WrittenElement;
+pub use element_type::WrittenElement;
+pub use writer::Hdf5Writer;
 
 /// A file of HDF5.
 #[derive(Debug)]
@@ -44,7 +44,7 @@ pub(crate) struct Hdf5 {
     nowhere: Vec<(String, Problem)>,
     /// For each array that is listed, which dataset and which field of it.
     listed: Vec<(usize, usize)>,
-    open: Mutex<Kept<usize, Opened>>,
+    open: Mutex<Cache<usize, Opened>>,
     heap: GlobalHeap,
 }
 
@@ -75,7 +75,7 @@ impl Hdf5 {
                 patches,
             };
             let file = File::from_source(shared).map_err(problem)?;
-            Ok((walk::walk(&file)?, file))
+            Ok((tree::walk(&file)?, file))
         };
         let mut nowhere = Vec::new();
         let (found, file) = match open(Patches::new()) {
@@ -113,7 +113,7 @@ impl Hdf5 {
             refused: found.refused,
             nowhere,
             listed,
-            open: Mutex::new(Kept::new(limits::HELD_BYTES)),
+            open: Mutex::new(Cache::new(limits::HELD_BYTES)),
             file,
         })
     }

@@ -4,6 +4,7 @@
 mod archive;
 mod array_file;
 mod block;
+mod cache;
 mod codec;
 mod element;
 mod error;
@@ -12,14 +13,13 @@ mod format;
 #[cfg(feature = "hdf5")]
 mod hdf5;
 mod inflate;
-mod kept;
 mod limits;
 mod literal;
 mod matlab;
+mod member_bytes;
 mod npy;
 mod npz;
 mod order;
-mod packed;
 mod pattern;
 mod pickle;
 mod scalar;

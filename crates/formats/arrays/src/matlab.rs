@@ -3,9 +3,9 @@
 
 mod content;
 mod element;
-mod found;
 mod matrix;
 mod variable;
+mod variables;
 #[cfg(feature = "hdf5")]
 mod version_7_3;
 
@@ -16,14 +16,14 @@ use crate::element::ArrayInfo;
 use crate::error::Problem;
 use crate::inflate::{Inflater, Wrapping};
 use crate::limits;
-use crate::packed::{Budget, Packed, PackedBytes};
+use crate::member_bytes::{Budget, Packed, PackedBytes};
 use crate::source::{ByteSource, FileBytes, bytes_of};
 use crate::store::{Arrays, Store};
 use crate::values::ArrayData;
 
 use element::{Place, TYPE_COMPRESSED, TYPE_MATRIX};
-use found::Found;
 use variable::Variable;
+use variables::Found;
 
 /// The header: 116 bytes of text, 8 of an offset, the version, and the order of bytes.
 const HEADER_BYTES: u64 = 128;

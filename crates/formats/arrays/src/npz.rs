@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use crate::archive::members;
 use crate::error::Problem;
+use crate::member_bytes::{Budget, PackedBytes};
 use crate::npy::NpyArray;
-use crate::packed::{Budget, PackedBytes};
 use crate::scalar::shown;
 use crate::source::FileBytes;
 use crate::store::{Arrays, Store};

@@ -1,6 +1,6 @@
 //! How one element lies in a file, and how its bytes become values.
 
-mod decode;
+mod decoder;
 
 use crate::element::Element;
 use crate::error::Problem;

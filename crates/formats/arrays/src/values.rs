@@ -1,6 +1,6 @@
 //! What is read of an array.
 
-mod convert;
+mod conversion;
 
 /// Rows of an array: their shape, and the elements row by row (C order).
 ///

@@ -15,8 +15,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use serde_json::Value;
 
+use crate::cache::Cache;
 use crate::error::Problem;
-use crate::kept::Kept;
 use crate::limits;
 use crate::source::{ByteSource, FileBytes, bytes_of};
 use crate::store::{Arrays, Store, chunks_of};
@@ -29,7 +29,7 @@ use grid::Grid;
 const DEPTH: usize = 16;
 
 /// Chunks that were read, by the number of their array and their place in its grid.
-type Chunks = Kept<(usize, Vec<u64>), Vec<u8>>;
+type Chunks = Cache<(usize, Vec<u64>), Vec<u8>>;
 
 /// A folder of zarr.
 #[derive(Debug)]
@@ -67,7 +67,7 @@ impl Zarr {
             listed: Vec::new(),
             attributes: Vec::new(),
             refused: Vec::new(),
-            chunks: Mutex::new(Kept::new(limits::HELD_BYTES)),
+            chunks: Mutex::new(Cache::new(limits::HELD_BYTES)),
         };
         zarr.visit(folder, "", 0)?;
         if zarr.groups.is_empty() && zarr.arrays.is_empty() && zarr.refused.is_empty() {

@@ -1,14 +1,14 @@
 //! Folders of LeRobot.
 
-mod described;
 mod episodes;
 mod feature;
 mod files;
 mod info;
+mod metadata;
 mod pattern;
 mod stats;
 mod video;
-mod write;
+mod writer;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -27,7 +27,7 @@ pub use self::feature::WrittenFeature;
 pub use self::info::Feature;
 pub use self::stats::FeatureStats;
 pub use self::video::VideoFrames;
-pub use self::write::LeRobotWriter;
+pub use self::writer::LeRobotWriter;
 
 /// A dataset of LeRobot, version 2.1 or 3.0: the rows of all its data files, one after another.
 ///

@@ -3,6 +3,7 @@
 
 mod bytes;
 mod cell;
+mod codec;
 mod error;
 mod lerobot;
 mod limits;
@@ -13,7 +14,6 @@ mod ros;
 mod rows;
 mod snappy;
 mod source;
-mod unpack;
 
 pub use cell::Cell;
 pub use error::{Place, TableError};

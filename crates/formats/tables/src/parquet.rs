@@ -1,37 +1,37 @@
 //! Tables in Parquet files.
 
 mod arrow_schema;
-mod assemble;
+mod assembly;
 mod cells;
+mod column_path;
+mod column_writer;
 mod kind;
 mod leaf;
 mod levels;
 mod page_header;
 mod pages;
-mod part;
+mod row_range;
 mod schema;
-mod select;
 mod stream;
 mod values;
-mod write;
-mod written;
+mod writer;
 
 use std::path::Path;
 
 use parquet::file::metadata::{ParquetMetaData, ParquetMetaDataReader, RowGroupMetaData};
 
-use self::assemble::Assembly;
+use self::assembly::Assembly;
 use self::cells::Cells;
+use self::column_path::Found;
 use self::schema::Node;
-use self::select::Found;
 use crate::cell::Cell;
 use crate::error::{Place, TableError};
 use crate::limits;
 use crate::source::Source;
 
+pub use self::column_writer::{WrittenColumn, WrittenKind, huggingface_features};
 pub use self::kind::ColumnKind;
-pub use self::write::ParquetWriter;
-pub use self::written::{WrittenColumn, WrittenKind, huggingface_features};
+pub use self::writer::ParquetWriter;
 
 /// Rows that are decoded at once.
 const ROWS_AT_ONCE: usize = 256;
@@ -112,7 +112,7 @@ impl ParquetTable {
 
     /// The columns in the order of the schema; of a structure the members, as `pose.x`.
     pub fn names(&self) -> Vec<String> {
-        select::names(&self.columns)
+        column_path::names(&self.columns)
     }
 
     /// What a writer put beside the table under `key`, such as `huggingface`, where the names of classes stand in JSON.

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use parquet::column::writer::ColumnWriter;
 use parquet::data_type::ByteArray;
 use recordings::damage::peak_bytes;
-use recordings::written::parquet_file;
+use recordings::parquet_file::parquet_file;
 use taceva_tables::{Cell, Mcap, ParquetTable, TableError};
 
 /// Writes `bytes` into a folder that lasts as long as what is returned.

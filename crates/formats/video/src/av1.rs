@@ -5,14 +5,14 @@
 //! the memory that such frames take; elsewhere it is merely another process).
 
 #[cfg(feature = "av1")]
-mod confine;
+mod child;
 mod parent;
 #[cfg(feature = "av1")]
 mod rav1d;
 #[cfg(feature = "av1")]
-mod serve;
+mod sandbox;
 mod wire;
 
-pub(crate) use parent::{Av1Clip, DECODER};
 #[cfg(feature = "av1")]
-pub use serve::{ServeError, serve};
+pub use child::{ServeError, serve};
+pub(crate) use parent::{Av1Clip, DECODER};

@@ -5,11 +5,11 @@
 //! format of the codec, of which luma is cut out here. The clip is its standard input, which it reads as a file: no name is shown to it, and
 //! it may open nothing but files.
 
+mod command;
 mod format;
-mod look;
+mod log;
 mod picture;
-mod run;
-mod said;
+mod probe;
 
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -20,10 +20,10 @@ use crate::error::VideoError;
 use crate::limits;
 use crate::process::{Piece, Running, blocks_of};
 
+use command::{bound_memory, check_end, command, not_started, note_fault};
 use format::Layout;
-use look::Look;
 use picture::{RawFrame, Refused};
-use run::{bound_memory, check_end, command, not_started, note_fault};
+use probe::Look;
 
 /// A clip that ffmpeg decodes.
 #[derive(Debug)]

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use crate::clip::Picture;
 use crate::error::VideoError;
-use crate::reorder::Reorder;
+use crate::presentation_order::Reorder;
 use crate::source::Source;
 
 /// What decodes samples one after the other, in the order in which they lie.

@@ -12,10 +12,9 @@ mod jpeg;
 mod limits;
 mod matroska;
 mod mp4;
-mod open;
 mod packets;
+mod presentation_order;
 mod process;
-mod reorder;
 mod source;
 mod video;
 

@@ -1,5 +1,7 @@
 //! A clip, whatever container and codec it has.
 
+mod decoder_choice;
+
 use std::cell::Cell;
 use std::ffi::OsString;
 use std::ops::ControlFlow;
@@ -10,7 +12,6 @@ use crate::clip::{Colours, Picture, VideoInfo};
 use crate::error::{VideoError, VisitError};
 use crate::ffmpeg::{ForeignClip, Known};
 use crate::h264::{H264Clip, Refusal};
-use crate::open;
 use crate::packets::JpegClip;
 
 /// Programs that decode the codecs which this process does not.
@@ -78,7 +79,7 @@ impl Video {
     /// # Errors
     /// [`VideoError`]: what is wrong with the file, or [`VideoError::NoDecoder`] if nothing at hand decodes its codec.
     pub fn open(path: &Path, decoders: &Decoders) -> Result<Video, VideoError> {
-        let (info, frames) = open::open(path, decoders)?;
+        let (info, frames) = decoder_choice::open(path, decoders)?;
         Ok(Video {
             info,
             path: path.to_owned(),

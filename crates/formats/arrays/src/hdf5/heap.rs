@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use crate::cache::Cache;
 use crate::error::Problem;
-use crate::kept::Kept;
 use crate::limits;
 use crate::source::{FileBytes, bytes_of};
 use crate::values::ArrayValues;
@@ -18,7 +18,7 @@ pub(crate) struct GlobalHeap {
     base: u64,
     offset_bytes: usize,
     length_bytes: usize,
-    collections: Mutex<Kept<u64, Collection>>,
+    collections: Mutex<Cache<u64, Collection>>,
 }
 
 /// Objects that were written together.
@@ -41,7 +41,7 @@ impl GlobalHeap {
             base,
             offset_bytes: usize::from(offset_bytes),
             length_bytes: usize::from(length_bytes),
-            collections: Mutex::new(Kept::new(limits::HELD_BYTES)),
+            collections: Mutex::new(Cache::new(limits::HELD_BYTES)),
         }
     }
 

@@ -1,7 +1,7 @@
 //! The structures of a written file of HDF5, as bytes: superblock 2, object headers 2, and the messages in them.
 
+use super::element_type::WrittenElement;
 use super::lookup3::lookup3;
-use super::written_element::WrittenElement;
 
 /// Bytes of the superblock, behind which the first array begins.
 pub(super) const SUPERBLOCK_BYTES: usize = 48;
@@ -63,7 +63,7 @@ impl Heap {
 }
 
 /// The message of an attribute that is a text of `bytes` bytes, the object of that number in the heap at `heap`.
-pub(super) fn attribute(key: &str, bytes: usize, (heap, object): (u64, u16)) -> (u8, Vec<u8>) {
+pub(super) fn attribute(key: &str, bytes: usize, heap: u64, object: u16) -> (u8, Vec<u8>) {
     // A text of any length in UTF-8: a length, and where it lies; of bytes.
     let mut kind = vec![0x19, 0x01, 0x01, 0, 16, 0, 0, 0];
     kind.extend(WrittenElement::U8.message());

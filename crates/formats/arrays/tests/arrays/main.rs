@@ -4,12 +4,12 @@ mod damage;
 mod digest;
 #[cfg(feature = "hdf5")]
 mod hdf5;
+#[cfg(feature = "hdf5")]
+mod hdf5_writer;
 mod matlab;
 mod peers;
 mod pickle;
 mod recordings;
 mod refusals;
 mod threads;
-#[cfg(feature = "hdf5")]
-mod written;
 mod zarr;

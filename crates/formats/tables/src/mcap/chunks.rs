@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use super::record::{self, HEAD, code};
 use crate::bytes::Bytes;
+use crate::codec::{Codec, unpack};
 use crate::error::{Place, TableError};
 use crate::limits;
 use crate::source::Source;
-use crate::unpack::{Codec, unpack};
 
 /// Unpacked chunks that are kept: writers with several threads let the times of neighbours overlap.
 const KEPT: usize = 2;

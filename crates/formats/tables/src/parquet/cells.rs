@@ -2,8 +2,8 @@
 
 use parquet::file::metadata::RowGroupMetaData;
 
-use super::assemble::Assembly;
-use super::select::Found;
+use super::assembly::Assembly;
+use super::column_path::Found;
 use super::stream::Stream;
 use crate::cell::Cell;
 use crate::error::TableError;

@@ -16,10 +16,10 @@ use parquet::file::metadata::ColumnChunkMetaData;
 
 use super::page_header::{PageHeader, PageKind, read_header};
 use super::values::{ValueSize, encoding, level_encoding};
+use crate::codec::{Codec, unpack};
 use crate::error::{Place, TableError};
 use crate::limits;
 use crate::source::Source;
-use crate::unpack::{Codec, unpack};
 
 /// The pages of one chunk, in the order of the file.
 pub(super) struct Pages {

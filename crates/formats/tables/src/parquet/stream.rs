@@ -13,10 +13,10 @@ use parquet::file::metadata::ColumnChunkMetaData;
 use super::levels::Levels;
 use super::page_header::{PageHeader, PageKind};
 use super::pages::Pages;
+use crate::codec::{self, Codec};
 use crate::error::{Place, TableError};
 use crate::limits;
 use crate::source::Source;
-use crate::unpack::{self, Codec};
 
 /// The encodings that are read here, by the numbers of the format.
 const PLAIN: i32 = 0;
@@ -201,7 +201,7 @@ fn body(codec: Codec, file: BufReader<File>, packed: u32, unpacked: u32) -> Resu
             )),
         };
     }
-    Ok(Body::Unpacked(unpack::stream(
+    Ok(Body::Unpacked(codec::stream(
         codec,
         file.take(packed.into()),
         unpacked,

@@ -3,7 +3,7 @@
 #![allow(dead_code, reason = "each test program uses a part")]
 
 pub(crate) mod damage;
-pub(crate) mod written;
+pub(crate) mod parquet_file;
 
 use std::path::PathBuf;
 

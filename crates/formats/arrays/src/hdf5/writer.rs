@@ -8,10 +8,10 @@ use std::fs::File;
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
+use super::element_type::WrittenElement;
 use super::structures::{
     Heap, NOWHERE, SUPERBLOCK_BYTES, attribute, contiguous, dataspace, header, link, superblock,
 };
-use super::written_element::WrittenElement;
 use crate::error::{ArrayError, Problem};
 
 /// The longest text of an attribute, bytes.
@@ -163,7 +163,7 @@ impl Hdf5Writer {
         let mut heap = Heap::default();
         let mut texts = |attributes: &[(String, String)]| -> Vec<(u8, Vec<u8>)> {
             let each = attributes.iter();
-            each.map(|(key, text)| attribute(key, text.len(), (heap_at, heap.add(text))))
+            each.map(|(key, text)| attribute(key, text.len(), heap_at, heap.add(text)))
                 .collect()
         };
         let of_arrays: Vec<Vec<(u8, Vec<u8>)>> = arrays

@@ -113,7 +113,7 @@ mod tests {
         let Some(folder) = std::env::var_os(CONFINED) else {
             let folder = tempfile::tempdir().expect("a folder");
             let mut this = Command::new(std::env::current_exe().expect("a program"));
-            let name = "av1::confine::tests::a_confined_process_opens_nothing_starts_nothing_and_has_no_more_memory";
+            let name = "av1::sandbox::tests::a_confined_process_opens_nothing_starts_nothing_and_has_no_more_memory";
             let output = this
                 .args(["--exact", name, "--nocapture"])
                 .env(CONFINED, folder.path())

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde_json::json;
 
-use super::write::{Episode, FILES_A_CHUNK};
+use super::writer::{Episode, FILES_A_CHUNK};
 use crate::cell::Cell;
 use crate::error::TableError;
 use crate::parquet::{ParquetWriter, WrittenColumn, WrittenKind};

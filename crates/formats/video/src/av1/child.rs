@@ -2,8 +2,8 @@
 
 use std::io::{self, Read, Write};
 
-use super::confine::confine;
 use super::rav1d::{Decoder, Refused};
+use super::sandbox::confine;
 use super::wire::{Answer, Greeting, Unit, plane_bytes};
 
 /// Why a child ended before its parent did.

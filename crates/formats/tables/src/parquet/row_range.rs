@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use super::assemble::Assembly;
-use super::select::Found;
+use super::assembly::Assembly;
+use super::column_path::Found;
 use super::{ParquetTable, ROWS_AT_ONCE, rows_of};
 use crate::cell::Cell;
 use crate::error::TableError;

@@ -1,10 +1,8 @@
 //! AVI files with Motion JPEG: packets as they came, and indices that must agree with them.
 
-mod support;
-
 use std::path::{Path, PathBuf};
 
-use support::{bytes, damage, digests, expected, path, sha256};
+use crate::support::{bytes, damage, digests, expected, path, sha256};
 use taceva_video::{Colours, Decoders, Picture, Video, VideoError};
 
 const CLIPS: [&str; 3] = ["ball_1.avi", "cube_1.avi", "cube_2.avi"];

@@ -1,8 +1,6 @@
 //! Columns of times that pyarrow writes, of every type and unit: seconds by what the file says of them, digit by digit.
 
-mod recordings;
-
-use recordings::{expected, recording};
+use crate::recordings::{expected, recording};
 use taceva_tables::{Cell, ColumnKind, ParquetTable};
 
 fn table(name: &str) -> ParquetTable {

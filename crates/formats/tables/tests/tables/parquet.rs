@@ -1,8 +1,6 @@
 //! Parquet files that pyarrow and Hugging Face's datasets wrote: every value and every picture as those libraries read them back.
 
-mod recordings;
-
-use recordings::{at, expected, number, picture_digest, recording};
+use crate::recordings::{at, expected, number, picture_digest, recording};
 use taceva_tables::{Cell, ParquetTable, TableError};
 
 const THREE: [u64; 3] = [0, 7, 23];

@@ -1,12 +1,9 @@
 //! AV1 by a confined child: the luma that libdav1d decodes, and a child that dies is an error that names the clip.
-#![cfg(feature = "av1")]
-
-mod support;
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-use support::{bytes, damage, digests, expected, path};
+use crate::support::{bytes, damage, digests, expected, path};
 use taceva_needs::{Need, skip};
 use taceva_video::{Colours, Decoders, Video, VideoError};
 

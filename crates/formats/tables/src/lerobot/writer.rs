@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Map, Value, json};
 
-use super::described::{describe_episodes, describe_tasks};
 use super::feature::WrittenFeature;
+use super::metadata::{describe_episodes, describe_tasks};
 use super::stats::FeatureStats;
 use crate::cell::Cell;
 use crate::error::TableError;

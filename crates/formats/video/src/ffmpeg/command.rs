@@ -5,7 +5,7 @@ use std::fs::File;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use super::said::Said;
+use super::log::Said;
 use crate::error::VideoError;
 use crate::limits;
 use crate::process::{Ended, Running};

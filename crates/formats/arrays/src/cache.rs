@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 /// Values by key, of which those are dropped first that nobody asked for longest.
 #[derive(Debug)]
-pub(crate) struct Kept<K, T> {
+pub(crate) struct Cache<K, T> {
     most_bytes: u64,
     bytes: u64,
     turn: u64,
@@ -14,9 +14,9 @@ pub(crate) struct Kept<K, T> {
     by_turn: BTreeMap<u64, K>,
 }
 
-impl<K: Ord + Clone, T> Kept<K, T> {
-    pub(crate) fn new(most_bytes: u64) -> Kept<K, T> {
-        Kept {
+impl<K: Ord + Clone, T> Cache<K, T> {
+    pub(crate) fn new(most_bytes: u64) -> Cache<K, T> {
+        Cache {
             most_bytes,
             bytes: 0,
             turn: 0,
@@ -61,7 +61,7 @@ mod tests {
 
     #[test]
     fn the_one_that_nobody_asked_for_longest_is_dropped_first() {
-        let mut kept = Kept::new(10);
+        let mut kept = Cache::new(10);
         kept.keep('a', 4, Arc::new(1));
         kept.keep('b', 4, Arc::new(2));
         assert_eq!(kept.get(&'a').as_deref(), Some(&1));

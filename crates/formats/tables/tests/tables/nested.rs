@@ -1,8 +1,6 @@
 //! Columns of every type and nesting that pyarrow writes, in its encodings, as pyarrow reads them back.
 
-mod recordings;
-
-use recordings::{at, expected, recording};
+use crate::recordings::{at, expected, recording};
 use serde_json::Value;
 use taceva_tables::{Cell, ColumnKind, ParquetTable, TableError};
 

@@ -12,7 +12,7 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 
-use super::written::{WrittenColumn, write_column};
+use super::column_writer::{WrittenColumn, write_column};
 use crate::cell::Cell;
 use crate::error::TableError;
 

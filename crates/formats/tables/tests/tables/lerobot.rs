@@ -1,10 +1,8 @@
 //! Folders of LeRobot: those that its own package wrote, and drawn ones by its documented layout.
 
-mod recordings;
-
 use std::path::Path;
 
-use recordings::{expected, number, recording};
+use crate::recordings::{expected, number, recording};
 use taceva_tables::{Cell, LeRobot, TableError};
 
 const KEY: &str = "observation.images.tactile";
@@ -193,7 +191,7 @@ fn files_of_data_and_of_videos_are_cut_at_different_places() {
 /// A copy of `name` in which `change` did something.
 fn changed(name: &str, change: impl FnOnce(&Path)) -> Result<LeRobot, TableError> {
     let folder = tempfile::tempdir().expect("a folder");
-    recordings::damage::copy(&recording(name), folder.path());
+    crate::recordings::damage::copy(&recording(name), folder.path());
     change(folder.path());
     LeRobot::open(folder.path())
 }

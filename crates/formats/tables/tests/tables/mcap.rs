@@ -1,8 +1,6 @@
 //! MCAP files that the libraries of Foxglove wrote: every message as those libraries read it back.
 
-mod recordings;
-
-use recordings::{at, digest, expected, number, picture_digest, recording};
+use crate::recordings::{at, digest, expected, number, picture_digest, recording};
 use serde_json::Value;
 use taceva_tables::{Cell, Mcap, McapTable, Picture, SampleForm, TableError};
 

@@ -74,7 +74,8 @@ impl Scalar {
             all: &mut Vec<T>,
             raw: &[u8],
             is_big_endian: bool,
-            (little, big): (impl Fn([u8; N]) -> T, impl Fn([u8; N]) -> T),
+            little: impl Fn([u8; N]) -> T,
+            big: impl Fn([u8; N]) -> T,
         ) {
             let (raw, _) = raw.as_chunks::<N>();
             if is_big_endian {
@@ -88,23 +89,19 @@ impl Scalar {
             ArrayValues::Bool(all) => all.extend(raw.iter().map(|byte| *byte != 0)),
             ArrayValues::U8(all) => all.extend_from_slice(raw),
             ArrayValues::I8(all) => all.extend(raw.iter().map(|byte| byte.cast_signed())),
-            ArrayValues::U16(all) => each(all, raw, big, (u16::from_le_bytes, u16::from_be_bytes)),
-            ArrayValues::U32(all) => each(all, raw, big, (u32::from_le_bytes, u32::from_be_bytes)),
-            ArrayValues::U64(all) => each(all, raw, big, (u64::from_le_bytes, u64::from_be_bytes)),
-            ArrayValues::I16(all) => each(all, raw, big, (i16::from_le_bytes, i16::from_be_bytes)),
-            ArrayValues::I32(all) => each(all, raw, big, (i32::from_le_bytes, i32::from_be_bytes)),
-            ArrayValues::I64(all) => each(all, raw, big, (i64::from_le_bytes, i64::from_be_bytes)),
+            ArrayValues::U16(all) => each(all, raw, big, u16::from_le_bytes, u16::from_be_bytes),
+            ArrayValues::U32(all) => each(all, raw, big, u32::from_le_bytes, u32::from_be_bytes),
+            ArrayValues::U64(all) => each(all, raw, big, u64::from_le_bytes, u64::from_be_bytes),
+            ArrayValues::I16(all) => each(all, raw, big, i16::from_le_bytes, i16::from_be_bytes),
+            ArrayValues::I32(all) => each(all, raw, big, i32::from_le_bytes, i32::from_be_bytes),
+            ArrayValues::I64(all) => each(all, raw, big, i64::from_le_bytes, i64::from_be_bytes),
             ArrayValues::F32(all) if self.bytes == 2 => {
                 let little = |bytes| widened(u16::from_le_bytes(bytes));
-                each(
-                    all,
-                    raw,
-                    big,
-                    (little, |bytes| widened(u16::from_be_bytes(bytes))),
-                );
+                let large = |bytes| widened(u16::from_be_bytes(bytes));
+                each(all, raw, big, little, large);
             }
-            ArrayValues::F32(all) => each(all, raw, big, (f32::from_le_bytes, f32::from_be_bytes)),
-            ArrayValues::F64(all) => each(all, raw, big, (f64::from_le_bytes, f64::from_be_bytes)),
+            ArrayValues::F32(all) => each(all, raw, big, f32::from_le_bytes, f32::from_be_bytes),
+            ArrayValues::F64(all) => each(all, raw, big, f64::from_le_bytes, f64::from_be_bytes),
             // Whoever lists references reads what they refer to from its heap.
             ArrayValues::Text(_) | ArrayValues::Bytes(_) => {
                 return Err(Problem::unsupported(

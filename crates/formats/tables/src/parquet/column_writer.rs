@@ -207,7 +207,7 @@ pub(super) fn write_column<W: Write + Send>(
                     .iter()
                     .map(|cell| 2 * i16::from(inside(cell).is_some()));
                 let values = cells.iter().filter_map(inside).collect();
-                write::<ByteArrayType, W>(group, values, (levels.collect(), None))?;
+                write::<ByteArrayType, W>(group, values, levels.collect(), None)?;
             }
             Ok(())
         }
@@ -222,7 +222,7 @@ fn write_leaf<T: DataType, W: Write + Send>(
 ) -> Result<(), ParquetError> {
     let levels = cells.iter().map(|cell| i16::from(value(cell).is_some()));
     let values = cells.iter().filter_map(value).collect();
-    write::<T, W>(group, values, (levels.collect(), None))
+    write::<T, W>(group, values, levels.collect(), None)
 }
 
 /// A list a row: definition 0 is no list, 1 an empty one, 2 a place without a value, 3 a value; repetition 1 is all but the first of a list.
@@ -250,13 +250,14 @@ fn write_lists<T: DataType, W: Write + Send>(
             values.extend(found);
         }
     }
-    write::<T, W>(group, values, (definitions, Some(repetitions)))
+    write::<T, W>(group, values, definitions, Some(repetitions))
 }
 
 fn write<T: DataType, W: Write + Send>(
     group: &mut SerializedRowGroupWriter<'_, W>,
     values: Vec<T::T>,
-    (definitions, repetitions): (Vec<i16>, Option<Vec<i16>>),
+    definitions: Vec<i16>,
+    repetitions: Option<Vec<i16>>,
 ) -> Result<(), ParquetError> {
     let mut column = group
         .next_column()?

@@ -1,9 +1,7 @@
 //! Lists as older writers have them: without a group of their own, without a name for their kind, or with the one that Hive gave.
 
-mod recordings;
-
+use crate::recordings::parquet_file::parquet_file;
 use parquet::column::writer::ColumnWriter;
-use recordings::written::parquet_file;
 use taceva_tables::ParquetTable;
 
 /// A column of integers by its schema, the levels of its entries, and the texts of its rows.

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::{Decoders, Frames};
 use crate::av1::{self, Av1Clip};
 use crate::avi::{self, Avi};
 use crate::clip::VideoInfo;
@@ -12,12 +13,11 @@ use crate::matroska;
 use crate::mp4::{self, Coding, Found, Track};
 use crate::packets::{self, JpegClip, Packet};
 use crate::source::Source;
-use crate::video::{Decoders, Frames};
 
 type Opened = (VideoInfo, Frames);
 
 /// Finds out what lies at `path`, and who decodes it.
-pub(crate) fn open(path: &Path, decoders: &Decoders) -> Result<Opened, VideoError> {
+pub(super) fn open(path: &Path, decoders: &Decoders) -> Result<Opened, VideoError> {
     let source = Source::open(path)?;
     let mut start = [0; 16];
     let known = usize::try_from(source.length()).map_or(16, |length| length.min(16));

@@ -1,13 +1,10 @@
 //! What an external ffmpeg decodes: luma cut out of raw frames is that of the peer, and damage is an error.
 
-mod made;
-#[path = "../support/mod.rs"]
-mod support;
-
+mod odd_clips;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use support::{bytes, damage, digests, expected, path};
+use crate::support::{bytes, damage, digests, expected, path};
 use taceva_needs::{Need, skip};
 use taceva_video::{Colours, Decoders, Picture, Video, VideoError};
 

@@ -1,10 +1,8 @@
 //! MP4 files with H.264: the luma that libavcodec decodes, in the order of presentation.
 
-mod support;
-
 use std::convert::Infallible;
 
-use support::{bytes, damage, digests, expected, path};
+use crate::support::{bytes, damage, digests, expected, path};
 use taceva_video::{Colours, Decoders, Video, VideoError};
 
 const CLIPS: [&str; 3] = ["mp4-h264-high-b", "mp4-h264-baseline", "lerobot-v3-h264"];

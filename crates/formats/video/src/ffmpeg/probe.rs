@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::Known;
-use super::run::{bound_memory, check_end, command, not_started, note_fault};
-use super::said::{self, Said, value};
+use super::command::{bound_memory, check_end, command, not_started, note_fault};
+use super::log::{self, Said, value};
 use crate::colour::YuvCoding;
 use crate::error::VideoError;
 use crate::limits;
@@ -65,7 +65,7 @@ impl Look {
                     .map(|(over, under)| over / under);
             } else if self.colours.is_none() {
                 self.colours = value(shown, "color_space:").map(|matrix| YuvCoding {
-                    matrix: said::matrix(matrix),
+                    matrix: log::matrix(matrix),
                     is_full_range: value(shown, "color_range:") == Some("pc"),
                 });
             }

@@ -1,0 +1,12 @@
+//! Files that other libraries wrote, and files that this crate writes: every value as those libraries read it back.
+
+#[path = "../recordings/mod.rs"]
+mod recordings;
+
+mod lerobot;
+mod mcap;
+mod nested;
+mod older_lists;
+mod parquet;
+mod times;
+mod writers;

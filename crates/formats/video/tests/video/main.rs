@@ -1,0 +1,8 @@
+//! Clips of every container: frames as a peer decodes them, and damaged copies.
+
+#[cfg(feature = "av1")]
+mod av1;
+mod avi;
+mod ffmpeg;
+mod mp4;
+mod support;
