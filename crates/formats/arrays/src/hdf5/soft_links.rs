@@ -112,7 +112,7 @@ impl Found<'_> {
                     let children = children[8..].chunks_exact(16);
                     nodes.extend(children.map(|child| (number(child), level + 1)));
                 }
-                b"SNOD" => self.node(address, used, (&names, path), depth)?,
+                b"SNOD" => self.node(address, used, &names, path, depth)?,
                 _ => {}
             }
         }
@@ -123,7 +123,8 @@ impl Found<'_> {
         &mut self,
         address: u64,
         used: u64,
-        (names, path): (&[u8], &str),
+        names: &[u8],
+        path: &str,
         depth: usize,
     ) -> Result<(), Problem> {
         let entries = self.bytes(address.saturating_add(8), used * ENTRY as u64)?;

@@ -115,7 +115,7 @@ impl ZarrArray {
             bytes + 4
         };
         for codec in self.codecs.iter().rev() {
-            chunk = codec.undo(chunk, most, (&self.chunk, self.item.bytes))?;
+            chunk = codec.undo(chunk, most, &self.chunk, self.item.bytes)?;
         }
         if chunk.len() != bytes {
             return Err(Problem::damaged(

@@ -45,7 +45,8 @@ impl Codec {
         &self,
         chunk: Vec<u8>,
         most: usize,
-        (sides, item_bytes): (&[u64], usize),
+        sides: &[u64],
+        item_bytes: usize,
     ) -> Result<Vec<u8>, Problem> {
         match self {
             Codec::Transposed(order) => c_order(&chunk, sides, order, item_bytes),

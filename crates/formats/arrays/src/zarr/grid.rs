@@ -126,7 +126,7 @@ impl Grid {
             strides
         };
         let (into, from) = (strides(&self.shape), strides(&self.chunk));
-        block(raw, chunk, &parts, (&into, &from), self.item_bytes);
+        block(raw, chunk, &parts, &into, &from, self.item_bytes);
     }
 }
 
@@ -135,7 +135,8 @@ fn block(
     raw: &mut [u8],
     chunk: &[u8],
     parts: &[(usize, usize, usize)],
-    strides: (&[usize], &[usize]),
+    into_strides: &[usize],
+    from_strides: &[usize],
     item_bytes: usize,
 ) {
     match parts {
@@ -146,15 +147,15 @@ fn block(
             raw[into..into + bytes].copy_from_slice(&chunk[from..from + bytes]);
         }
         [(into, from, count), rest @ ..] => {
-            let (into_stride, from_stride) = (strides.0[0], strides.1[0]);
             for step in 0..*count {
-                let raw = &mut raw[(into + step) * into_stride..];
-                let chunk = &chunk[(from + step) * from_stride..];
+                let raw = &mut raw[(into + step) * into_strides[0]..];
+                let chunk = &chunk[(from + step) * from_strides[0]..];
                 block(
                     raw,
                     chunk,
                     rest,
-                    (&strides.0[1..], &strides.1[1..]),
+                    &into_strides[1..],
+                    &from_strides[1..],
                     item_bytes,
                 );
             }
