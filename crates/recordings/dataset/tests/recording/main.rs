@@ -1,7 +1,7 @@
 //! A recording survives being killed, and says what it kept.
 
 mod killed;
-#[path = "../lab/mod.rs"]
+#[path = "../../../import/tests/lab/mod.rs"]
 mod lab;
 mod packs;
 mod reduced;
