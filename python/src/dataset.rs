@@ -6,7 +6,8 @@ use std::path::PathBuf;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyCapsule};
 use taceva_core::FrameInfo;
-use taceva_dataset::{Dataset, ExportForm, ExportPlan, Pass};
+use taceva_dataset::{Dataset, Pass};
+use taceva_import::{ExportForm, ExportPlan};
 use taceva_models::Models;
 use taceva_study::{CheckRequest, Divided, Subject};
 

@@ -6,9 +6,9 @@ use std::path::PathBuf;
 use pyo3::prelude::*;
 use taceva_core::{Clock, Frame, FrameInfo, PixelFormat, Progress, Readings, Sample, Stamp};
 use taceva_dataset::{
-    DatasetError, Decoders, Footprint, ImportMap, ImportPlan, Recorder, RecordingFacts,
-    RecordingSpec, SensorFacts, Source, settle,
+    DatasetError, Footprint, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source, settle,
 };
+use taceva_import::{Decoders, ImportMap, ImportPlan};
 
 use crate::arrays::{Points, Table};
 use crate::buffer::Pixels;

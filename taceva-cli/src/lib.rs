@@ -1,6 +1,6 @@
 //! The commands of `taceva`: how well does a vision-based tactile sensor measure?
 //!
-//! Arguments in, renderings out. The work of each command is done in `taceva-study` and `taceva-dataset`, which other programs can use. The
+//! Arguments in, renderings out. The work of each command is done in `taceva-study` and `taceva-import`, which other programs can use. The
 //! program is [`main_if_child`] and then [`main_with`]; a program in another language that has the commands built in calls the latter alone.
 
 mod args;
@@ -19,6 +19,7 @@ mod stderr;
 use taceva_sim as _;
 
 use std::ffi::OsString;
+use std::path::Path;
 
 use anyhow::Error;
 use clap::Parser;
@@ -111,7 +112,27 @@ fn complain(error: &Error) {
             text.push_str(&cause);
         }
     }
+    if let Some(advice) = missing_dataset(error).and_then(taceva_import::advice) {
+        text.push_str("; ");
+        text.push_str(&advice);
+    }
     stderr::say(format_args!("{text}"));
+}
+
+/// The folder that was named as a dataset and is none.
+fn missing_dataset(error: &Error) -> Option<&Path> {
+    error.chain().find_map(|cause| {
+        let dataset = match (cause.downcast_ref(), cause.downcast_ref()) {
+            (Some(StudyError::Dataset(dataset)), _)
+            | (_, Some(SweepError::Dataset(dataset)))
+            | (_, Some(SweepError::Study(StudyError::Dataset(dataset)))) => Some(dataset),
+            _ => cause.downcast_ref::<DatasetError>(),
+        };
+        match dataset? {
+            DatasetError::NoDataset { path, .. } => Some(path.as_path()),
+            _ => None,
+        }
+    })
 }
 
 /// The parsed arguments; help goes to standard output, and wrong arguments end the program.

@@ -4,7 +4,8 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use taceva_core::{Frame, SilentProgress};
-use taceva_dataset::{Dataset, DatasetError, ImportMap, ImportPlan};
+use taceva_dataset::{Dataset, DatasetError};
+use taceva_import::{ImportMap, ImportPlan};
 use taceva_tests::{Form, Lab, Random, picture, recording, scratch};
 
 const SEED: u64 = 20_261_122;

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use taceva_core::SilentProgress;
-use taceva_dataset::{DatasetError, ImportMap, ImportPlan};
+use taceva_dataset::DatasetError;
+use taceva_import::{ImportMap, ImportPlan};
 use taceva_needs::{Need, skip};
 use taceva_tests::{Form, Lab, Random, recording, root, scratch};
 

@@ -28,7 +28,7 @@ const REPLACED: &[(&str, &str)] = &[
 /// The same for words that some crates keep, with these crates.
 const REPLACED_BUT_IN: &[(&str, &str, &[&str])] = &[
     // A first map for a folder of a lab.
-    ("draft", "collect", &["taceva-cli", "taceva-dataset"]),
+    ("draft", "collect", &["taceva-cli", "taceva-import"]),
     // What comparisons stand on.
     ("ground", "samples, group", &["taceva-report"]),
     // Whoever judges a simulated run, and who judges published numbers.
@@ -47,6 +47,7 @@ const REPLACED_IN: &[(&str, &str, &[&str])] = &[(
         "taceva-cli",
         "taceva-core",
         "taceva-dataset",
+        "taceva-import",
         "taceva-metrics",
         "taceva-models",
         "taceva-report",

@@ -4,7 +4,8 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 
 use taceva_core::SilentProgress;
-use taceva_dataset::{Dataset, ImportMap, ImportPlan, ImportReport};
+use taceva_dataset::Dataset;
+use taceva_import::{ImportMap, ImportPlan, ImportReport};
 use taceva_models::ModelSettings;
 use taceva_study::{EvaluateRequest, Evaluated, FitRequest, ModelChoice, Work, evaluate};
 use taceva_tests::{recording, root};

@@ -3,7 +3,8 @@
 use std::num::NonZeroUsize;
 
 use taceva_core::SilentProgress;
-use taceva_dataset::{Dataset, ImportMap, ImportPlan};
+use taceva_dataset::Dataset;
+use taceva_import::{ImportMap, ImportPlan};
 use taceva_models::ModelSettings;
 use taceva_report::catalogue::Sensor;
 use taceva_report::{

@@ -3,7 +3,8 @@
 use std::num::NonZeroUsize;
 
 use taceva_core::{Field, SilentProgress};
-use taceva_dataset::{Dataset, ImportMap, ImportPlan};
+use taceva_dataset::Dataset;
+use taceva_import::{ImportMap, ImportPlan};
 use taceva_models::{ModelSettings, Models};
 use taceva_study::{CheckRequest, EvaluateRequest, FitRequest, ModelChoice, Work, check, evaluate};
 use taceva_tests::{recording, root};

@@ -14,7 +14,7 @@ pub(crate) struct Import {
     /// The folder that holds the table and the pictures, or a tar of it (.tar, .tar.gz, .tgz)
     #[arg(required_unless_present = "presets")]
     pub(crate) source: Option<PathBuf>,
-    /// The map; see the documentation of taceva-dataset for its keys
+    /// The map; see the documentation of taceva-import for its keys
     #[arg(long, value_name = "MAP.toml")]
     pub(crate) map: Option<PathBuf>,
     /// A known layout, which needs no map: --presets lists them
@@ -80,13 +80,13 @@ pub(crate) enum Form {
     Lerobot,
 }
 
-impl From<Form> for taceva_dataset::ExportForm {
-    fn from(form: Form) -> taceva_dataset::ExportForm {
+impl From<Form> for taceva_import::ExportForm {
+    fn from(form: Form) -> taceva_import::ExportForm {
         match form {
-            Form::Csv => taceva_dataset::ExportForm::Csv,
-            Form::Huggingface => taceva_dataset::ExportForm::HuggingFace,
-            Form::Hdf5 => taceva_dataset::ExportForm::Hdf5,
-            Form::Lerobot => taceva_dataset::ExportForm::LeRobot,
+            Form::Csv => taceva_import::ExportForm::Csv,
+            Form::Huggingface => taceva_import::ExportForm::HuggingFace,
+            Form::Hdf5 => taceva_import::ExportForm::Hdf5,
+            Form::Lerobot => taceva_import::ExportForm::LeRobot,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! `taceva export`.
 
 use taceva_core::shown;
-use taceva_dataset::ExportPlan;
+use taceva_import::ExportPlan;
 
 use super::{Context, open};
 use crate::args::Export;

@@ -3,11 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use taceva_core::shown;
-use taceva_dataset::{
-    Addition, DatasetError, Decoders, ImportMap, ImportPlan, MapDraft, Preset, UnpackedArchive,
-    settle,
-};
+use taceva_dataset::{DatasetError, settle};
 use taceva_files::parent_of;
+use taceva_import::{Addition, Decoders, ImportMap, ImportPlan, MapDraft, Preset, UnpackedArchive};
 
 use super::{Context, Usage};
 use crate::args::Import;

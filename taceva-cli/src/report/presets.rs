@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use serde::Serialize;
-use taceva_dataset::Preset;
+use taceva_import::Preset;
 
 use super::json;
 use crate::args::ListFormat;

@@ -12,7 +12,7 @@ use std::sync::{Arc, Mutex};
 
 use taceva_core::Frame;
 
-use crate::advice::advice;
+use crate::absence::absence;
 use crate::digest::{Digest, PartsDigest};
 use crate::error::DatasetError;
 use crate::header::Header;
@@ -24,7 +24,7 @@ use crate::table::Table;
 use verify::read_table;
 
 pub use joined::JoinedRecording;
-pub(crate) use joined::{Difference, differences_of_added};
+pub use joined::{Difference, differences_of_added};
 pub use pass::{Pass, StreamReport};
 
 /// A recording: its header, its labels in memory, and its frames on disk, decoded when asked for.
@@ -76,7 +76,7 @@ impl Dataset {
             let problem = if folder.has(layout::JOURNAL) {
                 "the recording was not closed; resume and close it".to_owned()
             } else {
-                advice(path)
+                absence(path)
             };
             return Err(DatasetError::NoDataset {
                 path: path.to_owned(),

@@ -50,9 +50,13 @@ impl ChannelOrder {
 
 /// The file formats that frames are kept in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum ImageKind {
+#[doc(hidden)]
+pub enum ImageKind {
+    /// PNG.
     Png,
+    /// JPEG.
     Jpeg,
+    /// TIFF.
     Tiff,
 }
 
@@ -65,7 +69,7 @@ const TIFF_SIGNATURES: [&[u8]; 4] = [b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"];
 
 impl ImageKind {
     /// The kind whose signature `bytes` begin with; the name of the file plays no part.
-    pub(crate) fn of(bytes: &[u8]) -> Option<ImageKind> {
+    pub fn of(bytes: &[u8]) -> Option<ImageKind> {
         if bytes.starts_with(PNG_SIGNATURE) {
             Some(ImageKind::Png)
         } else if bytes.starts_with(JPEG_SIGNATURE) {
@@ -78,7 +82,7 @@ impl ImageKind {
     }
 
     /// The usual extension of its files.
-    pub(crate) const fn extension(self) -> &'static str {
+    pub const fn extension(self) -> &'static str {
         match self {
             ImageKind::Png => "png",
             ImageKind::Jpeg => "jpg",
@@ -87,7 +91,7 @@ impl ImageKind {
     }
 
     /// Whether files of this kind are called `*.extension`.
-    pub(crate) fn has_extension(self, extension: &str) -> bool {
+    pub fn has_extension(self, extension: &str) -> bool {
         let known: &[&str] = match self {
             ImageKind::Png => &["png"],
             ImageKind::Jpeg => &["jpg", "jpeg"],
@@ -104,7 +108,7 @@ impl ImageKind {
 /// 8 and 16 bit, gray and RGB are kept; of PNG palettes and fewer bits become 8-bit RGB or gray; an alpha channel is dropped if it is
 /// opaque everywhere and refused otherwise. A file that does not end in its end marker is refused: it was cut, even where a
 /// decoder would fill the rest with gray.
-pub(crate) fn decode(bytes: &[u8], order: ChannelOrder) -> Result<(ImageKind, Frame), String> {
+pub fn decode(bytes: &[u8], order: ChannelOrder) -> Result<(ImageKind, Frame), String> {
     let kind = kind_of_whole(bytes)?;
     let (info, pixels) = guarded(|| match kind {
         ImageKind::Png => decode_png(bytes),
@@ -119,7 +123,7 @@ pub(crate) fn decode(bytes: &[u8], order: ChannelOrder) -> Result<(ImageKind, Fr
 }
 
 /// Whether an image file of `kind` that decodes is whole: decoders of PNG check every part, those of TIFF that every strip is there, those of JPEG fill what is missing with gray.
-pub(crate) fn check_to_the_end(bytes: &[u8], kind: ImageKind) -> Result<(), String> {
+pub fn check_to_the_end(bytes: &[u8], kind: ImageKind) -> Result<(), String> {
     match kind {
         ImageKind::Png | ImageKind::Tiff => Ok(()),
         ImageKind::Jpeg => guarded(|| check_whole(bytes))?

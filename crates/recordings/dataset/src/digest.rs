@@ -55,21 +55,23 @@ impl Digest {
 
 /// Digests a sequence of parts so that no two different sequences run together.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct PartsDigest(Sha256);
+#[doc(hidden)]
+pub struct PartsDigest(Sha256);
 
 impl PartsDigest {
     /// Adds a part of any length.
-    pub(crate) fn part(&mut self, bytes: &[u8]) {
+    pub fn part(&mut self, bytes: &[u8]) {
         self.fixed(&(bytes.len() as u64).to_le_bytes());
         self.fixed(bytes);
     }
 
     /// Adds a part whose length every reader knows beforehand.
-    pub(crate) fn fixed(&mut self, bytes: &[u8]) {
+    pub fn fixed(&mut self, bytes: &[u8]) {
         self.0.update(bytes);
     }
 
-    pub(crate) fn finish(self) -> Digest {
+    /// The digest of all parts.
+    pub fn finish(self) -> Digest {
         Digest(self.0.finalize().into())
     }
 }

@@ -11,12 +11,12 @@ use taceva_core::{Frame, PixelFormat};
 use crate::guard::guarded;
 
 /// The PNG file of `frame`.
-pub(crate) fn encode_png(frame: &Frame) -> Result<Vec<u8>, String> {
+pub fn encode_png(frame: &Frame) -> Result<Vec<u8>, String> {
     guarded(|| png::file(frame))?
 }
 
 /// The JPEG file of `frame`, of a quality from 1 to 100; numbers of 16 bits are rounded to the 8 that JPEG holds.
-pub(crate) fn encode_jpeg(frame: &Frame, quality: u8) -> Result<Vec<u8>, String> {
+pub fn encode_jpeg(frame: &Frame, quality: u8) -> Result<Vec<u8>, String> {
     let info = frame.info();
     let color = match info.format.of_eight_bits() {
         PixelFormat::Gray8 => ExtendedColorType::L8,

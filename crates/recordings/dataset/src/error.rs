@@ -188,7 +188,7 @@ pub enum DatasetError {
 
 impl DatasetError {
     /// The same error, a line higher up: of a table to which a header was added.
-    pub(crate) fn a_line_above(mut self) -> DatasetError {
+    pub fn a_line_above(mut self) -> DatasetError {
         if let DatasetError::Table { place, .. } = &mut self
             && let Some(line) = &mut place.line
         {
@@ -198,7 +198,7 @@ impl DatasetError {
     }
 
     /// The same error, so many lines further down: of a part of a table that has only its header before it.
-    pub(crate) fn lines_below(mut self, lines: u64) -> DatasetError {
+    pub fn lines_below(mut self, lines: u64) -> DatasetError {
         if let DatasetError::Table { place, .. } = &mut self
             && let Some(line) = &mut place.line
             && *line > 1
@@ -238,7 +238,7 @@ impl DatasetError {
     }
 
     /// An error of the operating system while `doing` something to `path`.
-    pub(crate) fn io(doing: &'static str, path: &Path) -> impl FnOnce(io::Error) -> DatasetError {
+    pub fn io(doing: &'static str, path: &Path) -> impl FnOnce(io::Error) -> DatasetError {
         let path = path.to_owned();
         move |source| DatasetError::Io {
             doing,
@@ -248,7 +248,7 @@ impl DatasetError {
     }
 
     /// The same error with other paths: `path` makes one of each, `text` of what is said of them.
-    pub(crate) fn with_paths(
+    pub fn with_paths(
         mut self,
         path: &dyn Fn(&Path) -> PathBuf,
         text: &dyn Fn(&str) -> String,
@@ -283,7 +283,7 @@ impl DatasetError {
     }
 
     /// The same error, saying where the image or path is named.
-    pub(crate) fn named_at(mut self, at: Place) -> DatasetError {
+    pub fn named_at(mut self, at: Place) -> DatasetError {
         if let DatasetError::Path { place, .. } | DatasetError::Image { place, .. } = &mut self {
             *place = Some(Box::new(at));
         }
@@ -294,14 +294,15 @@ impl DatasetError {
 /// A place in a file.
 ///
 /// ```
-/// use taceva_dataset::CsvTable;
+/// use taceva_dataset::{DatasetError, SensorFile};
 ///
 /// # let folder = tempfile::tempdir()?;
-/// # let path = folder.path().join("truth.csv");
-/// std::fs::write(&path, "id,Fz\na,0.5\nb,much\n")?;
-/// let table = CsvTable::read(&path)?;
-/// let place = table.place(1, 1);
-/// assert_eq!((place.line, place.column.as_deref()), (Some(3), Some("Fz")));
+/// # let path = folder.path().join("sensor.toml");
+/// std::fs::write(&path, "model = \"DIGIT\"\ncolour = 1\n")?;
+/// let Err(DatasetError::Toml { place, .. }) = SensorFile::read(&path) else {
+///     unreachable!("`colour` is no key");
+/// };
+/// assert_eq!((place.line, place.path), (Some(2), path));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[non_exhaustive]
@@ -319,20 +320,38 @@ pub struct Place {
 
 impl Place {
     /// The whole of the file at `path`.
-    pub(crate) fn file(path: &Path) -> Place {
+    pub fn file(path: &Path) -> Place {
         Place {
             path: path.to_owned(),
             ..Place::default()
         }
     }
 
+    /// The same place, in the column called `name`.
+    #[must_use]
+    pub fn in_column(self, name: impl Into<String>) -> Place {
+        Place {
+            column: Some(name.into()),
+            ..self
+        }
+    }
+
+    /// The same place, in the row `row`, from 0.
+    #[must_use]
+    pub fn in_row(self, row: u64) -> Place {
+        Place {
+            row: Some(row),
+            ..self
+        }
+    }
+
     /// The same column of all rows.
-    pub(crate) fn without_row(self) -> Place {
+    pub fn without_row(self) -> Place {
         Place { row: None, ..self }
     }
 
     /// A line of the file at `path`.
-    pub(crate) fn line(path: &Path, line: u64) -> Place {
+    pub fn line(path: &Path, line: u64) -> Place {
         Place {
             line: Some(line),
             ..Place::file(path)

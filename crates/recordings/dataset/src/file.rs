@@ -2,7 +2,7 @@
 
 use std::fs::{self, File, Metadata};
 use std::io::{Read, Write};
-use std::path::{Component, Path, PathBuf};
+use std::path::{Component, Path};
 
 use taceva_files::sync_folder;
 
@@ -11,7 +11,7 @@ use crate::error::DatasetError;
 /// Opens the regular file at `path`, which may hold at most `cap` bytes; returns how many it holds.
 ///
 /// The kind is looked at before the file is opened: opening a FIFO would wait for ever.
-pub(crate) fn open_regular(path: &Path, cap: u64) -> Result<(File, u64), DatasetError> {
+pub fn open_regular(path: &Path, cap: u64) -> Result<(File, u64), DatasetError> {
     let metadata = fs::metadata(path).map_err(DatasetError::io("read", path))?;
     check_regular(path, &metadata, cap)?;
     let file = File::open(path).map_err(DatasetError::io("open", path))?;
@@ -45,7 +45,7 @@ pub(crate) fn check_regular(
 }
 
 /// The bytes of the regular file at `path`.
-pub(crate) fn read_capped(path: &Path, cap: u64) -> Result<Vec<u8>, DatasetError> {
+pub fn read_capped(path: &Path, cap: u64) -> Result<Vec<u8>, DatasetError> {
     let (file, length) = open_regular(path, cap)?;
     let mut bytes = Vec::with_capacity(usize::try_from(length).unwrap_or(0));
     file.take(cap)
@@ -54,61 +54,8 @@ pub(crate) fn read_capped(path: &Path, cap: u64) -> Result<Vec<u8>, DatasetError
     Ok(bytes)
 }
 
-/// A foreign folder: paths that lead out of it are refused.
-#[derive(Clone, Debug)]
-pub(crate) struct SourceFolder {
-    /// As the caller wrote it: for messages.
-    given: PathBuf,
-    /// Without links: for comparison.
-    canonical: PathBuf,
-}
-
-impl SourceFolder {
-    pub(crate) fn open(path: &Path) -> Result<SourceFolder, DatasetError> {
-        let canonical = path
-            .canonicalize()
-            .map_err(DatasetError::io("open", path))?;
-        Ok(SourceFolder {
-            given: path.to_owned(),
-            canonical,
-        })
-    }
-
-    pub(crate) fn path(&self) -> &Path {
-        &self.given
-    }
-
-    /// How the file at `path`, and what is called `part` in it, is named in the folder: with `/` on every system.
-    pub(crate) fn inside(&self, path: &Path, part: &str) -> String {
-        let inside = path.strip_prefix(&self.given).unwrap_or(path);
-        let file = inside.to_string_lossy().replace('\\', "/");
-        match part.trim_start_matches('/') {
-            "" => file,
-            part => format!("{file}/{part}"),
-        }
-    }
-
-    /// The file `relative` to `base`, a folder inside this one.
-    pub(crate) fn file(&self, base: &Path, relative: &str) -> Result<PathBuf, DatasetError> {
-        let refused = |problem: &str| DatasetError::Path {
-            place: None,
-            written: relative.to_owned(),
-            problem: problem.to_owned(),
-        };
-        check_relative(relative).map_err(refused)?;
-        let path = base.join(relative);
-        let canonical = path
-            .canonicalize()
-            .map_err(|error| refused(&format!("no such file: {error}")))?;
-        if !canonical.starts_with(&self.canonical) {
-            return Err(refused("leads out of the folder through a link"));
-        }
-        Ok(path)
-    }
-}
-
 /// Whether a written path stays inside the folder it is relative to, as far as its text shows.
-pub(crate) fn check_relative(written: &str) -> Result<(), &'static str> {
+pub fn check_relative(written: &str) -> Result<(), &'static str> {
     if written.is_empty() {
         return Err("empty, expected a path relative to the folder");
     }
@@ -128,7 +75,7 @@ pub(crate) fn check_relative(written: &str) -> Result<(), &'static str> {
 }
 
 /// Writes a new file and returns once its bytes are on the disk. Its name is not, until [`make_names_durable`].
-pub(crate) fn write_durable(path: &Path, bytes: &[u8]) -> Result<(), DatasetError> {
+pub fn write_durable(path: &Path, bytes: &[u8]) -> Result<(), DatasetError> {
     let mut file = File::create(path).map_err(DatasetError::io("create", path))?;
     file.write_all(bytes)
         .and_then(|()| file.sync_all())

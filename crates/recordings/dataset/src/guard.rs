@@ -12,7 +12,7 @@ thread_local! {
 ///
 /// The process-wide panic hook is wrapped once: it prints nothing on a thread that is inside a guard and is otherwise the
 /// hook that was there before.
-pub(crate) fn guarded<T>(decode: impl FnOnce() -> T) -> Result<T, String> {
+pub fn guarded<T>(decode: impl FnOnce() -> T) -> Result<T, String> {
     static QUIET: Once = Once::new();
     QUIET.call_once(|| {
         let loud = panic::take_hook();

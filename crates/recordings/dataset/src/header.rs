@@ -1,5 +1,6 @@
 //! `dataset.toml`: what is known about a recording as a whole.
 
+mod content_digest;
 mod extended;
 mod facts;
 mod footprint;
@@ -10,6 +11,7 @@ mod mapped_join;
 mod mapped_pictures;
 mod mapping;
 mod misread;
+mod recording_facts;
 mod reduced;
 mod stream;
 #[cfg(test)]
@@ -27,22 +29,23 @@ use crate::held::HeldFolder;
 use crate::layout;
 use crate::limits;
 use crate::signals::{SignalsInfo, WrittenSignals};
-use crate::store::{dataset_digest, digest_with};
 use crate::toml_file::{parse_toml, toml_error, utf8};
 use crate::version::Version;
 use taceva_files::seal::{Edit, Opened, SealError};
 
+pub(crate) use content_digest::{dataset_digest, digest_with};
 pub use extended::Extension;
 pub use facts::{FrameCodec, FramesInfo, Known, ReferenceInfo, SensorFacts, Source, TableInfo};
 pub use footprint::{Footprint, Shape};
 pub use left_out::LeftOut;
-pub(crate) use left_out::add as add_left_out;
+pub use left_out::add as add_left_out;
 pub use mapped_class::MappedClass;
 pub use mapped_column::MappedColumn;
 pub use mapped_join::MappedJoin;
 pub use mapped_pictures::MappedPictures;
-pub(crate) use mapping::Mapping;
-pub(crate) use misread::Misread;
+pub use mapping::Mapping;
+pub use misread::Misread;
+pub use recording_facts::RecordingFacts;
 pub use reduced::ReducedFrames;
 pub use stream::StreamFacts;
 
@@ -233,8 +236,19 @@ impl Header {
         })
     }
 
+    /// The facts that were known before the first sample.
+    pub fn recording_facts(&self) -> RecordingFacts {
+        RecordingFacts {
+            source: self.source,
+            clock: self.clock,
+            sensor: self.sensor.clone(),
+            footprint: self.footprint,
+            settings: self.settings.clone(),
+        }
+    }
+
     /// How every map read what it read.
-    pub(crate) fn mapping(&self) -> Mapping {
+    pub fn mapping(&self) -> Mapping {
         Mapping {
             columns: self.columns.clone(),
             joins: self.joins.clone(),

@@ -2,49 +2,49 @@
 
 use std::ops::Range;
 
-pub(crate) const HEADER: &str = "dataset.toml";
-pub(crate) const SAMPLES: &str = "samples.parquet";
-pub(crate) const SIGNALS: &str = "signals.parquet";
-pub(crate) const FRAMES: &str = "frames";
-pub(crate) const JOURNAL: &str = "journal";
+pub const HEADER: &str = "dataset.toml";
+pub const SAMPLES: &str = "samples.parquet";
+pub const SIGNALS: &str = "signals.parquet";
+pub const FRAMES: &str = "frames";
+pub const JOURNAL: &str = "journal";
 
 /// Stands in the folder of an export while it is written: what a kill leaves is known by it.
-pub(crate) const MARK: &str = ".taceva-export";
+pub const MARK: &str = ".taceva-export";
 
 /// Every name that stands in the folder of a dataset or of a recording.
-pub(crate) const ALL: [&str; 5] = [HEADER, SAMPLES, SIGNALS, FRAMES, JOURNAL];
+pub const ALL: [&str; 5] = [HEADER, SAMPLES, SIGNALS, FRAMES, JOURNAL];
 
 /// Frames in one folder: some file systems slow down beyond a few thousand.
 const FRAMES_A_FOLDER: usize = 1_000;
 
 /// The folder of frame `number`, relative to the dataset.
-pub(crate) fn frame_folder(number: usize) -> String {
+pub fn frame_folder(number: usize) -> String {
     format!("{FRAMES}/{:04}", number / FRAMES_A_FOLDER)
 }
 
 /// The file of frame `number`, relative to the dataset.
-pub(crate) fn frame_path(number: usize, extension: &str) -> String {
+pub fn frame_path(number: usize, extension: &str) -> String {
     format!("{}/{number:06}.{extension}", frame_folder(number))
 }
 
 /// The pack `number`, relative to the dataset.
-pub(crate) fn pack_path(number: usize) -> String {
+pub fn pack_path(number: usize) -> String {
     format!("{FRAMES}/{number:04}.pack")
 }
 
 /// The number of the pack at `path`, if that is one.
-pub(crate) fn pack_number(path: &str) -> Option<usize> {
+pub fn pack_number(path: &str) -> Option<usize> {
     let name = path.strip_prefix(FRAMES)?.strip_prefix('/')?;
     name.strip_suffix(".pack")?.parse().ok()
 }
 
 /// The file of the frame without contact, relative to the dataset.
-pub(crate) fn reference_path(extension: &str) -> String {
+pub fn reference_path(extension: &str) -> String {
     format!("{FRAMES}/reference.{extension}")
 }
 
 /// The file of the frame without contact when `before` were taken already, relative to the dataset.
-pub(crate) fn reference_path_anew(before: usize, extension: &str) -> String {
+pub fn reference_path_anew(before: usize, extension: &str) -> String {
     match before {
         0 => reference_path(extension),
         _ => format!("{FRAMES}/reference-{}.{extension}", before + 1),
@@ -52,7 +52,7 @@ pub(crate) fn reference_path_anew(before: usize, extension: &str) -> String {
 }
 
 /// The folders that the frames with these numbers lie in, relative to the dataset.
-pub(crate) fn frame_folders(numbers: Range<usize>) -> impl Iterator<Item = String> {
+pub fn frame_folders(numbers: Range<usize>) -> impl Iterator<Item = String> {
     let end = match numbers.is_empty() {
         true => numbers.start,
         false => numbers.end,

@@ -1,31 +1,27 @@
 #![doc = include_str!("../README.md")]
 
-mod advice;
+mod absence;
 #[cfg(feature = "ndarray")]
 mod arrays;
-mod csv_table;
 mod dataset;
 mod decode;
 mod difference;
 mod digest;
-mod draft;
 mod encode;
 mod error;
-mod export;
 mod file;
-mod foreign;
 mod guard;
 mod header;
 mod held;
-mod import;
 mod journal;
 mod jpeg;
-mod layout;
-mod limits;
+#[doc(hidden)]
+pub mod layout;
+#[doc(hidden)]
+pub mod limits;
 mod lock;
 mod pack;
 mod parallel;
-mod preset;
 mod quality;
 mod recorder;
 mod replaced;
@@ -33,47 +29,53 @@ mod samples;
 mod scaled;
 mod sensor_file;
 mod signals;
-mod staged;
+#[doc(hidden)]
+pub mod staged;
 mod store;
 mod table;
 mod text;
 mod toml_file;
-mod transcode;
 mod version;
 
 #[cfg(feature = "ndarray")]
 pub use arrays::{FrameArray, FrameArrays};
-pub use csv_table::CsvTable;
-pub use csv_table::parts::CsvParts;
-pub use csv_table::stream::CsvStream;
 pub use dataset::{Dataset, JoinedRecording, Pass, StreamReport};
 pub use decode::ChannelOrder;
 pub use digest::{Digest, DigestError};
-pub use draft::MapDraft;
 pub use error::{DatasetError, Place};
-pub use export::{ExportForm, ExportPlan, ExportReport, export_csv};
 pub use header::reseal_header;
 pub use header::{
     Extension, Footprint, FrameCodec, FramesInfo, Header, Known, LeftOut, MappedClass,
-    MappedColumn, MappedJoin, MappedPictures, ReducedFrames, ReferenceInfo, SensorFacts, Shape,
-    Source, StreamFacts, TableInfo,
-};
-pub use import::{
-    Addition, ArrayFrames, ArrayLayout, ColumnMap, Conversion, DropRules, FrameMap, FrameNames,
-    IdMap, ImportMap, ImportPlan, ImportReport, ImportSummary, JoinSummary, PixelRange,
-    Placeholder, Suspicion, TimeMap, UnpackedArchive, VideoFrames, magnitude_suspicion,
+    MappedColumn, MappedJoin, MappedPictures, RecordingFacts, ReducedFrames, ReferenceInfo,
+    SensorFacts, Shape, Source, StreamFacts, TableInfo,
 };
 pub use pack::Span;
-pub use preset::Preset;
 pub use quality::names_quality;
 pub use recorder::{Recorder, RecordingSpec, Streamed};
 pub use replaced::settle;
 pub use scaled::DecodeScale;
 pub use sensor_file::SensorFile;
 pub use signals::{SignalsInfo, SignalsSpec};
-pub use store::RecordingFacts;
 pub use table::{FrameEntry, Row, Table};
-pub use taceva_video::Decoders;
 pub use toml_file::read_toml;
-pub use transcode::write_as_jpeg;
 pub use version::Version;
+
+/// Parts that the importer shares with the reader and the recorder. They change freely and are promised to nobody else.
+#[doc(hidden)]
+pub mod internal {
+    pub use crate::absence::{is_foreign_folder, quoted};
+    pub use crate::dataset::{Difference, differences_of_added};
+    pub use crate::decode::{ImageKind, check_to_the_end, decode};
+    pub use crate::digest::PartsDigest;
+    pub use crate::encode::{encode_jpeg, encode_png};
+    pub use crate::file::{check_relative, open_regular, read_capped, write_durable};
+    pub use crate::guard::guarded;
+    pub use crate::header::{Mapping, Misread, add_left_out};
+    pub use crate::parallel::{all_cores, each_part, ordered_map};
+    pub use crate::signals::{SignalsReader, SignalsWriter};
+    pub use crate::store::{Beside, write_table_and_header};
+    pub use crate::table::{Cells, NamedColumn, RESERVED, RowNames, is_attribute_name};
+    pub use crate::text::{listed, nearest, shown, shown_path};
+    pub use crate::toml_file::{line_of, parse_toml, read_toml_text, toml_error, utf8};
+    pub use crate::{layout, limits, staged};
+}

@@ -8,7 +8,7 @@ use std::thread;
 const AHEAD: usize = 4;
 
 /// The cores of this machine.
-pub(crate) fn all_cores() -> NonZeroUsize {
+pub fn all_cores() -> NonZeroUsize {
     thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)
 }
 
@@ -16,7 +16,7 @@ pub(crate) fn all_cores() -> NonZeroUsize {
 ///
 /// Worker `k` does items `k`, `k + jobs`, … and hands them over through its own bounded queue, so order needs no sorting and
 /// the first error in order is the one that is returned, whatever the number of threads.
-pub(crate) fn ordered_map<T: Send, E>(
+pub fn ordered_map<T: Send, E>(
     count: usize,
     jobs: NonZeroUsize,
     work: impl Fn(usize) -> T + Sync,
@@ -49,7 +49,7 @@ pub(crate) fn ordered_map<T: Send, E>(
 }
 
 /// Calls `work` on each part from its own thread; the results are in the order of the parts.
-pub(crate) fn each_part<P: Send, T: Send>(parts: Vec<P>, work: impl Fn(P) -> T + Sync) -> Vec<T> {
+pub fn each_part<P: Send, T: Send>(parts: Vec<P>, work: impl Fn(P) -> T + Sync) -> Vec<T> {
     let work = &work;
     thread::scope(|scope| {
         let mut parts = parts.into_iter();

@@ -13,13 +13,13 @@ use taceva_files::parent_of;
 use crate::digest::Digest;
 use crate::error::DatasetError;
 use crate::file::make_names_durable;
+use crate::header::RecordingFacts;
 use crate::header::{ReducedFrames, ReferenceInfo, StreamFacts};
 use crate::journal::{Journal, RecordKind};
 use crate::layout;
 use crate::lock::lock_folder;
 use crate::pack::{PackEnd, PackWriter, cut_behind};
 use crate::signals::{SignalsSpec, SignalsWriter};
-use crate::store::RecordingFacts;
 use crate::table::{FrameEntry, Row, Table};
 
 mod check;

@@ -6,10 +6,10 @@ mod spec;
 mod tests;
 mod write;
 
-pub(crate) use read::SignalsReader;
+pub use read::SignalsReader;
 pub(crate) use spec::WrittenSignals;
 pub use spec::{SignalsInfo, SignalsSpec};
-pub(crate) use write::SignalsWriter;
+pub use write::SignalsWriter;
 
 /// Numbers of a row group: 4 MiB, whatever the number of taxels.
 const GROUP_VALUES: usize = 1 << 20;

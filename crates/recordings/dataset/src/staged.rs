@@ -19,7 +19,8 @@ const CREATIONS: u32 = 100;
 
 /// What may stand where the folder will be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Place {
+#[doc(hidden)]
+pub enum Place {
     /// Nothing.
     Free,
     /// Nothing, or a dataset, which is replaced at the end.
@@ -30,7 +31,8 @@ pub(crate) enum Place {
 ///
 /// It is locked while in use, so that the leftover of a killed process is distinguished from the work of a running one.
 #[derive(Debug)]
-pub(crate) struct StagedFolder {
+#[doc(hidden)]
+pub struct StagedFolder {
     target: PathBuf,
     path: PathBuf,
     lock: Option<File>,
@@ -39,7 +41,7 @@ pub(crate) struct StagedFolder {
 }
 
 impl StagedFolder {
-    pub(crate) fn create(target: &Path, place: Place) -> Result<StagedFolder, DatasetError> {
+    pub fn create(target: &Path, place: Place) -> Result<StagedFolder, DatasetError> {
         let target = match target.is_symlink() {
             // What a link leads to is replaced, not the link.
             true => fs::canonicalize(target).map_err(DatasetError::io("follow", target))?,
@@ -81,24 +83,24 @@ impl StagedFolder {
     }
 
     /// Where to write meanwhile.
-    pub(crate) fn path(&self) -> &Path {
+    pub fn path(&self) -> &Path {
         &self.path
     }
 
     /// Marks the folder as ours until it is put in place: for an export, whose files do not have the names of those of a dataset.
-    pub(crate) fn mark(&self) -> Result<(), DatasetError> {
+    pub fn mark(&self) -> Result<(), DatasetError> {
         let path = self.path.join(layout::MARK);
         fs::write(&path, "").map_err(DatasetError::io("create", &path))
     }
 
     /// Creates a folder inside.
-    pub(crate) fn create_folder(&self, relative: &str) -> Result<(), DatasetError> {
+    pub fn create_folder(&self, relative: &str) -> Result<(), DatasetError> {
         let path = self.path.join(relative);
         fs::create_dir(&path).map_err(DatasetError::io("create", &path))
     }
 
     /// Creates a folder inside, unless it is there already.
-    pub(crate) fn ensure_folder(&self, relative: &str) -> Result<(), DatasetError> {
+    pub fn ensure_folder(&self, relative: &str) -> Result<(), DatasetError> {
         match self.create_folder(relative) {
             Err(DatasetError::Io { source, .. })
                 if source.kind() == io::ErrorKind::AlreadyExists =>
@@ -111,7 +113,7 @@ impl StagedFolder {
 
     /// Makes the names in this folder and in the given ones durable, then gives it the name of its target: in one step, whether
     /// something stood there or not, where the file system can exchange names.
-    pub(crate) fn put_in_place(self, folders: &[String]) -> Result<(), DatasetError> {
+    pub fn put_in_place(self, folders: &[String]) -> Result<(), DatasetError> {
         self.put_in_place_by(folders, replaced::exchange)
     }
 
@@ -182,7 +184,7 @@ impl Drop for StagedFolder {
 }
 
 /// Whether what stands at `target` may be there. Only datasets are ever replaced, and nothing that is no part of one goes with them.
-pub(crate) fn check_place(target: &Path, place: Place) -> Result<(), DatasetError> {
+pub fn check_place(target: &Path, place: Place) -> Result<(), DatasetError> {
     let refused = |problem: String| {
         Err(DatasetError::Request {
             path: target.to_owned(),

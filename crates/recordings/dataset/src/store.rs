@@ -3,14 +3,14 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use taceva_core::{Clock, PressOutcome};
+use taceva_core::PressOutcome;
 
-use crate::digest::{Digest, PartsDigest};
+use crate::digest::Digest;
 use crate::error::DatasetError;
 use crate::file::write_durable;
 use crate::header::{
-    Extension, Footprint, FramesInfo, Header, LeftOut, Mapping, SensorFacts, Source, StreamFacts,
-    TableInfo,
+    Extension, FramesInfo, Header, LeftOut, Mapping, RecordingFacts, StreamFacts, TableInfo,
+    dataset_digest, digest_with,
 };
 use crate::samples::to_parquet;
 use crate::signals::SignalsInfo;
@@ -18,82 +18,30 @@ use crate::table::Table;
 use crate::version::Version;
 use taceva_files::seal::{Edit, Opened};
 
-/// What is known about a recording before its first sample.
-///
-/// ```
-/// use taceva_core::Clock;
-/// use taceva_dataset::{Footprint, RecordingFacts, SensorFacts, Source};
-///
-/// let facts = RecordingFacts::new(Source::Recorded, Clock::Monotonic, SensorFacts::new("DIGIT"))
-///     .with_footprint(Footprint::rectangle(8.0, 10.0));
-/// assert!(facts.footprint.is_some());
-/// ```
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct RecordingFacts {
-    /// Whether the samples are measured, simulated or made up.
-    pub source: Source,
-    /// The clock that stamps the samples: what `t_s` counts from.
-    pub clock: Clock,
-    /// Model, serial number and gel of the sensor.
-    pub sensor: SensorFacts,
-    /// Where the sensor senses, if it is known.
-    pub footprint: Option<Footprint>,
-    /// The settings of the camera that were set and read back, by name: `exposure_ms` is `15.7`; empty where nobody knows.
-    pub settings: BTreeMap<String, String>,
-}
-
-impl RecordingFacts {
-    /// Facts without a footprint.
-    pub fn new(source: Source, clock: Clock, sensor: SensorFacts) -> RecordingFacts {
-        RecordingFacts {
-            source,
-            clock,
-            sensor,
-            footprint: None,
-            settings: BTreeMap::new(),
-        }
-    }
-
-    /// The same with the settings of the camera that were set and read back.
-    #[must_use]
-    pub fn with_settings(self, settings: BTreeMap<String, String>) -> RecordingFacts {
-        RecordingFacts { settings, ..self }
-    }
-
-    /// The same with the part of the gel that the sensor senses with.
-    #[must_use]
-    pub fn with_footprint(self, footprint: Footprint) -> RecordingFacts {
-        RecordingFacts {
-            footprint: Some(footprint),
-            ..self
-        }
-    }
-}
-
 /// What a header says besides, of how the recording was made.
 #[derive(Debug, Default)]
-pub(crate) struct Beside {
+#[doc(hidden)]
+pub struct Beside {
     /// How many presses ended in which way.
-    pub(crate) presses: BTreeMap<PressOutcome, u64>,
+    pub presses: BTreeMap<PressOutcome, u64>,
     /// Columns that no key of an import names.
-    pub(crate) unmentioned_columns: Vec<String>,
+    pub unmentioned_columns: Vec<String>,
     /// How each map read what it read.
-    pub(crate) mapping: Mapping,
+    pub mapping: Mapping,
     /// What an import left out.
-    pub(crate) left_out: LeftOut,
+    pub left_out: LeftOut,
     /// What was lost of a stream.
-    pub(crate) stream: Option<StreamFacts>,
+    pub stream: Option<StreamFacts>,
     /// The file of signals, which is written already.
-    pub(crate) signals: Option<SignalsInfo>,
+    pub signals: Option<SignalsInfo>,
     /// What the recording was before rows were added to it.
-    pub(crate) extended: Vec<Extension>,
+    pub extended: Vec<Extension>,
     /// Edits of its header that were accepted before that.
-    pub(crate) history: Vec<Edit>,
+    pub history: Vec<Edit>,
 }
 
 /// Writes the table and the header to the given files, durable but for their names.
-pub(crate) fn write_table_and_header(
+pub fn write_table_and_header(
     samples: &Path,
     header: &Path,
     facts: &RecordingFacts,
@@ -166,49 +114,4 @@ pub(crate) fn write_table_and_header(
         })?;
     write_durable(header, text.as_bytes())?;
     Ok(written)
-}
-
-/// The digest of a dataset: of its table, which holds the digest of each frame in order, and of what else decides what a
-/// frame looks like when decoded.
-pub(crate) fn dataset_digest(table: Digest, frames: Option<&FramesInfo>) -> Digest {
-    let mut digest = PartsDigest::default();
-    digest.part(b"taceva.dataset/1");
-    digest.fixed(table.as_bytes());
-    if let Some(frames) = frames {
-        digest.part(frames.channel_order.name().as_bytes());
-        if let Some(reference) = &frames.reference {
-            digest.fixed(reference.sha256.as_bytes());
-        }
-    }
-    digest.finish()
-}
-
-/// The digest of a dataset with its signals, where it has any, and with what it was before rows were added, which decides its parts; `others` is
-/// the digest without them, which its header states.
-pub(crate) fn digest_with(
-    others: Digest,
-    signals: Option<&SignalsInfo>,
-    extended: &[Extension],
-) -> Digest {
-    let with_signals = match signals {
-        None => others,
-        Some(signals) => {
-            let mut digest = PartsDigest::default();
-            digest.part(b"taceva.dataset/1 with signals");
-            digest.fixed(others.as_bytes());
-            digest.fixed(signals.digest.as_bytes());
-            digest.finish()
-        }
-    };
-    if extended.is_empty() {
-        return with_signals;
-    }
-    let mut digest = PartsDigest::default();
-    digest.part(b"taceva.dataset/1 extended");
-    digest.fixed(with_signals.as_bytes());
-    for before in extended {
-        digest.part(&before.rows.to_le_bytes());
-        digest.fixed(before.digest.as_bytes());
-    }
-    digest.finish()
 }

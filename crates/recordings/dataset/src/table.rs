@@ -12,8 +12,8 @@ use taceva_core::{
 
 use crate::digest::{Digest, PartsDigest};
 
-pub(crate) use cells::{Cells, NamedColumn, RESERVED, is_attribute_name};
-pub(crate) use joined::RowNames;
+pub use cells::{Cells, NamedColumn, RESERVED, is_attribute_name};
+pub use joined::RowNames;
 pub use row::{FrameEntry, Row};
 
 /// All labels of a recording.
@@ -116,7 +116,7 @@ impl Table {
     ///
     /// # Panics
     /// If there is not a text for each row.
-    pub(crate) fn push_attribute(&mut self, name: String, texts: Vec<Option<String>>) {
+    pub fn push_attribute(&mut self, name: String, texts: Vec<Option<String>>) {
         assert_eq!(texts.len(), self.rows(), "a text a row");
         self.attribute_names.push(name);
         self.attributes.push(texts);
@@ -126,7 +126,7 @@ impl Table {
     ///
     /// # Panics
     /// If there is not one entry, which may be `None`, for each row.
-    pub(crate) fn with_frames(self, frames: Vec<Option<FrameEntry>>) -> Table {
+    pub fn with_frames(self, frames: Vec<Option<FrameEntry>>) -> Table {
         assert_eq!(frames.len(), self.frames.len(), "one a row");
         Table { frames, ..self }
     }
@@ -341,13 +341,13 @@ impl Table {
     }
 
     /// Says where the file of a row's frame lies, and how bright it is.
-    pub(crate) fn set_frame(&mut self, row: usize, entry: FrameEntry, intensity: f64) {
+    pub fn set_frame(&mut self, row: usize, entry: FrameEntry, intensity: f64) {
         self.frames[row] = Some(entry);
         self.intensity[row] = Some(intensity);
     }
 
     /// Every column that holds a value, in the one order in which tables are digested, stored and exported.
-    pub(crate) fn columns(&self) -> Vec<NamedColumn<'_>> {
+    pub fn columns(&self) -> Vec<NamedColumn<'_>> {
         let named = |name, cells| NamedColumn { name, cells };
         let mut columns = vec![
             named("sample", Cells::Name(&self.sample)),

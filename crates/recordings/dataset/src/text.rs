@@ -5,7 +5,7 @@ use std::path::Path;
 const SHOWN_CHARACTERS: usize = 80;
 
 /// `text` with what a terminal would obey written out, cut after 80 characters.
-pub(crate) fn shown(text: &str) -> String {
+pub fn shown(text: &str) -> String {
     match text.char_indices().nth(SHOWN_CHARACTERS) {
         Some((end, _)) => format!("{}…", taceva_core::shown(&text[..end])),
         None => taceva_core::shown(text).to_string(),
@@ -13,15 +13,12 @@ pub(crate) fn shown(text: &str) -> String {
 }
 
 /// `path` with what a terminal would obey written out.
-pub(crate) fn shown_path(path: &Path) -> String {
+pub fn shown_path(path: &Path) -> String {
     taceva_core::shown(path).to_string()
 }
 
 /// The candidate most like `wrong`, if one is like it at all.
-pub(crate) fn nearest<'a>(
-    wrong: &str,
-    candidates: impl IntoIterator<Item = &'a str>,
-) -> Option<&'a str> {
+pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let folded = wrong.to_lowercase();
     candidates
         .into_iter()
@@ -37,7 +34,7 @@ pub(crate) fn nearest<'a>(
 }
 
 /// Names that a message lists; the others are counted.
-pub(crate) fn listed(names: &[String]) -> String {
+pub fn listed(names: &[String]) -> String {
     const LISTED: usize = 64;
     let shown: Vec<String> = names.iter().take(LISTED).map(|name| shown(name)).collect();
     match names.len().saturating_sub(LISTED) {

@@ -18,12 +18,13 @@ pub fn read_toml<T: DeserializeOwned>(path: &Path) -> Result<T, DatasetError> {
     parse_toml(path, &read_toml_text(path)?)
 }
 
-pub(crate) fn read_toml_text(path: &Path) -> Result<String, DatasetError> {
+/// The text of the TOML file at `path`.
+pub fn read_toml_text(path: &Path) -> Result<String, DatasetError> {
     utf8(path, read_capped(path, limits::TOML_BYTES)?)
 }
 
 /// The text that `bytes`, the content of the file at `path`, are.
-pub(crate) fn utf8(path: &Path, bytes: Vec<u8>) -> Result<String, DatasetError> {
+pub fn utf8(path: &Path, bytes: Vec<u8>) -> Result<String, DatasetError> {
     String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
         toml_error(path, Some(line_of(error.as_bytes(), valid)), "not UTF-8")
@@ -31,7 +32,7 @@ pub(crate) fn utf8(path: &Path, bytes: Vec<u8>) -> Result<String, DatasetError> 
 }
 
 /// `text`, which stands in the file at `path`, as a `T`.
-pub(crate) fn parse_toml<T: DeserializeOwned>(path: &Path, text: &str) -> Result<T, DatasetError> {
+pub fn parse_toml<T: DeserializeOwned>(path: &Path, text: &str) -> Result<T, DatasetError> {
     toml::from_str(text).map_err(|error| {
         let line = error
             .span()
@@ -41,7 +42,7 @@ pub(crate) fn parse_toml<T: DeserializeOwned>(path: &Path, text: &str) -> Result
 }
 
 /// A problem on a line of the TOML file at `path`.
-pub(crate) fn toml_error(path: &Path, line: Option<u64>, problem: &str) -> DatasetError {
+pub fn toml_error(path: &Path, line: Option<u64>, problem: &str) -> DatasetError {
     DatasetError::Toml {
         place: Place {
             line,
@@ -52,7 +53,7 @@ pub(crate) fn toml_error(path: &Path, line: Option<u64>, problem: &str) -> Datas
 }
 
 /// The line, from 1, of the byte at `offset`.
-pub(crate) fn line_of(text: &[u8], offset: usize) -> u64 {
+pub fn line_of(text: &[u8], offset: usize) -> u64 {
     let before = &text[..offset.min(text.len())];
     1 + before.iter().filter(|byte| **byte == b'\n').count() as u64
 }

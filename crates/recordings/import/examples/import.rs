@@ -5,7 +5,7 @@ use std::error::Error;
 use std::path::Path;
 
 use taceva_core::SilentProgress;
-use taceva_dataset::{ImportMap, ImportPlan};
+use taceva_import::{ImportMap, ImportPlan};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();

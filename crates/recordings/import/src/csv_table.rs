@@ -13,12 +13,14 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use crate::digest::Digest;
-use crate::error::{DatasetError, Place};
-use crate::file::read_capped;
-use crate::limits;
-use crate::parallel::all_cores;
-use crate::text::{nearest, shown};
+use taceva_dataset::DatasetError;
+use taceva_dataset::Digest;
+use taceva_dataset::Place;
+use taceva_dataset::internal::all_cores;
+use taceva_dataset::internal::limits;
+use taceva_dataset::internal::nearest;
+use taceva_dataset::internal::read_capped;
+use taceva_dataset::internal::shown;
 
 use number::parse_number;
 use split::Block;
@@ -32,7 +34,7 @@ use split::Block;
 /// # let folder = tempfile::tempdir()?;
 /// # let path = folder.path().join("truth.csv");
 /// std::fs::write(&path, "id,Fz\na,0.5\nb,\n")?;
-/// let table = taceva_dataset::CsvTable::read(&path)?;
+/// let table = taceva_import::CsvTable::read(&path)?;
 /// assert_eq!(table.text("id")?, ["a", "b"]);
 /// let force = table.numbers("Fz")?;
 /// assert_eq!((force.get(0), force.get(1)), (Some(0.5), None));
@@ -193,11 +195,10 @@ impl CsvTable {
 
     /// Where a row (from 0) stands in the file, in the column at `column`.
     pub fn place(&self, row: usize, column: usize) -> Place {
-        Place {
-            path: self.path.clone(),
-            row: None,
-            line: Some(self.line(row)),
-            column: self.names.get(column).cloned(),
+        let place = Place::line(&self.path, self.line(row));
+        match self.names.get(column) {
+            Some(name) => place.in_column(name),
+            None => place,
         }
     }
 

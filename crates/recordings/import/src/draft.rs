@@ -10,11 +10,11 @@ mod written;
 
 use std::path::Path;
 
-use crate::error::DatasetError;
-use crate::file::SourceFolder;
 use crate::preset::layouts::Preset;
+use crate::source_folder::SourceFolder;
 use survey::FileGroup;
 use tables::SeenTable;
+use taceva_dataset::DatasetError;
 
 /// The most tables that are read for a draft.
 const TABLES: usize = 64;
@@ -24,7 +24,7 @@ const TABLES: usize = 64;
 /// ```
 /// # let folder = tempfile::tempdir()?;
 /// std::fs::write(folder.path().join("labels.csv"), "Fz_N,note\n1.5,a\n2.5,b\n")?;
-/// let draft = taceva_dataset::MapDraft::of(folder.path())?;
+/// let draft = taceva_import::MapDraft::of(folder.path())?;
 /// assert!(draft.text().contains(r#"Fz = { from = "Fz_N", unit = "?" }"#));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

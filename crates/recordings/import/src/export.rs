@@ -16,11 +16,12 @@ use std::path::{Path, PathBuf};
 
 use taceva_core::Progress;
 
-use crate::dataset::Dataset;
-use crate::error::DatasetError;
-use crate::file::write_durable;
-use crate::staged::{Place, StagedFolder};
-use crate::table::Cells;
+use taceva_dataset::Dataset;
+use taceva_dataset::DatasetError;
+use taceva_dataset::internal::Cells;
+use taceva_dataset::internal::staged::Place;
+use taceva_dataset::internal::staged::StagedFolder;
+use taceva_dataset::internal::write_durable;
 
 use exported::Exported;
 use picture::Pictures;
@@ -34,7 +35,8 @@ const MAP: &str = "map.toml";
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, Readings, Sample};
-/// # use taceva_dataset::{Dataset, ExportForm, ExportPlan, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
+/// # use taceva_dataset::{Dataset, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
+/// # use taceva_import::{ExportForm, ExportPlan};
 /// # let folder = tempfile::tempdir()?;
 /// # let path = folder.path().join("recording");
 /// # let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, SensorFacts::new("my gel"));
@@ -79,7 +81,8 @@ pub struct ExportReport {
 /// # recorder.close()?;
 /// use std::num::NonZeroUsize;
 /// use taceva_core::SilentProgress;
-/// use taceva_dataset::{Dataset, ExportForm, ExportPlan, ImportMap, ImportPlan};
+/// use taceva_dataset::Dataset;
+/// use taceva_import::{ExportForm, ExportPlan, ImportMap, ImportPlan};
 ///
 /// let dataset = Dataset::open(&path)?;
 /// let exported = folder.path().join("exported");

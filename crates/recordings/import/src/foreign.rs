@@ -25,10 +25,13 @@ use std::sync::Arc;
 use taceva_arrays::ArrayFormat;
 
 use crate::csv_table::CsvTable;
-use crate::error::{DatasetError, Place};
-use crate::file::SourceFolder;
 use crate::import::FrameNames;
-use crate::text::{listed, nearest, shown};
+use crate::source_folder::SourceFolder;
+use taceva_dataset::DatasetError;
+use taceva_dataset::Place;
+use taceva_dataset::internal::listed;
+use taceva_dataset::internal::nearest;
+use taceva_dataset::internal::shown;
 
 pub(crate) use arrays::{ArrayPictures, stated};
 pub(crate) use clips::ClipPictures;
@@ -212,16 +215,11 @@ impl ForeignTable {
                 let column = table.position(name).unwrap_or(usize::MAX);
                 table.place(row, column)
             }
-            ForeignTable::Json(table) => Place {
-                column: (!name.is_empty()).then(|| name.to_owned()),
-                ..table.place(row)
-            },
+            ForeignTable::Json(table) => named(table.place(row), name),
             ForeignTable::Files(table) => Place::file(table.path()),
-            ForeignTable::Columns(table) => Place {
-                row: Some(row as u64),
-                column: (!name.is_empty()).then(|| name.to_owned()),
-                ..Place::file(table.path())
-            },
+            ForeignTable::Columns(table) => {
+                named(Place::file(table.path()).in_row(row as u64), name)
+            }
         }
     }
 
@@ -343,5 +341,12 @@ impl ForeignTable {
             place: Place::file(self.path()),
             problem: format!("no column `{}`{guess}? {known}", shown(name)),
         }
+    }
+}
+/// `place` in the column called `name`, if it has a name.
+fn named(place: Place, name: &str) -> Place {
+    match name {
+        "" => place,
+        name => place.in_column(name),
     }
 }

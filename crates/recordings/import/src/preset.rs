@@ -7,9 +7,9 @@ mod lines;
 
 use std::path::Path;
 
-use crate::error::DatasetError;
-use crate::file::SourceFolder;
 use crate::import::ImportMap;
+use crate::source_folder::SourceFolder;
+use taceva_dataset::DatasetError;
 
 pub use layouts::Preset;
 
@@ -20,7 +20,7 @@ impl Preset {
     /// [`DatasetError::Path`] naming the file that was expected if the folder has another layout; those of reading the first table.
     ///
     /// ```
-    /// use taceva_dataset::Preset;
+    /// use taceva_import::Preset;
     ///
     /// # let folder = tempfile::tempdir()?;
     /// # std::fs::write(folder.path().join("targets.csv"), "sensor_image,pose_x,pose_y\na.png,1,2\n")?;

@@ -3,19 +3,22 @@
 use std::fs::File;
 use std::path::Path;
 
-use taceva_core::{Frame, FrameInfo, Progress};
+use taceva_core::{Frame, Progress};
 
-use crate::dataset::Dataset;
-use crate::decode::ChannelOrder;
-use crate::digest::Digest;
-use crate::encode::encode_jpeg;
-use crate::error::DatasetError;
-use crate::file::write_durable;
-use crate::header::{FramesInfo, Header, ReferenceInfo};
-use crate::layout;
-use crate::staged::{Place, StagedFolder};
-use crate::store::{Beside, RecordingFacts, write_table_and_header};
-use crate::table::FrameEntry;
+use taceva_dataset::ChannelOrder;
+use taceva_dataset::Dataset;
+use taceva_dataset::DatasetError;
+use taceva_dataset::Digest;
+use taceva_dataset::FrameEntry;
+use taceva_dataset::Header;
+use taceva_dataset::ReferenceInfo;
+use taceva_dataset::internal::Beside;
+use taceva_dataset::internal::encode_jpeg;
+use taceva_dataset::internal::layout;
+use taceva_dataset::internal::staged::Place;
+use taceva_dataset::internal::staged::StagedFolder;
+use taceva_dataset::internal::write_durable;
+use taceva_dataset::internal::write_table_and_header;
 
 /// Writes `dataset` to a new folder at `path` with each frame as a JPEG of `quality`, from 1 to 100: what a camera with a JPEG stream
 /// would have sent. Labels stay as they are; detail that the compression discards is lost, and so is what 16-bit pixels hold beyond
@@ -45,11 +48,7 @@ pub fn write_as_jpeg(
             problem,
         })?;
         write_durable(&path, &bytes)?;
-        Ok(FrameEntry {
-            path: relative,
-            span: None,
-            digest: Digest::of(&bytes),
-        })
+        Ok(FrameEntry::at(relative, Digest::of(&bytes)))
     };
     progress.begin("encode as JPEG", Some(rows as u64));
     let mut entries = Vec::with_capacity(rows);
@@ -67,29 +66,16 @@ pub fn write_as_jpeg(
     let reference = reference.map(|frame| write(layout::reference_path("jpg"), &frame));
     let reference = reference.transpose()?;
     let header = dataset.header();
-    let frames = header.frames.as_ref().map(|frames| FramesInfo {
+    let frames = header.frames.clone().map(|mut frames| {
         // Frames are decoded into red, green, blue, whatever order they were stored in.
-        channel_order: match frames.channel_order {
-            ChannelOrder::Gray => ChannelOrder::Gray,
-            ChannelOrder::Rgb | ChannelOrder::Bgr => ChannelOrder::Rgb,
-        },
-        reference: reference.map(|entry| ReferenceInfo {
-            path: entry.path,
-            sha256: entry.digest,
-        }),
-        info: FrameInfo {
-            format: frames.info.format.of_eight_bits(),
-            ..frames.info
-        },
-        ..frames.clone()
+        if frames.channel_order == ChannelOrder::Bgr {
+            frames.channel_order = ChannelOrder::Rgb;
+        }
+        frames.reference = reference.map(|entry| ReferenceInfo::new(entry.path, entry.digest));
+        frames.info.format = frames.info.format.of_eight_bits();
+        frames
     });
-    let facts = RecordingFacts {
-        source: header.source,
-        clock: header.clock,
-        sensor: header.sensor.clone(),
-        footprint: header.footprint,
-        settings: header.settings.clone(),
-    };
+    let facts = header.recording_facts();
     if header.signals.is_some() {
         let (from, to) = [dataset.path(), staged.path()]
             .map(|folder| folder.join(layout::SIGNALS))

@@ -1,10 +1,8 @@
 //! Pictures that are damaged, too large, elsewhere or unlike each other are refused in words, and nothing is written.
 
-mod lab;
-
 use std::fs;
 
-use lab::{Lab, MAP, jpeg, png, rgb_png};
+use crate::lab::{Lab, MAP, jpeg, png, rgb_png};
 use taceva_dataset::Dataset;
 
 #[test]

@@ -1,11 +1,10 @@
 //! Tables, maps and folders that do not say what they must are refused in words, and nothing is written.
 
-mod lab;
-
 use std::fs;
 
-use lab::{Lab, MAP};
-use taceva_dataset::{Dataset, DatasetError, ImportMap};
+use crate::lab::{Lab, MAP};
+use taceva_dataset::{Dataset, DatasetError};
+use taceva_import::ImportMap;
 
 #[test]
 fn a_missing_column_lists_those_there_are_and_suggests_one() {

@@ -1,11 +1,11 @@
 //! A damaged dataset is never read as a whole one, and no foreign bytes make the readers panic or hang.
 
-mod lab;
-
 use std::fs;
 
-use lab::{Lab, MAP, Random, contents, jpeg};
-use taceva_dataset::{CsvTable, Dataset, ImportMap};
+use crate::lab::{Lab, MAP, jpeg};
+use crate::support::{Random, contents};
+use taceva_dataset::Dataset;
+use taceva_import::{CsvTable, ImportMap};
 
 /// The digest and every frame of the dataset at `set`, or that something was refused.
 fn whole(lab: &Lab) -> Option<Vec<Vec<u8>>> {

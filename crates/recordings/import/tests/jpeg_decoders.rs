@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use taceva_core::SilentProgress;
-use taceva_dataset::{Dataset, ImportMap, ImportPlan};
+use taceva_dataset::Dataset;
+use taceva_import::{ImportMap, ImportPlan};
 use taceva_needs::{Need, skip};
 
 /// The greatest difference that `docs/your-recording.md` states, of 255 levels.
@@ -55,7 +56,10 @@ fn difference(ours: &[u8], theirs: &[u8]) -> (u8, f64) {
 #[test]
 #[expect(clippy::print_stdout, reason = "the differences are the result")]
 fn pixels_of_jpeg_are_those_of_libjpeg_within_the_stated_levels() {
-    let fixtures = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/fixtures/jpeg");
+    let fixtures = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../dataset/tests/fixtures/jpeg"
+    );
     let entries = fs::read_dir(fixtures).expect("a folder").flatten();
     let mut paths: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
     paths.retain(|path| path.extension().is_some_and(|ending| ending == "jpg"));

@@ -5,7 +5,8 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use taceva_core::{PixelFormat, SilentProgress};
-use taceva_dataset::{Dataset, DatasetError, ImportMap, ImportPlan};
+use taceva_dataset::{Dataset, DatasetError};
+use taceva_import::{ImportMap, ImportPlan};
 
 const MAP: &str = r#"
 map_version = 2

@@ -15,7 +15,8 @@ mod tables;
 use std::collections::BTreeMap;
 
 use taceva_core::{Channel, Column, Progress, shown};
-use taceva_dataset::{CsvTable, SensorFile};
+use taceva_dataset::SensorFile;
+use taceva_import::CsvTable;
 use taceva_metrics::{Evaluator, MetricPlan, SensorFacts, catalogue};
 
 use crate::accumulate::{self, Rows};

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use taceva_dataset::{Dataset, write_as_jpeg};
+use taceva_dataset::Dataset;
+use taceva_import::write_as_jpeg;
 use taceva_report::{DecodeBench, DecodeRow, ScaledError, decode_bench};
 use taceva_study::FitRequest;
 use taceva_study::bench::{DecodeTrial, DecodeTrials, ErrorChange, TrialError, decode};

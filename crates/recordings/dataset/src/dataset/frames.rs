@@ -67,7 +67,7 @@ impl Dataset {
     }
 
     /// The bytes of the picture without contact as they were recorded, verified.
-    pub(crate) fn reference_bytes(&self) -> Result<Option<Vec<u8>>, DatasetError> {
+    pub fn reference_bytes(&self) -> Result<Option<Vec<u8>>, DatasetError> {
         let entry = self.reference_entry();
         entry.map(|entry| self.frame_bytes(&entry)).transpose()
     }

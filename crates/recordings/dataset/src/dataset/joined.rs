@@ -17,7 +17,8 @@ use crate::text::shown;
 
 mod alike;
 
-pub(crate) use alike::{Difference, differences, differences_of_added};
+use alike::differences;
+pub use alike::{Difference, differences_of_added};
 
 /// Separates the name of a recording from the name of a sample, a contact point or a frame in it; no name of a recording contains it.
 const SEPARATOR: char = '/';

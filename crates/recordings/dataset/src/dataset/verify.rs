@@ -8,11 +8,11 @@ use crate::digest::Digest;
 use crate::error::DatasetError;
 use crate::file::check_relative;
 use crate::header::Header;
+use crate::header::{dataset_digest, digest_with};
 use crate::held::HeldFolder;
 use crate::layout;
 use crate::limits;
 use crate::samples::from_parquet;
-use crate::store::{dataset_digest, digest_with};
 use crate::table::Table;
 
 impl Dataset {

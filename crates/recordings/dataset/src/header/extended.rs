@@ -26,6 +26,23 @@ pub struct Extension {
     pub from: String,
 }
 
+impl Extension {
+    /// A recording of `rows` rows with this digest, to which rows of the folder `from` were added on `date`.
+    pub fn new(
+        rows: u64,
+        digest: Digest,
+        date: impl Into<String>,
+        from: impl Into<String>,
+    ) -> Extension {
+        Extension {
+            rows,
+            digest,
+            date: date.into(),
+            from: from.into(),
+        }
+    }
+}
+
 impl Header {
     /// Every digest that the recording had, with the number of its samples then: those before each extension, and the present one last.
     pub fn stages(&self) -> impl Iterator<Item = (Digest, u64)> + '_ {

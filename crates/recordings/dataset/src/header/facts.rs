@@ -194,6 +194,19 @@ pub struct FramesInfo {
 }
 
 impl FramesInfo {
+    /// So many frames, neither coded as a clip nor reduced, without a frame without contact.
+    pub fn new(count: u64, info: FrameInfo, channel_order: ChannelOrder) -> FramesInfo {
+        FramesInfo {
+            count,
+            info,
+            channel_order,
+            codec: None,
+            other_codecs: Vec::new(),
+            reduced: None,
+            reference: None,
+        }
+    }
+
     /// A frame as the camera gave it: what was reduced, or what is there.
     pub fn of_camera(&self) -> FrameInfo {
         self.reduced
@@ -238,7 +251,8 @@ fn bits_of(pixel_format: &str) -> Option<u8> {
 }
 
 impl FrameCodec {
-    pub(crate) fn new(name: &str, pixel_format: &str) -> FrameCodec {
+    /// The codec `name` with this pixel format, in the words of FFmpeg.
+    pub fn new(name: &str, pixel_format: &str) -> FrameCodec {
         FrameCodec {
             name: name.to_owned(),
             pixel_format: pixel_format.to_owned(),
@@ -276,6 +290,16 @@ pub struct ReferenceInfo {
     pub path: String,
     /// The SHA-256 of the bytes of its file.
     pub sha256: Digest,
+}
+
+impl ReferenceInfo {
+    /// The file at `path`, relative to the folder of the dataset, whose bytes have this digest.
+    pub fn new(path: impl Into<String>, sha256: Digest) -> ReferenceInfo {
+        ReferenceInfo {
+            path: path.into(),
+            sha256,
+        }
+    }
 }
 
 /// What `samples.parquet` must be.

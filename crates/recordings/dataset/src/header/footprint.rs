@@ -105,7 +105,7 @@ impl Footprint {
     }
 
     /// What is missing, too much or not positive.
-    pub(crate) fn problem(&self) -> Option<String> {
+    pub fn problem(&self) -> Option<String> {
         let is_disc = self.shape == Shape::Disc;
         let sides = [
             ("radius_mm", self.radius_mm, is_disc),

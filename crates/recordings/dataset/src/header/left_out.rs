@@ -57,7 +57,7 @@ impl LeftOut {
 
     /// What this import and `other`, which added rows to it, left out together.
     #[must_use]
-    pub(crate) fn and(mut self, other: LeftOut) -> LeftOut {
+    pub fn and(mut self, other: LeftOut) -> LeftOut {
         self.images += other.images;
         self.columns += other.columns;
         for (counts, added) in [
@@ -76,7 +76,7 @@ impl LeftOut {
 }
 
 /// Adds `count` to what is counted under `name`; of many names, under the others.
-pub(crate) fn add(counts: &mut BTreeMap<String, u64>, name: &str, count: u64) {
+pub fn add(counts: &mut BTreeMap<String, u64>, name: &str, count: u64) {
     if count == 0 {
         return;
     }

@@ -23,7 +23,7 @@ pub struct MappedClass {
 
 impl MappedClass {
     /// The attribute `name`, read from the column `from` by the list `names`.
-    pub(crate) fn new(name: &str, from: &str, names: Vec<String>) -> MappedClass {
+    pub fn new(name: &str, from: &str, names: Vec<String>) -> MappedClass {
         MappedClass {
             name: name.to_owned(),
             from: from.to_owned(),

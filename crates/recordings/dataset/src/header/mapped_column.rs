@@ -44,7 +44,7 @@ const OTHER_COLUMN: &str = "if the column was recorded otherwise this time, rena
 
 impl MappedColumn {
     /// `label`, read from `from` in `unit`, as the cells are.
-    pub(crate) fn new(label: &str, from: Vec<String>, unit: &str) -> MappedColumn {
+    pub fn new(label: &str, from: Vec<String>, unit: &str) -> MappedColumn {
         MappedColumn {
             label: label.to_owned(),
             from,

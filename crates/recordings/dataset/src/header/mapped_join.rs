@@ -46,7 +46,7 @@ pub struct MappedJoin {
 
 impl MappedJoin {
     /// The table `name`, joined by that, where a row to which none belongs is refused.
-    pub(crate) fn new(name: &str, by: &str) -> MappedJoin {
+    pub fn new(name: &str, by: &str) -> MappedJoin {
         MappedJoin {
             name: name.to_owned(),
             by: by.to_owned(),

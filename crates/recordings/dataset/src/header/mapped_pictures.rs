@@ -36,7 +36,7 @@ pub struct MappedPictures {
 
 impl MappedPictures {
     /// Pictures that the key `by` names by `from`, each with the number of its row.
-    pub(crate) fn new(by: &str, from: &str) -> MappedPictures {
+    pub fn new(by: &str, from: &str) -> MappedPictures {
         MappedPictures {
             by: by.to_owned(),
             from: from.to_owned(),

@@ -8,11 +8,16 @@ use super::misread::{Misread, differing};
 
 /// What decides the values that an import reads from the cells, the rows and the arrays of a lab.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Mapping {
-    pub(crate) columns: Vec<MappedColumn>,
-    pub(crate) joins: Vec<MappedJoin>,
-    pub(crate) pictures: Vec<MappedPictures>,
-    pub(crate) classes: Vec<MappedClass>,
+#[doc(hidden)]
+pub struct Mapping {
+    /// Labels.
+    pub columns: Vec<MappedColumn>,
+    /// Joined tables.
+    pub joins: Vec<MappedJoin>,
+    /// Pictures.
+    pub pictures: Vec<MappedPictures>,
+    /// Classes.
+    pub classes: Vec<MappedClass>,
 }
 
 /// What to do where a join was recorded otherwise.
@@ -26,12 +31,12 @@ const OTHER_ARRAY: &str =
 
 impl Mapping {
     /// Whether nothing is known of any map: no import, or one by an older version.
-    pub(crate) fn is_empty(&self) -> bool {
+    pub fn is_empty(&self) -> bool {
         *self == Mapping::default()
     }
 
     /// What `self`, which maps of before read, leaves unsaid of what `new` says, as files of before format 1.9 do.
-    pub(crate) fn unsaid(&self, new: &Mapping, has_frames: bool) -> Option<&'static str> {
+    pub fn unsaid(&self, new: &Mapping, has_frames: bool) -> Option<&'static str> {
         let is_joined = |name: &str| {
             let mut columns = self.columns.iter().flat_map(|column| &column.from);
             columns.any(|from| from.split_once('.').is_some_and(|(join, _)| join == name))
@@ -50,7 +55,7 @@ impl Mapping {
     }
 
     /// The first key by which `new`, another map, reads what `self` knows otherwise. What has another name says nothing.
-    pub(crate) fn misread(&self, new: &Mapping) -> Option<Misread> {
+    pub fn misread(&self, new: &Mapping) -> Option<Misread> {
         let columns = misread(&self.columns, &new.columns);
         let joins = new.joins.iter().find_map(|join| {
             let mut known = self.joins.iter().filter(|known| known.name == join.name);
@@ -78,7 +83,7 @@ impl Mapping {
     }
 
     /// What is known once rows by `new` are added.
-    pub(crate) fn and(self, new: &Mapping) -> Mapping {
+    pub fn and(self, new: &Mapping) -> Mapping {
         Mapping {
             columns: united(self.columns, &new.columns),
             joins: united(self.joins, &new.joins),

@@ -4,13 +4,17 @@
 pub(super) type Fact = (String, String);
 
 /// A key of a map that reads something otherwise than it was read before.
+#[doc(hidden)]
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Misread {
-    pub(crate) key: String,
-    pub(crate) own: String,
-    pub(crate) other: String,
+pub struct Misread {
+    /// The key.
+    pub key: String,
+    /// Its value before.
+    pub own: String,
+    /// Its value now.
+    pub other: String,
     /// What may be done about it where the map is right.
-    pub(crate) mend: &'static str,
+    pub mend: &'static str,
 }
 
 /// The first fact of `new` that is otherwise than the same one of `known`.

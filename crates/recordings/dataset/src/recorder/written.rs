@@ -12,9 +12,9 @@ use super::RecordingSpec;
 use crate::digest::Digest;
 use crate::error::DatasetError;
 use crate::file::check_relative;
+use crate::header::RecordingFacts;
 use crate::header::{Footprint, ReducedFrames, SensorFacts, Source, StreamFacts};
 use crate::signals::WrittenSignals;
-use crate::store::RecordingFacts;
 use crate::table::{FrameEntry, Row};
 use crate::toml_file::{parse_toml, toml_error};
 

@@ -20,7 +20,8 @@ use crate::guard::guarded;
 const GROUPS: usize = 16;
 
 /// A file of signals, verified; shared between threads.
-pub(crate) struct SignalsReader {
+#[doc(hidden)]
+pub struct SignalsReader {
     path: PathBuf,
     info: SignalsInfo,
     file: SerializedFileReader<File>,
@@ -32,7 +33,7 @@ pub(crate) struct SignalsReader {
 
 impl SignalsReader {
     /// The signals of `rows` samples in `file`, which is at `path` and must be the one that `info` describes.
-    pub(crate) fn open(
+    pub fn open(
         path: &Path,
         mut file: File,
         (info, rows): (&SignalsInfo, u64),
@@ -62,7 +63,7 @@ impl SignalsReader {
     }
 
     /// The signals of `row`, which is one of them.
-    pub(crate) fn row(&self, row: usize) -> Result<Signals, DatasetError> {
+    pub fn row(&self, row: usize) -> Result<Signals, DatasetError> {
         let at = self.starts.partition_point(|start| *start <= row as u64);
         let number = at.saturating_sub(1);
         let group = self.group(number)?;
@@ -77,7 +78,7 @@ impl SignalsReader {
     }
 
     /// Reads every row, and checks that they are what was recorded, however they are stored.
-    pub(crate) fn verify(&self) -> Result<(), DatasetError> {
+    pub fn verify(&self) -> Result<(), DatasetError> {
         let mut digest = self.info.spec.digest();
         for number in 0..self.starts.len() - 1 {
             for value in self.group(number)?.iter() {

@@ -19,7 +19,8 @@ use crate::error::DatasetError;
 use crate::guard::guarded;
 
 /// A file of signals while it is written.
-pub(crate) struct SignalsWriter {
+#[doc(hidden)]
+pub struct SignalsWriter {
     path: PathBuf,
     spec: SignalsSpec,
     writer: SerializedFileWriter<BufWriter<File>>,
@@ -31,7 +32,7 @@ pub(crate) struct SignalsWriter {
 
 impl SignalsWriter {
     /// Begins the file at `path`; one that is there is written anew.
-    pub(crate) fn create(path: &Path, spec: &SignalsSpec) -> Result<SignalsWriter, DatasetError> {
+    pub fn create(path: &Path, spec: &SignalsSpec) -> Result<SignalsWriter, DatasetError> {
         let damaged = |problem| damaged(path, problem);
         spec.check().map_err(damaged)?;
         let file = File::create(path).map_err(DatasetError::io("create", path))?;
@@ -51,7 +52,7 @@ impl SignalsWriter {
     }
 
     /// The taxels.
-    pub(crate) fn spec(&self) -> &SignalsSpec {
+    pub fn spec(&self) -> &SignalsSpec {
         &self.spec
     }
 
@@ -59,7 +60,7 @@ impl SignalsWriter {
     ///
     /// # Shapes
     /// `values`: rows × columns × channels, place first.
-    pub(crate) fn push(&mut self, values: &[f32]) -> Result<(), DatasetError> {
+    pub fn push(&mut self, values: &[f32]) -> Result<(), DatasetError> {
         let expected = self.spec.info.len();
         let row = self.rows;
         if values.len() != expected {
@@ -85,7 +86,7 @@ impl SignalsWriter {
     }
 
     /// Ends the file; its bytes are on the disk, its name is not.
-    pub(crate) fn finish(mut self) -> Result<SignalsInfo, DatasetError> {
+    pub fn finish(mut self) -> Result<SignalsInfo, DatasetError> {
         let problem = self.spec.check_rest(self.rows);
         problem.map_err(|problem| damaged(&self.path, problem))?;
         if !self.held.is_empty() {

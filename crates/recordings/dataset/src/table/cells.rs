@@ -6,7 +6,7 @@ use super::FrameEntry;
 use crate::digest::PartsDigest;
 
 /// The names of the columns on disk that are no channels; no channel and no attribute may be called so.
-pub(crate) const RESERVED: [&str; 18] = [
+pub const RESERVED: [&str; 18] = [
     "sample",
     "point_id",
     "unit_id",
@@ -28,18 +28,22 @@ pub(crate) const RESERVED: [&str; 18] = [
 ];
 
 /// Whether a text column may be called `name`.
-pub(crate) fn is_attribute_name(name: &str) -> bool {
+pub fn is_attribute_name(name: &str) -> bool {
     !RESERVED.contains(&name) && Channel::named(name, Unit::One).is_ok()
 }
 
 /// A column with the name it has on disk.
-pub(crate) struct NamedColumn<'a> {
-    pub(crate) name: &'a str,
-    pub(crate) cells: Cells<'a>,
+#[doc(hidden)]
+pub struct NamedColumn<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// Its cells.
+    pub cells: Cells<'a>,
 }
 
 /// The cells of a column of any kind.
-pub(crate) enum Cells<'a> {
+#[doc(hidden)]
+pub enum Cells<'a> {
     Name(&'a [String]),
     Text(&'a [Option<String>]),
     Count(&'a [Option<u32>]),
@@ -70,12 +74,12 @@ impl Cells<'_> {
     }
 
     /// Whether the cells are texts in which anything may stand.
-    pub(crate) fn is_text(&self) -> bool {
+    pub fn is_text(&self) -> bool {
         matches!(self, Cells::Name(_) | Cells::Text(_))
     }
 
     /// The number in a row, of a column of numbers.
-    pub(crate) fn number(&self, row: usize) -> Option<f64> {
+    pub fn number(&self, row: usize) -> Option<f64> {
         match self {
             Cells::Spacing(cells) => cells[row].map(Nanometre::to_millimetres),
             Cells::Measured(cells) => cells[row],
@@ -85,7 +89,7 @@ impl Cells<'_> {
     }
 
     /// The cell as text; numbers in the shortest form that reads back to the same binary64.
-    pub(crate) fn text(&self, row: usize) -> Option<String> {
+    pub fn text(&self, row: usize) -> Option<String> {
         match self {
             Cells::Name(cells) => Some(cells[row].clone()),
             Cells::Text(cells) => cells[row].clone(),

@@ -6,10 +6,14 @@ use super::{FrameEntry, Row, Table};
 use crate::digest::{Digest, PartsDigest};
 
 /// What a row of another table is called here, and where its frame lies.
-pub(crate) struct RowNames {
-    pub(crate) sample: String,
-    pub(crate) point_id: Option<String>,
-    pub(crate) frame: Option<FrameEntry>,
+#[doc(hidden)]
+pub struct RowNames {
+    /// Name of the sample.
+    pub sample: String,
+    /// Contact point.
+    pub point_id: Option<String>,
+    /// Place of the frame.
+    pub frame: Option<FrameEntry>,
 }
 
 impl Table {
@@ -18,7 +22,7 @@ impl Table {
     ///
     /// # Panics
     /// If `other` lacks a channel, or has no such row.
-    pub(crate) fn push_of(&mut self, other: &Table, row: usize, names: RowNames) {
+    pub fn push_of(&mut self, other: &Table, row: usize, names: RowNames) {
         let truth = |channel: &Channel| {
             let position = other.channels.position(channel.name());
             other.truth[position.expect("a table of the same channels")].get(row)
@@ -49,7 +53,7 @@ impl Table {
     }
 
     /// For each row the digest of what it says, however it is called and wherever it came from: its labels, its time, and the digest of its frame.
-    pub(crate) fn row_digests(&self) -> Vec<Digest> {
+    pub fn row_digests(&self) -> Vec<Digest> {
         const NAMES: [&str; 6] = [
             "sample",
             "source_table",

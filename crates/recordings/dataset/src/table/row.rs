@@ -45,7 +45,7 @@ impl FrameEntry {
     }
 
     /// Whether it is stored as the difference to the first frame of its pack.
-    pub(crate) fn is_difference(&self) -> bool {
+    pub fn is_difference(&self) -> bool {
         self.span.is_some_and(|span| span.is_difference)
     }
 

@@ -8,7 +8,7 @@ use std::process::{Child, Command, Stdio};
 use taceva_dataset::{Dataset, Recorder};
 use taceva_needs::{Need, skip};
 
-use super::lab::Random;
+use crate::support::Random;
 
 /// The example recorder, built beside this test.
 fn example() -> Option<PathBuf> {

@@ -6,8 +6,8 @@ use std::path::Path;
 use taceva_core::{Frame, FrameInfo, PixelFormat};
 use taceva_dataset::{Dataset, DatasetError, Recorder};
 
-use super::lab::Random;
 use super::{sample, spec};
+use crate::support::Random;
 
 /// A texture that stays, noise that does not, and a place that is touched.
 fn textured(number: u8, format: PixelFormat) -> Frame {

@@ -4,8 +4,8 @@ use std::fs;
 
 use taceva_dataset::{Dataset, DatasetError, Recorder};
 
-use super::lab::{Random, contents};
 use super::{sample, spec};
+use crate::support::{Random, contents};
 
 #[test]
 fn an_interrupted_recording_goes_on_and_becomes_the_same_dataset() {

@@ -7,8 +7,8 @@ use taceva_core::{Column, SourceUnit};
 use super::CsvTable;
 use super::number::{number_in_unit, parse_number};
 use super::split::Block;
-use crate::error::DatasetError;
-use crate::parallel::each_part;
+use taceva_dataset::DatasetError;
+use taceva_dataset::internal::each_part;
 
 /// What to do with a cell that is neither empty nor a finite number.
 #[derive(Clone, Copy, PartialEq, Eq)]

@@ -10,10 +10,11 @@ use serde::{Deserialize, Serialize};
 
 use super::scan::{Found, LineScan, Mark, QuotedScan};
 use super::{CsvTable, as_text, delimiter_of};
-use crate::digest::Digest;
-use crate::error::{DatasetError, Place};
-use crate::file::open_regular;
-use crate::limits;
+use taceva_dataset::DatasetError;
+use taceva_dataset::Digest;
+use taceva_dataset::Place;
+use taceva_dataset::internal::limits;
+use taceva_dataset::internal::open_regular;
 
 /// Rows of a part; the last one has fewer.
 pub(super) const PART_ROWS: u64 = 1 << 16;
@@ -29,10 +30,10 @@ const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 /// # let folder = tempfile::tempdir()?;
 /// # let path = folder.path().join("truth.csv");
 /// std::fs::write(&path, "id,Fz\na,0.5\nb,\n")?;
-/// let parts = taceva_dataset::CsvParts::scan(&path)?;
+/// let parts = taceva_import::CsvParts::scan(&path)?;
 /// assert_eq!((parts.rows(), parts.count(), parts.rows_of(0)), (2, 1, 0..2));
 /// assert_eq!(parts.read(0)?.text("id")?, ["a", "b"]);
-/// assert_eq!(parts.digest(), taceva_dataset::CsvTable::read(&path)?.digest());
+/// assert_eq!(parts.digest(), taceva_import::CsvTable::read(&path)?.digest());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -180,7 +181,7 @@ impl CsvTable {
     /// at `path`. Its lines say nothing of that file.
     ///
     /// ```
-    /// use taceva_dataset::CsvTable;
+    /// use taceva_import::CsvTable;
     ///
     /// let rows = [["a", "0.5"], ["b,c", ""]];
     /// let table = CsvTable::of_cells("truth.parquet".as_ref(), &["id", "Fz"], rows)?;

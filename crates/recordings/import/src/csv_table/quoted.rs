@@ -4,8 +4,9 @@ use std::path::Path;
 
 use super::CsvTable;
 use super::split::Block;
-use crate::error::{DatasetError, Place};
-use crate::limits;
+use taceva_dataset::DatasetError;
+use taceva_dataset::Place;
+use taceva_dataset::internal::limits;
 
 pub(super) fn read(path: &Path, text: &str, delimiter: u8) -> Result<CsvTable, DatasetError> {
     let wrong = |line: u64, problem: String| DatasetError::Table {

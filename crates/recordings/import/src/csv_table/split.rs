@@ -6,8 +6,9 @@ use std::path::Path;
 
 use super::cells::{Ragged, RowSplitter};
 use super::{CsvTable, line_at};
-use crate::error::{DatasetError, Place};
-use crate::parallel::each_part;
+use taceva_dataset::DatasetError;
+use taceva_dataset::Place;
+use taceva_dataset::internal::each_part;
 
 /// Text below this is not worth a second thread.
 const LEAST_PART: usize = 1 << 16;

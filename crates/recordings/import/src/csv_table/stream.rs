@@ -9,9 +9,11 @@ use super::cells::RowSplitter;
 use super::parts::{begin_of, header_line_of};
 use super::split::Block;
 use super::{CsvTable, delimiter_of, line_at};
-use crate::digest::{Digest, PartsDigest};
-use crate::error::{DatasetError, Place};
-use crate::file::open_regular;
+use taceva_dataset::DatasetError;
+use taceva_dataset::Digest;
+use taceva_dataset::Place;
+use taceva_dataset::internal::PartsDigest;
+use taceva_dataset::internal::open_regular;
 
 /// How many bytes are read at once.
 const AHEAD: usize = 1 << 16;
@@ -28,7 +30,7 @@ const BEGINNING: usize = 4_096;
 /// # let folder = tempfile::tempdir()?;
 /// # let path = folder.path().join("truth.csv");
 /// std::fs::write(&path, "id,Fz\na,0.5\nb,\nc,2\n")?;
-/// let mut stream = taceva_dataset::CsvStream::open(&path)?;
+/// let mut stream = taceva_import::CsvStream::open(&path)?;
 /// let mut block = stream.block();
 /// stream.read(2, &mut block)?;
 /// assert_eq!(block.text("id")?, ["a", "b"]);
@@ -36,7 +38,7 @@ const BEGINNING: usize = 4_096;
 /// assert_eq!(block.text("id")?, ["c"]);
 /// stream.read(2, &mut block)?;
 /// assert_eq!(block.rows(), 0);
-/// assert_eq!(stream.digest(), taceva_dataset::CsvTable::read(&path)?.digest());
+/// assert_eq!(stream.digest(), taceva_import::CsvTable::read(&path)?.digest());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]

@@ -5,10 +5,12 @@ use std::path::Path;
 use super::roles::Role;
 use super::survey::FileGroup;
 use super::tables::{SeenColumn, SeenTable};
-use crate::decode::{ChannelOrder, decode};
-use crate::file::{SourceFolder, read_capped};
 use crate::foreign::{PictureColumn, PictureKind};
-use crate::limits;
+use crate::source_folder::SourceFolder;
+use taceva_dataset::ChannelOrder;
+use taceva_dataset::internal::decode;
+use taceva_dataset::internal::limits;
+use taceva_dataset::internal::read_capped;
 
 /// How many cells of a column are looked up as files.
 const LOOKED_UP: usize = 20;

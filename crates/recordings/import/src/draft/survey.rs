@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::path_parts::{PathParts, varying};
-use crate::error::DatasetError;
-use crate::file::SourceFolder;
+use crate::source_folder::SourceFolder;
+use taceva_dataset::DatasetError;
 
 /// The most files and folders that are looked at.
 const LOOKED_AT: usize = 100_000;

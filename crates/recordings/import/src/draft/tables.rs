@@ -9,8 +9,8 @@ use taceva_arrays::ArrayFormat;
 use super::roles::{Role, doubt, of_named, role};
 use super::survey::FileGroup;
 use crate::csv_table::number;
-use crate::file::SourceFolder;
 use crate::foreign::{ForeignTable, PictureColumn, TableForm, packed, topics};
+use crate::source_folder::SourceFolder;
 use form::{NUMBERED_HEADER, form_of};
 
 /// How many rows of a table are looked at.

@@ -8,9 +8,9 @@ use super::path_parts::PathParts;
 use super::roles::{Role, channel, words};
 use super::survey::FileGroup;
 use super::tables::{SeenColumn, SeenTable};
-use crate::file::SourceFolder;
 use crate::import::converter;
-use crate::table::is_attribute_name;
+use crate::source_folder::SourceFolder;
+use taceva_dataset::internal::is_attribute_name;
 
 const HEAD: &str = "\
 # A draft: made from names, headers and the first rows. Every \"?\" is to be filled in; an import refuses it and names its line.

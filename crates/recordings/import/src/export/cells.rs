@@ -5,8 +5,8 @@ use taceva_tables::{Cell, TableError, WrittenKind};
 
 use super::exported::Exported;
 use super::picture::Encoded;
-use crate::error::DatasetError;
-use crate::table::Cells;
+use taceva_dataset::DatasetError;
+use taceva_dataset::internal::Cells;
 
 /// What the cells of a column are there.
 pub(super) fn kind(cells: &Cells<'_>) -> WrittenKind {

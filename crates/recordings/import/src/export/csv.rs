@@ -8,11 +8,11 @@ use std::num::NonZeroUsize;
 use super::exported::Exported;
 use super::map::{self, Written, quoted};
 use super::picture::Encoded;
-use crate::error::DatasetError;
-use crate::file::write_durable;
-use crate::layout;
-use crate::parallel::ordered_map;
-use crate::staged::StagedFolder;
+use taceva_dataset::DatasetError;
+use taceva_dataset::internal::layout;
+use taceva_dataset::internal::ordered_map;
+use taceva_dataset::internal::staged::StagedFolder;
+use taceva_dataset::internal::write_durable;
 
 /// The table, whose rows are as those of the dataset.
 const TABLE: &str = "labels.csv";

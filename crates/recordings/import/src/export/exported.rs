@@ -5,11 +5,11 @@ use std::num::NonZeroUsize;
 use taceva_core::Progress;
 
 use super::picture::Pictures;
-use crate::dataset::Dataset;
-use crate::error::DatasetError;
-use crate::file::write_durable;
-use crate::staged::StagedFolder;
-use crate::table::NamedColumn;
+use taceva_dataset::Dataset;
+use taceva_dataset::DatasetError;
+use taceva_dataset::internal::NamedColumn;
+use taceva_dataset::internal::staged::StagedFolder;
+use taceva_dataset::internal::write_durable;
 
 /// What an export is made of.
 pub(super) struct Exported<'a> {

@@ -3,7 +3,7 @@
 /// A form that other programs read.
 ///
 /// ```
-/// use taceva_dataset::ExportForm;
+/// use taceva_import::ExportForm;
 ///
 /// assert_eq!(ExportForm::ALL.map(ExportForm::name), ["csv", "huggingface", "hdf5", "lerobot"]);
 /// ```

@@ -6,9 +6,9 @@ use taceva_core::PixelFormat;
 use super::cells::of_arrays;
 use super::exported::Exported;
 use super::map::{self, Written, quoted};
-use crate::error::DatasetError;
-use crate::staged::StagedFolder;
-use crate::table::Cells;
+use taceva_dataset::DatasetError;
+use taceva_dataset::internal::Cells;
+use taceva_dataset::internal::staged::StagedFolder;
 
 const FILE: &str = "recording.h5";
 /// Longest text of a column, bytes: all texts of an array have the room of the longest.

@@ -6,9 +6,9 @@ use super::cells;
 use super::cells::of_table;
 use super::exported::Exported;
 use super::map::{self, Written, quoted};
-use crate::error::DatasetError;
-use crate::file::write_durable;
-use crate::staged::StagedFolder;
+use taceva_dataset::DatasetError;
+use taceva_dataset::internal::staged::StagedFolder;
+use taceva_dataset::internal::write_durable;
 
 /// Where the file lies in the folder.
 const FILE: &str = "data/train-00000-of-00001.parquet";

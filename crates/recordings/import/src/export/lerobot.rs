@@ -16,9 +16,10 @@ use super::cells::of_table;
 use super::exported::Exported;
 use super::map::{Written, quoted};
 use super::picture::Pictures;
-use crate::error::DatasetError;
-use crate::staged::StagedFolder;
-use crate::table::{RESERVED, Table};
+use taceva_dataset::DatasetError;
+use taceva_dataset::Table;
+use taceva_dataset::internal::RESERVED;
+use taceva_dataset::internal::staged::StagedFolder;
 
 const STATE: &str = "observation.state";
 const TAXELS: &str = "observation.tactile";
@@ -87,7 +88,7 @@ fn name_of(name: &str) -> String {
 /// Those of the columns that are no channels, which stand together.
 fn labels<'e, 'd>(
     exported: &'e Exported<'d>,
-) -> impl Iterator<Item = &'e crate::table::NamedColumn<'d>> {
+) -> impl Iterator<Item = &'e taceva_dataset::internal::NamedColumn<'d>> {
     let channels = exported.dataset.table().channels();
     let columns = exported.columns.iter();
     columns.filter(|column| channels.position(column.name).is_none())

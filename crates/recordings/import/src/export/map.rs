@@ -4,9 +4,11 @@ use std::fmt::Write as _;
 
 use super::exported::Exported;
 use super::form::ExportForm;
-use crate::decode::ChannelOrder;
-use crate::header::{Footprint, ReducedFrames, SensorFacts};
-use crate::table::RESERVED;
+use taceva_dataset::ChannelOrder;
+use taceva_dataset::Footprint;
+use taceva_dataset::ReducedFrames;
+use taceva_dataset::SensorFacts;
+use taceva_dataset::internal::RESERVED;
 
 /// Where a form has what the map names.
 pub(super) struct Written {
@@ -101,7 +103,7 @@ pub(super) fn text(exported: &Exported<'_>, form: ExportForm, written: &Written)
         line(format_args!("reference = {}", quoted(reference)));
         let frames = header.frames.as_ref();
         if let Some(reduced) = frames.and_then(|frames| frames.reduced.as_ref()) {
-            let ReducedFrames { from, by } = reduced;
+            let ReducedFrames { from, by, .. } = reduced;
             line(format_args!(
                 "# Reduced before they were recorded: {by}, of {from}."
             ));

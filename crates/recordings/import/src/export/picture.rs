@@ -3,10 +3,11 @@
 use taceva_core::{Frame, PixelFormat};
 
 use super::form::ExportForm;
-use crate::dataset::Dataset;
-use crate::decode::{ChannelOrder, ImageKind};
-use crate::encode::encode_png;
-use crate::error::DatasetError;
+use taceva_dataset::ChannelOrder;
+use taceva_dataset::Dataset;
+use taceva_dataset::DatasetError;
+use taceva_dataset::internal::ImageKind;
+use taceva_dataset::internal::encode_png;
 
 /// The pictures of a dataset that has any.
 pub(super) struct Pictures<'a> {

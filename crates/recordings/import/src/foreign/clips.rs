@@ -7,10 +7,10 @@ use taceva_video::{Colours, Decoders, Video, VisitError};
 
 use super::pictures::{Ended, Picture, Pictures, Visit, damaged, guarded_visit};
 use super::said;
-use crate::decode::ChannelOrder;
-use crate::error::DatasetError;
-use crate::guard::guarded;
-use crate::header::FrameCodec;
+use taceva_dataset::ChannelOrder;
+use taceva_dataset::DatasetError;
+use taceva_dataset::FrameCodec;
+use taceva_dataset::internal::guarded;
 
 /// The frames of a clip in the order in which they are shown. The file is opened for each visit: a recording may have one clip for each press.
 #[derive(Debug)]
@@ -66,7 +66,7 @@ impl Pictures for ClipPictures {
         let video = open(&self.path, &self.decoders)?;
         let (colours, format) = match order {
             ChannelOrder::Gray => (Colours::Luma, PixelFormat::Gray8),
-            ChannelOrder::Rgb | ChannelOrder::Bgr => (Colours::Rgb, PixelFormat::Rgb8),
+            _ => (Colours::Rgb, PixelFormat::Rgb8),
         };
         guarded_visit(&self.path, || {
             let outcome = video.visit(sorted, colours, &mut |index, picture| {

@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::pictures::Pictures;
-use crate::error::{DatasetError, Place};
-use crate::guard::guarded;
 use crate::import::FrameNames;
+use taceva_dataset::DatasetError;
+use taceva_dataset::Place;
+use taceva_dataset::internal::guarded;
 
 /// What a file says of the numbers in a column, in attributes of its array.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -176,9 +177,9 @@ impl ColumnTable {
         }
         let columns = guarded(|| self.source.columns(&names)).and_then(|columns| columns);
         let columns = columns.map_err(|problem| DatasetError::Table {
-            place: Place {
-                column: (names.len() == 1).then(|| names[0].to_owned()),
-                ..Place::file(&self.path)
+            place: match names.as_slice() {
+                [name] => Place::file(&self.path).in_column(*name),
+                _ => Place::file(&self.path),
             },
             problem,
         })?;

@@ -7,11 +7,12 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use super::members::in_order;
-use crate::error::{DatasetError, Place};
-use crate::file::read_capped;
-use crate::limits;
-use crate::text::shown;
-use crate::toml_file::utf8;
+use taceva_dataset::DatasetError;
+use taceva_dataset::Place;
+use taceva_dataset::internal::limits;
+use taceva_dataset::internal::read_capped;
+use taceva_dataset::internal::shown;
+use taceva_dataset::internal::utf8;
 
 /// How many rows are looked at to list the members that there are.
 const LISTED: usize = 100;
@@ -155,10 +156,7 @@ impl JsonRows {
     pub(super) fn place(&self, row: usize) -> Place {
         match self.rows[row].line {
             Some(line) => Place::line(&self.path, line),
-            None => Place {
-                row: Some(row as u64),
-                ..Place::file(&self.path)
-            },
+            None => Place::file(&self.path).in_row(row as u64),
         }
     }
 

@@ -9,10 +9,10 @@ use taceva_tables::{Cell, Mcap, McapTable, SampleForm};
 use super::columns::{ColumnSource, PictureColumn, PictureKind};
 use super::pictures::{Ended, Picture, Pictures, Visit, damaged, guarded_visit};
 use super::said;
-use crate::decode::ChannelOrder;
-use crate::error::DatasetError;
-use crate::guard::guarded;
 use crate::import::FrameNames;
+use taceva_dataset::ChannelOrder;
+use taceva_dataset::DatasetError;
+use taceva_dataset::internal::guarded;
 
 /// Messages of these types are pictures in their field `data`.
 const PICTURES: [&str; 2] = ["sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"];

@@ -10,8 +10,8 @@ use super::columns::{ColumnSource, PictureColumn, PictureKind};
 use super::encoded::{ByteColumns, EncodedPictures};
 use super::pictures::Pictures;
 use super::said;
-use crate::decode::ImageKind;
 use crate::import::FrameNames;
+use taceva_dataset::internal::ImageKind;
 
 /// The rows of a Parquet file.
 #[derive(Debug)]

@@ -6,10 +6,10 @@ use std::path::Path;
 use taceva_core::Frame;
 
 use super::said;
-use crate::decode::ChannelOrder;
-use crate::error::DatasetError;
-use crate::guard::guarded;
-use crate::header::FrameCodec;
+use taceva_dataset::ChannelOrder;
+use taceva_dataset::DatasetError;
+use taceva_dataset::FrameCodec;
+use taceva_dataset::internal::guarded;
 
 /// Pictures by their number, from 0.
 pub(crate) trait Pictures: fmt::Debug + Send + Sync {

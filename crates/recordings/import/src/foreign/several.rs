@@ -5,9 +5,9 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::pictures::{Pictures, Visit};
-use crate::decode::ChannelOrder;
-use crate::error::DatasetError;
-use crate::header::FrameCodec;
+use taceva_dataset::ChannelOrder;
+use taceva_dataset::DatasetError;
+use taceva_dataset::FrameCodec;
 
 /// The pictures of several files, one file after the other.
 #[derive(Debug)]

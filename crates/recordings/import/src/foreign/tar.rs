@@ -6,7 +6,7 @@ use std::io::{self, BufReader, Read};
 
 use thiserror::Error;
 
-use crate::file::check_relative;
+use taceva_dataset::internal::check_relative;
 
 const BLOCK: usize = 512;
 /// The most bytes of a long name, or of the records of an extended header.

@@ -12,10 +12,11 @@ use super::columns::{ColumnSource, PictureColumn, PictureKind};
 use super::json::json_problem;
 use super::pictures::{Picture, Pictures, Visit, damaged};
 use super::tar::{FileTape, Members, TarError};
-use crate::decode::{ChannelOrder, ImageKind};
-use crate::error::DatasetError;
 use crate::import::FrameNames;
-use crate::limits;
+use taceva_dataset::ChannelOrder;
+use taceva_dataset::DatasetError;
+use taceva_dataset::internal::ImageKind;
+use taceva_dataset::internal::limits;
 
 /// How many samples are looked at to find whether a JSON has a member.
 const LOOKED_AT: usize = 100;

@@ -6,11 +6,13 @@ use std::path::{Path, PathBuf};
 
 use flate2::read::MultiGzDecoder;
 
-use crate::error::{DatasetError, Place};
-use crate::file::open_regular;
 use crate::foreign::tar::{FileTape, Members, Tape, TarError};
-use crate::staged::{self, StagedFolder};
-use crate::text::shown_path;
+use taceva_dataset::DatasetError;
+use taceva_dataset::Place;
+use taceva_dataset::internal::open_regular;
+use taceva_dataset::internal::shown_path;
+use taceva_dataset::internal::staged;
+use taceva_dataset::internal::staged::StagedFolder;
 
 /// How many times as large as its file a compressed archive may be, and how many bytes more.
 const GROWTH: u64 = 128;
@@ -24,7 +26,7 @@ const GZIP: [u8; 2] = [0x1f, 0x8b];
 /// without holding it in memory. Shards of WebDataset are the exception: they are read where they lie.
 ///
 /// ```no_run
-/// use taceva_dataset::{MapDraft, UnpackedArchive};
+/// use taceva_import::{MapDraft, UnpackedArchive};
 ///
 /// let archive = UnpackedArchive::open("run.tar.gz".as_ref(), "/tmp".as_ref())?;
 /// println!("{}", MapDraft::of(archive.folder())?.text());
@@ -41,7 +43,7 @@ impl UnpackedArchive {
     /// Whether `path` is a file whose name ends in `.tar`, `.tar.gz` or `.tgz`.
     ///
     /// ```
-    /// assert!(!taceva_dataset::UnpackedArchive::is_archive("no/such/file.tar".as_ref()));
+    /// assert!(!taceva_import::UnpackedArchive::is_archive("no/such/file.tar".as_ref()));
     /// ```
     pub fn is_archive(path: &Path) -> bool {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -93,7 +95,7 @@ impl UnpackedArchive {
     /// The same error, in whose paths the archive and its member stand and not where they were unpacked: `run.tar/run/labels.csv`.
     ///
     /// ```no_run
-    /// # use taceva_dataset::{MapDraft, UnpackedArchive};
+    /// # use taceva_import::{MapDraft, UnpackedArchive};
     /// # let archive = UnpackedArchive::open("run.tar".as_ref(), "/tmp".as_ref())?;
     /// let draft = MapDraft::of(archive.folder()).map_err(|error| archive.named(error))?;
     /// # Ok::<(), taceva_dataset::DatasetError>(())
@@ -113,7 +115,7 @@ impl UnpackedArchive {
     /// The same text, in which the archive stands and not where it was unpacked.
     ///
     /// ```no_run
-    /// # let archive = taceva_dataset::UnpackedArchive::open("run.tar".as_ref(), "/tmp".as_ref())?;
+    /// # let archive = taceva_import::UnpackedArchive::open("run.tar".as_ref(), "/tmp".as_ref())?;
     /// let said = format!("{} holds 3 tables", archive.folder().display());
     /// assert!(archive.text_named(&said).starts_with("run.tar"));
     /// # Ok::<(), taceva_dataset::DatasetError>(())

@@ -10,18 +10,21 @@ use taceva_core::{FrameInfo, Progress};
 
 use super::plan::ImportPlan;
 use super::summary::ImportSummary;
-use crate::digest::Digest;
-use crate::error::DatasetError;
-use crate::layout;
-use crate::staged::{Place, StagedFolder};
-use crate::store::{Beside, write_table_and_header};
 pub(super) use frames::copy_frames;
+use taceva_dataset::DatasetError;
+use taceva_dataset::Digest;
+use taceva_dataset::internal::Beside;
+use taceva_dataset::internal::layout;
+use taceva_dataset::internal::staged::Place;
+use taceva_dataset::internal::staged::StagedFolder;
+use taceva_dataset::internal::write_table_and_header;
 
 /// What an import did.
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, SourceUnit};
-/// # use taceva_dataset::{ColumnMap, ImportMap, ImportPlan, RecordingFacts, SensorFacts, Source};
+/// # use taceva_dataset::{RecordingFacts, SensorFacts, Source};
+/// # use taceva_import::{ColumnMap, ImportMap, ImportPlan};
 /// # let folder = tempfile::tempdir()?;
 /// std::fs::write(folder.path().join("labels.csv"), "force\n1500\n2000\n")?;
 /// let facts = RecordingFacts::new(Source::Recorded, Clock::Unknown, SensorFacts::new("my gel"));

@@ -5,8 +5,9 @@ use std::fmt;
 use super::copy::ImportReport;
 use super::plan::ImportPlan;
 use super::summary::{Conversion, ImportSummary, JoinSummary};
-use crate::quality::names_quality;
-use crate::text::{shown, shown_path};
+use taceva_dataset::internal::shown;
+use taceva_dataset::internal::shown_path;
+use taceva_dataset::names_quality;
 
 impl fmt::Display for ImportSummary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

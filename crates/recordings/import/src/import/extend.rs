@@ -13,23 +13,32 @@ use super::copy::{ImportReport, copy_frames};
 use super::plan::ImportPlan;
 use super::planned_frames::PlannedFrames;
 use super::signals::PlannedSignals;
-use crate::dataset::{Dataset, Difference, differences_of_added};
-use crate::digest::Digest;
-use crate::error::DatasetError;
-use crate::file::read_capped;
-use crate::header::{Extension, FramesInfo, Header, Misread};
-use crate::layout;
-use crate::limits;
-use crate::signals::{SignalsInfo, SignalsWriter};
-use crate::staged::{Place, StagedFolder};
-use crate::store::{Beside, RecordingFacts, write_table_and_header};
-use crate::table::{RowNames, Table};
+use taceva_dataset::Dataset;
+use taceva_dataset::DatasetError;
+use taceva_dataset::Digest;
+use taceva_dataset::Extension;
+use taceva_dataset::FramesInfo;
+use taceva_dataset::Header;
+use taceva_dataset::SignalsInfo;
+use taceva_dataset::Table;
+use taceva_dataset::internal::Beside;
+use taceva_dataset::internal::Difference;
+use taceva_dataset::internal::Misread;
+use taceva_dataset::internal::RowNames;
+use taceva_dataset::internal::SignalsWriter;
+use taceva_dataset::internal::differences_of_added;
+use taceva_dataset::internal::layout;
+use taceva_dataset::internal::limits;
+use taceva_dataset::internal::read_capped;
+use taceva_dataset::internal::staged::Place;
+use taceva_dataset::internal::staged::StagedFolder;
+use taceva_dataset::internal::write_table_and_header;
 use twice::refuse_twice;
 
 /// When rows are added, and from where, as the header of the dataset will say it.
 ///
 /// ```
-/// let added = taceva_dataset::Addition::new("2026-11-23", "lab/tuesday");
+/// let added = taceva_import::Addition::new("2026-11-23", "lab/tuesday");
 /// assert_eq!(added.from, "lab/tuesday");
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -66,7 +75,8 @@ impl ImportPlan {
     ///
     /// ```
     /// # use taceva_core::{Channel, Channels, Clock, SilentProgress, SourceUnit};
-    /// # use taceva_dataset::{Addition, ColumnMap, Dataset, ImportMap, ImportPlan, RecordingFacts, SensorFacts, Source};
+    /// # use taceva_dataset::{Dataset, RecordingFacts, SensorFacts, Source};
+    /// # use taceva_import::{Addition, ColumnMap, ImportMap, ImportPlan};
     /// # let folder = tempfile::tempdir()?;
     /// # let facts = RecordingFacts::new(Source::Recorded, Clock::Unknown, SensorFacts::new("my gel"));
     /// # let mut map = ImportMap::new("labels.csv", facts);
@@ -289,9 +299,9 @@ fn write_header(
     added: &Addition,
 ) -> Result<Header, DatasetError> {
     let header = before.header();
-    let all = header.frames.clone().map(|own| FramesInfo {
-        count: own.count + frames.map_or(0, |new| new.count),
-        ..own
+    let all = header.frames.clone().map(|mut all| {
+        all.count += frames.map_or(0, |new| new.count);
+        all
     });
     let mut unmentioned = header.unmentioned_columns.clone();
     for column in plan.summary.columns_left_behind() {
@@ -300,19 +310,13 @@ fn write_header(
         }
     }
     let mut extended = header.extended.clone();
-    extended.push(Extension {
-        rows: header.table.rows,
-        digest: header.digest,
-        date: added.date.clone(),
-        from: added.from.clone(),
-    });
-    let facts = RecordingFacts {
-        source: header.source,
-        clock: header.clock,
-        sensor: header.sensor.clone(),
-        footprint: header.footprint,
-        settings: header.settings.clone(),
-    };
+    extended.push(Extension::new(
+        header.table.rows,
+        header.digest,
+        added.date.clone(),
+        added.from.clone(),
+    ));
+    let facts = header.recording_facts();
     write_table_and_header(
         &staged.path().join(layout::SAMPLES),
         &staged.path().join(layout::HEADER),

@@ -2,7 +2,7 @@
 
 use super::map::FrameNames;
 use super::resolve::RowTable;
-use crate::error::DatasetError;
+use taceva_dataset::DatasetError;
 
 /// The cells that name a frame.
 pub(super) enum FrameCells {

@@ -6,9 +6,9 @@ use std::path::Path;
 use super::map::{FrameMap, FrameNames};
 use super::planned_frames::{PlannedFrames, within};
 use super::summary::ImportSummary;
-use crate::error::DatasetError;
-use crate::file::SourceFolder;
-use crate::header::add_left_out;
+use crate::source_folder::SourceFolder;
+use taceva_dataset::DatasetError;
+use taceva_dataset::internal::add_left_out;
 
 /// Counts the frames of arrays and clips that no row uses, and the chunks of arrays that were never written; `absent_chunks` are those of
 /// arrays that are no frames.

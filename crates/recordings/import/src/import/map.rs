@@ -21,10 +21,10 @@ use std::path::Path;
 
 use taceva_core::Channels;
 
-use crate::error::DatasetError;
 use crate::foreign::TableForm;
-use crate::store::RecordingFacts;
-use crate::toml_file::read_toml_text;
+use taceva_dataset::DatasetError;
+use taceva_dataset::RecordingFacts;
+use taceva_dataset::internal::read_toml_text;
 
 pub(crate) use frames::{OWN_ROW, REFERENCE_ATTRIBUTE};
 pub(crate) use join::{JoinBy, JoinMap, Pick, TimeJoin, Unmatched};
@@ -41,7 +41,7 @@ pub use frames::{ArrayFrames, ArrayLayout, FrameMap, FrameNames, PixelRange, Vid
 /// A checked map.
 ///
 /// ```
-/// let map = taceva_dataset::ImportMap::parse(
+/// let map = taceva_import::ImportMap::parse(
 ///     "map.toml".as_ref(),
 ///     r#"
 ///     map_version = 1

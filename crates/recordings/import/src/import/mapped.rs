@@ -6,10 +6,10 @@ mod tables;
 use std::borrow::Cow;
 
 use super::map::ImportMap;
-use crate::digest::Digest;
-use crate::error::DatasetError;
-use crate::file::SourceFolder;
-use crate::header::Mapping;
+use crate::source_folder::SourceFolder;
+use taceva_dataset::DatasetError;
+use taceva_dataset::Digest;
+use taceva_dataset::internal::Mapping;
 
 /// Of so many columns of taxels all are named, and each by so many bytes; what is more is told apart by a digest, so that a header stays small.
 const NAMED: usize = 64;

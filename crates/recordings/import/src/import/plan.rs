@@ -16,19 +16,20 @@ use super::planned_frames::{FrameSource, PlannedFrames};
 use super::signals::{FoundSignals, PlannedSignals};
 use super::source::matching_files;
 use super::summary::ImportSummary;
-use crate::error::DatasetError;
-use crate::file::SourceFolder;
 use crate::foreign::TableForm;
-use crate::header::Mapping;
-use crate::store::RecordingFacts;
-use crate::table::Table;
+use crate::source_folder::SourceFolder;
 use reading::Reading;
+use taceva_dataset::DatasetError;
+use taceva_dataset::RecordingFacts;
+use taceva_dataset::Table;
+use taceva_dataset::internal::Mapping;
 
 /// An import that can be made: every label is read and converted, every frame is found; frames are verified when it is run.
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, SourceUnit};
-/// # use taceva_dataset::{ColumnMap, ImportMap, ImportPlan, RecordingFacts, SensorFacts, Source};
+/// # use taceva_dataset::{RecordingFacts, SensorFacts, Source};
+/// # use taceva_import::{ColumnMap, ImportMap, ImportPlan};
 /// # let folder = tempfile::tempdir()?;
 /// std::fs::write(folder.path().join("labels.csv"), "force\n1500\n2000\n")?;
 /// let facts = RecordingFacts::new(Source::Recorded, Clock::Unknown, SensorFacts::new("my gel"));
@@ -69,14 +70,15 @@ impl ImportPlan {
     /// As [`new`](ImportPlan::new); [`DatasetError::Image`] naming the codec and what would mend it if nothing at hand decodes a clip.
     /// ```
     /// # use taceva_core::{Channel, Channels, Clock, SourceUnit};
-    /// # use taceva_dataset::{ColumnMap, ImportMap, ImportPlan, RecordingFacts, SensorFacts, Source};
+    /// # use taceva_dataset::{RecordingFacts, SensorFacts, Source};
+    /// # use taceva_import::{ColumnMap, ImportMap, ImportPlan};
     /// # let folder = tempfile::tempdir()?;
     /// # std::fs::write(folder.path().join("labels.csv"), "force\n1500\n2000\n")?;
     /// # let facts = RecordingFacts::new(Source::Recorded, Clock::Unknown, SensorFacts::new("my gel"));
     /// # let mut map = ImportMap::new("labels.csv", facts);
     /// # map.channels = Channels::new([Channel::FZ])?;
     /// # map.columns = vec![ColumnMap::new("force", SourceUnit::parse("mN")?)];
-    /// use taceva_dataset::Decoders;
+    /// use taceva_import::Decoders;
     ///
     /// let mut decoders = Decoders::default();
     /// decoders.ffmpeg = Some("/usr/bin/ffmpeg".into());

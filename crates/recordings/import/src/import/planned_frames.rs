@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::decode::ChannelOrder;
-use crate::error::Place;
 use crate::foreign::Pictures;
+use taceva_dataset::ChannelOrder;
+use taceva_dataset::Place;
 
 /// Where the frames come from.
 #[derive(Debug)]

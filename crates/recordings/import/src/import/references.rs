@@ -4,9 +4,10 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use super::map::REFERENCE_ATTRIBUTE;
-use crate::error::{DatasetError, Place};
-use crate::file::SourceFolder;
-use crate::table::Table;
+use crate::source_folder::SourceFolder;
+use taceva_dataset::DatasetError;
+use taceva_dataset::Place;
+use taceva_dataset::Table;
 
 /// The picture without contact of each kept row, relative to the folder of the lab.
 #[derive(Debug, Default)]

@@ -14,11 +14,12 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::map::{FrameNames, ImportMap, OWN_ROW};
-use crate::error::{DatasetError, Place};
-use crate::file::SourceFolder;
 use crate::foreign::{ForeignTable, packed};
+use crate::source_folder::SourceFolder;
 use columns::{base_of, mentioned};
 use join::Joined;
+use taceva_dataset::DatasetError;
+use taceva_dataset::Place;
 
 pub(super) use classes::ClassCells;
 pub(super) use join::JoinMatches;
@@ -142,7 +143,7 @@ impl Sources<'_> {
                 place,
                 problem: format!(
                     "`{}` does not follow the pattern of [path]",
-                    crate::text::shown(path)
+                    taceva_dataset::internal::shown(path)
                 ),
             })
         };

@@ -11,11 +11,12 @@ use super::frame_cells::{FrameCells, FrameName, columns_of, filled};
 use super::map::{FrameNames, ImportMap};
 use super::resolve::{ClassCells, JoinMatches, NamedBy, RowTable, problem_of_name, resolve};
 use crate::csv_table::CsvTable;
-use crate::error::{DatasetError, Place};
-use crate::file::SourceFolder;
 use crate::foreign::{Pictures, TableForm};
-use crate::table::Row;
-use crate::text::shown;
+use crate::source_folder::SourceFolder;
+use taceva_dataset::DatasetError;
+use taceva_dataset::Place;
+use taceva_dataset::Row;
+use taceva_dataset::internal::shown;
 
 /// A table whose columns have been found.
 pub(super) struct MappedTable<'a> {
@@ -72,10 +73,7 @@ fn checked(map: &ImportMap, table: CsvTable) -> Result<CsvTable, DatasetError> {
     match wrong {
         None => Ok(table),
         Some((name, problem)) => Err(DatasetError::Table {
-            place: Place {
-                column: Some(name.to_owned()),
-                ..Place::line(table.path(), 1)
-            },
+            place: Place::line(table.path(), 1).in_column(name),
             problem,
         }),
     }
@@ -310,27 +308,24 @@ impl<'a> MappedTable<'a> {
             (None, Some(source)) => (Some(source.to_owned()), u32::try_from(row).ok()),
             (None, None) => (None, None),
         };
-        Ok(Row {
-            sample,
-            point_id: self.point_id(row),
-            unit_id: text(self.unit_id),
-            scene: text(self.scene),
-            depth_step: self.count(row, self.depth_step)?,
-            repeat: self.count(row, self.repeat)?,
-            phase: self.phase(row)?,
-            limited_by: self.limited_by(row)?,
-            source_table,
-            source_row,
-            source_frame: text(frame),
-            part: text(self.part),
-            t_s: self.time(row)?,
-            kind: self.kind(row)?,
-            spacing: self.spacing(row)?,
-            intensity: None,
-            truth: self.truth(row)?,
-            attributes: self.texts(row)?,
-            frame: None,
-        })
+        let mut read = Row::new(sample);
+        read.point_id = self.point_id(row);
+        read.unit_id = text(self.unit_id);
+        read.scene = text(self.scene);
+        read.depth_step = self.count(row, self.depth_step)?;
+        read.repeat = self.count(row, self.repeat)?;
+        read.phase = self.phase(row)?;
+        read.limited_by = self.limited_by(row)?;
+        read.source_table = source_table;
+        read.source_row = source_row;
+        read.source_frame = text(frame);
+        read.part = text(self.part);
+        read.t_s = self.time(row)?;
+        read.kind = self.kind(row)?;
+        read.spacing = self.spacing(row)?;
+        read.truth = self.truth(row)?;
+        read.attributes = self.texts(row)?;
+        Ok(read)
     }
 
     /// The error that another row has the name of this one.

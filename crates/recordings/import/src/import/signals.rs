@@ -9,10 +9,12 @@ use taceva_core::Progress;
 
 use super::map::{SignalsFrom, SignalsMap};
 use super::rows::MappedTable;
-use crate::error::{DatasetError, Place};
-use crate::file::SourceFolder;
-use crate::signals::{SignalsInfo, SignalsSpec, SignalsWriter};
+use crate::source_folder::SourceFolder;
 use array::ArraySignals;
+use taceva_dataset::DatasetError;
+use taceva_dataset::SignalsInfo;
+use taceva_dataset::SignalsSpec;
+use taceva_dataset::internal::SignalsWriter;
 
 /// The signals of the rows that are kept, as they are found.
 #[derive(Debug)]
@@ -113,9 +115,9 @@ impl<'a> FoundSignals<'a> {
             }
         };
         DatasetError::Table {
-            place: Place {
-                column: column.cloned(),
-                ..rows.place(row)
+            place: match column {
+                Some(column) => rows.place(row).in_column(column),
+                None => rows.place(row),
             },
             problem: format!("[signals]: {problem}"),
         }

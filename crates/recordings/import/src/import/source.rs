@@ -4,10 +4,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::error::DatasetError;
-use crate::file::SourceFolder;
-use crate::limits;
-use crate::text::shown;
+use crate::source_folder::SourceFolder;
+use taceva_dataset::DatasetError;
+use taceva_dataset::internal::limits;
+use taceva_dataset::internal::shown;
 
 /// The files that `pattern` names, sorted; `*` stands for any characters within one name.
 pub(crate) fn matching_files(

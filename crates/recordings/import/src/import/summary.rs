@@ -6,15 +6,16 @@ use std::path::PathBuf;
 use taceva_core::{SignalInfo, SourceUnit, Unit};
 
 use super::suspicion::Suspicion;
-use crate::decode::ChannelOrder;
-use crate::header::LeftOut;
-use crate::quality::names_quality;
+use taceva_dataset::ChannelOrder;
+use taceva_dataset::LeftOut;
+use taceva_dataset::names_quality;
 
 /// The counts of an import.
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, SourceUnit};
-/// # use taceva_dataset::{ColumnMap, ImportMap, ImportPlan, RecordingFacts, SensorFacts, Source};
+/// # use taceva_dataset::{RecordingFacts, SensorFacts, Source};
+/// # use taceva_import::{ColumnMap, ImportMap, ImportPlan};
 /// # let folder = tempfile::tempdir()?;
 /// std::fs::write(folder.path().join("labels.csv"), "force\n1500\n2000\n")?;
 /// let facts = RecordingFacts::new(Source::Recorded, Clock::Unknown, SensorFacts::new("my gel"));
@@ -76,7 +77,7 @@ const REMEMBERED_BYTES: usize = 256;
 /// How the rows of another table were matched.
 ///
 /// ```
-/// use taceva_dataset::JoinSummary;
+/// use taceva_import::JoinSummary;
 ///
 /// let none = JoinSummary::default();
 /// assert_eq!((none.matched, none.greatest_gap_s), (0, None));
@@ -107,15 +108,15 @@ impl ImportSummary {
             counts.filter(|(_, count)| *count > 0).collect()
         };
         let columns = self.unmentioned_columns.len() - self.columns_left_behind().len();
-        LeftOut {
-            images: self.unnamed_images,
-            columns: columns as u64,
-            rows: self.dropped.clone(),
-            joined_rows: of_joins(|join| join.unused),
-            skipped_rows: of_joins(|join| join.skipped),
-            frames: self.unused_frames.clone(),
-            absent_chunks: self.absent_chunks.clone(),
-        }
+        let mut left_out = LeftOut::default();
+        left_out.images = self.unnamed_images;
+        left_out.columns = columns as u64;
+        left_out.rows = self.dropped.clone();
+        left_out.joined_rows = of_joins(|join| join.unused);
+        left_out.skipped_rows = of_joins(|join| join.skipped);
+        left_out.frames = self.unused_frames.clone();
+        left_out.absent_chunks = self.absent_chunks.clone();
+        left_out
     }
 
     /// The columns that the map does not mention, as the dataset remembers them: those that rate their rows first.
@@ -137,7 +138,8 @@ impl ImportSummary {
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, SourceUnit};
-/// # use taceva_dataset::{ColumnMap, ImportMap, ImportPlan, RecordingFacts, SensorFacts, Source};
+/// # use taceva_dataset::{RecordingFacts, SensorFacts, Source};
+/// # use taceva_import::{ColumnMap, ImportMap, ImportPlan};
 /// # let folder = tempfile::tempdir()?;
 /// std::fs::write(folder.path().join("labels.csv"), "force\n1500\n2000\n")?;
 /// let facts = RecordingFacts::new(Source::Recorded, Clock::Unknown, SensorFacts::new("my gel"));

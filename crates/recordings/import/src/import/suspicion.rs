@@ -8,7 +8,7 @@ use taceva_core::{Channel, SourceUnit, Unit};
 ///
 /// ```
 /// use taceva_core::Channel;
-/// use taceva_dataset::magnitude_suspicion;
+/// use taceva_import::magnitude_suspicion;
 ///
 /// let metres = [0.0012, 0.0025, 0.0031];
 /// let suspicion = magnitude_suspicion(&Channel::PZ, metres).ok_or("too small for mm")?;
@@ -89,7 +89,7 @@ fn plausible(channel: &Channel) -> Option<Plausible> {
 ///
 /// ```
 /// use taceva_core::Channel;
-/// use taceva_dataset::magnitude_suspicion;
+/// use taceva_import::magnitude_suspicion;
 /// let metres = [0.0012, 0.0025, 0.0031];
 /// let suspicion = magnitude_suspicion(&Channel::PZ, metres).expect("no press is 3 µm deep");
 /// assert_eq!(suspicion.code, "magnitude-small");

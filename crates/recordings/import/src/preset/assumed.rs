@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::layouts::Preset;
 use crate::draft::MapDraft;
-use crate::error::DatasetError;
+use taceva_dataset::DatasetError;
 
 const LEROBOT: &str = "\
 # LeRobot 2.1 or 3.0. What a state means is known by the names in meta/info.json; its units stand nowhere: N, N·m and m are assumed.

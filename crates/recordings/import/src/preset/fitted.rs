@@ -6,13 +6,16 @@ use super::layouts::Preset;
 use super::layouts::facts::{FOTA_FILES, UNIVTAC_FILES};
 use super::lines::{kept, without_section};
 use crate::csv_table::CsvTable;
-use crate::decode::{ChannelOrder, decode};
-use crate::error::{DatasetError, Place};
-use crate::file::{SourceFolder, read_capped};
 use crate::foreign::ForeignTable;
 use crate::import::ImportMap;
 use crate::import::source::{has_match, matching_files};
-use crate::limits;
+use crate::source_folder::SourceFolder;
+use taceva_dataset::ChannelOrder;
+use taceva_dataset::DatasetError;
+use taceva_dataset::Place;
+use taceva_dataset::internal::decode;
+use taceva_dataset::internal::limits;
+use taceva_dataset::internal::read_capped;
 
 /// The map that is built in.
 const fn built_in(preset: Preset) -> &'static str {

@@ -4,16 +4,17 @@ pub(super) mod facts;
 
 use std::path::Path;
 
-use crate::error::DatasetError;
-use crate::file::SourceFolder;
 use crate::import::converter;
 use crate::import::source::has_match;
-use crate::text::{shown, shown_path};
+use crate::source_folder::SourceFolder;
+use taceva_dataset::DatasetError;
+use taceva_dataset::internal::shown;
+use taceva_dataset::internal::shown_path;
 
 /// A layout whose map is built in.
 ///
 /// ```
-/// use taceva_dataset::Preset;
+/// use taceva_import::Preset;
 ///
 /// assert_eq!(Preset::from_name("bristol"), Some(Preset::Bristol));
 /// for preset in Preset::ALL {
@@ -86,7 +87,7 @@ impl Preset {
     /// What lies where in the folder.
     ///
     /// ```
-    /// assert!(taceva_dataset::Preset::Py3dcal.layout().contains("annotations/probe_data.csv"));
+    /// assert!(taceva_import::Preset::Py3dcal.layout().contains("annotations/probe_data.csv"));
     /// ```
     pub const fn layout(self) -> &'static str {
         self.facts().layout
@@ -95,7 +96,7 @@ impl Preset {
     /// What of it is read, with the units that are taken for it.
     ///
     /// ```
-    /// assert!(taceva_dataset::Preset::ToolForce.reads().contains("Fz"));
+    /// assert!(taceva_import::Preset::ToolForce.reads().contains("Fz"));
     /// ```
     pub const fn reads(self) -> &'static str {
         self.facts().reads
@@ -104,7 +105,7 @@ impl Preset {
     /// What the layout does not say, or what of it is not read.
     ///
     /// ```
-    /// assert!(taceva_dataset::Preset::GelsightLive.leaves_open().contains("force"));
+    /// assert!(taceva_import::Preset::GelsightLive.leaves_open().contains("force"));
     /// ```
     pub const fn leaves_open(self) -> &'static str {
         self.facts().leaves_open

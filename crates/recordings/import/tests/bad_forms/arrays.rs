@@ -60,7 +60,7 @@ fn a_draft_names_the_links_that_lead_nowhere() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = workspace("crates/formats/arrays/tests/data/refused/dangling.h5");
     fs::copy(path, folder.path().join("run.h5")).expect("copied");
-    let draft = taceva_dataset::MapDraft::of(folder.path()).expect("a draft");
+    let draft = taceva_import::MapDraft::of(folder.path()).expect("a draft");
     let words = "# Not read: the soft link `/frames` leads to `/nowhere`, which is not there";
     assert!(draft.text().contains(words), "{}", draft.text());
 }

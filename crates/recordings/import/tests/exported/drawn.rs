@@ -11,9 +11,9 @@ use taceva_core::{
     SignalInfo, Signals, SilentProgress, Stamp, Unit,
 };
 use taceva_dataset::{
-    Dataset, ExportForm, ExportPlan, ExportReport, Footprint, ImportMap, ImportPlan, Recorder,
-    RecordingFacts, RecordingSpec, SensorFacts, SignalsSpec, Source,
+    Dataset, Footprint, Recorder, RecordingFacts, RecordingSpec, SensorFacts, SignalsSpec, Source,
 };
+use taceva_import::{ExportForm, ExportPlan, ExportReport, ImportMap, ImportPlan};
 
 /// More than a row group of a table holds.
 const SAMPLES: u16 = 1030;

@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use serde::Deserialize;
-use taceva_dataset::{Dataset, Digest, ExportForm};
+use taceva_dataset::{Dataset, Digest};
+use taceva_import::ExportForm;
 use taceva_needs::{Need, skip};
 
-use crate::drawn::{exported, imported, recorded, skin};
+use super::drawn::{exported, imported, recorded, skin};
 
 /// Where `.ci/install` puts the libraries.
 const INSTALLED: &str = "../../../target/libraries/bin/python";

@@ -9,11 +9,12 @@ use taceva_core::{
     SignalInfo, Signals, SilentProgress, Unit,
 };
 use taceva_dataset::{
-    Dataset, DatasetError, ExportForm, ExportPlan, Recorder, RecordingFacts, RecordingSpec,
-    SensorFacts, SignalsSpec, Source,
+    Dataset, DatasetError, Recorder, RecordingFacts, RecordingSpec, SensorFacts, SignalsSpec,
+    Source,
 };
+use taceva_import::{ExportForm, ExportPlan};
 
-use crate::drawn::{exported, skin};
+use super::drawn::{exported, skin};
 
 /// Asks to stop at once.
 #[derive(Debug)]

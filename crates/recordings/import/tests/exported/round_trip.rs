@@ -5,9 +5,10 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use taceva_core::{Limit, SilentProgress};
-use taceva_dataset::{Dataset, ExportForm, ExportPlan, ExportReport, ImportMap, ImportPlan};
+use taceva_dataset::Dataset;
+use taceva_import::{ExportForm, ExportPlan, ExportReport, ImportMap, ImportPlan};
 
-use crate::drawn::{exported, import, imported, recorded, skin};
+use super::drawn::{exported, import, imported, recorded, skin};
 
 /// Exports `dataset` in `form`, imports that, and compares all that a map can say.
 #[track_caller]

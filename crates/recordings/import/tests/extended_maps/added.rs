@@ -6,7 +6,8 @@ use std::path::Path;
 use super::arrays::{bytes_of, npy};
 use super::{NO_TIME, lab, planned};
 use taceva_core::SilentProgress;
-use taceva_dataset::{Addition, Dataset};
+use taceva_dataset::Dataset;
+use taceva_import::Addition;
 
 /// Two folders with the same tables and other numbers: a camera, a transducer, raw pictures.
 fn folders() -> [tempfile::TempDir; 2] {

@@ -1,7 +1,8 @@
 //! Arrays as tables and as frames: what of them is refused, and in which words.
 
 use super::{FACTS, NO_TIME, planned};
-use taceva_dataset::{Dataset, ImportMap, ImportPlan};
+use taceva_dataset::Dataset;
+use taceva_import::{ImportMap, ImportPlan};
 
 /// A NumPy file of version 1.
 pub(super) fn npy(kind: &str, shape: &str, data: &[u8]) -> Vec<u8> {

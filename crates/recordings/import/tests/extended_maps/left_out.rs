@@ -5,7 +5,8 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 
 use taceva_core::SilentProgress;
-use taceva_dataset::{Dataset, ImportSummary, LeftOut};
+use taceva_dataset::{Dataset, LeftOut};
+use taceva_import::ImportSummary;
 
 use super::arrays::{bytes_of, npy};
 use super::{NO_TIME, lab, planned};

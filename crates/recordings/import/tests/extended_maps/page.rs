@@ -1,7 +1,7 @@
 //! What docs/your-recording.md says that a map says: the whole map in a fence, and every fragment of the table of layouts, read by the reader of
 //! maps.
 
-use taceva_dataset::ImportMap;
+use taceva_import::ImportMap;
 use toml::{Table, Value};
 
 const PAGE: &str = include_str!("../../../../../docs/your-recording.md");

@@ -3,7 +3,8 @@
 use std::num::NonZeroUsize;
 
 use taceva_core::SilentProgress;
-use taceva_dataset::{Dataset, ImportSummary};
+use taceva_dataset::Dataset;
+use taceva_import::ImportSummary;
 
 use super::{NO_TIME, lab, planned};
 

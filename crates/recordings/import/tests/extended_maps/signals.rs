@@ -242,7 +242,7 @@ fn an_array_of_other_rows_or_numbers_than_the_table_is_refused() {
     );
     let version = signals.replace("table =", "map_version = 1\ntable =");
     let text = format!("{version}\n{}", super::FACTS);
-    let map = taceva_dataset::ImportMap::parse("map.toml".as_ref(), &text);
+    let map = taceva_import::ImportMap::parse("map.toml".as_ref(), &text);
     assert!(
         map.expect_err("of version 2")
             .to_string()

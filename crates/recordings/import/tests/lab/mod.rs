@@ -1,5 +1,4 @@
 //! A lab's folder, drawn: a table, a map and frames.
-#![allow(dead_code, reason = "each test binary uses its own part")]
 
 use std::fs;
 use std::io::Cursor;
@@ -8,8 +7,8 @@ use std::path::{Path, PathBuf};
 
 use image::{DynamicImage, GrayImage, ImageFormat, Luma, Rgb, RgbImage};
 use taceva_core::SilentProgress;
-use taceva_core::random::SplitMix64;
-use taceva_dataset::{DatasetError, ImportMap, ImportPlan, ImportReport};
+use taceva_dataset::DatasetError;
+use taceva_import::{ImportMap, ImportPlan, ImportReport};
 use tempfile::TempDir;
 
 pub(crate) const MAP: &str = r#"map_version = 1
@@ -136,25 +135,6 @@ pub(crate) fn import(
     ImportPlan::new(source, map)?.run(target, jobs, &SilentProgress)
 }
 
-/// Everything below a folder: relative paths in order, with their bytes.
-pub(crate) fn contents(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
-    let mut found = Vec::new();
-    let mut folders = vec![folder.to_owned()];
-    while let Some(current) = folders.pop() {
-        for entry in fs::read_dir(&current).expect("listed") {
-            let path = entry.expect("listed").path();
-            if path.is_dir() {
-                folders.push(path);
-            } else {
-                let relative = path.strip_prefix(folder).expect("below").to_owned();
-                found.push((relative, fs::read(&path).expect("read")));
-            }
-        }
-    }
-    found.sort();
-    found
-}
-
 fn names(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).expect("listed");
     let mut names: Vec<PathBuf> = entries.map(|entry| entry.expect("listed").path()).collect();
@@ -193,42 +173,4 @@ fn encoded(image: DynamicImage, format: ImageFormat) -> Vec<u8> {
         .write_to(&mut Cursor::new(&mut bytes), format)
         .expect("encodes");
     bytes
-}
-
-/// Random numbers that are the same each time.
-pub(crate) struct Random(SplitMix64);
-
-impl Random {
-    pub(crate) fn new(seed: u64) -> Random {
-        Random(SplitMix64::new(seed))
-    }
-
-    pub(crate) fn below(&mut self, limit: usize) -> usize {
-        usize::try_from(self.0.next_u64() % limit as u64).expect("below a usize")
-    }
-
-    /// `bytes` with a few random changes: overwritten, cut, doubled or removed.
-    pub(crate) fn mutated(&mut self, bytes: &[u8]) -> Vec<u8> {
-        let mut changed = bytes.to_vec();
-        for _ in 0..=self.below(4) {
-            if changed.is_empty() {
-                break;
-            }
-            let at = self.below(changed.len());
-            match self.below(5) {
-                0 => changed[at] ^= 1 << self.below(8),
-                1 => changed[at] = self.below(256).to_le_bytes()[0],
-                2 => changed.truncate(at),
-                3 => {
-                    changed.remove(at);
-                }
-                _ => {
-                    let end = (at + 1 + self.below(9)).min(changed.len());
-                    let piece = changed[at..end].to_vec();
-                    changed.splice(at..at, piece);
-                }
-            }
-        }
-        changed
-    }
 }

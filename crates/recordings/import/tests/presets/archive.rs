@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use flate2::Compression;
 use flate2::write::GzEncoder;
-use taceva_dataset::{ImportMap, ImportPlan, MapDraft, Preset, UnpackedArchive};
+use taceva_import::{ImportMap, ImportPlan, MapDraft, Preset, UnpackedArchive};
 use tar::{Builder, EntryType, Header};
 
 use super::{drawn, import};

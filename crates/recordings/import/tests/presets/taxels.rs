@@ -1,6 +1,6 @@
 //! Drafts of tables and arrays of taxels.
 
-use taceva_dataset::{ImportMap, MapDraft};
+use taceva_import::{ImportMap, MapDraft};
 
 use super::import;
 

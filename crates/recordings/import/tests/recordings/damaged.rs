@@ -5,9 +5,9 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use taceva_core::SilentProgress;
-use taceva_dataset::{Decoders, ImportMap, ImportPlan, MapDraft};
+use taceva_import::{Decoders, ImportMap, ImportPlan, MapDraft};
 
-use crate::{copy, folder};
+use super::{copy, folder};
 
 /// Copies of each file that are cut, and that have flipped bits.
 const CUTS: u64 = 2;

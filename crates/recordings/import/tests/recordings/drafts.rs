@@ -1,9 +1,9 @@
 //! Drafts of maps: of which recordings they leave nothing open but units, signs and the name of the sensor.
 
-use taceva_dataset::MapDraft;
+use taceva_import::MapDraft;
 
-use crate::expected::differences;
-use crate::{copy, folder, own_map};
+use super::expected::differences;
+use super::{copy, folder, own_map};
 
 /// The recording as its lab has it: without the map and what is expected of it.
 fn bare(name: &str) -> tempfile::TempDir {

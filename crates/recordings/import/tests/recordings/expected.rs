@@ -7,7 +7,7 @@ use serde_json::Value;
 use sha2::{Digest, Sha256};
 use taceva_dataset::{Dataset, Table};
 
-use crate::{folder, import};
+use super::{folder, import};
 
 /// Labels in `expected.json` that have other names in a dataset, or are read from elsewhere.
 const ELSEWHERE: [&str; 3] = ["frame", "t_s", "file"];

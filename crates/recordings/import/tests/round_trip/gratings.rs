@@ -5,7 +5,7 @@ use std::fs;
 use taceva_core::{GratingKind, Nanometre};
 use taceva_dataset::Dataset;
 
-use super::lab::{Lab, MAP};
+use crate::lab::{Lab, MAP};
 
 /// A lab whose presses touch gratings.
 fn gratings(kind: &str, spacing: &str) -> Lab {

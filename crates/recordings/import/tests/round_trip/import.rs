@@ -2,10 +2,12 @@
 
 use std::fs;
 
-use taceva_dataset::{Dataset, DatasetError, ImportMap, export_csv};
+use taceva_dataset::{Dataset, DatasetError};
+use taceva_import::{ImportMap, export_csv};
 
 use super::jobs;
-use super::lab::{Lab, MAP, contents, import, png};
+use crate::lab::{Lab, MAP, import, png};
+use crate::support::contents;
 
 #[test]
 fn labels_are_converted_and_frames_keep_their_bytes() {
@@ -204,7 +206,7 @@ fn a_cancelled_import_leaves_nothing() {
     }
     let lab = Lab::new();
     let map = ImportMap::read(&lab.path("map.toml")).expect("a map");
-    let plan = taceva_dataset::ImportPlan::new(&lab.path("source"), &map).expect("a plan");
+    let plan = taceva_import::ImportPlan::new(&lab.path("source"), &map).expect("a plan");
     let outcome = plan.run(&lab.path("set"), jobs(2), &Stop);
     assert!(matches!(outcome, Err(DatasetError::Cancelled)));
     assert_eq!(fs::read_dir(lab.folder.path()).expect("listed").count(), 2);

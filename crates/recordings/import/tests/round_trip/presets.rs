@@ -2,9 +2,10 @@
 
 use std::fs;
 
-use taceva_dataset::{Dataset, Preset};
+use taceva_dataset::Dataset;
+use taceva_import::Preset;
 
-use super::lab::{Lab, import, png, rgb_png};
+use crate::lab::{Lab, import, png, rgb_png};
 
 #[test]
 fn the_bristol_layout_needs_no_map_in_either_generation() {

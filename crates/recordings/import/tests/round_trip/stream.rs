@@ -6,7 +6,7 @@ use taceva_core::{Field, FieldSet, Sample, SampleSink, SilentProgress, SinkError
 use taceva_dataset::{ChannelOrder, Dataset, Pass};
 
 use super::jobs;
-use super::lab::{Lab, rgb_png};
+use crate::lab::{Lab, rgb_png};
 
 struct Keep {
     fields: FieldSet,

@@ -1,6 +1,6 @@
 //! TAC001: labels whose size contradicts the unit they are declared in.
 
-use taceva_dataset::magnitude_suspicion;
+use taceva_import::magnitude_suspicion;
 
 use super::evidence::Evidence;
 use super::finding::{Check, Found, Severity};

@@ -8,7 +8,8 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use taceva_core::{Channel, ErrorKind, ModelError, Progress, shown};
-use taceva_dataset::{CsvParts, CsvTable, Digest, SensorFile};
+use taceva_dataset::{Digest, SensorFile};
+use taceva_import::{CsvParts, CsvTable};
 use taceva_metrics::{Evaluator, MetricPlan};
 
 use super::fields::{NOT_CHANNELS, Place};

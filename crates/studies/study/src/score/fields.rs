@@ -1,7 +1,7 @@
 //! What a table says of its rows beside the channels: contact point, scene, repeat and the like.
 
 use taceva_core::{Column, Field, FieldSet, GratingKind, Labels, Nanometre, Phase};
-use taceva_dataset::CsvTable;
+use taceva_import::CsvTable;
 
 use crate::error::StudyError;
 

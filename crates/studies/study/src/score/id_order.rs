@@ -2,7 +2,7 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use taceva_dataset::CsvTable;
+use taceva_import::CsvTable;
 
 use super::ids::{ID, by_length};
 

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use taceva_core::shown;
-use taceva_dataset::{CsvParts, CsvTable};
+use taceva_import::{CsvParts, CsvTable};
 
 use super::table_parts::{Reader, TableParts};
 use crate::error::StudyError;

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use taceva_core::{ErrorKind, ModelError, Progress};
-use taceva_dataset::{CsvStream, CsvTable};
+use taceva_import::{CsvStream, CsvTable};
 use taceva_metrics::{Evaluator, MetricPlan};
 
 use super::fields::Place;

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use taceva_core::{Batch, Channel, Column, Field};
-use taceva_dataset::CsvTable;
+use taceva_import::CsvTable;
 use taceva_metrics::MetricPlan;
 
 use super::fields::{self, Place};

@@ -5,7 +5,8 @@ use std::io::{Read, Seek, SeekFrom};
 use std::ops::Range;
 use std::path::Path;
 
-use taceva_dataset::{CsvTable, DatasetError};
+use taceva_dataset::DatasetError;
+use taceva_import::CsvTable;
 use taceva_tables::ParquetTable;
 
 use crate::error::StudyError;

@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 
 use serde::{Deserialize, Serialize};
-use taceva_dataset::{CsvParts, CsvTable, DatasetError, Digest};
+use taceva_dataset::{DatasetError, Digest};
+use taceva_import::{CsvParts, CsvTable};
 use taceva_tables::ParquetTable;
 
 use super::parquet_parts;

@@ -6,7 +6,8 @@ use std::path::Path;
 use taceva_core::shown;
 
 use taceva_core::{Channel, Channels, Unit};
-use taceva_dataset::{CsvTable, Digest};
+use taceva_dataset::Digest;
+use taceva_import::CsvTable;
 
 use super::fields::NOT_CHANNELS;
 use super::table_parts::TableParts;

@@ -4,7 +4,8 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 
 use taceva_core::{Clock, Frame, SilentProgress, Stamp};
-use taceva_dataset::{Dataset, ImportMap, ImportPlan};
+use taceva_dataset::Dataset;
+use taceva_import::{ImportMap, ImportPlan};
 use taceva_study::{CheckReport, CheckRequest, Severity, check};
 
 use super::{Recording, SAMPLES, codes};

@@ -4,17 +4,18 @@ use crate::header::{Footprint, Header};
 
 /// A key of a header that differs.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Difference {
+#[doc(hidden)]
+pub struct Difference {
     /// As `dataset.toml` has it.
-    pub(crate) key: &'static str,
+    pub key: &'static str,
     /// What the first says.
-    pub(crate) own: String,
+    pub own: String,
     /// What the other says.
-    pub(crate) other: String,
+    pub other: String,
 }
 
 /// What differs between two recordings whose samples cannot be taken together for it, in the order of a header.
-pub(crate) fn differences(one: &Header, other: &Header) -> impl Iterator<Item = Difference> {
+pub(super) fn differences(one: &Header, other: &Header) -> impl Iterator<Item = Difference> {
     let facts = facts(one).into_iter().zip(facts(other));
     facts
         .filter(|((_, own), (_, other))| own != other)
@@ -23,10 +24,7 @@ pub(crate) fn differences(one: &Header, other: &Header) -> impl Iterator<Item = 
 
 /// What else differs between a recording and rows that are to be added to it, which must agree with it in serial number, gel, clock, text
 /// columns and the order of colours, too.
-pub(crate) fn differences_of_added(
-    one: &Header,
-    added: &Header,
-) -> impl Iterator<Item = Difference> {
+pub fn differences_of_added(one: &Header, added: &Header) -> impl Iterator<Item = Difference> {
     let more = more(one).into_iter().zip(more(added));
     let more = more.filter(|((_, own), (_, other))| own != other);
     let more = more.map(|((key, own), (_, other))| Difference { key, own, other });

@@ -5,11 +5,11 @@ use std::ops::Range;
 use taceva_arrays::{ArrayFile, ArrayInfo, ArrayValues, Element};
 use taceva_core::{Frame, FrameInfo, PixelFormat};
 
-use crate::decode::ImageKind;
 use crate::foreign::columns::PictureKind;
 use crate::foreign::pictures::Picture;
 use crate::import::{ArrayLayout, FrameNames, PixelRange};
-use crate::limits;
+use taceva_dataset::internal::ImageKind;
+use taceva_dataset::internal::limits;
 
 /// How many bytes of an array are read at once.
 pub(super) const READ_BYTES: u64 = 8 << 20;

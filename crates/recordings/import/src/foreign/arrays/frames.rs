@@ -8,12 +8,12 @@ use taceva_arrays::{ArrayFile, ArrayFormat};
 
 use super::form::{Form, READ_BYTES, form_of};
 use super::said::{absent_chunks, problem};
-use crate::decode::ChannelOrder;
-use crate::error::DatasetError;
 use crate::foreign::pictures::{Pictures, Visit, damaged};
-use crate::guard::guarded;
 use crate::import::{ArrayFrames, FrameNames};
-use crate::text::listed;
+use taceva_dataset::ChannelOrder;
+use taceva_dataset::DatasetError;
+use taceva_dataset::internal::guarded;
+use taceva_dataset::internal::listed;
 
 /// The frames of one array, or of several one after the other.
 #[derive(Debug)]

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use taceva_arrays::ArrayFile;
 
-use crate::limits;
-use crate::text::listed;
+use taceva_dataset::internal::limits;
+use taceva_dataset::internal::listed;
 
 /// The arrays of one group, or of the whole file.
 #[derive(Debug)]

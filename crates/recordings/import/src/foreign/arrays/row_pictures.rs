@@ -6,7 +6,7 @@ use super::ArrayRows;
 use super::frames::ArrayPictures;
 use crate::foreign::columns::ColumnSource as _;
 use crate::import::{FrameNames, OWN_ROW};
-use crate::text::listed;
+use taceva_dataset::internal::listed;
 
 impl ArrayRows {
     /// The pictures that `names` says, one behind the other.

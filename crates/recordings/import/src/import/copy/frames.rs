@@ -7,15 +7,17 @@ use std::sync::Arc;
 use taceva_core::{FrameInfo, Progress};
 
 use super::picture::Copied;
-use crate::decode::ImageKind;
-use crate::error::DatasetError;
 use crate::foreign::{Picture, Pictures};
-use crate::header::{FrameCodec, FramesInfo, ReferenceInfo};
 use crate::import::planned_frames::{FrameSource, PlannedFrames, within};
-use crate::layout;
-use crate::parallel::ordered_map;
-use crate::staged::StagedFolder;
-use crate::table::Table;
+use taceva_dataset::DatasetError;
+use taceva_dataset::FrameCodec;
+use taceva_dataset::FramesInfo;
+use taceva_dataset::ReferenceInfo;
+use taceva_dataset::Table;
+use taceva_dataset::internal::ImageKind;
+use taceva_dataset::internal::layout;
+use taceva_dataset::internal::ordered_map;
+use taceva_dataset::internal::staged::StagedFolder;
 
 /// Frames copied at a time by each job: most of the time is spent waiting until they are on the disk, and disks write
 /// several files at once faster.
@@ -62,15 +64,10 @@ pub(in crate::import) fn copy_frames(
         .transpose()?;
     let mut codecs = codecs(frames).into_iter();
     let codec = codecs.next();
-    let shared = FramesInfo {
-        count: count as u64,
-        info,
-        channel_order: frames.order,
-        codec,
-        other_codecs: codecs.collect(),
-        reduced: None,
-        reference,
-    };
+    let mut shared = FramesInfo::new(count as u64, info, frames.order);
+    shared.codec = codec;
+    shared.other_codecs = codecs.collect();
+    shared.reference = reference;
     Ok((Some(shared), folders))
 }
 
@@ -202,10 +199,7 @@ fn copy_reference(
             problem: format!("{}, expected {expected} as the other frames", copied.info),
         });
     }
-    Ok(ReferenceInfo {
-        path: copied.entry.path,
-        sha256: copied.entry.digest,
-    })
+    Ok(ReferenceInfo::new(copied.entry.path, copied.entry.digest))
 }
 
 fn check_alike(

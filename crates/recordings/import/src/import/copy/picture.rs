@@ -4,16 +4,20 @@ use std::path::Path;
 
 use taceva_core::{Frame, FrameInfo};
 
-use crate::decode::{ChannelOrder, ImageKind, check_to_the_end, decode};
-use crate::digest::Digest;
-use crate::encode::encode_png;
-use crate::error::DatasetError;
-use crate::file::{read_capped, write_durable};
 use crate::foreign::Picture;
-use crate::layout;
-use crate::limits;
-use crate::staged::StagedFolder;
-use crate::table::FrameEntry;
+use taceva_dataset::ChannelOrder;
+use taceva_dataset::DatasetError;
+use taceva_dataset::Digest;
+use taceva_dataset::FrameEntry;
+use taceva_dataset::internal::ImageKind;
+use taceva_dataset::internal::check_to_the_end;
+use taceva_dataset::internal::decode;
+use taceva_dataset::internal::encode_png;
+use taceva_dataset::internal::layout;
+use taceva_dataset::internal::limits;
+use taceva_dataset::internal::read_capped;
+use taceva_dataset::internal::staged::StagedFolder;
+use taceva_dataset::internal::write_durable;
 
 /// A frame that was verified and written.
 pub(super) struct Copied {
@@ -35,11 +39,7 @@ impl Copied {
         Ok(Copied {
             kind,
             info: frame.info(),
-            entry: FrameEntry {
-                path: relative,
-                span: None,
-                digest: Digest::of(bytes),
-            },
+            entry: FrameEntry::at(relative, Digest::of(bytes)),
             intensity: frame.mean_luma(),
         })
     }

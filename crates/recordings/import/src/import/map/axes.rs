@@ -72,7 +72,7 @@ mod tests {
 
     use super::*;
     use crate::import::map::SignalsFrom;
-    use crate::signals::SignalsSpec;
+    use taceva_dataset::SignalsSpec;
 
     fn map(places: [u32; 2], channels: &[&str], is_channel_first: bool) -> SignalsMap {
         let count = u32::try_from(channels.len()).expect("few");

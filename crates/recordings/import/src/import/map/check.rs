@@ -6,9 +6,10 @@ use serde::Deserialize;
 use taceva_core::SourceUnit;
 use toml::Spanned;
 
-use crate::error::DatasetError;
-use crate::file::check_relative;
-use crate::toml_file::{line_of, toml_error};
+use taceva_dataset::DatasetError;
+use taceva_dataset::internal::check_relative;
+use taceva_dataset::internal::line_of;
+use taceva_dataset::internal::toml_error;
 
 /// Checks what a parser of types cannot, and says where.
 pub(super) struct Check<'a> {

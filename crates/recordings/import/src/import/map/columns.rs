@@ -7,7 +7,7 @@ use taceva_core::SourceUnit;
 ///
 /// ```
 /// use taceva_core::SourceUnit;
-/// use taceva_dataset::ColumnMap;
+/// use taceva_import::ColumnMap;
 ///
 /// let mut column = ColumnMap::new("force", SourceUnit::parse("mN")?);
 /// column.is_negated = true;
@@ -50,7 +50,7 @@ impl ColumnMap {
 /// The columns of the ids.
 ///
 /// ```
-/// use taceva_dataset::IdMap;
+/// use taceva_import::IdMap;
 ///
 /// let mut ids = IdMap::default();
 /// ids.point_id = vec!["x".into(), "y".into()];
@@ -109,7 +109,7 @@ impl OriginMap {
 ///
 /// ```
 /// use taceva_core::SourceUnit;
-/// use taceva_dataset::TimeMap;
+/// use taceva_import::TimeMap;
 ///
 /// let time = TimeMap::new("t", SourceUnit::parse("ms")?);
 /// assert_eq!(time.column, "t");

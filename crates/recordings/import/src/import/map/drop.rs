@@ -3,7 +3,7 @@
 /// Which rows are left out; each is counted.
 ///
 /// ```
-/// use taceva_dataset::{DropRules, Placeholder};
+/// use taceva_import::{DropRules, Placeholder};
 ///
 /// let mut rules = DropRules::default();
 /// rules.placeholders = vec![Placeholder::new("Fx", 0.0), Placeholder::new("Fz", 0.0)];
@@ -25,7 +25,7 @@ pub struct DropRules {
 /// A number that stands for "not measured".
 ///
 /// ```
-/// use taceva_dataset::Placeholder;
+/// use taceva_import::Placeholder;
 ///
 /// assert_eq!(Placeholder::new("Fz", -1.0).channel, "Fz");
 /// ```

@@ -10,8 +10,8 @@ use super::written_table::WrittenTable;
 use super::{
     ClassMap, JoinBy, JoinMap, MatrixMap, MatrixRows, PathPattern, Pick, TimeJoin, Unmatched,
 };
-use crate::error::DatasetError;
 use crate::foreign::TableForm;
+use taceva_dataset::DatasetError;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table")]

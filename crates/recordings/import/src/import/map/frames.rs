@@ -1,6 +1,6 @@
 //! Where the frames of an import are.
 
-use crate::decode::ChannelOrder;
+use taceva_dataset::ChannelOrder;
 
 /// The attribute that says which frame without contact a row names, where rows name different ones.
 pub(crate) const REFERENCE_ATTRIBUTE: &str = "reference";
@@ -11,7 +11,8 @@ pub(crate) const OWN_ROW: &str = "the row of its table";
 /// Where the frames are.
 ///
 /// ```
-/// use taceva_dataset::{ChannelOrder, FrameMap, FrameNames};
+/// use taceva_dataset::ChannelOrder;
+/// use taceva_import::{FrameMap, FrameNames};
 ///
 /// let frames = FrameMap::new(FrameNames::Column("file".into()), ChannelOrder::Gray);
 /// assert_eq!((frames.folder, frames.reference), (None, None));
@@ -48,7 +49,7 @@ impl FrameMap {
 /// How a row names its frame.
 ///
 /// ```
-/// use taceva_dataset::FrameNames;
+/// use taceva_import::FrameNames;
 ///
 /// // A row whose column `n` holds 7 has the frame images/image_7.png.
 /// let names = FrameNames::Pattern("images/image_{n}.png".into());
@@ -83,7 +84,7 @@ impl FrameNames {
 /// Frames in one array.
 ///
 /// ```
-/// use taceva_dataset::{ArrayFrames, FrameNames};
+/// use taceva_import::{ArrayFrames, FrameNames};
 ///
 /// let names = FrameNames::Array(ArrayFrames::new("frames.npy", "frame"));
 /// assert!(matches!(names, FrameNames::Array(array) if array.index == "frame"));
@@ -106,7 +107,7 @@ pub struct ArrayFrames {
 /// What the axes of an array of frames are.
 ///
 /// ```
-/// use taceva_dataset::ArrayLayout;
+/// use taceva_import::ArrayLayout;
 ///
 /// assert_eq!(ArrayLayout::Nchw.name(), "nchw");
 /// ```
@@ -136,7 +137,7 @@ impl ArrayLayout {
 /// How numbers of any type become pixels: `black` 0, `full` the greatest number of `bits`, what is between in proportion and rounded.
 ///
 /// ```
-/// use taceva_dataset::PixelRange;
+/// use taceva_import::PixelRange;
 ///
 /// let range = PixelRange::new([0.0, 1.0], 8).ok_or("a range")?;
 /// assert_eq!((range.pixel(0.5), range.pixel(1.5)), (Some(128), None));
@@ -196,7 +197,7 @@ impl ArrayFrames {
 /// Frames of a clip.
 ///
 /// ```
-/// use taceva_dataset::{FrameNames, VideoFrames};
+/// use taceva_import::{FrameNames, VideoFrames};
 ///
 /// let names = FrameNames::Video(VideoFrames::new("clip_{run}.mp4", "row"));
 /// assert!(matches!(names, FrameNames::Video(video) if video.index == "row"));

@@ -5,8 +5,8 @@ use taceva_core::{SignalInfo, SourceUnit};
 use toml::Spanned;
 
 use super::check::{Check, ColumnName};
-use crate::error::DatasetError;
-use crate::signals::SignalsSpec;
+use taceva_dataset::DatasetError;
+use taceva_dataset::SignalsSpec;
 
 /// Where the numbers of taxels are.
 #[derive(Clone, Debug, PartialEq)]
@@ -181,7 +181,7 @@ impl Check<'_> {
                     offset,
                     &format!(
                         "`{}`: expected rows such as \"0..99\", the last one included",
-                        crate::text::shown(text)
+                        taceva_dataset::internal::shown(text)
                     ),
                 )),
             }
@@ -205,7 +205,7 @@ fn columns_of(text: &str) -> Result<Vec<String>, String> {
         }
         _ => Err(format!(
             "`{}`: expected columns by number such as \"1..15\" or \"s0..s3\" written \"s0..3\", the last one included, and at most {} of them",
-            crate::text::shown(text),
+            taceva_dataset::internal::shown(text),
             SignalInfo::LEN_MAX
         )),
     }

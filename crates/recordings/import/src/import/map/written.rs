@@ -14,11 +14,15 @@ use super::signals::WrittenSignals;
 use super::written_frame::WrittenFrame;
 use super::written_table::WrittenTable;
 use super::{ColumnMap, DropRules, IdMap, ImportMap, MatrixMap, OriginMap, Placeholder, TimeMap};
-use crate::error::DatasetError;
-use crate::header::{Footprint, SensorFacts, Source};
-use crate::store::RecordingFacts;
-use crate::table::{RESERVED, is_attribute_name};
-use crate::toml_file::{parse_toml, toml_error};
+use taceva_dataset::DatasetError;
+use taceva_dataset::Footprint;
+use taceva_dataset::RecordingFacts;
+use taceva_dataset::SensorFacts;
+use taceva_dataset::Source;
+use taceva_dataset::internal::RESERVED;
+use taceva_dataset::internal::is_attribute_name;
+use taceva_dataset::internal::parse_toml;
+use taceva_dataset::internal::toml_error;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table")]
@@ -137,6 +141,8 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
             "`\"?\"` is what a draft leaves open, since only the lab knows it: write it, or \"unknown\" where that is accepted",
         ));
     }
+    let mut facts = RecordingFacts::new(written.source, written.time.clock, written.sensor);
+    facts.footprint = written.footprint.map(Spanned::into_inner);
     Ok(ImportMap {
         frame: written
             .frame
@@ -164,13 +170,7 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
             .into_iter()
             .map(|(name, column)| (name, column.into_inner().into_name()))
             .collect(),
-        facts: RecordingFacts {
-            source: written.source,
-            clock: written.time.clock,
-            sensor: written.sensor,
-            footprint: written.footprint.map(Spanned::into_inner),
-            settings: BTreeMap::new(),
-        },
+        facts,
     })
 }
 

@@ -5,8 +5,8 @@ use toml::Spanned;
 
 use super::check::{Check, ColumnName};
 use super::{ArrayFrames, ArrayLayout, FrameMap, FrameNames, OWN_ROW, PixelRange, VideoFrames};
-use crate::decode::ChannelOrder;
-use crate::error::DatasetError;
+use taceva_dataset::ChannelOrder;
+use taceva_dataset::DatasetError;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table")]

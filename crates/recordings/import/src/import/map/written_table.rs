@@ -7,8 +7,8 @@ use taceva_arrays::ArrayFormat;
 use toml::Spanned;
 
 use super::check::Check;
-use crate::error::DatasetError;
 use crate::foreign::TableForm;
+use taceva_dataset::DatasetError;
 
 /// A table: its path, or what more there is to say of it.
 #[derive(Deserialize)]

@@ -1,11 +1,11 @@
 //! How a map reads each label, as the header of the dataset keeps it.
 
 use super::short;
-use crate::error::DatasetError;
-use crate::file::SourceFolder;
-use crate::header::MappedColumn;
 use crate::import::map::{ImportMap, SignalsFrom};
 use crate::import::resolve::matrix_rows;
+use crate::source_folder::SourceFolder;
+use taceva_dataset::DatasetError;
+use taceva_dataset::MappedColumn;
 
 /// How `map` reads the channels, the time and the numbers of taxels.
 ///

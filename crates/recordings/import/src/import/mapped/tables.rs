@@ -1,8 +1,10 @@
 //! How a map joins tables, finds pictures and names classes, as the header of the dataset keeps it.
 
 use super::{short, short_name};
-use crate::header::{MappedClass, MappedJoin, MappedPictures};
 use crate::import::map::{FrameMap, FrameNames, ImportMap, JoinBy, JoinMap, OWN_ROW};
+use taceva_dataset::MappedClass;
+use taceva_dataset::MappedJoin;
+use taceva_dataset::MappedPictures;
 
 pub(super) fn join(map: &JoinMap) -> MappedJoin {
     let name = short_name(&map.name);
@@ -12,23 +14,24 @@ pub(super) fn join(map: &JoinMap) -> MappedJoin {
         JoinBy::Columns(columns) => {
             let on = columns.iter();
             let on: Vec<String> = on.map(|(own, other)| format!("{own} = {other}")).collect();
-            MappedJoin {
-                on: short(&on),
-                ..MappedJoin::new(&name, "columns")
-            }
+            let mut join = MappedJoin::new(&name, "columns");
+            join.on = short(&on);
+            join
         }
-        JoinBy::Until(column) => MappedJoin {
-            column: Some(short_name(column).into_owned()),
-            ..MappedJoin::new(&name, "until")
-        },
-        JoinBy::Time(by) => MappedJoin {
-            column: Some(short_name(&by.time.column).into_owned()),
-            unit: Some(by.time.unit.symbol().to_owned()),
-            pick: Some(by.pick.name().to_owned()),
-            tolerance_ms: Some(by.tolerance_ms),
-            lag_ms: Some(by.lag_ms),
-            ..MappedJoin::new(&name, "time")
-        },
+        JoinBy::Until(column) => {
+            let mut join = MappedJoin::new(&name, "until");
+            join.column = Some(short_name(column).into_owned());
+            join
+        }
+        JoinBy::Time(by) => {
+            let mut join = MappedJoin::new(&name, "time");
+            join.column = Some(short_name(&by.time.column).into_owned());
+            join.unit = Some(by.time.unit.symbol().to_owned());
+            join.pick = Some(by.pick.name().to_owned());
+            join.tolerance_ms = Some(by.tolerance_ms);
+            join.lag_ms = Some(by.lag_ms);
+            join
+        }
     };
     let skip = map.skip.iter();
     let skip: Vec<String> = skip
@@ -46,17 +49,19 @@ pub(super) fn pictures(map: &FrameMap) -> MappedPictures {
         FrameNames::Column(column) => of("column", column),
         FrameNames::Pattern(pattern) => of("pattern", pattern),
         FrameNames::Bytes(column) => of("bytes", column),
-        FrameNames::Video(video) => MappedPictures {
-            index: index(&video.index),
-            ..of("video", &video.file)
-        },
-        FrameNames::Array(array) => MappedPictures {
-            index: index(&array.index),
-            layout: array.layout.map(|layout| layout.name().to_owned()),
-            range: array.range.map(|range| range.ends()),
-            bits: array.range.map(|range| range.bits()),
-            ..of("array", array.path.as_deref().unwrap_or_default())
-        },
+        FrameNames::Video(video) => {
+            let mut pictures = of("video", &video.file);
+            pictures.index = index(&video.index);
+            pictures
+        }
+        FrameNames::Array(array) => {
+            let mut pictures = of("array", array.path.as_deref().unwrap_or_default());
+            pictures.index = index(&array.index);
+            pictures.layout = array.layout.map(|layout| layout.name().to_owned());
+            pictures.range = array.range.map(|range| range.ends());
+            pictures.bits = array.range.map(|range| range.bits());
+            pictures
+        }
     }
 }
 

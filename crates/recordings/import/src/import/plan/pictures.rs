@@ -5,12 +5,13 @@ use std::sync::Arc;
 
 use super::name_order::counted_otherwise;
 use super::reading::Reading;
-use crate::error::{DatasetError, Place};
 use crate::foreign::{ArrayPictures, ClipPictures, Pictures, SeveralPictures, TableForm};
 use crate::import::map::{FrameNames, OWN_ROW};
 use crate::import::rows::MappedTable;
 use crate::import::source::matching_files;
-use crate::text::shown;
+use taceva_dataset::DatasetError;
+use taceva_dataset::Place;
+use taceva_dataset::internal::shown;
 
 impl Reading<'_> {
     /// Checks that no two tables have the pictures in `file` by the number of the row, where no column says which picture a row has: each table

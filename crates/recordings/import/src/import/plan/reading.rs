@@ -6,8 +6,6 @@ use std::sync::Arc;
 
 use taceva_video::Decoders;
 
-use crate::error::DatasetError;
-use crate::file::SourceFolder;
 use crate::foreign::{Pictures, TableForm};
 use crate::import::frame_cells::FrameName;
 use crate::import::map::ImportMap;
@@ -17,7 +15,9 @@ use crate::import::resolve::JoinMatches;
 use crate::import::rows::MappedTable;
 use crate::import::signals::FoundSignals;
 use crate::import::summary::ImportSummary;
-use crate::table::Table;
+use crate::source_folder::SourceFolder;
+use taceva_dataset::DatasetError;
+use taceva_dataset::Table;
 
 /// The rows of all tables as they are read.
 pub(super) struct Reading<'a> {

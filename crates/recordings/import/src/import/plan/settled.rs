@@ -5,7 +5,6 @@ use std::path::PathBuf;
 
 use super::ImportPlan;
 use super::reading::Reading;
-use crate::error::{DatasetError, Place};
 use crate::import::left_out;
 use crate::import::map::{FrameMap, FrameNames};
 use crate::import::mapped::mapping;
@@ -13,7 +12,9 @@ use crate::import::planned_frames::PlannedFrames;
 use crate::import::references::Settled;
 use crate::import::resolve::JoinMatches;
 use crate::import::source::unnamed_images;
-use crate::text::shown;
+use taceva_dataset::DatasetError;
+use taceva_dataset::Place;
+use taceva_dataset::internal::shown;
 
 /// How many images that no row names are listed.
 const LISTED_IMAGES: usize = 20;

@@ -2,10 +2,11 @@
 
 use super::Sources;
 use super::columns::base_of;
-use crate::error::{DatasetError, Place};
 use crate::foreign::ForeignTable;
 use crate::import::map::ClassMap;
-use crate::text::shown;
+use taceva_dataset::DatasetError;
+use taceva_dataset::Place;
+use taceva_dataset::internal::shown;
 
 /// What the cells of a class are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,10 +45,7 @@ impl Sources<'_> {
         }
         let other = class.names.get(position).map_or("", String::as_str);
         Err(DatasetError::Table {
-            place: Place {
-                column: Some(class.from.clone()),
-                ..Place::file(self.main.path())
-            },
+            place: Place::file(self.main.path()).in_column(&class.from),
             problem: format!(
                 "[classes] {key}: `names` has \"{}\", which is also the position of \"{}\", and nothing says whether a cell `{position}` is a name or a \
                  position. If cells are positions, write the names so that none is one, such as \"class {}\"; if they are names, `[attributes]` keeps \

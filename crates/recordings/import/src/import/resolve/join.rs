@@ -11,13 +11,14 @@ use super::columns::{base_of, mentioned};
 use super::stated::{self, Of, Reading};
 use super::{Sources, cell_of};
 use crate::csv_table::number;
-use crate::error::{DatasetError, Place};
-use crate::file::SourceFolder;
 use crate::foreign::ForeignTable;
 use crate::import::map::{JoinBy, JoinMap, Unmatched};
-use crate::text::shown;
+use crate::source_folder::SourceFolder;
 use matches::TableUses;
 use matching::{At, about, comparable, seconds};
+use taceva_dataset::DatasetError;
+use taceva_dataset::Place;
+use taceva_dataset::internal::shown;
 
 pub(in crate::import) use matches::JoinMatches;
 

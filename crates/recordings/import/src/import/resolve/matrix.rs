@@ -2,9 +2,10 @@
 
 use super::table::ResolvedTable;
 use crate::csv_table::CsvTable;
-use crate::error::{DatasetError, Place};
-use crate::file::SourceFolder;
 use crate::import::map::{MatrixMap, MatrixRows};
+use crate::source_folder::SourceFolder;
+use taceva_dataset::DatasetError;
+use taceva_dataset::Place;
 
 /// Adds the columns that `map` gives to `table`; a product is empty where one of its factors is.
 pub(super) fn apply(

@@ -2,8 +2,8 @@
 
 use super::Sources;
 use crate::csv_table::number;
-use crate::error::DatasetError;
 use crate::import::map::SignalsMap;
+use taceva_dataset::DatasetError;
 
 /// The numbers of every row, place first, in the unit that they are kept in. Where a cell holds none there is a NaN, which is an
 /// error if the row is kept.

@@ -5,8 +5,9 @@ use taceva_core::SourceUnit;
 use super::Sources;
 use super::columns::base_of;
 use super::times;
-use crate::error::{DatasetError, Place};
 use crate::foreign::{ForeignTable, Stated};
+use taceva_dataset::DatasetError;
+use taceva_dataset::Place;
 
 /// How a map reads a column.
 #[derive(Clone, Copy)]
@@ -46,10 +47,7 @@ pub(super) fn check(
     match found.or_else(|| problem_of_name(base, reading.unit)) {
         None => Ok(()),
         Some(problem) => Err(DatasetError::Table {
-            place: Place {
-                column: Some(name.to_owned()),
-                ..Place::file(table.path())
-            },
+            place: Place::file(table.path()).in_column(name),
             problem,
         }),
     }

@@ -6,8 +6,9 @@ use taceva_core::SourceUnit;
 
 use super::Sources;
 use crate::csv_table::{CsvTable, number};
-use crate::error::{DatasetError, Place};
-use crate::text::shown;
+use taceva_dataset::DatasetError;
+use taceva_dataset::Place;
+use taceva_dataset::internal::shown;
 
 /// The rows that an import reads.
 pub(in crate::import) enum RowTable {
@@ -78,10 +79,9 @@ impl ResolvedTable {
     }
 
     fn place(&self, row: usize, column: usize) -> Place {
-        Place {
-            column: self.names.get(column).cloned(),
-            ..self.places[row].clone()
-        }
+        let mut place = self.places[row].clone();
+        place.column = self.names.get(column).cloned();
+        place
     }
 
     fn refuse(&self, row: usize, column: usize, problem: &str) -> DatasetError {

@@ -3,8 +3,9 @@
 use taceva_core::SourceUnit;
 
 use super::columns::base_of;
-use crate::error::{DatasetError, Place};
 use crate::foreign::ForeignTable;
+use taceva_dataset::DatasetError;
+use taceva_dataset::Place;
 
 /// Checks that `unit`, which the map states of the column `name` of `table`, is seconds where the file itself says that it holds times.
 pub(super) fn check(
@@ -18,10 +19,7 @@ pub(super) fn check(
     match unit.symbol() {
         "s" => Ok(()),
         stated => Err(DatasetError::Table {
-            place: Place {
-                column: Some(name.to_owned()),
-                ..Place::file(table.path())
-            },
+            place: Place::file(table.path()).in_column(name),
             problem: format!(
                 "the file says that these are times, counted in {counted}, and they are read in seconds by that; the map says `unit = \"{stated}\"`: \
                  write `unit = \"s\"`"

@@ -3,9 +3,9 @@
 use taceva_core::{GratingKind, Limit, Nanometre, Phase, is_scorable};
 
 use super::MappedTable;
-use crate::error::DatasetError;
 use crate::import::map::{ClassMap, ColumnMap};
 use crate::import::resolve::ClassCells;
+use taceva_dataset::DatasetError;
 
 impl MappedTable<'_> {
     pub(super) fn truth(&self, row: usize) -> Result<Vec<Option<f64>>, DatasetError> {

@@ -6,13 +6,14 @@ use std::path::{Path, PathBuf};
 use taceva_arrays::{ArrayFile, ArrayFormat};
 use taceva_core::Progress;
 
-use crate::error::{DatasetError, Place};
-use crate::file::SourceFolder;
 use crate::foreign::stated;
-use crate::guard::guarded;
 use crate::import::map::SignalsMap;
 use crate::import::resolve::{place_first, problem_of_name, problem_of_signals};
-use crate::signals::SignalsWriter;
+use crate::source_folder::SourceFolder;
+use taceva_dataset::DatasetError;
+use taceva_dataset::Place;
+use taceva_dataset::internal::SignalsWriter;
+use taceva_dataset::internal::guarded;
 
 /// Numbers that are read at once: 8 MiB as 64 bits.
 const READ_VALUES: u64 = 1 << 20;
@@ -52,18 +53,22 @@ impl ArraySignals {
                 return Err(wrong(format!(
                     "{} arrays ({}): `from = {{ file = …, path = … }}` says which",
                     names.len(),
-                    crate::text::shown(&some.join(", "))
+                    taceva_dataset::internal::shown(&some.join(", "))
                 )));
             }
         };
         let info = file.info(&name);
-        let info =
-            info.ok_or_else(|| wrong(format!("no array `{}`", crate::text::shown(&name))))?;
+        let info = info.ok_or_else(|| {
+            wrong(format!(
+                "no array `{}`",
+                taceva_dataset::internal::shown(&name)
+            ))
+        })?;
         let (rows, beside) = match &info.shape[..] {
             [rows, beside @ ..] => (*rows, beside),
             [] => (0, &[][..]),
         };
-        let array = crate::text::shown(&name);
+        let array = taceva_dataset::internal::shown(&name);
         if rows == 0 {
             return Err(wrong(format!(
                 "`{array}` of shape {:?} has no row of signals",
@@ -168,7 +173,7 @@ impl ArraySignals {
         numbers.ok_or_else(|| {
             wrong(format!(
                 "`{}` holds no numbers, or some that 64 bits of floating point cannot say",
-                crate::text::shown(&self.name)
+                taceva_dataset::internal::shown(&self.name)
             ))
         })
     }

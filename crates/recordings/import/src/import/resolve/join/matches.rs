@@ -3,9 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use crate::error::{DatasetError, Place};
 use crate::import::summary::JoinSummary;
-use crate::text::shown_path;
+use taceva_dataset::DatasetError;
+use taceva_dataset::Place;
+use taceva_dataset::internal::shown_path;
 
 /// What one main table found in a joined one.
 pub(in crate::import) struct JoinMatches {

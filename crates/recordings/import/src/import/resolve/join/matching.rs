@@ -1,10 +1,11 @@
 //! When a row of one table belongs to a row of another: equal keys, near times.
 
 use crate::csv_table::number;
-use crate::error::{DatasetError, Place};
 use crate::foreign::packed;
 use crate::import::map::{Pick, TimeJoin, TimeMap};
-use crate::text::shown;
+use taceva_dataset::DatasetError;
+use taceva_dataset::Place;
+use taceva_dataset::internal::shown;
 
 /// Seconds since 1970 are rounded by less than this in binary64.
 const ROUNDING_S: f64 = 1e-6;

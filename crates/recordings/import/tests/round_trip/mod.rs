@@ -2,8 +2,6 @@
 
 mod gratings;
 mod import;
-#[path = "../lab/mod.rs"]
-mod lab;
 mod presets;
 mod stream;
 

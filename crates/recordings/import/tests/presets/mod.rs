@@ -7,7 +7,8 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use taceva_core::SilentProgress;
-use taceva_dataset::{Dataset, Decoders, ImportMap, ImportPlan, MapDraft, Preset};
+use taceva_dataset::Dataset;
+use taceva_import::{Decoders, ImportMap, ImportPlan, MapDraft, Preset};
 
 /// What an import of a layout gives.
 struct Expected {

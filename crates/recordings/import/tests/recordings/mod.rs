@@ -10,7 +10,8 @@ use std::path::{Path, PathBuf};
 
 use expected::differences;
 use taceva_core::SilentProgress;
-use taceva_dataset::{Dataset, Decoders, ImportMap, ImportPlan};
+use taceva_dataset::Dataset;
+use taceva_import::{Decoders, ImportMap, ImportPlan};
 use taceva_needs::{Need, skip};
 
 fn folder(name: &str) -> PathBuf {

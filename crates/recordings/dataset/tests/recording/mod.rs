@@ -1,8 +1,6 @@
 //! A recording survives being killed, and says what it kept.
 
 mod killed;
-#[path = "../../../import/tests/lab/mod.rs"]
-mod lab;
 mod packs;
 mod reduced;
 mod refused;

@@ -17,7 +17,8 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 
 use taceva_core::SilentProgress;
-use taceva_dataset::{Dataset, ImportMap, ImportPlan, ImportSummary};
+use taceva_dataset::Dataset;
+use taceva_import::{ImportMap, ImportPlan, ImportSummary};
 
 const FACTS: &str = r#"
 [sensor]

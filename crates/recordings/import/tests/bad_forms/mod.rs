@@ -11,7 +11,8 @@ use std::time::{Duration, Instant};
 
 use crafted::bomb_of_parquet;
 use taceva_core::SilentProgress;
-use taceva_dataset::{Dataset, ImportMap, ImportPlan};
+use taceva_dataset::Dataset;
+use taceva_import::{ImportMap, ImportPlan};
 
 /// What an import may take.
 const TIME: Duration = Duration::from_secs(10);

@@ -1,0 +1,124 @@
+//! Explanation of a path that holds no dataset.
+
+use std::fs;
+use std::path::Path;
+
+use crate::layout;
+use crate::text::shown_path;
+
+/// The file of the plans of a run, by which its folder is recognised, and the folder of its recordings.
+const RUN: [&str; 2] = ["plans.json", "recordings"];
+/// How many names are listed; the others are counted.
+const LISTED: usize = 8;
+
+/// Describes what stands at `path`, which has no header, and names the datasets inside it.
+pub(crate) fn absence(path: &Path) -> String {
+    if !path.exists() {
+        return "there is nothing of that name".to_owned();
+    }
+    if path.is_file() {
+        return "it is a file, and a dataset is a folder".to_owned();
+    }
+    let missing = "it has no `dataset.toml`";
+    if is_run(path) {
+        return match datasets(&path.join(RUN[1])).as_slice() {
+            [] => format!("{missing}: it is the folder of a run that has recorded nothing yet"),
+            found => format!(
+                "{missing}: it is the folder of a run; name one of its recordings: {}",
+                listed(found)
+            ),
+        };
+    }
+    match datasets(path).as_slice() {
+        [] => missing.to_owned(),
+        found => format!("{missing}, but datasets are in it: {}", listed(found)),
+    }
+}
+
+/// Whether `path` is a folder that neither is a dataset or a recording nor holds any.
+pub fn is_foreign_folder(path: &Path) -> bool {
+    let has_own = [layout::HEADER, layout::JOURNAL]
+        .iter()
+        .any(|name| path.join(name).exists());
+    path.is_dir() && !has_own && !is_run(path) && datasets(path).is_empty()
+}
+
+fn is_run(path: &Path) -> bool {
+    RUN.iter().all(|name| path.join(name).exists())
+}
+
+/// The datasets in the folder at `path`, sorted by name.
+fn datasets(path: &Path) -> Vec<String> {
+    let entries = fs::read_dir(path).into_iter().flatten().flatten();
+    let whole = entries.filter(|entry| entry.path().join(layout::HEADER).is_file());
+    let mut names: Vec<String> = whole.map(|entry| quoted(&entry.path())).collect();
+    names.sort();
+    names
+}
+
+fn listed(names: &[String]) -> String {
+    let more = names.len().saturating_sub(LISTED);
+    let first = names
+        .iter()
+        .take(LISTED)
+        .cloned()
+        .collect::<Vec<_>>()
+        .join(", ");
+    match more {
+        0 => first,
+        more => format!("{first} and {more} more"),
+    }
+}
+
+/// A path as it can be typed in a shell.
+pub fn quoted(path: &Path) -> String {
+    let text = shown_path(path);
+    let is_plain = |letter: char| letter.is_alphanumeric() || "/._-+,@%".contains(letter);
+    match text.chars().all(is_plain) {
+        true => text,
+        false => format!("'{}'", text.replace('\'', "'\\''")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn folder(files: &[&str]) -> tempfile::TempDir {
+        let folder = tempfile::tempdir().expect("a folder");
+        for file in files {
+            let path = folder.path().join(file);
+            fs::create_dir_all(path.parent().expect("inside")).expect("made");
+            fs::write(path, "x").expect("written");
+        }
+        folder
+    }
+
+    #[test]
+    fn the_folder_of_a_run_names_its_recordings() {
+        let run = folder(&[
+            "plans.json",
+            "recordings/1-gelsight/dataset.toml",
+            "recordings/2-wm/dataset.toml",
+        ]);
+        let said = absence(run.path());
+        assert!(
+            said.contains("recordings/1-gelsight, ") && said.ends_with("recordings/2-wm"),
+            "{said}"
+        );
+    }
+
+    #[test]
+    fn an_absent_path_a_file_and_an_empty_folder_are_distinguished() {
+        let empty = folder(&["a.txt"]);
+        assert_eq!(
+            absence(&empty.path().join("b")),
+            "there is nothing of that name"
+        );
+        assert_eq!(
+            absence(&empty.path().join("a.txt")),
+            "it is a file, and a dataset is a folder"
+        );
+        assert_eq!(absence(empty.path()), "it has no `dataset.toml`");
+    }
+}

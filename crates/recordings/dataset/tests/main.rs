@@ -1,0 +1,8 @@
+//! Recordings are written, survive damage and interruption, and are read back.
+
+mod joined;
+mod presses;
+mod recording;
+mod signals;
+mod streams;
+mod support;

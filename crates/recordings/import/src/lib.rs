@@ -1,0 +1,26 @@
+#![doc = include_str!("../README.md")]
+
+mod advice;
+mod csv_table;
+mod draft;
+mod export;
+mod foreign;
+mod import;
+mod preset;
+mod source_folder;
+mod transcode;
+
+pub use advice::advice;
+pub use csv_table::CsvTable;
+pub use csv_table::parts::CsvParts;
+pub use csv_table::stream::CsvStream;
+pub use draft::MapDraft;
+pub use export::{ExportForm, ExportPlan, ExportReport, export_csv};
+pub use import::{
+    Addition, ArrayFrames, ArrayLayout, ColumnMap, Conversion, DropRules, FrameMap, FrameNames,
+    IdMap, ImportMap, ImportPlan, ImportReport, ImportSummary, JoinSummary, PixelRange,
+    Placeholder, Suspicion, TimeMap, UnpackedArchive, VideoFrames, magnitude_suspicion,
+};
+pub use preset::Preset;
+pub use taceva_video::Decoders;
+pub use transcode::write_as_jpeg;

@@ -1,0 +1,59 @@
+//! A folder of a lab, out of which no path leads.
+
+use std::path::{Path, PathBuf};
+
+use taceva_dataset::DatasetError;
+use taceva_dataset::internal::check_relative;
+
+/// A foreign folder: paths that lead out of it are refused.
+#[derive(Clone, Debug)]
+pub(crate) struct SourceFolder {
+    /// As the caller wrote it: for messages.
+    given: PathBuf,
+    /// Without links: for comparison.
+    canonical: PathBuf,
+}
+
+impl SourceFolder {
+    pub(crate) fn open(path: &Path) -> Result<SourceFolder, DatasetError> {
+        let canonical = path
+            .canonicalize()
+            .map_err(DatasetError::io("open", path))?;
+        Ok(SourceFolder {
+            given: path.to_owned(),
+            canonical,
+        })
+    }
+
+    pub(crate) fn path(&self) -> &Path {
+        &self.given
+    }
+
+    /// How the file at `path`, and what is called `part` in it, is named in the folder: with `/` on every system.
+    pub(crate) fn inside(&self, path: &Path, part: &str) -> String {
+        let inside = path.strip_prefix(&self.given).unwrap_or(path);
+        let file = inside.to_string_lossy().replace('\\', "/");
+        match part.trim_start_matches('/') {
+            "" => file,
+            part => format!("{file}/{part}"),
+        }
+    }
+
+    /// The file `relative` to `base`, a folder inside this one.
+    pub(crate) fn file(&self, base: &Path, relative: &str) -> Result<PathBuf, DatasetError> {
+        let refused = |problem: &str| DatasetError::Path {
+            place: None,
+            written: relative.to_owned(),
+            problem: problem.to_owned(),
+        };
+        check_relative(relative).map_err(refused)?;
+        let path = base.join(relative);
+        let canonical = path
+            .canonicalize()
+            .map_err(|error| refused(&format!("no such file: {error}")))?;
+        if !canonical.starts_with(&self.canonical) {
+            return Err(refused("leads out of the folder through a link"));
+        }
+        Ok(path)
+    }
+}

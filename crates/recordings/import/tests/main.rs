@@ -1,0 +1,16 @@
+//! Folders of labs become datasets and datasets become files of other programs.
+
+mod bad_forms;
+mod bad_images;
+mod bad_tables;
+mod damage;
+mod exported;
+mod extended_maps;
+mod jpeg_decoders;
+mod lab;
+mod presets;
+mod recordings;
+mod round_trip;
+#[path = "../../dataset/tests/support.rs"]
+mod support;
+mod tiff;
