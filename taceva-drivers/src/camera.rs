@@ -21,7 +21,7 @@ pub use mjpeg::MjpegFactory;
     target_pointer_width = "64",
     target_endian = "little"
 ))]
-pub use v4l2::V4l2Factory;
+pub use v4l2::{V4l2Factory, kernel as v4l2_kernel};
 
 /// What a camera does when a picture is no frame.
 const CAPTURE: &str = "capture a frame";

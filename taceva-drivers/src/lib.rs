@@ -48,7 +48,7 @@ pub use camera::MjpegFactory;
     target_pointer_width = "64",
     target_endian = "little"
 ))]
-pub use camera::V4l2Factory;
+pub use camera::{V4l2Factory, v4l2_kernel as v4l2};
 pub use clock::MonotonicClock;
 pub use devices::{Devices, ListedArgument, ListedDevice, ListedDriver, devices};
 pub use drivers::{Drivers, open};

@@ -5,6 +5,7 @@ mod error;
 mod factory;
 mod fixed;
 mod frames;
+pub mod kernel;
 mod reader;
 mod yuyv;
 

@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Duration;
 
+use super::kernel::{Camera, FourCc, GivenFormat, PictureFormat, Stream, V4l2Error};
 use taceva_core::{
     Deadline, DriverError, ErrorKind, FrameInfo, FrameMut, Interrupt, Sensor, Stamp,
 };
-use taceva_v4l2::{Camera, FourCc, GivenFormat, PictureFormat, V4l2Error};
 
 use super::KEY;
 use super::error::{START, failed, refused};
@@ -103,7 +103,7 @@ impl LocalCamera {
         };
         // Another program may have turned them meanwhile.
         self.settings = self.options.fixed.apply(&mut camera)?;
-        let stream = camera.start().map_err(refused(START))?;
+        let stream = Stream::start(camera).map_err(refused(START))?;
         (self.last, self.missed) = (self.pictures.posted(), 0);
         let reader = Reader::start(stream, &self.pictures);
         self.reader = Some(reader.map_err(|error| failed(ErrorKind::Internal, START, error))?);
@@ -152,7 +152,7 @@ impl V4l2Options {
 
 /// The first picture that is whole, and the camera, which gives none any more.
 fn first_picture(camera: Camera) -> Result<(Camera, Vec<u8>), DriverError> {
-    let mut stream = camera.start().map_err(refused(OPEN))?;
+    let mut stream = Stream::start(camera).map_err(refused(OPEN))?;
     let began = crate::link::monotonic();
     loop {
         let spent = crate::link::monotonic().saturating_sub(began);

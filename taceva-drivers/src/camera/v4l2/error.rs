@@ -1,7 +1,7 @@
 //! Errors of the camera with their reasons.
 
+use super::kernel::V4l2Error;
 use taceva_core::{DriverError, ErrorKind};
-use taceva_v4l2::V4l2Error;
 
 use super::KEY;
 

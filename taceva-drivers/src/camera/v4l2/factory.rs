@@ -3,12 +3,12 @@
 use std::fs;
 use std::path::Path;
 
+use super::kernel::FourCc;
 use taceva_core::{
     ArgSpec, ArgValue, Args, Descriptor, DescriptorError, DescriptorSpec, DriverError,
     DriverSource, Factory, Facts, Found, FrameInfo, Hertz, PixelFormat, Rig, Sensor, SensorFacts,
     submit_builtin,
 };
-use taceva_v4l2::FourCc;
 
 use super::KEY;
 use super::camera::{LocalCamera, V4l2Options};

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use super::kernel::{Camera, Control, ControlId, V4l2Error};
 use taceva_core::{ArgSpec, ArgValue, Args, DriverError, ErrorKind};
-use taceva_v4l2::{Camera, Control, ControlId, V4l2Error};
 
 use super::error::{failed, refused};
 

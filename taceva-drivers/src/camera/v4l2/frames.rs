@@ -1,7 +1,7 @@
 //! How frames are made of the pictures of a camera: of rows of pixels, or of files.
 
+use super::kernel::{FourCc, GivenFormat, PictureFormat};
 use taceva_core::{DriverError, ErrorKind, FrameInfo, FrameMut, PixelFormat};
-use taceva_v4l2::{FourCc, GivenFormat, PictureFormat};
 
 use super::error::{START, failed};
 use super::reader::Picture;
@@ -116,7 +116,7 @@ impl Frames {
 
 #[cfg(test)]
 mod tests {
-    use taceva_v4l2::Coding;
+    use crate::camera::v4l2::kernel::Coding;
 
     use super::*;
 

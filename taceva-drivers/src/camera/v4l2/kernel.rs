@@ -1,14 +1,27 @@
-#![doc = include_str!("../README.md")]
-#![cfg(all(
-    target_os = "linux",
-    target_pointer_width = "64",
-    target_endian = "little"
-))]
+//! Cameras of Linux by the kernel's own interface (Video4Linux, version 2), on 64-bit addresses with the low byte first.
+//!
+//! `unsafe` stands in `ioctls.rs` and `mapped.rs` alone.
+//!
+//! ```rust,no_run
+//! use std::time::Duration;
+//! use taceva_drivers::v4l2::{Camera, FourCc, PictureFormat, Stream};
+//!
+//! let mut camera = Camera::open("/dev/video0")?;
+//! let format = camera.set_format(&PictureFormat { width: 640, height: 480, pixels: FourCc::YUYV })?;
+//! for control in camera.controls()? {
+//!     println!("{}: {} to {}", control.name, control.least, control.greatest);
+//! }
+//! let mut stream = Stream::start(camera)?;
+//! if let Some(frame) = stream.next(Duration::from_secs(1))? {
+//!     println!("frame {} of {} bytes, {} expected", frame.number(), frame.bytes().len(), format.bytes);
+//! }
+//! # Ok::<(), taceva_drivers::v4l2::V4l2Error>(())
+//! ```
 
 mod camera;
 mod control;
 mod error;
-mod kernel;
+mod ioctls;
 mod mapped;
 mod picture;
 mod stream;

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use taceva_v4l2::{Camera, Stream};
+use super::kernel::{Camera, Stream};
 
 use super::error::kind_of;
 use crate::link::mailbox::Ending;

@@ -1,6 +1,6 @@
 //! Pixels of YUYV: two bytes each, the brightness of each and the colour of two together.
 
-use taceva_v4l2::Coding;
+use super::kernel::Coding;
 
 /// What a byte of each kind adds to a colour, in 65,536ths: exact to less than a hundredth of a step.
 #[derive(Clone, Copy, Debug)]

@@ -7,7 +7,7 @@ use taceva_core::{
     Deadline, DriverError, ErrorKind, Factory, FrameInfo, FrameMut, PixelFormat, Rig, Sensor,
 };
 use taceva_drivers::V4l2Factory;
-use taceva_v4l2::{Camera, ControlKind};
+use taceva_drivers::v4l2::{Camera, ControlKind};
 
 use crate::machine::carry_out;
 

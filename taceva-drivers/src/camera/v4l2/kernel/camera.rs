@@ -6,10 +6,9 @@ use std::path::Path;
 use rustix::fs::{Mode, OFlags, open};
 use rustix::io::Errno;
 
-use crate::error::V4l2Error;
-use crate::kernel::{self, Capability, Format, FormatName, Rate, Size};
-use crate::picture::{Coding, FourCc, GivenFormat, PictureFormat};
-use crate::stream::Stream;
+use super::error::V4l2Error;
+use super::ioctls::{self, Capability, Format, FormatName, Rate, Size};
+use super::picture::{Coding, FourCc, GivenFormat, PictureFormat};
 
 /// A camera that is open and does not stream yet.
 #[derive(Debug)]
@@ -41,18 +40,18 @@ impl Camera {
             why,
         };
         let mut found = Capability::default();
-        kernel::query_capability(file.as_fd(), &mut found)
+        ioctls::query_capability(file.as_fd(), &mut found)
             .map_err(|source| no_camera(std::io::Error::from(source).to_string()))?;
-        let can = match found.all & kernel::TELLS_OF_ITSELF {
+        let can = match found.all & ioctls::TELLS_OF_ITSELF {
             0 => found.all,
             _ => found.own,
         };
         for (bit, what) in [
             (
-                kernel::CAN_CAPTURE,
+                ioctls::CAN_CAPTURE,
                 "it gives no pictures; a camera has several files, of which one does",
             ),
-            (kernel::CAN_STREAM, "it does not stream"),
+            (ioctls::CAN_STREAM, "it does not stream"),
         ] {
             if can & bit == 0 {
                 return Err(no_camera(what.to_owned()));
@@ -86,7 +85,7 @@ impl Camera {
             pixels: wanted.pixels.number(),
             ..Format::default()
         };
-        kernel::set_format(self.fd(), &mut format)
+        ioctls::set_format(self.fd(), &mut format)
             .map_err(|source| V4l2Error::of("set the size of the pictures", source))?;
         let found = PictureFormat {
             width: format.width,
@@ -115,7 +114,7 @@ impl Camera {
         let doing = "set how many pictures it gives a second";
         let refused = |source| V4l2Error::of(doing, source);
         let mut rate = Rate::default();
-        kernel::get_rate(self.fd(), &mut rate).map_err(refused)?;
+        ioctls::get_rate(self.fd(), &mut rate).map_err(refused)?;
         if rate.capability & RATE_CAN_BE_SET != 0 {
             #[expect(
                 clippy::cast_possible_truncation,
@@ -124,7 +123,7 @@ impl Camera {
             )]
             let per_second = (wanted_hz * 1000.0).round() as u32;
             rate.time = [1000, per_second.max(1)];
-            kernel::set_rate(self.fd(), &mut rate).map_err(refused)?;
+            ioctls::set_rate(self.fd(), &mut rate).map_err(refused)?;
         }
         let [numerator, denominator] = rate.time.map(f64::from);
         let found = denominator / numerator;
@@ -138,14 +137,6 @@ impl Camera {
         })
     }
 
-    /// Begins to stream. A camera that does not is closed, and can be opened again.
-    ///
-    /// # Errors
-    /// [`V4l2Error::Busy`] where another program has it, [`V4l2Error::Gone`] where it was unplugged.
-    pub fn start(self) -> Result<Stream, V4l2Error> {
-        Stream::start(self)
-    }
-
     pub(crate) fn fd(&self) -> BorrowedFd<'_> {
         self.file.as_fd()
     }
@@ -156,10 +147,10 @@ impl Camera {
         for index in 0..OFFERS_MAX {
             let mut name = FormatName {
                 index,
-                kind: kernel::CAPTURE,
+                kind: ioctls::CAPTURE,
                 ..FormatName::default()
             };
-            if kernel::enumerate_formats(self.fd(), &mut name).is_err() {
+            if ioctls::enumerate_formats(self.fd(), &mut name).is_err() {
                 break;
             }
             let sizes = self.sizes(name.pixels);
@@ -179,7 +170,7 @@ impl Camera {
                 pixels,
                 ..Size::default()
             };
-            match kernel::enumerate_sizes(self.fd(), &mut size) {
+            match ioctls::enumerate_sizes(self.fd(), &mut size) {
                 Err(Errno::INTR) => {}
                 Err(_) => break,
                 Ok(()) => {

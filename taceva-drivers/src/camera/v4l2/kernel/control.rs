@@ -4,9 +4,9 @@ use std::fmt;
 
 use rustix::io::Errno;
 
-use crate::camera::{Camera, text};
-use crate::error::V4l2Error;
-use crate::kernel::{self, ControlInfo, ControlValue};
+use super::camera::{Camera, text};
+use super::error::V4l2Error;
+use super::ioctls::{self, ControlInfo, ControlValue};
 
 /// The number of a control.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -106,10 +106,10 @@ impl Camera {
         let mut last = 0;
         while found.len() < CONTROLS_MAX {
             let mut info = ControlInfo {
-                id: last | kernel::NEXT_CONTROL,
+                id: last | ioctls::NEXT_CONTROL,
                 ..ControlInfo::default()
             };
-            match kernel::query_control(self.fd(), &mut info) {
+            match ioctls::query_control(self.fd(), &mut info) {
                 Ok(()) if info.id > last => last = info.id,
                 Ok(()) | Err(Errno::INVAL | Errno::NOTTY) => break,
                 Err(source) => return Err(V4l2Error::of("list its controls", source)),
@@ -131,7 +131,7 @@ impl Camera {
             id: id.0,
             ..ControlInfo::default()
         };
-        match kernel::query_control(self.fd(), &mut info) {
+        match ioctls::query_control(self.fd(), &mut info) {
             Ok(()) if info.flags & DISABLED == 0 => Ok(Some(Control::of(&info))),
             Ok(()) | Err(Errno::INVAL | Errno::NOTTY) => Ok(None),
             Err(source) => Err(V4l2Error::of("look at a control", source)),
@@ -144,7 +144,7 @@ impl Camera {
     /// [`V4l2Error`]: there is no such control, or the camera is gone.
     pub fn value(&self, id: ControlId) -> Result<i32, V4l2Error> {
         let mut value = ControlValue { id: id.0, value: 0 };
-        kernel::get_control(self.fd(), &mut value)
+        ioctls::get_control(self.fd(), &mut value)
             .map_err(|source| V4l2Error::of("read a control", source))?;
         Ok(value.value)
     }
@@ -155,7 +155,7 @@ impl Camera {
     /// [`V4l2Error`]: there is no such control, it does not take that value or no value at all now, or the camera is gone.
     pub fn set(&mut self, id: ControlId, value: i32) -> Result<i32, V4l2Error> {
         let mut set = ControlValue { id: id.0, value };
-        kernel::set_control(self.fd(), &mut set)
+        ioctls::set_control(self.fd(), &mut set)
             .map_err(|source| V4l2Error::of("set a control", source))?;
         self.value(id)
     }
@@ -166,7 +166,7 @@ impl Camera {
     /// As [`set`](Camera::set).
     pub fn press(&mut self, id: ControlId) -> Result<(), V4l2Error> {
         let mut set = ControlValue { id: id.0, value: 1 };
-        kernel::set_control(self.fd(), &mut set)
+        ioctls::set_control(self.fd(), &mut set)
             .map_err(|source| V4l2Error::of("press a button", source))
     }
 }

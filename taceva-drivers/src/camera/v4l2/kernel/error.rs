@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use crate::picture::PictureFormat;
+use super::picture::PictureFormat;
 
 /// A call to a camera that failed.
 #[derive(Debug, Error)]

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::kernel::Format;
+use super::ioctls::Format;
 
 /// How the pixels of a picture are sent, as four letters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -5,10 +5,10 @@ use std::time::Duration;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::io::Errno;
 
-use crate::camera::Camera;
-use crate::error::V4l2Error;
-use crate::kernel::{self, Buffer, Request};
-use crate::mapped::Mapped;
+use super::camera::Camera;
+use super::error::V4l2Error;
+use super::ioctls::{self, Buffer, Request};
+use super::mapped::Mapped;
 
 /// A camera that streams, until it is stopped or dropped.
 #[derive(Debug)]
@@ -22,7 +22,11 @@ const BUFFERS: u32 = 4;
 const MICROSECOND_NS: u64 = 1000;
 
 impl Stream {
-    pub(crate) fn start(camera: Camera) -> Result<Stream, V4l2Error> {
+    /// Begins to stream. A camera that does not is closed, and can be opened again.
+    ///
+    /// # Errors
+    /// [`V4l2Error::Busy`] where another program has it, [`V4l2Error::Gone`] where it was unplugged.
+    pub fn start(camera: Camera) -> Result<Stream, V4l2Error> {
         let mut stream = Stream {
             camera,
             buffers: Vec::new(),
@@ -36,14 +40,14 @@ impl Stream {
         let refused = |source| V4l2Error::of(doing, source);
         let mut request = Request {
             count: BUFFERS,
-            kind: kernel::CAPTURE,
-            memory: kernel::SHARED,
+            kind: ioctls::CAPTURE,
+            memory: ioctls::SHARED,
             ..Request::default()
         };
-        kernel::request_buffers(self.camera.fd(), &mut request).map_err(refused)?;
+        ioctls::request_buffers(self.camera.fd(), &mut request).map_err(refused)?;
         for index in 0..request.count {
             let mut buffer = buffer(index);
-            kernel::query_buffer(self.camera.fd(), &mut buffer).map_err(refused)?;
+            ioctls::query_buffer(self.camera.fd(), &mut buffer).map_err(refused)?;
             let length = usize::try_from(buffer.length).map_err(|_| refused(Errno::NOMEM))?;
             // The field is a number of 32 bits, in the place of an address.
             let offset = buffer.offset & u64::from(u32::MAX);
@@ -51,12 +55,12 @@ impl Stream {
             self.buffers.push(mapped);
             self.queue(index)?;
         }
-        let mut kind = kernel::CAPTURE;
-        kernel::stream_on(self.camera.fd(), &mut kind).map_err(refused)
+        let mut kind = ioctls::CAPTURE;
+        ioctls::stream_on(self.camera.fd(), &mut kind).map_err(refused)
     }
 
     fn queue(&self, index: u32) -> Result<(), V4l2Error> {
-        kernel::queue(self.camera.fd(), &mut buffer(index))
+        ioctls::queue(self.camera.fd(), &mut buffer(index))
             .map_err(|source| V4l2Error::of("give a buffer back", source))
     }
 
@@ -75,7 +79,7 @@ impl Stream {
             Err(source) => return Err(V4l2Error::of(doing, source)),
         }
         let mut taken = buffer(0);
-        match kernel::take(fd, &mut taken) {
+        match ioctls::take(fd, &mut taken) {
             Ok(()) => {}
             // Nothing was there after all, or the camera stopped: the first of them that stays is an error.
             Err(Errno::AGAIN)
@@ -101,24 +105,24 @@ impl Stream {
     }
 
     fn end(&mut self) {
-        let mut kind = kernel::CAPTURE;
-        let _ = kernel::stream_off(self.camera.fd(), &mut kind);
+        let mut kind = ioctls::CAPTURE;
+        let _ = ioctls::stream_off(self.camera.fd(), &mut kind);
         self.buffers.clear();
         // None, which frees them.
         let mut none = Request {
-            kind: kernel::CAPTURE,
-            memory: kernel::SHARED,
+            kind: ioctls::CAPTURE,
+            memory: ioctls::SHARED,
             ..Request::default()
         };
-        let _ = kernel::request_buffers(self.camera.fd(), &mut none);
+        let _ = ioctls::request_buffers(self.camera.fd(), &mut none);
     }
 }
 
 fn buffer(index: u32) -> Buffer {
     Buffer {
         index,
-        kind: kernel::CAPTURE,
-        memory: kernel::SHARED,
+        kind: ioctls::CAPTURE,
+        memory: ioctls::SHARED,
         ..Buffer::default()
     }
 }
@@ -148,12 +152,12 @@ impl Filled<'_> {
 
     /// Whether the camera says that it is damaged.
     pub fn is_damaged(&self) -> bool {
-        self.taken.flags & kernel::DAMAGED != 0
+        self.taken.flags & ioctls::DAMAGED != 0
     }
 
     /// When the picture was taken, by the kernel's stamp on the monotonic clock; `None` where the driver stamps by another clock.
     pub fn taken_at(&self) -> Option<Duration> {
-        if self.taken.flags & kernel::CLOCKS != kernel::MONOTONIC {
+        if self.taken.flags & ioctls::CLOCKS != ioctls::MONOTONIC {
             return None;
         }
         let [seconds, microseconds] = self.taken.time.map(u64::try_from);
