@@ -21,9 +21,11 @@
 //! G. L. Steele, D. Lea, C. H. Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014; constants of `mix64` by Stafford (variant 13).
 
 mod draws;
+mod fnv;
 mod sequence;
 
 pub use draws::Draws;
+pub use fnv::fnv_1a;
 pub use sequence::SplitMix64;
 
 /// What one step adds to the state of SplitMix64: 2⁶⁴ over the golden ratio, odd.

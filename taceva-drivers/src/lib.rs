@@ -10,7 +10,6 @@ mod clock;
 mod devices;
 pub mod doctor;
 mod drivers;
-pub mod fault;
 #[cfg(all(feature = "gcode", unix))]
 mod gcode;
 #[cfg(all(feature = "hid", target_os = "linux"))]
@@ -23,7 +22,6 @@ mod open_error;
 mod pace;
 #[cfg(all(any(feature = "gcode", feature = "hid", feature = "v4l2"), unix))]
 mod present;
-mod random;
 mod selector;
 mod sensor;
 mod source;

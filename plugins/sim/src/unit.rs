@@ -5,6 +5,8 @@
 
 use std::f64::consts::TAU;
 
+use taceva_core::random::fnv_1a;
+
 use crate::parameters::{Body, Parameters, Surface};
 use crate::random::{Purpose, Random, Stream};
 
@@ -49,7 +51,7 @@ const EDGE_MARGIN_MM: f64 = 1.5;
 impl Unit {
     /// The unit `number` of a sensor.
     pub fn new(parameters: &Parameters, number: u32) -> Unit {
-        let name = name_hash(&parameters.name);
+        let name = fnv_1a(parameters.name.as_bytes());
         let random = Random::new(u64::from(number));
         let stiffness = random.stream(Purpose::Stiffness, name);
         let variation = parameters.variation;
@@ -196,13 +198,6 @@ impl Waves {
         // Eight cosines have the variance 4.
         0.5 * cosines.sum::<f64>()
     }
-}
-
-/// FNV-1a of a sensor's name.
-fn name_hash(name: &str) -> u64 {
-    name.bytes().fold(0xCBF2_9CE4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3)
-    })
 }
 
 #[cfg(test)]

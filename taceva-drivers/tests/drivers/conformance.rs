@@ -4,8 +4,8 @@ use crate::support::folder;
 use crate::toy::{FULL_SCALE, Flaw, KEY, ToyFactory, open};
 use taceva_conformance::{self as conformance, Outcome, Report, Trial};
 use taceva_core::{Args, Descriptor, DriverError, Factory, ForceTransducer, Rig};
-use taceva_drivers::fault::{FaultKind, FaultPlan, FaultyForce};
 use taceva_drivers::{ReplayFactory, VirtualPace};
+use taceva_simulation::fault::{FaultKind, FaultPlan, FaultyForce};
 
 fn replay(more: &str) -> Report {
     let folder = folder(20);

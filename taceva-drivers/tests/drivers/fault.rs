@@ -6,7 +6,7 @@ use crate::support::{PATIENCE, capture, folder, replay};
 use crate::toy::{FULL_SCALE, Flaw, KEY, ToyFactory, open};
 use taceva_core::{Deadline, ErrorKind, ForceTransducer, Pose, Robot, Sensor, Speed};
 use taceva_drivers::VirtualPace;
-use taceva_drivers::fault::{
+use taceva_simulation::fault::{
     FaultKind, FaultPlan, FaultyForce, FaultyRobot, FaultySensor, Likelihood,
 };
 

@@ -8,7 +8,7 @@ use std::error::Error;
 use std::process::ExitCode;
 use std::thread;
 
-use taceva_protocol::simulation::{Checks, FaultCounts, FaultKind, SimulationReport, simulate};
+use taceva_simulation::simulation::{Checks, FaultCounts, FaultKind, SimulationReport, simulate};
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);

@@ -3,6 +3,7 @@
 //! Nothing about a fault is announced but what a real one would show: a frozen force transducer answers promptly, and wrongly.
 //! What did go wrong is counted in the [`FaultLog`], so that a test can prove that each kind has happened.
 
+mod draw;
 mod force;
 mod kind;
 mod link;

@@ -1,9 +1,7 @@
 //! Numbers drawn by counter: each is a function of the seed, what it is for, and its place, never of what was drawn before.
 
-use taceva_core::random::{STEP, mix};
+use taceva_core::random::{STEP, fnv_1a, mix};
 use taceva_core::{Footprint, Nanometre};
-
-use crate::content_id::fnv_1a;
 
 /// A source of numbers for one purpose.
 #[derive(Clone, Copy, Debug)]

@@ -9,28 +9,26 @@ mod press;
 mod rig_file;
 mod run;
 mod scene;
-#[cfg(feature = "simulation")]
-pub mod simulation;
 mod source;
 mod specimen;
 
 pub use content_id::ContentId;
-pub use limits::{FROZEN_READINGS, Overshoot, RigLimits, Signals};
+pub use limits::{FROZEN_READINGS, Overshoot, RigLimits, SEGMENT_S, STALE_S, Signals};
 pub use phase::PhaseKind;
 pub use plan::{
     Cause, Cost, Fit, Plan, PlanReason, PlanSkip, PlannedMetric, PlannedPress, Subject, plan,
 };
 pub use press::{Motion, Press, Waypoint};
 pub use rig_file::{
-    Carried, Jogged, Registration, RigChangers, RigFile, RigForce, RigLatencies, RigOperator,
-    RigRobot, RigSensor, SignedAxes, Taught, TeachError,
+    Carried, Jogged, Latency, Registration, RigChangers, RigFile, RigForce, RigLatencies,
+    RigOperator, RigRobot, RigSensor, SignedAxes, Taught, TeachError,
 };
 pub use run::{
-    Answer, Cancel, ChangedTouch, Controls, Devices, Enabling, Event, Latency, Left, Mode,
-    MotionStage, Observation, Operator, PressLog, PressRecord, Question, ReferenceTouch, RunError,
+    Answer, Cancel, ChangedTouch, Controls, Devices, Enabling, Event, Left, Mode, MotionStage,
+    Observation, Operator, PressLog, PressRecord, Question, ReferenceTouch, RunError, RunGuard,
     RunReport, RunSpec, SessionRecord, SessionSpec, SharedSupervisor, SpecimenChanger, Spot,
     StopCause, Supervisor, TapError, TapHeard, TapListener, Tapped, Timekeeper, TouchFault, Trip,
-    raise, run, run_guarded, run_session, tap, wrench_between,
+    raise, run, run_guarded, tap, wrench_between,
 };
 pub use scene::{
     BuiltinScene, Calibration, Contact, DeviceSpec, FootprintSpec, FrameSize, GREATEST_SCENE,

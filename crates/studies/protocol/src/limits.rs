@@ -2,9 +2,7 @@
 
 mod signals;
 
-#[cfg(feature = "simulation")]
-pub(crate) use signals::STALE_S;
-pub use signals::Signals;
+pub use signals::{STALE_S, Signals};
 
 use taceva_core::{DriverSource, Millimetre, Newton, RobotFacts, Wrench};
 
@@ -65,7 +63,7 @@ pub struct Overshoot {
 }
 
 /// Time of a segment in contact, in s: a limit that is passed within it is seen at its end.
-pub(crate) const SEGMENT_S: f64 = 0.015;
+pub const SEGMENT_S: f64 = 0.015;
 /// Readings that are equal to the last bit, each after a motion, that are believed before the signal counts as frozen.
 pub const FROZEN_READINGS: u32 = 8;
 /// The deceleration of a robot that states none, in mm/s²; an arm of 1 m/s² stops from 5 mm/s within 0.0125 mm.

@@ -8,7 +8,7 @@ mod teach;
 
 pub use axes::SignedAxes;
 pub use changers::RigChangers;
-pub use latency::RigLatencies;
+pub use latency::{Latency, RigLatencies};
 pub use registration::Registration;
 pub use teach::{Jogged, Taught, TeachError};
 

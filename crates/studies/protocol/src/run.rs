@@ -16,6 +16,7 @@ mod devices;
 mod error;
 mod event;
 mod go;
+mod guard;
 mod hold;
 mod indent;
 mod log;
@@ -46,11 +47,12 @@ pub use align::wrench_between;
 pub use devices::{Devices, SpecimenChanger};
 pub use error::{Left, RunError, StopCause};
 pub use event::Event;
+pub use guard::RunGuard;
 pub use log::{PressLog, PressRecord};
 pub use operator::{Answer, ChangedTouch, Operator, Question, Spot};
 pub use raise::raise;
 pub use supervisor::{Enabling, MotionStage, Observation, SharedSupervisor, Supervisor};
-pub use tap::{Latency, TapError, TapHeard, TapListener, Tapped, tap};
+pub use tap::{TapError, TapHeard, TapListener, Tapped, tap};
 pub use time::{Cancel, Timekeeper};
 pub use touched::{ReferenceTouch, SessionRecord, SessionSpec, TouchFault};
 pub use trip::Trip;
@@ -126,80 +128,37 @@ pub fn run<'a>(
     log: &mut dyn PressLog,
     controls: Controls<'a>,
 ) -> Result<RunReport, RunError> {
-    run_under(spec, devices, log, (controls, None, None), None)
+    run_under(spec, devices, log, controls, None)
 }
 
-/// The same under a guard: `supervisor` is shown every reading of force by whoever reads them in a thread of its own, and poses under way by
-/// whoever looks on. It is over the robot of `devices`, and `devices.force` only passes on what that thread has read.
+/// Makes the presses of `spec` under `guard`, which threads of the caller show readings to.
 ///
 /// # Errors
-/// As [`run`].
+/// As [`run`]; of a session also [`StopCause::Rig`], [`StopCause::SlowGuard`] and [`StopCause::Touch`] where the rig is not as it should be.
+/// Then nothing was pressed.
 pub fn run_guarded<'a>(
     spec: &RunSpec<'a>,
     devices: Devices<'a>,
     log: &mut dyn PressLog,
-    (controls, supervisor): (Controls<'a>, SharedSupervisor),
+    controls: Controls<'a>,
+    guard: RunGuard<'a>,
 ) -> Result<RunReport, RunError> {
-    run_under(spec, devices, log, (controls, Some(supervisor), None), None)
-}
-
-/// The same on a rig with an enabling switch, whose state `supervisor` is shown too, and for which is waited for `patience_s`.
-///
-/// # Errors
-/// As [`run`].
-#[cfg(feature = "simulation")]
-pub(crate) fn run_with_switch<'a>(
-    spec: &RunSpec<'a>,
-    devices: Devices<'a>,
-    log: &mut dyn PressLog,
-    (controls, supervisor, patience_s): (Controls<'a>, SharedSupervisor, f64),
-) -> Result<RunReport, RunError> {
-    let guard = Some(supervisor);
-    run_under(
-        spec,
-        devices,
-        log,
-        (controls, guard, None),
-        Some(patience_s),
-    )
-}
-
-/// The same on the rig of a rig file, as a session: before the first press somebody enables the robot, the tip passes through the air and
-/// touches the gel gently, and the touch is compared with what the rig file says and with earlier sessions of the recording.
-///
-/// # Errors
-/// As [`run`]; [`StopCause::Rig`], [`StopCause::SlowGuard`] and [`StopCause::Touch`] where the rig is not as it should be. Then nothing was
-/// pressed.
-pub fn run_session<'a>(
-    spec: &RunSpec<'a>,
-    devices: Devices<'a>,
-    log: &mut dyn PressLog,
-    (controls, supervisor, session): (Controls<'a>, SharedSupervisor, SessionSpec<'a>),
-) -> Result<RunReport, RunError> {
-    let guard = Some(supervisor);
-    run_under(spec, devices, log, (controls, guard, Some(session)), None)
+    run_under(spec, devices, log, controls, Some(guard))
 }
 
 fn run_under<'a>(
     spec: &RunSpec<'a>,
     devices: Devices<'a>,
     log: &mut dyn PressLog,
-    (controls, guard, session): (
-        Controls<'a>,
-        Option<SharedSupervisor>,
-        Option<SessionSpec<'a>>,
-    ),
-    patience_s: Option<f64>,
+    controls: Controls<'a>,
+    guard: Option<RunGuard<'a>>,
 ) -> Result<RunReport, RunError> {
     let stopped = |cause| RunError {
         press: None,
         cause,
         left: Left::Clear,
     };
-    let mut run = Run::new(spec, devices, (controls, session), guard).map_err(stopped)?;
-    if let Some(patience_s) = patience_s {
-        run.patience_s = patience_s;
-    }
+    let mut run = Run::new(spec, devices, controls, guard).map_err(stopped)?;
     let done = run.all(spec, log);
     let stopping = run.stop();
     match done {

@@ -1,5 +1,6 @@
 //! Light, symmetry and movement, sensor by sensor.
 
+use taceva_core::random::fnv_1a;
 use taceva_core::{GratingKind, Nanometre};
 use taceva_sim::optics::{
     AmbientLight, Board, Camera, GelSpec, LampSpec, OpticsSpec, Stimulus, View,
@@ -254,13 +255,6 @@ fn a_grating_is_seen_and_finer_ones_fainter() {
     }
 }
 
-/// FNV-1a, 64 bits.
-fn checksum(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
-    })
-}
-
 /// Pictures are part of what a seed promises: whoever changes one raises the model's version.
 #[test]
 fn pictures_are_frozen() {
@@ -275,7 +269,7 @@ fn pictures_are_frozen() {
                 ..view(press)
             };
             let mut camera = camera(&OpticsSpec::new(&parameters), [72, 96]);
-            (model.key(), checksum(take(&mut camera, &view).0.bytes()))
+            (model.key(), fnv_1a(take(&mut camera, &view).0.bytes()))
         })
         .collect();
     assert_eq!(

@@ -3,7 +3,7 @@
 use taceva_core::random::{Draws, STEP, finalise, mix};
 
 /// The number at `index` of the stream that `seed` and `purpose` name.
-pub(crate) fn draw(seed: u64, purpose: u64, index: u64) -> u64 {
+pub(super) fn draw(seed: u64, purpose: u64, index: u64) -> u64 {
     let stream = mix(seed).wrapping_add(finalise(purpose.wrapping_mul(STEP)));
     Draws::new(stream).bits(index)
 }

@@ -6,7 +6,7 @@ use taceva_core::{
 
 use super::link::Link;
 use super::{FaultKind, FaultPlan};
-use crate::pace::Pace;
+use taceva_drivers::Pace;
 
 /// A force transducer whose readings go wrong as a plan says.
 pub struct FaultyForce {

@@ -5,7 +5,7 @@ use std::time::Duration;
 use taceva_core::{Deadline, DriverError, DriverKey, ErrorKind, Stamp};
 
 use super::{FaultKind, FaultPlan};
-use crate::pace::Pace;
+use taceva_drivers::Pace;
 
 /// The link to a device.
 pub(super) struct Link {

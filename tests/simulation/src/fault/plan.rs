@@ -4,13 +4,13 @@ use std::ops::Range;
 use std::sync::Arc;
 use std::time::Duration;
 
+use super::draw::draw;
 use super::{FaultKind, FaultLog};
-use crate::random::draw;
 
 /// The faults of one device.
 ///
 /// ```
-/// use taceva_drivers::fault::{FaultKind, FaultPlan, Likelihood};
+/// use taceva_simulation::fault::{FaultKind, FaultPlan, Likelihood};
 /// let plan = FaultPlan::none()
 ///     .during(FaultKind::Freeze, 10..20)
 ///     .drawn(7, FaultKind::Silence, Likelihood { per_thousand: 5, calls: 3 });

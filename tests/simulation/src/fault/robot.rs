@@ -9,7 +9,7 @@ use taceva_core::{
 
 use super::link::Link;
 use super::{FaultKind, FaultPlan};
-use crate::pace::Pace;
+use taceva_drivers::Pace;
 
 /// A robot whose poses and motions go wrong as a plan says. A halt always reaches it.
 pub struct FaultyRobot {

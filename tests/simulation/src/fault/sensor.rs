@@ -6,7 +6,7 @@ use taceva_core::{Deadline, DriverError, DriverKey, FrameInfo, FrameMut, Lightin
 
 use super::link::Link;
 use super::{FaultKind, FaultPlan};
-use crate::pace::Pace;
+use taceva_drivers::Pace;
 
 /// A sensor whose captures go wrong as a plan says.
 pub struct FaultySensor {

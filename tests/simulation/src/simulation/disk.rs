@@ -1,9 +1,9 @@
 //! A disk that keeps what was synced, and an arbitrary part of the rest.
 
-use super::fault::{FaultKind, fraction};
+use super::draws::Draws;
+use super::fault::FaultKind;
 use super::shared::Shared;
 use super::world::Sabotage;
-use crate::draw::Draws;
 
 /// One file that only grows.
 pub(super) struct Disk {
@@ -82,7 +82,7 @@ impl Disk {
             reason = "a part of a length is a length"
         )]
         let kept =
-            (fraction(self.draws, [self.crashes, 0]) * (self.pending.len() as f64 + 1.0)) as usize;
+            (self.draws.fraction([self.crashes, 0]) * (self.pending.len() as f64 + 1.0)) as usize;
         self.pending.truncate(kept);
         if let Some(last) = self.pending.last_mut()
             && self.draws.bits([self.crashes, 1]).is_multiple_of(2)

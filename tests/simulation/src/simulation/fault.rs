@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::draw::Draws;
+use super::draws::Draws;
 
 /// A way in which a rig fails.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -59,7 +59,7 @@ impl FaultKind {
         FaultKind::Unplugged,
     ];
     /// How many of them every scenario draws from; those after them come beside.
-    const DRAWN: i64 = 11;
+    const DRAWN: u64 = 11;
 
     /// The word in reports.
     pub const fn name(self) -> &'static str {
@@ -143,10 +143,10 @@ impl Faults {
         } else {
             whole(1, 4, [0, 1])
         };
-        let faults = (1..=count.unsigned_abs()).map(|number| {
-            let kind = whole(0, FaultKind::DRAWN - 1, [number, 0]).unsigned_abs();
+        let faults = (1..=count).map(|number| {
+            let kind = whole(0, FaultKind::DRAWN - 1, [number, 0]);
             let kind = FaultKind::ALL[usize::try_from(kind).unwrap_or(0)];
-            let part = |place| fraction(draws, [number, place]);
+            let part = |place| draws.fraction([number, place]);
             let from_s = part(1) * span_s;
             // From a glitch of one reading to two seconds, short ones as likely as long ones.
             let rarely_s = match kind {
@@ -163,15 +163,15 @@ impl Faults {
         });
         let stop = (whole(0, 7, [STOP, 0]) == 0).then(|| Fault {
             kind: FaultKind::EmergencyStop,
-            from_s: fraction(draws, [STOP, 1]) * span_s,
+            from_s: draws.fraction([STOP, 1]) * span_s,
             until_s: f64::INFINITY,
         });
         let unreported = (whole(0, 3, [NO_REPORTS, 0]) == 0).then(|| {
-            let from_s = fraction(draws, [NO_REPORTS, 1]) * span_s;
+            let from_s = draws.fraction([NO_REPORTS, 1]) * span_s;
             Fault {
                 kind: FaultKind::NoReports,
                 from_s,
-                until_s: from_s + 0.02 * 100_f64.powf(fraction(draws, [NO_REPORTS, 2])),
+                until_s: from_s + 0.02 * 100_f64.powf(draws.fraction([NO_REPORTS, 2])),
             }
         });
         Faults {
@@ -278,12 +278,12 @@ impl Faults {
 fn of_switch(draws: Draws, span_s: f64) -> impl Iterator<Item = Fault> {
     let releases = match draws.between(0, 1, [SWITCH, 0]) {
         0 => 0,
-        _ => draws.between(1, 6, [SWITCH, 1]).unsigned_abs(),
+        _ => draws.between(1, 6, [SWITCH, 1]),
     };
     let is_unplugged = draws.between(0, 3, [SWITCH, 2]) == 0;
     let one = move |kind, place: u64, shortest_s: f64, times: f64| {
-        let from_s = fraction(draws, [SWITCH, place]) * span_s;
-        let lasts_s = shortest_s * times.powf(fraction(draws, [SWITCH, place + 1]));
+        let from_s = draws.fraction([SWITCH, place]) * span_s;
+        let lasts_s = shortest_s * times.powf(draws.fraction([SWITCH, place + 1]));
         Fault {
             kind,
             from_s,
@@ -294,11 +294,4 @@ fn of_switch(draws: Draws, span_s: f64) -> impl Iterator<Item = Fault> {
         (0..releases).map(move |number| one(FaultKind::Released, 10 + 2 * number, 0.01, 4_000.0));
     let unplugged = is_unplugged.then(|| one(FaultKind::Unplugged, 4, 0.5, 40.0));
     released.chain(unplugged)
-}
-
-/// A number from 0 to 1, 1 excluded.
-pub(super) fn fraction(draws: Draws, place: [u64; 2]) -> f64 {
-    #[expect(clippy::cast_precision_loss, reason = "53 bits are exact in binary64")]
-    let bits = (draws.bits(place) >> 11) as f64;
-    bits / (1_u64 << 53) as f64
 }

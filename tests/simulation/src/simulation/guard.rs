@@ -6,9 +6,8 @@
 
 use taceva_core::{Pose, Stamp, Wrench};
 
-use super::fault::fraction;
-use crate::draw::Draws;
-use crate::run::{Cancel, SharedSupervisor};
+use super::draws::Draws;
+use taceva_protocol::{Cancel, SharedSupervisor};
 
 /// From one reading to the next, and from one look at the robot to the next, in s.
 const READING_S: f64 = 0.005;
@@ -54,8 +53,10 @@ pub(super) struct Guard {
 impl Guard {
     /// Threads that begin at `now_s`; what they wait for is drawn from `draws`.
     pub(super) fn new(
-        (supervisor, cancel): (SharedSupervisor, Cancel),
-        (draws, is_numbered): (Draws, bool),
+        supervisor: SharedSupervisor,
+        cancel: Cancel,
+        draws: Draws,
+        is_numbered: bool,
         now_s: f64,
     ) -> Guard {
         Guard {
@@ -84,7 +85,7 @@ impl Guard {
             return None;
         }
         self.turns = self.turns.wrapping_add(1);
-        let [long, part] = [1, 2].map(|place| fraction(self.draws, [self.turns, place]));
+        let [long, part] = [1, 2].map(|place| self.draws.fraction([self.turns, place]));
         let most_s = if long < LONG_OF {
             LONG_WAIT_S
         } else {

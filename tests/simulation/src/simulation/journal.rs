@@ -5,8 +5,9 @@ use std::collections::BTreeSet;
 use taceva_core::{Frame, PressOutcome, SinkError};
 
 use super::disk::Disk;
-use crate::content_id::{ContentId, fnv_1a};
-use crate::run::{PressLog, PressRecord};
+use taceva_core::random::fnv_1a;
+use taceva_protocol::ContentId;
+use taceva_protocol::{PressLog, PressRecord};
 
 /// A press as it was recorded.
 #[derive(Clone, Debug, PartialEq)]

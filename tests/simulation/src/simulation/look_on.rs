@@ -6,8 +6,8 @@ use super::fault::FaultKind;
 use super::guard::{Guard, Heard, Thread};
 use super::shared::Shared;
 use super::world::World;
-use crate::limits::STALE_S;
-use crate::run::{Observation, Supervisor};
+use taceva_protocol::STALE_S;
+use taceva_protocol::{Observation, Supervisor};
 
 impl Shared {
     /// Lets the threads do what they are due to by now; `false` if they wait for the supervisor.

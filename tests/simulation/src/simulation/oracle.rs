@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::limits::{RigLimits, SEGMENT_S};
+use taceva_protocol::{RigLimits, SEGMENT_S};
 
 /// A halt must reach the robot within this, in s.
 pub const HALT_WITHIN_S: f64 = 0.05;

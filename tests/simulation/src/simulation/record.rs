@@ -7,9 +7,9 @@ use taceva_core::{Phase, PressOutcome};
 use super::gel::Gel;
 use super::journal::{Entry, EntrySample, entries};
 use super::oracle::Violation;
-use crate::content_id::ContentId;
-use crate::plan::{Plan, PlannedPress};
-use crate::press::Motion;
+use taceva_protocol::ContentId;
+use taceva_protocol::Motion;
+use taceva_protocol::{Plan, PlannedPress};
 
 /// What binary64 makes of sums of a few lengths, in mm.
 const ROUNDING_MM: f64 = 1e-6;
@@ -123,7 +123,7 @@ impl Found {
         // the true place.
         let limits = plan.limits.as_ref();
         let stuck_mm = limits.map_or(0.0, |limits| {
-            limits.overshoot.segment_mm + limits.signals.slack_mm() + gel.pose_noise_mm
+            limits.overshoot.segment_mm + 3.0 * limits.signals.pose_noise_mm + gel.pose_noise_mm
         });
         let lag_mm = stuck_mm + reported_mm;
         let mut height = None;

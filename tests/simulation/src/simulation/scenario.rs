@@ -3,13 +3,14 @@
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
 use taceva_core::{
-    Axes, Descriptor, DescriptorSpec, DriverKey, DriverSource, Facts, Field, FieldSet, Footprint,
-    ForceFacts, Hertz, Millimetre, Newton, Robot, RobotFacts, SensorFacts,
+    Axes, Descriptor, DescriptorSpec, DriverKey, DriverSource, Facts, Footprint, ForceFacts, Hertz,
+    Millimetre, Newton, Robot, RobotFacts, SensorFacts,
 };
 
 use super::devices::{FRAME, SimulatedForce, SimulatedRobot, SimulatedSensor};
 use super::disk::Disk;
-use super::fault::{FaultCounts, Faults, fraction};
+use super::draws::Draws;
+use super::fault::{FaultCounts, Faults};
 use super::gel::Gel;
 use super::guard::Guard;
 use super::journal::{Journal, entries};
@@ -17,14 +18,11 @@ use super::oracle::{Checks, Oracle, Stated, Violation};
 use super::record::{judge_log, missing};
 use super::shared::{Killed, Shared};
 use super::world::Sabotage;
-use crate::draw::Draws;
-use crate::plan::{MetricNeeds, Plan, plan_study};
-use crate::run::{
-    Cancel, Controls, Devices, Enabling, Event, Left, Mode, RunError, RunSpec, SharedSupervisor,
-    StopCause, Supervisor, Trip, run, run_with_switch,
+use taceva_protocol::{
+    Cancel, ContentId, Controls, Devices, Enabling, Event, Left, Mode, Plan, RigInfo, RunError,
+    RunGuard, RunSpec, Scene, SceneError, Setting, SharedSupervisor, SourceInfo, StopCause,
+    Supervisor, Trip, plan, run, run_guarded,
 };
-use crate::scene::{Scene, SceneError};
-use crate::source::{RigInfo, SourceInfo};
 
 /// What a seed showed.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,7 +51,7 @@ const PATIENCE_S: f64 = 20.0;
 /// Plays `seed` to its end.
 ///
 /// ```
-/// use taceva_protocol::simulation::simulate;
+/// use taceva_simulation::simulation::simulate;
 /// let report = simulate(1);
 /// assert!(report.violations.is_empty(), "seed {}: {:?}", report.seed, report.violations);
 /// ```
@@ -64,7 +62,7 @@ pub fn simulate(seed: u64) -> SimulationReport {
 /// As [`simulate`], with a planted mistake.
 pub(super) fn simulate_with(seed: u64, sabotage: Sabotage) -> SimulationReport {
     let draws = Draws::new(seed, "faults");
-    let part = |purpose| fraction(draws, [purpose, 1]);
+    let part = |purpose| draws.fraction([purpose, 1]);
     let noise_n = 0.002 + 0.004 * part(101);
     let gel = Gel {
         stiffness_n_mm: 0.3 + 2.5 * part(100),
@@ -120,9 +118,11 @@ pub(super) fn simulate_with(seed: u64, sabotage: Sabotage) -> SimulationReport {
     while !finished && processes < MOST_PROCESSES {
         processes += 1;
         finished = match process(
-            (&plan, seed),
+            &plan,
+            seed,
             &shared,
-            (&mut disk, &mut acknowledged),
+            &mut disk,
+            &mut acknowledged,
             &mut redone,
         ) {
             Ended::Done => true,
@@ -183,9 +183,11 @@ enum Ended {
 
 /// One process: it opens the log, runs what is missing, and ends one way or another.
 fn process(
-    (plan, seed): (&Plan, u64),
+    plan: &Plan,
+    seed: u64,
     shared: &Shared,
-    (disk, acknowledged): (&mut Disk, &mut Vec<crate::ContentId>),
+    disk: &mut Disk,
+    acknowledged: &mut Vec<ContentId>,
     redone: &mut u64,
 ) -> Ended {
     let cancel = Cancel::new();
@@ -208,8 +210,14 @@ fn process(
     }
     let looking = guard.clone();
     let looking = looking.map(|guard| {
-        let threads = (Draws::new(seed, "threads"), seed % 8 == 7);
-        Guard::new((guard, cancel.clone()), threads, shared.world().now_s)
+        let draws = Draws::new(seed, "threads");
+        Guard::new(
+            guard,
+            cancel.clone(),
+            draws,
+            seed % 8 == 7,
+            shared.world().now_s,
+        )
     });
     shared.world().guard = looking;
     let mut force = SimulatedForce::new(shared.clone());
@@ -236,7 +244,10 @@ fn process(
             operator: None,
         };
         match guard {
-            Some(guard) => run_with_switch(&spec, devices, &mut log, (controls, guard, PATIENCE_S)),
+            Some(guard) => {
+                let guard = RunGuard::new(guard).with_patience_s(PATIENCE_S);
+                run_guarded(&spec, devices, &mut log, controls, guard)
+            }
             None => run(&spec, devices, &mut log, controls),
         }
     }));
@@ -267,28 +278,20 @@ pub(super) fn scenario_plan(seed: u64, gel: &Gel) -> Result<Plan, SceneError> {
         true => DriverSource::Real,
         false => DriverSource::Simulated,
     };
-    planned(SCENE, seed, (gel, source))
+    planned(SCENE, seed, gel, source)
 }
 
 /// The plan of a scene that is written as `text`, on a simulated rig.
 #[cfg(test)]
 pub(super) fn planned_scene(text: &str, seed: u64, gel: &Gel) -> Result<Plan, SceneError> {
-    planned(text, seed, (gel, DriverSource::Simulated))
+    planned(text, seed, gel, DriverSource::Simulated)
 }
 
-fn planned(text: &str, seed: u64, (gel, source): (&Gel, DriverSource)) -> Result<Plan, SceneError> {
-    let scene = Scene::parse("faults", text)?;
-    let scene = Scene { seed, ..scene };
-    let truth = FieldSet::EMPTY.with(Field::Truth);
-    let needs = [
-        MetricNeeds::new("mae", FieldSet::PAIRS, &[]),
-        MetricNeeds::new("hysteresis", truth.with(Field::Phase), &["Pz", "Fz"]),
-        MetricNeeds::new(
-            "intrinsic",
-            FieldSet::EMPTY.with(Field::Stamp).with(Field::Frame),
-            &[],
-        ),
-    ];
+fn planned(text: &str, seed: u64, gel: &Gel, source: DriverSource) -> Result<Plan, SceneError> {
+    let mut scene = Scene::parse("faults", text)?;
+    let want = ["mae", "hysteresis", "intrinsic"].map(|id| Setting::default_of(id.to_owned()));
+    scene.seed = seed;
+    scene.metrics.want = Some(want.to_vec());
     let footprint = Footprint::rectangle(8.0, 10.0, Some(0.8)).ok();
     let described = |facts| described(source, facts);
     let source = SourceInfo::Rig(Box::new(RigInfo {
@@ -309,7 +312,8 @@ fn planned(text: &str, seed: u64, (gel, source): (&Gel, DriverSource)) -> Result
         )),
         lighting: None,
     }));
-    plan_study(&scene, &scene.studies[0], &source, &needs)
+    let mut plans = plan(&scene, |_| source.clone())?;
+    Ok(plans.swap_remove(0))
 }
 
 fn described(source: DriverSource, facts: Facts) -> Option<Descriptor> {

@@ -2,12 +2,12 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use super::draws::Draws;
 use super::fault::{FaultKind, Faults};
 use super::gel::Gel;
 use super::oracle::Oracle;
 use super::world::World;
-use crate::draw::Draws;
-use crate::run::Timekeeper;
+use taceva_protocol::Timekeeper;
 
 /// The world, shared by devices, disk and clock.
 #[derive(Clone)]

@@ -3,7 +3,7 @@
 use super::fault::FaultKind;
 use super::oracle::{HALT_WITHIN_S, UNHELD};
 use super::world::{Sabotage, World};
-use crate::run::Enabling;
+use taceva_protocol::Enabling;
 
 impl World {
     /// What the enabling switch says to the thread that looks at it.

@@ -13,9 +13,9 @@ use self::bench::{Bench, HARD, Memory, SOFT};
 use super::devices::{SimulatedForce, SimulatedRobot, SimulatedSensor};
 use super::fault::{FaultKind, Faults};
 use super::gel::Gel;
-use crate::content_id::ContentId;
-use crate::press::Motion;
-use crate::run::{
+use taceva_protocol::ContentId;
+use taceva_protocol::Motion;
+use taceva_protocol::{
     Controls, Devices, Event, Left, Mode, PressLog, PressRecord, RunSpec, SpecimenChanger,
     StopCause, Timekeeper, run,
 };

@@ -2,12 +2,12 @@
 
 use taceva_core::Fault;
 
-use super::fault::{FaultKind, Faults, fraction};
+use super::draws::Draws;
+use super::fault::{FaultKind, Faults};
 use super::gel::Gel;
 use super::guard::Guard;
 use super::oracle::{Ended, Oracle, SILENCE, TOO_HARD};
-use crate::draw::Draws;
-use crate::run::Cancel;
+use taceva_protocol::Cancel;
 
 /// How a call to a device travels, in s each way.
 const LINK_S: f64 = 0.000_5;
@@ -159,7 +159,7 @@ impl World {
     pub(super) fn reported(&mut self) -> [f64; 3] {
         self.poses += 1;
         let noise = |axis: u64| {
-            let part = fraction(self.draws, [self.poses, POSE_NOISE + axis]);
+            let part = self.draws.fraction([self.poses, POSE_NOISE + axis]);
             self.gel.pose_noise_mm * (2.0 * part - 1.0)
         };
         let noise = [noise(0), noise(1), noise(2)];
@@ -274,7 +274,7 @@ impl World {
         self.oracle.heard();
         self.readings += 1;
         let noise = |axis: u64| {
-            let part = fraction(self.draws, [self.readings, axis]);
+            let part = self.draws.fraction([self.readings, axis]);
             self.gel.noise_n * (2.0 * part - 1.0)
         };
         let is_slow = self.faults.strike(FaultKind::SlowLink, self.now_s);
@@ -374,4 +374,4 @@ impl World {
 }
 
 /// A silence of this length is one.
-const STALE_AFTER_S: f64 = crate::limits::STALE_S;
+const STALE_AFTER_S: f64 = taceva_protocol::STALE_S;

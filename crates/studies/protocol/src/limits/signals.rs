@@ -22,7 +22,7 @@ pub struct Signals {
 }
 
 /// A reading older than this says nothing about now, in s: three periods of a transducer of 60 Hz.
-pub(crate) const STALE_S: f64 = 0.05;
+pub const STALE_S: f64 = 0.05;
 /// A slower transducer may miss so many readings in a row.
 const STALE_READINGS: f64 = 3.0;
 /// How far the tip may go in contact while its readings grow stale, in mm.

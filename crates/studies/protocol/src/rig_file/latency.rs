@@ -1,8 +1,19 @@
 //! How much later each device of a rig says what is true, and how that is written into its file.
 
 use super::RigFile;
-use crate::run::Latency;
 use crate::scene::Setting;
+
+/// Delay of a device behind the robot, measured by taps.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[non_exhaustive]
+pub struct Latency {
+    /// In ms, by the stamps as they are corrected already; below 0 where the robot says it later.
+    pub after_robot_ms: f64,
+    /// Two standard errors of that, in ms.
+    pub error_ms: f64,
+    /// Two standard deviations of a single tap, in ms.
+    pub spread_ms: f64,
+}
 
 /// The latencies of the devices of a rig, in ms, each a tenth at finest: how long after it was true an observation is stamped.
 ///

@@ -193,7 +193,7 @@ mod tests {
                 events: &mut |_| {},
                 operator: Some(&mut person),
             };
-            let mut run = Run::new(&spec, devices, (controls, None), None).expect("it begins");
+            let mut run = Run::new(&spec, devices, controls, None).expect("it begins");
             run.tip.release().expect("free");
             run.tip.find_pose().expect("it stands low");
             run.tip.contact_mm = Some(CONTACT_MM);

@@ -23,9 +23,12 @@ use crate::plan::Plan;
 /// [`RunError`] as of [`run`](super::run).
 pub fn raise(
     plan: &Plan,
-    (arm, force): (&mut dyn Robot, &mut dyn ForceTransducer),
+    arm: &mut dyn Robot,
+    force: &mut dyn ForceTransducer,
     controls: Controls<'_>,
-    (supervisor, robot, patience_s): (SharedSupervisor, Option<&str>, f64),
+    supervisor: SharedSupervisor,
+    robot: Option<&str>,
+    patience_s: f64,
 ) -> Result<bool, RunError> {
     let Controls {
         clock,
@@ -36,12 +39,10 @@ pub fn raise(
     let nothing = || StopCause::Missing("limits and a footprint: nothing in it moves".to_owned());
     let pace = Pace::of(plan).ok_or_else(|| unmoved(nothing()))?;
     let bounds = Bounds::of(plan, 0.0).ok_or_else(|| unmoved(nothing()))?;
-    let mut tip = Tip::new(
-        (arm, force),
-        (clock, cancel),
-        (supervisor, true),
-        (bounds, pace),
-    );
+    let mut tip = Tip {
+        is_guarded: true,
+        ..Tip::new(arm, force, clock, cancel, supervisor, bounds, pace)
+    };
     let mut attendant = Attendant {
         operator,
         events,

@@ -228,16 +228,13 @@ pub(super) fn with_tip<T>(rig: &Rig, act: impl FnOnce(&mut Tip<'_>) -> T) -> T {
     let (mut robot, mut force, mut clock) = (rig.clone(), rig.clone(), rig.clone());
     let cancel = Cancel::new();
     let mut tip = Tip::new(
-        (&mut robot, &mut force),
-        (&mut clock, &cancel),
-        (
-            SharedSupervisor::new(Supervisor::new(limits, Arc::new(rig.clone()))),
-            false,
-        ),
-        (
-            Bounds::of(&plan, 0.0).expect("it moves"),
-            Pace::of(&plan).expect("it moves"),
-        ),
+        &mut robot,
+        &mut force,
+        &mut clock,
+        &cancel,
+        SharedSupervisor::new(Supervisor::new(limits, Arc::new(rig.clone()))),
+        Bounds::of(&plan, 0.0).expect("it moves"),
+        Pace::of(&plan).expect("it moves"),
     );
     tip.contact_mm = Some(CONTACT_MM);
     act(&mut tip)

@@ -7,6 +7,7 @@ use super::camera::Camera;
 use super::devices::{Devices, SpecimenChanger};
 use super::error::{Left, RunError, StopCause};
 use super::event::Event;
+use super::guard::RunGuard;
 use super::log::{PressLog, PressRecord};
 use super::operator::{Operator, Question};
 use super::supervisor::{SharedSupervisor, Supervisor};
@@ -49,8 +50,8 @@ impl<'a> Run<'a> {
     pub(super) fn new(
         spec: &RunSpec<'a>,
         devices: Devices<'a>,
-        (controls, session): (Controls<'a>, Option<SessionSpec<'a>>),
-        guard: Option<SharedSupervisor>,
+        controls: Controls<'a>,
+        guard: Option<RunGuard<'a>>,
     ) -> Step<Run<'a>> {
         let plan = spec.plan;
         if !plan.units.iter().any(|unit| unit == spec.unit) {
@@ -73,15 +74,26 @@ impl<'a> Run<'a> {
             (false, _) => None,
         };
         let is_guarded = guard.is_some();
-        let supervisor = guard.unwrap_or_else(|| {
-            SharedSupervisor::new(Supervisor::new(limits, devices.robot.halt_handle()))
+        let RunGuard {
+            supervisor,
+            session,
+            patience_s,
+        } = guard.unwrap_or_else(|| {
+            let supervisor = Supervisor::new(limits, devices.robot.halt_handle());
+            RunGuard::new(SharedSupervisor::new(supervisor))
         });
-        let tip = Tip::new(
-            (devices.robot, devices.force),
-            (controls.clock, controls.cancel),
-            (supervisor, is_guarded),
-            (bounds, pace),
-        );
+        let tip = Tip {
+            is_guarded,
+            ..Tip::new(
+                devices.robot,
+                devices.force,
+                controls.clock,
+                controls.cancel,
+                supervisor,
+                bounds,
+                pace,
+            )
+        };
         tip.force.start(DEADLINE)?;
         let mut camera = sensor.map(Camera::new);
         if let Some(camera) = &mut camera {
@@ -99,9 +111,7 @@ impl<'a> Run<'a> {
             lit: None,
             silences: 0,
             releases: 0,
-            patience_s: session
-                .as_ref()
-                .map_or(0.0, |session| session.rig.patience_s()),
+            patience_s,
             skipped: Vec::new(),
             is_reach_unknown: false,
             session,

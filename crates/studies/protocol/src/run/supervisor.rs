@@ -11,9 +11,7 @@ mod repeats;
 pub use enabling::Enabling;
 pub use observation::{MotionStage, Observation};
 
-#[cfg(feature = "simulation")]
-use std::sync::TryLockError;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 
 use taceva_core::{
     Fault, Halt, Newton, NewtonMillimetre, Pose, Stamp, Wrench, check_pose, check_wrench,
@@ -55,9 +53,8 @@ impl SharedSupervisor {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The same, or `None` while somebody else has it: what a simulated thread cannot wait for.
-    #[cfg(feature = "simulation")]
-    pub(crate) fn try_lock(&self) -> Option<MutexGuard<'_, Supervisor>> {
+    /// The supervisor, or `None` while another thread has it: a thread in simulated time cannot wait.
+    pub fn try_lock(&self) -> Option<MutexGuard<'_, Supervisor>> {
         match self.0.try_lock() {
             Ok(held) => Some(held),
             Err(TryLockError::Poisoned(poisoned)) => Some(poisoned.into_inner()),

@@ -6,7 +6,7 @@
 mod edges;
 mod heard;
 
-pub use edges::{Latency, TapError, Tapped};
+pub use edges::{TapError, Tapped};
 pub use heard::TapHeard;
 
 use std::time::Duration;
@@ -14,6 +14,7 @@ use std::time::Duration;
 use taceva_core::{Degree, ForceTransducer, Frame, Millimetre, Robot, SinkError, Speed};
 
 use super::error::{RunError, StopCause};
+use super::guard::RunGuard;
 use super::log::{PressLog, PressRecord};
 use super::session::Run;
 use super::supervisor::{MotionStage, SharedSupervisor};
@@ -47,16 +48,19 @@ pub trait TapListener {
 
 /// Taps the gel at its middle, and says by how much later each device says it than the robot says where the tip is.
 ///
-/// It begins as a session does (see [`run_session`](super::run_session)): somebody enables the robot, readings are timed, and a gentle touch
+/// It begins as a session does (see [`run_guarded`](super::run_guarded)): somebody enables the robot, readings are timed, and a gentle touch
 /// must contradict nothing in the rig file. `supervisor` is shown every reading of force and every pose by threads. The presses of `plan` are
 /// not made; they have no pictures, since the sensor is the listener's.
 ///
 /// # Errors
-/// [`RunError`] as of [`run_session`](super::run_session).
+/// [`RunError`] as of [`run_guarded`](super::run_guarded).
 pub fn tap<'a>(
     plan: &'a Plan,
-    (robot, force): (&'a mut dyn Robot, &'a mut dyn ForceTransducer),
-    (controls, supervisor, session): (Controls<'a>, SharedSupervisor, SessionSpec<'a>),
+    robot: &'a mut dyn Robot,
+    force: &'a mut dyn ForceTransducer,
+    controls: Controls<'a>,
+    supervisor: SharedSupervisor,
+    session: SessionSpec<'a>,
     listener: &mut dyn TapListener,
 ) -> Result<Tapped, RunError> {
     let stopped = |cause| RunError {
@@ -77,7 +81,12 @@ pub fn tap<'a>(
         lighting: None,
         specimens: None,
     };
-    let begun = Run::new(&spec, devices, (controls, Some(session)), Some(supervisor));
+    let begun = Run::new(
+        &spec,
+        devices,
+        controls,
+        Some(RunGuard::new(supervisor).with_session(session)),
+    );
     let mut run = begun.map_err(stopped)?;
     let tapped = run.tap(listener);
     let stopping = run.stop();

@@ -148,7 +148,13 @@ fn a_press_before_which_a_thread_halted_for_silence_is_made_again_and_the_run_go
         },
         operator: None,
     };
-    let made = run_guarded(&spec, devices, &mut Nowhere, (controls, supervisor.clone()));
+    let made = run_guarded(
+        &spec,
+        devices,
+        &mut Nowhere,
+        controls,
+        RunGuard::new(supervisor.clone()),
+    );
     let report = made.expect("silence ends no run");
     assert_eq!((report.made, report.redone, halted), (3, 1, 1));
 }

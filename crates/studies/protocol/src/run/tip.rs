@@ -123,10 +123,13 @@ pub(super) fn is_silent(error: &DriverError) -> bool {
 
 impl<'a> Tip<'a> {
     pub(super) fn new(
-        (robot, force): (&'a mut dyn Robot, &'a mut dyn ForceTransducer),
-        (clock, cancel): (&'a mut dyn Timekeeper, &'a Cancel),
-        (supervisor, is_guarded): (SharedSupervisor, bool),
-        (bounds, pace): (Bounds, Pace),
+        robot: &'a mut dyn Robot,
+        force: &'a mut dyn ForceTransducer,
+        clock: &'a mut dyn Timekeeper,
+        cancel: &'a Cancel,
+        supervisor: SharedSupervisor,
+        bounds: Bounds,
+        pace: Pace,
     ) -> Tip<'a> {
         Tip {
             robot,
@@ -134,7 +137,7 @@ impl<'a> Tip<'a> {
             clock,
             cancel,
             supervisor,
-            is_guarded,
+            is_guarded: false,
             bounds,
             pace,
             at: Pose::default(),

@@ -10,9 +10,8 @@ use taceva_core::{
 };
 use taceva_drivers::{Drivers, OnBench, OpenError, Selector};
 use taceva_protocol::{
-    Cancel, Controls, Devices, Event, Plan, PressLog, ReferenceTouch, RigFile, RunError, RunReport,
-    RunSpec, SessionSpec, Setting, SharedSupervisor, StopCause, raise, run, run_guarded,
-    run_session,
+    Cancel, Controls, Devices, Event, Plan, PressLog, ReferenceTouch, RigFile, RunError, RunGuard,
+    RunReport, RunSpec, SessionSpec, Setting, SharedSupervisor, StopCause, raise, run, run_guarded,
 };
 
 use super::changers::{OfSpecimens, OpenChanger};
@@ -193,10 +192,7 @@ impl OpenRig {
             };
             let patience_s = rig_file.map_or(0.0, RigFile::patience_s);
             raise(
-                plan,
-                (robot, force),
-                controls,
-                (supervisor, robot_name, patience_s),
+                plan, robot, force, controls, supervisor, robot_name, patience_s,
             )
         })
     }
@@ -259,13 +255,15 @@ impl OpenRig {
                     None => None,
                 },
             };
-            match (guard, session.clone()) {
-                (Some(guard), Some(session)) => {
-                    run_session(spec, devices, log, (controls, guard, session))
-                }
-                (Some(guard), None) => run_guarded(spec, devices, log, (controls, guard)),
-                (None, _) => run(spec, devices, log, controls),
-            }
+            let Some(supervisor) = guard else {
+                return run(spec, devices, log, controls);
+            };
+            let guard = RunGuard::new(supervisor);
+            let guard = match session.clone() {
+                Some(session) => guard.with_session(session),
+                None => guard,
+            };
+            run_guarded(spec, devices, log, controls, guard)
         };
         match spec.plan.limits.clone().filter(|_| *is_real) {
             None => act(&mut **robot, &mut **force, None),

@@ -124,8 +124,11 @@ impl OpenRig {
                     };
                     tap(
                         plan,
-                        (robot, force),
-                        (controls, supervisor, session),
+                        robot,
+                        force,
+                        controls,
+                        supervisor,
+                        session,
                         &mut listener,
                     )
                 })

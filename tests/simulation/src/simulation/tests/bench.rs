@@ -2,19 +2,19 @@
 
 use taceva_core::{Frame, SinkError};
 
-use crate::content_id::ContentId;
-use crate::draw::Draws;
-use crate::plan::Plan;
-use crate::run::{
-    Cancel, Controls, Devices, Event, Mode, Operator, PressLog, PressRecord, RunError, RunReport,
-    RunSpec, run,
-};
 use crate::simulation::devices::{SimulatedForce, SimulatedRobot, SimulatedSensor};
+use crate::simulation::draws::Draws;
 use crate::simulation::fault::Faults;
 use crate::simulation::gel::Gel;
 use crate::simulation::oracle::{Oracle, Stated};
 use crate::simulation::scenario::scenario_plan;
 use crate::simulation::shared::Shared;
+use taceva_protocol::ContentId;
+use taceva_protocol::Plan;
+use taceva_protocol::{
+    Cancel, Controls, Devices, Event, Mode, Operator, PressLog, PressRecord, RunError, RunReport,
+    RunSpec, run,
+};
 
 pub(super) const SOFT: Gel = Gel {
     stiffness_n_mm: 0.5,

@@ -1,14 +1,14 @@
 //! Signals as they are on a real rig: poses with noise, readings that stay away for a while, a robot that stops by itself.
 
-use taceva_core::{Fault, RobotFacts};
+use taceva_core::Fault;
 
 use super::bench::{Bench, Memory, SOFT};
-use crate::limits::{Overshoot, Signals};
-use crate::plan::Plan;
-use crate::run::{Event, Left, Mode, StopCause, Trip};
 use crate::simulation::fault::{FaultKind, Faults};
 use crate::simulation::gel::Gel;
 use crate::simulation::scenario::planned_scene;
+use taceva_protocol::Plan;
+use taceva_protocol::Signals;
+use taceva_protocol::{Event, Left, Mode, StopCause, Trip};
 
 /// A robot that reports its pose with an even spread of ±0.05 mm an axis.
 const JITTERED: Gel = Gel {
@@ -61,7 +61,8 @@ fn the_same_robot_is_halted_without_allowance_for_its_noise() {
     let mut plan = plan();
     let limits = plan.limits.as_mut().expect("it moves");
     limits.signals = Signals::default();
-    limits.overshoot = Overshoot::at(1.0, &RobotFacts::default(), 0.0);
+    let still = planned_scene(SCENE, 1, &SOFT).expect("a plan");
+    limits.overshoot = still.limits.expect("limits").overshoot;
     let mut bench = Bench::with(JITTERED, plan);
     let mut log = Memory::default();
     let error = bench

@@ -5,10 +5,10 @@ use std::sync::{Arc, Mutex};
 use taceva_core::{Fault, Specimen};
 
 use super::bench::{Bench, Memory, SOFT};
-use crate::run::{Answer, Cancel, Event, Left, Mode, Operator, Question, StopCause};
 use crate::simulation::fault::{FaultKind, Faults};
 use crate::simulation::scenario::planned_scene;
 use crate::simulation::shared::Shared;
+use taceva_protocol::{Answer, Cancel, Event, Left, Mode, Operator, Question, StopCause};
 
 const SCENE: &str = r#"
 scene_version = 1

@@ -15,7 +15,7 @@ fn five_hundred_seeds_pass_without_a_violation_and_strike_with_every_fault() {
         assert_eq!(
             report.violations,
             [],
-            "seed {seed}: play it again with `cargo run -p taceva-protocol --example faults -- 1 {seed}`"
+            "seed {seed}: play it again with `cargo run -p taceva-simulation --example faults -- 1 {seed}`"
         );
         for kind in FaultKind::ALL {
             seeds_of[kind as usize] += u32::from(report.struck.of(kind) > 0);

@@ -108,7 +108,7 @@ fn needed(holds: bool, fails: bool, answer: Option<Answer>) -> Outcome {
             None => None,
         },
     };
-    let mut run = Run::new(&spec, devices, (controls, None), None).expect("it begins");
+    let mut run = Run::new(&spec, devices, controls, None).expect("it begins");
     run.tip.release().expect("free");
     run.tip.find_pose().expect("it stands low");
     run.tip.contact_mm = Some(CONTACT_MM);

@@ -54,9 +54,12 @@ fn raised_under(
     };
     let done = raise(
         &plan,
-        (&mut robot, &mut force),
+        &mut robot,
+        &mut force,
         controls,
-        (supervisor, Some("lab/arm"), 0.5),
+        supervisor,
+        Some("lab/arm"),
+        0.5,
     );
     (done, person)
 }

@@ -1,6 +1,7 @@
 //! From what was heard of taps to the latency of each device.
 
 use super::heard::{Said, TapHeard};
+use crate::rig_file::Latency;
 
 /// Above the gel by this much nothing is touched yet, in mm: what was said before is what is said in the air.
 const AIR_MM: f64 = 0.1;
@@ -24,18 +25,6 @@ pub struct Tapped {
     contact_mm: f64,
     reference_mm: f64,
     taps: Vec<TapHeard>,
-}
-
-/// By how much later than the robot a device says what was true at one moment.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
-#[non_exhaustive]
-pub struct Latency {
-    /// In ms, by the stamps as they are corrected already; below 0 where the robot says it later.
-    pub after_robot_ms: f64,
-    /// Two standard errors of that, in ms.
-    pub error_ms: f64,
-    /// Two standard deviations of a single tap, in ms.
-    pub spread_ms: f64,
 }
 
 /// Why taps say no latency.

@@ -15,8 +15,8 @@ use crate::rig_file::{RigFile, SignedAxes};
 use crate::run::rig::plan;
 use crate::run::{
     Answer, Cancel, Controls, Devices, Mode, Observation, Operator, PressLog, PressRecord,
-    Question, ReferenceTouch, RunError, RunSpec, SessionRecord, SessionSpec, SharedSupervisor,
-    Supervisor, TapListener, Tapped, Timekeeper, run_session, tap,
+    Question, ReferenceTouch, RunError, RunGuard, RunSpec, SessionRecord, SessionSpec,
+    SharedSupervisor, Supervisor, TapListener, Tapped, Timekeeper, run_guarded, tap,
 };
 
 /// How the transducer of the bench is mounted.
@@ -314,9 +314,10 @@ pub(super) fn tapped(bench: &Bench, listener: &mut dyn TapListener) -> Result<Ta
         robot: None,
         touched: &[],
     };
-    let devices: (&mut dyn Robot, &mut dyn ForceTransducer) =
-        (&mut robot, &mut Transducer(bench.clone()));
-    tap(&plan, devices, (controls, supervisor, session), listener)
+    let mut force = Transducer(bench.clone());
+    tap(
+        &plan, &mut robot, &mut force, controls, supervisor, session, listener,
+    )
 }
 
 /// A supervisor of the bench, which its transducer shows every reading to.
@@ -376,6 +377,12 @@ pub(super) fn begun(bench: &Bench, session: Session<'_>) -> (Result<(), RunError
         robot: session.robot,
         touched: session.touched,
     };
-    let done = run_session(&spec, devices, &mut log, (controls, supervisor, session));
+    let done = run_guarded(
+        &spec,
+        devices,
+        &mut log,
+        controls,
+        RunGuard::new(supervisor).with_session(session),
+    );
     (done.map(drop), log, person)
 }

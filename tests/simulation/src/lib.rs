@@ -1,0 +1,6 @@
+//! Rigs and devices that fail by a seed, for tests of acquisition and of drivers.
+//!
+//! [`simulation`] plays whole runs of the protocol on a simulated rig; [`fault`] wraps one device.
+
+pub mod fault;
+pub mod simulation;
