@@ -1,0 +1,4 @@
+//! The page: over its socket, and in a real browser.
+
+mod browser;
+mod waiting;

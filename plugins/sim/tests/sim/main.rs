@@ -1,0 +1,12 @@
+//! The simulated bench: its model, its pictures, its devices and whole studies on it.
+
+mod bench;
+mod conformance;
+mod devices;
+mod figures;
+mod parameters;
+mod pictures;
+mod run;
+mod trial;
+mod verification;
+mod wall;

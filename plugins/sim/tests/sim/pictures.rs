@@ -1,0 +1,10 @@
+//! What the pictures of the simulated sensors promise.
+
+#![expect(
+    clippy::print_stdout,
+    reason = "mean grays are to be read, and copied into a table"
+)]
+
+mod camera;
+mod gels;
+mod support;

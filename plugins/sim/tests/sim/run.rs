@@ -1,0 +1,295 @@
+//! A whole study planned by `taceva-protocol` and run on the bench, under its supervisor.
+
+use taceva_core::{
+    Deadline, DriverError, DriverKey, ErrorKind, FrameInfo, FrameMut, Nanometre, Phase,
+    PressOutcome, Sample, Sensor, Stamp,
+};
+use taceva_protocol::{PhaseKind, PlannedPress, PressRecord, RunError, Specimen, StopCause};
+use taceva_sim::Model;
+
+use crate::trial::{Log, Trial};
+
+fn scene(model: Model) -> String {
+    format!(
+        "scene_version = 1
+name = \"small\"
+seed = 7
+[robot]
+driver = \"sim/robot\"
+[force]
+driver = \"sim/force-transducer\"
+[lighting]
+driver = \"sim/lighting\"
+[model]
+name = \"ridge\"
+[protocol.calibration]
+points = 6
+indentations = 3
+[protocol.spatial]
+points = 4
+[protocol.gratings]
+step_mm = 0.75
+presses = 2
+[protocol.lighting]
+points = 2
+[protocol.repeatability]
+points = 2
+trials = 3
+depth_step_mm = 0.5
+[protocol.hysteresis]
+points = 2
+[protocol.surface]
+points = 4
+[protocol.idle]
+frames = 3
+[[study]]
+name = \"one\"
+[study.sensor]
+driver = \"sim/{}\"
+units = [\"1\", \"2\"]
+",
+        model.key()
+    )
+}
+
+/// Readings of force have errors: more than any of those here has.
+const NOISE_N: f64 = 0.05;
+
+#[test]
+fn every_part_of_a_study_runs_to_its_end_on_every_sensor() {
+    for model in Model::ALL {
+        let trial = Trial::new(model, &scene(model));
+        let mut log = Log::default();
+        for unit in ["1", "2"] {
+            trial.run(unit, &mut log, usize::MAX);
+        }
+        assert_eq!(log.records.len(), trial.plan.presses.len(), "{model}");
+        for kind in PhaseKind::ALL {
+            // Light does not reach the camera behind a coated gel.
+            let is_left_out = kind == PhaseKind::LightSweep
+                && matches!(model, Model::GelSight | Model::GelSightWm);
+            let presses: Vec<&PlannedPress> = trial.plan.presses_of(kind).collect();
+            assert_eq!(presses.is_empty(), is_left_out, "{model}: {kind}");
+            for planned in presses {
+                check(&trial, planned, &log);
+            }
+        }
+    }
+}
+
+/// Whether a record keeps what its press promised.
+fn check(trial: &Trial, planned: &PlannedPress, log: &Log) {
+    let mut records = log.records.iter();
+    let record = records
+        .find(|record| record.press == planned.id)
+        .expect("it was made");
+    let name = format!("{} {:?} {}", trial.model, planned.phases, planned.id);
+    let (samples, wanted) = (&record.samples, planned.press.samples());
+    match record.outcome {
+        PressOutcome::Complete => assert_eq!(samples.len(), wanted, "{name}"),
+        // Waypoints that a limit kept out of reach are left out; the first of them is seen where the tip stopped.
+        PressOutcome::Limited(_) => {
+            assert!(limited(record) > 0 && samples.len() <= wanted, "{name}");
+        }
+        other => panic!("{name}: {other:?}"),
+    }
+    let times: Vec<f64> = samples
+        .iter()
+        .map(|sample| sample.stamp.expect("taken at a time").valid_s)
+        .collect();
+    assert!(times.is_sorted_by(|one, next| one < next), "{name}");
+    assert!(
+        samples
+            .iter()
+            .map(number)
+            .is_sorted_by(|one, next| one < next),
+        "{name}"
+    );
+    for sample in samples {
+        assert_eq!(sample.id, format!("{}/{}", planned.id, number(sample)));
+        assert_eq!(sample.frame.is_some(), planned.frames, "{name}");
+        let mut truth = sample.truth.as_slice().iter().flatten();
+        assert!(truth.clone().count() > 0, "{name}");
+        assert!(truth.all(|value| value.is_finite()), "{name}");
+        let is_board = matches!(planned.press.specimen, Specimen::Grating { .. });
+        assert_eq!(sample.kind.is_some(), is_board, "{name}");
+    }
+    check_forces(trial, planned, record);
+}
+
+/// Samples that a limit kept from their waypoint.
+fn limited(record: &PressRecord) -> usize {
+    let samples = record.samples.iter();
+    samples.filter(|sample| sample.limited_by.is_some()).count()
+}
+
+/// The number of a sample in its press.
+fn number(sample: &Sample) -> usize {
+    let (_, number) = sample.id.split_once('/').expect("press and number");
+    number.parse().expect("a number")
+}
+
+/// Whether a gel that is pressed deeper presses back harder, and one that is left presses back less.
+fn check_forces(trial: &Trial, planned: &PlannedPress, record: &PressRecord) {
+    let mut channels = trial.plan.channels.iter();
+    let channel = channels
+        .position(|name| name == "Fz")
+        .expect("it is measured");
+    let mut channels = trial.plan.channels.iter();
+    let depth = channels
+        .position(|name| name == "Pz")
+        .expect("it is measured");
+    let waypoints = planned.press.waypoints();
+    let curve: Vec<(f64, f64)> = record
+        .samples
+        .iter()
+        .filter_map(|sample| Some((waypoints.get(number(sample))?, sample)))
+        .filter(|(waypoint, _)| waypoint.shear == [Nanometre(0); 2])
+        .map(|(waypoint, sample)| {
+            let [depth_mm, force_n] =
+                [depth, channel].map(|place| sample.truth.get(place).expect("it is read"));
+            let was_reached = sample.depth_step.is_some();
+            let depth_mm = if was_reached {
+                waypoint.depth.to_millimetres()
+            } else {
+                depth_mm
+            };
+            (depth_mm, force_n)
+        })
+        .collect();
+    for pair in curve.windows(2) {
+        let [(depth, force), (next_depth, next_force)] = [pair[0], pair[1]];
+        let wants = next_depth - depth;
+        let rises = if wants == 0.0 { 0.0 } else { wants.signum() } * (next_force - force);
+        assert!(rises > -NOISE_N, "{}: {curve:?}", trial.model);
+    }
+}
+
+#[test]
+fn a_run_that_was_interrupted_records_what_an_uninterrupted_one_does() {
+    let scene = scene(Model::ViTacTip);
+    let log = interrupted_and_whole(&Trial::new(Model::ViTacTip, &scene));
+    assert!(!log.records.is_empty());
+    assert!(!log.untouched.is_empty());
+}
+
+#[test]
+fn presses_that_a_limit_ends_come_out_of_the_gel_by_their_stations_and_are_resumed_like_others() {
+    let limits = "[limits]\nFz_max_N = 0.6\n[[study]]";
+    let scene = scene(Model::GelSight).replace("[[study]]", limits);
+    let trial = Trial::new(Model::GelSight, &scene);
+    let log = interrupted_and_whole(&trial);
+    let is_limited = |record: &&PressRecord| record.outcome.is_limited();
+    assert!(log.records.iter().filter(is_limited).count() > 5);
+    for planned in trial.plan.presses_of(PhaseKind::LoadUnload) {
+        let mut records = log.records.iter().filter(is_limited);
+        let record = records.find(|record| record.press == planned.id);
+        let record = record.expect("no place of the gel bears the deepest waypoint");
+        let out = record.samples.iter();
+        let out = out.filter(|sample| sample.phase == Some(Phase::Unload));
+        assert_eq!(2 * out.count(), record.samples.len());
+        assert_eq!(
+            limited(record),
+            2,
+            "the way in ends where the way out begins"
+        );
+        check(&trial, planned, &log);
+    }
+}
+
+/// A sensor of which every so many frames have another size, as a driver refuses them.
+struct Short {
+    inner: Box<dyn Sensor>,
+    every: u32,
+    captured: u32,
+}
+
+impl Sensor for Short {
+    fn frame_info(&self) -> FrameInfo {
+        self.inner.frame_info()
+    }
+
+    fn start(&mut self, deadline: Deadline) -> Result<(), DriverError> {
+        self.inner.start(deadline)
+    }
+
+    fn capture(&mut self, into: FrameMut<'_>, deadline: Deadline) -> Result<Stamp, DriverError> {
+        const SENSOR: DriverKey = DriverKey::fixed("test/short");
+        let stamp = self.inner.capture(into, deadline)?;
+        self.captured += 1;
+        if self.captured.is_multiple_of(self.every) {
+            let why = "a frame of 64×48 rgb8 in 4608 bytes, expected 9216".to_owned();
+            let error = DriverError::new(ErrorKind::Protocol, &SENSOR, "capture a frame");
+            return Err(error.because(why));
+        }
+        Ok(stamp)
+    }
+
+    fn stop(&mut self) -> Result<(), DriverError> {
+        self.inner.stop()
+    }
+}
+
+/// What comes of a run whose sensor gives every so many frames in another size: its log, and how many were taken again.
+fn with_short(every: u32) -> (Log, Result<usize, RunError>) {
+    let trial = Trial::new(Model::GelSight, &scene(Model::GelSight));
+    let mut log = Log::default();
+    let instead = |inner| -> Box<dyn Sensor> {
+        Box::new(Short {
+            inner,
+            every,
+            captured: 0,
+        })
+    };
+    let done = trial.run_seen_by("1", &mut log, usize::MAX, instead);
+    (log, done)
+}
+
+#[test]
+fn frames_of_a_wrong_size_end_a_run_by_an_error_that_says_which_size() {
+    let (_, done) = with_short(1);
+    let error = done.expect_err("no frame is right");
+    let is_of_frames = matches!(&error.cause, StopCause::Frames { last: Some(_), .. });
+    assert!(is_of_frames, "{error:?}");
+    let said = error.to_string();
+    assert!(said.contains("in 4608 bytes, expected 9216"), "{said}");
+}
+
+#[test]
+fn a_frame_of_a_wrong_size_now_and_then_is_taken_again_and_counted() {
+    let (whole, none) = with_short(u32::MAX);
+    let (again, retried) = with_short(2);
+    assert_eq!(none.expect("a run"), 0);
+    let retried = retried.expect("a run");
+    assert!(retried > 10, "{retried}");
+    assert_eq!(again.records.len(), whole.records.len());
+}
+
+/// The log of a run of unit 1 without interruption, after it was compared with one in pieces.
+fn interrupted_and_whole(trial: &Trial) -> Log {
+    let (mut whole, mut pieces) = (Log::default(), Log::default());
+    trial.run("1", &mut whole, usize::MAX);
+    for most in [3, 8, 10, usize::MAX] {
+        trial.run("1", &mut pieces, most);
+    }
+    // One picture of the untouched gel, however often a run begins; no press resembles it.
+    let pressed = whole.records.iter().flat_map(|record| &record.samples);
+    let mut pressed = pressed.filter_map(|sample| sample.frame.as_ref());
+    if let Some(first) = pressed.next() {
+        assert_eq!(whole.untouched.len(), 1);
+        assert_eq!(whole.untouched, pieces.untouched);
+        assert_ne!(&whole.untouched[0], first);
+    }
+    assert_eq!(whole.records.len(), pieces.records.len());
+    for (one, other) in whole.records.iter().zip(&pieces.records) {
+        assert_eq!((one.press, one.outcome), (other.press, other.outcome));
+        assert_eq!(one.samples.len(), other.samples.len());
+        for (one, other) in one.samples.iter().zip(&other.samples) {
+            // The time of day differs, and nothing else.
+            assert_eq!(one.truth, other.truth, "{}", one.id);
+            assert_eq!(one.frame, other.frame, "{}", one.id);
+            assert_eq!(one.limited_by, other.limited_by, "{}", one.id);
+        }
+    }
+    whole
+}

@@ -1,0 +1,60 @@
+//! `xarm-python-sdk`, UFACTORY's own client, on the emulated arm.
+
+use taceva_needs::{Need, skip};
+use taceva_wire::xarm::{Emulator, Ports};
+use taceva_wire::{BenchOptions, WallBench, WireError};
+
+use super::{address, python};
+
+fn moves_and_stops(last: u8, firmware: [u32; 3], report: &str) {
+    let Some(python) = python::with("xarm") else {
+        return;
+    };
+    let bench = WallBench::start(&BenchOptions::quiet(7)).expect("a bench");
+    let host = address(last);
+    let ports = Ports {
+        host,
+        firmware,
+        ..Ports::USUAL
+    };
+    let _arm = match Emulator::start(&bench, ports) {
+        Ok(arm) => arm,
+        Err(error @ WireError::Listen { .. }) => return skip(Need::PublicClients, error),
+        Err(error) => panic!("{error}"),
+    };
+    let script = include_str!("xarm.py");
+    let said = python::run(&python, script, &[host.to_string(), report.to_owned()]);
+    let expected = [
+        "serial TACEVA-SIM0007",
+        "enabled 0 0 0",
+        "at 0 300.0 0.0 271.3 180.0 0.0 0.0",
+        "moved 0",
+        "relative 0",
+        "at 0 300.0 0.0 258.0 180.0 0.0 0.0",
+        "well (0, 2) (0, [0, 0])",
+        "stopped True True",
+        "refused True",
+        "state 4",
+    ];
+    assert_eq!(said, expected);
+    // The arm stands where the client stopped it: 5 mm/s for 0.3 s above where it was.
+    let truth = bench.truth();
+    assert!(!truth.is_moving);
+    let risen_mm = -6.7 - truth.tip_mm[2];
+    assert!((0.5..4.0).contains(&risen_mm), "{truth:?}");
+}
+
+#[test]
+fn the_public_client_moves_and_stops_the_arm_with_rich_reports() {
+    moves_and_stops(1, [2, 7, 0], "rich");
+}
+
+#[test]
+fn the_public_client_moves_and_stops_the_arm_with_reports_of_status() {
+    moves_and_stops(2, [2, 7, 0], "normal");
+}
+
+#[test]
+fn the_public_client_moves_and_stops_an_arm_of_old_firmware() {
+    moves_and_stops(3, [1, 10, 0], "rich");
+}

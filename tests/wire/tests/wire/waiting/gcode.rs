@@ -1,0 +1,58 @@
+//! What is asked of every machine of G-code.
+
+use taceva_core::ErrorKind;
+use taceva_wire::{Arm, Device, FaultKind};
+
+use crate::waiting::setup::Setup;
+use crate::waiting::support::{PATIENCE, inject, lower, moved, speed};
+
+impl<E: Arm> Setup<E> {
+    /// A press reaches the gel, and a turn is refused: there are three axes.
+    pub(crate) fn presses_and_does_not_turn(&self) {
+        let mut machine = self.open();
+        let (home, _) = machine.pose(PATIENCE).expect("a pose");
+        machine
+            .move_to(lower(home, 20.6), speed(20.0), PATIENCE)
+            .expect("it arrives");
+        let truth = self.bench.truth();
+        assert!((truth.tip_mm[2] - 0.6).abs() < 1e-4, "{truth:?}");
+        assert!(truth.force_n[2] > 0.1, "{truth:?}");
+        let mut turned = home;
+        turned.rotation.z.0 = 10.0;
+        let refused = machine.move_to(turned, speed(5.0), PATIENCE);
+        assert_eq!(refused.expect_err("a turn").kind(), ErrorKind::OutOfRange);
+    }
+
+    /// One that falls silent on its way for so many ms is held.
+    pub(crate) fn is_held_once_silent_for(&self, lasts_ms: u64) {
+        let (error, _) = moved(&self.bench, &mut *self.open(), || {
+            inject(&self.bench, Device::Robot, FaultKind::Silent, lasts_ms);
+        });
+        assert_eq!(error.kind(), ErrorKind::Timeout, "{error}");
+        let truth = self.bench.truth();
+        // The way ends 5 mm above the gel.
+        assert!(!truth.is_moving && truth.tip_mm[2] < -5.5, "{truth:?}");
+    }
+
+    /// A line that another program has, or another part of this one, is refused as busy, and is free again once that is gone.
+    pub(crate) fn is_busy_while_another_has_it(&self) {
+        let first = self.open();
+        let second = self.try_open().map(drop).expect_err("it is taken");
+        assert_eq!(second.kind(), ErrorKind::Busy, "{second}");
+        drop(first);
+        self.open();
+    }
+
+    /// What is no serial line is refused, each for what it is.
+    pub(crate) fn refuses_what_is_no_line(&self) {
+        let file = tempfile::NamedTempFile::new().expect("a file");
+        let path = file.path().display();
+        let kind = |arguments: &str| match self.opened(arguments) {
+            Ok(_) => panic!("opened {arguments}"),
+            Err(error) => error.kind(),
+        };
+        assert_eq!(kind(&format!("port={path}")), ErrorKind::InvalidArgument);
+        assert_eq!(kind("port=/dev/no-such-line"), ErrorKind::NotFound);
+        assert_eq!(kind("port=/dev/null"), ErrorKind::InvalidArgument);
+    }
+}

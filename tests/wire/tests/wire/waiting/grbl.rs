@@ -1,0 +1,60 @@
+//! `gcode/grbl` against the emulated machine, through a pseudo-terminal.
+
+use std::time::Duration;
+
+use taceva_core::ErrorKind;
+use taceva_drivers::GrblFactory;
+use taceva_wire::grbl::Emulator;
+use taceva_wire::{Arm, ArmFault};
+
+use crate::waiting::setup::Setup;
+use crate::waiting::support::{PATIENCE, lower, speed};
+
+fn setup() -> Setup<Emulator> {
+    let factory = GrblFactory::new().expect("a factory");
+    Setup::new(factory, Emulator::start)
+}
+
+#[test]
+fn the_suite_passes() {
+    setup().passes_the_suite();
+}
+
+#[test]
+fn a_press_reaches_the_gel_and_a_turn_is_refused() {
+    setup().presses_and_does_not_turn();
+}
+
+#[test]
+fn a_halt_stops_the_machine_at_once_and_its_end_loses_no_place() {
+    setup().is_halted_within(Duration::from_millis(100));
+}
+
+#[test]
+fn an_alarm_is_a_fault_that_nobody_but_a_person_ends() {
+    let setup = setup();
+    let mut machine = setup.open();
+    let (home, _) = machine.pose(PATIENCE).expect("a pose");
+    setup.emulator.suffer(ArmFault::Collision);
+    let moved = machine.move_to(lower(home, 1.0), speed(5.0), PATIENCE);
+    let moved = moved.expect_err("alarm");
+    assert_eq!(moved.kind(), ErrorKind::DeviceFault);
+    assert!(moved.to_string().contains("in alarm"), "{moved}");
+    let cleared = machine.clear_halt(PATIENCE).expect_err("alarm");
+    assert_eq!(cleared.kind(), ErrorKind::DeviceFault);
+}
+
+#[test]
+fn a_machine_that_falls_silent_on_its_way_is_held() {
+    setup().is_held_once_silent_for(2_000);
+}
+
+#[test]
+fn what_is_no_machine_is_refused() {
+    setup().refuses_what_is_no_line();
+}
+
+#[test]
+fn a_line_that_another_program_has_is_refused_as_busy() {
+    setup().is_busy_while_another_has_it();
+}

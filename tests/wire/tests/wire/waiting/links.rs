@@ -1,0 +1,164 @@
+//! Links that bring what they carry in pieces, in heaps, with numbers left out, or among bytes of others.
+
+use std::net::Ipv4Addr;
+use std::time::{Duration, Instant};
+
+use taceva_core::{ErrorKind, Factory, ForceTransducer, Rig};
+use taceva_drivers::{M8128Factory, NetftFactory, UrFactory, XarmFactory};
+use taceva_wire::{Arm, BenchOptions, Device, FaultKind, WallBench, netft, sri, ur, xarm};
+
+use crate::waiting::setup::Setup;
+use crate::waiting::support::{MOMENT, PATIENCE, inject, lower, speed};
+
+/// What a driver may say of a link that brings what it must not.
+const TYPED: [ErrorKind; 4] = [
+    ErrorKind::Protocol,
+    ErrorKind::Timeout,
+    ErrorKind::Disconnected,
+    ErrorKind::DeviceFault,
+];
+/// How long a link is bad.
+const BAD_MS: u64 = 300;
+
+/// Calls `act` with a started transducer of each kind over its bench, whose emulators live as long as that takes.
+fn each_transducer(mut act: impl FnMut(&WallBench, &mut dyn ForceTransducer)) {
+    let bench = WallBench::start(&BenchOptions::quiet(7)).expect("a bench");
+    let sri = sri::Emulator::start(&bench, Ipv4Addr::LOCALHOST, 0).expect("a box");
+    let netft = netft::Emulator::start(&bench, Ipv4Addr::LOCALHOST, 0, 0).expect("a box");
+    let factories: [Box<dyn Factory<dyn ForceTransducer>>; 2] = [
+        Box::new(M8128Factory::new().expect("a factory")),
+        Box::new(NetftFactory::new().expect("a factory")),
+    ];
+    for (factory, selector) in factories.iter().zip([sri.selector(), netft.selector()]) {
+        let (_, arguments) = selector.split_once(':').expect("a driver and arguments");
+        let args = factory.descriptor().args(arguments).expect("good");
+        let mut transducer = factory.open(&args, &mut Rig::new()).expect("a box");
+        transducer.start(MOMENT).expect("it starts");
+        act(&bench, &mut *transducer);
+    }
+}
+
+#[test]
+fn readings_come_whole_and_once_however_their_link_splits_and_merges_them() {
+    each_transducer(|bench, transducer| {
+        for kind in [FaultKind::Split, FaultKind::Merged] {
+            inject(bench, Device::Force, kind, BAD_MS);
+            let mut last = None;
+            for _ in 0..20 {
+                let (wrench, _) = transducer.read(MOMENT).expect("a reading");
+                let number = transducer.sequence().expect("they are numbered");
+                assert!(last.is_none_or(|last| last < number), "{kind}: {number}");
+                assert!(wrench.force[2].0.abs() < 1.0, "{kind}: {wrench:?}");
+                last = Some(number);
+            }
+        }
+    });
+}
+
+#[test]
+fn numbers_that_are_left_out_are_seen_in_the_sequence_and_no_reading_comes_twice() {
+    each_transducer(|bench, transducer| {
+        inject(bench, Device::Force, FaultKind::Gap, BAD_MS);
+        let (mut last, mut widest) = (None, 0);
+        for _ in 0..30 {
+            transducer.read(MOMENT).expect("a reading");
+            let number = transducer.sequence().expect("they are numbered");
+            if let Some(last) = last {
+                assert!(number > last, "{number} after {last}");
+                widest = widest.max(number - last);
+            }
+            last = Some(number);
+        }
+        assert!(widest >= 7, "at most {widest}");
+    });
+}
+
+#[test]
+fn bytes_of_others_and_absurd_lengths_are_typed_errors_and_readings_follow_them() {
+    each_transducer(|bench, transducer| {
+        for kind in [FaultKind::Foreign, FaultKind::Hostile] {
+            inject(bench, Device::Force, kind, BAD_MS);
+            let until = Instant::now() + Duration::from_millis(BAD_MS);
+            while Instant::now() < until {
+                if let Err(error) = transducer.read(MOMENT) {
+                    assert!(TYPED.contains(&error.kind()), "{kind}: {error}");
+                    std::thread::sleep(Duration::from_millis(5));
+                }
+            }
+            let until = Instant::now() + Duration::from_secs(5);
+            let reads = |transducer: &mut dyn ForceTransducer| {
+                transducer.read(MOMENT).is_ok()
+                    || transducer.start(MOMENT).is_ok() && transducer.read(MOMENT).is_ok()
+            };
+            while !reads(transducer) {
+                assert!(Instant::now() < until, "{kind}: no reading follows");
+            }
+        }
+    });
+}
+
+impl<E: Arm> Setup<E> {
+    /// A motion arrives however the reports of it are split and merged.
+    fn arrives_in_pieces_and_heaps(&self) {
+        let mut arm = self.open();
+        let (home, _) = arm.pose(PATIENCE).expect("a pose");
+        for (kind, mm) in [(FaultKind::Split, 2.0), (FaultKind::Merged, 4.0)] {
+            inject(&self.bench, Device::Robot, kind, 1_500);
+            let target = lower(home, mm);
+            arm.move_to(target, speed(5.0), PATIENCE)
+                .unwrap_or_else(|error| panic!("{kind}: {error}"));
+            let (seen, _) = arm.pose(PATIENCE).expect("a pose");
+            let apart_mm = (seen.position.z.0 - target.position.z.0).abs();
+            assert!(apart_mm < 0.05, "{kind}: {apart_mm} mm");
+        }
+    }
+
+    /// Bytes of others on the way end in an arrival or a typed error, and the arm stands.
+    fn stands_among_bytes_of_others(&self) {
+        for kind in [FaultKind::Foreign, FaultKind::Hostile] {
+            let mut arm = self.open();
+            let (home, _) = arm.pose(PATIENCE).expect("a pose");
+            let bench = &self.bench;
+            std::thread::scope(|scope| {
+                scope.spawn(move || {
+                    std::thread::sleep(Duration::from_millis(200));
+                    inject(bench, Device::Robot, kind, BAD_MS);
+                });
+                if let Err(error) = arm.move_to(lower(home, 4.0), speed(5.0), PATIENCE) {
+                    assert!(TYPED.contains(&error.kind()), "{kind}: {error}");
+                }
+            });
+            std::thread::sleep(Duration::from_millis(BAD_MS));
+            assert!(!self.bench.truth().is_moving, "{kind}");
+            drop(arm);
+            // Whoever opens it anew finds it well.
+            let mut arm = self.open();
+            arm.clear_halt(PATIENCE).expect("nothing is wrong with it");
+            arm.move_to(home, speed(50.0), PATIENCE).expect("up again");
+        }
+    }
+}
+
+fn xarm() -> Setup<xarm::Emulator> {
+    Setup::new(XarmFactory::new().expect("a factory"), |bench| {
+        xarm::Emulator::start(bench, xarm::Ports::ANY)
+    })
+}
+
+fn ur() -> Setup<ur::Emulator> {
+    Setup::new(UrFactory::new().expect("a factory"), |bench| {
+        ur::Emulator::start(bench, Ipv4Addr::LOCALHOST, [0, 0])
+    })
+}
+
+#[test]
+fn a_motion_arrives_however_the_reports_of_the_arm_are_split_and_merged() {
+    xarm().arrives_in_pieces_and_heaps();
+    ur().arrives_in_pieces_and_heaps();
+}
+
+#[test]
+fn bytes_of_others_among_the_reports_end_in_a_typed_error_and_an_arm_that_stands() {
+    xarm().stands_among_bytes_of_others();
+    ur().stands_among_bytes_of_others();
+}

@@ -1,0 +1,112 @@
+//! `gcode/marlin` against the emulated printer, through a pseudo-terminal.
+
+use std::time::Duration;
+
+use taceva_core::{Deadline, ErrorKind};
+use taceva_drivers::MarlinFactory;
+use taceva_wire::marlin::{Emulator, Firmware};
+use taceva_wire::{Arm, ArmFault};
+
+use crate::waiting::setup::Setup;
+use crate::waiting::support::{PATIENCE, lower, moved, speed};
+
+fn setup() -> Setup<Emulator> {
+    of(Firmware::StopsAtOnce)
+}
+
+fn of(firmware: Firmware) -> Setup<Emulator> {
+    let factory = MarlinFactory::new().expect("a factory");
+    Setup::new(factory, |bench| Emulator::start(bench, firmware))
+}
+
+#[test]
+fn the_suite_passes() {
+    setup().passes_the_suite();
+}
+
+#[test]
+fn a_press_reaches_the_gel_and_a_turn_is_refused() {
+    setup().presses_and_does_not_turn();
+}
+
+#[test]
+fn a_halt_stops_the_printer_at_once_and_it_goes_on_afterwards() {
+    setup().is_halted_within(Duration::from_millis(100));
+}
+
+#[test]
+fn an_error_of_the_firmware_ends_the_motion_and_nothing_is_cleared() {
+    let setup = setup();
+    let mut printer = setup.open();
+    let (moved, _) = moved(&setup.bench, &mut *printer, || {
+        setup.emulator.suffer(ArmFault::Collision);
+    });
+    assert_eq!(moved.kind(), ErrorKind::DeviceFault, "{moved}");
+    assert!(moved.to_string().contains("kill() called"), "{moved}");
+    let cleared = printer.clear_halt(PATIENCE).expect_err("it stays killed");
+    assert_eq!(cleared.kind(), ErrorKind::Timeout, "{cleared}");
+    assert!(!setup.bench.truth().is_moving);
+}
+
+#[test]
+fn an_error_that_the_firmware_said_at_rest_is_met_by_the_next_motion() {
+    let setup = setup();
+    let mut printer = setup.open();
+    let (home, _) = printer.pose(PATIENCE).expect("a pose");
+    setup.emulator.suffer(ArmFault::Collision);
+    // It is said once, and nobody listens.
+    std::thread::sleep(Duration::from_millis(100));
+    let moved = printer.move_to(lower(home, 1.0), speed(5.0), PATIENCE);
+    let moved = moved.expect_err("killed");
+    assert_eq!(moved.kind(), ErrorKind::DeviceFault, "{moved}");
+    assert!(moved.to_string().contains("kill() called"), "{moved}");
+}
+
+#[test]
+fn a_motion_that_is_given_up_is_stopped_and_the_next_one_arrives() {
+    let setup = setup();
+    let mut printer = setup.open();
+    let (home, _) = printer.pose(PATIENCE).expect("a pose");
+    for _ in 0..3 {
+        let brief = Deadline::after(Duration::from_millis(300));
+        let moved = printer.move_to(lower(home, 15.0), speed(5.0), brief);
+        assert_eq!(moved.expect_err("too brief").kind(), ErrorKind::Timeout);
+        assert!(!setup.bench.truth().is_moving);
+        let (stopped, _) = printer.pose(PATIENCE).expect("a pose");
+        let lower_mm = home.position.z.0 - stopped.position.z.0;
+        assert!((0.5..5.0).contains(&lower_mm), "{lower_mm}");
+        printer
+            .move_to(home, speed(20.0), PATIENCE)
+            .expect("it arrives");
+        let (back, _) = printer.pose(PATIENCE).expect("a pose");
+        assert!((back.position.z.0 - home.position.z.0).abs() < 0.02);
+    }
+}
+
+#[test]
+fn firmware_that_stops_in_turn_is_refused() {
+    let refused = of(Firmware::StopsInTurn)
+        .try_open()
+        .map(drop)
+        .expect_err("refused");
+    assert_eq!(refused.kind(), ErrorKind::Unsupported);
+    assert!(
+        refused.to_string().contains("EMERGENCY_PARSER"),
+        "{refused}"
+    );
+}
+
+#[test]
+fn a_printer_that_falls_silent_on_its_way_is_stopped() {
+    setup().is_held_once_silent_for(7_000);
+}
+
+#[test]
+fn what_is_no_printer_is_refused() {
+    setup().refuses_what_is_no_line();
+}
+
+#[test]
+fn a_line_that_another_program_has_is_refused_as_busy() {
+    setup().is_busy_while_another_has_it();
+}

@@ -1,0 +1,147 @@
+//! `ati/netft` against the emulated box, through sockets.
+
+use std::net::{Ipv4Addr, UdpSocket};
+use std::time::{Duration, Instant};
+
+use taceva_conformance::{self as conformance, Trial};
+use taceva_core::{Deadline, DriverError, ErrorKind, Factory, ForceTransducer, Rig};
+use taceva_drivers::NetftFactory;
+use taceva_wire::netft::Emulator;
+use taceva_wire::{BenchOptions, Device, FaultKind, WallBench};
+
+use crate::waiting::support::{MOMENT, inject};
+
+struct Setup {
+    bench: WallBench,
+    emulator: Emulator,
+}
+
+fn setup() -> Setup {
+    let bench = WallBench::start(&BenchOptions::quiet(7)).expect("a bench");
+    let emulator = Emulator::start(&bench, Ipv4Addr::LOCALHOST, 0, 0).expect("a box");
+    Setup { bench, emulator }
+}
+
+fn opened(arguments: &str) -> Result<Box<dyn ForceTransducer>, DriverError> {
+    let factory = NetftFactory::new().expect("a factory");
+    let args = factory.descriptor().args(arguments).expect("good");
+    factory.open(&args, &mut Rig::new())
+}
+
+impl Setup {
+    fn arguments(&self) -> String {
+        let [port, page] =
+            [self.emulator.address(), self.emulator.page_address()].map(|address| address.port());
+        format!("host=127.0.0.1;port={port};page_port={page};force_max_n=50")
+    }
+
+    fn started(&self) -> Box<dyn ForceTransducer> {
+        let mut transducer = opened(&self.arguments()).expect("a box");
+        transducer.start(MOMENT).expect("it starts");
+        transducer
+    }
+}
+
+#[test]
+fn the_suite_passes() {
+    let setup = setup();
+    let factory = NetftFactory::new().expect("a factory");
+    let trial = Trial::with_arguments(setup.arguments());
+    let report = conformance::force(&factory, &trial);
+    assert!(report.passed(), "{report}");
+}
+
+#[test]
+fn a_silent_box_is_a_timeout_that_says_what_was_missing_and_one_that_comes_back_goes_on() {
+    let setup = setup();
+    let mut transducer = setup.started();
+    transducer.read(MOMENT).expect("a reading");
+    inject(&setup.bench, Device::Force, FaultKind::Drop, 50);
+    std::thread::sleep(Duration::from_millis(60));
+    transducer.read(MOMENT).expect("it is back");
+    transducer.read(MOMENT).expect("it goes on");
+    inject(&setup.bench, Device::Force, FaultKind::Silent, 200);
+    let patience = Deadline::after(Duration::from_millis(40));
+    let silent = (0..5).find_map(|_| transducer.read(patience).err());
+    let silent = silent.expect("nothing came");
+    assert_eq!(silent.kind(), ErrorKind::Timeout);
+    assert!(!silent.to_string().contains("; 0 were missing"), "{silent}");
+    transducer.read(MOMENT).expect("it is back");
+}
+
+#[test]
+fn an_error_of_the_box_is_a_fault_of_that_reading_alone() {
+    let setup = setup();
+    let mut transducer = setup.started();
+    inject(&setup.bench, Device::Force, FaultKind::NotANumber, 60);
+    let until = Instant::now() + Duration::from_millis(40);
+    let mut faults = 0;
+    while Instant::now() < until {
+        if let Err(error) = transducer.read(MOMENT) {
+            assert_eq!(error.kind(), ErrorKind::DeviceFault);
+            faults += 1;
+        }
+    }
+    assert!(faults > 0);
+    std::thread::sleep(Duration::from_millis(40));
+    transducer.read(MOMENT).expect("a reading again");
+}
+
+#[test]
+fn datagrams_of_others_and_torn_ones_are_no_readings() {
+    let setup = setup();
+    // A box that is asked to start, and then sends what is no record; the emulated one gives the page.
+    let false_box = UdpSocket::bind("127.0.0.1:0").expect("a port");
+    let port = false_box.local_addr().expect("bound").port();
+    let page = setup.emulator.page_address().port();
+    let arguments = format!("host=127.0.0.1;port={port};page_port={page}");
+    let mut transducer = opened(&arguments).expect("a box");
+    transducer.start(MOMENT).expect("it starts");
+    let mut request = [0; 64];
+    let (length, client) = false_box.recv_from(&mut request).expect("asked");
+    assert_eq!(&request[..length], [0x12, 0x34, 0, 2, 0, 0, 0, 0]);
+    let send = |from: &UdpSocket, bytes: &[u8]| {
+        from.send_to(bytes, client).expect("sent");
+    };
+    let stranger = UdpSocket::bind("127.0.0.1:0").expect("a port");
+    let mut record = [0; 36];
+    record[3] = 9;
+    send(&stranger, &record);
+    send(&false_box, &record[..35]);
+    send(&false_box, &[0; 4000]);
+    let nothing = transducer.read(Deadline::after(Duration::from_millis(100)));
+    assert_eq!(nothing.expect_err("no record").kind(), ErrorKind::Timeout);
+    send(&false_box, &record);
+    transducer.read(MOMENT).expect("a record");
+    send(&false_box, &record);
+    record[3] = 8;
+    send(&false_box, &record);
+    let again = transducer.read(Deadline::after(Duration::from_millis(100)));
+    assert_eq!(again.expect_err("twice").kind(), ErrorKind::Timeout);
+    record[3] = 10;
+    record[9] = 2;
+    send(&false_box, &record);
+    let clipped = transducer.read(MOMENT).expect_err("clipped");
+    assert_eq!(clipped.kind(), ErrorKind::OutOfRange);
+}
+
+#[test]
+fn a_box_that_goes_away_is_disconnected_or_silent() {
+    let setup = setup();
+    let mut transducer = setup.started();
+    transducer.read(MOMENT).expect("a reading");
+    drop(setup);
+    let patience = Deadline::after(Duration::from_millis(100));
+    let gone = (0..1_000).find_map(|_| transducer.read(patience).err());
+    let kind = gone.expect("gone").kind();
+    // Whether a system says that nobody listens any more is its own affair.
+    assert!([ErrorKind::Disconnected, ErrorKind::Timeout].contains(&kind));
+}
+
+#[test]
+fn whoever_gives_no_calibration_is_not_opened() {
+    let Err(error) = opened("host=127.0.0.1;page_port=1") else {
+        panic!("opened nothing")
+    };
+    assert_eq!(error.kind(), ErrorKind::NotFound);
+}

@@ -1,0 +1,77 @@
+//! What every robot promises, and what this one does.
+
+use std::time::Duration;
+
+use taceva_core::ErrorKind;
+use taceva_wire::Base;
+use taceva_wire::xarm::{Port, Ports};
+
+use super::setup::setup;
+use crate::waiting::support::{PATIENCE, lower, speed};
+
+#[test]
+fn the_suite_passes_with_reports_of_today() {
+    setup(Ports::ANY).passes_the_suite();
+}
+
+#[test]
+fn the_suite_passes_with_the_layout_of_old_firmware() {
+    let ports = Ports {
+        firmware: [1, 10, 0],
+        ..Ports::ANY
+    };
+    setup(ports).passes_the_suite();
+}
+
+#[test]
+fn the_suite_passes_where_the_controller_reports_nothing_and_is_asked() {
+    let ports = Ports {
+        pose: None,
+        status: None,
+        ..Ports::ANY
+    };
+    setup(ports).passes_the_suite();
+}
+
+#[test]
+fn another_thread_sees_the_arm_move() {
+    let (arm, watch) = setup(Ports::ANY).is_seen_to_move();
+    drop(arm);
+    let gone = watch.pose(PATIENCE).expect_err("the arm is gone");
+    assert_eq!(gone.kind(), ErrorKind::Disconnected);
+}
+
+#[test]
+fn a_press_reaches_the_gel_where_the_driver_sent_it() {
+    let setup = setup(Ports::ANY);
+    let mut arm = setup.open();
+    let (home, _) = arm.pose(PATIENCE).expect("a pose");
+    assert!((home.position.z.0 - 271.3).abs() < 1e-4, "{home:?}");
+    assert!((home.rotation.x.0 - 180.0).abs() < 1e-4, "{home:?}");
+    arm.move_to(lower(home, 18.0), speed(100.0), PATIENCE)
+        .expect("it arrives");
+    arm.move_to(lower(home, 20.6), speed(20.0), PATIENCE)
+        .expect("it arrives");
+    let truth = setup.bench.truth();
+    let [x, y, z] = truth.tip_mm;
+    let expected = Base::to_sensor([300.0, 0.0, 250.7]);
+    for (found, expected) in [x, y, z].into_iter().zip(expected) {
+        // What float32 leaves of 300 mm.
+        assert!((found - expected).abs() < 2e-5, "{truth:?}");
+    }
+    assert!(truth.force_n[2] > 0.1, "{truth:?}");
+}
+
+#[test]
+fn a_halt_during_a_motion_stops_the_arm_at_once_and_stays() {
+    setup(Ports::ANY).is_halted_within(Duration::from_millis(50));
+}
+
+#[test]
+fn two_programs_may_look_at_one_arm() {
+    let setup = setup(Ports::ANY);
+    let mut arms = [setup.open(), setup.open()];
+    let [one, other] = arms.each_mut().map(|arm| arm.pose(PATIENCE));
+    assert_eq!(one.expect("a pose").0, other.expect("a pose").0);
+    assert_ne!(setup.emulator.address(Port::Rich).port(), 0);
+}

@@ -1,0 +1,79 @@
+//! Stops that are late, and a connection for stops that falls silent.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use taceva_core::{ErrorKind, Robot};
+use taceva_wire::xarm::{Emulator, Port, Ports};
+
+use super::setup::setup;
+use crate::waiting::gate::{Gate, halted_while_shut};
+use crate::waiting::setup::Setup;
+use crate::waiting::support::{PATIENCE, lower, speed};
+
+/// An arm, the gate before it, and the driver behind that.
+fn behind_a_gate(holds: fn(usize) -> bool) -> (Setup<Emulator>, Arc<Gate>, Box<dyn Robot>) {
+    let setup = setup(Ports::ANY);
+    let address = setup.emulator.address(Port::Command);
+    let (gate, port) = Gate::before(address, holds);
+    let direct = format!(";port={};", address.port());
+    let gated = setup
+        .arguments()
+        .replace(&direct, &format!(";port={port};"));
+    assert_ne!(gated, setup.arguments());
+    let arm = setup.opened(&gated).expect("a robot");
+    (setup, gate, arm)
+}
+
+/// What is sent counts as lost after so long: a machine that stood still for that long shows nothing.
+const LOST_AFTER: Duration = Duration::from_secs(2);
+const TRIES: u32 = 5;
+
+#[test]
+fn a_halt_does_not_end_before_every_stop_was_obeyed_so_that_none_ends_the_motion_after_it() {
+    // The second connection is that for stops.
+    for _ in 0..TRIES {
+        let (setup, gate, mut arm) = behind_a_gate(|number| number == 1);
+        let (home, _) = arm.pose(PATIENCE).expect("a pose");
+        let shut = halted_while_shut(&gate, &setup.bench, &mut *arm);
+        // The connection for stops is given up meanwhile, and another stands in its place: the stop is still under way on the first.
+        gate.wait_for(3);
+        match arm.clear_halt(PATIENCE) {
+            Err(error) => assert_eq!(error.kind(), ErrorKind::Timeout, "{error}"),
+            Ok(()) => {
+                assert!(shut.elapsed() > LOST_AFTER, "a stop is under way");
+                continue;
+            }
+        }
+        gate.shut(false);
+        let ended = (0..100).find(|_| arm.clear_halt(PATIENCE).is_ok());
+        assert!(ended.is_some(), "it answers again");
+        let moved = arm.move_to(home, speed(50.0), PATIENCE);
+        moved.expect("no stop comes any more");
+        return;
+    }
+    panic!("this machine stands still for seconds");
+}
+
+#[test]
+fn a_motion_waits_for_the_connection_by_which_it_would_be_stopped() {
+    let (setup, gate, mut arm) = behind_a_gate(|number| number > 0);
+    let (home, _) = arm.pose(PATIENCE).expect("a pose");
+    gate.shut(true);
+    // It was tried, and is made anew: until that answers nothing moves.
+    gate.wait_for(3);
+    let way_mm = setup.bench.truth().way_mm;
+    let refused = arm.move_to(lower(home, 1.0), speed(20.0), PATIENCE);
+    assert_eq!(
+        refused.expect_err("no stop would reach it").kind(),
+        ErrorKind::Timeout
+    );
+    assert!(setup.bench.truth().way_mm <= way_mm);
+    let opening = std::thread::spawn(move || {
+        std::thread::sleep(Duration::from_millis(100));
+        gate.shut(false);
+    });
+    let moved = arm.move_to(lower(home, 1.0), speed(20.0), PATIENCE);
+    moved.expect("it answers while that is waited for");
+    opening.join().expect("no panic");
+}

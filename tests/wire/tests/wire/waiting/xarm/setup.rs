@@ -1,0 +1,23 @@
+//! An emulated arm, and the driver that is connected to it.
+
+use taceva_drivers::XarmFactory;
+use taceva_wire::xarm::{Emulator, Port, Ports};
+
+use crate::waiting::setup::Setup;
+
+/// An arm over a quiet gel.
+pub(crate) fn setup(ports: Ports) -> Setup<Emulator> {
+    let factory = XarmFactory::new().expect("a factory");
+    Setup::with_arguments(factory, |bench| Emulator::start(bench, ports), arguments)
+}
+
+/// The arguments of the driver for this arm.
+fn arguments(arm: &Emulator) -> String {
+    let port = |port| arm.address(port).port();
+    let [command, pose, status] = [Port::Command, Port::Pose, Port::Status].map(port);
+    // Where a port of reports is missing, one is named at which nobody listens.
+    let [pose, status] = [pose, status].map(|port| if port == command { 1 } else { port });
+    format!(
+        "host=127.0.0.1;port={command};pose_port={pose};status_port={status};workspace=240,-60,220,360,60,340"
+    )
+}
