@@ -12,6 +12,7 @@ pub mod power_cut;
 pub mod recorded;
 pub mod renew;
 pub mod source;
+pub mod structure;
 pub mod toy;
 pub mod wire;
 

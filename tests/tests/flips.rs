@@ -1,5 +1,5 @@
 //! Single bits are flipped in datasets, models, states, results, caches and folders of runs and sweeps: what comes of them is the same as before, or
-//! a refusal that names the file. `TACEVA_FLIPS=1000 cargo test --release -p taceva-tests --test flips -- --nocapture` tries as many in all.
+//! a refusal that names the file. `TACEVA_FLIPS=1000 cargo test --release -p taceva-tests --test tests flips:: -- --nocapture` tries as many in all.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

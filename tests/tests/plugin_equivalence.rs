@@ -1,7 +1,5 @@
 //! A study has the same bytes whichever way its devices are delivered: linked in, loaded in process, or in a confined child.
 
-#![cfg(target_os = "linux")]
-
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::sync::Arc;

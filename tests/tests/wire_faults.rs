@@ -18,7 +18,7 @@ fn is_quiet() -> bool {
     let named = required(std::env::var_os("TACEVA_REQUIRE").as_deref());
     let is_quiet = named.is_ok_and(|named| named.contains(&Need::QuietMachine));
     if !is_quiet {
-        let how = "the arm must stand within milliseconds: TACEVA_REQUIRE=quiet-machine chrt -f 10 cargo test -p taceva-tests --test wire_faults";
+        let how = "the arm must stand within milliseconds: TACEVA_REQUIRE=quiet-machine chrt -f 10 cargo test -p taceva-tests --test tests wire_faults::";
         skip(Need::QuietMachine, how);
     }
     is_quiet

@@ -1,8 +1,6 @@
 //! The disk becomes full while a rig is pressing: the run ends with a typed error, the arm leaves the gel, and what was recorded is gone on with
 //! where there is room.
 
-#![cfg(target_os = "linux")]
-
 use std::fs;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};

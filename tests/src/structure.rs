@@ -1,0 +1,23 @@
+//! Figures of the structure of the workspace: lines, knots of modules, tuple parameters, copies, doc comments, file names and the files that name one thing.
+//!
+//! `cargo run -p taceva-tests --bin structure` prints them; tests hold the ones that must not grow.
+
+mod copies;
+mod documentation;
+mod file_names;
+mod knots;
+mod lines;
+mod mentions;
+mod sources;
+mod tuples;
+mod walk;
+
+pub use copies::{COPIES, Copies, copies};
+pub use documentation::{Documentation, documentation};
+pub use file_names::files_named_by_participles;
+pub use knots::{knots, module_graph};
+pub use lines::{Lines, lines};
+pub use mentions::{EXAMPLES, Example, mentions};
+pub use sources::{Source, sources, without_test_items};
+pub use tuples::tuple_parameters;
+pub use walk::{Walk, walks};

@@ -1,0 +1,59 @@
+//! Places that write one concept again.
+
+use super::sources::Source;
+
+/// One concept and the words of code that show where it is written out.
+#[derive(Debug)]
+pub struct Copies {
+    /// Name of the concept.
+    pub concept: &'static str,
+    /// Words of product code, one of which stands in every copy.
+    pub words: &'static [&'static str],
+    /// Most places that may have it.
+    pub most: usize,
+}
+
+/// Concepts that are written once.
+pub const COPIES: &[Copies] = &[
+    Copies {
+        concept: "suggestion of a similar name",
+        words: &["strsim::", "fn levenshtein"],
+        most: 7,
+    },
+    Copies {
+        concept: "guard against panics",
+        words: &["catch_unwind("],
+        most: 11,
+    },
+    Copies {
+        concept: "FNV hash",
+        words: &["0xcbf2_9ce4_8422_2325"],
+        most: 2,
+    },
+    Copies {
+        concept: "struct Finding",
+        words: &["struct Finding "],
+        most: 3,
+    },
+    Copies {
+        concept: "struct Report",
+        words: &["struct Report ", "struct Report<"],
+        most: 2,
+    },
+    Copies {
+        concept: "struct SeedScore",
+        words: &["struct SeedScore "],
+        most: 2,
+    },
+];
+
+/// The product files that have one of the concept's words.
+pub fn copies<'a>(concept: &Copies, sources: &'a [Source]) -> Vec<&'a str> {
+    let files = sources.iter().filter(|source| {
+        concept
+            .words
+            .iter()
+            .any(|word| source.product_code.contains(word))
+    });
+    files.map(|source| source.path.as_str()).collect()
+}

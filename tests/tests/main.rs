@@ -1,0 +1,28 @@
+//! Tests that cross crates, in one program.
+
+mod circles;
+mod damage;
+mod damaged_jpegs;
+mod disk_fault;
+mod disk_full;
+mod documents;
+mod embedding;
+mod flips;
+mod glossary;
+mod kill;
+mod kill_training;
+mod layering;
+mod minimum_rust;
+#[cfg(target_os = "linux")]
+mod plugin_equivalence;
+mod power_cut;
+mod power_cut_self;
+mod public_types;
+mod recordings;
+mod reports;
+mod skips;
+mod structure;
+mod study;
+mod taxels;
+mod waiting;
+mod wire_faults;

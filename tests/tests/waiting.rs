@@ -1,0 +1,7 @@
+//! Tests that mostly wait, for emulated devices in real time: `.ci/test` runs them beside those that compute.
+
+mod rig_session;
+mod rig_tap;
+#[cfg(target_os = "linux")]
+mod wire_disk_full;
+mod wire_study;
