@@ -46,9 +46,6 @@ pub(super) fn print_cost(
     target: &Path,
     context: &Context,
 ) -> anyhow::Result<()> {
-    for note in &planned.scene.notes {
-        context.say(format_args!("{note}"));
-    }
     let costs = || planned.studies.iter().map(|study| study.plan.cost);
     let presses: u64 = costs().map(|cost| cost.presses).sum();
     if presses == 0 {

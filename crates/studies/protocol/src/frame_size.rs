@@ -2,11 +2,8 @@
 
 use std::fmt;
 
-use serde::de::{Error, Visitor};
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::Serialize;
 use taceva_core::FrameInfo;
-
-use super::setting::Setting;
 
 /// The sides of a frame, in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -58,42 +55,5 @@ impl FrameSize {
 impl fmt::Display for FrameSize {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}x{}", self.width, self.height)
-    }
-}
-
-/// What is kept of a recording that a scene makes.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields, default, expecting = "a table with `frames`")]
-pub(super) struct WrittenRecording {
-    /// The size to which frames are reduced before they are kept; as they come when absent.
-    pub(super) frames: Option<Setting<WrittenSize>>,
-}
-
-/// A size as it was written.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct WrittenSize(pub(super) String);
-
-/// A number is taken too, so that it is refused by the key and with what was expected.
-impl<'de> Deserialize<'de> for WrittenSize {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<WrittenSize, D::Error> {
-        struct Size;
-
-        impl Visitor<'_> for Size {
-            type Value = WrittenSize;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a size such as `frames = \"64x48\"`")
-            }
-
-            fn visit_str<E: Error>(self, text: &str) -> Result<WrittenSize, E> {
-                Ok(WrittenSize(text.to_owned()))
-            }
-
-            fn visit_i64<E: Error>(self, number: i64) -> Result<WrittenSize, E> {
-                Ok(WrittenSize(number.to_string()))
-            }
-        }
-
-        deserializer.deserialize_any(Size)
     }
 }

@@ -2,23 +2,28 @@
 
 mod content_id;
 mod draw;
+mod frame_size;
+mod limit_spec;
 mod limits;
 mod phase;
+mod phase_kind;
 mod plan;
 mod press;
+mod reason;
 mod rig_file;
 mod run;
 mod scene;
 mod source;
-mod specimen;
+mod text;
 
 pub use content_id::ContentId;
+pub use frame_size::FrameSize;
+pub use limit_spec::LimitSpec;
 pub use limits::{FROZEN_READINGS, Overshoot, RigLimits, SEGMENT_S, STALE_S, Signals};
-pub use phase::PhaseKind;
-pub use plan::{
-    Cause, Cost, Fit, Plan, PlanReason, PlanSkip, PlannedMetric, PlannedPress, Subject, plan,
-};
+pub use phase_kind::PhaseKind;
+pub use plan::{Cost, Fit, Plan, PlannedMetric, PlannedPress, plan};
 pub use press::{Motion, Press, Waypoint};
+pub use reason::{Cause, PlanReason, PlanSkip, Subject};
 pub use rig_file::{
     Carried, Jogged, Latency, Registration, RigChangers, RigFile, RigForce, RigLatencies,
     RigOperator, RigRobot, RigSensor, SignedAxes, Taught, TeachError,
@@ -31,10 +36,10 @@ pub use run::{
     raise, run, run_guarded, tap, wrench_between,
 };
 pub use scene::{
-    BuiltinScene, Calibration, Contact, DeviceSpec, FootprintSpec, FrameSize, GREATEST_SCENE,
-    GratingClassifier, Gratings, Hysteresis, Idle, LightSweep, LightingSpec, LimitSpec,
-    MetricSettings, MetricsSpec, ModelSpec, Protocol, Repeatability, ReportSpec, Scene, SceneError,
-    SceneProblem, SensorSpec, Setting, Shape, Spatial, Study, SurfaceMap,
+    BuiltinScene, Calibration, Contact, DeviceSpec, FootprintSpec, GratingClassifier, Gratings,
+    Hysteresis, Idle, LightSweep, LightingSpec, MetricSettings, MetricsSpec, ModelSpec, Protocol,
+    Repeatability, ReportSpec, Scene, SensorSpec, Shape, Spatial, Study, SurfaceMap,
 };
 pub use source::{RecordingInfo, RigInfo, SourceInfo};
 pub use taceva_core::Specimen;
+pub use text::{GREATEST_SCENE, SceneError, SceneProblem, Setting};

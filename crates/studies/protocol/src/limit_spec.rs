@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use super::setting::Setting;
+use crate::text::Setting;
 
 /// Limits as written; one that is absent leaves that of the device.
 ///

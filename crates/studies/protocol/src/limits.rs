@@ -6,8 +6,10 @@ pub use signals::{STALE_S, Signals};
 
 use taceva_core::{DriverSource, Millimetre, Newton, RobotFacts, Wrench};
 
-use crate::scene::{LimitSpec, Scene, SceneError, SceneProblem, Setting, Study, Text};
+use crate::limit_spec::LimitSpec;
+use crate::scene::{Scene, Study};
 use crate::source::RigInfo;
+use crate::text::{SceneError, SceneProblem, Setting, Text};
 
 /// What must not be passed, and by how much a stop may come late.
 ///

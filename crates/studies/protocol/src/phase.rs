@@ -3,7 +3,6 @@
 mod calibration;
 mod gratings;
 mod idle;
-mod kind;
 mod light_sweep;
 mod load_unload;
 mod repeatability;
@@ -13,11 +12,10 @@ mod surface_map;
 use taceva_core::{Footprint, Nanometre, Phase, Specimen};
 
 use crate::draw::Draws;
+use crate::phase_kind::PhaseKind;
 use crate::press::{Motion, Press, Waypoint};
 use crate::scene::Protocol;
-use crate::specimen::spacings;
-
-pub use kind::PhaseKind;
+use crate::scene::spacings;
 
 /// What presses are drawn from.
 #[derive(Clone, Debug)]

@@ -11,14 +11,12 @@ mod facts;
 mod fields;
 mod merge;
 mod phases;
-mod reason;
 mod resolve;
 #[cfg(test)]
 pub(crate) mod tests;
 
 pub use collect::{Fit, PlannedMetric, PlannedPress};
 pub use cost::Cost;
-pub use reason::{Cause, PlanReason, PlanSkip, Subject};
 
 use taceva_core::{
     Channel, Channels, FieldSet, Footprint, FrameInfo, Nanometre, Outline, SkipReason, Unit,
@@ -26,10 +24,13 @@ use taceva_core::{
 use taceva_metrics::{SensorFacts, catalogue};
 
 use crate::content_id::{ContentId, Hasher};
+use crate::frame_size::FrameSize;
 use crate::limits::RigLimits;
-use crate::phase::PhaseKind;
-use crate::scene::{Contact, FrameSize, Scene, SceneError, SceneProblem, Study};
+use crate::phase_kind::PhaseKind;
+use crate::reason::{PlanReason, PlanSkip, Subject};
+use crate::scene::{Contact, Scene, Study};
 use crate::source::SourceInfo;
+use crate::text::{SceneError, SceneProblem};
 use collect::Collected;
 pub(crate) use collect::{MetricNeeds, SURFACE};
 use facts::{Gather, StudyFacts};

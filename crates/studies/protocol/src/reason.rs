@@ -4,7 +4,7 @@ use std::fmt;
 
 use taceva_core::{Field, SkipReason};
 
-use crate::phase::PhaseKind;
+use crate::phase_kind::PhaseKind;
 
 /// Something that a plan does not do, and why.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -17,7 +17,8 @@ use serde::Deserialize;
 use changers::WrittenChangers;
 
 use crate::content_id::ContentId;
-use crate::scene::{LimitSpec, SceneError, SceneProblem, Setting, Text};
+use crate::limit_spec::LimitSpec;
+use crate::text::{SceneError, SceneProblem, Setting, Text};
 
 /// The greatest coordinate of an origin, in mm.
 const GREATEST_PLACE_MM: f64 = 10_000.0;

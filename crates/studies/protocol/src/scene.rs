@@ -1,17 +1,12 @@
 //! A scene: which sensors, on which rig, measured how, as a TOML text says it.
 
+mod boards;
 mod builtin;
 mod check;
 mod classifier;
 mod counts;
 mod devices;
-mod error;
-mod frame_size;
-mod limits;
 mod metrics;
-mod parse;
-mod renamed;
-mod setting;
 mod study;
 
 pub use builtin::BuiltinScene;
@@ -21,21 +16,17 @@ pub use counts::{
     SurfaceMap,
 };
 pub use devices::{DeviceSpec, FootprintSpec, LightingSpec, ModelSpec, SensorSpec, Shape};
-pub use error::{SceneError, SceneProblem};
-pub use frame_size::FrameSize;
-pub use limits::LimitSpec;
 pub use metrics::{MetricSettings, MetricsSpec, ReportSpec};
-pub use parse::GREATEST_SCENE;
-pub use setting::Setting;
 pub use study::Study;
 
-pub(crate) use parse::Text;
+pub(crate) use boards::spacings;
 
 use std::sync::Arc;
 
 use taceva_core::DriverKind;
 
 use crate::rig_file::RigFile;
+use crate::text::{SceneError, SceneProblem, Setting, Text};
 
 /// Who says which devices there are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,8 +68,6 @@ pub struct Scene {
     pub protocol: Protocol,
     /// How results are written.
     pub report: ReportSpec,
-    /// What its author should know: keys that have another name now.
-    pub notes: Vec<String>,
     pub(crate) text: Text,
 }
 
@@ -89,7 +78,7 @@ impl Scene {
     /// [`SceneError`] with the line: no TOML, an unknown key or name with the nearest known one, a count of nothing, a number that
     /// is none, two statements that exclude each other, a limit of a study above that of its scene.
     pub fn parse(source_name: &str, text: &str) -> Result<Scene, SceneError> {
-        check::checked(parse::Text::new(source_name, text)?, NamedBy::Scene)
+        check::checked(Text::new(source_name, text)?, NamedBy::Scene)
     }
 
     /// The scene that `text` says, to be put on a rig: whether it names devices or not.
@@ -97,7 +86,7 @@ impl Scene {
     /// # Errors
     /// As [`parse`](Scene::parse).
     pub fn parse_for_rig(source_name: &str, text: &str) -> Result<Scene, SceneError> {
-        check::checked(parse::Text::new(source_name, text)?, NamedBy::Rig)
+        check::checked(Text::new(source_name, text)?, NamedBy::Rig)
     }
 
     /// Puts every study that presses on `rig`, whose devices stand in the place of those that the scene names.

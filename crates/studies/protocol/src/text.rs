@@ -1,10 +1,15 @@
-//! The text of a scene: read strictly, with the line of whatever is refused.
+//! Text of a scene or a rig file: read strictly, with the line of whatever is refused.
+
+mod error;
+mod setting;
 
 use serde::de::DeserializeOwned;
 use taceva_core::shown;
 
-use super::error::{SceneError, SceneProblem, nearest};
-use super::renamed::RENAMED;
+pub use error::{SceneError, SceneProblem};
+pub use setting::Setting;
+
+use error::nearest;
 
 /// The largest text that is read as a scene, in bytes.
 pub const GREATEST_SCENE: usize = 1 << 20;
@@ -76,11 +81,6 @@ impl Text {
         self.error(at, problem)
     }
 
-    /// `note` about the text, with its name.
-    pub(crate) fn note(&self, note: &str) -> String {
-        format!("{}: {note}", self.source_name)
-    }
-
     fn line(&self, at: usize) -> u64 {
         let before = self.text.bytes().take(at);
         1 + before.filter(|byte| *byte == b'\n').count() as u64
@@ -91,27 +91,11 @@ impl Text {
 fn explained(message: &str) -> SceneProblem {
     let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
     match quoted.as_slice() {
-        [wrong, known @ ..] if message.starts_with("unknown field") => {
-            let known = known.iter().copied();
-            let known: Vec<&str> = known
-                .filter(|name| RENAMED.iter().all(|key| key.before != *name))
-                .collect();
-            SceneProblem::UnknownKey {
-                key: shown(wrong).to_string(),
-                nearest: nearest(wrong, known.iter().copied()),
-                known: known.join(", "),
-            }
-        }
-        // TOML refuses a key that is there twice by another message: here one of two is an old name.
-        [twice] if message.starts_with("duplicate field") => {
-            match RENAMED.iter().find(|key| key.now == *twice) {
-                Some(key) => SceneProblem::Contradiction(format!(
-                    "`{}` and `{}` are one key: write the second alone",
-                    key.before, key.now
-                )),
-                None => SceneProblem::Syntax(shown(message).to_string()),
-            }
-        }
+        [wrong, known @ ..] if message.starts_with("unknown field") => SceneProblem::UnknownKey {
+            key: shown(wrong).to_string(),
+            nearest: nearest(wrong, known.iter().copied()),
+            known: known.join(", "),
+        },
         [missing] if message.starts_with("missing field") => {
             SceneProblem::MissingKey(shown(*missing).to_string())
         }

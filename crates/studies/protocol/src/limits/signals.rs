@@ -2,8 +2,9 @@
 
 use taceva_core::{Descriptor, DriverSource, ForceFacts};
 
-use crate::scene::{Scene, SceneError, SceneProblem, Study};
+use crate::scene::{Scene, Study};
 use crate::source::RigInfo;
+use crate::text::{SceneError, SceneProblem};
 
 /// Allowance that the conduct of a run makes for the signals of its rig; [`Default`] is that for signals without noise.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]

@@ -2,7 +2,8 @@
 
 use taceva_core::Phase;
 
-use super::{DepthPart, PhaseInputs, PhaseKind, straight};
+use super::{DepthPart, PhaseInputs, straight};
+use crate::phase_kind::PhaseKind;
 use crate::press::{Motion, Press, Waypoint};
 
 /// One visit a point; its depths grow, each drawn from a part of the range of its own.

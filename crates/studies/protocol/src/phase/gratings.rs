@@ -2,9 +2,10 @@
 
 use taceva_core::{Nanometre, Specimen};
 
-use super::{PhaseInputs, PhaseKind, straight};
+use super::{PhaseInputs, straight};
+use crate::phase_kind::PhaseKind;
 use crate::press::{Motion, Press};
-use crate::specimen::spacings;
+use crate::scene::spacings;
 
 /// Thousandths of a degree in half a turn: lines and dots look the same after it.
 const HALF_TURN: i64 = 180_000;

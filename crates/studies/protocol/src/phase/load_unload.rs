@@ -2,7 +2,8 @@
 
 use taceva_core::Phase;
 
-use super::{PhaseInputs, PhaseKind, straight};
+use super::{PhaseInputs, straight};
+use crate::phase_kind::PhaseKind;
 use crate::press::{Motion, Press, Waypoint};
 
 /// One visit a point; the deepest waypoint belongs to both branches and is visited once for each.

@@ -2,7 +2,8 @@
 
 use taceva_core::{Nanometre, Phase};
 
-use super::{PhaseInputs, PhaseKind, nanometres, straight};
+use super::{PhaseInputs, nanometres, straight};
+use crate::phase_kind::PhaseKind;
 use crate::press::{Motion, Press, Waypoint};
 
 /// Trial after trial at a point, each to every depth; with markers a shear at the greatest depth ends it.

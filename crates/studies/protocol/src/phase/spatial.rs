@@ -2,7 +2,8 @@
 
 use taceva_core::Phase;
 
-use super::{DepthPart, PhaseInputs, PhaseKind, straight};
+use super::{DepthPart, PhaseInputs, straight};
+use crate::phase_kind::PhaseKind;
 use crate::press::{Motion, Press, Waypoint};
 
 /// One visit a point at a depth of its own, straight and then sheared.

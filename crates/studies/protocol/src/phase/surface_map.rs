@@ -1,6 +1,7 @@
 //! The height of the surface, felt at the same points on every unit: how far units of one model differ.
 
-use super::{PhaseInputs, PhaseKind};
+use super::PhaseInputs;
+use crate::phase_kind::PhaseKind;
 use crate::press::{Motion, Press};
 
 /// Unit after unit, because units are exchanged by hand.

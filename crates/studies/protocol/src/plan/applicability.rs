@@ -4,8 +4,8 @@ use taceva_core::{Field, SkipReason};
 
 use super::collect::{Collected, PlannedMetric};
 use super::facts::StudyFacts;
-use super::reason::{PlanReason, Subject};
-use crate::phase::PhaseKind;
+use crate::phase_kind::PhaseKind;
+use crate::reason::{PlanReason, Subject};
 
 /// Removes metrics that are not wanted or do not apply, and channels of those that apply in part.
 pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collected {

@@ -6,8 +6,8 @@ use taceva_core::Nanometre;
 
 use super::collect::{Collected, PlannedPress};
 use super::facts::StudyFacts;
-use crate::phase::PhaseKind;
-use crate::scene::SceneProblem;
+use crate::phase_kind::PhaseKind;
+use crate::text::SceneProblem;
 
 /// The most presses of one plan: at ten seconds a press, four months without a pause.
 const GREATEST_PRESSES: u64 = 1_000_000;

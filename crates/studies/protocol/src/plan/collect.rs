@@ -4,10 +4,10 @@ use taceva_core::{Field, FieldSet};
 use taceva_metrics::{Fact, Metric, catalogue};
 
 use super::facts::StudyFacts;
-use super::reason::{PlanReason, PlanSkip, Subject};
 use crate::content_id::ContentId;
-use crate::phase::PhaseKind;
+use crate::phase_kind::PhaseKind;
 use crate::press::Press;
+use crate::reason::{PlanReason, PlanSkip, Subject};
 
 /// What a metric requires; the catalogue's words, and the part of the protocol that gives it.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -5,8 +5,8 @@ use std::fmt;
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 use taceva_core::{Field, SkipReason};
 
-use super::reason::{PlanReason, PlanSkip, Subject};
 use super::{Plan, PlannedPress};
+use crate::reason::{PlanReason, PlanSkip, Subject};
 
 impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -207,7 +207,7 @@ struct WrittenPress<'a> {
     place_mm: [f64; 2],
     samples: usize,
     frames: bool,
-    phases: &'a [crate::phase::PhaseKind],
+    phases: &'a [crate::phase_kind::PhaseKind],
 }
 
 impl WrittenPress<'_> {

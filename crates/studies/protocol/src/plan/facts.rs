@@ -9,10 +9,13 @@ use taceva_core::{
 use taceva_metrics::Fact;
 
 use super::collect::{CHANNELS, SURFACE};
+use crate::frame_size::FrameSize;
 use crate::limits::{RigLimits, limits};
-use crate::phase::{PhaseInputs, PhaseKind};
-use crate::scene::{FrameSize, Scene, SceneError, SceneProblem, Setting, Study};
+use crate::phase::PhaseInputs;
+use crate::phase_kind::PhaseKind;
+use crate::scene::{Scene, Study};
 use crate::source::{RecordingInfo, RigInfo, SourceInfo};
+use crate::text::{SceneError, SceneProblem, Setting};
 
 /// The model of a study.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,8 +4,8 @@ use taceva_core::{Field, FieldSet};
 
 use super::collect::{Collected, PlannedMetric, SURFACE};
 use super::facts::StudyFacts;
-use super::reason::{PlanReason, Subject};
-use crate::phase::PhaseKind;
+use crate::phase_kind::PhaseKind;
+use crate::reason::{PlanReason, Subject};
 
 /// Removes fields that no kept metric or model reads, and the pictures of presses of which none reads any.
 pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collected {

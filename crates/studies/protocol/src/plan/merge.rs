@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use super::collect::{Collected, PlannedPress};
 use super::facts::StudyFacts;
-use super::reason::{PlanReason, Subject};
 use crate::content_id::ContentId;
-use crate::phase::PhaseKind;
+use crate::phase_kind::PhaseKind;
+use crate::reason::{PlanReason, Subject};
 use taceva_core::Specimen;
 
 /// Merges equal presses and sorts the rest.

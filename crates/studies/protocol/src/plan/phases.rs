@@ -4,7 +4,7 @@ use taceva_core::SkipReason;
 
 use super::collect::{Collected, Fit};
 use super::facts::{ModelChoice, StudyFacts};
-use super::reason::{PlanReason, Subject};
+use crate::reason::{PlanReason, Subject};
 
 /// Removes models that no metric reads, then phases that no metric or model uses.
 pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collected {

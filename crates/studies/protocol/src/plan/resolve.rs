@@ -4,7 +4,7 @@ use taceva_core::{Field, SkipReason};
 
 use super::collect::Collected;
 use super::facts::{FieldSource, ModelChoice, OF_THE_PROTOCOL, StudyFacts, axis_of};
-use super::reason::{Cause, PlanReason, Subject};
+use crate::reason::{Cause, PlanReason, Subject};
 
 /// Removes the channels and fields without a source.
 pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collected {

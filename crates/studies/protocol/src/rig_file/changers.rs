@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use serde::Deserialize;
 
-use crate::scene::{SceneError, SceneProblem, Setting, Text};
+use crate::text::{SceneError, SceneProblem, Setting, Text};
 
 /// How long a change may take where the file does not say, in s, and the longest that it may say.
 const USUAL_CHANGE_S: f64 = 60.0;

@@ -1,7 +1,7 @@
 //! How much later each device of a rig says what is true, and how that is written into its file.
 
 use super::RigFile;
-use crate::scene::Setting;
+use crate::text::Setting;
 
 /// Delay of a device behind the robot, measured by taps.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]

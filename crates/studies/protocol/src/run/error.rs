@@ -7,7 +7,7 @@ use taceva_core::{DriverError, Fault, SinkError};
 use super::touched::TouchFault;
 use super::trip::Trip;
 use crate::content_id::ContentId;
-use crate::scene::SceneError;
+use crate::text::SceneError;
 
 /// A run that stopped before its end. Everything finished is durable, and the same call resumes it.
 #[derive(Debug)]

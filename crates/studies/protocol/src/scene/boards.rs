@@ -2,7 +2,8 @@
 
 use taceva_core::Nanometre;
 
-use crate::scene::{Gratings, SceneProblem};
+use crate::scene::Gratings;
+use crate::text::SceneProblem;
 
 /// The finest board of the catalogue (TacEva 2025, spatial resolution).
 const FINEST: Nanometre = Nanometre(250_000);

@@ -1,6 +1,7 @@
 //! Scenes that are compiled in.
 
-use super::{Scene, SceneError};
+use super::Scene;
+use crate::text::SceneError;
 
 /// A scene that is compiled in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,6 +1,7 @@
 //! From what is written to a scene: the checks that a parser of types cannot make.
 
 mod protocol;
+mod recording;
 mod study;
 mod written;
 
@@ -8,13 +9,12 @@ use taceva_core::shown;
 
 use taceva_metrics::{Settings, catalogue};
 
-use super::error::{SceneError, SceneProblem};
-use super::limits::LimitSpec;
 use super::metrics::{MetricsSpec, ReportSpec};
-use super::parse::Text;
-use super::renamed;
-use super::setting::Setting;
 use super::{NamedBy, Scene};
+use crate::limit_spec::LimitSpec;
+use crate::text::Setting;
+use crate::text::Text;
+use crate::text::{SceneError, SceneProblem};
 use written::WrittenScene;
 
 /// The longest length in a scene, in mm.
@@ -45,7 +45,6 @@ pub(super) fn checked(text: Text, named_by: NamedBy) -> Result<Scene, SceneError
         metrics: written.metrics,
         protocol: written.protocol,
         report: written.report,
-        notes: renamed::notes(&text),
         text,
     })
 }

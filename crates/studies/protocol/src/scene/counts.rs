@@ -6,7 +6,7 @@ use serde::Deserialize;
 use taceva_core::GratingKind;
 
 use super::classifier::GratingClassifier;
-use super::setting::Setting;
+use crate::text::Setting;
 
 /// Declares a table of settings with its defaults.
 macro_rules! table {
@@ -115,7 +115,6 @@ table! {
         /// The depth of each press as a fraction of the greatest.
         depth_fraction: f64 = 0.5,
         /// What classifies the spacing of each press from its picture.
-        #[serde(alias = "told_by")]
         classified_by: GratingClassifier = GratingClassifier::Spectrum,
         /// Settings of a network that classifies, and of its features, by name.
         set: BTreeMap<String, toml::Value> = BTreeMap::new(),

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use taceva_core::Footprint;
 
-use super::setting::Setting;
+use crate::text::Setting;
 
 /// A device by the name of its driver.
 #[derive(Clone, Debug, PartialEq, Deserialize)]

@@ -8,7 +8,7 @@ use serde::{Deserialize, Deserializer};
 use taceva_core::{Nanometre, Newton};
 use taceva_metrics::Settings;
 
-use super::setting::Setting;
+use crate::text::Setting;
 
 /// The metrics of a scene.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]

@@ -6,11 +6,11 @@ use taceva_core::DriverKind;
 
 use super::Scene;
 use super::devices::{DeviceSpec, LightingSpec, ModelSpec, SensorSpec};
-use super::frame_size::FrameSize;
-use super::limits::LimitSpec;
-use super::parse::Text;
-use super::setting::Setting;
+use crate::frame_size::FrameSize;
+use crate::limit_spec::LimitSpec;
 use crate::rig_file::RigFile;
+use crate::text::Setting;
+use crate::text::Text;
 
 /// What one sensor is measured with.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,8 +4,8 @@ use std::fmt;
 
 use taceva_core::FrameInfo;
 
-use super::frame_size::FrameSize;
-use crate::plan::PlanReason;
+use crate::frame_size::FrameSize;
+use crate::reason::PlanReason;
 
 /// A scene that is refused.
 #[derive(Clone, Debug, PartialEq)]

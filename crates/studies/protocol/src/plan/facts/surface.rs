@@ -4,8 +4,8 @@ use taceva_core::{Footprint, Millimetre, Nanometre, Point, Pose, Rotation};
 
 use super::Gather;
 use crate::rig_file::Registration;
-use crate::scene::{SceneError, SceneProblem};
 use crate::source::RigInfo;
+use crate::text::{SceneError, SceneProblem};
 
 impl Gather<'_> {
     /// The smaller of the surfaces that the scene and the sensor state.

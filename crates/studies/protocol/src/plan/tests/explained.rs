@@ -7,7 +7,7 @@ use taceva_core::{
 
 use super::bench::{SMALL, rig_of, sensor};
 use super::{only, planned_as};
-use crate::phase::PhaseKind;
+use crate::phase_kind::PhaseKind;
 use crate::plan::{MetricNeeds, plan};
 use crate::scene::Scene;
 use crate::source::SourceInfo;

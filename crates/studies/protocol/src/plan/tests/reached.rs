@@ -6,8 +6,9 @@ use taceva_core::{Axes, Channel, Channels, Field, FieldSet, Millimetre, SensorFa
 
 use super::bench::{SMALL, paper_metrics, rig_of, sensor};
 use super::{only, planned, planned_as};
-use crate::phase::PhaseKind;
-use crate::plan::{Cause, MetricNeeds, Plan, PlanReason, Subject};
+use crate::phase_kind::PhaseKind;
+use crate::plan::{MetricNeeds, Plan};
+use crate::reason::{Cause, PlanReason, Subject};
 use crate::source::{RecordingInfo, RigInfo, SourceInfo};
 
 fn whole() -> RigInfo {

@@ -1,7 +1,7 @@
 //! Along which axes a gentle touch was felt, and which axes of a rig file would agree with it.
 
 use crate::rig_file::SignedAxes;
-use crate::scene::SceneProblem;
+use crate::text::SceneProblem;
 
 const NAMES: [&str; 3] = ["x", "y", "z"];
 

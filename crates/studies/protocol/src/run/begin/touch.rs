@@ -12,7 +12,7 @@ use crate::run::session::Run;
 use crate::run::supervisor::MotionStage;
 use crate::run::tip::{Step, Tip};
 use crate::run::touched::{ReferenceTouch, SessionRecord, SessionSpec, TouchFault};
-use crate::scene::SceneProblem;
+use crate::text::SceneProblem;
 
 /// Readings whose mean is one force.
 const READINGS: u32 = 8;

@@ -1,8 +1,8 @@
 //! The counts and lengths of a protocol.
 
 use super::{Check, Checked};
+use crate::scene::boards;
 use crate::scene::counts::Protocol;
-use crate::specimen;
 
 /// The most of anything that can be counted in a scene.
 const GREATEST_COUNT: u64 = 1_000_000;
@@ -64,7 +64,7 @@ impl Check<'_> {
         // In contact the tip must be able to stop within a step.
         self.range("speed_mm_s", &contact.speed_mm_s, 5.0)?;
         self.range("depth_fraction", &gratings.depth_fraction, 1.0)?;
-        specimen::spacings(gratings)
+        boards::spacings(gratings)
             .map(drop)
             .map_err(|refused| self.text.error(refused.at, refused.problem))
     }

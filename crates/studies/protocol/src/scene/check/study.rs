@@ -4,14 +4,15 @@ use std::collections::BTreeSet;
 
 use taceva_core::shown;
 
+use super::recording::WrittenRecording;
 use super::written::{WrittenScene, WrittenStudy};
 use super::{Check, Checked};
+use crate::frame_size::FrameSize;
+use crate::limit_spec::LimitSpec;
 use crate::scene::devices::{DeviceSpec, SensorSpec};
-use crate::scene::error::{SceneError, SceneProblem};
-use crate::scene::frame_size::{FrameSize, WrittenRecording};
-use crate::scene::limits::LimitSpec;
-use crate::scene::setting::Setting;
 use crate::scene::study::Study;
+use crate::text::Setting;
+use crate::text::{SceneError, SceneProblem};
 
 /// The table of the sensor.
 const SENSOR: &str = "[sensor]";

@@ -2,12 +2,12 @@
 
 use serde::Deserialize;
 
+use super::recording::WrittenRecording;
+use crate::limit_spec::LimitSpec;
 use crate::scene::counts::Protocol;
 use crate::scene::devices::{DeviceSpec, LightingSpec, ModelSpec, SensorSpec};
-use crate::scene::frame_size::WrittenRecording;
-use crate::scene::limits::LimitSpec;
 use crate::scene::metrics::{MetricsSpec, ReportSpec};
-use crate::scene::setting::Setting;
+use crate::text::Setting;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a scene")]
