@@ -1,5 +1,3 @@
 //! Force transducers of ATI Industrial Automation.
 
-mod netft;
-
-pub use netft::NetftFactory;
+pub mod netft;

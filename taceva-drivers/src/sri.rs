@@ -1,5 +1,3 @@
 //! Force transducers of Sunrise Instruments (SRI).
 
-mod m8128;
-
-pub use m8128::M8128Factory;
+pub mod m8128;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::Arc;
 
-use taceva_core::{ArgSpec, Args, DriverError, DriverKey, EnablingSwitch, ErrorKind};
+use taceva_core::{ArgSpec, Args, DriverError, DriverKey, EnablingSwitch, ErrorKind, inventory};
 
 use crate::open_error::OpenError;
 use crate::selector::Selector;
@@ -17,6 +17,22 @@ struct Entry {
     arguments: Vec<ArgSpec>,
     open: Open,
 }
+
+/// Driver of enabling switches that is linked into the program, submitted from its folder.
+#[cfg_attr(
+    not(all(feature = "hid", target_os = "linux")),
+    expect(dead_code, reason = "every such driver stands behind a feature")
+)]
+pub(crate) struct LinkedSwitch {
+    /// Key of the driver.
+    pub(crate) key: DriverKey,
+    /// Arguments that a selector may have.
+    pub(crate) arguments: fn() -> Vec<ArgSpec>,
+    /// Opens a switch by its selector.
+    pub(crate) open: fn(&Selector) -> Result<Arc<dyn EnablingSwitch>, OpenError>,
+}
+
+inventory::collect!(LinkedSwitch);
 
 /// Enabling switches by the keys of their drivers. They are no devices of a recording: nothing is measured with one.
 ///
@@ -37,17 +53,12 @@ impl fmt::Debug for Switches {
 }
 
 impl Switches {
-    /// Those that are linked into the program: `hid/pedal`, where it is.
+    /// Those that are linked into the program.
     pub fn builtin() -> Switches {
-        let switches = Switches::default();
-        #[cfg(all(feature = "hid", target_os = "linux"))]
-        let switches = {
-            let mut switches = switches;
-            switches.add(crate::Pedal::KEY, crate::Pedal::arguments(), |selector| {
-                Ok(Arc::new(crate::Pedal::open(selector)?))
-            });
-            switches
-        };
+        let mut switches = Switches::default();
+        for linked in inventory::iter::<LinkedSwitch> {
+            switches.add(linked.key.clone(), (linked.arguments)(), linked.open);
+        }
         switches
     }
 

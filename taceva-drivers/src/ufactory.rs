@@ -1,5 +1,3 @@
 //! Robots of UFACTORY.
 
-mod xarm;
-
-pub use xarm::XarmFactory;
+pub mod xarm;

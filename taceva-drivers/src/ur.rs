@@ -1,5 +1,3 @@
 //! Robots of Universal Robots.
 
-mod rtde;
-
-pub use rtde::UrFactory;
+pub mod rtde;

@@ -13,4 +13,21 @@ pub use factory::V4l2Factory;
 
 use taceva_core::DriverKey;
 
+use crate::doctor::{Machine, PortClass, PortDriver};
+
 const KEY: DriverKey = DriverKey::fixed("camera/v4l2");
+
+taceva_core::inventory::submit! {
+    PortDriver {
+        class: PortClass::Camera,
+        key: KEY,
+        argument: "device",
+        reads: is_first_file,
+    }
+}
+
+/// Further files of a camera give no pictures; an old system does not count them.
+fn is_first_file(machine: &Machine, name: &str) -> bool {
+    let index = machine.text(&format!("sys/class/video4linux/{name}/index"));
+    index.is_none_or(|index| index == "0")
+}

@@ -63,7 +63,7 @@ impl Machine {
     }
 
     /// The text of a small file without the white space around it, if it can be read.
-    pub(super) fn text(&self, path: &str) -> Option<String> {
+    pub(crate) fn text(&self, path: &str) -> Option<String> {
         let mut bytes = Vec::new();
         let file = fs::File::open(self.path(path)).ok()?;
         file.take(TEXT_BYTES).read_to_end(&mut bytes).ok()?;
@@ -71,7 +71,7 @@ impl Machine {
     }
 
     /// Where `path`, which has no leading `/`, lies.
-    pub(super) fn path(&self, path: &str) -> PathBuf {
+    pub(crate) fn path(&self, path: &str) -> PathBuf {
         self.root.join(Path::new(path))
     }
 }

@@ -4,6 +4,7 @@ use std::fs;
 
 use super::finding::{Finding, State};
 use super::machine::Machine;
+use super::port_driver::{PortClass, drivers_of};
 use super::user::User;
 use crate::text::shown;
 
@@ -16,8 +17,7 @@ pub(super) struct PortKind {
     name: Option<(&'static str, &'static str)>,
     noun: &'static str,
     if_absent: &'static str,
-    /// The drivers that may open it, and the argument that names its file.
-    opened_by: (&'static [&'static str], &'static str),
+    class: PortClass,
 }
 
 pub(super) const KINDS: &[PortKind] = &[
@@ -27,7 +27,7 @@ pub(super) const KINDS: &[PortKind] = &[
         name: Some(("sys/class/video4linux", "name")),
         noun: "camera",
         if_absent: "plug the sensor in; if it is, load the kernel's driver: sudo modprobe uvcvideo",
-        opened_by: (&["camera/v4l2"], "device"),
+        class: PortClass::Camera,
     },
     PortKind {
         codes: ["serial", "serial-denied", "serial-absent"],
@@ -35,7 +35,7 @@ pub(super) const KINDS: &[PortKind] = &[
         name: None,
         noun: "serial port",
         if_absent: "plug the robot or force transducer in, if it is a serial one",
-        opened_by: (&["gcode/grbl", "gcode/marlin"], "port"),
+        class: PortClass::Serial,
     },
     PortKind {
         codes: ["hid", "hid-denied", "hid-absent"],
@@ -43,7 +43,7 @@ pub(super) const KINDS: &[PortKind] = &[
         name: Some(("sys/class/hidraw", "device/uevent")),
         noun: "HID device",
         if_absent: "plug the gauge or scale in, if it is a HID one",
-        opened_by: (&["hid/scale"], "device"),
+        class: PortClass::Hid,
     },
 ];
 
@@ -110,35 +110,17 @@ impl PortKind {
             .or_else(|| text.lines().next().filter(|line| !line.contains('=')));
         shown(title.unwrap_or(self.noun))
     }
-    /// What would open it, in words; nothing where no driver would.
+
+    /// The selectors that open it, in words; empty where no driver reads it.
     fn opened(&self, machine: &Machine, name: &str, keys: &[&str]) -> String {
-        let (drivers, argument) = self.opened_by;
-        let selectors: Vec<String> = drivers
-            .iter()
-            .filter(|driver| keys.contains(driver) && self.suits(machine, name, driver))
-            .map(|driver| format!("`{driver}:{argument}=/dev/{name}`"))
+        let selectors: Vec<String> = drivers_of(self.class)
+            .into_iter()
+            .filter(|driver| keys.contains(&driver.key.as_str()) && (driver.reads)(machine, name))
+            .map(|driver| format!("`{}:{}=/dev/{name}`", driver.key, driver.argument))
             .collect();
         match selectors.is_empty() {
             true => String::new(),
             false => format!("; opened by {}", selectors.join(" or ")),
         }
     }
-
-    /// Whether a driver of this kind reads such a device, as far as the system tells.
-    fn suits(&self, machine: &Machine, name: &str, driver: &str) -> bool {
-        match driver {
-            // The further files of a camera give no pictures; an old system does not count them.
-            "camera/v4l2" => machine
-                .text(&format!("sys/class/video4linux/{name}/index"))
-                .is_none_or(|index| index == "0"),
-            "hid/scale" => {
-                let path = format!("sys/class/hidraw/{name}/device/report_descriptor");
-                fs::read(machine.path(&path)).is_ok_and(|found| found.starts_with(SCALE))
-            }
-            _ => true,
-        }
-    }
 }
-
-/// How the description of a scale's reports begins: usage page 0x8D, usage 0x20.
-const SCALE: &[u8] = &[0x05, 0x8d, 0x09, 0x20];

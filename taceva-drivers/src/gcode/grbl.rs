@@ -9,4 +9,15 @@ pub use factory::GrblFactory;
 
 use taceva_core::DriverKey;
 
+use crate::doctor::{PortClass, PortDriver};
+
 const KEY: DriverKey = DriverKey::fixed("gcode/grbl");
+
+taceva_core::inventory::submit! {
+    PortDriver {
+        class: PortClass::Serial,
+        key: KEY,
+        argument: "port",
+        reads: |_, _| true,
+    }
+}

@@ -9,4 +9,15 @@ pub use factory::MarlinFactory;
 
 use taceva_core::DriverKey;
 
+use crate::doctor::{PortClass, PortDriver};
+
 const KEY: DriverKey = DriverKey::fixed("gcode/marlin");
+
+taceva_core::inventory::submit! {
+    PortDriver {
+        class: PortClass::Serial,
+        key: KEY,
+        argument: "port",
+        reads: |_, _| true,
+    }
+}

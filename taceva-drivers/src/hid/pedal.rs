@@ -5,6 +5,18 @@ mod switch;
 
 pub use switch::Pedal;
 
+use std::sync::Arc;
+
 use taceva_core::DriverKey;
 
+use crate::switches::LinkedSwitch;
+
 const KEY: DriverKey = DriverKey::fixed("hid/pedal");
+
+taceva_core::inventory::submit! {
+    LinkedSwitch {
+        key: KEY,
+        arguments: Pedal::arguments,
+        open: |selector| Ok(Arc::new(Pedal::open(selector)?)),
+    }
+}

@@ -28,7 +28,7 @@ submit_builtin!(dyn ForceTransducer, || Ok(Box::new(NetftFactory::new()?)));
 ///
 /// ```
 /// use taceva_core::Factory;
-/// use taceva_drivers::NetftFactory;
+/// use taceva_drivers::ati::netft::NetftFactory;
 /// let factory = NetftFactory::new()?;
 /// assert!(factory.descriptor().args("host=192.168.1.1;force_max_n=65").is_ok());
 /// # Ok::<(), taceva_core::DescriptorError>(())

@@ -30,7 +30,7 @@ submit_builtin!(dyn Sensor, || Ok(Box::new(MjpegFactory::new()?)));
 ///
 /// ```
 /// use taceva_core::Factory;
-/// use taceva_drivers::MjpegFactory;
+/// use taceva_drivers::camera::mjpeg::MjpegFactory;
 /// let factory = MjpegFactory::new()?;
 /// assert!(factory.descriptor().args("url=http://127.0.0.1:8080/?action=stream").is_ok());
 /// # Ok::<(), taceva_core::DescriptorError>(())

@@ -43,7 +43,7 @@ submit_builtin!(dyn Sensor, || Ok(Box::new(V4l2Factory::new()?)));
 ///
 /// ```
 /// use taceva_core::Factory;
-/// use taceva_drivers::V4l2Factory;
+/// use taceva_drivers::camera::v4l2::V4l2Factory;
 /// let factory = V4l2Factory::new()?;
 /// let args = factory.descriptor().args("device=/dev/video0;preset=digit;exposure_ms=15").expect("good");
 /// let described = factory.describe(&args)?;

@@ -4,7 +4,7 @@
 //!
 //! ```rust,no_run
 //! use std::time::Duration;
-//! use taceva_drivers::v4l2::{Camera, FourCc, PictureFormat, Stream};
+//! use taceva_drivers::camera::v4l2::kernel::{Camera, FourCc, PictureFormat, Stream};
 //!
 //! let mut camera = Camera::open("/dev/video0")?;
 //! let format = camera.set_format(&PictureFormat { width: 640, height: 480, pixels: FourCc::YUYV })?;
@@ -15,7 +15,7 @@
 //! if let Some(frame) = stream.next(Duration::from_secs(1))? {
 //!     println!("frame {} of {} bytes, {} expected", frame.number(), frame.bytes().len(), format.bytes);
 //! }
-//! # Ok::<(), taceva_drivers::v4l2::V4l2Error>(())
+//! # Ok::<(), taceva_drivers::camera::v4l2::kernel::V4l2Error>(())
 //! ```
 
 mod camera;

@@ -28,7 +28,7 @@ submit_builtin!(dyn Robot, || Ok(Box::new(GrblFactory::new()?)));
 ///
 /// ```
 /// use taceva_core::Factory;
-/// use taceva_drivers::GrblFactory;
+/// use taceva_drivers::gcode::grbl::GrblFactory;
 /// let factory = GrblFactory::new()?;
 /// assert!(factory.descriptor().args("port=/dev/ttyUSB0;speed_max_mm_s=10").is_ok());
 /// # Ok::<(), taceva_core::DescriptorError>(())

@@ -34,7 +34,7 @@ submit_builtin!(dyn Robot, || Ok(Box::new(MarlinFactory::new()?)));
 ///
 /// ```
 /// use taceva_core::Factory;
-/// use taceva_drivers::MarlinFactory;
+/// use taceva_drivers::gcode::marlin::MarlinFactory;
 /// let factory = MarlinFactory::new()?;
 /// assert!(factory.descriptor().args("port=/dev/ttyACM0;baud=250000;speed_max_mm_s=5").is_ok());
 /// # Ok::<(), taceva_core::DescriptorError>(())

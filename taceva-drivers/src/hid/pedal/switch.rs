@@ -31,7 +31,7 @@ use crate::{OpenError, Selector};
 ///
 /// ```
 /// use taceva_core::EnablingSwitch;
-/// use taceva_drivers::Pedal;
+/// use taceva_drivers::hid::pedal::Pedal;
 /// /// Whether the pedal is there and held.
 /// fn is_held() -> bool {
 ///     let opened = "hid/pedal:usb=0c45:7403".parse().map(|selector| Pedal::open(&selector));

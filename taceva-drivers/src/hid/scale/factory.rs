@@ -31,7 +31,7 @@ submit_builtin!(dyn ForceTransducer, || Ok(Box::new(ScaleFactory::new()?)));
 ///
 /// ```
 /// use taceva_core::Factory;
-/// use taceva_drivers::ScaleFactory;
+/// use taceva_drivers::hid::scale::ScaleFactory;
 /// let factory = ScaleFactory::new()?;
 /// assert!(factory.descriptor().args("usb=0922:8003;force_max_n=49").is_ok());
 /// # Ok::<(), taceva_core::DescriptorError>(())

@@ -32,7 +32,7 @@ submit_builtin!(dyn ForceTransducer, || Ok(Box::new(M8128Factory::new()?)));
 ///
 /// ```
 /// use taceva_core::Factory;
-/// use taceva_drivers::M8128Factory;
+/// use taceva_drivers::sri::m8128::M8128Factory;
 /// let factory = M8128Factory::new()?;
 /// let args = factory.descriptor().args("host=192.168.0.108;rate=500 Hz").expect("good");
 /// let described = factory.describe(&args)?;

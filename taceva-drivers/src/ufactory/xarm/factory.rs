@@ -33,7 +33,7 @@ submit_builtin!(dyn Robot, || Ok(Box::new(XarmFactory::new()?)));
 /// fast an arm stops, how exactly it keeps to a velocity and to its end, whether the pose of port 30003 is measured or commanded, how long a controller keeps an idle connection.
 ///
 /// ```
-/// use taceva_drivers::XarmFactory;
+/// use taceva_drivers::ufactory::xarm::XarmFactory;
 /// use taceva_core::Factory;
 /// let factory = XarmFactory::new()?;
 /// assert!(factory.descriptor().args("host=192.168.1.200;speed_max_mm_s=20").is_ok());

@@ -33,7 +33,7 @@ submit_builtin!(dyn Robot, || Ok(Box::new(UrFactory::new()?)));
 ///
 /// ```
 /// use taceva_core::Factory;
-/// use taceva_drivers::UrFactory;
+/// use taceva_drivers::ur::rtde::UrFactory;
 /// let factory = UrFactory::new()?;
 /// assert!(factory.descriptor().args("host=192.168.56.101;speed_max_mm_s=20").is_ok());
 /// # Ok::<(), taceva_core::DescriptorError>(())

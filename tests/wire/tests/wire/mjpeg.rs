@@ -10,7 +10,7 @@ use taceva_conformance::{self as conformance, Trial};
 use taceva_core::{
     Deadline, DriverError, ErrorKind, Factory, FrameInfo, FrameMut, PixelFormat, Rig, Sensor, Stamp,
 };
-use taceva_drivers::MjpegFactory;
+use taceva_drivers::camera::mjpeg::MjpegFactory;
 use taceva_wire::mjpeg::{Emulator, Style};
 use taceva_wire::{BenchOptions, Device, Fault, FaultKind, WallBench};
 

@@ -5,7 +5,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use taceva_core::{Deadline, ErrorKind, Factory, FrameMut, PixelFormat, Rig, Sensor};
-use taceva_drivers::MjpegFactory;
+use taceva_drivers::camera::mjpeg::MjpegFactory;
 use taceva_needs::{Need, skip};
 
 /// ffmpeg that serves one client, and is ended with this.

@@ -6,7 +6,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
 use taceva_core::{Deadline, ErrorKind, Factory, Millimetre, Pose, Rig, Robot, Speed};
-use taceva_drivers::MarlinFactory;
+use taceva_drivers::gcode::marlin::MarlinFactory;
 use taceva_needs::{Need, skip};
 
 const PATIENCE: Deadline = Deadline::after(Duration::from_secs(20));

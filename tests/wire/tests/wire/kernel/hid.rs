@@ -9,7 +9,8 @@ use taceva_conformance::{self as conformance, Trial};
 use taceva_core::{
     Deadline, DriverError, EnablingSwitch as _, ErrorKind, Factory, ForceTransducer, Rig,
 };
-use taceva_drivers::{Pedal, ScaleFactory};
+use taceva_drivers::hid::pedal::Pedal;
+use taceva_drivers::hid::scale::ScaleFactory;
 use taceva_wire::uhid::{Emulator, PEDAL, SCALE};
 
 use super::machine::carry_out;

@@ -6,8 +6,8 @@ use taceva_conformance::{self as conformance, Trial};
 use taceva_core::{
     Deadline, DriverError, ErrorKind, Factory, FrameInfo, FrameMut, PixelFormat, Rig, Sensor,
 };
-use taceva_drivers::V4l2Factory;
-use taceva_drivers::v4l2::{Camera, ControlKind};
+use taceva_drivers::camera::v4l2::V4l2Factory;
+use taceva_drivers::camera::v4l2::kernel::{Camera, ControlKind};
 
 use super::machine::carry_out;
 

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use taceva_core::ErrorKind;
-use taceva_drivers::GrblFactory;
+use taceva_drivers::gcode::grbl::GrblFactory;
 use taceva_wire::grbl::Emulator;
 use taceva_wire::{Arm, ArmFault};
 

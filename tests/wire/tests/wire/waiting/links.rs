@@ -4,7 +4,10 @@ use std::net::Ipv4Addr;
 use std::time::{Duration, Instant};
 
 use taceva_core::{ErrorKind, Factory, ForceTransducer, Rig};
-use taceva_drivers::{M8128Factory, NetftFactory, UrFactory, XarmFactory};
+use taceva_drivers::ati::netft::NetftFactory;
+use taceva_drivers::sri::m8128::M8128Factory;
+use taceva_drivers::ufactory::xarm::XarmFactory;
+use taceva_drivers::ur::rtde::UrFactory;
 use taceva_wire::{Arm, BenchOptions, Device, FaultKind, WallBench, netft, sri, ur, xarm};
 
 use crate::waiting::setup::Setup;

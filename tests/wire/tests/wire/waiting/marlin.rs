@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use taceva_core::{Deadline, ErrorKind};
-use taceva_drivers::MarlinFactory;
+use taceva_drivers::gcode::marlin::MarlinFactory;
 use taceva_wire::marlin::{Emulator, Firmware};
 use taceva_wire::{Arm, ArmFault};
 

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use taceva_conformance::{self as conformance, Trial};
 use taceva_core::{Deadline, DriverError, ErrorKind, Factory, ForceTransducer, Rig};
-use taceva_drivers::NetftFactory;
+use taceva_drivers::ati::netft::NetftFactory;
 use taceva_wire::netft::Emulator;
 use taceva_wire::{BenchOptions, Device, FaultKind, WallBench};
 

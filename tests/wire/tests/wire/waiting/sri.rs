@@ -6,7 +6,8 @@ use std::time::{Duration, Instant};
 
 use taceva_conformance::{self as conformance, Trial};
 use taceva_core::{Deadline, DriverError, ErrorKind, Factory, ForceTransducer, Millimetre, Rig};
-use taceva_drivers::{M8128Factory, XarmFactory};
+use taceva_drivers::sri::m8128::M8128Factory;
+use taceva_drivers::ufactory::xarm::XarmFactory;
 use taceva_wire::sri::Emulator;
 use taceva_wire::{BenchOptions, Device, FaultKind, WallBench, xarm};
 

@@ -4,7 +4,7 @@ use std::net::Ipv4Addr;
 use std::time::Duration;
 
 use taceva_core::{Deadline, ErrorKind};
-use taceva_drivers::UrFactory;
+use taceva_drivers::ur::rtde::UrFactory;
 use taceva_wire::ur::Emulator;
 use taceva_wire::{Arm, ArmFault, Device, FaultKind};
 

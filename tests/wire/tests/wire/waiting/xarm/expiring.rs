@@ -1,6 +1,6 @@
 //! Velocities of the tip that expire.
 
-use taceva_drivers::XarmFactory;
+use taceva_drivers::ufactory::xarm::XarmFactory;
 use taceva_wire::xarm::Ports;
 
 use super::setup::setup;

@@ -5,7 +5,7 @@ use std::net::{TcpListener, TcpStream};
 use std::time::{Duration, Instant};
 
 use taceva_core::{DriverError, ErrorKind, Factory, Pose, Rig};
-use taceva_drivers::XarmFactory;
+use taceva_drivers::ufactory::xarm::XarmFactory;
 use taceva_wire::xarm::Ports;
 use taceva_wire::{Arm, ArmFault, Device, FaultKind};
 

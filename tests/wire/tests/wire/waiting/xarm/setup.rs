@@ -1,6 +1,6 @@
 //! An emulated arm, and the driver that is connected to it.
 
-use taceva_drivers::XarmFactory;
+use taceva_drivers::ufactory::xarm::XarmFactory;
 use taceva_wire::xarm::{Emulator, Port, Ports};
 
 use crate::waiting::setup::Setup;
