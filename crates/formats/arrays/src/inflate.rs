@@ -35,14 +35,14 @@ pub(crate) fn inflated(
     bytes: usize,
     wrapping: Wrapping,
 ) -> Result<Vec<u8>, Problem> {
-    let mut whole = vec![0; bytes];
-    let flags = wrapping.flags() | inflate_flags::TINFL_FLAG_USING_NON_WRAPPING_OUTPUT_BUF;
-    let (status, used, made) =
-        decompress(&mut DecompressorOxide::new(), packed, &mut whole, 0, flags);
-    match status {
-        TINFLStatus::Done if made == bytes => Ok(whole),
-        TINFLStatus::Done => Err(too_few(used as u64, made as u64, bytes as u64)),
-        status => Err(broken(used as u64, status)),
+    let (whole, used) = inflated_at_most(packed, bytes, wrapping)?;
+    match whole.len() {
+        made if made == bytes => Ok(whole),
+        made => Err(Problem::damaged(
+            used as u64,
+            format!("the end of what is deflated, after {made} bytes"),
+            format!("{bytes} bytes"),
+        )),
     }
 }
 
@@ -61,14 +61,6 @@ pub(crate) fn inflated_at_most(
     }
     whole.truncate(made);
     Ok((whole, used))
-}
-
-fn too_few(at: u64, made: u64, bytes: u64) -> Problem {
-    Problem::damaged(
-        at,
-        format!("the end of what is deflated, after {made} bytes"),
-        format!("{bytes} bytes"),
-    )
 }
 
 /// What the decoder says of bytes that it cannot go on with, `at` among the deflated ones.

@@ -135,10 +135,7 @@ pub(crate) fn c_order(
             format!("{}", count * item_bytes),
         ));
     }
-    let mut strides = vec![item_bytes; sides.len()];
-    for axis in (1..sides.len()).rev() {
-        strides[axis - 1] = strides[axis] * side(axis);
-    }
+    let strides = strides(sides, item_bytes);
     let mut turned = vec![0; block.len()];
     let mut index = vec![0; sides.len()];
     let mut place = 0;
@@ -164,6 +161,15 @@ pub(crate) fn c_places(sides: &[u64]) -> impl Iterator<Item = usize> {
     std::iter::repeat_with(move || places.next_place())
 }
 
+/// Distances between neighbours along each axis of a block in C order, whose items take `item_bytes`.
+pub(crate) fn strides(sides: &[u64], item_bytes: usize) -> Vec<usize> {
+    let mut strides = vec![item_bytes; sides.len()];
+    for axis in (1..sides.len()).rev() {
+        strides[axis - 1] = strides[axis] * usize::try_from(sides[axis]).unwrap_or(usize::MAX);
+    }
+    strides
+}
+
 /// Where the columns, the second axis fastest, stand in a row whose last axis is fastest.
 struct Places {
     sides: Vec<u64>,
@@ -174,13 +180,9 @@ struct Places {
 
 impl Places {
     fn new(sides: &[u64]) -> Places {
-        let mut strides = vec![1; sides.len()];
-        for axis in (1..sides.len()).rev() {
-            strides[axis - 1] = strides[axis] * usize::try_from(sides[axis]).unwrap_or(usize::MAX);
-        }
         Places {
             sides: sides.to_vec(),
-            strides,
+            strides: strides(sides, 1),
             index: vec![0; sides.len()],
             place: 0,
         }

@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::array::ZarrArray;
 use crate::error::Problem;
 use crate::limits;
+use crate::order::strides;
 
 /// Some rows of an array, over its chunks.
 #[derive(Debug)]
@@ -118,14 +119,8 @@ impl Grid {
                 index(to - from),
             ));
         }
-        let strides = |sides: &[u64]| {
-            let mut strides = vec![self.item_bytes; axes];
-            for axis in (1..axes).rev() {
-                strides[axis - 1] = strides[axis] * index(sides[axis]);
-            }
-            strides
-        };
-        let (into, from) = (strides(&self.shape), strides(&self.chunk));
+        let into = strides(&self.shape, self.item_bytes);
+        let from = strides(&self.chunk, self.item_bytes);
         block(raw, chunk, &parts, &into, &from, self.item_bytes);
     }
 }
