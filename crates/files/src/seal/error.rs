@@ -1,10 +1,10 @@
-//! Why a sealed file is refused.
+//! Errors of sealed files.
 
-/// Why a sealed file is refused.
+/// Refusal of a sealed file.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SealError {
-    /// Its content was changed after it was sealed.
+    /// Content that was changed after it was sealed.
     #[error(
         "{} was changed after it was sealed; restore it, or accept a deliberate edit with `taceva reseal FILE --reason …`",
         what(key)
@@ -13,24 +13,24 @@ pub enum SealError {
         /// The key whose value was changed, where it is known.
         key: Option<String>,
     },
-    /// It has no seal, though files of its version have one.
+    /// Missing seal, though files of this version have one.
     #[error(
         "the seal is gone, which files of this version have; restore it, or accept the file as it is with `taceva reseal FILE --reason …`"
     )]
     Gone,
-    /// It holds a seal and nothing else.
+    /// Seal without a file that it belongs to.
     #[error("a seal without the file that it belongs to")]
     Alone,
     /// The seal itself cannot be read.
     #[error("the seal cannot be read: {problem}")]
     Unreadable {
-        /// What is wrong with it.
+        /// Problem with the seal.
         problem: String,
     },
-    /// What is sealed is neither JSON nor TOML.
+    /// Content that is neither JSON nor TOML.
     #[error("{problem}")]
     Content {
-        /// What is wrong.
+        /// Problem with the content.
         problem: String,
     },
 }

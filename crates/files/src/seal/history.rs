@@ -6,13 +6,13 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Edit {
-    /// When: `2026-11-22`.
+    /// Date of the edit: `2026-11-22`.
     pub date: String,
     /// The digest before, or `unsealed`.
     pub from: String,
     /// The digest of the content that was accepted, without this entry.
     pub to: String,
-    /// Why, in the words of the person who accepted it.
+    /// Reason, in the words of the person who accepted the edit.
     pub reason: String,
 }
 
@@ -33,7 +33,7 @@ fn short(digest: &str) -> &str {
     digest.get(..15).unwrap_or(digest)
 }
 
-/// Whether files of a version have a seal.
+/// Presence of a seal in files of a version.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Version {
     /// They have a seal.
@@ -45,7 +45,7 @@ pub enum Version {
 /// A file whose seal holds, or that is older than seals.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Opened {
-    /// Whether it had a seal, which holds.
+    /// Set if the file had a seal.
     pub is_sealed: bool,
     /// The digest of what it says, `sha256:…`.
     pub digest: String,

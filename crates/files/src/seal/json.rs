@@ -99,7 +99,7 @@ pub fn reseal(text: &str, date: &str, reason: &str) -> Result<String, SealError>
     Ok(format!("{}\n", seal(&edited)?.trim_end()))
 }
 
-/// What is known of a text.
+/// Content of a text: its value, its seal and the digests of its keys.
 struct Parsed {
     rest: Canonical,
     digest: String,

@@ -1,11 +1,11 @@
-//! Which key of a file is not what it was: a few digits of the digest of each value, kept beside the seal.
+//! First digits of the digest of each value, kept beside the seal, by which a changed key is named.
 
 use std::collections::BTreeMap;
 
 use crate::seal::canonical::Canonical;
 use crate::seal::digest::hexadecimal;
 
-/// How deep keys within keys are distinguished.
+/// Levels of nested keys that are distinguished.
 const LEVELS: usize = 3;
 /// Beyond so many, keys are not distinguished.
 const MOST: usize = 4_096;
@@ -74,7 +74,7 @@ pub(crate) fn to_line(keys: &Keys) -> String {
     entries.collect::<Vec<_>>().join(";")
 }
 
-/// What [`to_line`] has written; names that it encoded stay so, on both sides of a comparison.
+/// Parses a line of [`to_line`]; encoded names stay encoded on both sides of a comparison.
 pub(crate) fn from_line(line: &str) -> Keys {
     line.split(';')
         .filter_map(|entry| entry.split_once('='))
