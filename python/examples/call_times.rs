@@ -16,8 +16,8 @@ use std::path::Path;
 use taceva_core::random::mix;
 use taceva_core::{Batch, Channel, Channels, Column, FieldSet, SilentProgress};
 use taceva_dataset::{Dataset, Pass};
+use taceva_evaluate::with_skill;
 use taceva_metrics::{Evaluator, MetricPlan, catalogue};
-use taceva_study::with_skill;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let words: Vec<String> = std::env::args().skip(1).collect();

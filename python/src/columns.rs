@@ -2,7 +2,7 @@
 
 use taceva_core::shown;
 use taceva_dataset::{Dataset, Table};
-use taceva_study::Subject;
+use taceva_evaluate::Subject;
 
 use pyo3::prelude::*;
 use pyo3::types::PyCapsule;

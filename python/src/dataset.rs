@@ -5,11 +5,12 @@ use std::path::PathBuf;
 
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyCapsule};
+use taceva_check::CheckRequest;
 use taceva_core::FrameInfo;
 use taceva_dataset::{Dataset, Pass};
+use taceva_evaluate::{Divided, Subject};
 use taceva_import::{ExportForm, ExportPlan};
 use taceva_models::Models;
-use taceva_study::{CheckRequest, Divided, Subject};
 
 use crate::buffer::{Buffer, Number};
 use crate::errors::{dataset_error, dataset_error_at, dataset_error_of, study_error, value_error};
@@ -199,7 +200,7 @@ impl Recording {
     /// Rows by part, `(train, validation, test)`, as `evaluate` divides them, and what the division is called.
     #[pyo3(signature = (split, seed))]
     fn split(&self, split: Option<&str>, seed: u64) -> PyResult<([Vec<usize>; 3], String)> {
-        use taceva_study::DataPart::{Test, Train, Validation};
+        use taceva_evaluate::DataPart::{Test, Train, Validation};
         let divided =
             Divided::of(&self.dataset, split, seed).map_err(|error| study_error(&error))?;
         let parts = [Train, Validation, Test].map(|part| divided.rows(part));
@@ -247,7 +248,7 @@ impl Recording {
                 seed: 0,
                 jobs: jobs_of(jobs),
             };
-            taceva_study::check(&self.dataset, &request, progress)
+            taceva_check::check(&self.dataset, &request, progress)
         })?;
         let report = checked.map_err(|error| study_error(&error))?;
         let text = serde_json::to_vec(&report).map_err(value_error)?;

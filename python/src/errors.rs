@@ -6,7 +6,7 @@ use pyo3::create_exception;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 use taceva_core::ErrorKind;
-use taceva_study::StudyError;
+use taceva_evaluate::EvaluateError;
 
 create_exception!(
     taceva,
@@ -76,11 +76,11 @@ fn placed(message: String, path: Option<PathBuf>, row: Option<u64>, line: Option
 }
 
 /// `error` of a study as what a Python program catches; what stopped because Ctrl-C was pressed is a `KeyboardInterrupt`.
-pub(crate) fn study_error(error: &StudyError) -> PyErr {
+pub(crate) fn study_error(error: &EvaluateError) -> PyErr {
     match error {
         error if error.kind() == ErrorKind::Interrupted => PyKeyboardInterrupt::new_err(()),
-        StudyError::Dataset(error) => dataset_error(error),
-        StudyError::Model(error) => ModelError::new_err(error.to_string()),
+        EvaluateError::Dataset(error) => dataset_error(error),
+        EvaluateError::Model(error) => ModelError::new_err(error.to_string()),
         error => value_error(error),
     }
 }

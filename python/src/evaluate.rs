@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use taceva_models::ModelSettings;
-use taceva_study::{
-    DataPart, EvaluateRequest, FitRequest, ModelChoice, ScoreRequest, Scoring, StudyError, Work,
+use taceva_evaluate::{
+    DataPart, EvaluateError, EvaluateRequest, FitRequest, ModelChoice, ScoreRequest, Scoring, Work,
 };
+use taceva_models::ModelSettings;
 
 use crate::dataset::{Recording, jobs_of, models};
 use crate::errors::{ModelError, study_error, value_error};
@@ -94,9 +94,9 @@ pub(crate) fn evaluate_named(
             progress,
             cache: None,
         };
-        taceva_study::evaluate(&recording.dataset, &request, work)
+        taceva_evaluate::evaluate(&recording.dataset, &request, work)
     };
-    let evaluated: Result<_, StudyError> = watched::run(py, bar, work)?;
+    let evaluated: Result<_, EvaluateError> = watched::run(py, bar, work)?;
     results::sealed(&evaluated.map_err(|error| study_error(&error))?.report)
 }
 

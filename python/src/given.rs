@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
 use pyo3::prelude::*;
+use taceva_evaluate::{EvaluateError, GivenModel, GivenRequest, GivenRows, Work, feature_table};
 use taceva_models::ModelSettings;
-use taceva_study::{GivenModel, GivenRequest, GivenRows, StudyError, Work, feature_table};
 
 use crate::arrays::Table;
 use crate::buffer::{Buffer, Number};
@@ -125,7 +125,7 @@ pub(crate) fn features(
     jobs: usize,
     bar: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<(Buffer, String, [usize; 3])> {
-    let taken = watched::run(py, bar, |progress| -> Result<_, StudyError> {
+    let taken = watched::run(py, bar, |progress| -> Result<_, EvaluateError> {
         let settings = ModelSettings::parse(settings.iter().map(String::as_str))?;
         let work = Work {
             jobs: jobs_of(jobs),

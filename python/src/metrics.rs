@@ -6,8 +6,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use taceva_core::{Batch, Channel, Channels, Column, Field, FieldSet, Unit};
+use taceva_evaluate::{EvaluationReport, with_skill};
 use taceva_metrics::{Evaluator, MetricPlan, State, catalogue};
-use taceva_study::{EvaluationReport, with_skill};
 
 use crate::arrays::{Points, Table};
 use crate::errors::value_error;

@@ -38,8 +38,8 @@ pub(crate) mod sweep;
 use std::path::{Path, PathBuf};
 
 use taceva_dataset::Dataset;
+use taceva_evaluate::{DataPart, EvaluateError, FitRequest};
 use taceva_models::{ModelSettings, Models};
-use taceva_study::{DataPart, FitRequest, StudyError};
 
 use crate::args::{Output, PartArg, ScoringArgs, SettingArgs, SplitArgs};
 use crate::{exit, output};
@@ -106,8 +106,8 @@ pub(crate) fn fit_request(
     models: &Models,
 ) -> anyhow::Result<FitRequest> {
     let words = settings.set.iter().map(String::as_str);
-    let given = ModelSettings::parse(words).map_err(StudyError::from)?;
-    let (model, own) = models.asked(name, given).map_err(StudyError::from)?;
+    let given = ModelSettings::parse(words).map_err(EvaluateError::from)?;
+    let (model, own) = models.asked(name, given).map_err(EvaluateError::from)?;
     Ok(FitRequest {
         model,
         settings: own,

@@ -1,6 +1,6 @@
 //! The commands of `taceva`: how well does a vision-based tactile sensor measure?
 //!
-//! Arguments in, renderings out. The work of each command is done in `taceva-study` and `taceva-import`, which other programs can use. The
+//! Arguments in, renderings out. The work of each command is done in `taceva-study`, `taceva-evaluate` and `taceva-import`, which other programs can use. The
 //! program is [`main_if_child`] and then [`main_with`]; a program in another language that has the commands built in calls the latter alone.
 
 mod args;
@@ -23,8 +23,10 @@ use std::path::Path;
 
 use anyhow::Error;
 use clap::Parser;
+use taceva_acquire::AcquireError;
 use taceva_core::{ErrorKind, ModelError};
 use taceva_dataset::DatasetError;
+use taceva_evaluate::EvaluateError;
 use taceva_study::StudyError;
 use taceva_sweep::SweepError;
 
@@ -122,10 +124,24 @@ fn complain(error: &Error) {
 /// The folder that was named as a dataset and is none.
 fn missing_dataset(error: &Error) -> Option<&Path> {
     error.chain().find_map(|cause| {
-        let dataset = match (cause.downcast_ref(), cause.downcast_ref()) {
-            (Some(StudyError::Dataset(dataset)), _)
-            | (_, Some(SweepError::Dataset(dataset)))
-            | (_, Some(SweepError::Study(StudyError::Dataset(dataset)))) => Some(dataset),
+        let study = cause.downcast_ref::<StudyError>();
+        let sweep = cause.downcast_ref::<SweepError>();
+        let evaluated = cause.downcast_ref::<EvaluateError>();
+        let evaluated = evaluated.or(match (study, sweep) {
+            (Some(StudyError::Evaluate(error)), _) | (_, Some(SweepError::Study(error))) => {
+                Some(error)
+            }
+            _ => None,
+        });
+        let acquired = cause.downcast_ref::<AcquireError>();
+        let acquired = acquired.or(match study {
+            Some(StudyError::Acquire(error)) => Some(error),
+            _ => None,
+        });
+        let dataset = match (evaluated, acquired, sweep) {
+            (Some(EvaluateError::Dataset(dataset)), ..)
+            | (_, Some(AcquireError::Dataset(dataset)), _)
+            | (.., Some(SweepError::Dataset(dataset))) => Some(dataset),
             _ => cause.downcast_ref::<DatasetError>(),
         };
         match dataset? {
@@ -163,14 +179,8 @@ fn code_of(error: &Error) -> u8 {
         {
             return exit::USAGE;
         }
-        if let Some(study) = cause.downcast_ref::<StudyError>() {
-            return if study.is_usage() {
-                exit::USAGE
-            } else if study.is_of_device() {
-                exit::DEVICE
-            } else {
-                code_of_kind(study.kind())
-            };
+        if let Some(code) = code_of_study(cause) {
+            return code;
         }
         if let Some(dataset) = cause.downcast_ref::<DatasetError>() {
             return code_of_kind(dataset.kind());
@@ -180,6 +190,24 @@ fn code_of(error: &Error) -> u8 {
         }
     }
     exit::BAD_INPUT
+}
+
+/// The exit code of what was acquired, evaluated or both.
+fn code_of_study(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
+    let (is_usage, is_of_device, kind) = if let Some(error) = cause.downcast_ref::<EvaluateError>()
+    {
+        (error.is_usage(), false, error.kind())
+    } else if let Some(error) = cause.downcast_ref::<AcquireError>() {
+        (error.is_usage(), error.is_of_device(), error.kind())
+    } else {
+        let error = cause.downcast_ref::<StudyError>()?;
+        (error.is_usage(), error.is_of_device(), error.kind())
+    };
+    Some(match (is_usage, is_of_device) {
+        (true, _) => exit::USAGE,
+        (false, true) => exit::DEVICE,
+        (false, false) => code_of_kind(kind),
+    })
 }
 
 fn code_of_kind(kind: ErrorKind) -> u8 {

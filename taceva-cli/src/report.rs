@@ -22,9 +22,10 @@ pub(crate) mod triple;
 
 use std::io::{self, Write};
 
+use taceva_check::CheckReport;
+use taceva_evaluate::EvaluationReport;
 use taceva_report::Layout;
 use taceva_study::bench::KernelBench;
-use taceva_study::{CheckReport, EvaluationReport};
 
 use crate::args::Format;
 

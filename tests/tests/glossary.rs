@@ -52,6 +52,9 @@ const REPLACED_IN: &[(&str, &str, &[&str])] = &[(
         "taceva-models",
         "taceva-report",
         "taceva-study",
+        "taceva-acquire",
+        "taceva-check",
+        "taceva-evaluate",
     ],
 )];
 

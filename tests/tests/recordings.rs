@@ -5,9 +5,9 @@ use std::path::Path;
 
 use taceva_core::SilentProgress;
 use taceva_dataset::Dataset;
+use taceva_evaluate::{EvaluateRequest, Evaluated, FitRequest, ModelChoice, Work, evaluate};
 use taceva_import::{ImportMap, ImportPlan, ImportReport};
 use taceva_models::ModelSettings;
-use taceva_study::{EvaluateRequest, Evaluated, FitRequest, ModelChoice, Work, evaluate};
 use taceva_tests::{recording, root};
 use tempfile::TempDir;
 

@@ -4,13 +4,13 @@ use std::num::NonZeroUsize;
 
 use taceva_core::SilentProgress;
 use taceva_dataset::Dataset;
+use taceva_evaluate::{EvaluateRequest, FitRequest, ModelChoice, Work, evaluate};
 use taceva_import::{ImportMap, ImportPlan};
 use taceva_models::ModelSettings;
 use taceva_report::catalogue::Sensor;
 use taceva_report::{
     CompareRequest, Need, Report, Samples, Study, choose, compare, figures, report,
 };
-use taceva_study::{EvaluateRequest, FitRequest, ModelChoice, Work, evaluate};
 use taceva_tests::{recording, root};
 
 const WORK: Work<'_> = Work {

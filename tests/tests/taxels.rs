@@ -2,11 +2,12 @@
 
 use std::num::NonZeroUsize;
 
+use taceva_check::{CheckRequest, check};
 use taceva_core::{Field, SilentProgress};
 use taceva_dataset::Dataset;
+use taceva_evaluate::{EvaluateRequest, FitRequest, ModelChoice, Work, evaluate};
 use taceva_import::{ImportMap, ImportPlan};
 use taceva_models::{ModelSettings, Models};
-use taceva_study::{CheckRequest, EvaluateRequest, FitRequest, ModelChoice, Work, check, evaluate};
 use taceva_tests::{recording, root};
 
 const WORK: Work<'_> = Work {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::{ArgGroup, Args, Subcommand, ValueEnum};
-use taceva_study::CachedStage;
+use taceva_evaluate::CachedStage;
 
 use super::renamed::FormerDryRun;
 use super::{ExplainArgs, Output};

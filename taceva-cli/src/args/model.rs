@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::{ArgGroup, Args};
+use taceva_evaluate::Shard;
 use taceva_models::Checkpoints;
-use taceva_study::Shard;
 
 use super::{
     CacheArgs, ModelArgs, OptionalModelArgs, Output, PartArgs, ScoringArgs, SplitArgs, SplitOutArgs,

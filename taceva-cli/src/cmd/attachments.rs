@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
+use taceva_evaluate::EvaluationReport;
 use taceva_report::escape_csv;
-use taceva_study::EvaluationReport;
 
 use super::Context;
 use crate::args::ScoringArgs;

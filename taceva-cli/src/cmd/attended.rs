@@ -2,9 +2,9 @@
 
 use std::sync::{Arc, Mutex};
 
+use taceva_acquire::Viewer;
 use taceva_live::{Live, PageOperator};
 use taceva_protocol::Operator;
-use taceva_study::Viewer;
 
 use super::on_page::OnPage;
 use super::operator;

@@ -6,7 +6,7 @@ mod prune;
 
 use std::path::PathBuf;
 
-use taceva_study::Cache;
+use taceva_evaluate::Cache;
 
 use super::{Context, Usage, run::bench};
 use crate::args::{CacheArgs, CacheCommand, CacheSubject};

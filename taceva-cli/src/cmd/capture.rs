@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use taceva_core::{Axis, shown};
-use taceva_dataset::{Header, SensorFacts};
-use taceva_study::{
+use taceva_acquire::{
     CaptureRequest, CaptureStage, CaptureState, Captured, LiveDevices, LiveSpec, capture,
     close_capture,
 };
+use taceva_core::{Axis, shown};
+use taceva_dataset::{Header, SensorFacts};
 
 use super::Context;
 use crate::args::{Capture, LiveArgs};

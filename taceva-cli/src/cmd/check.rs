@@ -1,8 +1,8 @@
 //! `taceva check`.
 
+use taceva_check::{CheckRequest, Severity, check, check_plan};
 use taceva_core::shown;
 use taceva_dataset::Dataset;
-use taceva_study::{CheckRequest, Severity, check, check_plan};
 
 use super::{Context, Usage, open};
 use crate::args::{Check, Format};

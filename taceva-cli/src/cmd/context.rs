@@ -2,7 +2,7 @@
 
 use std::num::NonZeroUsize;
 
-use taceva_study::{Cache, Plan, StudyError, Work};
+use taceva_evaluate::{Cache, EvaluateError, Plan, Work};
 
 use crate::args::{Everywhere, PluginArgs};
 use crate::progress::TerminalProgress;
@@ -58,7 +58,7 @@ impl Context {
     /// Prints the plan of a command if `-v` is given.
     pub(crate) fn print_plan(
         &self,
-        plan: impl FnOnce() -> Result<Plan, StudyError>,
+        plan: impl FnOnce() -> Result<Plan, EvaluateError>,
     ) -> anyhow::Result<()> {
         if self.verbose {
             stderr::write(&plan()?.to_string());

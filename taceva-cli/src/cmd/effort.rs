@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use taceva_dataset::Dataset;
-use taceva_study::{Cache, Effort};
+use taceva_evaluate::{Cache, Effort};
 
 use super::Context;
 use super::cache::amount::bytes;

@@ -1,7 +1,7 @@
 //! `taceva evaluate`.
 
 use taceva_dataset::SensorFile;
-use taceva_study::{DataPart, Effort, EvaluateRequest, ModelChoice, evaluate, evaluate_plan};
+use taceva_evaluate::{DataPart, Effort, EvaluateRequest, ModelChoice, evaluate, evaluate_plan};
 
 use super::{Context, Usage, cache, effort, fit_request, open_all};
 use crate::args::Evaluate;

@@ -5,8 +5,8 @@ use std::time::Duration;
 use taceva_core::shown;
 
 use anyhow::Context as _;
+use taceva_evaluate::{Effort, Fitted, fit};
 use taceva_models::{Checkpoints, Foreign};
-use taceva_study::{Effort, Fitted, fit};
 
 use super::{Context, cache, effort, fit_request, open_all};
 use crate::args::Fit;

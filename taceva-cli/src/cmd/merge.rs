@@ -8,7 +8,7 @@ pub(crate) fn run(args: &Merge, _context: &Context) -> anyhow::Result<u8> {
     for path in args.output.path.iter().chain(&args.state_out) {
         output::check_free(path, args.output.force)?;
     }
-    let (report, state) = taceva_study::merge(&args.states)?;
+    let (report, state) = taceva_evaluate::merge(&args.states)?;
     output::write_as(args.output.format, args.output.path.as_deref(), |out| {
         report::evaluation(&report, args.output.format, out)
     })?;

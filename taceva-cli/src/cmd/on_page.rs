@@ -4,11 +4,11 @@ use std::collections::HashMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use taceva_acquire::Viewer;
 use taceva_core::{Frame, Nanometre, Pose, PressOutcome, Wrench};
 use taceva_dataset::StreamFacts;
 use taceva_live::{Limits, Live, Page, Place, PlaceState};
 use taceva_protocol::{ContentId, Event, Plan};
-use taceva_study::Viewer;
 
 use crate::progress;
 

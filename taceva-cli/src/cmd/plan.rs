@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use taceva_acquire::PlannedScene;
 use taceva_drivers::{Drivers, Selector};
 use taceva_host::PluginHost;
-use taceva_study::PlannedScene;
 
 use super::{Context, scene};
 use crate::args::PlanArgs;

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use taceva_core::shown;
 
-use taceva_study::{DataPart, predict};
+use taceva_evaluate::{DataPart, predict};
 
 use super::{Context, Usage, cache, open_all};
 use crate::args::Predict;

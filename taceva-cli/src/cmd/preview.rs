@@ -1,8 +1,8 @@
 //! `taceva preview`.
 
+use taceva_acquire::preview;
 use taceva_core::Axis;
 use taceva_live::Limits;
-use taceva_study::preview;
 
 use super::Context;
 use super::capture::open;

@@ -6,8 +6,8 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use anyhow::{Context as _, bail};
 use taceva_dataset::Dataset;
+use taceva_evaluate::StateFile;
 use taceva_report::Study;
-use taceva_study::StateFile;
 
 use super::{Context, Usage};
 use crate::args::Reseal;

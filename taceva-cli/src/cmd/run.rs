@@ -7,13 +7,12 @@ use std::path::{Path, PathBuf};
 use taceva_core::shown;
 
 use anyhow::Context as _;
+use taceva_acquire::{AIR_MM, PlannedScene, Workshop, rehearse_scene};
 use taceva_drivers::Drivers;
+use taceva_evaluate::EvaluationReport;
 use taceva_models::Models;
 use taceva_report::escape_csv;
-use taceva_study::{
-    AIR_MM, EvaluationReport, Existing, PlannedScene, RunFolder, Workshop, rehearse_scene,
-    run_scene,
-};
+use taceva_study::{Existing, RunFolder, RunSetup, check_models, run_scene};
 
 use super::attended::Attended;
 use super::{Context, Usage, cache, scene};
@@ -30,7 +29,7 @@ const RESULTS: &str = "results.json";
 pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     let (drivers, models) = context.equipment(Path::new(&args.scene.scene))?;
     let planned = scene::to_run(args, &drivers)?;
-    planned.check_models(&models)?;
+    check_models(&planned, &models)?;
     let attended = Attended::open(args, &planned.scene.name)?;
     if attended.operator().is_none() {
         planned.check_unattended(&drivers)?;
@@ -43,7 +42,7 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
         )));
     }
     if args.air {
-        return rehearse(&planned, (&drivers, &models), &attended, context);
+        return rehearse(&planned, &drivers, &attended, context);
     }
     let existing = match (args.resume, args.force) {
         (true, _) => Existing::Resume,
@@ -62,14 +61,18 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     let cache = cache::of(&args.cache);
     let workshop = Workshop {
         drivers: &drivers,
-        models: &models,
         surroundings: &bench::surroundings,
-        cache: cache.as_ref(),
         progress: &context.progress,
         operator: attended.operator(),
         viewer: attended.viewer(),
     };
-    let reports = run_scene(&planned, &folder, workshop, context.jobs);
+    let setup = RunSetup {
+        workshop,
+        models: &models,
+        cache: cache.as_ref(),
+        jobs: context.jobs,
+    };
+    let reports = run_scene(&planned, &folder, setup);
     attended.ended(&match &reports {
         Ok(_) => "finished: its report is being written".to_owned(),
         Err(_) if progress::is_stopped() => "stopped; the terminal says how to go on".to_owned(),
@@ -115,7 +118,7 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
 /// `taceva run --air`.
 fn rehearse(
     planned: &PlannedScene,
-    (drivers, models): (&Drivers, &Models),
+    drivers: &Drivers,
     attended: &Attended,
     context: &Context,
 ) -> anyhow::Result<u8> {
@@ -123,9 +126,7 @@ fn rehearse(
     let _held = planned.hold_rigs()?;
     let workshop = Workshop {
         drivers,
-        models,
         surroundings: &bench::surroundings,
-        cache: None,
         progress: &context.progress,
         operator: attended.operator(),
         viewer: attended.viewer(),

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
+use taceva_acquire::{Overrides, PlannedScene, SceneText};
 use taceva_core::shown;
 use taceva_drivers::Drivers;
 use taceva_protocol::BuiltinScene;
-use taceva_study::{Instead, PlannedScene, SceneText};
 
 use super::{Context, Usage};
 use crate::args::{Run, SceneArgs};
@@ -13,17 +13,17 @@ use crate::disk_space::{self, Need};
 
 /// The scene of `args`, planned with `drivers`.
 pub(super) fn planned(args: &SceneArgs, drivers: &Drivers) -> anyhow::Result<PlannedScene> {
-    let instead = Instead {
+    let instead = Overrides {
         seed: args.seed,
         rig: args.rig.clone(),
-        ..Instead::default()
+        ..Overrides::default()
     };
     Ok(PlannedScene::with(text(&args.scene)?, drivers, &instead)?)
 }
 
 /// The scene of a run, with its overrides.
 pub(super) fn to_run(args: &Run, drivers: &Drivers) -> anyhow::Result<PlannedScene> {
-    let instead = Instead {
+    let instead = Overrides {
         seed: args.scene.seed,
         rig: args.scene.rig.clone(),
         model: args.model.clone(),

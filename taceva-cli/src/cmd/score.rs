@@ -2,7 +2,7 @@
 
 use anyhow::Context as _;
 use taceva_core::{SourceUnit, Unit};
-use taceva_study::{ScoreRequest, ScoreTables, Scored, Scoring, Shard, score_in_one_pass};
+use taceva_evaluate::{ScoreRequest, ScoreTables, Scored, Scoring, Shard, score_in_one_pass};
 
 use super::{Context, Usage};
 use crate::args::Score;

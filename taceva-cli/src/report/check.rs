@@ -2,8 +2,8 @@
 
 use std::io::{self, Write};
 
+use taceva_check::{CheckReport, Finding};
 use taceva_report::Table;
-use taceva_study::{CheckReport, Finding};
 
 pub(super) fn text(report: &CheckReport, out: &mut dyn Write) -> io::Result<()> {
     let count = |severity: &str| {

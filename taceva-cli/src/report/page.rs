@@ -8,10 +8,10 @@ use taceva_core::shown;
 
 use anyhow::Context as _;
 use taceva_dataset::Dataset;
+use taceva_evaluate::EvaluationReport;
 use taceva_report::{
     Layout, Picture, Report, Samples, ScoreTable, Study, Triple, escape_csv, figures, picks,
 };
-use taceva_study::EvaluationReport;
 
 use crate::cmd::Context;
 use crate::output;
@@ -46,7 +46,7 @@ impl Page {
     fn take_pictures(&mut self, at: usize, report: &EvaluationReport) -> anyhow::Result<()> {
         let samples = report.samples.as_ref();
         let Some(paths) = samples
-            .map(taceva_study::Samples::recordings)
+            .map(taceva_evaluate::Samples::recordings)
             .filter(|paths| !paths.is_empty())
         else {
             return Ok(());

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use taceva_study::PlannedScene;
+use taceva_acquire::PlannedScene;
 
 use super::json;
 use crate::args::ListFormat;

@@ -3,9 +3,9 @@
 use std::io::{self, Write};
 
 use taceva_core::PressOutcome;
+use taceva_evaluate::EvaluationReport;
 use taceva_metrics::{Better, catalogue};
 use taceva_report::{Align, Column, Study, Table, escape_terminal, short_digests};
-use taceva_study::EvaluationReport;
 
 use super::line::{Line, lines, standings};
 use super::number::formatted;

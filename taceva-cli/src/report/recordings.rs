@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
+use taceva_evaluate::EvaluationReport;
 use taceva_report::{Align, Column, Table, escape_terminal};
-use taceva_study::EvaluationReport;
 
 use super::line::read_lines;
 use super::number::formatted;

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use serde::Serialize;
-use taceva_study::{RigCheck, RigTap, Stream};
+use taceva_acquire::{RigCheck, RigTap, Stream};
 
 use crate::args::ListFormat;
 

@@ -2,12 +2,12 @@
 
 use std::collections::BTreeSet;
 
+use taceva_evaluate::EvaluationReport;
 use taceva_metrics::Interval;
 use taceva_report::{
     Align, Cell, Column, Estimate, FormattedValue, Table, Words, escape_markdown, latex_symbol,
     short_digests,
 };
-use taceva_study::EvaluationReport;
 
 use super::line::{Line, lines, read_lines, standings};
 use super::number::{formatted, no_interval, reason};

@@ -3,9 +3,9 @@
 use std::io::{self, Write};
 
 use taceva_core::{Limit, PressOutcome};
+use taceva_evaluate::EvaluationReport;
 use taceva_metrics::Better;
 use taceva_report::{Align, Column, Table, escape_terminal, short_digests};
-use taceva_study::EvaluationReport;
 
 use super::line::{Line, flags, pictures, read_lines, standings};
 use super::number::formatted;

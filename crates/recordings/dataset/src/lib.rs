@@ -10,6 +10,7 @@ mod digest;
 mod encode;
 mod error;
 mod file;
+mod frame_retries;
 mod guard;
 mod header;
 mod held;
@@ -28,6 +29,7 @@ mod replaced;
 mod samples;
 mod scaled;
 mod sensor_file;
+mod session_table;
 mod signals;
 #[doc(hidden)]
 pub mod staged;
@@ -43,6 +45,7 @@ pub use dataset::{Dataset, JoinedRecording, Pass, StreamReport};
 pub use decode::ChannelOrder;
 pub use digest::{Digest, DigestError};
 pub use error::{DatasetError, Place};
+pub use frame_retries::{add_frame_retries, frame_retries};
 pub use header::reseal_header;
 pub use header::{
     Extension, Footprint, FrameCodec, FramesInfo, Header, Known, LeftOut, MappedClass,
@@ -55,6 +58,7 @@ pub use recorder::{Recorder, RecordingSpec, Streamed};
 pub use replaced::settle;
 pub use scaled::DecodeScale;
 pub use sensor_file::SensorFile;
+pub use session_table::{RecordedSessions, Session, SessionTable};
 pub use signals::{SignalsInfo, SignalsSpec};
 pub use table::{FrameEntry, Row, Table};
 pub use toml_file::read_toml;

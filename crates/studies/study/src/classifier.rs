@@ -5,8 +5,9 @@ use taceva_models::{
 };
 use taceva_protocol::{GratingClassifier, Gratings};
 
-use crate::error::StudyError;
-use crate::scene::settings_of;
+use taceva_evaluate::EvaluateError;
+
+use crate::settings::settings_of;
 
 /// A classifier of the spacings of gratings.
 #[derive(Debug)]
@@ -39,8 +40,8 @@ impl SpacingClassifier {
     /// The classifier that `spec` asks for.
     ///
     /// # Errors
-    /// [`StudyError`] for a setting that it does not take, or a model that is not among `models`.
-    pub(crate) fn of(spec: &Gratings, models: &Models) -> Result<SpacingClassifier, StudyError> {
+    /// [`EvaluateError`] for a setting that it does not take, or a model that is not among `models`.
+    pub(crate) fn of(spec: &Gratings, models: &Models) -> Result<SpacingClassifier, EvaluateError> {
         let settings = settings_of(&spec.set.value)?;
         let output = match spec.classified_by.value {
             GratingClassifier::Spectrum => {

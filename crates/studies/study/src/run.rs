@@ -7,46 +7,56 @@ use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
+use taceva_acquire::{AcquireError, PlannedScene, PlannedStudy, Workshop};
 use taceva_dataset::Dataset;
+use taceva_evaluate::{Cache, CachedStage, EvaluationReport, Key, StudyCache, Work};
+use taceva_models::Models;
 use taceva_protocol::{Cancel, StopCause};
 
-use crate::acquire::{Workshop, acquire, key};
-use crate::cache::StudyCache;
 use crate::error::StudyError;
-use crate::report::EvaluationReport;
-use crate::scene::{PlannedScene, PlannedStudy, StudySource};
+use crate::models::check_models;
 use crate::stage::{RunContext, assess};
-use crate::work::Work;
 pub use folder::{Existing, RunFolder};
-pub(crate) use layout::{PLANS, RECORDINGS};
+
+/// The means of a run: the workshop that presses, models, a cache and threads.
+#[derive(Clone, Copy)]
+pub struct RunSetup<'a> {
+    /// The devices, and who looks on.
+    pub workshop: Workshop<'a>,
+    /// The models of the program.
+    pub models: &'a Models,
+    /// The place where finished stages are found and kept, if anywhere.
+    pub cache: Option<&'a Cache>,
+    /// Threads.
+    pub jobs: NonZeroUsize,
+}
 
 /// The reports of the studies of `scene`, in order; what is acquired is recorded in `folder`, several studies at a time.
 ///
 /// Reports do not depend on `jobs`, nor on how often the run was interrupted and gone on with, nor on what was found in a cache.
 ///
 /// # Errors
-/// [`StudyError::Open`] and [`StudyError::Acquisition`] if a device failed or somebody wished to stop: the same call with the same folder
-/// goes on. [`StudyError::Scene`] for a model that this program does not have; others as [`evaluate`](crate::evaluate).
+/// [`AcquireError::Open`] and [`AcquireError::Acquisition`] if a device failed or somebody wished to stop: the same call with the same folder
+/// goes on. [`AcquireError::Scene`] for a model that this program does not have; others as [`evaluate`](taceva_evaluate::evaluate).
 pub fn run_scene(
     scene: &PlannedScene,
     folder: &RunFolder,
-    workshop: Workshop<'_>,
-    jobs: NonZeroUsize,
+    setup: RunSetup<'_>,
 ) -> Result<Vec<EvaluationReport>, StudyError> {
-    scene.check_models(workshop.models)?;
-    let datasets = acquire_scene(scene, folder, workshop, jobs)?;
+    check_models(scene, setup.models)?;
+    let datasets = acquire_scene(scene, folder, setup)?;
     let work = Work {
-        jobs,
-        progress: workshop.progress,
+        jobs: setup.jobs,
+        progress: setup.workshop.progress,
         // Beside models and predictions, so that another setting of the model decodes no frame again.
-        cache: workshop.cache,
+        cache: setup.cache,
     };
     let studies = scene.studies.iter().zip(&datasets);
     let assessed = studies.enumerate().map(|(number, (study, dataset))| {
         let context = RunContext {
             work,
-            cache: workshop.cache_of(study, number),
-            models: workshop.models,
+            cache: setup.cache_of(study, number),
+            models: setup.models,
             checkpoint: &folder.checkpoint(number, &study.plan.name),
         };
         assess(scene, study, dataset, context)
@@ -59,14 +69,14 @@ pub fn run_scene(
 /// take turns on them.
 ///
 /// # Errors
-/// [`StudyError::Open`] and [`StudyError::Acquisition`] as [`run_scene`]; [`StudyError::Request`] for a scene that needs hands where nobody can
-/// be asked; [`StudyError::Dataset`] if it cannot be recorded.
+/// [`AcquireError::Open`] and [`AcquireError::Acquisition`] as [`run_scene`]; [`AcquireError::Request`] for a scene that needs hands where nobody can
+/// be asked; [`AcquireError::Dataset`] if it cannot be recorded.
 pub fn acquire_scene(
     scene: &PlannedScene,
     folder: &RunFolder,
-    workshop: Workshop<'_>,
-    jobs: NonZeroUsize,
+    setup: RunSetup<'_>,
 ) -> Result<Vec<Dataset>, StudyError> {
+    let workshop = setup.workshop;
     if workshop.operator.is_none() {
         scene.check_unattended(workshop.drivers)?;
     }
@@ -77,13 +87,10 @@ pub fn acquire_scene(
     let next = AtomicUsize::new(0);
     let done: Mutex<Vec<Option<Result<Dataset, StudyError>>>> =
         Mutex::new(studies.iter().map(|_| None).collect());
-    let is_real = |study: &PlannedStudy| match &study.source {
-        StudySource::Rig(rig) => !rig.is_only_simulated(workshop.drivers),
-        StudySource::Recording(_) => false,
-    };
-    let workers = match studies.iter().any(is_real) {
+    let mut all = studies.iter();
+    let workers = match all.any(|study| study.is_real(workshop.drivers)) {
         true => 1,
-        false => jobs.get().min(studies.len()),
+        false => setup.jobs.get().min(studies.len()),
     };
     std::thread::scope(|scope| {
         for _ in 0..workers {
@@ -93,7 +100,7 @@ pub fn acquire_scene(
                     let Some(study) = studies.get(number) else {
                         return;
                     };
-                    let dataset = obtain(study, number, folder, (workshop, &cancel));
+                    let dataset = obtain(study, number, folder, setup, &cancel);
                     if dataset.is_err() {
                         // The others stop at their next motion: nobody waits hours to read of a failure.
                         cancel.cancel();
@@ -117,32 +124,34 @@ fn obtain(
     study: &PlannedStudy,
     number: usize,
     folder: &RunFolder,
-    (workshop, cancel): (Workshop<'_>, &Cancel),
+    setup: RunSetup<'_>,
+    cancel: &Cancel,
 ) -> Result<Dataset, StudyError> {
-    match &study.source {
-        StudySource::Rig(rig) => {
-            let path = folder.recording(number, &study.plan.name);
-            let press = || acquire(study, rig, &path, (workshop, cancel));
-            // A real rig is never replayed, and has no key.
-            let key = workshop
-                .cache
-                .and_then(|cache| key(study, rig, (workshop.drivers, cache)));
-            let Some(key) = key else {
-                return press();
-            };
-            let cache = workshop.cache_of(study, number);
-            let (dataset, is_found) = cache.recording(&key, &path, press)?;
-            if is_found {
-                let presses = study.plan.presses.len();
-                workshop.progress.advance(presses as u64);
-            }
-            Ok(dataset)
-        }
-        StudySource::Recording(path) => Ok(Dataset::open(path)?),
+    let workshop = setup.workshop;
+    let path = folder.recording(number, &study.plan.name);
+    let press = || Ok(study.acquire(&path, workshop, cancel)?);
+    let key = setup.cache.and_then(|cache| {
+        let parts = study.content_key(workshop.drivers)?;
+        let key = Key::of(CachedStage::Acquire).part("models", cache.models());
+        let key = parts
+            .iter()
+            .fold(key, |key, (name, part)| key.part(name, part));
+        Some(key.finish())
+    });
+    // A real rig is never replayed, and has no key.
+    let Some(key) = key else {
+        return press();
+    };
+    let cache = setup.cache_of(study, number);
+    let (dataset, is_found) = cache.recording(&key, &path, press)?;
+    if is_found {
+        let presses = study.plan.presses.len();
+        workshop.progress.advance(presses as u64);
     }
+    Ok(dataset)
 }
 
-impl<'a> Workshop<'a> {
+impl<'a> RunSetup<'a> {
     /// The cache as study `number`, counted from 0, uses it.
     fn cache_of(self, study: &'a PlannedStudy, number: usize) -> StudyCache<'a> {
         StudyCache {
@@ -154,5 +163,5 @@ impl<'a> Workshop<'a> {
 }
 
 fn is_cancelled(error: &StudyError) -> bool {
-    matches!(error, StudyError::Acquisition { source, .. } if matches!(source.cause, StopCause::Cancelled))
+    matches!(error, StudyError::Acquire(AcquireError::Acquisition { source, .. }) if matches!(source.cause, StopCause::Cancelled))
 }

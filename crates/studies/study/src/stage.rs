@@ -5,26 +5,27 @@ mod gratings;
 mod phase_rows;
 mod score;
 
-use taceva_dataset::Dataset;
+use taceva_dataset::{Dataset, RecordedSessions, frame_retries};
 use taceva_metrics::Evaluation;
 use taceva_models::{Checkpoints, Model};
 use taceva_protocol::PhaseKind;
 
-use crate::acquire::{retried, sessions};
-use crate::cache::{CachedStage, Key};
-use crate::calibration::calibration_note;
-use crate::error::StudyError;
-use crate::fit::{FitPlan, FitRequest, Recipe};
-use crate::over_seeds::OverSeeds;
-use crate::predict::{self, Predicted, Predictor, Target};
-use crate::provenance::{ModelProvenance, Provenance, chosen_notes};
-use crate::recordings;
-use crate::report::EvaluationReport;
-use crate::rows::{DataPart, Divided, Need, usable};
-use crate::samples::Samples;
-use crate::scene::{PlannedScene, PlannedStudy};
-use crate::subject::Subject;
+use taceva_acquire::{PlannedScene, PlannedStudy};
+use taceva_evaluate::EvaluateError;
+use taceva_evaluate::EvaluationReport;
+use taceva_evaluate::OverSeeds;
+use taceva_evaluate::Samples;
+use taceva_evaluate::Subject;
+use taceva_evaluate::calibration_note;
+use taceva_evaluate::reduced_notes;
+use taceva_evaluate::{CachedStage, Key};
+use taceva_evaluate::{DataPart, Divided, Need, usable};
+use taceva_evaluate::{FitPlan, FitRequest, Recipe};
+use taceva_evaluate::{ModelProvenance, Provenance, chosen_notes};
+use taceva_evaluate::{Predicted, Predictor, Target, predicted_numbers, predicted_table};
 
+use crate::error::StudyError;
+use crate::models::{classifier, fit_request, model_file};
 pub(crate) use context::RunContext;
 use gratings::PredictedSpacings;
 use phase_rows::{PhaseRows, seen};
@@ -44,7 +45,7 @@ pub(crate) fn assess(
         .as_ref()
         .map(|learnt| learnt.predict(study, dataset, &phase_rows, context))
         .transpose()?;
-    let classifier = scene.classifier(context.models)?;
+    let classifier = classifier(scene, context.models)?;
     let spacings = phase_rows
         .reads_spacings()
         .then(|| {
@@ -82,9 +83,14 @@ pub(crate) fn assess(
     });
     notes.extend(spacings.as_ref().map(|_| classifier.note().to_owned()));
     notes.extend(phase_rows.shortfall());
-    notes.extend(recordings::reduced_notes(dataset));
-    notes.extend(sessions::note(dataset.path()));
-    notes.extend(retried::note(dataset.path()));
+    notes.extend(reduced_notes(dataset));
+    notes.extend(RecordedSessions::of(dataset.path()).map(|sessions| sessions.note));
+    let retried = frame_retries(dataset.path());
+    notes.extend((retried > 0).then(|| {
+        format!(
+            "{retried} frames were lost, damaged or older than their contact, and were taken again"
+        )
+    }));
     if let Some((predicted, rows)) = &predicted {
         notes.extend(predicted.bounded_note());
         let calibration = phase_rows.rows(PhaseKind::Calibration);
@@ -141,22 +147,22 @@ impl Learnt {
         phase_rows: &PhaseRows<'_>,
         context: RunContext<'_>,
         seed: Option<u64>,
-    ) -> Result<Option<Learnt>, StudyError> {
+    ) -> Result<Option<Learnt>, EvaluateError> {
         if !phase_rows.reads_predictions() {
             return Ok(None);
         }
-        if let Some(file) = study.model_file() {
+        if let Some(file) = model_file(study) {
             let model = context
                 .models
                 .open(&scene.text.folder.join(file))
-                .map_err(|error| StudyError::Request(error.to_string()))?;
+                .map_err(|error| EvaluateError::Request(error.to_string()))?;
             return Ok(Some(Learnt {
                 divided: Divided::by_model(dataset, &model)?,
                 model,
                 frames_decoded: 0,
             }));
         }
-        let Some(request) = study.fit_request(scene.scene.seed, context.models) else {
+        let Some(request) = fit_request(study, scene.scene.seed, context.models) else {
             return Ok(None);
         };
         let mut request = FitRequest {
@@ -181,7 +187,7 @@ impl Learnt {
         let frames_decoded = plan.frames_to_decode();
         let model = context
             .cache
-            .value(&key, || Ok(plan.run(context.work)?.model))?;
+            .value(&key, || plan.run(context.work).map(|fitted| fitted.model))?;
         Ok(Some(Learnt {
             model,
             divided: Some(divided),
@@ -196,7 +202,7 @@ impl Learnt {
         dataset: &Dataset,
         phase_rows: &PhaseRows<'_>,
         RunContext { work, cache, .. }: RunContext<'_>,
-    ) -> Result<(Predicted, Vec<usize>), StudyError> {
+    ) -> Result<(Predicted, Vec<usize>), EvaluateError> {
         let seen = self.divided.as_ref().map_or_else(Vec::new, seen);
         let phases = phase_rows.predicted_phases();
         let mut rows: Vec<usize> = phases
@@ -212,7 +218,7 @@ impl Learnt {
         };
         let usable = usable(dataset, &rows, need);
         if usable.is_empty() {
-            return Err(StudyError::Request(format!(
+            return Err(EvaluateError::Request(format!(
                 "study `{}` has no sample that could be predicted",
                 study.plan.name
             )));
@@ -229,9 +235,9 @@ impl Learnt {
             .whole("rows", &target.rows)
             .finish();
         let numbers = cache.value(&key, || {
-            predict::numbers(dataset, &self.model, &target, work)
+            predicted_numbers(dataset, &self.model, &target, work)
         })?;
-        let predicted = predict::table(dataset, Predictor::of(&self.model), &target, &numbers)?;
+        let predicted = predicted_table(dataset, Predictor::of(&self.model), &target, &numbers)?;
         Ok((predicted, target.rows))
     }
 }

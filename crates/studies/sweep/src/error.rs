@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use taceva_core::shown;
 use taceva_dataset::DatasetError;
-use taceva_study::StudyError;
+use taceva_evaluate::EvaluateError;
 use taceva_tables::TableError;
 
 /// Why a sweep cannot be planned, carried out or collected.
@@ -17,7 +17,7 @@ pub enum SweepError {
     Dataset(#[from] DatasetError),
     /// A model, a setting or a metric that does not exist.
     #[error(transparent)]
-    Study(#[from] StudyError),
+    Study(#[from] EvaluateError),
     /// A file of a sweep that parses and cannot be meant.
     #[error("{}{}: {problem}", shown(path), line.map_or_else(String::new, |line| format!(", line {line}")))]
     Meaning {

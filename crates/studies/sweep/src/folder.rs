@@ -137,5 +137,8 @@ impl SweepFolder {
 /// A name in the same folder that no other thread, process or machine uses.
 pub(crate) fn beside(path: &Path) -> PathBuf {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    path.with_file_name(format!(".{name}.{}.partial", taceva_study::unique_name()))
+    path.with_file_name(format!(
+        ".{name}.{}.partial",
+        taceva_evaluate::unique_name()
+    ))
 }

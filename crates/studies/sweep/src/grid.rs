@@ -7,9 +7,9 @@ mod recordings;
 mod shards;
 
 use taceva_dataset::{Digest, SensorFile};
+use taceva_evaluate::EvaluateError;
 use taceva_metrics::catalogue;
 use taceva_models::Models;
-use taceva_study::StudyError;
 
 use crate::error::SweepError;
 use crate::file::SweepFile;
@@ -46,7 +46,7 @@ impl Grid {
         models: &Models,
     ) -> Result<Grid, SweepError> {
         let metrics = file.metrics.iter().map(String::as_str);
-        let known = catalogue::select(metrics).map_err(StudyError::from);
+        let known = catalogue::select(metrics).map_err(EvaluateError::from);
         if let Some(tables) = &file.tables {
             known?;
             return shards::grid(file, tables);

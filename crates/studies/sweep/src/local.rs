@@ -8,8 +8,8 @@ use std::num::NonZeroUsize;
 use std::sync::{Mutex, PoisonError};
 
 use taceva_core::Progress;
+use taceva_evaluate::Cache;
 use taceva_models::Models;
-use taceva_study::Cache;
 
 use crate::error::SweepError;
 use crate::failure::Failure;

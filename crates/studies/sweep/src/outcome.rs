@@ -5,11 +5,11 @@ mod shard;
 
 use taceva_core::{ErrorKind, shown};
 use taceva_dataset::{Digest, SensorFile};
+use taceva_evaluate::{
+    EvaluateError, EvaluateRequest, EvaluationReport, ModelChoice, Work, evaluate, fit,
+};
 use taceva_models::{ChosenBy, Model, Models};
 use taceva_report::Study;
-use taceva_study::{
-    EvaluateRequest, EvaluationReport, ModelChoice, StudyError, Work, evaluate, fit,
-};
 
 use crate::error::SweepError;
 use crate::folder::SweepFolder;
@@ -81,7 +81,7 @@ pub(crate) fn carry_out(task: &Task, common: Common<'_>, work: Work<'_>) -> Resu
     };
     let mut result = TaskResult::new(task.key.clone());
     let model = fitted.model;
-    result.model_digest = model.digest().map_err(StudyError::from)?;
+    result.model_digest = model.digest().map_err(EvaluateError::from)?;
     (result.chosen_by, result.validation) = validation(&model);
     let mut evaluated = evaluate(&dataset, &asked(model), work)?;
     evaluated.report.provenance.frames_decoded += fitted.frames_decoded;

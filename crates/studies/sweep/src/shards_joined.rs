@@ -53,7 +53,7 @@ pub(crate) fn join(
         .iter()
         .map(|task| folder.result(&task.key))
         .collect();
-    let (report, state) = taceva_study::merge(&states)?;
+    let (report, state) = taceva_evaluate::merge(&states)?;
     let [truth, prediction] = planned.digests().map(|digest| digest.to_string());
     let tables = &report.provenance.tables;
     let is_same = |role: &str, digest: &String| tables.get(role) == Some(digest);

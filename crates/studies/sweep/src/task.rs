@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
+use taceva_evaluate::{EvaluateError, FitRequest};
 use taceva_models::{ModelSettings, Models};
-use taceva_study::{FitRequest, StudyError};
 
 use crate::folder::SweepFolder;
 use crate::key::TaskKey;
@@ -83,8 +83,8 @@ impl Task {
     /// What is to be fitted.
     ///
     /// # Errors
-    /// [`StudyError`] for a model that does not exist or a setting that it does not have.
-    pub(crate) fn request(&self, models: &Models) -> Result<FitRequest, StudyError> {
+    /// [`EvaluateError`] for a model that does not exist or a setting that it does not have.
+    pub(crate) fn request(&self, models: &Models) -> Result<FitRequest, EvaluateError> {
         const SEED: &str = "seed";
         let model = models.find(&self.model)?;
         let settings = self.settings.iter();

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use taceva_dataset::Dataset;
+use taceva_evaluate::FitRequest;
 use taceva_import::write_as_jpeg;
 use taceva_report::{DecodeBench, DecodeRow, ScaledError, decode_bench};
-use taceva_study::FitRequest;
 use taceva_study::bench::{DecodeTrial, DecodeTrials, ErrorChange, TrialError, decode};
 
 use super::super::{Context, open, results};

@@ -3,13 +3,13 @@
 use std::path::Path;
 
 use taceva_dataset::Dataset;
+use taceva_evaluate::{EvaluateError, FitRequest, Subject};
 use taceva_metrics::Isa;
 use taceva_models::{ModelSettings, Models};
 use taceva_report::{
     BenchMachine, BenchRecording, ChannelError, ModelBench, ModelRow, model_bench,
 };
 use taceva_study::bench::{Machine, ModelRace, ModelTrial, ModelTrials, TrialError, models};
-use taceva_study::{FitRequest, StudyError, Subject};
 
 use super::super::{Context, open, results};
 use super::pressed::Pressed;
@@ -92,8 +92,8 @@ fn requests(args: &BenchModels, known: &Models) -> anyhow::Result<Vec<FitRequest
 pub(super) fn request(word: &str, split: &SplitArgs, known: &Models) -> anyhow::Result<FitRequest> {
     let (name, settings) = word.split_once(':').unwrap_or((word, ""));
     let settings = settings.split(',').filter(|setting| !setting.is_empty());
-    let given = ModelSettings::parse(settings).map_err(StudyError::from)?;
-    let (model, settings) = known.asked(name, given).map_err(StudyError::from)?;
+    let given = ModelSettings::parse(settings).map_err(EvaluateError::from)?;
+    let (model, settings) = known.asked(name, given).map_err(EvaluateError::from)?;
     Ok(FitRequest {
         model,
         settings,

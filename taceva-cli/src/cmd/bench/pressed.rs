@@ -3,9 +3,10 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use taceva_acquire::{PlannedScene, SceneText, Workshop};
 use taceva_dataset::Dataset;
 use taceva_models::Models;
-use taceva_study::{Existing, PlannedScene, RunFolder, SceneText, Workshop, run_scene};
+use taceva_study::{Existing, RunFolder, RunSetup, run_scene};
 
 use super::super::Context;
 use super::super::run::bench::surroundings;
@@ -79,14 +80,18 @@ impl Pressed {
         let run = RunFolder::open(&folder.0, &planned, Existing::Refuse)?;
         let workshop = Workshop {
             drivers: &drivers,
-            models,
             surroundings: &surroundings,
-            cache: None,
             progress: &context.progress,
             operator: None,
             viewer: None,
         };
-        run_scene(&planned, &run, workshop, context.jobs)?;
+        let setup = RunSetup {
+            workshop,
+            models,
+            cache: None,
+            jobs: context.jobs,
+        };
+        run_scene(&planned, &run, setup)?;
         let study = &planned.studies[0].plan.name;
         Ok(Pressed {
             dataset: Dataset::open(&run.recording(0, study))?,

@@ -7,8 +7,8 @@ use std::time::{Duration, SystemTime};
 
 use anyhow::Context as _;
 use serde_json::{Value, json};
+use taceva_evaluate::{CacheEntry, cache_entries};
 use taceva_report::Table;
-use taceva_study::{CacheEntry, cache_entries};
 
 use super::amount::{age, bytes};
 use crate::args::CacheList;

@@ -3,7 +3,7 @@
 use std::time::SystemTime;
 
 use anyhow::Context as _;
-use taceva_study::{Pruning, cache_entries, pruned, remove_entry};
+use taceva_evaluate::{Pruning, cache_entries, pruned, remove_entry};
 
 use super::amount::bytes;
 use crate::args::CachePrune;

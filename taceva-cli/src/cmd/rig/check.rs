@@ -1,8 +1,8 @@
 //! `taceva rig check`.
 
+use taceva_acquire::{HeldRigs, check_rig, read_rig};
 use taceva_drivers::Drivers;
 use taceva_protocol::Operator;
-use taceva_study::{HeldRigs, check_rig, read_rig};
 
 use crate::args::RigCheckArgs;
 use crate::cmd::{Context, operator};

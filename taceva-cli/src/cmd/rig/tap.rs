@@ -2,9 +2,9 @@
 
 use std::sync::Mutex;
 
+use taceva_acquire::{HeldRigs, Workshop, read_rig, tap_rig};
 use taceva_core::shown;
 use taceva_protocol::Operator;
-use taceva_study::{HeldRigs, Workshop, read_rig, tap_rig};
 
 use crate::args::RigTapArgs;
 use crate::cmd::run::bench;
@@ -15,7 +15,7 @@ pub(super) fn run(args: &RigTapArgs, context: &Context) -> anyhow::Result<u8> {
     if let Some(path) = args.output.path.as_deref() {
         output::check_free(path, args.output.force)?;
     }
-    let (drivers, models) = context.equipment(&args.rig)?;
+    let (drivers, _) = context.equipment(&args.rig)?;
     let rig = read_rig(&args.rig)?;
     let terminal: Option<Box<Mutex<dyn Operator + Send>>> = match operator::terminal(None) {
         Some(terminal) => Some(Box::new(Mutex::new(terminal))),
@@ -29,9 +29,7 @@ pub(super) fn run(args: &RigTapArgs, context: &Context) -> anyhow::Result<u8> {
     let held = HeldRigs::of_file(&rig)?;
     let workshop = Workshop {
         drivers: &drivers,
-        models: &models,
         surroundings: &bench::surroundings,
-        cache: None,
         progress: &context.progress,
         operator: terminal.as_deref(),
         viewer: None,

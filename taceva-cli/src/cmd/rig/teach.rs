@@ -1,8 +1,8 @@
 //! `taceva rig teach`.
 
+use taceva_acquire::{HeldRigs, read_rig, teach_rig};
 use taceva_core::shown;
 use taceva_drivers::Drivers;
-use taceva_study::{HeldRigs, read_rig, teach_rig};
 
 use crate::args::RigTeachArgs;
 use crate::cmd::{Context, Usage, operator};

@@ -3,11 +3,11 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use taceva_acquire::{Surroundings, Upcoming};
 use taceva_core::{Deadline, DriverError, Rig, SimulatedBench, Specimen, Stamp};
 use taceva_drivers::Selector;
 use taceva_protocol::{ContentId, SpecimenChanger, Timekeeper};
 use taceva_sim::{MODEL_VERSION, Model};
-use taceva_study::{Surroundings, Upcoming};
 
 /// The surroundings of the rig whose simulated robot was opened by `robot`; `None` where its bench is not known.
 pub(in crate::cmd) fn surroundings(robot: &Selector, rig: &mut Rig) -> Option<Surroundings> {

@@ -1,7 +1,8 @@
 //! The stages of a run: which were reused from the cache.
 
 use serde::Serialize;
-use taceva_study::{Cache, RunFolder, StageRecord};
+use taceva_evaluate::{Cache, StageRecord};
+use taceva_study::RunFolder;
 
 use super::Context;
 use crate::output;

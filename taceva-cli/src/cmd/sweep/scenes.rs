@@ -2,11 +2,12 @@
 
 mod acquire;
 
+use taceva_acquire::{PlannedScene, SceneText};
 use taceva_core::shown;
 use taceva_drivers::Drivers;
 use taceva_models::Suggestion;
 use taceva_protocol::BuiltinScene;
-use taceva_study::{PlannedScene, RunFolder, SceneText};
+use taceva_study::RunFolder;
 use taceva_sweep::{SceneRecording, SceneTime, SweepFile, SweepFolder};
 
 use super::super::Context;

@@ -1,8 +1,8 @@
 //! Tasks carried out in this process.
 
 use taceva_core::shown;
+use taceva_evaluate::Cache;
 use taceva_models::Models;
-use taceva_study::Cache;
 use taceva_sweep::{Ran, Runner, SweepFolder, TaskList};
 
 use super::super::{Context, Usage, cache};

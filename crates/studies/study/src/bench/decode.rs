@@ -9,10 +9,10 @@ use taceva_metrics::ClusterSums;
 
 use super::models::{Raced, TrialError, unfitted};
 use super::paired::{absolute_errors, difference};
-use crate::error::StudyError;
-use crate::fit::FitRequest;
-use crate::rows::{DataPart, Divided};
-use crate::work::Work;
+use taceva_evaluate::EvaluateError;
+use taceva_evaluate::FitRequest;
+use taceva_evaluate::Work;
+use taceva_evaluate::{DataPart, Divided};
 
 /// Frames that are decoded one by one.
 const SINGLES: usize = 50;
@@ -61,12 +61,12 @@ pub struct DecodeTrials {
 /// A scale at which frames are too small for the features is a row that says so.
 ///
 /// # Errors
-/// [`StudyError`] if the request is not valid, the recording has frames that are no JPEG or cannot be read, or `work` asks to stop.
+/// [`EvaluateError`] if the request is not valid, the recording has frames that are no JPEG or cannot be read, or `work` asks to stop.
 pub fn decode(
     path: &Path,
     request: &FitRequest,
     work: Work<'_>,
-) -> Result<DecodeTrials, StudyError> {
+) -> Result<DecodeTrials, EvaluateError> {
     request.check()?;
     // A dataset has one digest, however its frames are decoded.
     let work = Work {
@@ -110,15 +110,15 @@ pub fn decode(
     })
 }
 
-fn frame_info(dataset: &Dataset) -> Result<FrameInfo, StudyError> {
+fn frame_info(dataset: &Dataset) -> Result<FrameInfo, EvaluateError> {
     let frames = dataset.header().frames.as_ref();
     let frames =
-        frames.ok_or_else(|| StudyError::Request("the dataset has no frames".to_owned()))?;
+        frames.ok_or_else(|| EvaluateError::Request("the dataset has no frames".to_owned()))?;
     Ok(frames.info)
 }
 
 /// The median over some frames of the least time of some rounds, so that files are in memory.
-fn decode_s(dataset: &Dataset) -> Result<f64, StudyError> {
+fn decode_s(dataset: &Dataset) -> Result<f64, EvaluateError> {
     let rows = dataset.table().frames().iter().enumerate();
     let rows = rows.filter_map(|(row, frame)| frame.as_ref().map(|_| row));
     let mut times = Vec::new();

@@ -8,7 +8,7 @@ use taceva_metrics::bench::{
 use taceva_metrics::{Isa, Paired};
 
 use super::{BENCH_SCHEMA, Machine, Spread, Stopwatch};
-use crate::error::StudyError;
+use taceva_evaluate::EvaluateError;
 
 /// Channels of the columns that are timed: all six of a contact.
 const CHANNELS: usize = 6;
@@ -151,18 +151,18 @@ impl Candidate {
 /// Races every way to sum.
 ///
 /// # Errors
-/// [`StudyError::Request`] without rows or rounds, or for an instruction set that was asked for and is not there;
-/// [`StudyError::Dataset`] if `progress` asks to stop.
+/// [`EvaluateError::Request`] without rows or rounds, or for an instruction set that was asked for and is not there;
+/// [`EvaluateError::Dataset`] if `progress` asks to stop.
 pub fn kernels(
     request: &KernelRequest,
     progress: &dyn Progress,
-) -> Result<KernelBench, StudyError> {
+) -> Result<KernelBench, EvaluateError> {
     if request.rows == 0 || request.rounds == 0 {
-        return Err(StudyError::Request(
+        return Err(EvaluateError::Request(
             "a benchmark needs at least one row and one round".to_owned(),
         ));
     }
-    Isa::requested().map_err(|error| StudyError::Request(error.to_string()))?;
+    Isa::requested().map_err(|error| EvaluateError::Request(error.to_string()))?;
     let candidates = candidates();
     let columns = columns(request);
     let watch = race(request, &candidates, &columns, progress)?;
@@ -252,7 +252,7 @@ fn race(
     candidates: &[Candidate],
     columns: &[Paired<Vec<f64>>],
     progress: &dyn Progress,
-) -> Result<Stopwatch, StudyError> {
+) -> Result<Stopwatch, EvaluateError> {
     let turns = (request.rounds + 1) * (candidates.len() + 1);
     progress.begin("race", Some(turns as u64));
     let watch = Stopwatch::race(
@@ -282,8 +282,8 @@ fn race(
     Ok(watch)
 }
 
-fn finished(time: Option<Spread>) -> Result<Spread, StudyError> {
-    time.ok_or_else(|| StudyError::Request("nothing was timed".to_owned()))
+fn finished(time: Option<Spread>) -> Result<Spread, EvaluateError> {
+    time.ok_or_else(|| EvaluateError::Request("nothing was timed".to_owned()))
 }
 
 fn on_every_input(candidate: Candidate) -> Vec<InputDigits> {

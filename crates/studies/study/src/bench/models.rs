@@ -11,12 +11,12 @@ use taceva_models::Model;
 use super::front;
 use super::paired::absolute_errors;
 use super::stopwatch::process_time;
-use crate::error::StudyError;
-use crate::evaluate::{Behind, EvaluateRequest, ModelChoice, score};
-use crate::fit::{FitRequest, fit};
-use crate::predict::{self, Predicted, Target, extractor};
-use crate::rows::{DataPart, Divided};
-use crate::work::Work;
+use taceva_evaluate::EvaluateError;
+use taceva_evaluate::Work;
+use taceva_evaluate::{Behind, EvaluateRequest, ModelChoice, score};
+use taceva_evaluate::{DataPart, Divided};
+use taceva_evaluate::{FitRequest, fit};
+use taceva_evaluate::{Predicted, Target, model_extractor, predict_target};
 
 /// The error that models are compared by.
 const METRIC: &str = "mae";
@@ -97,19 +97,19 @@ pub struct ModelTrials {
 /// A model that cannot be fitted on this recording is a row that says why.
 ///
 /// # Errors
-/// [`StudyError`] if a request cannot be meant, requests differ in split or seed, the dataset cannot be read, or `work` asks to stop.
+/// [`EvaluateError`] if a request cannot be meant, requests differ in split or seed, the dataset cannot be read, or `work` asks to stop.
 pub fn models(
     dataset: &Dataset,
     race: ModelRace<'_>,
     work: Work<'_>,
-) -> Result<ModelTrials, StudyError> {
+) -> Result<ModelTrials, EvaluateError> {
     let requests = race.requests;
     let Some(first) = requests.first() else {
-        return Err(StudyError::Request("no model to race".to_owned()));
+        return Err(EvaluateError::Request("no model to race".to_owned()));
     };
     let same = |request: &FitRequest| (&request.split, request.seed) == (&first.split, first.seed);
     if !requests.iter().all(same) {
-        return Err(StudyError::Request(
+        return Err(EvaluateError::Request(
             "models are raced on one split and one seed".to_owned(),
         ));
     }
@@ -154,7 +154,7 @@ fn trial(
     dataset: &Dataset,
     request: &FitRequest,
     work: Work<'_>,
-) -> Result<front::Raced, StudyError> {
+) -> Result<front::Raced, EvaluateError> {
     let mut row = ModelTrial {
         model: request.model.name().to_owned(),
         settings: request.settings.words().collect(),
@@ -172,13 +172,15 @@ fn trial(
 }
 
 /// Why a model could not be fitted or scored, where that ends its own row alone.
-pub(super) fn unfitted(outcome: Result<(), StudyError>) -> Result<Option<String>, StudyError> {
+pub(super) fn unfitted(
+    outcome: Result<(), EvaluateError>,
+) -> Result<Option<String>, EvaluateError> {
     match outcome {
         Ok(()) => Ok(None),
-        Err(StudyError::Model(error)) if error.kind() != ErrorKind::Interrupted => {
+        Err(EvaluateError::Model(error)) if error.kind() != ErrorKind::Interrupted => {
             Ok(Some(error.to_string()))
         }
-        Err(StudyError::Features(error)) => Ok(Some(error.to_string())),
+        Err(EvaluateError::Features(error)) => Ok(Some(error.to_string())),
         Err(error) => Err(error),
     }
 }
@@ -188,7 +190,7 @@ fn measure(
     request: &FitRequest,
     work: Work<'_>,
     row: &mut ModelTrial,
-) -> Result<Vec<Option<ClusterSums>>, StudyError> {
+) -> Result<Vec<Option<ClusterSums>>, EvaluateError> {
     let raced = Raced::new(dataset, request, work)?;
     (row.fit_s, row.fit_cpu_s) = (raced.fit_s, raced.fit_cpu_s);
     row.predict_s = raced.predict_s;
@@ -235,7 +237,7 @@ impl Raced {
         dataset: &Dataset,
         request: &FitRequest,
         work: Work<'_>,
-    ) -> Result<Raced, StudyError> {
+    ) -> Result<Raced, EvaluateError> {
         let start = Instant::now();
         let (fitted, fit_cpu_s) = cpu_s(|| fit(dataset, request, None, work));
         let fitted = fitted?;
@@ -243,7 +245,7 @@ impl Raced {
         let model = fitted.model;
         let target = Target::of(dataset, Some(fitted.divided), None, model.reads_features())?;
         let start = Instant::now();
-        let predicted = predict::run(dataset, &model, &target, work)?;
+        let predicted = predict_target(dataset, &model, &target, work)?;
         let predict_s = start.elapsed().as_secs_f64();
         let asked = EvaluateRequest {
             model: ModelChoice::Fit(request.clone()),
@@ -289,13 +291,13 @@ fn latency(
     model: &Model,
     target: &Target,
     progress: &dyn Progress,
-) -> Result<f64, StudyError> {
+) -> Result<f64, EvaluateError> {
     let shape = model.card().features.shape();
     let mut times = Vec::new();
     let rows = &target.rows[..target.rows.len().min(SINGLES)];
     if model.reads_features() {
-        let extractor = extractor(dataset, model)?;
-        let predict = |input: Input<'_>| -> Result<f64, StudyError> {
+        let extractor = model_extractor(dataset, model)?;
+        let predict = |input: Input<'_>| -> Result<f64, EvaluateError> {
             let start = Instant::now();
             let mut sample = vec![0.0; shape.len()];
             extractor.extract(input, &mut sample)?;

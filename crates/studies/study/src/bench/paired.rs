@@ -2,7 +2,7 @@
 
 use taceva_metrics::{ClusterSums, Difference, Sides, SignFlip};
 
-use crate::predict::Predicted;
+use taceva_evaluate::Predicted;
 
 /// Of each channel the sums of absolute errors by contact point; `None` where samples have no point.
 pub(super) fn absolute_errors(predicted: &Predicted) -> Vec<Option<ClusterSums>> {

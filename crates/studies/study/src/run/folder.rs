@@ -1,6 +1,6 @@
 //! The folder of a run: the scene as it was read, its plans, a recording a study, and the reports.
 
-mod found;
+mod state;
 
 use std::ffi::OsString;
 use std::fs::{self, File};
@@ -10,10 +10,11 @@ use std::path::{Path, PathBuf};
 use taceva_files::{parent_of, sync_folder};
 use taceva_models::Checkpoints;
 
-use super::layout::{FIGURES, PLANS, RECORDINGS, REPORTS, SCENE, STAGES};
-use crate::cache::remove;
+use taceva_acquire::PlannedScene;
+use taceva_evaluate::{PLANS, RECORDINGS, remove};
+
+use super::layout::{FIGURES, REPORTS, SCENE, STAGES};
 use crate::error::StudyError;
-use crate::scene::PlannedScene;
 
 /// What is done with a folder that is there already.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -216,7 +217,7 @@ mod tests {
     use taceva_drivers::Drivers;
 
     use super::*;
-    use crate::scene::SceneText;
+    use taceva_acquire::SceneText;
 
     const SCENE_TEXT: &str = "scene_version = 1\nname = \"My gel, twice\"\n\
                               sensor = { dataset = \"recording\" }\n";

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use taceva_models::Models;
 
-use crate::cache::StudyCache;
-use crate::work::Work;
+use taceva_evaluate::StudyCache;
+use taceva_evaluate::Work;
 
 /// What the stages of a study are carried out with: threads and progress, the cache, and the known models.
 #[derive(Clone, Copy)]

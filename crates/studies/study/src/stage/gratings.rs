@@ -11,10 +11,10 @@ use taceva_dataset::Dataset;
 
 use self::spectrum::ByFold;
 use super::RunContext;
-use crate::cache::{CachedStage, Key};
 use crate::classifier::SpacingClassifier;
-use crate::error::StudyError;
-use crate::rows::{Need, usable};
+use taceva_evaluate::EvaluateError;
+use taceva_evaluate::{CachedStage, Key};
+use taceva_evaluate::{Need, usable};
 
 /// Parts of the presses of a board; each is predicted by a classifier fitted on the others.
 const FOLDS: usize = 3;
@@ -38,7 +38,7 @@ impl PredictedSpacings {
         rows: Vec<usize>,
         classifier: &SpacingClassifier,
         RunContext { work, cache, .. }: RunContext<'_>,
-    ) -> Result<PredictedSpacings, StudyError> {
+    ) -> Result<PredictedSpacings, EvaluateError> {
         let boards = boards(dataset, &rows);
         let key = Key::of(CachedStage::Classify)
             .part("dataset", &dataset.digest().to_string())
@@ -66,7 +66,7 @@ impl PredictedSpacings {
             for row in &rows {
                 spacings.push(predicted.get(row).map(|spacing| spacing.to_f64()));
             }
-            Ok(spacings)
+            Ok::<_, EvaluateError>(spacings)
         })?;
         let presses: usize = boards.values().map(Vec::len).sum();
         let times = match classifier {

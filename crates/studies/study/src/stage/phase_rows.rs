@@ -7,10 +7,10 @@ use taceva_dataset::Dataset;
 use taceva_metrics::{Metric, catalogue};
 use taceva_protocol::{PhaseKind, Plan, PlannedMetric};
 
-use crate::error::StudyError;
-use crate::fit::FitRequest;
-use crate::rows::{DataPart, Divided};
-use crate::scene::PlannedStudy;
+use taceva_acquire::PlannedStudy;
+use taceva_evaluate::EvaluateError;
+use taceva_evaluate::FitRequest;
+use taceva_evaluate::{DataPart, Divided};
 
 /// The rows of a recording, assigned to the phases of the protocol that they were pressed for.
 pub(super) struct PhaseRows<'a> {
@@ -103,7 +103,7 @@ impl<'a> PhaseRows<'a> {
     }
 
     /// The presses that a model is fitted on, divided with contact points kept whole; all others are in no part.
-    pub(super) fn divided(&self, request: &FitRequest) -> Result<Divided, StudyError> {
+    pub(super) fn divided(&self, request: &FitRequest) -> Result<Divided, EvaluateError> {
         let dataset = self.dataset;
         if self.rows.is_none() {
             return Divided::new(dataset, request.split.as_deref(), request.seed);

@@ -11,11 +11,11 @@ use taceva_protocol::{PhaseKind, PlanReason, Subject};
 
 use super::gratings::PredictedSpacings;
 use super::phase_rows::PhaseRows;
-use crate::accumulate::{Columns, Rows, accumulate};
-use crate::error::StudyError;
-use crate::predict::{Predicted, truth};
-use crate::scene::{PlannedScene, PlannedStudy};
-use crate::skill::skill;
+use taceva_acquire::{PlannedScene, PlannedStudy};
+use taceva_evaluate::EvaluateError;
+use taceva_evaluate::skill;
+use taceva_evaluate::{Columns, Rows, accumulate};
+use taceva_evaluate::{Predicted, truth};
 
 /// What is scored.
 pub(super) struct Scores<'a> {
@@ -67,7 +67,7 @@ impl Within {
 const OF_SENSOR: &str = "intrinsic";
 
 /// The scores, and what a reader must know of what was left out beyond what a skip can say.
-pub(super) fn score(scores: &Scores<'_>) -> Result<(Evaluation, Vec<String>), StudyError> {
+pub(super) fn score(scores: &Scores<'_>) -> Result<(Evaluation, Vec<String>), EvaluateError> {
     let mut groups: BTreeMap<ScoreGroup, Vec<&'static Metric>> = BTreeMap::new();
     for (planned, metric) in scores.phase_rows.metrics() {
         let group = ScoreGroup {
@@ -100,7 +100,7 @@ impl Scores<'_> {
         &self,
         group: &ScoreGroup,
         metrics: &[&'static Metric],
-    ) -> Result<Evaluation, StudyError> {
+    ) -> Result<Evaluation, EvaluateError> {
         let channels = self.channels(group)?;
         let Taken {
             rows,
@@ -172,11 +172,11 @@ impl Scores<'_> {
     }
 
     /// The channels of the recording that the metrics of `group` look at.
-    fn channels(&self, group: &ScoreGroup) -> Result<Channels, StudyError> {
+    fn channels(&self, group: &ScoreGroup) -> Result<Channels, EvaluateError> {
         let known = self.dataset.table().channels();
         let chosen = group.channels.iter().filter_map(|name| known.by_name(name));
         let chosen: Vec<Channel> = chosen.cloned().collect();
-        Channels::new(chosen).map_err(|error| StudyError::Request(error.to_string()))
+        Channels::new(chosen).map_err(|error| EvaluateError::Request(error.to_string()))
     }
 
     /// The rows of `group` and what is predicted of them; where a metric reads predictions, rows without one take no part.
@@ -240,7 +240,7 @@ impl Rows for Samples<'_> {
         self.columns.rows()
     }
 
-    fn batch(&self, plan: &MetricPlan, rows: Range<usize>) -> Result<Batch, StudyError> {
+    fn batch(&self, plan: &MetricPlan, rows: Range<usize>) -> Result<Batch, EvaluateError> {
         let mut batch = self.columns.batch(plan, rows.clone())?;
         if let (Some(timed), Some(times)) = (&self.timed, batch.numbers(Field::Stamp)) {
             let mut counted = Column::default();

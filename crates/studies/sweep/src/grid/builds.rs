@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use taceva_evaluate::EvaluateError;
 use taceva_models::{ChosenModel, Models};
-use taceva_study::StudyError;
 
 use crate::error::SweepError;
 use crate::file::SweepFile;
@@ -28,7 +28,7 @@ pub(super) fn builds(
 /// [`SweepError`] if the plugin cannot be read.
 pub(crate) fn build_of(name: &str, models: &Models) -> Result<Option<String>, SweepError> {
     match models.find(name) {
-        Ok(ChosenModel::Offered(factory)) => Ok(factory.build().map_err(StudyError::from)?),
+        Ok(ChosenModel::Offered(factory)) => Ok(factory.build().map_err(EvaluateError::from)?),
         _ => Ok(None),
     }
 }

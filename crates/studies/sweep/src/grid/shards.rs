@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 use taceva_core::Unit;
 use taceva_dataset::Digest;
-use taceva_study::{ScoreRequest, ScoreTables, Shard, StudyError};
+use taceva_evaluate::{EvaluateError, ScoreRequest, ScoreTables, Shard};
 
 use super::{Grid, sensor_digest};
 use crate::error::SweepError;
@@ -81,7 +81,7 @@ pub(super) fn grid(file: &SweepFile, entry: &TablesEntry) -> Result<Grid, SweepE
     planned.units.sort_by(|one, other| one.0.cmp(&other.0));
     let tasks = (1..=entry.shards).map(|number| {
         let shard = Shard::new(number, entry.shards);
-        let shard = shard.map_err(|error| StudyError::Request(error.to_string()))?;
+        let shard = shard.map_err(|error| EvaluateError::Request(error.to_string()))?;
         let key = TaskKey::of_shard(ShardParts {
             tables: tables.digests(),
             shard: &shard.to_string(),

@@ -6,7 +6,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Duration;
 
 use taceva_dataset::SensorFile;
-use taceva_study::{Claim, Watch, Work};
+use taceva_evaluate::{Claim, Watch, Work};
 
 use super::log::TaskLog;
 use super::{Runner, Shared, lock};

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use taceva_study::EvaluationReport;
+use taceva_evaluate::EvaluationReport;
 
 use crate::result::PointErrors;
 

@@ -1,6 +1,6 @@
 //! Carrying one shard of two tables out: its result is the state that joins with those of the others.
 
-use taceva_study::{Shard, StudyError, Work};
+use taceva_evaluate::{EvaluateError, Shard, Work};
 
 use super::Common;
 use crate::error::SweepError;
@@ -20,7 +20,7 @@ pub(super) fn carry_out(
     let named = task.settings.get(SHARD).map_or("", String::as_str);
     let shard: Shard = named
         .parse()
-        .map_err(|error| StudyError::Request(format!("{error}")))?;
+        .map_err(|error| EvaluateError::Request(format!("{error}")))?;
     let tables = planned.again()?;
     let request = planned.request(
         &common.list.metrics,

@@ -5,9 +5,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use anyhow::Context as _;
+use taceva_acquire::Workshop;
 use taceva_core::{Progress, shown};
+use taceva_evaluate::{Cache, Claim, Watch};
 use taceva_models::Models;
-use taceva_study::{Cache, Claim, Existing, RunFolder, Watch, Workshop, acquire_scene};
+use taceva_study::{Existing, RunFolder, RunSetup, acquire_scene};
 use taceva_sweep::{SceneTime, SweepFolder};
 
 use super::SweepScene;
@@ -68,15 +70,19 @@ impl SweepScene {
         let progress = Counted::of(&context.progress);
         let workshop = Workshop {
             drivers: &self.drivers,
-            models: with.models,
             surroundings: &bench::surroundings,
-            cache: cache.as_ref(),
             progress: &progress,
             operator: None,
             viewer: None,
         };
+        let setup = RunSetup {
+            workshop,
+            models: with.models,
+            cache: cache.as_ref(),
+            jobs: context.jobs,
+        };
         let began = Instant::now();
-        let acquired = acquire_scene(planned, &run, workshop, context.jobs);
+        let acquired = acquire_scene(planned, &run, setup);
         let mut stages = cache.iter().flat_map(Cache::stages);
         // Presses that were found, or are made once more, say nothing of how long one takes.
         let is_timed = !is_begun && stages.all(|stage| !stage.reused);

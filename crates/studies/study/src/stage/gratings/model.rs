@@ -5,8 +5,8 @@ use taceva_core::{
 };
 
 use crate::classifier::ModelClassifier;
-use crate::error::StudyError;
-use crate::work::Work;
+use taceva_evaluate::EvaluateError;
+use taceva_evaluate::Work;
 
 /// The spacings of the spectra `asked`, by a model of `known` spectra with their spacings.
 pub(super) fn predict(
@@ -14,7 +14,7 @@ pub(super) fn predict(
     (known, spacings): (&[Vec<f64>], &[Nanometre]),
     asked: &[Vec<f64>],
     work: Work<'_>,
-) -> Result<Vec<Nanometre>, StudyError> {
+) -> Result<Vec<Nanometre>, EvaluateError> {
     let estimator = classifier.model.estimator(&classifier.settings)?;
     let labels: Vec<f64> = spacings.iter().map(|one| one.to_millimetres()).collect();
     let channel = Channel::named("spacing", Unit::Millimetre).expect("a word");
@@ -38,7 +38,7 @@ pub(super) fn predict(
     clippy::cast_possible_truncation,
     reason = "features are kept in single precision"
 )]
-fn features(spectra: &[Vec<f64>]) -> Result<Features, StudyError> {
+fn features(spectra: &[Vec<f64>]) -> Result<Features, EvaluateError> {
     let width = spectra.first().map_or(0, Vec::len);
     let values = spectra.iter().flatten().map(|&value| value as f32);
     Ok(Features::new(FeatureShape::flat(width), values.collect())?)

@@ -5,9 +5,9 @@ use taceva_dataset::Dataset;
 
 use super::{FOLDS, SpacingOfRow, folds};
 use crate::classifier::NetworkClassifier;
-use crate::error::StudyError;
-use crate::features::{extract, extractor};
-use crate::work::Work;
+use taceva_evaluate::EvaluateError;
+use taceva_evaluate::Work;
+use taceva_evaluate::{extract, extractor};
 
 /// Classifies `presses`, whose pictures are in `dataset`, fold by fold.
 pub(super) fn classify(
@@ -15,7 +15,7 @@ pub(super) fn classify(
     presses: &[(usize, Nanometre)],
     (classifier, work): (&NetworkClassifier, Work<'_>),
     predicted: &mut SpacingOfRow,
-) -> Result<(), StudyError> {
+) -> Result<(), EvaluateError> {
     let rows: Vec<usize> = presses.iter().map(|(row, _)| *row).collect();
     let extractor = |recording: &Dataset| extractor(recording, classifier.features);
     let pictures = extract(dataset, extractor, &rows, work)?;

@@ -6,8 +6,8 @@ use taceva_models::{Discriminant, FourierPlane, RadialSpectrum};
 
 use super::{FOLDS, SpacingOfRow, folds, model};
 use crate::classifier::ModelClassifier;
-use crate::error::StudyError;
-use crate::work::Work;
+use taceva_evaluate::EvaluateError;
+use taceva_evaluate::Work;
 
 /// What is fitted to the spectra of each fold.
 #[derive(Clone, Copy)]
@@ -22,7 +22,7 @@ pub(super) fn classify(
     presses: &[(usize, Nanometre)],
     (by, work): (ByFold<'_>, Work<'_>),
     predicted: &mut SpacingOfRow,
-) -> Result<(), StudyError> {
+) -> Result<(), EvaluateError> {
     let seen = Pictures::new(dataset, presses, work)?.seen()?;
     for fold in 0..FOLDS {
         classify_fold(&seen, fold, (by, work), predicted)?;
@@ -55,10 +55,10 @@ impl<'a> Pictures<'a> {
         dataset: &'a Dataset,
         presses: &'a [(usize, Nanometre)],
         work: Work<'a>,
-    ) -> Result<Pictures<'a>, StudyError> {
+    ) -> Result<Pictures<'a>, EvaluateError> {
         let frames = dataset.header().frames.as_ref();
         let frames = frames.ok_or_else(|| {
-            StudyError::Request(
+            EvaluateError::Request(
                 "the recording has no frames from which spacings could be classified".to_owned(),
             )
         })?;
@@ -73,7 +73,7 @@ impl<'a> Pictures<'a> {
     }
 
     /// Every press with its spectra.
-    fn seen(&self) -> Result<Vec<Seen>, StudyError> {
+    fn seen(&self) -> Result<Vec<Seen>, EvaluateError> {
         let backgrounds = self.backgrounds()?;
         let mut seen = Vec::with_capacity(self.rows.len());
         let spectra = |plane: &FourierPlane| {
@@ -100,7 +100,7 @@ impl<'a> Pictures<'a> {
     }
 
     /// For each fold, the sum of the planes of all other folds and how many they are.
-    fn backgrounds(&self) -> Result<Vec<(FourierPlane, f64)>, StudyError> {
+    fn backgrounds(&self) -> Result<Vec<(FourierPlane, f64)>, EvaluateError> {
         let mut backgrounds = vec![(FourierPlane::default(), 0.0); FOLDS];
         let mut folds = self.folds.iter();
         self.dataset.map_frames(
@@ -130,7 +130,7 @@ fn classify_fold(
     fold: usize,
     (by, work): (ByFold<'_>, Work<'_>),
     predicted: &mut SpacingOfRow,
-) -> Result<(), StudyError> {
+) -> Result<(), EvaluateError> {
     let (asked, taught): (Vec<&Seen>, Vec<&Seen>) = seen.iter().partition(|seen| seen.fold == fold);
     if asked.is_empty() || taught.is_empty() {
         return Ok(());

@@ -1,0 +1,47 @@
+//! TAC025: frames and signals in which there is nothing: one number everywhere.
+
+use crate::evidence::Evidence;
+use crate::finding::{Check, Found, Severity};
+
+pub(crate) static CHECK: Check = Check {
+    code: "TAC025",
+    name: "blank-samples",
+    looks_for: "frames whose pixels are all the same, and rows of signals that are all zero: arrays that nobody filled",
+    hint: "an array that is allocated and not written reads as one number: record again, or drop these rows",
+    reads: None,
+    find,
+};
+
+fn find(evidence: &Evidence<'_>) -> Vec<Found> {
+    let frames = evidence.frames.iter().enumerate();
+    let blank: Vec<usize> = frames
+        .filter_map(|(row, facts)| facts.as_ref()?.is_flat.then_some(row))
+        .collect();
+    let total = evidence.frames.iter().flatten().count();
+    let mut found = Vec::new();
+    if !blank.is_empty() {
+        let message = format!(
+            "{} of {total} frames are one colour from edge to edge",
+            blank.len()
+        );
+        found.push(Found::about(
+            Severity::Warning,
+            message,
+            evidence.names(&blank),
+        ));
+    }
+    let empty = evidence.signals.map(|signals| &signals.zero_rows);
+    if let Some(rows) = empty.filter(|rows| !rows.is_empty()) {
+        let message = format!(
+            "{} of {} samples have signals that are all exactly 0",
+            rows.len(),
+            evidence.table.rows()
+        );
+        found.push(Found::about(
+            Severity::Warning,
+            message,
+            evidence.names(rows),
+        ));
+    }
+    found
+}

@@ -1,0 +1,73 @@
+//! TAC017: taxels whose numbers pile up at the end of their range.
+
+use taceva_core::Field;
+
+use crate::evidence::Evidence;
+use crate::finding::{Check, Found, Severity};
+use crate::signal_facts::{SignalFacts, TaxelFacts};
+
+pub(super) static CHECK: Check = Check {
+    code: "TAC017",
+    name: "clipped-taxel",
+    looks_for: "taxels with one number in at least 5 samples and 1 % of them that is their greatest or least, and is met more than three times as often as the next one; at rest a least number is none",
+    hint: "press less hard, or set the gain of the converter lower: what is beyond the end is lost, and models learn that nothing happens there",
+    reads: Some(Field::Signals),
+    find,
+};
+
+/// The fewest samples with the number at the end of the range.
+const LEAST: u64 = 5;
+/// At least one in so many samples has it.
+const SHARE: u64 = 100;
+/// It is met more than so many times as often as the next number.
+const TIMES: u64 = 3;
+/// Taxels named in a message; the rest are counted.
+const NAMED: usize = 5;
+
+fn find(evidence: &Evidence<'_>) -> Vec<Found> {
+    let Some(facts) = evidence.signals else {
+        return Vec::new();
+    };
+    let clipped: Vec<String> = (0..facts.taxels.len())
+        .filter_map(|position| Some((position, end_of(facts, position)?)))
+        .map(|(position, (value, count))| {
+            let unit = facts.info.unit;
+            format!(
+                "{} is {value} {unit} in {count} samples",
+                facts.names[position]
+            )
+        })
+        .collect();
+    if clipped.is_empty() {
+        return Vec::new();
+    }
+    let named = clipped[..clipped.len().min(NAMED)].join(", ");
+    let message = format!(
+        "{} of {} signals end where many samples stand: {named}",
+        clipped.len(),
+        facts.taxels.len()
+    );
+    vec![Found::overall(Severity::Warning, message)]
+}
+
+/// The number that a taxel is clipped at, and how many samples have it.
+fn end_of(facts: &SignalFacts, position: usize) -> Option<(f32, u64)> {
+    let TaxelFacts {
+        least,
+        above_least,
+        greatest,
+        below_greatest,
+    } = facts.taxels[position];
+    let is_clipped = |(_, count): (f32, u64), (_, next): (f32, u64)| {
+        count >= LEAST && count * SHARE >= facts.samples && count > TIMES * next
+    };
+    let above =
+        Some(greatest).filter(|end| below_greatest.is_some_and(|next| is_clipped(*end, next)));
+    // A sensor that says nothing until it is touched is at its least number at rest.
+    let is_rest = |end: &(f32, u64)| match &facts.rest {
+        Some(rest) => rest.values()[position] <= end.0,
+        None => end.0.abs() <= 0.0,
+    };
+    let below = Some(least).filter(|end| above_least.is_some_and(|next| is_clipped(*end, next)));
+    above.or(below.filter(|end| !is_rest(end)))
+}

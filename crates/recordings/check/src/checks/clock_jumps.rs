@@ -1,0 +1,163 @@
+//! TAC024: clocks that jump, and stamps of two clocks in one column.
+
+use std::collections::BTreeMap;
+
+use taceva_core::Clock;
+use taceva_dataset::Table;
+
+use crate::evidence::Evidence;
+use crate::finding::{Check, Found, Severity};
+use crate::stamps::{Step, Stream, by_clock};
+
+pub(super) static CHECK: Check = Check {
+    code: "TAC024",
+    name: "clock-jumps",
+    looks_for: "a clock that was set within a contact or, without contact points, within a stream that is regular otherwise, stamps of two clocks in one column, and times that the stated clock cannot show",
+    hint: "stamp with a clock that nobody sets (monotonic), and import what two clocks stamped as two tables joined with their lag",
+    reads: None,
+    find,
+};
+
+/// So many usual steps within one contact, and at least so many seconds, are a jump.
+const JUMP_STEPS: f64 = 100.0;
+const JUMP_S: f64 = 1.0;
+/// Without contact points a pause between presses looks the same: one step in so many, or a single one, is a jump, and more are pauses,
+const SELDOM: usize = 100;
+/// where nine in ten steps are at most so many usual ones.
+const REGULAR_STEPS: f64 = 3.0;
+/// No recording goes on for so long between two rows, s: twelve days. Seconds since 1970 and since a start are 54 years apart.
+const TWO_CLOCKS_S: f64 = 1e6;
+/// Seconds since 1970 at which Unix times of recordings begin (1990), and beyond which no machine has been running (32 years).
+const UNIX_FROM_S: f64 = 631_152_000.0;
+/// Seconds since 1970 at which they end (2100).
+const UNIX_TO_S: f64 = 4_102_444_800.0;
+const RUNNING_S: f64 = 1e9;
+
+fn find(evidence: &Evidence<'_>) -> Vec<Found> {
+    let table = evidence.table;
+    let times = table.t_s();
+    let timed = (0..table.rows()).filter(|row| times[*row].is_some());
+    // Another unit of the sensor, or another table, may well be of another month.
+    let seconds = |row: usize| times[row].unwrap_or_default();
+    let mut others = by_clock(table, timed);
+    others.retain(|(before, row)| (seconds(*row) - seconds(*before)).abs() > TWO_CLOCKS_S);
+    let mut found = Vec::new();
+    if let Some((before, row)) = others.first() {
+        let message = format!(
+            "two clocks stamped these samples: {} times the next stamp is more than 12 days away, first from {} s to {} s",
+            others.len(),
+            seconds(*before),
+            seconds(*row)
+        );
+        let rows: Vec<usize> = others.iter().map(|(_, row)| *row).collect();
+        found.push(Found::about(
+            Severity::Warning,
+            message,
+            evidence.names(&rows),
+        ));
+    }
+    found.extend(set_within(evidence));
+    let last = last_stamps(table);
+    found.extend(of_two_kinds(&last).filter(|_| others.is_empty()));
+    found.extend(contradicted(evidence, &last));
+    found
+}
+
+/// The last stamp of each clock, s.
+fn last_stamps(table: &Table) -> Vec<f64> {
+    let mut last: BTreeMap<(Option<&str>, Option<&str>), f64> = BTreeMap::new();
+    for (row, time) in table.t_s().iter().enumerate() {
+        let Some(time) = *time else { continue };
+        let clock = (
+            table.unit_id()[row].as_deref(),
+            table.source_table()[row].as_deref(),
+        );
+        let known = last.entry(clock).or_insert(time);
+        *known = known.max(time);
+    }
+    last.into_values().collect()
+}
+
+/// Clocks that count since 1970 beside others that count since a start.
+fn of_two_kinds(last: &[f64]) -> Option<Found> {
+    let least = last.iter().copied().reduce(f64::min)?;
+    let most = last.iter().copied().reduce(f64::max)?;
+    let message = format!(
+        "the stamps of some tables or units are of a clock since 1970, as {most} s, and those of others, as {least} s, are not: two clocks in one column"
+    );
+    (least < RUNNING_S.min(UNIX_FROM_S) && most > RUNNING_S)
+        .then(|| Found::overall(Severity::Warning, message))
+}
+
+/// Stamps that jump ahead within one contact, or between rows without any, by less than two clocks are apart.
+fn set_within(evidence: &Evidence<'_>) -> Vec<Found> {
+    let Some(stream) = Stream::of(evidence) else {
+        return Vec::new();
+    };
+    let table = evidence.table;
+    let jumps = stream.steps.iter().copied().filter(|step| {
+        step.seconds > JUMP_S
+            && step.seconds > JUMP_STEPS * stream.usual_s
+            && step.seconds <= TWO_CLOCKS_S
+    });
+    let (within, mut without): (Vec<Step>, Vec<Step>) =
+        jumps.partition(|step| table.point_id()[step.to].is_some());
+    // Recording stops where the scene or the repeat changes.
+    without.retain(|step| {
+        table.scene()[step.to] == table.scene()[step.from]
+            && table.repeat()[step.to] == table.repeat()[step.from]
+    });
+    let steps = stream.steps.len();
+    let regular = stream.steps.iter();
+    let regular = regular
+        .filter(|step| step.seconds <= REGULAR_STEPS * stream.usual_s)
+        .count();
+    if without.len() > (steps / SELDOM).max(1) || regular < steps - steps / 10 {
+        without.clear();
+    }
+    let found = [
+        (within, "within a contact"),
+        (without, "between samples without contact points"),
+    ];
+    found
+        .into_iter()
+        .filter_map(|(jumps, place)| jumped(evidence, &stream, &jumps, place))
+        .collect()
+}
+
+fn jumped(evidence: &Evidence<'_>, stream: &Stream, jumps: &[Step], place: &str) -> Option<Found> {
+    let longest = jumps.iter().map(|step| step.seconds).reduce(f64::max)?;
+    let rows: Vec<usize> = jumps.iter().map(|step| step.to).collect();
+    let (steps_are, the_longest) = match rows.len() {
+        1 => (format!("1 step {place} is"), ""),
+        many => (format!("{many} steps {place} are"), "the longest "),
+    };
+    let message = format!(
+        "{steps_are} over {JUMP_STEPS} times the usual one of {:.4} s, {the_longest}{longest:.3} s: the clock was set, or recording stopped",
+        stream.usual_s
+    );
+    Some(Found::about(
+        Severity::Warning,
+        message,
+        evidence.names(&rows),
+    ))
+}
+
+/// What is stated of the clock, where the last stamps of clocks cannot be its.
+fn contradicted(evidence: &Evidence<'_>, last: &[f64]) -> Option<Found> {
+    let least = last.iter().copied().reduce(f64::min)?;
+    let most = last.iter().copied().reduce(f64::max)?;
+    let message = match evidence.header.clock {
+        Clock::Unix if least < UNIX_FROM_S => format!(
+            "the clock is said to be `unix`, and the last stamp, {least} s, is before 1990: is its unit right?"
+        ),
+        Clock::Unix if most > UNIX_TO_S => format!(
+            "the clock is said to be `unix`, and the last stamp, {most} s, is after 2100: is its unit right?"
+        ),
+        Clock::Monotonic if most > RUNNING_S => format!(
+            "the clock is said to be `monotonic`, and the last stamp is {most} s: no machine has been running for so long"
+        ),
+        _ => return None,
+    };
+    Some(Found::overall(Severity::Warning, message))
+}

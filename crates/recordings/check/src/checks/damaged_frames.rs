@@ -1,0 +1,32 @@
+//! TAC020: pictures that decode although something in them is missing or corrupt.
+
+use taceva_core::Field;
+
+use crate::evidence::Evidence;
+use crate::finding::{Check, Found, Severity};
+
+pub(crate) static CHECK: Check = Check {
+    code: "TAC020",
+    name: "damaged-frames",
+    looks_for: "JPEG files cut or damaged inside, which decoders fill with gray or guesses",
+    hint: "fetch these pictures again from where they were recorded, or drop their rows, and import once more",
+    reads: Some(Field::Frame),
+    find,
+};
+
+fn find(evidence: &Evidence<'_>) -> Vec<Found> {
+    let [(_, first), ..] = evidence.damaged else {
+        return Vec::new();
+    };
+    let rows: Vec<usize> = evidence.damaged.iter().map(|(row, _)| *row).collect();
+    let total = evidence.table.frames().iter().flatten().count();
+    let message = format!(
+        "{} of {total} frames are damaged; the first: {first}",
+        rows.len()
+    );
+    vec![Found::about(
+        Severity::Error,
+        message,
+        evidence.names(&rows),
+    )]
+}

@@ -1,0 +1,80 @@
+//! TAC027: forces that are zero although the pictures show contact: cut below a threshold, or at zero.
+
+use taceva_core::{Field, Unit};
+
+use super::label_lag::correlation;
+use crate::evidence::Evidence;
+use crate::finding::{Check, Found, Severity};
+
+pub(super) static CHECK: Check = Check {
+    code: "TAC027",
+    name: "dead-zone",
+    looks_for: "normal forces that are exactly zero in 5 % of the samples although their pictures change as under load: zero of a force that is cut is no rest",
+    hint: "export the forces before a threshold or a clip at zero was applied; else drop these samples, since a model learns that light contact is none",
+    reads: Some(Field::Frame),
+    find,
+};
+
+/// So many zeros under load, and one sample in so many, are no chance.
+const LEAST: usize = 10;
+const SHARE: usize = 20;
+/// The pictures of a force that is not zero must follow it so well, as a correlation, that they say how hard is pressed.
+const CLEAR: f64 = 0.7;
+/// A picture is of contact from here on between the one of rest, which one in so many of those with a force of zero are below, and the median
+/// of those with a force.
+const PRESSED: f64 = 0.25;
+const AT_REST: usize = 10;
+
+fn find(evidence: &Evidence<'_>) -> Vec<Found> {
+    let table = evidence.table;
+    let channels = table.channels();
+    let is_force = |position: &usize| channels.as_slice()[*position].unit() == Unit::Newton;
+    let Some(load) = evidence.load().filter(is_force) else {
+        return Vec::new();
+    };
+    let (mut zero, mut loaded) = (Vec::new(), Vec::new());
+    for (row, facts) in evidence.frames.iter().enumerate() {
+        // Without a picture of rest nobody knows what contact changes.
+        let change = facts.as_ref().and_then(|facts| facts.distance);
+        let Some((change, force)) = change.zip(table.truth(load).get(row)) else {
+            continue;
+        };
+        match force.abs() > 0.0 {
+            true => loaded.push((change, force.abs())),
+            false => zero.push((row, change)),
+        }
+    }
+    let changes = loaded.iter().map(|(change, _)| *change);
+    let follows = correlation(changes.clone(), loaded.iter().map(|(_, force)| *force));
+    if zero.len() < LEAST || loaded.len() < LEAST || follows < CLEAR {
+        return Vec::new();
+    }
+    let rest = ranked(zero.iter().map(|(_, change)| *change), AT_REST);
+    let usual = ranked(changes, 2);
+    let pressed_from = rest + PRESSED * (usual - rest);
+    let pressed: Vec<usize> = zero
+        .iter()
+        .filter(|(_, change)| *change > pressed_from)
+        .map(|(row, _)| *row)
+        .collect();
+    if usual <= rest || pressed.len() < LEAST || pressed.len() * SHARE < zero.len() + loaded.len() {
+        return Vec::new();
+    }
+    let message = format!(
+        "{} is exactly 0 in {} samples, of whose pictures {} change as under load (over {:.0} % of what the median of the other {} does)",
+        channels.as_slice()[load].name(),
+        zero.len(),
+        pressed.len(),
+        100.0 * PRESSED,
+        loaded.len()
+    );
+    let names = evidence.names(&pressed);
+    vec![Found::about(Severity::Warning, message, names)]
+}
+
+/// The number that one in `parts` of `numbers`, of which there is one, are below.
+fn ranked(numbers: impl Iterator<Item = f64>, parts: usize) -> f64 {
+    let mut sorted: Vec<f64> = numbers.collect();
+    sorted.sort_by(f64::total_cmp);
+    sorted.get(sorted.len() / parts).copied().unwrap_or(0.0)
+}

@@ -1,0 +1,39 @@
+//! TAC002: the same picture under several names: a stuck camera, or a copy.
+
+use std::collections::BTreeMap;
+
+use crate::evidence::Evidence;
+use crate::finding::{Check, Found, Severity};
+
+pub(super) static CHECK: Check = Check {
+    code: "TAC002",
+    name: "duplicate-frames",
+    looks_for: "frames that are the same file, byte for byte",
+    hint: "a camera that repeats frames is slower than it says; copies under other labels teach a model to contradict itself",
+    reads: None,
+    find,
+};
+
+fn find(evidence: &Evidence<'_>) -> Vec<Found> {
+    let mut first: BTreeMap<_, usize> = BTreeMap::new();
+    let mut again = Vec::new();
+    let frames = evidence.table.frames().iter().enumerate();
+    for (row, entry) in frames.filter_map(|(row, entry)| Some((row, entry.as_ref()?))) {
+        if *first.entry(entry.digest).or_insert(row) != row {
+            again.push(row);
+        }
+    }
+    if again.is_empty() {
+        return Vec::new();
+    }
+    let total = evidence.table.frames().iter().flatten().count();
+    let message = format!(
+        "{} of {total} frames repeat an earlier one, byte for byte",
+        again.len()
+    );
+    vec![Found::about(
+        Severity::Warning,
+        message,
+        evidence.names(&again),
+    )]
+}

@@ -1,0 +1,268 @@
+//! TAC019: labels that come later or earlier than their pictures, as by two clocks.
+
+use std::collections::BTreeMap;
+
+use taceva_core::Field;
+
+use crate::evidence::Evidence;
+use crate::finding::{Check, Found, Severity};
+
+pub(super) static CHECK: Check = Check {
+    code: "TAC019",
+    name: "label-lag",
+    looks_for: "forces that go with the pictures before or after theirs: two clocks that differ",
+    hint: "state the difference as `lag_ms` of the join in the map, or shift one clock before the tables are joined",
+    reads: Some(Field::Frame),
+    find,
+};
+
+/// Samples of a stream below which a lag says nothing.
+const LEAST: usize = 50;
+/// The longest median step, in s, of samples that are a stream.
+const STREAM_S: f64 = 1.0;
+/// The furthest that is looked, in steps, and as a share of the samples.
+const FURTHEST: usize = 60;
+const SHARE: usize = 4;
+/// How well pictures and forces must go together at the lag, as a correlation, and how many times less of the variance it leaves open there
+/// than where they stand.
+const CLEAR: f64 = 0.6;
+const BETTER: f64 = 1.5;
+
+/// A series varies if its variance is above this share of the square of its mean.
+const VARIES: f64 = 1e-20;
+
+fn find(evidence: &Evidence<'_>) -> Vec<Found> {
+    let table = evidence.table;
+    let Some(load) = evidence.load() else {
+        return Vec::new();
+    };
+    // Another unit of the sensor, or another table, is another clock: what follows it in the recording does not follow it in time.
+    let mut streams: BTreeMap<(Option<&str>, Option<&str>), Vec<Instant>> = BTreeMap::new();
+    for (row, facts) in evidence.frames.iter().enumerate() {
+        let instant = facts.as_ref().and_then(|facts| {
+            let light = facts
+                .distance
+                .unwrap_or(facts.mean.iter().sum::<f64>() / 3.0);
+            Some((table.t_s()[row]?, light, table.truth(load).get(row)?.abs()))
+        });
+        let clock = (
+            table.unit_id()[row].as_deref(),
+            table.source_table()[row].as_deref(),
+        );
+        streams.entry(clock).or_default().extend(instant);
+    }
+    let count: usize = streams.values().map(Vec::len).sum();
+    let streams = alike(streams);
+    let name = table.channels().as_slice()[load].name();
+    let lag = Lag::of(&streams);
+    let found = lag.filter(|lag| {
+        lag.steps != 0
+            && lag.best >= CLEAR
+            && 1.0 - lag.standing.powi(2) >= BETTER * (1.0 - lag.best.powi(2))
+    });
+    let message = found.map(|lag| {
+        let (later, steps) = match lag.steps > 0 {
+            true => ("later", lag.steps),
+            false => ("earlier", -lag.steps),
+        };
+        format!(
+            "{name} comes about {:.0} ms ({steps} {}) {later} than the pictures: their correlation is {:.2} there and {:.2} as they stand, n {}",
+            1e3 * lag.seconds.abs(),
+            if steps == 1 { "step" } else { "steps" },
+            lag.best,
+            lag.standing,
+            count
+        )
+    });
+    message
+        .into_iter()
+        .map(|message| Found::overall(Severity::Warning, message))
+        .collect()
+}
+
+/// Where forces and pictures go together best.
+#[derive(Debug)]
+struct Lag {
+    /// How many samples later the force is.
+    steps: i64,
+    seconds: f64,
+    /// The correlations there and without a lag, whatever their sign.
+    best: f64,
+    standing: f64,
+}
+
+/// A time in s, a number of the picture, and a force.
+type Instant = (f64, f64, f64);
+
+/// The streams of each unit of the sensor, each less the means of its unit: one may be brighter than another.
+fn alike(streams: BTreeMap<(Option<&str>, Option<&str>), Vec<Instant>>) -> Vec<Vec<Instant>> {
+    let mut sums: BTreeMap<Option<&str>, [f64; 3]> = BTreeMap::new();
+    for ((unit, _), stream) in &streams {
+        let sum = sums.entry(*unit).or_default();
+        for (_, light, force) in stream {
+            *sum = [sum[0] + 1.0, sum[1] + light, sum[2] + force];
+        }
+    }
+    // Of one unit the numbers stay what they are, to the last bit.
+    let is_one = sums.len() == 1;
+    let less = |unit: Option<&str>| match sums.get(&unit) {
+        Some([count, light, force]) if !is_one => [light / count, force / count],
+        _ => [0.0; 2],
+    };
+    let streams = streams.into_iter().map(|((unit, _), stream)| {
+        let [light_mean, force_mean] = less(unit);
+        let stream = stream.into_iter();
+        stream
+            .map(|(time, light, force)| (time, light - light_mean, force - force_mean))
+            .collect()
+    });
+    streams.collect()
+}
+
+impl Lag {
+    /// The lag of streams, which is one for all of them; `None` if they are none.
+    fn of(streams: &[Vec<Instant>]) -> Option<Lag> {
+        let pairs = streams.iter().flat_map(|stream| stream.windows(2));
+        let mut steps: Vec<f64> = pairs.map(|pair| pair[1].0 - pair[0].0).collect();
+        steps.retain(|step| *step > 0.0);
+        steps.sort_by(f64::total_cmp);
+        let step = *steps.get(steps.len() / 2)?;
+        let count: usize = streams.iter().map(Vec::len).sum();
+        if count < LEAST || step > STREAM_S {
+            return None;
+        }
+        let shifted = |later: i64| {
+            let shift = usize::try_from(later.unsigned_abs()).unwrap_or(usize::MAX);
+            streams.iter().flat_map(move |stream| {
+                let behind = stream.get(shift..).unwrap_or(&[]);
+                let before = &stream[..behind.len()];
+                match later >= 0 {
+                    true => before.iter().zip(behind),
+                    false => behind.iter().zip(before),
+                }
+            })
+        };
+        let at = |later: i64| -> f64 {
+            correlation(
+                shifted(later).map(|((_, light, _), _)| *light),
+                shifted(later).map(|(_, (_, _, force))| *force),
+            )
+            .abs()
+        };
+        // As far as three quarters of the samples have a partner.
+        let furthest = (1..=FURTHEST).take_while(|shift| {
+            let partners = streams
+                .iter()
+                .map(|stream| stream.len().saturating_sub(*shift));
+            (count - partners.sum::<usize>()) * SHARE <= count
+        });
+        let furthest = i64::try_from(furthest.count()).ok()?;
+        // Of lags that are as good the nearest.
+        let mut lags: Vec<i64> = (-furthest..=furthest).collect();
+        lags.sort_by_key(|lag| lag.abs());
+        let mut best = (0, at(0));
+        for lag in lags {
+            let found = at(lag);
+            if found > best.1 {
+                best = (lag, found);
+            }
+        }
+        #[expect(clippy::cast_precision_loss, reason = "at most 60 steps")]
+        let seconds = best.0 as f64 * step;
+        Some(Lag {
+            steps: best.0,
+            seconds,
+            best: best.1,
+            standing: at(0),
+        })
+    }
+}
+
+/// Pearson's correlation; 0 where one of them does not vary.
+pub(super) fn correlation(
+    first: impl Iterator<Item = f64> + Clone,
+    second: impl Iterator<Item = f64> + Clone,
+) -> f64 {
+    #[expect(clippy::cast_precision_loss, reason = "counts of rows")]
+    let count = first.clone().count() as f64;
+    let mean = [
+        first.clone().sum::<f64>() / count,
+        second.clone().sum::<f64>() / count,
+    ];
+    let (mut both, mut one, mut other) = (0.0, 0.0, 0.0);
+    for (first, second) in first.zip(second) {
+        let (first, second) = (first - mean[0], second - mean[1]);
+        both += first * second;
+        one += first * first;
+        other += second * second;
+    }
+    // What rounding leaves of a series that does not vary is no variation.
+    let varies = |squares: f64, mean: f64| squares > VARIES * count * mean * mean;
+    match varies(one, mean[0]) && varies(other, mean[1]) {
+        true => both / (one * other).sqrt(),
+        false => 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Presses of different depths, thirty samples a second; forces `later` steps after their pictures.
+    fn presses(later: usize) -> Vec<(f64, f64, f64)> {
+        let press = |number: usize| -> f64 {
+            let (within, which) = (number % 40, number / 40);
+            let depth = 0.3 + 0.17 * (which * 7 % 5) as f64;
+            depth * (1.0 - ((within as f64 - 20.0) / 20.0).abs())
+        };
+        (later..400)
+            .map(|number| {
+                (
+                    number as f64 / 30.0,
+                    0.02 * press(number),
+                    4.0 * press(number - later),
+                )
+            })
+            .collect()
+    }
+
+    #[test]
+    fn the_lag_of_a_clock_is_found_in_steps_with_its_sign() {
+        for later in [0, 1, 5, 12] {
+            let lag = Lag::of(&[presses(later)]).expect("a stream");
+            assert_eq!(lag.steps, later as i64);
+            assert!(lag.best > 0.99, "{lag:?}");
+        }
+        let earlier: Vec<(f64, f64, f64)> = presses(5)
+            .into_iter()
+            .rev()
+            .enumerate()
+            .map(|(number, (_, light, force))| (number as f64 / 30.0, light, force))
+            .collect();
+        assert_eq!(Lag::of(&[earlier]).expect("a stream").steps, -5);
+    }
+
+    #[test]
+    fn a_lag_of_short_streams_is_found_in_all_of_them_together() {
+        let all = presses(5);
+        let streams: Vec<Vec<Instant>> = all.chunks(45).map(<[_]>::to_vec).collect();
+        let lag = Lag::of(&streams).expect("streams");
+        assert_eq!(lag.steps, 5);
+        assert!(lag.best > 0.99, "{lag:?}");
+    }
+
+    #[test]
+    fn what_is_no_stream_or_does_not_vary_has_no_lag() {
+        assert!(Lag::of(&[presses(5)[..40].to_vec()]).is_none());
+        let slow: Vec<_> = presses(5)
+            .into_iter()
+            .map(|(time, light, force)| (60.0 * time, light, force))
+            .collect();
+        assert!(Lag::of(&[slow]).is_none());
+        let still: Vec<_> = presses(5)
+            .into_iter()
+            .map(|(time, _, force)| (time, 0.1, force))
+            .collect();
+        assert_eq!(Lag::of(&[still]).expect("a stream").steps, 0);
+    }
+}

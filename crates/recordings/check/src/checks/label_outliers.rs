@@ -1,0 +1,125 @@
+//! TAC013: single labels far from all others.
+
+use crate::evidence::Evidence;
+use crate::finding::{Check, Found, Severity};
+
+pub(super) static CHECK: Check = Check {
+    code: "TAC013",
+    name: "label-outliers",
+    looks_for: "labels beyond 3 interquartile ranges of the quartiles, further from the next one than that range and than half as far as the next one is from the quartile",
+    hint: "look at these samples: a transducer that was overloaded or read while the tip moved gives such labels; drop them in the map, or say why they are right",
+    reads: None,
+    find,
+};
+
+/// Interquartile ranges beyond the quartiles where Tukey's outer fences stand.
+const FENCE: f64 = 3.0;
+/// How wide the gap below outliers is at least, of how far the next label is from the quartile.
+const GAP: f64 = 0.5;
+/// More than one in so many labels are no outliers but a group.
+const MOST: usize = 20;
+/// Values below which quartiles say nothing.
+const LEAST: usize = 20;
+
+fn find(evidence: &Evidence<'_>) -> Vec<Found> {
+    let table = evidence.table;
+    let mut found = Vec::new();
+    for (position, channel) in table.channels().iter().enumerate() {
+        let column = table.truth(position);
+        let rows = (0..column.len()).filter_map(|row| Some((column.get(row)?, row)));
+        let values: Vec<(f64, usize)> = rows.collect();
+        let mirrored = values.iter().map(|(value, row)| (-value, *row)).collect();
+        for (values, sign) in [(values.clone(), 1.0), (mirrored, -1.0)] {
+            let Some(outliers) = above(values) else {
+                continue;
+            };
+            let unit = channel.unit();
+            let first = outliers.rows[0];
+            let message = format!(
+                "{channel}: {} of {} labels beyond 3 interquartile ranges of the quartiles, such as {} {unit} in row {}; the next is {} {unit}",
+                outliers.rows.len(),
+                column.len(),
+                sign * outliers.least,
+                first + 1,
+                sign * outliers.next,
+            );
+            let names = evidence.names(&outliers.rows);
+            found.push(Found::about(Severity::Warning, message, names));
+        }
+    }
+    found
+}
+
+/// Values that stand apart above all others.
+struct Outliers {
+    /// Their rows, that of the least first.
+    rows: Vec<usize>,
+    /// The least of them.
+    least: f64,
+    /// The greatest of all others.
+    next: f64,
+}
+
+/// The values above Tukey's outer fence and above a gap wider than the interquartile range and than [`GAP`] times the tail below it: most presses
+/// without shear and a few with much have a narrow range and a long tail, in which no label stands apart.
+fn above(mut values: Vec<(f64, usize)>) -> Option<Outliers> {
+    if values.len() < LEAST {
+        return None;
+    }
+    values.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let quartile = |quarters: usize| values[(values.len() - 1) * quarters / 4].0;
+    let range = quartile(3) - quartile(1);
+    let fence = quartile(3) + FENCE * range;
+    let is_gap = |pair: &[(f64, usize)]| {
+        let [(below, _), (above, _)] = pair else {
+            return false;
+        };
+        above - below > range.max(GAP * (below - quartile(3))) && *above > fence
+    };
+    let few = values.len() - values.len() / MOST;
+    let apart = (few..values.len()).find(|at| is_gap(&values[at - 1..=*at]))? - 1;
+    let outliers = &values[apart + 1..];
+    (range > 0.0).then(|| Outliers {
+        rows: outliers.iter().map(|(_, row)| *row).collect(),
+        least: outliers[0].0,
+        next: values[apart].0,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn spread(extra: &[f64]) -> Vec<(f64, usize)> {
+        let usual = (0..200).map(|step| f64::from(step) * 0.025);
+        usual.chain(extra.iter().copied()).zip(0..).collect()
+    }
+
+    #[test]
+    fn one_force_of_15_newtons_above_5_is_found_with_its_row_and_its_neighbour() {
+        let found = above(spread(&[14.87])).expect("an outlier");
+        assert_eq!(found.rows, [200]);
+        assert!((found.least - 14.87).abs() < 1e-12 && (found.next - 4.975).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_long_tail_beside_a_narrow_middle_has_no_outliers_and_a_label_far_beyond_it_is_one() {
+        // Three quarters of the presses shear nothing, the others up to 0.6 N, with gaps wider than the middle.
+        let still = (0..75).map(|row| f64::from(row) * 1e-5);
+        let sheared = (1..=25).map(|row| 0.024 * f64::from(row));
+        let values: Vec<(f64, usize)> = still.chain(sheared).zip(0..).collect();
+        assert!(above(values.clone()).is_none());
+        let with = [values, vec![(1.5, 100)]].concat();
+        assert_eq!(above(with).expect("one").rows, [100]);
+    }
+
+    #[test]
+    fn tails_without_a_gap_few_values_and_constants_are_no_outliers() {
+        assert!(above(spread(&[])).is_none());
+        let tail: Vec<f64> = (0..40).map(|step| 5.0 + f64::from(step) * 0.5).collect();
+        assert!(above(spread(&tail)).is_none(), "a tail is no gap");
+        assert!(above(vec![(0.0, 0), (0.1, 1), (900.0, 2)]).is_none());
+        let still: Vec<(f64, usize)> = (0..50).map(|row| (1.0, row)).chain([(2.0, 50)]).collect();
+        assert!(above(still).is_none(), "no range to measure by");
+    }
+}

@@ -1,0 +1,61 @@
+//! TAC007: test samples that the model has as good as seen.
+
+use std::collections::BTreeSet;
+
+use crate::evidence::Evidence;
+use crate::finding::{Check, Found, Severity};
+
+pub(crate) static CHECK: Check = Check {
+    code: "TAC007",
+    name: "leakage",
+    looks_for: "contact points, or identical frames, in both the training and the test part",
+    hint: "divide with --split by-point, or by-column a session or an object; a score on seen points flatters",
+    reads: None,
+    find,
+};
+
+fn find(evidence: &Evidence<'_>) -> Vec<Found> {
+    let Some(split) = evidence.split else {
+        return Vec::new();
+    };
+    let table = evidence.table;
+    let seen: Vec<usize> = split
+        .train
+        .iter()
+        .chain(&split.validation)
+        .copied()
+        .collect();
+    let mut found = Vec::new();
+
+    let digests: BTreeSet<_> = seen
+        .iter()
+        .filter_map(|&row| Some(table.frames()[row].as_ref()?.digest))
+        .collect();
+    let is_copy = |row: &usize| {
+        table.frames()[*row]
+            .as_ref()
+            .is_some_and(|entry| digests.contains(&entry.digest))
+    };
+    let copies: Vec<usize> = split.test.iter().copied().filter(is_copy).collect();
+    let mut report = |severity, rows: &[usize], what: &str| {
+        if !rows.is_empty() {
+            let message = format!("{} of {} test {what}", rows.len(), split.test.len());
+            found.push(Found::about(severity, message, evidence.names(rows)));
+        }
+    };
+    report(Severity::Error, &copies, "frames are also fitted on");
+
+    let points: BTreeSet<&str> = seen
+        .iter()
+        .filter_map(|&row| table.point_id()[row].as_deref())
+        .collect();
+    let is_known = |row: &usize| {
+        table.point_id()[*row]
+            .as_deref()
+            .is_some_and(|point| points.contains(point))
+    };
+    let known: Vec<usize> = split.test.iter().copied().filter(is_known).collect();
+    let what = "samples lie at a point that is also fitted on";
+    report(Severity::Warning, &known, what);
+    found
+}

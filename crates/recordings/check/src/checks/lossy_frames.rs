@@ -1,0 +1,46 @@
+//! TAC026: frames whose pixels depend on who decodes them.
+
+use crate::evidence::Evidence;
+use crate::finding::{Check, Found, Severity};
+
+pub(super) static CHECK: Check = Check {
+    code: "TAC026",
+    name: "lossy-frames",
+    looks_for: "frames in JPEG or from lossy clips, of which decoders make pixels that differ by a few levels",
+    hint: "a model that is fitted on pixels of one decoder is to be used with it; scores of other programs on the same files differ by as much as their pixels do (docs/your-recording.md)",
+    reads: None,
+    find,
+};
+
+fn find(evidence: &Evidence<'_>) -> Vec<Found> {
+    let Some(frames) = &evidence.header.frames else {
+        return Vec::new();
+    };
+    if let Some(codec) = frames
+        .codec
+        .as_ref()
+        .filter(|codec| codec.lossy == Some(true))
+    {
+        let by = codec.decoder.as_deref().unwrap_or("whoever opens them");
+        let message = format!(
+            "the frames came as {} ({}), which loses detail, and were decoded by {by}",
+            codec.name, codec.pixel_format
+        );
+        return vec![Found::overall(Severity::Note, message)];
+    }
+    let is_jpeg = |path: &str| {
+        let ending = path.rsplit('.').next().unwrap_or_default();
+        ["jpg", "jpeg"]
+            .iter()
+            .any(|known| ending.eq_ignore_ascii_case(known))
+    };
+    let paths = evidence.table.frames().iter().flatten();
+    let jpegs = paths.filter(|frame| is_jpeg(&frame.path)).count();
+    if jpegs == 0 {
+        return Vec::new();
+    }
+    let message = format!(
+        "{jpegs} frames are JPEG: other decoders give pixels that differ by a few of 255 levels"
+    );
+    vec![Found::overall(Severity::Note, message)]
+}

@@ -1,0 +1,40 @@
+//! TAC015: frames of a stream that came and are not in its recording.
+
+use crate::evidence::Evidence;
+use crate::finding::{Check, Found, Severity};
+
+pub(super) static CHECK: Check = Check {
+    code: "TAC015",
+    name: "lost-frames",
+    looks_for: "frames that a capture lost, by its own count",
+    hint: "leave the machine to the capture, record to a faster disk, or let the camera send fewer or smaller frames",
+    reads: None,
+    find,
+};
+
+fn find(evidence: &Evidence<'_>) -> Vec<Found> {
+    let Some(stream) = evidence.header.stream else {
+        return Vec::new();
+    };
+    let mut found = Vec::new();
+    if stream.lost() > 0 {
+        let came = evidence.header.table.rows.saturating_add(stream.lost());
+        found.push(Found::overall(
+            Severity::Warning,
+            format!(
+                "{} of {came} frames of the stream are not in the recording: {} were dropped, {} came damaged",
+                stream.lost(),
+                stream.dropped,
+                stream.damaged
+            ),
+        ));
+    }
+    if !stream.numbered {
+        found.push(Found::overall(
+            Severity::Note,
+            "the camera numbers no frames: one that was lost before it came is not counted"
+                .to_owned(),
+        ));
+    }
+    found
+}

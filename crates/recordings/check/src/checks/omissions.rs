@@ -1,0 +1,95 @@
+//! TAC021: what was there when a recording was imported, and is not in it.
+
+use std::collections::BTreeMap;
+
+use taceva_core::shown;
+
+use crate::evidence::Evidence;
+use crate::finding::{Check, Found, Severity};
+
+pub(super) static CHECK: Check = Check {
+    code: "TAC021",
+    name: "left-out",
+    looks_for: "what the import left out: rows, unmatched ones above all, frames that no row uses, images, and chunks that were never written",
+    hint: "compare the counts with what the lab meant to record; `taceva import --explain` says them again, and how far away in time matches were",
+    reads: None,
+    find,
+};
+
+/// Names that a message lists.
+const NAMED: usize = 5;
+
+fn find(evidence: &Evidence<'_>) -> Vec<Found> {
+    let left_out = &evidence.header.left_out;
+    let (unmatched, by_rule): (BTreeMap<String, u64>, BTreeMap<String, u64>) = left_out
+        .rows
+        .clone()
+        .into_iter()
+        .partition(|(rule, _)| rule.starts_with("join "));
+    let kept = evidence.table.rows();
+    let one = |count: u64, what: &str| match count {
+        0 => BTreeMap::new(),
+        count => BTreeMap::from([(what.to_owned(), count)]),
+    };
+    let images = one(left_out.images, "images");
+    let columns = one(left_out.columns, "columns");
+    let counts = [
+        (
+            Severity::Warning,
+            &left_out.absent_chunks,
+            "chunks were never written; what is read there is the fill value of the array",
+        ),
+        (
+            Severity::Warning,
+            &unmatched,
+            "rows are not in the recording, since no row of a joined table belongs to them",
+        ),
+        (
+            Severity::Note,
+            &by_rule,
+            "times a rule of the map left a row out, one row by several perhaps",
+        ),
+        (
+            Severity::Note,
+            &left_out.joined_rows,
+            "rows of joined tables belong to no row of the tables",
+        ),
+        (
+            Severity::Note,
+            &left_out.skipped_rows,
+            "rows of joined tables were skipped by the map",
+        ),
+        (
+            Severity::Note,
+            &left_out.frames,
+            "frames of arrays and clips are used by no row",
+        ),
+        (Severity::Note, &images, "images are named by no row"),
+        (
+            Severity::Note,
+            &columns,
+            "columns beyond those that are listed are named by no key of the map",
+        ),
+    ];
+    let counts = counts
+        .into_iter()
+        .filter(|(_, counts, _)| !counts.is_empty());
+    counts
+        .map(|(severity, counts, what)| {
+            let sum: u64 = counts.values().sum();
+            let message = format!("{sum} {what} ({}; {kept} rows are kept)", named(counts));
+            Found::overall(severity, message)
+        })
+        .collect()
+}
+
+/// The names with their counts, the first few.
+fn named(counts: &BTreeMap<String, u64>) -> String {
+    let some = counts.iter().take(NAMED);
+    let some = some.map(|(name, count)| format!("{} {count}", shown(name)));
+    let some = some.collect::<Vec<_>>().join(", ");
+    match counts.len().saturating_sub(NAMED) {
+        0 => some,
+        more => format!("{some} and {more} more"),
+    }
+}

@@ -1,0 +1,43 @@
+//! TAC012: the facts that labs forget to write down.
+
+use taceva_core::Clock;
+
+use crate::evidence::Evidence;
+use crate::finding::{Check, Found, Severity};
+
+pub(super) static CHECK: Check = Check {
+    code: "TAC012",
+    name: "unknown-facts",
+    looks_for: "serial, gel, clock or reference frame that nobody wrote down",
+    hint: "ask the person who recorded it, today; every report carries `unknown` until then",
+    reads: None,
+    find,
+};
+
+fn find(evidence: &Evidence<'_>) -> Vec<Found> {
+    let header = evidence.header;
+    let has_times = evidence.table.t_s().iter().any(Option::is_some);
+    let unknown: Vec<&str> = [
+        ("serial", header.sensor.serial == "unknown"),
+        ("gel", header.sensor.gel == "unknown"),
+        ("clock", has_times && header.clock == Clock::Unknown),
+        (
+            "reference frame",
+            header
+                .frames
+                .as_ref()
+                .is_some_and(|frames| frames.reference.is_none()),
+        ),
+        ("opaque", header.sensor.opaque.known().is_none()),
+    ]
+    .into_iter()
+    .filter_map(|(fact, is_unknown)| is_unknown.then_some(fact))
+    .collect();
+    if unknown.is_empty() {
+        return Vec::new();
+    }
+    vec![Found::overall(
+        Severity::Note,
+        format!("unknown: {}", unknown.join(", ")),
+    )]
+}

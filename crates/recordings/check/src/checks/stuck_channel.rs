@@ -1,0 +1,127 @@
+//! TAC009: a channel that never changes, and a force that stands still or ends at a limit.
+
+use taceva_core::{Channel, Unit};
+
+use crate::evidence::Evidence;
+use crate::finding::{Check, Found, Severity};
+
+pub(super) static CHECK: Check = Check {
+    code: "TAC009",
+    name: "stuck-channel",
+    looks_for: "channels with the same value in every sample; forces and torques with the same one in a tenth of the samples on end, whose pictures differ, or whose end away from zero is met in 5 % of them",
+    hint: "leave a channel out of the map that never changes: R² is undefined on it, and its error says nothing; drop samples in which a transducer hung or was at its limit",
+    reads: None,
+    find,
+};
+
+/// A force that stands still does so in at least so many samples on end, and in one of so many.
+const STILL: usize = 20;
+const STILL_SHARE: usize = 10;
+/// Steps beside those, of which at most one in so many is to the same value: what is held from sample to sample anyway is not stuck.
+const BESIDE: usize = 10;
+const HELD: usize = 10;
+/// At most one in so many of the pictures of those samples is the one before it once more: where pictures stand still too, the recording does.
+const SAME_PICTURES: usize = 10;
+/// A force that is cut has its end in at least so many samples, and in one of so many,
+const CUT: usize = 10;
+const CUT_SHARE: usize = 20;
+/// more than so many times as often as any other value, of which there are so many at least: levels that somebody set are no limit.
+const TIMES: usize = 3;
+const VALUES: usize = 20;
+
+fn find(evidence: &Evidence<'_>) -> Vec<Found> {
+    let channels = evidence.table.channels().iter().enumerate();
+    channels
+        .filter_map(|(position, channel)| {
+            let column = evidence.table.truth(position);
+            let rows = (0..column.len()).filter_map(|row| Some((row, column.get(row)?)));
+            let labels: Vec<(usize, f64)> = rows.collect();
+            if let Some(value) = only_value(&labels) {
+                let message = format!("{channel} is {value} {} in every sample", channel.unit());
+                return Some(Found::overall(Severity::Warning, message));
+            }
+            // Places and angles are commanded, and may well be held.
+            if !matches!(channel.unit(), Unit::Newton | Unit::NewtonMillimetre) {
+                return None;
+            }
+            still(evidence, channel, &labels).or_else(|| cut(evidence, channel, &labels))
+        })
+        .collect()
+}
+
+/// The value of every sample, of two or more.
+fn only_value(labels: &[(usize, f64)]) -> Option<f64> {
+    let (first, others) = labels.split_first()?;
+    let is_only = !others.is_empty() && others.iter().all(|label| is_same(label, first));
+    is_only.then_some(first.1)
+}
+
+fn is_same(one: &(usize, f64), other: &(usize, f64)) -> bool {
+    one.1.to_bits() == other.1.to_bits()
+}
+
+/// A force that stands still while the pictures do not.
+fn still(evidence: &Evidence<'_>, channel: &Channel, labels: &[(usize, f64)]) -> Option<Found> {
+    let runs = labels.chunk_by(is_same);
+    // A force that is not measured is zero on end.
+    let runs = runs.filter(|run| run[0].1.abs() > 0.0);
+    let longest = runs.max_by_key(|run| run.len())?;
+    let held = labels.windows(2).filter(|pair| is_same(&pair[0], &pair[1]));
+    let held = held.count() - (longest.len() - 1);
+    let beside = labels.len() - longest.len();
+    let is_long = longest.len() >= STILL && longest.len() * STILL_SHARE >= labels.len();
+    if !is_long || beside < BESIDE || held * HELD > beside {
+        return None;
+    }
+    let frames = evidence.table.frames();
+    let digest = |row: usize| frames[row].as_ref().map(|frame| frame.digest);
+    let unchanged = longest.windows(2).filter(|pair| {
+        let [(before, _), (row, _)] = pair else {
+            return true;
+        };
+        digest(*row).is_none() || digest(*row) == digest(*before)
+    });
+    if unchanged.count() * SAME_PICTURES > longest.len() {
+        return None;
+    }
+    let rows: Vec<usize> = longest.iter().map(|(row, _)| *row).collect();
+    let message = format!(
+        "{channel} is {} {} in {} of {} samples on end, whose pictures differ; elsewhere it changes",
+        longest[0].1,
+        channel.unit(),
+        rows.len(),
+        labels.len()
+    );
+    let names = evidence.names(&rows);
+    Some(Found::about(Severity::Warning, message, names))
+}
+
+/// A force that is cut at its greatest or least value, away from zero: at rest a least number is none.
+fn cut(evidence: &Evidence<'_>, channel: &Channel, labels: &[(usize, f64)]) -> Option<Found> {
+    let mut sorted = labels.to_vec();
+    sorted.retain(|(_, value)| value.abs() > 0.0);
+    sorted.sort_by(|one, other| one.1.total_cmp(&other.1).then(one.0.cmp(&other.0)));
+    let values: Vec<&[(usize, f64)]> = sorted.chunk_by(is_same).collect();
+    let (least, greatest) = (*values.first()?, *values.last()?);
+    let is_cut = |end: &&[(usize, f64)]| {
+        let others = values.iter().filter(|value| !is_same(&value[0], &end[0]));
+        let next = others.map(|value| value.len()).max().unwrap_or(0);
+        end.len() >= CUT && end.len() * CUT_SHARE >= labels.len() && end.len() > TIMES * next
+    };
+    let ends = [(greatest, 1.0), (least, -1.0)].into_iter();
+    let end = ends
+        .filter(|(end, sign)| end[0].1 * sign > 0.0)
+        .map(|(end, _)| end)
+        .find(is_cut)
+        .filter(|_| values.len() >= VALUES)?;
+    let rows: Vec<usize> = end.iter().map(|(row, _)| *row).collect();
+    let message = format!(
+        "{channel} ends at {} {} in {} of {} samples, over {TIMES} times as many as have any other value: it is cut there",
+        end[0].1,
+        channel.unit(),
+        rows.len(),
+        labels.len()
+    );
+    let names = evidence.names(&rows);
+    Some(Found::about(Severity::Warning, message, names))
+}

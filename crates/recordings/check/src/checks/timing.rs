@@ -1,0 +1,145 @@
+//! TAC008: the true rate, and times that cannot be.
+
+use super::dropped_frames::{Missing, missing};
+use crate::evidence::Evidence;
+use crate::finding::{Check, Found, Severity};
+use crate::stamps::{by_clock, share};
+
+pub(super) static CHECK: Check = Check {
+    code: "TAC008",
+    name: "timing",
+    looks_for: "the true frame rate of each unit, its gaps, and times that repeat, run backwards or are whole seconds",
+    hint: "stamp frames when they are exposed, with a clock that does not jump, and keep the fractions of a second",
+    reads: None,
+    find,
+};
+
+/// Samples below which a rate says nothing.
+const LEAST: usize = 10;
+/// The longest median step, in s, of frames that are a stream; the metric `intrinsic` has the same limit.
+const STREAM_S: f64 = 1.0;
+/// A step of more than so many usual steps is a gap, and how far rounding takes one of just so many above that.
+const GAP: f64 = 3.0;
+const ROUNDING: f64 = 1e-6;
+/// How far, as a share, the mean of the other steps is from the usual one where they are alike.
+const ALIKE: f64 = 0.05;
+
+fn find(evidence: &Evidence<'_>) -> Vec<Found> {
+    let table = evidence.table;
+    let times = table.t_s();
+    let timed: Vec<usize> = (0..table.rows())
+        .filter(|row| times[*row].is_some())
+        .collect();
+    if timed.len() < LEAST {
+        return Vec::new();
+    }
+    // Another unit of the sensor is another recording, whose clock begins anew.
+    let steps: Vec<(usize, f64)> = by_clock(table, timed.iter().copied())
+        .into_iter()
+        .filter_map(|(before, row)| Some((row, times[row]? - times[before]?)))
+        .collect();
+    let mut found = vec![rate(&steps, missing(evidence).as_ref())];
+    let rows_of = |is_so: fn(f64) -> bool| -> Vec<usize> {
+        let steps = steps.iter().filter(|(_, seconds)| is_so(*seconds));
+        steps.map(|(row, _)| *row).collect()
+    };
+    let backwards = rows_of(|seconds| seconds < 0.0);
+    let repeated = rows_of(|seconds| seconds.abs() <= 0.0);
+    let whole = times.iter().flatten().all(|time| time.fract().abs() <= 0.0);
+    let warn = |message: &str, rows: &[usize]| {
+        Found::about(
+            Severity::Warning,
+            match rows.len() {
+                1 => format!(
+                    "1 {}",
+                    message.replacen("samples are", "sample is", 1).replacen(
+                        "samples have",
+                        "sample has",
+                        1
+                    )
+                ),
+                many => format!("{many} {message}"),
+            },
+            evidence.names(rows),
+        )
+    };
+    if let Some(sessions) = evidence.sessions {
+        found.push(Found::overall(Severity::Note, sessions.note.clone()));
+    }
+    // The clock of a machine begins anew with every boot.
+    let boots = evidence.sessions.map_or(1, |sessions| sessions.boots);
+    if backwards.len() >= boots {
+        found.push(warn(
+            "samples are older than the one before them",
+            &backwards,
+        ));
+    }
+    if !repeated.is_empty() {
+        found.push(warn(
+            "samples have the time of the one before them",
+            &repeated,
+        ));
+    }
+    if whole {
+        found.push(Found::overall(
+            Severity::Warning,
+            "every time is a whole second".to_owned(),
+        ));
+    }
+    found
+}
+
+/// The usual step is the median of the forward steps: pauses between presses do not move it.
+fn rate(steps: &[(usize, f64)], missing: Option<&Missing>) -> Found {
+    let mut forward: Vec<f64> = steps.iter().map(|(_, seconds)| *seconds).collect();
+    forward.retain(|seconds| *seconds > 0.0);
+    forward.sort_by(f64::total_cmp);
+    let Some(&usual) = forward.get(forward.len() / 2) else {
+        return Found::overall(
+            Severity::Note,
+            "no two samples have rising times".to_owned(),
+        );
+    };
+    if usual > STREAM_S {
+        return Found::overall(
+            Severity::Note,
+            format!(
+                "single pictures and no stream: the median step is {usual:.4} s, above {STREAM_S} s, so that there is no frame rate"
+            ),
+        );
+    }
+    let is_gap = |seconds: f64| seconds > GAP * usual * (1.0 + ROUNDING);
+    let gaps = forward.iter().filter(|step| is_gap(**step)).count();
+    let longest = forward.last().copied().unwrap_or(usual);
+    let others = steps.iter().map(|(_, seconds)| *seconds);
+    let others: Vec<f64> = others
+        .filter(|step| *step >= 0.0 && !is_gap(*step))
+        .collect();
+    let mean = others.iter().sum::<f64>() / share(others.len(), 1);
+    let is_alike = (mean / usual - 1.0).abs() <= ALIKE;
+    let mut message = format!("{:.4} Hz by the median step of {usual:.4} s", 1.0 / usual);
+    if !is_alike {
+        message += &format!(", {:.4} Hz by the mean step of {mean:.4} s", 1.0 / mean);
+    }
+    if gaps > 0 {
+        let steps_are = match gaps {
+            1 => "step is",
+            _ => "steps are",
+        };
+        message += &format!(
+            "; {gaps} {steps_are} over {GAP} times the median, the longest {longest:.4} s"
+        );
+    }
+    if let Some(missing) = missing {
+        let frames = missing.frames;
+        let frames_seem = match frames < 1.5 {
+            true => "frame seems",
+            false => "frames seem",
+        };
+        message += &format!("; {frames} {frames_seem} to be missing");
+    }
+    if is_alike && gaps == 0 && missing.is_none() {
+        message += ", without gaps";
+    }
+    Found::overall(Severity::Note, message)
+}

@@ -1,0 +1,27 @@
+//! TAC001: labels whose size contradicts the unit they are declared in.
+
+use taceva_import::magnitude_suspicion;
+
+use crate::evidence::Evidence;
+use crate::finding::{Check, Found, Severity};
+
+pub(super) static CHECK: Check = Check {
+    code: "TAC001",
+    name: "units-by-magnitude",
+    looks_for: "labels too large or too small for their unit",
+    hint: "look up the unit where the labels were written, and state it in the map; N, gf and mN, mm and m are the usual mix-ups",
+    reads: None,
+    find,
+};
+
+fn find(evidence: &Evidence<'_>) -> Vec<Found> {
+    let channels = evidence.table.channels().iter().enumerate();
+    channels
+        .filter_map(|(position, channel)| {
+            let column = evidence.table.truth(position);
+            let values = (0..column.len()).filter_map(|row| column.get(row));
+            let suspicion = magnitude_suspicion(channel, values)?;
+            Some(Found::overall(Severity::Warning, suspicion.to_string()))
+        })
+        .collect()
+}

@@ -1,0 +1,52 @@
+//! TAC014: columns of the imported table that were left behind, above all those that rate their rows.
+
+use taceva_core::shown;
+use taceva_dataset::names_quality;
+
+use crate::evidence::Evidence;
+use crate::finding::{Check, Found, Severity};
+
+pub(super) static CHECK: Check = Check {
+    code: "TAC014",
+    name: "unmentioned-columns",
+    looks_for: "columns of the imported table that no key of its map names, quality flags above all",
+    hint: "import again with a map that names what decides which samples are good, under [drop] or [attributes]",
+    reads: None,
+    find,
+};
+
+/// Columns that a note names.
+const NAMED: usize = 12;
+
+fn find(evidence: &Evidence<'_>) -> Vec<Found> {
+    let columns = &evidence.header.unmentioned_columns;
+    let (judging, others): (Vec<&String>, Vec<&String>) =
+        columns.iter().partition(|name| names_quality(name));
+    let mut found: Vec<Found> = judging
+        .into_iter()
+        .map(|name| Found::overall(Severity::Warning, unread(name)))
+        .collect();
+    if !others.is_empty() {
+        let named = others
+            .iter()
+            .take(NAMED)
+            .map(|name| shown(name).to_string());
+        let named = named.collect::<Vec<_>>().join(", ");
+        let more = match others.len().saturating_sub(NAMED) {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        let message = format!("columns of the table that no key of the map names: {named}{more}");
+        found.push(Found::overall(Severity::Note, message));
+    }
+    found
+}
+
+/// What a column is that may rate its rows, and the line of the map that would use it.
+fn unread(name: &str) -> String {
+    let name = shown(name);
+    format!(
+        "`{name}` of the table may say which samples are bad, and no key of the map names it: `[drop] column = \"{name}\", quality_flags = [\"…\"]` \
+         leaves out samples with these words"
+    )
+}

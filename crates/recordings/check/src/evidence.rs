@@ -1,0 +1,208 @@
+//! What checks examine: the table, the header, the split, and a few numbers of every frame.
+
+use taceva_core::{Frame, PixelFormat};
+use taceva_dataset::{Header, Table};
+use taceva_models::Split;
+
+use crate::signal_facts::SignalFacts;
+use taceva_dataset::RecordedSessions;
+
+/// A recording as checks see it.
+#[derive(Debug)]
+pub struct Evidence<'a> {
+    /// What is known of the recording as a whole.
+    pub header: &'a Header,
+    /// Its labels.
+    pub table: &'a Table,
+    /// How it would be divided.
+    pub split: Option<&'a Split>,
+    /// A few numbers of each row's frame; empty if no check reads frames.
+    pub frames: &'a [Option<FrameFacts>],
+    /// The same of the frame without contact.
+    pub reference: Option<&'a FrameFacts>,
+    /// A few numbers of every taxel; `None` if there is none, or no check reads signals.
+    pub signals: Option<&'a SignalFacts>,
+    /// The rows whose pictures are damaged inside although they decode, and how.
+    pub damaged: &'a [(usize, String)],
+    /// The sessions on a real rig in which it was made, if it was.
+    pub sessions: Option<&'a RecordedSessions>,
+}
+
+impl Evidence<'_> {
+    /// The channel that says how hard was pressed, by its position: the normal force, or else the depth.
+    pub(crate) fn load(&self) -> Option<usize> {
+        let channels = self.table.channels();
+        ["Fz", "Pz"]
+            .into_iter()
+            .find_map(|name| channels.position(name))
+    }
+
+    /// The names of `rows`.
+    pub(crate) fn names<'b>(&'b self, rows: &'b [usize]) -> impl Iterator<Item = &'b str> {
+        rows.iter().map(|&row| self.table.samples()[row].as_str())
+    }
+}
+
+/// A few numbers of one frame.
+///
+/// # Units
+/// Shares of the full scale of the pixel format, 0 to 1.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrameFacts {
+    /// Mean of red, green and blue; three times the same for gray.
+    pub mean: [f64; 3],
+    /// Share of numbers at full scale.
+    pub full: f64,
+    /// Share of numbers at zero.
+    pub zero: f64,
+    /// Whether every pixel has the same numbers.
+    pub is_flat: bool,
+    /// Mean absolute difference from the frame without contact, where there is one of the same size.
+    pub distance: Option<f64>,
+}
+
+impl FrameFacts {
+    /// The facts of `frame`, seen beside the frame without contact.
+    pub fn of(frame: &Frame, reference: Option<&Frame>) -> FrameFacts {
+        let format = frame.info().format;
+        match format.bytes_per_sample() {
+            1 => facts_of_bytes(frame, reference),
+            _ => facts_of_samples(frame, reference, format),
+        }
+    }
+}
+
+/// 8-bit frames, counted by histogram: one pass, no arithmetic a pixel.
+fn facts_of_bytes(frame: &Frame, reference: Option<&Frame>) -> FrameFacts {
+    let depth = frame.info().format.samples();
+    let mut histograms = vec![[0_u64; 256]; depth];
+    for pixel in frame.bytes().chunks_exact(depth) {
+        for (histogram, &number) in histograms.iter_mut().zip(pixel) {
+            histogram[usize::from(number)] += 1;
+        }
+    }
+    let total: u64 = histograms[0].iter().sum::<u64>().max(1);
+    let mean = |histogram: &[u64; 256]| {
+        let sum: u64 = histogram
+            .iter()
+            .zip(0_u64..)
+            .map(|(count, level)| count * level)
+            .sum();
+        share(sum, total * 255)
+    };
+    let counted = |level: usize| {
+        histograms
+            .iter()
+            .map(|histogram| histogram[level])
+            .sum::<u64>()
+    };
+    let distance = reference
+        .filter(|reference| reference.info() == frame.info())
+        .map(|reference| {
+            let pairs = frame.bytes().iter().zip(reference.bytes());
+            let sum: u64 = pairs
+                .map(|(seen, still)| u64::from(seen.abs_diff(*still)))
+                .sum();
+            share(sum, total * depth as u64 * 255)
+        });
+    FrameFacts {
+        mean: std::array::from_fn(|colour| mean(&histograms[colour.min(depth - 1)])),
+        full: share(counted(255), total * depth as u64),
+        zero: share(counted(0), total * depth as u64),
+        is_flat: histograms.iter().all(|histogram| {
+            let levels = histogram.iter().filter(|count| **count > 0);
+            levels.count() == 1
+        }),
+        distance,
+    }
+}
+
+fn facts_of_samples(frame: &Frame, reference: Option<&Frame>, format: PixelFormat) -> FrameFacts {
+    let (depth, top) = (format.samples(), format.full_scale());
+    let (mut sums, mut full, mut zero, mut count) = ([0_u64; 3], 0, 0, 0_u64);
+    for (position, number) in frame.samples().enumerate() {
+        sums[position % depth] += u64::from(number);
+        full += u64::from(number == top);
+        zero += u64::from(number == 0);
+        count += 1;
+    }
+    let pixel = frame.samples().take(depth).collect::<Vec<u16>>();
+    let is_flat = frame
+        .samples()
+        .enumerate()
+        .all(|(position, number)| pixel[position % depth] == number);
+    let count = count.max(1);
+    let scale = count * u64::from(top);
+    let distance = reference
+        .filter(|reference| reference.info() == frame.info())
+        .map(|reference| {
+            let pairs = frame.samples().zip(reference.samples());
+            share(
+                pairs
+                    .map(|(seen, still)| u64::from(seen.abs_diff(still)))
+                    .sum(),
+                scale,
+            )
+        });
+    FrameFacts {
+        mean: std::array::from_fn(|colour| {
+            share(sums[colour.min(depth - 1)] * depth as u64, scale)
+        }),
+        full: share(full, count),
+        zero: share(zero, count),
+        is_flat,
+        distance,
+    }
+}
+
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "counts of pixels are far below 2^53"
+)]
+fn share(part: u64, whole: u64) -> f64 {
+    part as f64 / whole as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use taceva_core::FrameInfo;
+
+    fn frame(format: PixelFormat, bytes: Vec<u8>) -> Frame {
+        Frame::new(
+            FrameInfo {
+                width: 2,
+                height: 1,
+                format,
+            },
+            bytes,
+        )
+        .expect("two pixels")
+    }
+
+    #[test]
+    fn eight_and_sixteen_bit_pictures_of_the_same_scene_have_the_same_facts() {
+        let low = frame(PixelFormat::Rgb8, vec![0, 51, 255, 0, 153, 255]);
+        let wide = low
+            .samples()
+            .flat_map(|number| (number * 257).to_le_bytes())
+            .collect();
+        let high = frame(PixelFormat::Rgb16, wide);
+        let facts = FrameFacts::of(&low, Some(&low));
+        assert_eq!(facts, FrameFacts::of(&high, Some(&high)));
+        assert_eq!(
+            facts.mean.map(f64::to_bits),
+            [0.0, 0.4, 1.0].map(f64::to_bits)
+        );
+        assert_eq!(
+            (facts.full, facts.zero, facts.distance),
+            (2.0 / 6.0, 2.0 / 6.0, Some(0.0))
+        );
+    }
+
+    #[test]
+    fn gray_is_three_times_the_same() {
+        let facts = FrameFacts::of(&frame(PixelFormat::Gray8, vec![0, 102]), None);
+        assert_eq!((facts.mean, facts.distance), ([0.2; 3], None));
+    }
+}

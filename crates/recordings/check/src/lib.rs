@@ -1,0 +1,14 @@
+#![doc = include_str!("../README.md")]
+
+mod checks;
+mod evidence;
+mod finding;
+mod run;
+mod signal_facts;
+mod stamps;
+
+pub use checks::ALL;
+pub use evidence::{Evidence, FrameFacts};
+pub use finding::{Check, CheckReport, Finding, Severity};
+pub use run::{CheckRequest, check, check_plan};
+pub use signal_facts::{SignalFacts, TaxelFacts};

@@ -1,0 +1,233 @@
+//! Gathers the evidence, lets every check look at it, and reports.
+
+use std::num::NonZeroUsize;
+use taceva_core::shown;
+
+use taceva_core::{Field, Progress, SkipReason, Skipped};
+use taceva_dataset::{Dataset, Pass, RecordedSessions};
+
+use crate::checks::{ALL, blank, damaged_frames, leakage};
+use crate::evidence::{Evidence, FrameFacts};
+use crate::finding::{Check, CheckReport, Finding};
+use crate::signal_facts::SignalFacts;
+use taceva_evaluate::EvaluateError;
+use taceva_evaluate::Plan;
+use taceva_evaluate::{Divided, require_samples};
+
+/// What to look for.
+#[derive(Clone, Debug)]
+pub struct CheckRequest {
+    /// Codes or names of checks; empty for all.
+    pub only: Vec<String>,
+    /// The split that is looked at for leakage, as people write it.
+    pub split: Option<String>,
+    /// Its seed.
+    pub seed: u64,
+    /// Threads.
+    pub jobs: NonZeroUsize,
+}
+
+/// Says what [`check`] would look for; reads no frame.
+///
+/// # Errors
+/// [`EvaluateError::Request`] for a code that does not exist.
+pub fn check_plan(dataset: &Dataset, request: &CheckRequest) -> Result<Plan, EvaluateError> {
+    let (wanted, skipped) = wanted(dataset, &request.only)?;
+    let mut plan = Plan {
+        skipped,
+        ..Plan::default()
+    };
+    plan.step(
+        "read",
+        format!(
+            "{} rows of {}",
+            dataset.table().rows(),
+            shown(&dataset.path())
+        ),
+    );
+    if reads(dataset, &wanted, Field::Signals) {
+        let rows = dataset.table().rows();
+        plan.step("read", format!("the signals of {rows} rows"));
+    }
+    if reads(dataset, &wanted, Field::Frame) {
+        plan.step(
+            "decode",
+            format!(
+                "{} frames",
+                dataset.table().frames().iter().flatten().count()
+            ),
+        );
+    }
+    for check in wanted {
+        plan.step(
+            "look",
+            format!("{} {}: {}", check.code, check.name, check.looks_for),
+        );
+    }
+    Ok(plan)
+}
+
+/// Looks for what spoils `dataset`.
+///
+/// # Errors
+/// [`EvaluateError`] if a code does not exist, the split cannot be made, or a frame is damaged.
+pub fn check(
+    dataset: &Dataset,
+    request: &CheckRequest,
+    progress: &dyn Progress,
+) -> Result<CheckReport, EvaluateError> {
+    require_samples(dataset)?;
+    let (mut wanted, mut skipped) = wanted(dataset, &request.only)?;
+    let divided = match Divided::of(dataset, request.split.as_deref(), request.seed) {
+        // Nobody asked for a split, and this recording has none: what looks at one is left out.
+        Err(EvaluateError::Split(error)) if request.split.is_none() => {
+            wanted.retain(|check| {
+                let reads_split = check.code == leakage::CHECK.code;
+                if reads_split {
+                    skipped.push(Skipped::new(
+                        format!("check:{}", check.code),
+                        SkipReason::NoSplit(error.to_string()),
+                    ));
+                }
+                !reads_split
+            });
+            None
+        }
+        divided => Some(divided?),
+    };
+    let (frames, reference) = if reads(dataset, &wanted, Field::Frame) {
+        look(dataset, request.jobs, progress)?
+    } else {
+        Default::default()
+    };
+    let damaged = match wanted
+        .iter()
+        .any(|check| check.code == damaged_frames::CHECK.code)
+    {
+        true => damaged(dataset, request.jobs, progress)?,
+        false => Vec::new(),
+    };
+    let signals = match reads(dataset, &wanted, Field::Signals) {
+        true => SignalFacts::of(dataset, progress)?,
+        false => None,
+    };
+    let sessions = RecordedSessions::of(dataset.path());
+    let evidence = Evidence {
+        header: dataset.header(),
+        table: dataset.table(),
+        split: divided.as_ref().map(|divided| &divided.split),
+        frames: &frames,
+        reference: reference.as_ref(),
+        signals: signals.as_ref(),
+        damaged: &damaged,
+        sessions: sessions.as_ref(),
+    };
+    let mut findings: Vec<Finding> = wanted
+        .iter()
+        .flat_map(|check| {
+            (check.find)(&evidence)
+                .into_iter()
+                .map(|found| Finding::new(check, found))
+        })
+        .collect();
+    // Stable, so that findings of one severity stay in the order of their codes.
+    findings.sort_by_key(|finding| std::cmp::Reverse(finding.severity));
+    Ok(CheckReport {
+        schema: "taceva.check/1",
+        dataset: dataset.digest().to_string(),
+        samples: dataset.table().rows(),
+        frames_decoded: frames.iter().flatten().count() as u64,
+        looked_for: wanted.iter().map(|check| check.code).collect(),
+        findings,
+        skipped,
+    })
+}
+
+/// Whether one of `wanted` reads `field` of every sample of `dataset`, which has it.
+fn reads(dataset: &Dataset, wanted: &[&Check], field: Field) -> bool {
+    let of_all = |check: &&&Check| check.code == blank::CHECK.code;
+    let mut checks = wanted.iter();
+    dataset.fields().contains(field)
+        && checks.any(|check| check.reads == Some(field) || of_all(&check))
+}
+
+type Wanted = (Vec<&'static Check>, Vec<Skipped>);
+
+fn wanted(dataset: &Dataset, only: &[String]) -> Result<Wanted, EvaluateError> {
+    let is_called =
+        |check: &Check, word: &str| check.code.eq_ignore_ascii_case(word) || check.name == word;
+    if let Some(unknown) = only
+        .iter()
+        .find(|word| !ALL.iter().any(|check| is_called(check, word)))
+    {
+        let known: Vec<&str> = ALL.iter().map(|check| check.code).collect();
+        return Err(EvaluateError::Request(format!(
+            "`{}`: no such check, expected one of {}",
+            shown(unknown),
+            known.join(", ")
+        )));
+    }
+    let fields = dataset.fields();
+    let mut skipped = Vec::new();
+    let mut skip =
+        |check: &Check, reason| skipped.push(Skipped::new(format!("check:{}", check.code), reason));
+    let mut kept = Vec::new();
+    for check in ALL {
+        if !only.is_empty() && !only.iter().any(|word| is_called(check, word)) {
+            continue;
+        }
+        match check.reads.filter(|field| !fields.contains(*field)) {
+            None => kept.push(check),
+            // Where there are no taxels nobody misses them, unless somebody asked.
+            Some(Field::Signals) if only.is_empty() => {}
+            Some(absent) => skip(check, SkipReason::FieldAbsent(absent)),
+        }
+    }
+    Ok((kept, skipped))
+}
+
+/// The rows whose pictures are damaged inside although they decode, and how.
+fn damaged(
+    dataset: &Dataset,
+    jobs: NonZeroUsize,
+    progress: &dyn Progress,
+) -> Result<Vec<(usize, String)>, EvaluateError> {
+    let rows = dataset.all_rows();
+    let pass = Pass::new(&rows, jobs, progress);
+    let mut damaged = Vec::new();
+    dataset.map_rows(
+        pass,
+        "read to the end",
+        |row| dataset.damage_inside(row),
+        |row, found| {
+            damaged.extend(found.map(|problem| (row, problem)));
+            Ok(())
+        },
+    )?;
+    Ok(damaged)
+}
+
+type Looked = (Vec<Option<FrameFacts>>, Option<FrameFacts>);
+
+fn look(
+    dataset: &Dataset,
+    jobs: NonZeroUsize,
+    progress: &dyn Progress,
+) -> Result<Looked, EvaluateError> {
+    let reference = dataset.reference()?;
+    let framed = |row: &usize| dataset.table().frames()[*row].is_some();
+    let rows: Vec<usize> = dataset.all_rows().into_iter().filter(framed).collect();
+    let mut facts = vec![None; dataset.table().rows()];
+    dataset.map_frames(
+        Pass::new(&rows, jobs, progress),
+        |_, frame| FrameFacts::of(&frame, reference.as_ref()),
+        |row, found| {
+            facts[row] = Some(found);
+            Ok(())
+        },
+    )?;
+    Ok((
+        facts,
+        reference.map(|reference| FrameFacts::of(&reference, None)),
+    ))
+}

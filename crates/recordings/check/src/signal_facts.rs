@@ -1,0 +1,188 @@
+//! A few numbers of every taxel, gathered in one pass over a recording.
+
+use std::num::NonZeroUsize;
+
+use taceva_core::{Progress, SignalInfo, Signals};
+use taceva_dataset::{Dataset, Pass};
+
+use taceva_evaluate::EvaluateError;
+
+/// A few numbers of every taxel of a recording.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SignalFacts {
+    /// The grid and the unit.
+    pub info: SignalInfo,
+    /// What each number is called, place first.
+    pub names: Vec<String>,
+    /// The facts of each number, place first.
+    pub taxels: Vec<TaxelFacts>,
+    /// Samples that were looked at.
+    pub samples: u64,
+    /// Rows whose numbers are all exactly 0, where other rows are not.
+    pub zero_rows: Vec<usize>,
+    /// The rows that are said to be without contact.
+    pub rest_rows: Vec<usize>,
+    /// The mean over those; `None` if there is none.
+    pub rest: Option<Signals>,
+    /// How far each row is from that: the mean absolute difference, in the unit of the signals; empty if there is none.
+    pub distance: Vec<f64>,
+}
+
+/// A few numbers of one taxel.
+///
+/// # Units
+/// That of the signals.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TaxelFacts {
+    /// The least number and how often it is met.
+    pub least: (f32, u64),
+    /// The least but one, and how often that is.
+    pub above_least: Option<(f32, u64)>,
+    /// The greatest number and how often it is met.
+    pub greatest: (f32, u64),
+    /// The greatest but one, and how often that is.
+    pub below_greatest: Option<(f32, u64)>,
+}
+
+impl SignalFacts {
+    /// The facts of `dataset`; `None` if it has no signals.
+    pub(crate) fn of(
+        dataset: &Dataset,
+        progress: &dyn Progress,
+    ) -> Result<Option<SignalFacts>, EvaluateError> {
+        let Some(header) = &dataset.header().signals else {
+            return Ok(None);
+        };
+        let rest = dataset.rest()?;
+        let mut facts = SignalFacts {
+            info: header.spec.info,
+            names: header.spec.column_names().collect(),
+            taxels: Vec::new(),
+            samples: 0,
+            zero_rows: Vec::new(),
+            rest_rows: dataset.rest_rows().collect(),
+            rest,
+            distance: Vec::new(),
+        };
+        let rows = dataset.all_rows();
+        let pass = Pass::new(&rows, NonZeroUsize::MIN, progress);
+        dataset.map_rows(
+            pass,
+            "read signals",
+            |row| dataset.signals(row),
+            |row, signals| {
+                if let Some(signals) = signals {
+                    if signals.values().iter().all(|value| value.abs() <= 0.0) {
+                        facts.zero_rows.push(row);
+                    }
+                    facts.add(signals.values());
+                }
+                Ok(())
+            },
+        )?;
+        Ok(Some(facts))
+    }
+
+    fn add(&mut self, values: &[f32]) {
+        if self.taxels.is_empty() {
+            let first = values.iter().map(|value| TaxelFacts::first(*value));
+            self.taxels = first.collect();
+        } else {
+            let taxels = self.taxels.iter_mut().zip(values);
+            taxels.for_each(|(taxel, value)| taxel.add(*value));
+        }
+        self.samples += 1;
+        if let Some(rest) = &self.rest {
+            let differences = values.iter().zip(rest.values());
+            let sum: f64 = differences
+                .map(|(value, rest)| (f64::from(*value) - f64::from(*rest)).abs())
+                .sum();
+            self.distance.push(sum / count(values.len()));
+        }
+    }
+}
+
+impl TaxelFacts {
+    fn first(value: f32) -> TaxelFacts {
+        TaxelFacts {
+            least: (value, 1),
+            above_least: None,
+            greatest: (value, 1),
+            below_greatest: None,
+        }
+    }
+
+    fn add(&mut self, value: f32) {
+        extend(
+            value,
+            &mut self.least,
+            &mut self.above_least,
+            |one, other| one < other,
+        );
+        extend(
+            value,
+            &mut self.greatest,
+            &mut self.below_greatest,
+            |one, other| one > other,
+        );
+    }
+
+    /// Whether every number is the same.
+    pub fn is_stuck(&self) -> bool {
+        self.above_least.is_none()
+    }
+}
+
+/// Counts `value` where it is at the end or next to it; `beyond` tells which of two is nearer to the end.
+fn extend(
+    value: f32,
+    end: &mut (f32, u64),
+    next: &mut Option<(f32, u64)>,
+    beyond: impl Fn(f32, f32) -> bool,
+) {
+    if beyond(value, end.0) {
+        *next = Some(*end);
+        *end = (value, 1);
+    } else if !beyond(end.0, value) {
+        end.1 += 1;
+    } else {
+        match next {
+            Some(known) if beyond(known.0, value) => {}
+            Some(known) if !beyond(value, known.0) => known.1 += 1,
+            _ => *next = Some((value, 1)),
+        }
+    }
+}
+
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "numbers of a sample are far below 2^53"
+)]
+fn count(number: usize) -> f64 {
+    number as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ends_and_what_is_next_to_them_are_counted_in_any_order() {
+        for values in [
+            [3.0, 1.0, 2.0, 3.0, 1.0, 3.0, 2.0_f32],
+            [1.0, 1.0, 2.0, 2.0, 3.0, 3.0, 3.0],
+            [3.0, 3.0, 3.0, 2.0, 2.0, 1.0, 1.0],
+        ] {
+            let mut facts = TaxelFacts::first(values[0]);
+            values[1..].iter().for_each(|value| facts.add(*value));
+            assert_eq!((facts.least, facts.above_least), ((1.0, 2), Some((2.0, 2))));
+            assert_eq!(
+                (facts.greatest, facts.below_greatest),
+                ((3.0, 3), Some((2.0, 2)))
+            );
+        }
+        let mut same = TaxelFacts::first(-0.0);
+        same.add(0.0);
+        assert!(same.is_stuck());
+    }
+}

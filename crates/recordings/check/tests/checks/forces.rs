@@ -1,0 +1,104 @@
+//! Forces that stand still and forces that are cut at a limit.
+
+use taceva_check::CheckReport;
+
+use super::streams::{message, says_nothing};
+use super::{Recording, picture, readings};
+
+/// What a check says of a recording with these normal forces.
+fn with_forces(force: impl Fn(u32) -> f64, change: impl FnOnce(&mut Recording)) -> CheckReport {
+    let mut recording = Recording::sound();
+    for (number, sample) in (0..).zip(&mut recording.samples) {
+        readings(sample, |channel, value| match channel {
+            2 => Some(force(number)),
+            _ => Some(value),
+        });
+    }
+    change(&mut recording);
+    recording.check("")
+}
+
+/// From 1 N to 2.99 N, no two alike.
+fn forces(number: u32) -> f64 {
+    1.0 + 0.01 * f64::from(number * 37 % 200)
+}
+
+fn stuck(number: u32) -> f64 {
+    if number < 100 { forces(number) } else { 1.255 }
+}
+
+#[test]
+fn a_force_that_stands_still_in_half_of_the_samples_while_pictures_change_is_stuck() {
+    let report = with_forces(stuck, |_| {});
+    assert_eq!(
+        message(&report, "TAC009"),
+        "Fz is 1.255 N in 100 of 200 samples on end, whose pictures differ; elsewhere it changes"
+    );
+    says_nothing(&with_forces(forces, |_| {}), "TAC009");
+}
+
+#[test]
+fn a_force_that_is_held_stands_still_with_its_pictures_or_is_zero_is_not_stuck() {
+    // Each press has one force.
+    says_nothing(&with_forces(|number| forces(number / 20), |_| {}), "TAC009");
+    let still = with_forces(stuck, |recording| {
+        let frame = recording.samples[100].frame.clone();
+        for sample in &mut recording.samples[100..] {
+            sample.frame = frame.clone();
+        }
+    });
+    says_nothing(&still, "TAC009");
+    let at_rest = |number: u32| if number < 100 { forces(number) } else { 0.0 };
+    says_nothing(&with_forces(at_rest, |_| {}), "TAC009");
+}
+
+#[test]
+fn a_force_that_is_cut_in_a_third_of_the_samples_is_stuck_at_its_limit() {
+    let report = with_forces(|number| forces(number).min(2.305), |_| {});
+    assert_eq!(
+        message(&report, "TAC009"),
+        "Fz ends at 2.305 N in 69 of 200 samples, over 3 times as many as have any other value: it is cut there"
+    );
+    let pulled = with_forces(|number| -forces(number).min(2.305), |_| {});
+    assert!(message(&pulled, "TAC009").starts_with("Fz ends at -2.305 N in 69 of 200"));
+    // Levels that somebody set, and the least force, which may be that at rest.
+    let levels = |number: u32| f64::from(1 + number % 4);
+    says_nothing(&with_forces(levels, |_| {}), "TAC009");
+    says_nothing(
+        &with_forces(|number| forces(number).max(1.505), |_| {}),
+        "TAC009",
+    );
+}
+
+/// What a check says of presses from 0 to 1.5 N and back, whose forces are seen through `read`, after a rest of `rest` samples.
+fn of_presses(rest: u32, read: impl Fn(f64) -> f64) -> CheckReport {
+    let press = |number: u32| match number < rest {
+        true => 0.0,
+        false => 1.5 * (1.0 - (f64::from(number % 40) / 20.0 - 1.0).abs()),
+    };
+    with_forces(
+        |number| read(press(number)),
+        |recording| {
+            for (number, sample) in (0..).zip(&mut recording.samples) {
+                sample.frame = Some(picture(number, press(number)));
+            }
+        },
+    )
+}
+
+#[test]
+fn a_force_that_is_zero_below_a_threshold_differs_from_rest_by_its_pictures() {
+    let below = |force: f64| if force < 0.6 { 0.0 } else { force };
+    let report = of_presses(0, below);
+    let found = message(&report, "TAC027");
+    assert!(
+        found.starts_with("Fz is exactly 0 in 80 samples, of whose pictures "),
+        "{found}"
+    );
+    // So is one that is clipped at zero behind an offset.
+    let clipped = |force: f64| (force - 0.7).max(0.0);
+    message(&of_presses(0, clipped), "TAC027");
+    // A rest, and the ends of presses.
+    says_nothing(&of_presses(80, |force| force), "TAC027");
+    says_nothing(&of_presses(0, |force| force), "TAC027");
+}

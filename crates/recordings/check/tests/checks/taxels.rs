@@ -1,0 +1,96 @@
+//! What `check` says of taxels.
+
+use std::num::NonZeroUsize;
+
+use taceva_check::{CheckReport, CheckRequest, check};
+use taceva_core::{Field, SilentProgress, SkipReason};
+use taceva_dataset::Dataset;
+
+use crate::taxel_drawing::{REST, record, record_changed};
+
+fn checked(dataset: &Dataset, only: &[&str]) -> CheckReport {
+    let request = CheckRequest {
+        only: only.iter().map(|&code| code.to_owned()).collect(),
+        split: None,
+        seed: 0,
+        jobs: NonZeroUsize::MIN,
+    };
+    check(dataset, &request, &SilentProgress).expect("checked")
+}
+
+/// Codes and messages of what is found in a drawn recording whose signals are changed by `change`.
+fn found(change: impl Fn(u32, Vec<f32>) -> Vec<f32>) -> Vec<(&'static str, String)> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let dataset = record_changed(&folder.path().join("data"), 400, change);
+    let findings = checked(&dataset, &[]).findings.into_iter();
+    let of_taxels =
+        findings.filter(|finding| ["TAC016", "TAC017", "TAC018"].contains(&finding.code));
+    of_taxels
+        .map(|finding| (finding.code, finding.message))
+        .collect()
+}
+
+#[test]
+fn sound_taxels_are_sound_and_what_looks_at_frames_is_skipped_by_name() {
+    assert_eq!(found(|_, values| values), []);
+    let folder = tempfile::tempdir().expect("a folder");
+    let dataset = record(&folder.path().join("data"), 100);
+    let report = checked(&dataset, &[]);
+    assert!(report.looked_for.contains(&"TAC017") && !report.looked_for.contains(&"TAC004"));
+    let skipped = report
+        .skipped
+        .iter()
+        .find(|skipped| skipped.what == "check:TAC004");
+    assert_eq!(
+        skipped.expect("said").reason,
+        SkipReason::FieldAbsent(Field::Frame)
+    );
+    assert_eq!(report.frames_decoded, 0);
+}
+
+#[test]
+fn a_taxel_that_never_changes_is_named() {
+    let found = found(|_, mut values| {
+        values[4] = 12.5;
+        values
+    });
+    let message = "1 of 15 signals are the same in every sample: taxel_1_0_y is 12.5 uT";
+    assert_eq!(found, [("TAC016", message.to_owned())]);
+}
+
+#[test]
+fn a_taxel_at_the_end_of_its_converter_is_named_and_one_that_is_silent_at_rest_is_not() {
+    let clipped = found(|_, mut values| {
+        values[14] = values[14].min(400.0);
+        values
+    });
+    let [(code, message)] = &clipped[..] else {
+        panic!("{clipped:?}");
+    };
+    assert_eq!(*code, "TAC017");
+    assert!(
+        message
+            .starts_with("1 of 15 signals end where many samples stand: taxel_4_0_z is 400 uT in "),
+        "{message}"
+    );
+    // Below 320 µT, which hardly any press stays under, it says nothing.
+    let silent = found(|_, values| values.into_iter().map(|value| value.max(320.0)).collect());
+    assert_eq!(silent, []);
+}
+
+#[test]
+fn rows_without_contact_that_are_pressed_are_named() {
+    // At rest the numbers of a deep press, and the deeper the others the nearer to them.
+    let pressed = found(|row, values| match row < REST {
+        true => values.into_iter().map(|value| value + 700.0).collect(),
+        false => values,
+    });
+    let [(code, message)] = &pressed[..] else {
+        panic!("{pressed:?}");
+    };
+    assert_eq!(*code, "TAC018");
+    assert!(
+        message.contains("samples of larger Fz are closer to the mean of `rest`"),
+        "{message}"
+    );
+}

@@ -1,0 +1,50 @@
+//! The count of frames that were taken again, kept beside a recording so that an interrupted run still states it.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Adds `count` to what is written beside the recording at `path`.
+///
+/// # Errors
+/// Those of the file system.
+pub fn add_frame_retries(path: &Path, count: u64) -> io::Result<()> {
+    if count == 0 {
+        return Ok(());
+    }
+    fs::write(
+        place(path),
+        format!("{}\n", frame_retries(path).saturating_add(count)),
+    )
+}
+
+/// Frames of the recording at `path` that were taken again; 0 where nothing can be read: a recording that was moved has left the count behind.
+pub fn frame_retries(path: &Path) -> u64 {
+    let text = fs::read_to_string(place(path)).unwrap_or_default();
+    text.trim().parse().unwrap_or(0)
+}
+
+fn place(path: &Path) -> PathBuf {
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(".retried");
+    path.with_file_name(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_several_sittings_took_again_is_added_up_and_nothing_is_not_written() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let recording = folder.path().join("1-gel");
+        add_frame_retries(&recording, 0).expect("nothing");
+        assert_eq!(
+            (frame_retries(&recording), place(&recording).exists()),
+            (0, false)
+        );
+        add_frame_retries(&recording, 3).expect("written");
+        add_frame_retries(&recording, 4).expect("written");
+        assert_eq!(frame_retries(&recording), 7);
+    }
+}

@@ -1,0 +1,244 @@
+//! The table of the sessions of a recording on a real rig; each session adds a row before its first press.
+
+use std::fs::File;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::{DatasetError, Place};
+
+/// The beginning of a session, a row of the table. Lengths are in mm and forces in N, in the frame of the sensor.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Session {
+    /// The boot of the machine whose clock stamps the samples of the session; empty where the machine does not say.
+    pub boot_id: String,
+    /// The time of the beginning by that clock, in s.
+    pub begun_s: f64,
+    /// The unit of the sensor.
+    pub unit: String,
+    /// The specimen of the gentle touch.
+    pub specimen: String,
+    /// The height at which the gel began.
+    pub height_mm: f64,
+    /// The depth of the touch.
+    pub depth_mm: f64,
+    /// The normal force of the touch.
+    #[serde(rename = "Fz_N")]
+    pub fz_n: f64,
+    /// The load at rest along x.
+    #[serde(rename = "zero_Fx_N")]
+    pub zero_fx_n: f64,
+    /// The load at rest along y.
+    #[serde(rename = "zero_Fy_N")]
+    pub zero_fy_n: f64,
+    /// The load at rest along z.
+    #[serde(rename = "zero_Fz_N")]
+    pub zero_fz_n: f64,
+    /// Whether a push along x was felt.
+    pub x_felt: bool,
+    /// Whether a push along y was felt.
+    pub y_felt: bool,
+    /// Whether the picture changed.
+    pub picture_changed: bool,
+    /// The time from a force to the halt of the robot.
+    pub reaction_ms: f64,
+    /// The way of the tip after the halt.
+    pub overshoot_mm: f64,
+}
+
+/// The table of sessions beside a recording.
+#[derive(Debug)]
+pub struct SessionTable {
+    path: PathBuf,
+    rows: Vec<Session>,
+}
+
+impl SessionTable {
+    /// Reads the table beside the recording at `recording`; it is empty where there was no session.
+    ///
+    /// # Errors
+    /// [`DatasetError::Table`] for a file that is no such table.
+    pub fn of(recording: &Path) -> Result<SessionTable, DatasetError> {
+        let path = place(recording);
+        let refused = |problem: String| DatasetError::Table {
+            place: Place::file(&path),
+            problem,
+        };
+        let rows = match File::open(&path) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
+            Err(error) => return Err(refused(error.to_string())),
+            Ok(file) => {
+                let mut table = csv::Reader::from_reader(file);
+                let rows: Result<Vec<Session>, csv::Error> = table.deserialize().collect();
+                rows.map_err(|error| {
+                    refused(format!(
+                        "{error}; expected the table of sessions that `taceva run` wrote: put it back, or begin another recording"
+                    ))
+                })?
+            }
+        };
+        Ok(SessionTable { path, rows })
+    }
+
+    /// Its rows, the first session first.
+    pub fn rows(&self) -> &[Session] {
+        &self.rows
+    }
+
+    /// Adds a session; durable when this returns.
+    ///
+    /// # Errors
+    /// Those of the file system.
+    pub fn add(&mut self, session: Session) -> io::Result<()> {
+        self.rows.push(session);
+        let mut name = std::ffi::OsString::from(".");
+        name.push(self.path.file_name().unwrap_or_default());
+        name.push(".partial");
+        let beside = self.path.with_file_name(name);
+        taceva_files::replace(&self.path, &beside, |beside| {
+            let mut table = csv::Writer::from_path(beside)?;
+            self.rows.iter().try_for_each(|row| table.serialize(row))?;
+            table.flush()
+        })
+    }
+}
+
+/// The sessions on a real rig in which a recording was made.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RecordedSessions {
+    /// How many boots of the machine stamped its samples: each has a clock that begins anew.
+    pub boots: usize,
+    /// What reports say of them.
+    pub note: String,
+}
+
+impl RecordedSessions {
+    /// The sessions of the recording at `path`; `None` where their table is not beside it.
+    pub fn of(path: &Path) -> Option<RecordedSessions> {
+        let rows = SessionTable::of(path).ok()?.rows;
+        let note = note(&rows)?;
+        let mut boots: Vec<&str> = rows.iter().map(|row| row.boot_id.as_str()).collect();
+        boots.sort_unstable();
+        boots.dedup();
+        Some(RecordedSessions {
+            boots: boots.len(),
+            note,
+        })
+    }
+}
+
+/// A sentence for reports; a recording that was moved has left the table behind.
+fn note(rows: &[Session]) -> Option<String> {
+    let first = rows.first()?;
+    let spread = |of: fn(&Session) -> f64| {
+        let alike = rows
+            .iter()
+            .filter(|row| (&row.unit, &row.specimen) == (&first.unit, &first.specimen));
+        let values = alike.map(of);
+        let (least, greatest) = values.fold(
+            (f64::INFINITY, f64::NEG_INFINITY),
+            |(least, greatest), value| (least.min(value), greatest.max(value)),
+        );
+        greatest - least
+    };
+    let sessions = match rows.len() {
+        1 => "1 session".to_owned(),
+        count => format!(
+            "{count} sessions, between which the gel began within {:.3} mm and pressed within {:.4} N at one depth",
+            spread(|row| row.height_mm),
+            spread(|row| row.fz_n)
+        ),
+    };
+    let unseen: Vec<&str> = [
+        ("Fx", rows.iter().all(|row| row.x_felt)),
+        ("Fy", rows.iter().all(|row| row.y_felt)),
+        ("the picture", rows.iter().all(|row| row.picture_changed)),
+    ]
+    .into_iter()
+    .filter_map(|(what, is_seen)| (!is_seen).then_some(what))
+    .collect();
+    let unseen = match unseen[..] {
+        [] => String::new(),
+        _ => format!("; of {} the gentle touch showed nothing", unseen.join(", ")),
+    };
+    Some(format!("recorded in {sessions}{unseen}"))
+}
+
+fn place(recording: &Path) -> PathBuf {
+    let mut name = recording.file_name().unwrap_or_default().to_owned();
+    name.push(".sessions.csv");
+    recording.with_file_name(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+
+    fn session(height_mm: f64, fz_n: f64) -> Session {
+        Session {
+            boot_id: "boot".to_owned(),
+            begun_s: 1.0,
+            unit: "a, with \"quotes\"".to_owned(),
+            specimen: "sphere 4 mm".to_owned(),
+            height_mm,
+            depth_mm: 0.2,
+            fz_n,
+            zero_fx_n: 0.0,
+            zero_fy_n: 0.0,
+            zero_fz_n: 0.3,
+            x_felt: true,
+            y_felt: false,
+            picture_changed: true,
+            reaction_ms: 6.5,
+            overshoot_mm: 0.02,
+        }
+    }
+
+    fn note(recording: &Path) -> Option<String> {
+        RecordedSessions::of(recording).map(|sessions| sessions.note)
+    }
+
+    #[test]
+    fn what_a_session_writes_the_next_one_reads_and_the_report_says() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let recording = folder.path().join("1-gel");
+        assert_eq!(note(&recording), None);
+        let mut sessions = SessionTable::of(&recording).expect("none yet");
+        sessions.add(session(0.1, 0.06)).expect("written");
+        let said = note(&recording).expect("one");
+        assert_eq!(
+            said,
+            "recorded in 1 session; of Fy the gentle touch showed nothing"
+        );
+        let mut sessions = SessionTable::of(&recording).expect("one");
+        assert_eq!(sessions.rows[0].unit, "a, with \"quotes\"");
+        sessions.add(session(0.14, 0.0615)).expect("written");
+        let said = note(&recording).expect("two");
+        let expected =
+            "2 sessions, between which the gel began within 0.040 mm and pressed within 0.0015 N";
+        assert!(said.contains(expected), "{said}");
+        let text = fs::read_to_string(place(&recording)).expect("there");
+        assert!(
+            text.starts_with("boot_id,begun_s,unit,specimen,height_mm,depth_mm,Fz_N,zero_Fx_N")
+        );
+        assert_eq!(text.lines().count(), 3);
+    }
+
+    #[test]
+    fn a_table_that_is_none_is_refused_by_name_and_by_what_helps() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let recording = folder.path().join("1-gel");
+        fs::write(place(&recording), "boot_id,begun_s\nx,soon\n").expect("written");
+        let error = SessionTable::of(&recording)
+            .map(|_| ())
+            .expect_err("no table");
+        let said = error.to_string();
+        assert!(
+            said.contains("1-gel.sessions.csv") && said.contains("put it back"),
+            "{said}"
+        );
+    }
+}

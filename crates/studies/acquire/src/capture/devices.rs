@@ -1,0 +1,327 @@
+//! The sensor and the transducer of a capture or a preview: which, opened, and started.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::mpsc::sync_channel;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+use taceva_core::{
+    Axis, Deadline, Descriptor, DriverError, DriverKey, DriverSource, ErrorKind, Facts, Frame,
+    FrameInfo, FrameMut, Rig, Sensor, SensorFacts, Wrench,
+};
+use taceva_drivers::{Drivers, OpenError, Selector};
+use taceva_protocol::{RigFile, Setting, SignedAxes};
+
+use super::camera::{Camera, ROOM};
+use super::device_error;
+use super::streams::{Counts, Streams};
+use super::track::Track;
+use super::transducer::Transducer;
+use crate::error::AcquireError;
+use crate::presses::{HeldRigs, Opened, Turned};
+use crate::scene::read_rig_file;
+
+/// How long a sensor may take to start and to give its first frame.
+const FIRST: Duration = Duration::from_secs(5);
+
+/// The devices of a capture or a preview, checked but not open.
+#[derive(Clone, Debug)]
+pub struct LiveSpec {
+    sensor: Named,
+    force: Option<Named>,
+    /// Which axis of the transducer each axis of the sensor is, where a rig file says so.
+    axes: Option<SignedAxes>,
+    is_emulated: bool,
+}
+
+/// A device by what opens it.
+#[derive(Clone, Debug)]
+struct Named {
+    selector: Selector,
+    /// What a rig file says of its stamps, in ms.
+    latency_ms: Option<f64>,
+    /// Who names it.
+    by: String,
+}
+
+impl LiveSpec {
+    /// The devices that are named by selectors, and where one is not, by a rig file; its robot is left alone.
+    ///
+    /// # Errors
+    /// [`AcquireError::Request`] if there is no sensor or a selector is none; [`AcquireError::Scene`] if the rig file is none.
+    pub fn new(
+        sensor: Option<&str>,
+        force: Option<&str>,
+        rig: Option<&Path>,
+    ) -> Result<LiveSpec, AcquireError> {
+        let rig = rig.map(read_rig_file).transpose()?;
+        let rig: Option<&RigFile> = rig.as_ref();
+        let of_rig = |driver: &str, latency_ms: Option<Setting<f64>>| Wanted {
+            text: driver.to_owned(),
+            latency_ms: latency_ms.map(|latency| latency.value),
+            by: rig.map_or_else(String::new, |rig| rig.name().to_owned()),
+        };
+        let typed = |option: &str, text: &str| Wanted {
+            text: text.to_owned(),
+            latency_ms: None,
+            by: option.to_owned(),
+        };
+        let rig_sensor = rig.and_then(|rig| rig.sensor.as_ref());
+        let rig_force = rig.and_then(|rig| rig.force.as_ref());
+        let wanted_sensor = sensor
+            .map(|text| typed("--sensor", text))
+            .or(rig_sensor.map(|sensor| of_rig(&sensor.driver.value, sensor.latency_ms)));
+        let wanted_force = force
+            .map(|text| typed("--force", text))
+            .or(rig_force.map(|force| of_rig(&force.driver.value, force.latency_ms)));
+        let Some(wanted_sensor) = wanted_sensor else {
+            let place = rig.map_or_else(String::new, |rig| {
+                format!("{} has no [sensor]: ", taceva_core::shown(rig.name()))
+            });
+            return Err(AcquireError::Request(format!(
+                "{place}no sensor is named; expected --sensor DRIVER:ARGUMENTS, as `taceva devices` lists them, or --rig FILE with a [sensor]"
+            )));
+        };
+        Ok(LiveSpec {
+            sensor: wanted_sensor.read()?,
+            force: wanted_force.map(Wanted::read).transpose()?,
+            axes: rig_force
+                .filter(|_| force.is_none())
+                .map(|force| force.axes.value),
+            is_emulated: rig.is_some_and(|rig| rig.simulated),
+        })
+    }
+
+    /// What opens the sensor.
+    pub fn sensor(&self) -> &Selector {
+        &self.sensor.selector
+    }
+
+    /// The devices that are real, which one command at a time may have.
+    fn real(&self, drivers: &Drivers) -> BTreeMap<String, String> {
+        let sensor = drivers.sensors.get(self.sensor.selector.driver());
+        let is_real = |descriptor: &Descriptor| descriptor.source() == DriverSource::Real;
+        let mut real = BTreeMap::new();
+        let mut take =
+            |named: &Named| drop(real.insert(named.selector.to_string(), named.by.clone()));
+        if sensor.is_ok_and(|sensor| is_real(sensor.descriptor())) {
+            take(&self.sensor);
+        }
+        // One that is not real is refused when it is opened.
+        self.force.iter().for_each(take);
+        real
+    }
+
+    /// Opens the devices, which nobody else has.
+    ///
+    /// # Errors
+    /// [`AcquireError::OpenLive`] if one does not open, [`AcquireError::RigTaken`] if another command has one, [`AcquireError::Request`] if a
+    /// transducer is to be read whose clock is not that of the sensor.
+    pub fn open(&self, drivers: &Drivers) -> Result<LiveDevices, AcquireError> {
+        let held = HeldRigs::take(&std::env::temp_dir(), self.real(drivers))?;
+        let failed = |source: OpenError| AcquireError::OpenLive(Box::new(source));
+        let mut shared = Rig::new();
+        let selector = || self.sensor.selector.clone();
+        let sensor = Opened::open(&drivers.sensors, selector(), &mut shared).map_err(failed)?;
+        let sensor_driver = sensor.descriptor.key().clone();
+        let sensor_source = sensor.descriptor.source();
+        let sensor_facts = sensor.descriptor.sensor().cloned().unwrap_or_default();
+        let latency_ms = self.sensor.latency_ms;
+        let sensor = sensor.timely(|facts| latency_ms.or(facts.sensor()?.latency_ms));
+        let mut force = None;
+        if let Some(named) = &self.force {
+            let selector = named.selector.clone();
+            let opened = Opened::open(&drivers.forces, selector, &mut shared).map_err(failed)?;
+            let sources = [sensor_source, opened.descriptor.source()];
+            if sources.iter().any(|source| *source != DriverSource::Real) {
+                return Err(AcquireError::Request(format!(
+                    "`{}` is {} and `{}` is {}: frames and forces are brought together by the clock of this machine, which only real devices are stamped by; leave --force out",
+                    self.sensor.selector.driver(),
+                    sources[0],
+                    named.selector.driver(),
+                    sources[1],
+                )));
+            }
+            let driver = opened.descriptor.key().clone();
+            let facts = match opened.descriptor.facts() {
+                Facts::Force(facts) => *facts,
+                _ => taceva_core::ForceFacts::default(),
+            };
+            let latency_ms = named.latency_ms;
+            let mut device = opened.timely(|facts| latency_ms.or(facts.force()?.latency_ms));
+            if let Some(axes) = self.axes {
+                device = Box::new(Turned::new(device, axes));
+            }
+            force = Some(Transducer {
+                device,
+                driver,
+                facts,
+                zero: Wrench::default(),
+            });
+        }
+        Ok(LiveDevices {
+            sensor,
+            sensor_driver,
+            sensor_source,
+            sensor_facts,
+            force,
+            is_emulated: self.is_emulated,
+            _held: held,
+        })
+    }
+}
+
+/// A device as it is written, before that is read.
+struct Wanted {
+    text: String,
+    latency_ms: Option<f64>,
+    by: String,
+}
+
+impl Wanted {
+    fn read(self) -> Result<Named, AcquireError> {
+        let selector = self.text.parse().map_err(|error| {
+            AcquireError::Request(format!("{}: {error}", taceva_core::shown(&self.by)))
+        })?;
+        Ok(Named {
+            selector,
+            latency_ms: self.latency_ms,
+            by: self.by,
+        })
+    }
+}
+
+/// A sensor and perhaps a transducer, open.
+pub struct LiveDevices {
+    sensor: Box<dyn Sensor>,
+    sensor_driver: DriverKey,
+    sensor_source: DriverSource,
+    sensor_facts: SensorFacts,
+    force: Option<Transducer>,
+    is_emulated: bool,
+    _held: HeldRigs,
+}
+
+impl LiveDevices {
+    /// Size and format of every frame.
+    pub fn frame_info(&self) -> FrameInfo {
+        self.sensor.frame_info()
+    }
+
+    /// What is known of the sensor before it is opened.
+    pub fn sensor_facts(&self) -> &SensorFacts {
+        &self.sensor_facts
+    }
+
+    /// Whether there is a transducer that measures `axis`.
+    pub fn measures(&self, axis: Axis) -> bool {
+        let force = self.force.as_ref();
+        force.is_some_and(|force| force.device.axes().contains(axis))
+    }
+
+    /// What is set of the camera, read back.
+    pub(super) fn settings(&self) -> BTreeMap<String, String> {
+        self.sensor.settings()
+    }
+
+    pub(super) fn sensor_source(&self) -> DriverSource {
+        self.sensor_source
+    }
+
+    /// Whether a rig file says that nothing of it is real.
+    pub(super) fn is_emulated(&self) -> bool {
+        self.is_emulated
+    }
+
+    /// Starts both, and calls the present load zero.
+    pub(super) fn begin(&mut self) -> Result<(), DriverError> {
+        self.sensor.start(Deadline::after(FIRST))?;
+        self.force.as_mut().map_or(Ok(()), Transducer::begin)
+    }
+
+    /// The first frame: of a gel that nothing touches.
+    pub(super) fn untouched(&mut self) -> Result<Frame, DriverError> {
+        let info = self.sensor.frame_info();
+        let mut bytes = vec![0; info.byte_len().unwrap_or_default()];
+        let internal = |why: String| {
+            device_error(
+                ErrorKind::Internal,
+                &self.sensor_driver,
+                "take the first frame",
+                why,
+            )
+        };
+        let into = FrameMut::new(info, &mut bytes).map_err(|error| internal(error.to_string()))?;
+        self.sensor.capture(into, Deadline::after(FIRST))?;
+        Frame::new(info, bytes).map_err(|error| internal(error.to_string()))
+    }
+
+    /// Lets `act` take what comes, while threads read the devices; then the devices are stopped. What ended them, if one failed.
+    pub(super) fn stream<T>(
+        &mut self,
+        act: impl FnOnce(&Streams<'_>) -> T,
+    ) -> (T, Option<DriverError>) {
+        let counts = Counts::of(self.sensor.sequence().is_some());
+        let track = self
+            .force
+            .as_ref()
+            .map(|force| Track::new(force.period_s()));
+        let failed: Mutex<Option<DriverError>> = Mutex::new(None);
+        // The first failure is the cause: what fails after it may be its effect.
+        let fail = |error: DriverError| {
+            let mut failed = failed.lock().unwrap_or_else(PoisonError::into_inner);
+            failed.get_or_insert(error);
+            counts.end();
+        };
+        let (sender, queue) = sync_channel(ROOM);
+        let interrupt = self.sensor.interrupt_handle();
+        let camera = Camera {
+            sensor: &mut *self.sensor,
+            driver: &self.sensor_driver,
+            source: self.sensor_source,
+            counts: &counts,
+        };
+        let force = self.force.as_mut();
+        let (counts, track, fail) = (&counts, track.as_ref(), &fail);
+        let done = std::thread::scope(|scope| {
+            scope.spawn(move || {
+                if let Err(error) = camera.take(&sender) {
+                    fail(error);
+                }
+            });
+            if let (Some(force), Some(track)) = (force, track) {
+                scope.spawn(move || {
+                    if let Err(error) = force.read(track, counts) {
+                        fail(error);
+                    }
+                });
+            }
+            let _over = Over(counts, interrupt);
+            act(&Streams {
+                queue,
+                track,
+                counts,
+            })
+        });
+        // What does not confirm that it stopped is stopped when it is dropped.
+        drop(self.sensor.stop());
+        if let Some(force) = &mut self.force {
+            drop(force.device.stop());
+        }
+        let failed = failed.into_inner().unwrap_or_else(PoisonError::into_inner);
+        (done, failed)
+    }
+}
+
+/// Ends the threads, however the one that takes frames ends.
+struct Over<'a>(&'a Counts, Option<Arc<dyn taceva_core::Interrupt>>);
+
+impl Drop for Over<'_> {
+    fn drop(&mut self) {
+        self.0.end();
+        if let Some(interrupt) = &self.1 {
+            interrupt.interrupt();
+        }
+    }
+}

@@ -1,0 +1,238 @@
+//! From a plan to a recording: every press that is not in it yet, unit after unit, each durable before the next begins.
+
+mod changers;
+mod content_key;
+mod device;
+mod devices;
+mod file_devices;
+mod guardian;
+mod latency;
+mod log;
+mod operator;
+mod reduction;
+mod registration;
+mod rehearsal;
+mod rig_locks;
+mod schedule;
+mod session;
+mod simulation;
+mod tap;
+mod viewed_sensor;
+mod workshop;
+
+use std::path::Path;
+
+use taceva_core::Outline;
+use taceva_dataset::{
+    Dataset, DatasetError, Footprint, Known, Recorder, RecordingFacts, RecordingSpec,
+    ReducedFrames, SensorFacts, SessionTable, Source, add_frame_retries,
+};
+use taceva_drivers::Drivers;
+use taceva_protocol::{Cancel, Event, Mode, Plan, PressLog, RunSpec, StopCause};
+
+use crate::error::AcquireError;
+use crate::scene::{PlannedStudy, RigSpec, StudySource};
+pub(crate) use device::Opened;
+pub(crate) use devices::written_latencies_ms;
+use devices::{OpenRig, Sitting};
+pub(crate) use file_devices::{FileDevices, FileOpener};
+use log::RecordedPresses;
+use operator::{acquisition, presses_skipped, stopped, unit_is_there};
+use reduction::reduction;
+pub(crate) use registration::Turned;
+pub use rehearsal::{AIR_MM, rehearse_scene};
+pub use rig_locks::HeldRigs;
+use schedule::Schedule;
+pub(crate) use tap::tap_study;
+pub use workshop::{Surroundings, SurroundingsOf, Upcoming, Workshop};
+
+impl PlannedStudy {
+    /// The whole recording of this study: pressed at `path`, from its beginning or from where it was left, or found where the scene names
+    /// one. Presses that are finished advance the progress.
+    ///
+    /// # Errors
+    /// [`AcquireError::Open`] and [`AcquireError::Acquisition`] if a device failed or somebody wished to stop: what was recorded stays, and
+    /// the same call goes on. [`AcquireError::Dataset`] if it cannot be recorded, or something else was recorded there.
+    pub fn acquire(
+        &self,
+        path: &Path,
+        workshop: Workshop<'_>,
+        cancel: &Cancel,
+    ) -> Result<Dataset, AcquireError> {
+        match &self.source {
+            StudySource::Rig(rig) => acquire(self, rig, path, (workshop, cancel)),
+            StudySource::Recording(path) => Ok(Dataset::open(path)?),
+        }
+    }
+
+    /// Whether it presses with a device that is not simulated.
+    pub fn is_real(&self, drivers: &Drivers) -> bool {
+        matches!(&self.source, StudySource::Rig(rig) if !rig.is_only_simulated(drivers))
+    }
+}
+
+/// The recording of `study` at `path`, whole: begun, continued or found there.
+fn acquire(
+    study: &PlannedStudy,
+    rig: &RigSpec,
+    path: &Path,
+    (workshop, cancel): (Workshop<'_>, &Cancel),
+) -> Result<Dataset, AcquireError> {
+    let plan = &study.plan;
+    match Dataset::open(path) {
+        Err(DatasetError::NoDataset { .. }) => {}
+        closed_before => {
+            // Whoever reads holds the folder, which nobody may write to meanwhile.
+            drop(closed_before?);
+            // A power cut may have spared the journal of what was closed; asking to go on removes it.
+            match Recorder::resume(path) {
+                Err(DatasetError::TargetExists { .. }) => {}
+                other => drop(other?),
+            }
+            workshop.progress.advance(plan.presses.len() as u64);
+            return Ok(Dataset::open(path)?);
+        }
+    }
+    let mut log: Option<RecordedPresses> = None;
+    let mut left = 0;
+    let mut is_enabled = false;
+    for unit in &plan.units {
+        let by_hand = (workshop, cancel, &mut is_enabled);
+        if !unit_is_there(study, rig, unit, by_hand)? {
+            left += plan
+                .presses
+                .iter()
+                .filter(|press| press.press.unit == *unit)
+                .count();
+            continue;
+        }
+        let mut open = OpenRig::open(study, rig, unit, (workshop, cancel))?;
+        let log = match &mut log {
+            Some(log) => log,
+            None => {
+                let is_emulated = study.study.rig.as_ref().is_some_and(|rig| rig.simulated);
+                let is_simulated = is_emulated || rig.is_simulated(workshop.drivers);
+                let spec = recording_spec(study, &open, is_simulated);
+                let reduction = reduction(study, &open)?;
+                let spec = match &reduction {
+                    Some(reduction) => {
+                        spec.with_reduced(ReducedFrames::area_averages(reduction.from()))
+                    }
+                    None => spec,
+                };
+                log.insert(RecordedPresses::new(
+                    Recorder::open(path, &spec)?,
+                    SessionTable::of(path)?,
+                    reduction,
+                ))
+            }
+        };
+        let touched = session::touches(log.sessions().rows(), plan);
+        let sitting = Sitting {
+            is_enabled,
+            touched: &touched,
+        };
+        let whereabouts = (unit.as_str(), &mut open, path);
+        let done = acquire_unit(study, whereabouts, log, (workshop, cancel, sitting));
+        is_enabled = true;
+        if let Err(error) = done {
+            left += presses_skipped(error)?;
+        }
+    }
+    if left > 0 {
+        // What is recorded is kept open: the same call goes on with it.
+        return Err(acquisition(plan, StopCause::Skipped { presses: left }));
+    }
+    if let Some(log) = log {
+        log.into_recorder().close()?;
+    }
+    Ok(Dataset::open(path)?)
+}
+
+/// The presses of one unit.
+fn acquire_unit(
+    study: &PlannedStudy,
+    (unit, open, path): (&str, &mut OpenRig, &Path),
+    log: &mut RecordedPresses,
+    (workshop, cancel, sitting): (Workshop<'_>, &Cancel, Sitting<'_>),
+) -> Result<(), AcquireError> {
+    let (plan, progress) = (&study.plan, workshop.progress);
+    if open.surroundings.begins_anew {
+        log.relive(plan, unit);
+    }
+    let schedule = Schedule::of(plan);
+    if let Some(viewer) = workshop.viewer {
+        viewer.begins(plan, unit, &|press| log.is_finished(press));
+    }
+    let mut retried = 0_u64;
+    let mut upcoming = open.surroundings.upcoming.take();
+    let mut events = |event: &Event| {
+        if let Some(viewer) = workshop.viewer {
+            viewer.event(event);
+        }
+        match event {
+            Event::Started { finished, .. } => progress.advance(*finished as u64),
+            Event::Approaching { press, number } => {
+                if let Some(upcoming) = &mut upcoming {
+                    upcoming(Upcoming {
+                        press: *press,
+                        begins: schedule.begins(*number),
+                    });
+                }
+            }
+            Event::Finished { .. } => progress.advance(1),
+            Event::FrameRetried => retried += 1,
+            _ => {}
+        }
+        if progress.is_cancelled() {
+            cancel.cancel();
+        }
+    };
+    let spec = RunSpec {
+        plan,
+        unit,
+        mode: Mode::Acquire,
+    };
+    let done = open.conduct(&spec, log, (cancel, workshop, sitting), &mut events);
+    let done = done.map(drop).map_err(|error| stopped(plan, error));
+    // A count that cannot be written is no reason to lose a recording.
+    drop(add_frame_retries(path, retried));
+    done
+}
+
+/// What the recording of `study` is of.
+fn recording_spec(study: &PlannedStudy, open: &OpenRig, is_simulated: bool) -> RecordingSpec {
+    let plan = &study.plan;
+    let gel = open.surroundings.gel.clone();
+    let source = match is_simulated {
+        true => Source::Simulated,
+        false => Source::Recorded,
+    };
+    let mut sensor = SensorFacts::new(&plan.name).with_serial(plan.units.join(", "));
+    sensor.opaque = plan.opaque.map_or(Known::Unknown, Known::Is);
+    if let Some(gel) = gel {
+        sensor = sensor.with_gel(gel);
+    }
+    let mut facts = RecordingFacts::new(source, taceva_core::Clock::Monotonic, sensor);
+    facts.footprint = footprint(plan);
+    facts.settings = open.settings_of_sensor();
+    RecordingSpec::new(facts, plan.truth_channels())
+}
+
+/// Where the sensor senses and how deep it is pressed, as recordings write it.
+fn footprint(plan: &Plan) -> Option<Footprint> {
+    let footprint = plan.footprint?;
+    let of_gel = footprint.depth_max().map(|depth| depth.to_millimetres());
+    let limit = plan.limits.as_ref().map(|limits| limits.depth_max.0);
+    let written = match footprint.outline() {
+        Outline::Disc { radius } => Footprint::disc(radius.to_millimetres()),
+        Outline::Rectangle { half_x, half_y } => {
+            Footprint::rectangle(half_x.to_millimetres(), half_y.to_millimetres())
+        }
+        _ => return None,
+    };
+    Some(match of_gel.or(limit) {
+        Some(depth_max_mm) => written.with_depth_max(depth_max_mm),
+        None => written,
+    })
+}

@@ -1,0 +1,133 @@
+//! The changers of a rig: opened by what its rig file says, called with a deadline, and believed only where they name what was asked for.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::Duration;
+
+use taceva_core::{Changer, Deadline, DriverError, DriverKey, ErrorKind, Progress, Rig, Specimen};
+use taceva_drivers::{Drivers, OpenError};
+use taceva_protocol::{Cancel, RigFile, Setting, SpecimenChanger};
+
+use super::device::Opened;
+use crate::scene::RigSpec;
+
+/// A wish to stop reaches a changer so soon.
+const LISTENING: Duration = Duration::from_millis(10);
+
+/// A changer that is open.
+pub(super) struct OpenChanger {
+    changer: Box<dyn Changer>,
+    driver: DriverKey,
+    patience: Duration,
+}
+
+impl OpenChanger {
+    /// Opens what `device` of `rig` names; nothing moves.
+    pub(super) fn open(
+        (spec, rig): (&RigSpec, &RigFile),
+        device: Option<&Setting<String>>,
+        drivers: &Drivers,
+    ) -> Result<Option<OpenChanger>, OpenError> {
+        let Some(device) = device else {
+            return Ok(None);
+        };
+        let selector = spec
+            .selector(&drivers.changers, device, "1")
+            .expect("the selector was read when the scene was planned");
+        let opened = Opened::open(&drivers.changers, selector, &mut Rig::new())?;
+        Ok(Some(OpenChanger {
+            driver: opened.descriptor.key().clone(),
+            changer: opened.device,
+            patience: rig.changers.patience,
+        }))
+    }
+
+    /// Whether it holds what is called `name`.
+    pub(super) fn holds(&self, name: &str) -> bool {
+        self.changer.holds().iter().any(|held| held == name)
+    }
+
+    /// Brings what is called `name` into place, and lets the changer stand as soon as somebody wishes to stop.
+    ///
+    /// # Errors
+    /// [`DriverError`] of the changer; of kind `DeviceFault` where it says that something else is in place.
+    pub(super) fn bring(
+        &mut self,
+        name: &str,
+        is_stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<(), DriverError> {
+        let deadline = Deadline::after(self.patience);
+        let interrupt = self.changer.interrupt_handle();
+        let is_done = AtomicBool::new(false);
+        let there = thread::scope(|scope| {
+            if let Some(interrupt) = interrupt {
+                scope.spawn(|| {
+                    let interrupt = interrupt;
+                    while !is_done.load(Ordering::Acquire) {
+                        if is_stopped() {
+                            interrupt.interrupt();
+                        }
+                        thread::sleep(LISTENING);
+                    }
+                });
+            }
+            let there = self.changer.bring(name, deadline);
+            is_done.store(true, Ordering::Release);
+            there
+        })?;
+        if there == name {
+            return Ok(());
+        }
+        let why = format!(
+            "it says that `{}` is in place, expected `{}`",
+            taceva_core::shown(&there),
+            taceva_core::shown(name)
+        );
+        let error = DriverError::new(ErrorKind::DeviceFault, &self.driver, "bring it into place");
+        Err(error.because(why))
+    }
+}
+
+/// A changer that mounts specimens during a run.
+pub(super) struct OfSpecimens {
+    pub(super) changer: OpenChanger,
+    pub(super) cancel: Cancel,
+}
+
+impl SpecimenChanger for OfSpecimens {
+    fn mount(&mut self, specimen: Specimen, _: Deadline) -> Result<(), DriverError> {
+        let cancel = self.cancel.clone();
+        self.changer
+            .bring(&specimen.to_string(), &move || cancel.is_cancelled())
+    }
+
+    fn holds(&self, specimen: Specimen) -> bool {
+        self.changer.holds(&specimen.to_string())
+    }
+
+    fn patience(&self) -> Option<Duration> {
+        Some(self.changer.patience)
+    }
+}
+
+/// Whether `unit` was put under the robot by a changer of units; `None` where none holds it.
+///
+/// # Errors
+/// As [`OpenChanger::open`] and [`OpenChanger::bring`].
+pub(super) fn bring_unit(
+    (spec, rig): (&RigSpec, &RigFile),
+    unit: &str,
+    (drivers, progress, cancel): (&Drivers, &dyn Progress, &Cancel),
+) -> Option<Result<(), OpenError>> {
+    let opened = OpenChanger::open((spec, rig), rig.changers.unit.as_ref(), drivers);
+    let mut changer = match opened {
+        Ok(changer) => changer?,
+        Err(error) => return Some(Err(error)),
+    };
+    if !changer.holds(unit) {
+        return None;
+    }
+    let is_stopped = || progress.is_cancelled() || cancel.is_cancelled();
+    let brought = changer.bring(unit, &is_stopped);
+    Some(brought.map_err(OpenError::Device))
+}

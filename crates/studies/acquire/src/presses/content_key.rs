@@ -1,0 +1,85 @@
+//! Everything that decides what a simulated study records.
+
+use taceva_core::{ArgKind, Device, Registry};
+use taceva_drivers::Drivers;
+use taceva_protocol::Setting;
+
+use crate::scene::{PlannedStudy, RigSpec, StudySource};
+
+/// The parts of a written plan that say what is computed of a recording, and not what is recorded.
+const OF_SCORES: [&str; 4] = ["metrics", "fits", "skipped", "cost"];
+
+impl PlannedStudy {
+    /// The parts of a key of its recording, each with a name; `None` for a recording that is there already, and if a device is real or has an
+    /// argument that names a file, whose content can change.
+    ///
+    /// No device is opened: the arguments of simulated ones are in their selectors.
+    pub fn content_key(&self, drivers: &Drivers) -> Option<Vec<(&'static str, String)>> {
+        let StudySource::Rig(rig) = &self.source else {
+            return None;
+        };
+        if !rig.is_only_simulated(drivers) {
+            return None;
+        }
+        let plan = &self.plan;
+        let mut written = serde_json::to_value(plan).ok()?;
+        let fields = written.as_object_mut()?;
+        for field in OF_SCORES {
+            fields.remove(field);
+        }
+        let mut parts = vec![
+            ("plan", written.to_string()),
+            ("opaque", format!("{:?}", plan.opaque)),
+            ("footprint", format!("{:?}", plan.footprint)),
+        ];
+        for unit in &plan.units {
+            let opened = devices(rig, unit, drivers)?.into_iter();
+            parts.extend(opened.map(|device| ("device", format!("{device:?}"))));
+        }
+        Some(parts)
+    }
+}
+
+/// What opens a device, and which build of its driver does where that is not the program itself.
+#[derive(Debug)]
+#[expect(
+    dead_code,
+    reason = "its fields are read when it is debugged into a key"
+)]
+struct Opened {
+    selector: String,
+    build: Option<String>,
+}
+
+/// What opens each device of `rig` for `unit`.
+fn devices(rig: &RigSpec, unit: &str, drivers: &Drivers) -> Option<[Option<Opened>; 4]> {
+    fn of<D: Device + ?Sized>(
+        (rig, unit): (&RigSpec, &str),
+        registry: &Registry<D>,
+        device: Option<&Setting<String>>,
+    ) -> Option<Option<Opened>> {
+        let Some(device) = device else {
+            return Some(None);
+        };
+        let selector = rig.selector(registry, device, unit).ok()?;
+        let factory = registry.get(selector.driver()).ok()?;
+        let mut taken = factory.descriptor().arguments().iter();
+        let reads_file = taken.any(|argument| {
+            argument.kind == ArgKind::Path && selector.arguments().contains(&argument.key[..])
+        });
+        let build = factory.build().ok()?;
+        (!reads_file).then(|| {
+            Some(Opened {
+                selector: selector.to_string(),
+                build,
+            })
+        })
+    }
+    let way = (rig, unit);
+    Some([
+        of(way, &drivers.sensors, rig.sensor.as_ref())?,
+        of(way, &drivers.robots, rig.robot.as_ref())?,
+        of(way, &drivers.forces, rig.force.as_ref())?,
+        of(way, &drivers.lightings, rig.lighting.as_ref())?,
+    ])
+}

@@ -1,0 +1,372 @@
+//! The devices of a rig, opened for one unit of the sensor and lent to a run.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, PoisonError};
+use std::time::Duration;
+
+use taceva_core::{
+    Deadline, Device, DriverError, DriverKey, DriverSource, EnablingSwitch, ErrorKind,
+    ForceTransducer, Lighting, Registry, Rig, Robot, Sensor,
+};
+use taceva_drivers::{Drivers, OnBench, OpenError, Selector};
+use taceva_protocol::{
+    Cancel, Controls, Devices, Event, Plan, PressLog, ReferenceTouch, RigFile, RunError, RunGuard,
+    RunReport, RunSpec, SessionSpec, Setting, SharedSupervisor, StopCause, raise, run, run_guarded,
+};
+
+use super::changers::{OfSpecimens, OpenChanger};
+use super::device::Opened;
+use super::guardian::Guarded;
+use super::registration::{Registered, Turned};
+use super::viewed_sensor::Seen;
+use super::workshop::{Surroundings, Workshop};
+use crate::error::AcquireError;
+use crate::scene::{PlannedStudy, RigSpec, open_switch};
+
+/// How long a robot may take to say for the first time where it stands.
+pub(super) const FIRST_POSE: Duration = Duration::from_secs(2);
+
+/// Devices that are open.
+pub(super) struct OpenRig {
+    pub(super) sensor: Option<Box<dyn Sensor>>,
+    pub(super) robot: Box<dyn Robot>,
+    pub(super) force: Box<dyn ForceTransducer>,
+    lighting: Option<Box<dyn Lighting>>,
+    pub(super) surroundings: Surroundings,
+    pub(super) force_driver: DriverKey,
+    /// Whether its time passes by itself: then threads look on while it moves.
+    is_real: bool,
+    /// The rig file that says how a real rig stands: then a session begins by trying that.
+    pub(super) rig_file: Option<Arc<RigFile>>,
+    /// What somebody holds while the robot moves.
+    pub(super) switch: Option<Arc<dyn EnablingSwitch>>,
+}
+
+/// What a session of a real rig goes on from.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sitting<'a> {
+    /// Whether somebody has enabled the robot since this process has it.
+    pub(super) is_enabled: bool,
+    /// What earlier sessions of the recording touched.
+    pub(super) touched: &'a [ReferenceTouch],
+}
+
+impl OpenRig {
+    /// Opens the devices of `rig` for `unit`, the sensor first.
+    pub(super) fn open(
+        study: &PlannedStudy,
+        rig: &RigSpec,
+        unit: &str,
+        (workshop, cancel): (Workshop<'_>, &Cancel),
+    ) -> Result<OpenRig, AcquireError> {
+        let failed = |source: OpenError| AcquireError::Open {
+            study: study.plan.name.clone(),
+            source: Box::new(source),
+        };
+        let Drivers {
+            sensors,
+            robots,
+            forces,
+            lightings,
+            changers: _,
+            switches: _,
+        } = workshop.drivers;
+        let rig_file = study.study.rig.as_deref();
+        // First: without it nothing is opened that could move.
+        let switch = rig_file.map(|rig| open_switch(rig, workshop.drivers));
+        let switch = switch.transpose().map_err(AcquireError::from)?.flatten();
+        let opener = Opener { rig, unit };
+        let mut shared = Rig::new();
+        let sensor = opener.open(sensors, rig.sensor.as_ref(), &mut shared);
+        let sensor = sensor.map_err(failed)?;
+        let robot = opener.open(robots, rig.robot.as_ref(), &mut shared);
+        let robot = robot.map_err(failed)?;
+        let force = opener.open(forces, rig.force.as_ref(), &mut shared);
+        let force = force.map_err(failed)?;
+        let lighting = opener.open(lightings, rig.lighting.as_ref(), &mut shared);
+        let lighting = lighting.map_err(failed)?;
+        let (Some(robot), Some(force)) = (robot, force) else {
+            let needed = "a robot and a force transducer: what it measures is pressed";
+            return Err(AcquireError::Request(format!(
+                "study `{}` needs {needed}",
+                study.plan.name
+            )));
+        };
+        let selector = &robot.selector;
+        let is_real = robot.descriptor.source() == DriverSource::Real;
+        let mut surroundings = match is_real {
+            true => Surroundings::real(),
+            false => (workshop.surroundings)(selector, &mut shared)
+                .ok_or_else(|| failed(OpenError::Device(without_clock(selector))))?,
+        };
+        if let Some(rig_file) = rig_file.filter(|_| rig.changes) {
+            let specimen = rig_file.changers.specimen.as_ref();
+            let opened = OpenChanger::open((rig, rig_file), specimen, workshop.drivers);
+            if let Some(changer) = opened.map_err(failed)? {
+                let cancel = cancel.clone();
+                surroundings.specimens = Some(Box::new(OfSpecimens { changer, cancel }));
+            }
+        }
+        let [robot_latency, force_latency, sensor_latency] =
+            rig_file.map_or([None; 3], written_latencies_ms);
+        let sensor = sensor.map(|sensor| match &surroundings.bench {
+            Some(bench) if sensor.selector.bench() != selector.bench() => {
+                Box::new(OnBench::new(sensor.device, Arc::clone(bench)))
+            }
+            _ => sensor.timely(|facts| sensor_latency.or(facts.sensor()?.latency_ms)),
+        });
+        let sensor = match (sensor, workshop.viewer) {
+            (Some(sensor), Some(viewer)) => {
+                let seen = Seen::new(sensor, Arc::clone(viewer));
+                Some(Box::new(seen) as Box<dyn Sensor>)
+            }
+            (sensor, _) => sensor,
+        };
+        let force_driver = force.descriptor.key().clone();
+        let mut robot = robot.timely(|facts| robot_latency.or(facts.robot()?.latency_ms));
+        if let Some(registered) = rig_file.and_then(|rig| rig.robot.as_ref()) {
+            let deadline = Deadline::after(FIRST_POSE);
+            let mapped = Registered::new(robot, registered, deadline);
+            robot = Box::new(mapped.map_err(|error| failed(OpenError::Device(error)))?);
+        }
+        let mut force = force.timely(|facts| force_latency.or(facts.force()?.latency_ms));
+        if let Some(mounted) = rig_file.and_then(|rig| rig.force.as_ref()) {
+            force = Box::new(Turned::new(force, mounted.axes.value));
+        }
+        Ok(OpenRig {
+            force_driver,
+            is_real,
+            rig_file: study.study.rig.clone(),
+            switch,
+            sensor,
+            robot,
+            force,
+            lighting: lighting.map(|lighting| lighting.device),
+            surroundings,
+        })
+    }
+
+    /// What was set of the camera and read back.
+    pub(super) fn settings_of_sensor(&self) -> BTreeMap<String, String> {
+        let sensor = self.sensor.as_ref();
+        sensor.map(|sensor| sensor.settings()).unwrap_or_default()
+    }
+
+    /// Brings the tip of a real rig up and halts it, before hands come, under a guard; whether it moved.
+    ///
+    /// # Errors
+    /// As [`raise`](taceva_protocol::raise).
+    pub(super) fn raise(
+        &mut self,
+        plan: &Plan,
+        (cancel, workshop, is_enabled): (&Cancel, Workshop<'_>, bool),
+    ) -> Result<bool, RunError> {
+        let Some(limits) = plan.limits.clone() else {
+            return Ok(false);
+        };
+        let operator = workshop.operator;
+        let mut operator =
+            operator.map(|operator| operator.lock().unwrap_or_else(PoisonError::into_inner));
+        let rig_file = self.rig_file.as_deref();
+        let robot_name = rig_file.and_then(|rig| to_be_enabled(rig, is_enabled));
+        let clock = &mut *self.surroundings.clock;
+        let guarded = Guarded {
+            robot: &mut *self.robot,
+            force: &mut *self.force,
+            driver: self.force_driver.clone(),
+            limits,
+            switch: self.switch.as_deref(),
+            cancel,
+            progress: workshop.progress,
+            viewer: workshop.viewer.map(|viewer| &**viewer),
+        };
+        guarded.conduct(|robot, force, supervisor| {
+            let controls = Controls {
+                clock,
+                cancel,
+                events: &mut |_| {},
+                operator: match &mut operator {
+                    Some(operator) => Some(&mut **operator),
+                    None => None,
+                },
+            };
+            let patience_s = rig_file.map_or(0.0, RigFile::patience_s);
+            raise(
+                plan, robot, force, controls, supervisor, robot_name, patience_s,
+            )
+        })
+    }
+
+    /// Makes the presses of `spec`, under a guard where the rig is real.
+    ///
+    /// # Errors
+    /// As [`run`](taceva_protocol::run).
+    pub(super) fn conduct(
+        &mut self,
+        spec: &RunSpec<'_>,
+        log: &mut dyn PressLog,
+        (cancel, workshop, sitting): (&Cancel, Workshop<'_>, Sitting<'_>),
+        events: &mut dyn FnMut(&Event),
+    ) -> Result<RunReport, RunError> {
+        let operator = workshop.operator.filter(|_| self.is_real);
+        let mut operator =
+            operator.map(|operator| operator.lock().unwrap_or_else(PoisonError::into_inner));
+        let OpenRig {
+            sensor,
+            robot,
+            force,
+            lighting,
+            surroundings,
+            force_driver,
+            is_real,
+            rig_file,
+            switch,
+        } = self;
+        let session = rig_file.as_deref().map(|rig| SessionSpec {
+            rig,
+            robot: to_be_enabled(rig, sitting.is_enabled),
+            touched: sitting.touched,
+        });
+        let mut act = |robot: &mut dyn Robot,
+                       force: &mut dyn ForceTransducer,
+                       guard: Option<SharedSupervisor>| {
+            let devices = Devices {
+                robot,
+                force,
+                sensor: match sensor {
+                    Some(sensor) => Some(&mut **sensor),
+                    None => None,
+                },
+                lighting: match lighting {
+                    Some(lighting) => Some(&mut **lighting),
+                    None => None,
+                },
+                specimens: match &mut surroundings.specimens {
+                    Some(specimens) => Some(&mut **specimens),
+                    None => None,
+                },
+            };
+            let controls = Controls {
+                clock: &mut *surroundings.clock,
+                cancel,
+                events: &mut *events,
+                operator: match &mut operator {
+                    Some(operator) => Some(&mut **operator),
+                    None => None,
+                },
+            };
+            let Some(supervisor) = guard else {
+                return run(spec, devices, log, controls);
+            };
+            let guard = RunGuard::new(supervisor);
+            let guard = match session.clone() {
+                Some(session) => guard.with_session(session),
+                None => guard,
+            };
+            run_guarded(spec, devices, log, controls, guard)
+        };
+        match spec.plan.limits.clone().filter(|_| *is_real) {
+            None => act(&mut **robot, &mut **force, None),
+            Some(limits) => Guarded {
+                robot: &mut **robot,
+                force: &mut **force,
+                driver: force_driver.clone(),
+                limits,
+                switch: switch.as_deref(),
+                cancel,
+                progress: workshop.progress,
+                viewer: workshop.viewer.map(|viewer| &**viewer),
+            }
+            .conduct(|robot, force, guard| act(robot, force, Some(guard))),
+        }
+    }
+}
+
+/// The latencies that a rig file says, of robot, transducer and sensor, in ms.
+pub(crate) fn written_latencies_ms(rig: &RigFile) -> [Option<f64>; 3] {
+    let written = [
+        rig.robot.as_ref().and_then(|robot| robot.latency_ms),
+        rig.force.as_ref().and_then(|force| force.latency_ms),
+        rig.sensor.as_ref().and_then(|sensor| sensor.latency_ms),
+    ];
+    written.map(|latency| latency.map(|latency| latency.value))
+}
+
+/// The name by which somebody must enable the robot of `rig`; `None` of one that is emulated, or was enabled before.
+pub(super) fn to_be_enabled(rig: &RigFile, is_enabled: bool) -> Option<&str> {
+    let robot = rig.robot.as_ref();
+    let named = robot.filter(|_| !rig.simulated && !is_enabled);
+    named.map(|robot| key_of(&robot.driver.value))
+}
+
+/// Opens devices for one unit.
+pub(super) struct Opener<'a> {
+    pub(super) rig: &'a RigSpec,
+    pub(super) unit: &'a str,
+}
+
+impl Opener<'_> {
+    pub(super) fn open<D: Device + ?Sized>(
+        &self,
+        registry: &Registry<D>,
+        device: Option<&Setting<String>>,
+        shared: &mut Rig,
+    ) -> Result<Option<Opened<D>>, OpenError> {
+        let Some(device) = device else {
+            return Ok(None);
+        };
+        let selector = self
+            .rig
+            .selector(registry, device, self.unit)
+            .expect("the selector was read when the scene was planned");
+        Opened::open(registry, selector, shared).map(Some)
+    }
+}
+
+impl RigSpec {
+    /// Whether a device of it is simulated: then nothing that it records was measured.
+    pub(super) fn is_simulated(&self, drivers: &Drivers) -> bool {
+        self.sources(drivers)
+            .any(|source| source == DriverSource::Simulated)
+    }
+
+    /// Whether every device of it is simulated: then it may be opened just to be asked for facts.
+    pub(crate) fn is_only_simulated(&self, drivers: &Drivers) -> bool {
+        self.sources(drivers)
+            .all(|source| source == DriverSource::Simulated)
+    }
+
+    /// What each of its devices is.
+    fn sources(&self, drivers: &Drivers) -> impl Iterator<Item = DriverSource> + use<> {
+        fn of<D: Device + ?Sized>(
+            registry: &Registry<D>,
+            device: Option<&Setting<String>>,
+        ) -> Option<DriverSource> {
+            let selector: Selector = device?.value.parse().ok()?;
+            let factory = registry.get(selector.driver()).ok()?;
+            Some(factory.descriptor().source())
+        }
+        [
+            of(&drivers.sensors, self.sensor.as_ref()),
+            of(&drivers.robots, self.robot.as_ref()),
+            of(&drivers.forces, self.force.as_ref()),
+            of(&drivers.lightings, self.lighting.as_ref()),
+        ]
+        .into_iter()
+        .flatten()
+    }
+}
+
+/// What a person calls a device: what stands before the arguments of its selector.
+fn key_of(selector: &str) -> &str {
+    selector.split_once(':').map_or(selector, |(key, _)| key)
+}
+
+/// A rig cannot run without the clock of its stamps.
+fn without_clock(robot: &Selector) -> DriverError {
+    let key: Result<DriverKey, _> = robot.driver().parse();
+    let key = key.expect("it was opened by this key");
+    let why =
+        StopCause::Missing("the clock of this robot, which this program does not know".to_owned());
+    DriverError::new(ErrorKind::Unsupported, &key, "conduct a run").because(why.to_string())
+}

@@ -1,0 +1,129 @@
+//! The devices of a rig file by themselves, without a scene: for whoever sets up a rig or looks whether it works.
+
+use std::path::Path;
+
+use taceva_core::{
+    Deadline, Descriptor, Device, DriverSource, ForceTransducer, Registry, Rig, Robot, Sensor,
+};
+use taceva_drivers::{Drivers, OpenError};
+use taceva_protocol::{RigFile, SceneProblem, Setting};
+
+use super::device::Opened;
+use super::devices::{FIRST_POSE, Opener, written_latencies_ms};
+use super::registration::{Registered, Turned};
+use crate::error::AcquireError;
+use crate::scene::RigSpec;
+
+/// A device that is open, and what is known about it.
+type Described<D> = (Box<D>, Descriptor);
+
+/// Devices of a rig file that are open, in the frame of the sensor.
+pub(crate) struct FileDevices {
+    pub(crate) robot: Option<Described<dyn Robot>>,
+    pub(crate) force: Option<Described<dyn ForceTransducer>>,
+    pub(crate) sensor: Option<Described<dyn Sensor>>,
+}
+
+/// Opens devices that a rig file names.
+pub(crate) struct FileOpener<'a> {
+    rig: &'a RigFile,
+    spec: RigSpec,
+    drivers: &'a Drivers,
+}
+
+impl<'a> FileOpener<'a> {
+    /// An opener of the devices that `rig` names.
+    pub(crate) fn new(rig: &'a RigFile, drivers: &'a Drivers) -> FileOpener<'a> {
+        let folder = Path::new(rig.name()).parent().unwrap_or(Path::new(""));
+        let spec = RigSpec::of_file(rig, folder);
+        FileOpener { rig, spec, drivers }
+    }
+
+    /// Every device, mapped into the frame of the sensor.
+    ///
+    /// # Errors
+    /// [`AcquireError::Scene`] for a driver or an argument that is none, [`AcquireError::Open`] if a device does not open.
+    pub(crate) fn all(&self) -> Result<FileDevices, AcquireError> {
+        let [_, force_latency, sensor_latency] = written_latencies_ms(self.rig);
+        let sensor = self.open(&self.drivers.sensors, self.spec.sensor.as_ref())?;
+        let sensor = sensor.map(|sensor| {
+            let descriptor = sensor.descriptor.clone();
+            let of_facts = |facts: &Descriptor| sensor_latency.or(facts.sensor()?.latency_ms);
+            (sensor.timely(of_facts), descriptor)
+        });
+        let robot = match (self.base_robot()?, &self.rig.robot) {
+            (Some((robot, descriptor)), Some(registered)) => {
+                let deadline = Deadline::after(FIRST_POSE);
+                let mapped = Registered::new(robot, registered, deadline);
+                let mapped = mapped.map_err(|error| self.failed(OpenError::Device(error)))?;
+                let mapped: Box<dyn Robot> = Box::new(mapped);
+                Some((mapped, descriptor))
+            }
+            _ => None,
+        };
+        let mounted = self.rig.force.as_ref();
+        let force = self.open(&self.drivers.forces, self.spec.force.as_ref())?;
+        let force = force.zip(mounted).map(|(force, mounted)| {
+            let descriptor = force.descriptor.clone();
+            let of_facts = |facts: &Descriptor| force_latency.or(facts.force()?.latency_ms);
+            let turned = Turned::new(force.timely(of_facts), mounted.axes.value);
+            let turned: Box<dyn ForceTransducer> = Box::new(turned);
+            (turned, descriptor)
+        });
+        Ok(FileDevices {
+            robot,
+            force,
+            sensor,
+        })
+    }
+
+    /// The robot in its base frame.
+    ///
+    /// # Errors
+    /// As [`all`](FileOpener::all).
+    pub(crate) fn base_robot(&self) -> Result<Option<Described<dyn Robot>>, AcquireError> {
+        let [latency_ms, ..] = written_latencies_ms(self.rig);
+        let robot = self.open(&self.drivers.robots, self.spec.robot.as_ref())?;
+        Ok(robot.map(|robot| {
+            let descriptor = robot.descriptor.clone();
+            let of_facts = |facts: &Descriptor| latency_ms.or(facts.robot()?.latency_ms);
+            (robot.timely(of_facts), descriptor)
+        }))
+    }
+
+    fn open<D: Device + ?Sized>(
+        &self,
+        registry: &Registry<D>,
+        device: Option<&Setting<String>>,
+    ) -> Result<Option<Opened<D>>, AcquireError> {
+        let Some(device) = device else {
+            return Ok(None);
+        };
+        let refused = |(at, problem): (Option<usize>, SceneProblem)| {
+            AcquireError::from(self.rig.error(at, problem))
+        };
+        let selector = self.spec.selector(registry, device, "1").map_err(refused)?;
+        let factory = registry.get(selector.driver());
+        let source = factory.map(|factory| factory.descriptor().source());
+        if source.is_ok_and(|source| source != DriverSource::Real) {
+            let problem = format!(
+                "`{}` is simulated in the program: there is nothing to set up",
+                taceva_core::shown(&device.value)
+            );
+            return Err(refused((device.at(), SceneProblem::Contradiction(problem))));
+        }
+        let opener = Opener {
+            rig: &self.spec,
+            unit: "1",
+        };
+        let opened = opener.open(registry, Some(device), &mut Rig::new());
+        opened.map_err(|error| self.failed(error))
+    }
+
+    fn failed(&self, source: OpenError) -> AcquireError {
+        AcquireError::Open {
+            study: self.rig.name().to_owned(),
+            source: Box::new(source),
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! Presses in a recording: what a run asks before it presses, and writes to when it has.
+
+use std::borrow::Cow;
+use std::collections::{BTreeMap, BTreeSet};
+
+use taceva_core::{Frame, Nanometre, Sample, SinkError};
+use taceva_dataset::{Recorder, SessionTable};
+use taceva_models::FrameReduction;
+use taceva_protocol::{ContentId, Plan, PlannedPress, PressLog, PressRecord, SessionRecord};
+
+use super::reduction::reduced;
+use super::session;
+
+/// The presses of a recording that is being made.
+pub(super) struct RecordedPresses {
+    recorder: Recorder,
+    /// Presses that are recorded and made again all the same.
+    relived: BTreeSet<ContentId>,
+    /// The rows of their samples, by name.
+    rows: BTreeMap<String, usize>,
+    sessions: SessionTable,
+    /// What is done to frames before they are recorded.
+    reduction: Option<FrameReduction>,
+}
+
+impl RecordedPresses {
+    /// Goes on with what `recorder` and `sessions` hold; frames are kept as `reduction` gives them, or as they come.
+    pub(super) fn new(
+        recorder: Recorder,
+        sessions: SessionTable,
+        reduction: Option<FrameReduction>,
+    ) -> RecordedPresses {
+        RecordedPresses {
+            recorder,
+            sessions,
+            relived: BTreeSet::new(),
+            rows: BTreeMap::new(),
+            reduction,
+        }
+    }
+
+    /// Has recorded presses of `unit` made again, and compared, where a press at the same place is still to come.
+    pub(super) fn relive(&mut self, plan: &Plan, unit: &str) {
+        let of_unit = || plan.presses.iter().filter(|press| press.press.unit == unit);
+        let is_recorded = |press: &&PlannedPress| self.has(press.id);
+        let missing: BTreeSet<[Nanometre; 2]> = of_unit()
+            .filter(|press| !is_recorded(press))
+            .map(|press| press.press.place)
+            .collect();
+        let relived: BTreeSet<ContentId> = of_unit()
+            .filter(is_recorded)
+            .filter(|press| missing.contains(&press.press.place))
+            .map(|press| press.id)
+            .collect();
+        if !relived.is_empty() && self.rows.is_empty() {
+            let names = self.recorder.table().samples().iter().cloned();
+            self.rows = names.zip(0..).collect();
+        }
+        self.relived = relived;
+    }
+
+    pub(super) fn sessions(&self) -> &SessionTable {
+        &self.sessions
+    }
+
+    pub(super) fn into_recorder(self) -> Recorder {
+        self.recorder
+    }
+
+    fn has(&self, press: ContentId) -> bool {
+        self.recorder.has_press(&press.to_string())
+    }
+
+    /// Refuses a press that was made again and came out otherwise.
+    fn check(&self, samples: &[Sample]) -> Result<(), SinkError> {
+        let table = self.recorder.table();
+        let bits = |value: Option<f64>| value.map(f64::to_bits);
+        let is_as_recorded = |sample: &Sample| {
+            let Some(&row) = self.rows.get(&sample.id) else {
+                return false;
+            };
+            let stamp = sample.stamp.map(|stamp| stamp.valid_s);
+            let mut channels = 0..table.channels().len();
+            bits(stamp) == bits(table.t_s()[row])
+                && channels.all(|at| bits(sample.truth.get(at)) == bits(table.truth(at).get(row)))
+        };
+        match samples.iter().find(|sample| !is_as_recorded(sample)) {
+            None => Ok(()),
+            Some(sample) => Err(format!(
+                "sample {} was made again and came out otherwise than it was recorded: the recording was begun with another version of the bench",
+                sample.id
+            )
+            .into()),
+        }
+    }
+}
+
+impl PressLog for RecordedPresses {
+    fn is_finished(&self, press: ContentId) -> bool {
+        self.has(press) && !self.relived.contains(&press)
+    }
+
+    fn append(&mut self, record: &PressRecord) -> Result<(), SinkError> {
+        if self.relived.contains(&record.press) {
+            return self.check(&record.samples);
+        }
+        let name = record.press.to_string();
+        let samples = match &self.reduction {
+            Some(reduction) => Cow::Owned(reduced(&record.samples, reduction)?),
+            None => Cow::Borrowed(&record.samples[..]),
+        };
+        self.recorder
+            .append_press(&name, record.outcome, &samples)?;
+        Ok(())
+    }
+
+    /// A recording has one: that of its first unit.
+    fn untouched(&mut self, frame: &Frame) -> Result<(), SinkError> {
+        if !self.recorder.has_reference() {
+            match &self.reduction {
+                Some(reduction) => self.recorder.append_reference(&reduction.reduce(frame)?)?,
+                None => self.recorder.append_reference(frame)?,
+            };
+        }
+        Ok(())
+    }
+
+    fn session(&mut self, record: &SessionRecord) -> Result<(), SinkError> {
+        Ok(self.sessions.add(session::row(record))?)
+    }
+}

@@ -1,0 +1,284 @@
+//! What hands and changers do at a real rig beside the presses of one unit, and whether a scene needs hands.
+
+use std::collections::BTreeSet;
+use std::sync::PoisonError;
+
+use taceva_drivers::{Drivers, OpenError};
+use taceva_protocol::{Answer, Cancel, Left, Plan, Question, RigFile, RunError, StopCause};
+
+use super::changers::bring_unit;
+use super::devices::OpenRig;
+use super::workshop::Workshop;
+use crate::error::AcquireError;
+use crate::scene::{PlannedScene, PlannedStudy, RigSpec, StudySource};
+
+/// How much is changed on a real rig, by hand or by a changer.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+struct Changes {
+    specimens: Vec<String>,
+    lights: usize,
+    units: Vec<String>,
+}
+
+/// What the changers of a rig hold; `None` where there is none.
+#[derive(Clone, Debug, Default)]
+struct Held {
+    specimens: Option<Vec<String>>,
+    units: Option<Vec<String>>,
+}
+
+fn is_held(held: Option<&Vec<String>>, name: &String) -> bool {
+    held.is_some_and(|held| held.contains(name))
+}
+
+impl Changes {
+    /// Of a plan, those by hand and those by changers: units come one after the other, and specimens within a unit. What is mounted at the
+    /// beginning and stays is no change by hand.
+    fn of(plan: &Plan, is_lit_by_hand: bool, held: &Held) -> [Changes; 2] {
+        let [mut by_hand, mut by_changer] = [Changes::default(), Changes::default()];
+        for unit in &plan.units {
+            let presses = plan.presses.iter().map(|planned| &planned.press);
+            let of_unit = presses.filter(|press| press.unit == *unit);
+            let mut mounted: Vec<_> = of_unit.clone().map(|press| press.specimen).collect();
+            mounted.dedup();
+            let names = mounted.iter().map(ToString::to_string);
+            let (brought, handed): (Vec<_>, Vec<_>) =
+                names.partition(|name| is_held(held.specimens.as_ref(), name));
+            if handed.len() > 1 || held.specimens.is_some() {
+                by_hand.specimens.extend(handed);
+            }
+            by_changer.specimens.extend(brought);
+            if is_lit_by_hand {
+                let mut lit: Vec<_> = of_unit.filter_map(|press| press.light.as_ref()).collect();
+                lit.dedup();
+                by_hand.lights += lit.len();
+            }
+            match is_held(held.units.as_ref(), unit) {
+                true => by_changer.units.push(unit.clone()),
+                false if plan.units.len() > 1 => by_hand.units.push(unit.clone()),
+                false => {}
+            }
+        }
+        [by_hand, by_changer]
+    }
+}
+
+/// The first few of `names`, each once.
+fn few(names: &[String]) -> String {
+    const FEW: usize = 3;
+    let distinct: BTreeSet<&String> = names.iter().collect();
+    let shown = distinct.iter().take(FEW).copied();
+    let shown: Vec<String> = shown
+        .map(|name| taceva_core::shown(name).to_string())
+        .collect();
+    let more = match distinct.len() > FEW {
+        true => ", …",
+        false => "",
+    };
+    format!("{}{more}", shown.join(", "))
+}
+
+impl PlannedScene {
+    /// Refuses a scene on a real rig that needs hands: for whoever cannot ask anybody, before anything is opened.
+    ///
+    /// # Errors
+    /// [`AcquireError::Request`], with how many changes there are.
+    pub fn check_unattended(&self, drivers: &Drivers) -> Result<(), AcquireError> {
+        let real = self.studies.iter().filter(|study| match &study.source {
+            StudySource::Rig(rig) => !rig.is_simulated(drivers),
+            StudySource::Recording(_) => false,
+        });
+        for study in real {
+            let mut needed = study.by_hand(drivers);
+            let rig = study.rig().filter(|rig| !rig.simulated);
+            if let Some(robot) = rig.and_then(|rig| rig.robot.as_ref()) {
+                let robot = taceva_core::shown(&robot.driver.value);
+                needed.insert(0, format!("somebody lets `{robot}` move"));
+            }
+            if !needed.is_empty() {
+                return Err(AcquireError::Request(format!(
+                    "study `{}`: this rig needs a person: {}; run it from a terminal, or with a page, where somebody can be asked",
+                    taceva_core::shown(&study.plan.name),
+                    needed.join(", ")
+                )));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl PlannedStudy {
+    /// What hands change on a real rig, with how often; nothing where nothing is changed.
+    pub fn by_hand(&self, drivers: &Drivers) -> Vec<String> {
+        let held = self.held(drivers);
+        let [changes, _] = Changes::of(&self.plan, self.is_lit_by_hand(drivers), &held);
+        let Changes {
+            specimens,
+            lights,
+            units,
+        } = changes;
+        let named = |names: &[String], changer: Option<&Vec<String>>, what: &str| {
+            let beside = match changer {
+                Some(_) => format!(", which the changer does not hold: {}", few(names)),
+                None => String::new(),
+            };
+            let count = names.len();
+            (count > 0).then(|| format!("{count} {what} are changed by hand{beside}"))
+        };
+        let needed = [
+            named(&specimens, held.specimens.as_ref(), "specimens"),
+            (lights > 0).then(|| format!("{lights} lights are changed by hand")),
+            named(&units, held.units.as_ref(), "units of the sensor"),
+        ];
+        needed.into_iter().flatten().collect()
+    }
+
+    /// What changers of the rig file change, with how often and by which driver; nothing where nothing is changed.
+    pub fn by_changer(&self, drivers: &Drivers) -> Vec<String> {
+        let Some(rig) = self.rig() else {
+            return Vec::new();
+        };
+        let [_, changes] = Changes::of(&self.plan, false, &self.held(drivers));
+        let counted = [
+            (changes.specimens.len(), "specimens", &rig.changers.specimen),
+            (
+                changes.units.len(),
+                "units of the sensor",
+                &rig.changers.unit,
+            ),
+        ];
+        let changed = counted.into_iter().filter(|(count, ..)| *count > 0);
+        let changed = changed.filter_map(|(count, what, changer)| {
+            let changer = taceva_core::shown(&changer.as_ref()?.value).to_string();
+            Some(format!("{count} {what} are changed by `{changer}`"))
+        });
+        changed.collect()
+    }
+
+    /// What the changers of the rig hold.
+    fn held(&self, drivers: &Drivers) -> Held {
+        let (Some(rig), StudySource::Rig(spec)) = (self.rig(), &self.source) else {
+            return Held::default();
+        };
+        // What cannot be described was refused when the scene was planned.
+        let held = |changer| spec.held_by(drivers, changer).unwrap_or_default();
+        Held {
+            specimens: held(rig.changers.specimen.as_ref()),
+            units: held(rig.changers.unit.as_ref()),
+        }
+    }
+
+    /// Whether no device of the rig sets its light: neither one for that, nor the sensor.
+    fn is_lit_by_hand(&self, drivers: &Drivers) -> bool {
+        let StudySource::Rig(rig) = &self.source else {
+            return false;
+        };
+        rig.info(&self.study, drivers).is_ok_and(|info| {
+            let own = info.sensor.as_ref().and_then(|sensor| sensor.sensor());
+            info.lighting.is_none() && own.is_none_or(|own| own.scenes.is_empty())
+        })
+    }
+
+    /// The rig file that it is carried out on, if one names its devices.
+    pub fn rig(&self) -> Option<&RigFile> {
+        self.study.rig.as_deref()
+    }
+}
+
+/// Whether `unit` is under the robot: a changer that holds it puts it there; of several units of a real rig that none holds somebody says so, or
+/// skips it.
+///
+/// The tip is brought up before that, for which the robot may have to be enabled, and no device is open while a changer moves or hands are in.
+pub(super) fn unit_is_there(
+    study: &PlannedStudy,
+    rig: &RigSpec,
+    unit: &str,
+    (workshop, cancel, is_enabled): (Workshop<'_>, &Cancel, &mut bool),
+) -> Result<bool, AcquireError> {
+    let plan = &study.plan;
+    let drivers = workshop.drivers;
+    let has_changer = is_held(study.held(drivers).units.as_ref(), &unit.to_owned());
+    if !has_changer && (plan.units.len() < 2 || rig.is_simulated(drivers)) {
+        return Ok(true);
+    }
+    let question = Question::Unit(unit.to_owned());
+    if !has_changer && workshop.operator.is_none() {
+        return Err(acquisition(
+            plan,
+            StopCause::Missing(format!("somebody to {question}")),
+        ));
+    }
+    let mut open = OpenRig::open(study, &rig.without_sensor(), unit, (workshop, cancel))?;
+    let raised = open.raise(plan, (cancel, workshop, *is_enabled));
+    drop(open);
+    *is_enabled |= raised.map_err(|source| stopped(plan, source))?;
+    let brought = study.rig().and_then(|file| {
+        let aids = (drivers, workshop.progress, cancel);
+        bring_unit((rig, file), unit, aids)
+    });
+    let question = match brought {
+        None => question,
+        Some(Ok(())) => return Ok(true),
+        Some(Err(error)) => {
+            if workshop.progress.is_cancelled() || cancel.is_cancelled() {
+                return Err(acquisition(plan, StopCause::Cancelled));
+            }
+            if workshop.operator.is_none() {
+                return Err(unchanged(plan, error));
+            }
+            let of_changer = Box::new(question);
+            let why = error.to_string();
+            Question::Instead { of_changer, why }
+        }
+    };
+    let Some(operator) = workshop.operator else {
+        let needed = format!("somebody to {question}");
+        return Err(acquisition(plan, StopCause::Missing(needed)));
+    };
+    let mut operator = operator.lock().unwrap_or_else(PoisonError::into_inner);
+    match operator.ask(&question, cancel) {
+        Answer::Done => Ok(true),
+        Answer::Skip => Ok(false),
+        Answer::Stop => Err(acquisition(plan, StopCause::Cancelled)),
+    }
+}
+
+/// A changer that did not put a unit in place, where nobody can do it instead.
+fn unchanged(plan: &Plan, error: OpenError) -> AcquireError {
+    match error {
+        OpenError::Device(error) => acquisition(plan, StopCause::Device(error)),
+        error => AcquireError::Open {
+            study: plan.name.clone(),
+            source: Box::new(error),
+        },
+    }
+}
+
+/// A rig that stopped where nothing was in the gel.
+pub(super) fn acquisition(plan: &Plan, cause: StopCause) -> AcquireError {
+    let error = RunError {
+        press: None,
+        cause,
+        left: Left::Clear,
+    };
+    stopped(plan, error)
+}
+
+/// A run of `plan` that stopped.
+pub(super) fn stopped(plan: &Plan, error: RunError) -> AcquireError {
+    AcquireError::Acquisition {
+        study: plan.name.clone(),
+        source: Box::new(error),
+    }
+}
+
+/// How many presses of a unit were left out by hand, if that is all that is wrong: the units after it are pressed all the same.
+pub(super) fn presses_skipped(error: AcquireError) -> Result<usize, AcquireError> {
+    match &error {
+        AcquireError::Acquisition { source, .. } => match source.cause {
+            StopCause::Skipped { presses } => Ok(presses),
+            _ => Err(error),
+        },
+        _ => Err(error),
+    }
+}

@@ -1,0 +1,48 @@
+//! Frames as a recording keeps them: as they come, or reduced to the size that the scene says.
+
+use taceva_core::Sample;
+use taceva_models::{FeatureError, FrameReduction};
+
+use super::OpenRig;
+use crate::error::AcquireError;
+use crate::scene::PlannedStudy;
+
+/// How the frames of `open` are reduced before they are recorded, where the scene says at which size they are kept.
+///
+/// # Errors
+/// [`AcquireError::Request`] for a camera whose frames are smaller, which it did not say before it was open.
+pub(super) fn reduction(
+    study: &PlannedStudy,
+    open: &OpenRig,
+) -> Result<Option<FrameReduction>, AcquireError> {
+    let (Some(kept), Some(sensor)) = (study.plan.kept_frames, &open.sensor) else {
+        return Ok(None);
+    };
+    let reduction = FrameReduction::new(sensor.frame_info(), [kept.width, kept.height]);
+    let reduction = reduction.map_err(|error| {
+        let name = &study.plan.name;
+        AcquireError::Request(format!(
+            "study `{name}`: `frames` of [recording] is `{kept}`: {error}"
+        ))
+    })?;
+    Ok(Some(reduction))
+}
+
+/// `samples` with frames as they are kept; their brightness is that of what the camera saw.
+///
+/// # Errors
+/// [`FeatureError::Kind`] for a frame of another size or format than the camera states.
+pub(super) fn reduced(
+    samples: &[Sample],
+    reduction: &FrameReduction,
+) -> Result<Vec<Sample>, FeatureError> {
+    let one = |sample: &Sample| {
+        let mut kept = sample.clone();
+        if let Some(frame) = kept.frame.take() {
+            kept.intensity = kept.intensity.or_else(|| Some(frame.mean_luma()));
+            kept.frame = Some(reduction.reduce(&frame)?);
+        }
+        Ok(kept)
+    };
+    samples.iter().map(one).collect()
+}

@@ -1,0 +1,91 @@
+//! A run in the air: every place of a scene is visited above the gel, with the guard of a run, and nothing is pressed or recorded.
+
+use taceva_core::{Frame, Millimetre, SinkError};
+use taceva_protocol::{Cancel, ContentId, Event, Mode, PressLog, PressRecord, RunSpec};
+
+use super::devices::{OpenRig, Sitting};
+use super::operator::{stopped, unit_is_there};
+use super::workshop::Workshop;
+use crate::error::AcquireError;
+use crate::scene::{PlannedScene, StudySource};
+
+/// How far above the height of travel a rehearsal moves, in mm: an error of the origin below this does not touch the gel.
+pub const AIR_MM: f64 = 10.0;
+
+/// Visits every place of `scene` [`AIR_MM`] above the height of travel; how many there were.
+///
+/// # Errors
+/// [`AcquireError::Open`] and [`AcquireError::Acquisition`] if a device failed, something was touched or somebody wished to stop.
+pub fn rehearse_scene(scene: &PlannedScene, workshop: Workshop<'_>) -> Result<usize, AcquireError> {
+    if workshop.operator.is_none() {
+        scene.check_unattended(workshop.drivers)?;
+    }
+    let presses: usize = scene
+        .studies
+        .iter()
+        .map(|study| study.plan.presses.len())
+        .sum();
+    workshop.progress.begin("place", Some(presses as u64));
+    let cancel = Cancel::new();
+    let mut visited = 0;
+    for study in &scene.studies {
+        let StudySource::Rig(rig) = &study.source else {
+            continue;
+        };
+        let mut is_enabled = false;
+        for unit in &study.plan.units {
+            let by_hand = (workshop, &cancel, &mut is_enabled);
+            if !unit_is_there(study, rig, unit, by_hand)? {
+                continue;
+            }
+            let mut open = OpenRig::open(study, rig, unit, (workshop, &cancel))?;
+            let spec = RunSpec {
+                plan: &study.plan,
+                unit,
+                mode: Mode::Rehearse {
+                    height: Millimetre(AIR_MM),
+                },
+            };
+            let sitting = Sitting {
+                is_enabled,
+                touched: &[],
+            };
+            let mut events = |event: &Event| {
+                if let Event::Rehearsed(_) = event {
+                    workshop.progress.advance(1);
+                }
+                if workshop.progress.is_cancelled() {
+                    cancel.cancel();
+                }
+            };
+            let done = open.conduct(
+                &spec,
+                &mut Unwritten,
+                (&cancel, workshop, sitting),
+                &mut events,
+            );
+            let report = done.map_err(|error| stopped(&study.plan, error))?;
+            is_enabled = true;
+            visited += report.made;
+        }
+    }
+    workshop.progress.end();
+    Ok(visited)
+}
+
+/// Has nothing, and is handed nothing.
+struct Unwritten;
+
+impl PressLog for Unwritten {
+    fn is_finished(&self, _: ContentId) -> bool {
+        false
+    }
+
+    fn append(&mut self, _: &PressRecord) -> Result<(), SinkError> {
+        Err("nothing is pressed in the air".into())
+    }
+
+    fn untouched(&mut self, _: &Frame) -> Result<(), SinkError> {
+        Ok(())
+    }
+}

@@ -1,0 +1,138 @@
+//! One run on one rig: its devices are held by locks that end with the process, however it ends.
+
+use std::collections::BTreeMap;
+use std::fs::{File, OpenOptions, TryLockError};
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+use taceva_protocol::{ContentId, RigFile};
+
+use crate::error::AcquireError;
+use crate::scene::{PlannedScene, StudySource};
+
+/// The devices of rig files that this process has, until it is dropped.
+#[derive(Debug)]
+pub struct HeldRigs {
+    // Held for their locks.
+    _locks: Vec<File>,
+}
+
+impl PlannedScene {
+    /// Takes every device that the rig file of the scene names, so that no other run moves it meanwhile. A scene without one needs none.
+    ///
+    /// The locks are files in the folder for temporary files of the machine, named by the digest of what opens a device: two rig files that
+    /// name one robot exclude each other too. They are never removed, and hold nothing.
+    ///
+    /// # Errors
+    /// [`AcquireError::RigTaken`] if another process has one of them; [`AcquireError::RigLock`] if a lock cannot be made.
+    pub fn hold_rigs(&self) -> Result<HeldRigs, AcquireError> {
+        self.hold_rigs_in(&std::env::temp_dir())
+    }
+
+    fn hold_rigs_in(&self, folder: &Path) -> Result<HeldRigs, AcquireError> {
+        let mut devices = BTreeMap::new();
+        for study in &self.studies {
+            let (StudySource::Rig(spec), Some(rig)) = (&study.source, &study.study.rig) else {
+                continue;
+            };
+            let selectors = [&spec.sensor, &spec.robot, &spec.force];
+            let operator = rig.operator.as_ref();
+            let switch = operator.map(|operator| &operator.enable);
+            let changers = [&rig.changers.specimen, &rig.changers.unit, &spec.lighting];
+            let devices_of = selectors.into_iter().chain(changers).flatten();
+            for device in devices_of.chain(switch) {
+                devices.insert(device.value.clone(), rig.name().to_owned());
+            }
+        }
+        HeldRigs::take(folder, devices)
+    }
+}
+
+impl HeldRigs {
+    /// Takes every device of `rig`, for whoever sets it up.
+    ///
+    /// # Errors
+    /// As [`PlannedScene::hold_rigs`].
+    pub fn of_file(rig: &RigFile) -> Result<HeldRigs, AcquireError> {
+        let drivers = [
+            rig.sensor.as_ref().map(|sensor| &sensor.driver),
+            rig.robot.as_ref().map(|robot| &robot.driver),
+            rig.force.as_ref().map(|force| &force.driver),
+            rig.operator.as_ref().map(|operator| &operator.enable),
+        ];
+        let devices = drivers.into_iter().flatten();
+        let devices = devices.map(|driver| (driver.value.clone(), rig.name().to_owned()));
+        HeldRigs::take(&std::env::temp_dir(), devices.collect())
+    }
+
+    /// Takes `devices`, each with the rig file or the option that names it.
+    pub(crate) fn take(
+        folder: &Path,
+        devices: BTreeMap<String, String>,
+    ) -> Result<HeldRigs, AcquireError> {
+        let locks = devices.into_iter().map(|(device, rig)| {
+            let path = lock_path(folder, &device);
+            take(&path, (&device, &rig))
+        });
+        let locks: Result<Vec<File>, AcquireError> = locks.collect();
+        Ok(HeldRigs { _locks: locks? })
+    }
+}
+
+fn lock_path(folder: &Path, device: &str) -> PathBuf {
+    folder.join(format!("taceva-rig-{}.lock", ContentId::of_text(device)))
+}
+
+fn take(path: &Path, (device, rig): (&str, &str)) -> Result<File, AcquireError> {
+    let unusable = |error: std::io::Error| AcquireError::RigLock {
+        path: path.to_owned(),
+        problem: format!(
+            "the lock of `{}` cannot be made: {error}",
+            taceva_core::shown(device)
+        ),
+    };
+    // That of another user may be read, which is enough to lock it.
+    let file = match File::open(path) {
+        Err(error) if error.kind() == ErrorKind::NotFound => {
+            let made = OpenOptions::new().write(true).create_new(true).open(path);
+            match made {
+                // Somebody made it meanwhile.
+                Err(error) if error.kind() == ErrorKind::AlreadyExists => File::open(path),
+                made => made,
+            }
+        }
+        opened => opened,
+    };
+    let file = file.map_err(unusable)?;
+    match file.try_lock() {
+        Ok(()) => Ok(file),
+        Err(TryLockError::WouldBlock) => Err(AcquireError::RigTaken {
+            rig: rig.to_owned(),
+            device: device.to_owned(),
+        }),
+        Err(TryLockError::Error(error)) => Err(unusable(error)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_device_that_is_held_is_refused_by_name_until_it_is_let_go() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = lock_path(folder.path(), "ufactory/xarm:host=10.0.0.2");
+        let named = ("ufactory/xarm:host=10.0.0.2", "lab.toml");
+        let held = take(&path, named).expect("free");
+        let error = take(&path, named).expect_err("held");
+        let said = error.to_string();
+        assert!(
+            said.starts_with("lab.toml: `ufactory/xarm:host=10.0.0.2` is in use by another run"),
+            "{said}"
+        );
+        let other = lock_path(folder.path(), "ufactory/xarm:host=10.0.0.3");
+        take(&other, named).expect("another arm is free");
+        drop(held);
+        take(&path, named).expect("free again");
+    }
+}

@@ -1,0 +1,26 @@
+//! Whether a scene presses on the simulated bench alone.
+
+use taceva_core::shown;
+use taceva_drivers::Drivers;
+
+use crate::error::AcquireError;
+use crate::scene::{PlannedScene, StudySource};
+
+impl PlannedScene {
+    /// Refuses a scene that does anything but press on the simulated bench: for whoever acquires what nobody watches. No device is opened.
+    ///
+    /// # Errors
+    /// [`AcquireError::Request`] for a study with a device that is not simulated, and for one of a recording, which acquires nothing.
+    pub fn check_simulated(&self, drivers: &Drivers) -> Result<(), AcquireError> {
+        for study in &self.studies {
+            let problem = match &study.source {
+                StudySource::Rig(rig) if rig.is_only_simulated(drivers) => continue,
+                StudySource::Rig(_) => "it is of a real rig, beside which a person has to be",
+                StudySource::Recording(_) => "it is of a recording, and acquires none",
+            };
+            let name = shown(&study.plan.name);
+            return Err(AcquireError::Request(format!("study `{name}`: {problem}")));
+        }
+        Ok(())
+    }
+}

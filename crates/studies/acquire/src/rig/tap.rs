@@ -1,0 +1,123 @@
+//! `rig tap`: the gel is tapped at one place, and the rig file learns how late each device says what is true.
+
+use std::path::{Path, PathBuf};
+
+use taceva_core::Descriptor;
+use taceva_protocol::{Latency, RigFile, RigLatencies, SceneProblem, TapError};
+
+use crate::error::AcquireError;
+use crate::presses::{Workshop, tap_study, written_latencies_ms};
+use crate::scene::{Overrides, PlannedScene, SceneText, StudySource};
+
+/// The presses that stand for taps: limits, speeds and the beginning of a session are those of a run with them. What is said of the sensor is
+/// said of its middle.
+const SCENE: &str = r#"
+scene_version = 1
+name = "tap"
+[sensor]
+opaque = true
+markers = false
+footprint = { shape = "disc", radius_mm = 1.0 }
+[model]
+name = "ridge"
+[metrics]
+want = ["accuracy"]
+[protocol.contact]
+speed_mm_s = 4.5
+clearance_mm = 1.0
+[protocol.calibration]
+points = 1
+indentations = 1
+"#;
+
+/// What taps say of a rig.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[non_exhaustive]
+pub struct RigTap {
+    /// How many taps there were.
+    pub taps: usize,
+    /// The latencies of robot, transducer and sensor before, in ms: those of the rig file, or what the drivers state.
+    pub before_ms: [f64; 3],
+    /// By how much later than the robot the transducer still was.
+    pub force: Latency,
+    /// And the sensor.
+    pub sensor: Latency,
+    /// What the rig file should say.
+    pub latencies: RigLatencies,
+    /// Its text with that; `None` where it is written so that it must be changed by hand.
+    #[serde(skip)]
+    pub text: Option<String>,
+}
+
+/// Taps the gel on the rig of the file at `path`, which is read and not written.
+///
+/// # Errors
+/// [`AcquireError::Scene`] with the line of the rig file if it has no robot, transducer or sensor, or says no limits; [`AcquireError::Open`] and
+/// [`AcquireError::Acquisition`] if a device failed or the rig is not as its file says; [`AcquireError::Request`] with the reason where the taps say
+/// nothing.
+pub fn tap_rig(path: &Path, workshop: Workshop<'_>) -> Result<RigTap, AcquireError> {
+    let rig = super::read_rig(path)?;
+    check_devices(&rig)?;
+    let text = SceneText {
+        name: format!("taceva rig tap {}", path.display()),
+        text: SCENE.to_owned(),
+        folder: PathBuf::from("."),
+    };
+    let instead = Overrides {
+        rig: Some(path.to_owned()),
+        ..Overrides::default()
+    };
+    let planned = PlannedScene::with(text, workshop.drivers, &instead)?;
+    let study = planned.studies.first();
+    let study = study.expect("the scene has a study");
+    let StudySource::Rig(spec) = &study.source else {
+        return Err(AcquireError::Request(
+            "a recording is not tapped".to_owned(),
+        ));
+    };
+    let info = spec
+        .info(&study.study, workshop.drivers)
+        .map_err(|(at, problem)| AcquireError::from(rig.error(at, problem)))?;
+    let stated = |device: &Option<Descriptor>, of: fn(&Descriptor) -> Option<f64>| {
+        device.as_ref().and_then(of)
+    };
+    let stated = [
+        stated(&info.robot, |robot| robot.robot()?.latency_ms),
+        stated(&info.force, |force| force.force()?.latency_ms),
+        stated(&info.sensor, |sensor| sensor.sensor()?.latency_ms),
+    ];
+    let written = written_latencies_ms(&rig);
+    let before_ms = [0, 1, 2].map(|device: usize| {
+        let latency = written[device].or(stated[device]);
+        latency.unwrap_or(0.0)
+    });
+    let tapped = tap_study(study, workshop)?;
+    let refused = |error: TapError| {
+        AcquireError::Request(format!("{}: {error}", taceva_core::shown(rig.name())))
+    };
+    let (force, sensor) = tapped.latencies().map_err(refused)?;
+    let latencies = RigLatencies::measured(before_ms, &force, &sensor);
+    Ok(RigTap {
+        taps: tapped.count(),
+        before_ms,
+        force,
+        sensor,
+        latencies,
+        text: rig.with_latencies(&latencies),
+    })
+}
+
+/// Refuses a rig that lacks a device to compare.
+fn check_devices(rig: &RigFile) -> Result<(), AcquireError> {
+    for (key, is_there) in [
+        ("robot", rig.robot.is_some()),
+        ("force", rig.force.is_some()),
+        ("sensor", rig.sensor.is_some()),
+    ] {
+        if !is_there {
+            let missing = SceneProblem::MissingKey(key.to_owned());
+            return Err(AcquireError::from(rig.error(None, missing)));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,222 @@
+//! A scene and its plans: what the text says, joined with what drivers and recordings say of themselves. No device is opened.
+
+mod overrides;
+mod rig;
+mod text;
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use serde::ser::{Serialize, SerializeStruct, Serializer};
+use taceva_core::FieldSet;
+use taceva_dataset::{Dataset, FramesInfo, Known};
+use taceva_drivers::Drivers;
+use taceva_protocol::{
+    GratingClassifier, Plan, RecordingInfo, Scene, SceneProblem, SourceInfo, Study, plan,
+};
+
+use crate::error::AcquireError;
+
+pub use overrides::Overrides;
+pub(crate) use rig::{RigSpec, open_switch};
+pub use text::SceneText;
+pub(crate) use text::read_rig_file;
+
+/// A scene with the plan of each of its studies.
+#[derive(Debug)]
+pub struct PlannedScene {
+    /// What the scene says, with the seed that counts.
+    pub scene: Scene,
+    /// Its text, as it was written.
+    pub text: SceneText,
+    /// Its studies, in order.
+    pub studies: Vec<PlannedStudy>,
+    /// The seeds that models are fitted with, one after the other; what models have of their own if empty.
+    pub seeds: Vec<u64>,
+    /// Whether the model or settings of it were typed: then no line of the scene is at fault for them.
+    pub is_model_typed: bool,
+}
+
+/// One sensor of a scene, and what is done with it.
+#[derive(Debug)]
+pub struct PlannedStudy {
+    /// What is done, what is not, and why.
+    pub plan: Plan,
+    /// What the scene says of it, with the devices of the rig file.
+    pub study: Study,
+    pub(crate) source: StudySource,
+}
+
+/// Where the samples of a study come from.
+#[derive(Debug)]
+pub(crate) enum StudySource {
+    /// Devices by name.
+    Rig(RigSpec),
+    /// The folder of a recording.
+    Recording(PathBuf),
+}
+
+impl PlannedScene {
+    /// Reads what `text` says and plans it with `drivers`; `seed` stands in the place of the one that is written.
+    ///
+    /// # Errors
+    /// [`AcquireError::Scene`] with the line: see [`Scene::parse`] and [`plan`], and drivers, arguments, models and recordings that are
+    /// not there.
+    pub fn new(
+        text: SceneText,
+        drivers: &Drivers,
+        seed: Option<u64>,
+    ) -> Result<PlannedScene, AcquireError> {
+        let overrides = Overrides {
+            seed,
+            ..Overrides::default()
+        };
+        PlannedScene::with(text, drivers, &overrides)
+    }
+
+    /// The same with what `overrides` says in the place of what is written.
+    ///
+    /// # Errors
+    /// As [`new`](PlannedScene::new); [`AcquireError::Request`] for settings of no model.
+    pub fn with(
+        text: SceneText,
+        drivers: &Drivers,
+        overrides: &Overrides,
+    ) -> Result<PlannedScene, AcquireError> {
+        let mut scene = match &overrides.rig {
+            Some(_) => Scene::parse_for_rig(&text.name, &text.text)?,
+            None => Scene::parse(&text.name, &text.text)?,
+        };
+        let written = scene.rig.as_ref();
+        let written = written.map(|rig| text.folder.join(&rig.value));
+        let rig = overrides.rig.clone().or(written);
+        let rig = rig
+            .map(|path| read_rig_file(&path))
+            .transpose()?
+            .map(Arc::new);
+        if let Some(rig) = &rig {
+            rig::check_switch(rig, drivers)?;
+            scene.put_on(rig)?;
+        }
+        scene.seed = overrides.seed.unwrap_or(scene.seed);
+        for study in &mut scene.studies {
+            overrides.exchange_model(&study.name, &mut study.model)?;
+        }
+        rig::check_drivers(&scene, drivers)?;
+        if let Some(rig) = &rig {
+            rig::check_changers(rig, drivers)?;
+        }
+        let mut sources = Vec::new();
+        for study in &scene.studies {
+            sources.push(Source::of(study, &scene, &text, drivers)?);
+        }
+        let mut infos = sources.iter().map(|source| source.info.clone());
+        let plans = plan(&scene, |_| {
+            infos.next().expect("a source was made for each study")
+        })?;
+        let studies = scene.studies.iter().zip(plans).zip(sources);
+        let studies = studies.map(|((study, plan), source)| PlannedStudy {
+            plan,
+            study: study.clone(),
+            source: source.source,
+        });
+        Ok(PlannedScene {
+            studies: studies.collect(),
+            scene,
+            text,
+            seeds: overrides.seeds.clone(),
+            is_model_typed: overrides.model.is_some() || !overrides.set.is_empty(),
+        })
+    }
+}
+
+/// The source of the samples of a study, for the planner and for the run.
+struct Source {
+    info: SourceInfo,
+    source: StudySource,
+}
+
+impl Source {
+    fn of(
+        study: &Study,
+        scene: &Scene,
+        text: &SceneText,
+        drivers: &Drivers,
+    ) -> Result<Source, AcquireError> {
+        let Some(dataset) = &study.sensor.dataset else {
+            let rig = study.rig.as_ref();
+            let folder = rig.and_then(|rig| Path::new(rig.name()).parent());
+            let spec = RigSpec::new(study, scene.seed, folder.unwrap_or(&text.folder));
+            let info = spec
+                .info(study, drivers)
+                .map_err(|(at, problem)| match rig {
+                    Some(rig) => AcquireError::from(rig.error(at, problem)),
+                    None => text.error(at, problem),
+                })?;
+            return Ok(Source {
+                info: SourceInfo::Rig(Box::new(info)),
+                source: StudySource::Rig(spec),
+            });
+        };
+        let path = text.folder.join(&dataset.value);
+        let info = recording(&path).map_err(|error| {
+            let problem = SceneProblem::Contradiction(error.to_string());
+            text.error(dataset.at(), problem)
+        })?;
+        Ok(Source {
+            info: SourceInfo::Recording(info),
+            source: StudySource::Recording(path),
+        })
+    }
+}
+
+/// What the recording at `path` holds.
+fn recording(path: &Path) -> Result<RecordingInfo, AcquireError> {
+    let dataset = Dataset::open(path)?;
+    let header = dataset.header();
+    let footprint = header
+        .footprint
+        .as_ref()
+        .map(|footprint| footprint.to_core());
+    let fields: FieldSet = dataset.table().fields();
+    Ok(RecordingInfo {
+        fields,
+        channels: dataset.table().channels().clone(),
+        opaque: match header.sensor.opaque {
+            Known::Is(opaque) => Some(opaque),
+            Known::Unknown => None,
+        },
+        footprint: footprint.transpose().map_err(AcquireError::Request)?,
+        frame: header.frames.as_ref().map(FramesInfo::of_camera),
+    })
+}
+
+/// Schema `taceva.plans/1`: the plan of every study.
+impl Serialize for PlannedScene {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let plans: Vec<&Plan> = self.studies.iter().map(|study| &study.plan).collect();
+        let gratings = &self.scene.protocol.gratings;
+        let (classified_by, set) = (gratings.classified_by.value, &gratings.set.value);
+        let is_classified_otherwise = classified_by != GratingClassifier::default();
+        let rig = self
+            .studies
+            .iter()
+            .find_map(|study| study.study.rig.as_ref());
+        let fields = 4 + 2 * usize::from(is_classified_otherwise) + usize::from(rig.is_some());
+        let mut scene = serializer.serialize_struct("PlannedScene", fields)?;
+        scene.serialize_field("schema", "taceva.plans/1")?;
+        scene.serialize_field("scene", &self.scene.name)?;
+        scene.serialize_field("seed", &self.scene.seed)?;
+        scene.serialize_field("studies", &plans)?;
+        // Results depend on it, so that a run with another classifier is another run.
+        if is_classified_otherwise {
+            scene.serialize_field("gratings_classified_by", &classified_by)?;
+            scene.serialize_field("gratings_set", set)?;
+        }
+        // What was recorded on one rig is not gone on with on another.
+        if let Some(rig) = rig {
+            scene.serialize_field("rig", &rig.digest().to_string())?;
+        }
+        scene.end()
+    }
+}

@@ -1,0 +1,79 @@
+//! The text of a scene and where it stands, so that what is refused names its line and what is named beside it is found.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use taceva_protocol::{BuiltinScene, GREATEST_SCENE, RigFile, SceneError, SceneProblem};
+
+use crate::error::AcquireError;
+
+/// A scene as it was written.
+#[derive(Clone, Debug)]
+pub struct SceneText {
+    /// What errors call it: its path, or the name of a built-in one.
+    pub name: String,
+    /// Its TOML.
+    pub text: String,
+    /// What paths in it are relative to.
+    pub folder: PathBuf,
+}
+
+impl SceneText {
+    /// A scene that is compiled in.
+    pub fn builtin(scene: BuiltinScene) -> SceneText {
+        SceneText {
+            name: scene.name().to_owned(),
+            text: scene.text().to_owned(),
+            folder: PathBuf::from("."),
+        }
+    }
+
+    /// The scene in the file at `path`.
+    ///
+    /// # Errors
+    /// [`AcquireError::Scene`] if it cannot be read.
+    pub fn read(path: &Path) -> Result<SceneText, AcquireError> {
+        let name = path.display().to_string();
+        let text = read_text(path)?;
+        let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+        Ok(SceneText { name, text, folder })
+    }
+
+    /// `problem`, at the line of the byte `at`.
+    pub fn error(&self, at: Option<usize>, problem: SceneProblem) -> AcquireError {
+        let line = at.map(|at| {
+            let before = self.text.bytes().take(at);
+            1 + before.filter(|byte| *byte == b'\n').count() as u64
+        });
+        AcquireError::from(SceneError {
+            source_name: self.name.clone(),
+            line,
+            problem: Box::new(problem),
+        })
+    }
+}
+
+/// The rig file at `path`.
+///
+/// # Errors
+/// [`AcquireError::Scene`] if it cannot be read or is none.
+pub(crate) fn read_rig_file(path: &Path) -> Result<RigFile, AcquireError> {
+    let text = read_text(path)?;
+    Ok(RigFile::parse(&path.display().to_string(), &text)?)
+}
+
+fn read_text(path: &Path) -> Result<String, AcquireError> {
+    let mut text = String::new();
+    // One byte more than is accepted is enough to see that there are too many.
+    let most = GREATEST_SCENE as u64 + 1;
+    let read = File::open(path).and_then(|file| file.take(most).read_to_string(&mut text));
+    match read {
+        Ok(_) => Ok(text),
+        Err(error) => Err(AcquireError::from(SceneError {
+            source_name: path.display().to_string(),
+            line: None,
+            problem: Box::new(SceneProblem::Syntax(error.to_string())),
+        })),
+    }
+}

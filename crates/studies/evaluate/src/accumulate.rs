@@ -1,0 +1,119 @@
+//! From rows to scores, on all threads, with the same bits on any number of them.
+
+use std::num::NonZeroUsize;
+use std::ops::Range;
+
+use taceva_core::{Batch, Column, Field};
+use taceva_dataset::Dataset;
+use taceva_metrics::{ClusteredBy, Evaluator, MetricPlan};
+
+use crate::error::EvaluateError;
+use crate::recordings;
+
+/// Rows a batch: large enough that merging is rare, small enough that a batch stays in the cache.
+pub const BATCH_ROWS: usize = 1 << 12;
+
+/// Where rows with truth and prediction come from: any of them, asked for from any thread.
+pub trait Rows: Sync {
+    /// How many there are.
+    fn rows(&self) -> usize;
+
+    /// Those in `rows`, with the channels of the plan.
+    ///
+    /// # Errors
+    /// [`EvaluateError`] if one of them cannot be read.
+    fn batch(&self, plan: &MetricPlan, rows: Range<usize>) -> Result<Batch, EvaluateError>;
+}
+
+/// Accumulates all rows of `source`. Each thread takes a contiguous block; sums are exact, so the blocks do not change the result.
+///
+/// Blocks are whole batches, so that the first batch with an error is the same on any number of threads.
+///
+/// # Errors
+/// [`EvaluateError`] of the first batch that cannot be read or scored.
+pub fn accumulate(
+    source: &impl Rows,
+    plan: &MetricPlan,
+    jobs: NonZeroUsize,
+) -> Result<Evaluator, EvaluateError> {
+    let rows = source.rows();
+    let block = rows.div_ceil(jobs.get()).next_multiple_of(BATCH_ROWS);
+    let blocks: Vec<Range<usize>> = (0..rows)
+        .step_by(block.max(BATCH_ROWS))
+        .map(|start| start..rows.min(start + block))
+        .collect();
+    let evaluators: Vec<Result<Evaluator, EvaluateError>> = std::thread::scope(|scope| {
+        let threads: Vec<_> = blocks
+            .into_iter()
+            .map(|block| scope.spawn(move || accumulate_block(source, plan, block)))
+            .collect();
+        let joined = threads.into_iter().map(|thread| match thread.join() {
+            Ok(evaluator) => evaluator,
+            Err(panic) => std::panic::resume_unwind(panic),
+        });
+        joined.collect()
+    });
+    let mut total = Evaluator::new(plan);
+    for evaluator in evaluators {
+        total.merge(evaluator?)?;
+    }
+    Ok(total)
+}
+
+fn accumulate_block(
+    source: &impl Rows,
+    plan: &MetricPlan,
+    rows: Range<usize>,
+) -> Result<Evaluator, EvaluateError> {
+    let mut evaluator = Evaluator::new(plan);
+    for start in rows.clone().step_by(BATCH_ROWS) {
+        let end = rows.end.min(start + BATCH_ROWS);
+        evaluator.update(&source.batch(plan, start..end)?)?;
+    }
+    Ok(evaluator)
+}
+
+/// Truth and predictions that lie in memory, column by column, and the rest of the same rows in the table of their dataset.
+///
+/// # Shapes
+/// A column a channel of the plan, all as long as `rows`.
+pub struct Columns<'a> {
+    pub truth: &'a [Column],
+    pub prediction: &'a [Column],
+    pub dataset: &'a Dataset,
+    pub rows: &'a [usize],
+}
+
+impl Rows for Columns<'_> {
+    fn rows(&self) -> usize {
+        self.rows.len()
+    }
+
+    fn batch(&self, plan: &MetricPlan, rows: Range<usize>) -> Result<Batch, EvaluateError> {
+        let slice = |columns: &[Column]| {
+            let slices = columns.iter().map(|column| column.slice(rows.clone()));
+            slices.collect()
+        };
+        let table = self.dataset.table();
+        let of_table = || self.rows[rows.clone()].iter().copied();
+        let wanted = plan.fields();
+        let points = wanted
+            .contains(Field::Point)
+            .then(|| table.labels(Field::Point, of_table()))
+            .flatten();
+        let channels = plan.channels().clone();
+        let mut batch =
+            Batch::from_columns(channels, slice(self.truth), slice(self.prediction), points);
+        if plan.clustered_by() == ClusteredBy::Recording {
+            batch = batch.with_recordings(recordings::labels(self.dataset, of_table()));
+        }
+        for field in wanted.iter().filter(|field| *field != Field::Point) {
+            if let Some(labels) = table.labels(field, of_table()) {
+                batch = batch.with_labels(field, labels);
+            } else if let Some(numbers) = table.numbers(field, of_table()) {
+                batch = batch.with_numbers(field, numbers);
+            }
+        }
+        Ok(batch)
+    }
+}

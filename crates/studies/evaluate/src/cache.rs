@@ -1,0 +1,209 @@
+//! Finished stages of runs, each kept under the digest of everything that it was made from.
+//!
+//! ```text
+//! FOLDER/2/acquire/<key>      a line a folder of a run that holds the closed recording, the last one first
+//!         /features/<key>     features of frames, in the same way as a model
+//!         /fit/<key>          a model; first its digest on a line, then its bytes
+//!         /predict/<key>      numbers, in the same way
+//!         /partial/           what is being written; it is renamed when it is whole, and left if the run is stopped
+//! ```
+//!
+//! Scores are no stage: they are formed from kept numbers in less time than it takes to look them up safely.
+
+mod features;
+mod inventory;
+mod key;
+mod recording;
+mod study;
+mod tree;
+mod value;
+
+use std::collections::BTreeSet;
+use std::fs::{self, File};
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
+
+use taceva_core::shown;
+
+pub(crate) use features::ONE_MAX;
+pub use inventory::{CacheEntry, Pruning, cache_entries, pruned, remove_entry};
+pub use key::CachedStage;
+pub use key::{Key, KeyBuilder};
+pub use study::StageRecord;
+pub use study::StudyCache;
+pub use tree::remove;
+pub use value::Kept;
+
+/// How entries are laid out; another layout is another folder, so that no version reads what it cannot know.
+const LAYOUT: &str = "2";
+/// The layout before, which kept recordings whole.
+const BEFORE: &str = "1";
+/// Where entries are written before they are whole.
+const PARTIAL: &str = "partial";
+/// No run takes longer to write a result.
+const ABANDONED: Duration = Duration::from_secs(24 * 60 * 60);
+
+/// A folder in which runs find what others have finished, and what was found there by one run.
+///
+/// A cache never stops a run: where it cannot be read or written, stages are carried out again and [`notes`](Cache::notes) say why. Any number of
+/// runs may share one, because an entry appears whole and under a name that only equal entries have.
+#[derive(Debug)]
+pub struct Cache {
+    folder: PathBuf,
+    models: String,
+    /// Whether many tasks at once take features of the same recordings.
+    is_of_many: bool,
+    written: AtomicU64,
+    notes: Mutex<BTreeSet<String>>,
+    records: Mutex<Vec<(usize, StageRecord)>>,
+}
+
+impl Cache {
+    /// The cache in `folder`, which is made when the first stage is kept.
+    ///
+    /// `models` says what the simulated drivers of the program are models of, with version and parameters: what other models recorded is
+    /// not found.
+    pub fn new(folder: PathBuf, models: String) -> Cache {
+        Cache {
+            folder,
+            models,
+            is_of_many: false,
+            written: AtomicU64::new(0),
+            notes: Mutex::default(),
+            records: Mutex::default(),
+        }
+    }
+
+    /// The same for many tasks at once, in this process and in others that share the folder: features are made of whole recordings, whichever rows
+    /// a task learns from, and by one of the tasks that need them, while the others wait for it. Each frame is decoded once for each kind of
+    /// features then, if what it takes is kept at all.
+    #[must_use]
+    pub fn of_many(self) -> Cache {
+        Cache {
+            is_of_many: true,
+            ..self
+        }
+    }
+
+    pub fn is_of_many(&self) -> bool {
+        self.is_of_many
+    }
+
+    /// The folder.
+    pub fn path(&self) -> &Path {
+        &self.folder
+    }
+
+    /// What the user should know: a folder that cannot be written, entries that were damaged.
+    pub fn notes(&self) -> Vec<String> {
+        let notes = self.notes.lock().unwrap_or_else(PoisonError::into_inner);
+        notes.iter().cloned().collect()
+    }
+
+    /// The stages of the run so far, study by study, and which of them were found.
+    pub fn stages(&self) -> Vec<StageRecord> {
+        let records = self.records.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut records = records.clone();
+        records.sort_by_key(|(study, record)| (*study, record.stage));
+        records.into_iter().map(|(_, record)| record).collect()
+    }
+
+    pub fn models(&self) -> &str {
+        &self.models
+    }
+
+    fn note(&self, note: String) {
+        let mut notes = self.notes.lock().unwrap_or_else(PoisonError::into_inner);
+        notes.insert(note);
+    }
+
+    fn record(&self, study: usize, record: StageRecord) {
+        let mut records = self.records.lock().unwrap_or_else(PoisonError::into_inner);
+        records.push((study, record));
+    }
+
+    /// Where the entry of `key` is.
+    fn entry(&self, key: &Key) -> PathBuf {
+        let folder = self.folder.join(LAYOUT).join(key.stage().name());
+        folder.join(key.digits())
+    }
+
+    /// Where entries are written before they are whole.
+    fn partial(&self) -> PathBuf {
+        self.folder.join(LAYOUT).join(PARTIAL)
+    }
+
+    /// Writes an entry by `write` beside its place and renames it, unless another run was faster.
+    ///
+    /// `write` makes a file or a folder and refuses one that is there.
+    fn put(&self, key: &Key, write: impl Fn(&Path) -> io::Result<()>) {
+        let entry = self.entry(key);
+        if let Err(error) = self.try_put(&entry, write)
+            && !entry.exists()
+        {
+            self.note_unwritable(&error);
+        }
+    }
+
+    /// Replaces the entry of `key` by the file `bytes`.
+    fn put_anew(&self, key: &Key, bytes: &[u8]) {
+        let entry = self.entry(key);
+        let write = |beside: &Path| {
+            let mut file = File::options().write(true).create_new(true).open(beside)?;
+            file.write_all(bytes)?;
+            file.sync_all()
+        };
+        if let Err(error) = self.try_put(&entry, write) {
+            self.note_unwritable(&error);
+        }
+    }
+
+    fn note_unwritable(&self, error: &io::Error) {
+        self.note(format!(
+            "the cache {} cannot be written, so nothing is kept there: {error}",
+            shown(&self.folder)
+        ));
+    }
+
+    fn try_put(&self, entry: &Path, write: impl Fn(&Path) -> io::Result<()>) -> io::Result<()> {
+        let partial = self.partial();
+        for folder in entry.parent().into_iter().chain([partial.as_path()]) {
+            fs::create_dir_all(folder)?;
+        }
+        loop {
+            let number = self.written.fetch_add(1, Ordering::Relaxed);
+            let beside = partial.join(format!("{}-{number}", std::process::id()));
+            let written = match write(&beside) {
+                // Of a process with the same number that was stopped, or that runs on another machine.
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => continue,
+                written => written.and_then(|()| fs::rename(&beside, entry)),
+            };
+            if written.is_err() {
+                // The error that counts is the one that is returned.
+                drop(remove(&beside));
+            }
+            return written;
+        }
+    }
+
+    fn note_unreadable(&self, entry: &Path, error: &io::Error) {
+        self.note(format!("{} cannot be used: {error}", shown(entry)));
+    }
+
+    /// Removes a damaged entry; its stage is carried out again.
+    fn discard(&self, key: &Key, problem: &str) {
+        let entry = self.entry(key);
+        let removed = remove(&entry);
+        self.note(format!(
+            "{}: {problem}; it is {} and made anew",
+            shown(&entry),
+            match removed {
+                Ok(()) => "removed".to_owned(),
+                Err(error) => format!("left, because it cannot be removed ({error}),"),
+            }
+        ));
+    }
+}

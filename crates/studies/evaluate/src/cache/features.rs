@@ -1,0 +1,264 @@
+//! Features of frames and signals that are kept for the next model; beyond a total size the oldest are removed.
+
+use std::fs::{self, File};
+use std::io::{self, Cursor, Read};
+use std::path::Path;
+use std::time::{Duration, SystemTime};
+
+use taceva_core::{FeatureShape, Features};
+use taceva_dataset::Dataset;
+use taceva_models::{Extractor, FeatureSpec};
+
+use super::value::Kept;
+use super::{ABANDONED, Cache, CachedStage, Key, remove};
+use crate::claim::{Claim, Watch};
+use crate::error::EvaluateError;
+
+/// What is kept of features altogether, in bytes.
+const ALL_MAX: u64 = 2 << 30;
+/// How often it is looked whether somebody else is done.
+const LOOK_EVERY: Duration = Duration::from_millis(50);
+/// What is kept of one set of them.
+pub(crate) const ONE_MAX: u64 = ALL_MAX / 4;
+
+impl Cache {
+    /// The features of `rows` of `dataset` by `extractor`: those kept, or what `make` gives, which is kept from then on.
+    ///
+    /// Features are a function of frames and reference frame, or of signals and those at rest, which the digest of a dataset covers.
+    pub(crate) fn features(
+        &self,
+        (dataset, extractor, rows): (&Dataset, &Extractor, &[usize]),
+        make: impl FnOnce() -> Result<Features, EvaluateError>,
+    ) -> Result<Features, EvaluateError> {
+        let bytes = rows.len() as u64 * extractor.shape().len() as u64 * 4;
+        if bytes > ONE_MAX {
+            return make();
+        }
+        // Principal components are found by the model, of all features.
+        let spec = FeatureSpec {
+            pca: None,
+            ..*extractor.spec()
+        };
+        let key = Key::of(CachedStage::Features)
+            .part("dataset", &dataset.digest().to_string())
+            .whole("input", &extractor.input())
+            .whole("features", &spec)
+            .whole("rows", &rows)
+            .finish();
+        if let Some(found) = self.take_value(&key) {
+            let entry = File::open(self.entry(&key));
+            // Of those that are not looked at any more the oldest goes first; a folder that may only be read is as good.
+            drop(entry.and_then(|entry| entry.set_modified(SystemTime::now())));
+            return Ok(found);
+        }
+        let turn = self.is_of_many().then(|| self.turn(&key));
+        if turn.is_some()
+            && let Some(found) = self.take_value(&key)
+        {
+            return Ok(found);
+        }
+        let made = make()?;
+        self.keep_value(&key, &made);
+        drop(turn);
+        if let Some(folder) = self.entry(&key).parent() {
+            // What cannot be dropped now is when the next is kept.
+            drop(trim(folder, ALL_MAX));
+            drop(self.sweep());
+        }
+        Ok(made)
+    }
+}
+
+impl Cache {
+    /// Waits until nobody else makes what `key` names. Without a claim, as in a folder that cannot be written, the work is done twice at worst.
+    fn turn(&self, key: &Key) -> Option<Claim> {
+        let partial = self.partial();
+        fs::create_dir_all(&partial).ok()?;
+        let path = partial.join(format!("{}.claim", key.digits()));
+        let mut watch = Watch::new(&path);
+        loop {
+            match Claim::take(&path) {
+                Ok(Some(claim)) => return Some(claim),
+                Ok(None) => {}
+                Err(_) => return None,
+            }
+            if !watch.clear().ok()? {
+                std::thread::sleep(LOOK_EVERY);
+            }
+        }
+    }
+
+    /// Removes what was being written by runs that were stopped long ago.
+    fn sweep(&self) -> io::Result<()> {
+        for entry in fs::read_dir(self.partial())? {
+            let entry = entry?;
+            let age = entry.metadata()?.modified()?.elapsed();
+            if age.is_ok_and(|age| age > ABANDONED) {
+                remove(&entry.path())?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Removes the files of `folder` that were not looked at for longest, until the others come to no more than `most` bytes.
+fn trim(folder: &Path, most: u64) -> io::Result<()> {
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        let facts = entry.metadata()?;
+        files.push((facts.modified()?, facts.len(), entry.path()));
+    }
+    let mut sum: u64 = files.iter().map(|(_, length, _)| length).sum();
+    files.sort();
+    for (_, length, path) in files {
+        if sum <= most {
+            break;
+        }
+        fs::remove_file(path)?;
+        sum -= length;
+    }
+    Ok(())
+}
+
+/// Height, width and depth as 32-bit numbers, then the features as they are in memory, all with the least byte first. They are read and written a
+/// piece at a time, so that the matrix is in memory once.
+impl Kept for Features {
+    fn to_kept(&self) -> Option<impl Read> {
+        let FeatureShape {
+            height,
+            width,
+            depth,
+        } = self.shape();
+        let mut head = [0; 12];
+        for (place, side) in head
+            .as_chunks_mut::<4>()
+            .0
+            .iter_mut()
+            .zip([height, width, depth])
+        {
+            *place = u32::try_from(side).ok()?.to_le_bytes();
+        }
+        let values = Bytes {
+            values: self.values(),
+            block: Vec::with_capacity(BLOCK),
+            read: 0,
+        };
+        Some(Cursor::new(head).chain(values))
+    }
+
+    fn from_kept(mut bytes: impl Read, length: usize) -> Option<Features> {
+        let mut head = [0; 12];
+        bytes.read_exact(&mut head).ok()?;
+        let side = |place: usize| {
+            let bytes = head.as_chunks::<4>().0[place];
+            usize::try_from(u32::from_le_bytes(bytes)).ok()
+        };
+        let shape = FeatureShape {
+            height: side(0)?,
+            width: side(1)?,
+            depth: side(2)?,
+        };
+        let length = length.checked_sub(head.len())?;
+        if length % 4 != 0 {
+            return None;
+        }
+        let mut values = Vec::with_capacity(length / 4);
+        let mut block = vec![0; BLOCK];
+        while values.len() < length / 4 {
+            let wanted = BLOCK.min(length - 4 * values.len());
+            bytes.read_exact(&mut block[..wanted]).ok()?;
+            let words = block[..wanted].as_chunks::<4>().0.iter();
+            values.extend(words.map(|word| f32::from_le_bytes(*word)));
+        }
+        Features::new(shape, values).ok()
+    }
+}
+
+/// Bytes that are read at once.
+const BLOCK: usize = 1 << 16;
+
+/// Numbers as bytes, a block of them at a time.
+struct Bytes<'a> {
+    /// Those behind the block.
+    values: &'a [f32],
+    block: Vec<u8>,
+    /// How much of the block was read.
+    read: usize,
+}
+
+impl Read for Bytes<'_> {
+    fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
+        if self.read == self.block.len() {
+            let count = self.values.len().min(BLOCK / 4);
+            let (now, later) = self.values.split_at(count);
+            self.block.clear();
+            self.block
+                .extend(now.iter().flat_map(|value| value.to_le_bytes()));
+            (self.values, self.read) = (later, 0);
+        }
+        let mut rest = &self.block[self.read..];
+        let count = rest.read(into)?;
+        self.read += count;
+        Ok(count)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn features_are_kept_with_their_shape_and_every_bit() {
+        let shape = FeatureShape {
+            height: 2,
+            width: 1,
+            depth: 3,
+        };
+        let values = vec![0.1, -0.0, 1e-30, 3.0, f32::MIN_POSITIVE, -7.5];
+        let features = Features::new(shape, values).expect("one sample");
+        let mut kept = Vec::new();
+        let read = features.to_kept().expect("small").read_to_end(&mut kept);
+        read.expect("it is in memory");
+        let found = |bytes: &[u8]| Features::from_kept(bytes, bytes.len());
+        assert_eq!(found(&kept), Some(features));
+        // Without any sample they are whole, which the digest of the file knows better.
+        for length in (0..kept.len()).filter(|length| *length != 12) {
+            assert_eq!(found(&kept[..length]), None, "{length} bytes");
+        }
+    }
+
+    #[test]
+    fn what_a_stopped_run_left_half_written_is_swept_away_a_day_later() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let cache = Cache::new(folder.path().to_owned(), String::new());
+        fs::create_dir_all(cache.partial()).expect("created");
+        let left = |name: &str, hours: u64| {
+            let path = cache.partial().join(name);
+            let file = File::create(&path).expect("created");
+            let age = Duration::from_secs(hours * 60 * 60);
+            file.set_modified(SystemTime::now() - age).expect("dated");
+            path
+        };
+        let (fresh, old) = (left("1-1", 1), left("2-1", 25));
+        cache.sweep().expect("swept");
+        assert!(fresh.exists() && !old.exists());
+    }
+
+    #[test]
+    fn those_not_looked_at_for_longest_are_dropped_first() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let now = SystemTime::now();
+        for (name, age_s) in [("old", 30), ("newest", 0), ("older", 60), ("new", 10)] {
+            let path = folder.path().join(name);
+            fs::write(&path, [0; 100]).expect("written");
+            let file = File::options().append(true).open(path).expect("there");
+            let then = now - Duration::from_secs(age_s);
+            file.set_modified(then).expect("dated");
+        }
+        trim(folder.path(), 250).expect("trimmed");
+        let is_there = |name: &str| folder.path().join(name).exists();
+        assert!(is_there("newest") && is_there("new"));
+        assert!(!is_there("old") && !is_there("older"));
+    }
+}

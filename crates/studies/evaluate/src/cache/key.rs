@@ -1,0 +1,160 @@
+//! The name of a stage's result: the digest of everything that it was made from.
+
+use std::fmt::{self, Debug};
+
+use taceva_dataset::Digest;
+
+/// A stage of a run whose result is kept in the cache.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+#[non_exhaustive]
+pub enum CachedStage {
+    /// The presses of a study: a recording.
+    Acquire,
+    /// The features of their frames.
+    Features,
+    /// The fitted model.
+    Fit,
+    /// Predictions of the presses that the model was not fitted on.
+    Predict,
+    /// The spacings that are predicted for presses on gratings.
+    Classify,
+}
+
+impl CachedStage {
+    /// Every stage, in the order of a run.
+    pub const ALL: [CachedStage; 5] = [
+        CachedStage::Acquire,
+        CachedStage::Features,
+        CachedStage::Fit,
+        CachedStage::Predict,
+        CachedStage::Classify,
+    ];
+
+    /// The word used in files and folders.
+    pub const fn name(self) -> &'static str {
+        match self {
+            CachedStage::Acquire => "acquire",
+            CachedStage::Features => "features",
+            CachedStage::Fit => "fit",
+            CachedStage::Predict => "predict",
+            CachedStage::Classify => "classify",
+        }
+    }
+
+    /// The word that earlier versions used, where it was another.
+    pub(super) const fn name_before(self) -> Option<&'static str> {
+        match self {
+            CachedStage::Classify => Some("tell"),
+            _ => None,
+        }
+    }
+
+    /// Counted on when the result of the same parts becomes another one within a version of this program.
+    const fn version(self) -> u32 {
+        match self {
+            // 2: the recording says how its presses ended.
+            // 3: the recording has a picture of the untouched gel.
+            CachedStage::Acquire => 3,
+            // 2: standard deviations follow the predictions.
+            // 3: predictions are as the model gives them, beyond its bounds too.
+            CachedStage::Predict => 3,
+            // 2: elastic nets end their descent earlier, Gaussian processes reach as far as they say.
+            // 3: the card says the mean of the labels.
+            // 4: residual networks train with Winograd's convolutions, and their cards say in which form they predict.
+            CachedStage::Fit => 4,
+            // 2: likewise.
+            CachedStage::Classify => 2,
+            CachedStage::Features => 1,
+        }
+    }
+}
+
+/// The name of a stage's result.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub struct Key {
+    stage: CachedStage,
+    digest: Digest,
+}
+
+impl Key {
+    /// The key of a result of `stage`, of which parts are to be named.
+    pub fn of(stage: CachedStage) -> KeyBuilder {
+        let builder = KeyBuilder {
+            stage,
+            parts: Vec::new(),
+        };
+        builder
+            .part("stage", stage.name())
+            .part("version", &stage.version().to_string())
+            .part("taceva", env!("CARGO_PKG_VERSION"))
+    }
+
+    pub fn stage(&self) -> CachedStage {
+        self.stage
+    }
+
+    /// The 64 digits by which its entry is called.
+    pub fn digits(&self) -> String {
+        let bytes = self.digest.as_bytes().iter();
+        bytes.map(|byte| format!("{byte:02x}")).collect()
+    }
+}
+
+impl fmt::Display for Key {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(&self.digest, f)
+    }
+}
+
+/// Parts of a key, each with its name and its length, so that no two sequences of parts run together.
+pub struct KeyBuilder {
+    stage: CachedStage,
+    parts: Vec<u8>,
+}
+
+impl KeyBuilder {
+    pub fn part(mut self, name: &str, part: &str) -> KeyBuilder {
+        for text in [name, part] {
+            self.parts.extend((text.len() as u64).to_le_bytes());
+            self.parts.extend(text.as_bytes());
+        }
+        self
+    }
+
+    /// A part in its `Debug` form, which names every field, so that a field added later becomes part of the key without further code.
+    pub fn whole(self, name: &str, part: &impl Debug) -> KeyBuilder {
+        self.part(name, &format!("{part:?}"))
+    }
+
+    pub fn finish(self) -> Key {
+        Key {
+            stage: self.stage,
+            digest: Digest::of(&self.parts),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_differ_in_stage_name_and_part_and_parts_do_not_run_together() {
+        let keys = [
+            Key::of(CachedStage::Fit).finish(),
+            Key::of(CachedStage::Classify).finish(),
+            Key::of(CachedStage::Fit).part("ab", "c").finish(),
+            Key::of(CachedStage::Fit).part("a", "bc").finish(),
+            Key::of(CachedStage::Fit)
+                .part("a", "b")
+                .part("c", "")
+                .finish(),
+        ];
+        for (position, key) in keys.iter().enumerate() {
+            assert!(keys[..position].iter().all(|other| other != key), "{key}");
+        }
+        let again = Key::of(CachedStage::Fit).part("ab", "c").finish();
+        assert_eq!(again.digits(), keys[2].digits());
+    }
+}

@@ -1,0 +1,81 @@
+//! The cache as one study of a run uses it.
+
+use std::path::Path;
+
+use taceva_dataset::Dataset;
+
+use super::value::Kept;
+use super::{Cache, CachedStage, Key};
+
+/// A stage of a study, and whether its result was found rather than made.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+pub struct StageRecord {
+    /// The study.
+    pub study: String,
+    /// The stage.
+    pub stage: CachedStage,
+    /// The digest of everything that its result is made from.
+    pub key: String,
+    /// Whether it was found.
+    pub reused: bool,
+}
+
+/// The cache as one study uses it; where there is none, every stage is carried out.
+#[derive(Clone, Copy)]
+pub struct StudyCache<'a> {
+    pub cache: Option<&'a Cache>,
+    /// The number of the study, from 0.
+    pub number: usize,
+    pub study: &'a str,
+}
+
+impl StudyCache<'_> {
+    /// What is kept under `key`, or what `make` gives, which is kept from then on.
+    pub fn value<T: Kept, E>(self, key: &Key, make: impl FnOnce() -> Result<T, E>) -> Result<T, E> {
+        let Some(cache) = self.cache else {
+            return make();
+        };
+        if let Some(value) = cache.take_value(key) {
+            self.record(key, true);
+            return Ok(value);
+        }
+        let value = make()?;
+        cache.keep_value(key, &value);
+        self.record(key, false);
+        Ok(value)
+    }
+
+    /// The recording at `place`: the one kept under `key` if nothing is there yet, or what `make` leaves there, which is kept from then on.
+    pub fn recording<E>(
+        self,
+        key: &Key,
+        place: &Path,
+        make: impl FnOnce() -> Result<Dataset, E>,
+    ) -> Result<(Dataset, bool), E> {
+        let Some(cache) = self.cache else {
+            return Ok((make()?, false));
+        };
+        // What was begun there goes on.
+        let found = (!place.exists()).then(|| cache.take_recording(key, place));
+        if let Some(dataset) = found.flatten() {
+            self.record(key, true);
+            return Ok((dataset, true));
+        }
+        let dataset = make()?;
+        cache.keep_recording(key, place);
+        self.record(key, false);
+        Ok((dataset, false))
+    }
+
+    fn record(self, key: &Key, reused: bool) {
+        let record = StageRecord {
+            study: self.study.to_owned(),
+            stage: key.stage(),
+            key: key.to_string(),
+            reused,
+        };
+        if let Some(cache) = self.cache {
+            cache.record(self.number, record);
+        }
+    }
+}

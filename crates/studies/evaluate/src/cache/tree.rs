@@ -1,0 +1,41 @@
+//! Folders of files that are shared rather than copied.
+
+use std::fs::{self, File};
+use std::io;
+use std::path::Path;
+
+use taceva_files::sync_folder;
+
+/// Files of fewer bytes are copied: they save nothing, and what somebody edits in one folder stays as it was in another.
+const LINKED: u64 = 1 << 16;
+
+/// Makes the folder `to` with all files of `from`: linked if they are large, or copied where the file system refuses links.
+///
+/// Names in it are durable when this returns; files are as durable as those of `from`.
+pub(super) fn link(from: &Path, to: &Path) -> io::Result<()> {
+    fs::create_dir(to)?;
+    for entry in fs::read_dir(from)? {
+        let entry = entry?;
+        let (file, target) = (entry.path(), to.join(entry.file_name()));
+        if entry.file_type()?.is_dir() {
+            link(&file, &target)?;
+        } else if entry.metadata()?.len() < LINKED || fs::hard_link(&file, &target).is_err() {
+            fs::copy(&file, &target)?;
+            File::open(&target)?.sync_all()?;
+        }
+    }
+    sync_folder(to)
+}
+
+/// Removes the file or the folder at `path`, if there is one.
+pub fn remove(path: &Path) -> io::Result<()> {
+    let removed = match fs::symlink_metadata(path) {
+        Ok(found) if found.is_dir() => fs::remove_dir_all(path),
+        Ok(_) => fs::remove_file(path),
+        Err(error) => Err(error),
+    };
+    match removed {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+        other => other,
+    }
+}

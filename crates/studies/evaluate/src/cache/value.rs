@@ -1,0 +1,225 @@
+//! Small results that are kept: one file each, whose first line is the digest of the rest.
+
+use std::fs::File;
+use std::io::{self, BufReader, Cursor, Read, Seek, SeekFrom, Write};
+
+use taceva_core::Column;
+use taceva_dataset::Digest;
+use taceva_models::Model;
+
+use super::{Cache, Key};
+
+/// A result that is kept in a file.
+pub trait Kept: Sized {
+    /// What is kept, as often as it is asked for; `None` where it cannot be written down.
+    fn to_kept(&self) -> Option<impl Read>;
+
+    /// What was kept in so many bytes; `None` if these are not the bytes of such a result.
+    fn from_kept(bytes: impl Read, length: usize) -> Option<Self>;
+}
+
+/// The model of a plugin is not kept: nobody but its plugin can load it.
+impl Kept for Model {
+    fn to_kept(&self) -> Option<impl Read> {
+        let is_of_plugin = self.card().plugin.is_some();
+        let bytes = self.to_bytes().ok().filter(|_| !is_of_plugin);
+        bytes.map(Cursor::new)
+    }
+
+    fn from_kept(bytes: impl Read, length: usize) -> Option<Model> {
+        Model::from_bytes(&all_of(bytes, length)?).ok()
+    }
+}
+
+/// A byte that says whether there is a value, and the bits of the value, a row.
+impl Kept for Column {
+    fn to_kept(&self) -> Option<impl Read> {
+        let rows = (0..self.len()).map(|row| self.get(row));
+        let bytes = rows.flat_map(|value| {
+            let mut bytes = [0; 9];
+            bytes[0] = u8::from(value.is_some());
+            bytes[1..].copy_from_slice(&value.unwrap_or(0.0).to_le_bytes());
+            bytes
+        });
+        Some(Cursor::new(bytes.collect::<Vec<u8>>()))
+    }
+
+    fn from_kept(bytes: impl Read, length: usize) -> Option<Column> {
+        let bytes = all_of(bytes, length)?;
+        let (rows, []) = bytes.as_chunks::<9>() else {
+            return None;
+        };
+        let mut column = Column::default();
+        for [is_there, bits @ ..] in rows {
+            column.push((*is_there == 1).then_some(f64::from_le_bytes(*bits)));
+        }
+        Some(column)
+    }
+}
+
+fn all_of(mut bytes: impl Read, length: usize) -> Option<Vec<u8>> {
+    let mut all = Vec::with_capacity(length);
+    bytes.read_to_end(&mut all).ok()?;
+    Some(all)
+}
+
+/// The bytes of the first line: the digest, and the end of the line.
+const FIRST_LINE: usize = 72;
+
+impl Cache {
+    /// The result kept under `key`; `None` if there is none or it is not what was written.
+    pub(super) fn take_value<T: Kept>(&self, key: &Key) -> Option<T> {
+        let entry = self.entry(key);
+        let file = match File::open(&entry) {
+            Ok(file) => file,
+            Err(error) => {
+                if !is_absent(&error) {
+                    self.note_unreadable(&entry, &error);
+                }
+                return None;
+            }
+        };
+        match taken(&file) {
+            Ok(Some(value)) => return Some(value),
+            Ok(None) => self.discard(key, "it is not what was written there"),
+            Err(error) => self.note_unreadable(&entry, &error),
+        }
+        None
+    }
+
+    /// Keeps `value` under `key`.
+    pub(super) fn keep_value(&self, key: &Key, value: &impl Kept) {
+        if value.to_kept().is_none() {
+            return;
+        }
+        let kept = || value.to_kept().ok_or(io::ErrorKind::Unsupported);
+        self.put(key, |beside| {
+            let mut file = File::create_new(beside)?;
+            writeln!(file, "{}", Digest::of_reader(&mut kept()?)?)?;
+            io::copy(&mut kept()?, &mut file)?;
+            // A name that outlives a power cut must not stand for an empty file.
+            file.sync_all()
+        });
+    }
+}
+
+/// The value in a file, if what follows the first line has the digest that stands there.
+fn taken<T: Kept>(mut file: &File) -> io::Result<Option<T>> {
+    let length = usize::try_from(file.metadata()?.len()).unwrap_or(usize::MAX);
+    let Some(length) = length.checked_sub(FIRST_LINE) else {
+        return Ok(None);
+    };
+    let mut line = [0; FIRST_LINE];
+    file.read_exact(&mut line)?;
+    let line = str::from_utf8(&line).ok();
+    let digest = line.and_then(|line| line.strip_suffix('\n')?.parse::<Digest>().ok());
+    if digest != Some(Digest::of_reader(&mut file)?) {
+        return Ok(None);
+    }
+    file.seek(SeekFrom::Start(FIRST_LINE as u64))?;
+    Ok(T::from_kept(BufReader::new(file), length))
+}
+
+/// Whether nothing is there, or nothing can be because no folder is.
+fn is_absent(error: &io::Error) -> bool {
+    matches!(
+        error.kind(),
+        io::ErrorKind::NotFound | io::ErrorKind::NotADirectory
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::super::CachedStage;
+    use super::*;
+
+    /// Numbers with one that is absent.
+    fn numbers() -> Column {
+        let mut column = Column::default();
+        for value in [Some(0.1), None, Some(-0.0), Some(1e300)] {
+            column.push(value);
+        }
+        column
+    }
+
+    #[test]
+    fn what_is_kept_is_found_with_the_same_bits() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let cache = Cache::new(folder.path().join("deep/cache"), String::new());
+        let key = Key::of(CachedStage::Predict).finish();
+        assert_eq!(cache.take_value::<Column>(&key), None);
+        cache.keep_value(&key, &numbers());
+        let found: Column = cache.take_value(&key).expect("kept");
+        let bits = |column: &Column| -> Vec<_> {
+            let rows = (0..column.len()).map(|row| column.get(row).map(f64::to_bits));
+            rows.collect()
+        };
+        assert_eq!(bits(&found), bits(&numbers()));
+        assert_eq!(cache.notes(), Vec::<String>::new());
+        let other = Key::of(CachedStage::Predict).part("seed", "2").finish();
+        assert_eq!(cache.take_value::<Column>(&other), None);
+    }
+
+    #[test]
+    fn nothing_half_written_and_nothing_altered_is_ever_read() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let key = Key::of(CachedStage::Classify).finish();
+        let cache = Cache::new(folder.path().to_owned(), String::new());
+        cache.keep_value(&key, &numbers());
+        let entry = cache.entry(&key);
+        let whole = fs::read(&entry).expect("kept");
+        for length in 0..whole.len() {
+            fs::write(&entry, &whole[..length]).expect("cut");
+            assert_eq!(cache.take_value::<Column>(&key), None, "{length} bytes");
+            assert!(!entry.exists(), "{length} bytes are removed");
+        }
+        for position in 0..whole.len() {
+            let mut altered = whole.clone();
+            altered[position] ^= 1;
+            fs::write(&entry, altered).expect("altered");
+            assert_eq!(cache.take_value::<Column>(&key), None, "byte {position}");
+        }
+        assert!(cache.notes()[0].contains("not what was written"));
+        cache.keep_value(&key, &numbers());
+        assert_eq!(cache.take_value(&key), Some(numbers()));
+    }
+
+    #[test]
+    fn a_folder_that_cannot_be_written_is_noted_once_and_stops_nothing() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = folder.path().join("file");
+        fs::write(&file, "mine").expect("written");
+        let cache = Cache::new(file.clone(), String::new());
+        for stage in [CachedStage::Fit, CachedStage::Predict] {
+            let key = Key::of(stage).finish();
+            assert_eq!(cache.take_value::<Column>(&key), None);
+            cache.keep_value(&key, &numbers());
+        }
+        let notes = cache.notes();
+        assert!(
+            matches!(&notes[..], [note] if note.contains("cannot be written")),
+            "{notes:?}"
+        );
+        assert_eq!(fs::read(&file).expect("there"), b"mine");
+    }
+
+    #[test]
+    fn of_two_that_keep_one_thing_at_once_either_is_found_whole() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let key = Key::of(CachedStage::Classify).finish();
+        let cache = Cache::new(folder.path().to_owned(), String::new());
+        std::thread::scope(|scope| {
+            for _ in 0..4 {
+                scope.spawn(|| {
+                    for _ in 0..20 {
+                        cache.keep_value(&key, &numbers());
+                        assert_eq!(cache.take_value(&key), Some(numbers()));
+                    }
+                });
+            }
+        });
+        assert_eq!(cache.notes(), Vec::<String>::new());
+    }
+}

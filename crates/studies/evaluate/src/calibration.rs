@@ -1,0 +1,79 @@
+//! Whether a model that says how sure it is says it rightly.
+
+use std::num::NonZeroUsize;
+
+use taceva_core::{Column, Field, FieldSet};
+use taceva_dataset::Dataset;
+use taceva_metrics::{MetricPlan, catalogue};
+use taceva_models::NORMAL_95;
+
+use crate::accumulate::{Columns, accumulate};
+use crate::error::EvaluateError;
+use crate::predict::Predicted;
+
+/// What part of `predicted`, the rows `rows` of `dataset`, lies within 1.96 of its own standard deviations of the truth, channel by channel
+/// with an interval by contact point; `None` of a model that does not know how sure it is.
+///
+/// Only rows pressed in the same light as the training data count: a model states nothing about others.
+pub fn calibration_note(
+    dataset: &Dataset,
+    (predicted, rows): (&Predicted, &[usize]),
+    counts: impl Fn(usize) -> bool,
+    jobs: NonZeroUsize,
+) -> Result<Option<String>, EvaluateError> {
+    let Some(deviations) = predicted.deviation() else {
+        return Ok(None);
+    };
+    let mut hits = Vec::new();
+    let mut zeros = Vec::new();
+    for (channel, deviations) in deviations.iter().enumerate() {
+        let (truth, found) = (
+            &predicted.truth()[channel],
+            &predicted.prediction()[channel],
+        );
+        let (mut own, mut zero) = (Column::default(), Column::default());
+        for (at, row) in rows.iter().enumerate() {
+            let pair = truth.get(at).zip(found.get(at));
+            let inside = pair.filter(|_| counts(*row)).zip(deviations.get(at)).map(
+                |((truth, found), deviation)| {
+                    f64::from((found - truth).abs() <= NORMAL_95 * deviation)
+                },
+            );
+            own.push(inside);
+            zero.push(inside.map(|_| 0.0));
+        }
+        hits.push(own);
+        zeros.push(zero);
+    }
+    // A hit is 1 and a miss 0, so that the mean of what differs from 0 is the share of hits, and has the interval of any mean.
+    let share = catalogue::find("mae").expect("it is in the catalogue");
+    let available: FieldSet = dataset.table().fields().with(Field::Prediction);
+    let plan = MetricPlan::new(&[share], predicted.channels().clone(), available);
+    let columns = Columns {
+        truth: &zeros,
+        prediction: &hits,
+        dataset,
+        rows,
+    };
+    let evaluation = accumulate(&columns, &plan, jobs)?.finish()?;
+    let text = |channel: &str| {
+        let score = evaluation.score(share.id, channel)?;
+        let percent = |value: f64| 100.0 * value.clamp(0.0, 1.0);
+        let value = percent(score.value.scalar()?);
+        let interval = score
+            .interval
+            .ends()
+            .map_or_else(String::new, |[low, high]| {
+                format!("{:.1} … {:.1} %, ", percent(low), percent(high))
+            });
+        Some(format!("{channel} {value:.1} % ({interval}n {})", score.n))
+    };
+    let shares = predicted.channels().iter();
+    let shares: Vec<String> = shares.filter_map(|channel| text(channel.name())).collect();
+    Ok((!shares.is_empty()).then(|| {
+        format!(
+            "within 1.96 predicted standard deviations of the truth lie {}; 95 % would if the deviations were calibrated",
+            shares.join(", ")
+        )
+    }))
+}

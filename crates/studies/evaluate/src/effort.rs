@@ -1,0 +1,100 @@
+//! What fitting and evaluating are going to read and to keep, known before either begins.
+
+use taceva_dataset::Dataset;
+use taceva_models::FeatureSpec;
+
+use crate::cache::ONE_MAX;
+use crate::error::EvaluateError;
+use crate::evaluate::{EvaluateRequest, ModelChoice, folds};
+use crate::fit::{FitPlan, FitRequest};
+use crate::predict::Target;
+use crate::rows::DataPart;
+
+/// Bytes of a feature that is kept.
+const FEATURE_BYTES: u64 = 4;
+
+/// Pictures that are read, and what is kept of them where there is a cache.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Effort {
+    /// The rows whose frames are decoded, those of each part behind each other.
+    pub rows: Vec<usize>,
+    /// What is kept of features at most, in bytes; where features are to be chosen, each trial keeps its own beside it.
+    pub kept_bytes: u64,
+}
+
+impl Effort {
+    /// Of [`fit`](crate::fit).
+    ///
+    /// # Errors
+    /// [`EvaluateError`] if the request is not valid.
+    pub fn of_fit(dataset: &Dataset, request: &FitRequest) -> Result<Effort, EvaluateError> {
+        Ok(Effort::of_plan(&FitPlan::new(dataset, request)?))
+    }
+
+    /// Of [`evaluate`](crate::evaluate).
+    ///
+    /// # Errors
+    /// [`EvaluateError`] if the request is not valid.
+    pub fn of_evaluation(
+        dataset: &Dataset,
+        request: &EvaluateRequest,
+    ) -> Result<Effort, EvaluateError> {
+        match &request.model {
+            ModelChoice::Fit(fit) => {
+                if let Some(folds) = folds::of(dataset, fit)? {
+                    folds.refuse_part(request)?;
+                    let mut all = Effort::default();
+                    for plan in folds.plans(fit) {
+                        all = all.and(Effort::of_fold(dataset, plan?, None)?);
+                    }
+                    return Ok(all);
+                }
+                Effort::of_fold(dataset, FitPlan::new(dataset, fit)?, request.part)
+            }
+            ModelChoice::Fitted(model) => {
+                let target = Target::new(dataset, model, request.part)?;
+                let spec = &model.card().features;
+                Ok(Effort::of_rows(target.rows, *spec, model.reads_frames()))
+            }
+        }
+    }
+
+    /// Of one fit, and of the predictions of a part with what it gives.
+    fn of_fold(
+        dataset: &Dataset,
+        plan: FitPlan<'_>,
+        part: Option<DataPart>,
+    ) -> Result<Effort, EvaluateError> {
+        let (reads, spec) = (plan.reads_frames(), plan.features());
+        let learning = Effort::of_plan(&plan);
+        let target = Target::of(dataset, Some(plan.divided), part, reads)?;
+        Ok(learning.and(Effort::of_rows(target.rows, spec, reads)))
+    }
+
+    fn of_plan(plan: &FitPlan<'_>) -> Effort {
+        let rows = [&plan.train[..], &plan.validation].concat();
+        let closer = plan
+            .closer
+            .map(|spec| Effort::of_rows(rows.clone(), spec, true));
+        let own = Effort::of_rows(rows, plan.features(), plan.reads_frames());
+        own.and(closer.unwrap_or_default())
+    }
+
+    fn of_rows(rows: Vec<usize>, spec: FeatureSpec, reads_frames: bool) -> Effort {
+        if !reads_frames {
+            return Effort::default();
+        }
+        let bytes = rows.len() as u64 * spec.shape().len() as u64 * FEATURE_BYTES;
+        Effort {
+            rows,
+            // More than that is not kept.
+            kept_bytes: if bytes > ONE_MAX { 0 } else { bytes },
+        }
+    }
+
+    fn and(mut self, other: Effort) -> Effort {
+        self.rows.extend(other.rows);
+        self.kept_bytes += other.kept_bytes;
+        self
+    }
+}

@@ -1,0 +1,91 @@
+//! From a dataset to scores, step by step: divide, fit, predict, score.
+
+mod callers_model;
+pub mod folds;
+mod notes;
+mod passes;
+mod plan;
+mod request;
+mod scores;
+
+use taceva_dataset::Dataset;
+use taceva_metrics::catalogue;
+
+use crate::error::EvaluateError;
+use crate::fit::FitPlan;
+use crate::predict::{self, Target};
+use crate::work::Work;
+
+pub use callers_model::{GivenModel, GivenRequest, GivenRows};
+use notes::left_out_note;
+pub use plan::evaluate_plan;
+pub use request::{Asked, EvaluateRequest, Evaluated, ModelChoice};
+pub use scores::{Behind, score};
+
+/// Evaluates `dataset`: fits the model if that was asked for, predicts what it has not seen, and scores.
+///
+/// # Errors
+/// [`EvaluateError`] if the request is not valid, the model does not fit the dataset, or the dataset cannot be read.
+pub fn evaluate(
+    dataset: &Dataset,
+    request: &EvaluateRequest,
+    work: Work<'_>,
+) -> Result<Evaluated, EvaluateError> {
+    match &request.model {
+        ModelChoice::Fit(fit) => {
+            // Asked before the work: an unknown metric must not cost a fit.
+            catalogue::select(request.metrics.iter().map(String::as_str))?;
+            if let Some(folds) = folds::of(dataset, fit)? {
+                return folds.evaluate((request, fit), work);
+            }
+            let plan = FitPlan::new(dataset, fit)?;
+            if request.part.is_none() {
+                plan.divided.require_test()?;
+            }
+            let fitted = plan.run(work)?;
+            let model = &fitted.model;
+            let target = Target::of(
+                dataset,
+                Some(fitted.divided),
+                request.part,
+                model.reads_frames(),
+            )?;
+            let predicted = predict::predict_target(dataset, model, &target, work)?;
+            let behind = Behind::of(model)?;
+            let mut scored = score(
+                dataset,
+                request.asked(),
+                behind,
+                (&target, &predicted),
+                work.jobs,
+            )?;
+            let report = &mut scored.report;
+            report.provenance.frames_decoded += fitted.frames_decoded;
+            report
+                .provenance
+                .notes
+                .extend(left_out_note("training and validation", fitted.left_out));
+            Ok(Evaluated {
+                manifest: Some(fitted.manifest),
+                ..scored
+            })
+        }
+        ModelChoice::Fitted(model) => {
+            let target = Target::new(dataset, model, request.part)?;
+            let predicted = predict::predict_target(dataset, model, &target, work)?;
+            let behind = Behind::of(model)?;
+            let scored = score(
+                dataset,
+                request.asked(),
+                behind,
+                (&target, &predicted),
+                work.jobs,
+            )?;
+            let manifest = target
+                .divided
+                .map(|divided| divided.manifest(dataset.table()))
+                .transpose()?;
+            Ok(Evaluated { manifest, ..scored })
+        }
+    }
+}

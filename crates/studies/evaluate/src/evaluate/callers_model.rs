@@ -1,0 +1,254 @@
+//! Predictions of a model that a caller holds, scored by the rules that hold for ours.
+
+use std::collections::BTreeMap;
+use std::num::NonZeroUsize;
+
+use taceva_core::{Channels, Targets, shown};
+use taceva_dataset::Dataset;
+use taceva_models::{LabelBounds, label_means};
+
+use super::request::{Asked, Evaluated};
+use super::scores::{Behind, score};
+use crate::error::EvaluateError;
+use crate::predict::{self, Predictor, Target};
+use crate::provenance::ModelProvenance;
+use crate::rows::{DataPart, Divided, Need, chosen_channels, require_samples, usable};
+
+/// What is known of a model whose file and whose learning we have not seen.
+const UNKNOWN: &str = "unknown";
+
+/// Rows for a model that a caller holds: what it may learn, and what it is scored on.
+///
+/// Whatever it predicts, [`score`](GivenRows::score) is the one way on.
+#[derive(Debug)]
+pub struct GivenRows {
+    channels: Channels,
+    train: Vec<usize>,
+    train_left_out: usize,
+    target: Target,
+    part: Option<DataPart>,
+    learns: bool,
+    reads_frames: bool,
+    is_unbounded: bool,
+}
+
+/// How rows are chosen for a model that a caller holds.
+#[derive(Clone, Debug, Default)]
+pub struct GivenRequest {
+    /// Channels by name; empty for all.
+    pub channels: Vec<String>,
+    /// Whether the model is fitted on the training part now.
+    pub learns: bool,
+    /// The split as people write it. Of a model that does not learn now, the one that it was fitted by; `None` where nobody knows.
+    pub split: Option<String>,
+    /// The seed of the split.
+    pub seed: u64,
+    /// The part that is scored; what the model has not seen, if `None`.
+    pub part: Option<DataPart>,
+    /// Whether the model looks at frames.
+    pub reads_frames: bool,
+    /// Whether predictions of a model that learns now are scored as they are, and not brought within the bounds of its labels.
+    pub is_unbounded: bool,
+}
+
+/// What a model that a caller holds is called.
+#[derive(Clone, Debug, Default)]
+pub struct GivenModel {
+    /// Its name, such as `sklearn.linear_model.Ridge`.
+    pub name: String,
+    /// Its settings by name, that of its features included.
+    pub settings: BTreeMap<String, String>,
+}
+
+impl GivenRows {
+    /// Divides `dataset` as `request` says.
+    ///
+    /// # Errors
+    /// [`EvaluateError`] for a channel that does not exist, a split that cannot be made, or a part without a sample.
+    pub fn new(dataset: &Dataset, request: &GivenRequest) -> Result<GivenRows, EvaluateError> {
+        require_samples(dataset)?;
+        let channels = chosen_channels(dataset, &request.channels)?;
+        let is_divided = request.learns || request.split.is_some();
+        let divided = is_divided
+            .then(|| Divided::of(dataset, request.split.as_deref(), request.seed))
+            .transpose()?;
+        let whole = match &divided {
+            Some(divided) if request.learns => divided.rows(DataPart::Train),
+            _ => Vec::new(),
+        };
+        let need = Need {
+            frame: request.reads_frames,
+            labels: Some(&channels),
+        };
+        let train = usable(dataset, &whole, need);
+        if request.learns && train.is_empty() {
+            return Err(EvaluateError::Request(
+                "no training sample has a label of every channel: name fewer channels".to_owned(),
+            ));
+        }
+        let target = Target::of(dataset, divided, request.part, request.reads_frames)?;
+        Ok(GivenRows {
+            train_left_out: whole.len() - train.len(),
+            channels,
+            train,
+            target,
+            part: request.part,
+            learns: request.learns,
+            reads_frames: request.reads_frames,
+            is_unbounded: request.is_unbounded,
+        })
+    }
+
+    /// What is predicted.
+    pub fn channels(&self) -> &Channels {
+        &self.channels
+    }
+
+    /// The rows to learn, ascending, each with a label of every channel; none for a model that does not learn now.
+    pub fn train(&self) -> &[usize] {
+        &self.train
+    }
+
+    /// The rows to predict, ascending.
+    pub fn target(&self) -> &[usize] {
+        &self.target.rows
+    }
+
+    /// The labels of the rows to learn.
+    ///
+    /// # Shapes
+    /// `[rows, channels]`, row after row.
+    pub fn labels(&self, dataset: &Dataset) -> Vec<f64> {
+        let table = dataset.table();
+        let positions = self.channels.iter();
+        let positions: Vec<_> = positions
+            .filter_map(|channel| table.channels().position(channel.name()))
+            .collect();
+        let labels = self.train.iter().flat_map(|row| {
+            let own = positions.iter();
+            own.filter_map(|position| table.truth(*position).get(*row))
+        });
+        labels.collect()
+    }
+
+    /// The scores of `predictions` of the rows to predict. A model that learnt here is brought within the bounds of its labels, as ours are, and
+    /// its skill is measured by the mean of its labels; of another it is not known what it has learnt, and a note says so.
+    ///
+    /// # Shapes
+    /// `predictions` are `[rows, channels]`, row after row.
+    ///
+    /// # Errors
+    /// [`EvaluateError::Request`] for as many numbers as are not wanted, or one that is not finite.
+    pub fn score(
+        self,
+        dataset: &Dataset,
+        model: GivenModel,
+        predictions: Vec<f64>,
+        metrics: Vec<String>,
+        jobs: NonZeroUsize,
+    ) -> Result<Evaluated, EvaluateError> {
+        self.check(dataset, &model, &predictions)?;
+        let labels = self.labels(dataset);
+        let targets = Targets::new(&self.channels, &labels);
+        let names = self
+            .channels
+            .iter()
+            .map(|channel| channel.name().to_owned());
+        let predictor = Predictor {
+            bounds: match self.learns && !self.is_unbounded {
+                true => LabelBounds::of_labels(targets),
+                false => LabelBounds::unknown(self.channels.len()),
+            },
+            constants: match self.learns {
+                true => names.zip(label_means(targets)).collect(),
+                false => BTreeMap::new(),
+            },
+            reads_frames: self.reads_frames,
+            channels: self.channels,
+        };
+        let predicted = predict::predicted_table(
+            dataset,
+            predictor,
+            &self.target,
+            &taceva_core::Column::full(predictions),
+        )?;
+        let asked = Asked {
+            metrics: &metrics,
+            part: self.part,
+            sensor: None,
+        };
+        let behind = Behind {
+            model: ModelProvenance {
+                name: model.name,
+                settings: model.settings,
+                digest: UNKNOWN.to_owned(),
+                fitted_on: match self.learns {
+                    true => dataset.digest().to_string(),
+                    false => UNKNOWN.to_owned(),
+                },
+                origin: Some("given".to_owned()),
+            },
+            unsealed: Vec::new(),
+            chosen: notes(
+                self.learns,
+                self.target.divided.is_some(),
+                self.train_left_out,
+                self.is_unbounded,
+            ),
+        };
+        score(dataset, asked, behind, (&self.target, &predicted), jobs)
+    }
+
+    fn check(
+        &self,
+        dataset: &Dataset,
+        model: &GivenModel,
+        predictions: &[f64],
+    ) -> Result<(), EvaluateError> {
+        let (rows, width) = (self.target.rows.len(), self.channels.len());
+        if predictions.len() != rows * width {
+            return Err(EvaluateError::Request(format!(
+                "{} predicted {} numbers, expected {rows} samples of {width} channels",
+                model.name,
+                predictions.len()
+            )));
+        }
+        let Some(at) = predictions.iter().position(|value| !value.is_finite()) else {
+            return Ok(());
+        };
+        let channel = &self.channels.as_slice()[at % width];
+        Err(EvaluateError::Request(format!(
+            "{} predicted {} of {channel} for the sample {}: expected finite numbers",
+            model.name,
+            predictions[at],
+            shown(&dataset.table().samples()[self.target.rows[at / width]])
+        )))
+    }
+}
+
+fn notes(learns: bool, is_divided: bool, left_out: usize, is_unbounded: bool) -> Vec<String> {
+    let learnt = match (learns, is_divided) {
+        (true, _) => {
+            "the model is one that the caller holds, fitted here on the training part alone"
+        }
+        (false, true) => {
+            "the model is one that the caller holds; that it has learnt from the training part of this split alone is the caller's word"
+        }
+        (false, false) => {
+            "the model is one that the caller holds; what it has learnt from is not known, so these samples may be among it"
+        }
+    };
+    let mut notes = vec![learnt.to_owned()];
+    if left_out > 0 {
+        notes.push(format!(
+            "{left_out} samples of the part train lack a label or a frame and were left out"
+        ));
+    }
+    if is_unbounded {
+        notes.push(
+            "predictions were not brought within the bounds of the labels that were learnt, as those of other models are"
+                .to_owned(),
+        );
+    }
+    notes
+}

@@ -1,0 +1,147 @@
+//! Which metrics read which rows: scores of predictions belong to what the model has not seen, the truth alone to everything.
+
+use std::num::NonZeroUsize;
+use std::ops::Range;
+
+use taceva_core::{Column, Field};
+use taceva_dataset::Dataset;
+use taceva_metrics::{ClusteredBy, Evaluation, Evaluator, Metric, MetricPlan};
+
+use crate::accumulate::{Columns, accumulate};
+use crate::error::EvaluateError;
+use crate::predict::{Predicted, truth};
+
+/// The metrics of a plan by the rows they read.
+pub(super) struct Passes<'a> {
+    plan: &'a MetricPlan,
+    /// Those that compare predictions within the bounds of the model with the truth.
+    of_predictions: Vec<&'static Metric>,
+    /// Those that compare predictions as the model gives them with the truth.
+    of_unbounded: Vec<&'static Metric>,
+    /// Those that look at the truth alone.
+    of_truth: Vec<&'static Metric>,
+}
+
+impl<'a> Passes<'a> {
+    /// Assigns the metrics of `plan` to passes; where a part was asked for, every metric reads that part.
+    pub(super) fn new(plan: &'a MetricPlan, is_part_asked_for: bool) -> Passes<'a> {
+        let kept = plan.kept().iter().copied();
+        let (of_truth, others): (Vec<_>, Vec<_>) =
+            kept.partition(|metric| !is_part_asked_for && reads_no_prediction(metric));
+        let (of_unbounded, of_predictions) = others
+            .into_iter()
+            .partition(|metric| metric.reads_unbounded_predictions());
+        Passes {
+            plan,
+            of_predictions,
+            of_unbounded,
+            of_truth,
+        }
+    }
+
+    /// Accumulates `predicted`, which are the rows `rows` of `dataset`, and of the rest what metrics of the truth alone read.
+    pub(super) fn run(
+        &self,
+        dataset: &Dataset,
+        predicted: &Predicted,
+        rows: &[usize],
+        jobs: NonZeroUsize,
+    ) -> Result<Evaluator, EvaluateError> {
+        let mut total = Evaluator::new(self.plan);
+        let of_both = [
+            (&self.of_predictions, predicted.prediction()),
+            (&self.of_unbounded, predicted.unbounded()),
+        ];
+        for (metrics, prediction) in of_both {
+            let columns = Columns {
+                truth: predicted.truth(),
+                prediction,
+                dataset,
+                rows,
+            };
+            let plan = self.restricted(metrics)?;
+            total.merge(accumulate(&columns, &plan, jobs)?)?;
+        }
+        if !self.of_truth.is_empty() {
+            let rows = dataset.all_rows();
+            let channels = self.plan.channels().iter();
+            let truth: Vec<Column> = channels
+                .map(|channel| truth(dataset, channel, &rows))
+                .collect::<Result<_, _>>()?;
+            let mut nothing = Column::default();
+            rows.iter().for_each(|_| nothing.push(None));
+            let columns = Columns {
+                prediction: &vec![nothing; truth.len()],
+                truth: &truth,
+                dataset,
+                rows: &rows,
+            };
+            let plan = self.restricted(&self.of_truth)?;
+            total.merge(accumulate(&columns, &plan, jobs)?)?;
+        }
+        Ok(total)
+    }
+
+    /// The scores of predictions of one recording alone: of those of `rows` at the positions `own`. Intervals are by its contact points.
+    pub(super) fn of_recording(
+        &self,
+        dataset: &Dataset,
+        predicted: &Predicted,
+        (rows, own): (&[usize], Range<usize>),
+        jobs: NonZeroUsize,
+    ) -> Result<Evaluation, EvaluateError> {
+        let slice = |columns: &[Column]| -> Vec<Column> {
+            let own = || own.clone();
+            columns.iter().map(|column| column.slice(own())).collect()
+        };
+        let truth = slice(predicted.truth());
+        let metrics = [&self.of_predictions[..], &self.of_unbounded].concat();
+        let mut total = Evaluator::new(&self.restricted(&metrics)?);
+        for (metrics, prediction) in [
+            (&self.of_predictions, predicted.prediction()),
+            (&self.of_unbounded, predicted.unbounded()),
+        ] {
+            let columns = Columns {
+                truth: &truth,
+                prediction: &slice(prediction),
+                dataset,
+                rows: &rows[own.clone()],
+            };
+            let plan = self.restricted(metrics)?;
+            total.merge(accumulate(&columns, &plan, jobs)?)?;
+        }
+        let evaluation = total.finish()?;
+        Ok(evaluation.with_bounded_shares(&predicted.bounded(own).shares()))
+    }
+
+    /// A note where two sets of rows were read.
+    pub(super) fn note(&self, dataset: &Dataset) -> Option<String> {
+        let ids: Vec<&str> = self.of_truth.iter().map(|metric| metric.id).collect();
+        let reads_predictions = !self.of_predictions.is_empty() || !self.of_unbounded.is_empty();
+        (!ids.is_empty() && reads_predictions).then(|| {
+            let rows = dataset.table().rows();
+            let ids = ids.join(", ");
+            format!("no prediction enters {ids}: all {rows} samples count there, in every part")
+        })
+    }
+
+    /// The plan with fewer metrics and everything else alike, so that its states join those of the whole one.
+    fn restricted(&self, metrics: &[&'static Metric]) -> Result<MetricPlan, EvaluateError> {
+        let plan = self.plan;
+        let restricted = MetricPlan::new(metrics, plan.channels().clone(), plan.available())
+            .with_facts(plan.facts().clone())
+            .with_seed(plan.seed())
+            .with_interval_method(plan.interval_method())
+            .with_constants(plan.constants().clone())?
+            .with_settings(*plan.settings())?;
+        Ok(match plan.clustered_by() {
+            ClusteredBy::Recording => restricted.by_recording(),
+            _ => restricted,
+        })
+    }
+}
+
+fn reads_no_prediction(metric: &Metric) -> bool {
+    let fields = metric.needs.fields;
+    !fields.contains(Field::Prediction) && !fields.contains(Field::PredictedSpacing)
+}

@@ -1,0 +1,82 @@
+//! What an evaluation would do, before any frame is read.
+
+use taceva_core::{SkipReason, Skipped, shown};
+use taceva_dataset::Dataset;
+
+use super::folds;
+use super::request::{EvaluateRequest, ModelChoice};
+use super::scores::metrics;
+use crate::error::EvaluateError;
+use crate::fit::FitPlan;
+use crate::plan::Plan;
+use crate::predict::Target;
+use crate::rows::{DataPart, Divided};
+
+/// Says what [`evaluate`](super::evaluate) would do; reads no frame.
+///
+/// # Errors
+/// [`EvaluateError`] if the request is not valid.
+pub fn evaluate_plan(dataset: &Dataset, request: &EvaluateRequest) -> Result<Plan, EvaluateError> {
+    let mut plan = Plan::default();
+    let rows = dataset.table().rows();
+    plan.step("read", format!("{rows} rows of {}", shown(&dataset.path())));
+    let (target, channels, reads_frames) = match &request.model {
+        ModelChoice::Fit(fit) => {
+            let fit = match folds::of(dataset, fit)? {
+                Some(folds) => {
+                    folds.refuse_part(request)?;
+                    folds.explain(&mut plan);
+                    folds.first(fit)?
+                }
+                None => FitPlan::new(dataset, fit)?,
+            };
+            plan.step("divide", divided_as(&fit.divided));
+            fit.explain(&mut plan);
+            let (channels, reads_frames) = (fit.channels.clone(), fit.reads_frames());
+            (
+                Target::of(dataset, Some(fit.divided), request.part, reads_frames)?,
+                channels,
+                reads_frames,
+            )
+        }
+        ModelChoice::Fitted(model) => {
+            plan.skipped
+                .push(Skipped::new("stage:fit", SkipReason::AlreadyThere));
+            (
+                Target::new(dataset, model, request.part)?,
+                model.channels().clone(),
+                model.reads_frames(),
+            )
+        }
+    };
+    let count = target.rows.len();
+    if reads_frames {
+        plan.step(
+            "decode",
+            format!("{count} frames of the part `{}`", target.part.name()),
+        );
+    } else {
+        plan.skipped
+            .push(Skipped::new("field:frame", SkipReason::NothingReadsIt));
+    }
+    let metrics = metrics(dataset, &channels, request.asked())?;
+    let ids: Vec<&str> = metrics.kept().iter().map(|metric| metric.id).collect();
+    plan.step("predict", format!("{count} samples"));
+    plan.step("score", ids.join(", "));
+    plan.skipped.extend(metrics.skipped().iter().cloned());
+    Ok(plan)
+}
+
+fn divided_as(divided: &Divided) -> String {
+    let parts = [DataPart::Train, DataPart::Validation, DataPart::Test];
+    let counts: Vec<String> = parts
+        .iter()
+        .map(|part| format!("{} {}", part.name(), divided.rows(*part).len()))
+        .collect();
+    format!(
+        "{}, seed {}: {}",
+        divided.spec,
+        divided.seed,
+        counts.join(", ")
+    )
+}

@@ -1,0 +1,38 @@
+//! Features of some rows, for a model that a caller holds.
+
+use taceva_core::Features;
+use taceva_dataset::Dataset;
+use taceva_models::{FeatureSpec, ModelSettings};
+
+use super::{extract, extractor, kinds};
+use crate::error::EvaluateError;
+use crate::work::Work;
+
+/// Features of some rows, and what they are.
+#[derive(Debug)]
+pub struct FeatureTable {
+    /// `[rows, height, width, depth]`.
+    pub features: Features,
+    /// What was taken of each frame, or of its signals.
+    pub spec: FeatureSpec,
+}
+
+/// The features of `rows` that `settings` ask for, in that order: what a model by name sees of them, 32×32 gray where nothing is asked for.
+///
+/// # Errors
+/// [`EvaluateError`] for a setting that no feature has, for rows without a frame or without signals, and if the dataset cannot be read.
+pub fn feature_table(
+    dataset: &Dataset,
+    settings: &ModelSettings,
+    rows: &[usize],
+    work: Work<'_>,
+) -> Result<FeatureTable, EvaluateError> {
+    let (frame, signals) = kinds(dataset);
+    let asked = FeatureSpec::DEFAULT.changed_by(settings)?;
+    let spec = match (frame, signals) {
+        (None, Some(info)) => asked.of_signals(info),
+        _ => asked,
+    };
+    let features = extract(dataset, |recording| extractor(recording, spec), rows, work)?;
+    Ok(FeatureTable { features, spec })
+}

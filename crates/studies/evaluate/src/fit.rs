@@ -1,0 +1,51 @@
+//! The stage that fits: a dataset and a request in, a model out.
+
+mod features;
+mod plan;
+mod request;
+mod training;
+
+use taceva_dataset::Dataset;
+use taceva_models::{Checkpoints, Model, SplitManifest};
+
+use crate::error::EvaluateError;
+use crate::rows::Divided;
+use crate::work::Work;
+
+pub use plan::FitPlan;
+pub use request::FitRequest;
+pub use request::Recipe;
+
+/// A fitted model and how its dataset was divided.
+#[derive(Debug)]
+pub struct Fitted {
+    /// The model.
+    pub model: Model,
+    /// How the dataset was divided.
+    pub divided: Divided,
+    /// The same as a record.
+    pub manifest: SplitManifest,
+    /// Frames decoded for it.
+    pub frames_decoded: u64,
+    /// Samples of the training and validation parts that lack a label or a frame.
+    pub left_out: usize,
+}
+
+/// Fits a model on the training part of `dataset`.
+///
+/// A long training keeps a checkpoint in `checkpoints` and resumes from it; models that are fitted in one go have none.
+///
+/// # Errors
+/// [`EvaluateError`] if the request is not valid, the dataset cannot be read, or no model can be fitted to it.
+pub fn fit(
+    dataset: &Dataset,
+    request: &FitRequest,
+    checkpoints: Option<Checkpoints>,
+    work: Work<'_>,
+) -> Result<Fitted, EvaluateError> {
+    let mut plan = FitPlan::new(dataset, request)?;
+    if let Some(checkpoints) = checkpoints {
+        plan.keep_checkpoints(checkpoints);
+    }
+    plan.run(work)
+}

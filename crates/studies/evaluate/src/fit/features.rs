@@ -1,0 +1,195 @@
+//! The features, chosen by their loss on samples of the training part that are left out.
+
+use std::collections::BTreeSet;
+
+use taceva_core::{ErrorKind, Features, InputInfo};
+use taceva_models::{FeatureChoice, FeatureSpec, Model, ModelEstimator, OpenFeatures};
+
+use super::FitPlan;
+use super::training::groups;
+use crate::error::EvaluateError;
+use crate::features::kinds;
+use crate::work::Work;
+
+/// One group of so many is left out.
+const LEFT_OUT_OF: usize = 3;
+/// Contact points that must be left out for a spread to be estimated; with fewer, neighbouring samples are groups.
+const POINTS_LEAST: usize = 3;
+/// Groups that neighbouring samples are taken as, where no contact point is known.
+const RUNS: usize = 10;
+
+/// The training part in two: positions that are learnt from, and those that are scored with the groups that they are independent by.
+struct Parts {
+    learnt: Vec<usize>,
+    left_out: Vec<usize>,
+    groups: Vec<usize>,
+}
+
+impl FitPlan<'_> {
+    /// Tries features from the simplest on, and chooses some; grids finer than the default only where the default improved on the coarser ones.
+    ///
+    /// Features that no model can be fitted to here are reported with the reason; it is an error only if there are no others.
+    pub(super) fn choose_features(
+        &mut self,
+        open: OpenFeatures,
+        work: Work<'_>,
+    ) -> Result<FeatureChoice, EvaluateError> {
+        let header = self.dataset.header();
+        let (input, has_reference) = match (kinds(self.dataset), &header.frames, &header.signals) {
+            ((_, Some(info)), _, Some(signals)) if self.features.channels.is_some() => {
+                (InputInfo::from(info), !signals.spec.rest.is_empty())
+            }
+            ((Some(info), _), Some(frames), _) => (info.into(), frames.reference.is_some()),
+            _ => {
+                return Err(EvaluateError::Request(
+                    "the dataset has no frames, the model needs them".to_owned(),
+                ));
+            }
+        };
+        let candidates = open.candidates(&self.features, input, has_reference);
+        let parts = self.parts()?;
+        // Without a checkpoint, which is of one kind of features.
+        let estimator = self.model.estimator(&self.of_model)?;
+        let mut tried: Vec<(FeatureSpec, Vec<f64>)> = Vec::new();
+        let (mut failed, mut last) = (Vec::new(), None);
+        work.progress
+            .begin("features tried", Some(candidates.len() as u64));
+        let grid = |spec: &FeatureSpec| (spec.width, spec.height);
+        for of_grid in candidates.chunk_by(|left, right| grid(left) == grid(right)) {
+            let is_finer = of_grid[0].width > self.features.width;
+            if is_finer && !FeatureChoice::new(&tried, &parts.groups).may_gain() {
+                break;
+            }
+            for &spec in of_grid {
+                match self.attempt(&*estimator, spec, &parts, work) {
+                    Ok(losses) => tried.push((spec, losses)),
+                    Err(error) if is_own(&error) => {
+                        failed.push((spec, error.to_string()));
+                        last = Some(error);
+                    }
+                    Err(error) => return Err(error),
+                }
+                work.progress.advance(1);
+            }
+        }
+        work.progress.end();
+        let choice = FeatureChoice::new(&tried, &parts.groups).with_failed(failed);
+        match (choice.chosen(), last) {
+            (Some(chosen), _) => self.features = chosen.features,
+            (None, Some(error)) => return Err(error),
+            (None, None) => {}
+        }
+        Ok(choice)
+    }
+
+    /// The loss of each sample that is left out, with features of `spec`.
+    fn attempt(
+        &self,
+        estimator: &dyn ModelEstimator,
+        spec: FeatureSpec,
+        parts: &Parts,
+        work: Work<'_>,
+    ) -> Result<Vec<f64>, EvaluateError> {
+        let seen = self.see(spec, work)?;
+        let left_out = seen.features.select(&parts.left_out);
+        let model = self.learn(estimator, (seen, None), &parts.learnt, work)?;
+        self.losses(&model, &left_out, parts)
+    }
+
+    /// Every third contact point is left out; where that leaves too few, the last third of the samples.
+    fn parts(&self) -> Result<Parts, EvaluateError> {
+        let samples = self.train.len();
+        if samples < RUNS * LEFT_OUT_OF {
+            return Err(EvaluateError::Request(format!(
+                "{samples} training samples, at least {} are needed to choose features by `auto`",
+                RUNS * LEFT_OUT_OF
+            )));
+        }
+        let is_left_out = |number: u32| number as usize % LEFT_OUT_OF == LEFT_OUT_OF - 1;
+        let points = groups(self.dataset, &self.train).filter(|points| {
+            let left_out = points.iter().filter(|number| is_left_out(**number));
+            left_out.collect::<BTreeSet<_>>().len() >= POINTS_LEAST
+        });
+        let first = samples - samples / LEFT_OUT_OF;
+        let (left_out, learnt): (Vec<usize>, Vec<usize>) =
+            (0..samples).partition(|&at| match &points {
+                Some(points) => is_left_out(points[at]),
+                None => at >= first,
+            });
+        let group = |&at: &usize| match &points {
+            Some(points) => points[at] as usize,
+            None => (at - first) * RUNS / (samples - first),
+        };
+        Ok(Parts {
+            groups: left_out.iter().map(group).collect(),
+            learnt,
+            left_out,
+        })
+    }
+
+    /// What `model` makes of what was left out.
+    fn losses(
+        &self,
+        model: &Model,
+        left_out: &Features,
+        parts: &Parts,
+    ) -> Result<Vec<f64>, EvaluateError> {
+        let found = model.predict(left_out)?;
+        let rows: Vec<usize> = parts.left_out.iter().map(|&at| self.train[at]).collect();
+        let (labels, all) = (self.labels(&rows), self.labels(&self.train));
+        Ok(losses((&found, &labels), &all, self.channels.len()))
+    }
+}
+
+/// The squared error of each sample, relative to the variance of `all` labels, mean over the channels that vary.
+///
+/// # Shapes
+/// `[samples, channels]` each; the result `[samples]`.
+fn losses((found, labels): (&[f64], &[f64]), all: &[f64], channels: usize) -> Vec<f64> {
+    let mut losses = vec![0.0; labels.len() / channels];
+    let mut varying = 0.0_f64;
+    for channel in 0..channels {
+        let own = || all.iter().skip(channel).step_by(channels).copied();
+        let least = own().fold(f64::INFINITY, f64::min);
+        // Not by the variance: the rounded mean of equal numbers may be another.
+        if own().all(|label| label <= least) {
+            continue;
+        }
+        let count = own().count() as f64;
+        let mean = own().sum::<f64>() / count;
+        let squares: f64 = own().map(|label| (label - mean).powi(2)).sum();
+        varying += 1.0;
+        for (sample, loss) in losses.iter_mut().enumerate() {
+            let at = sample * channels + channel;
+            *loss += (found[at] - labels[at]).powi(2) * count / squares;
+        }
+    }
+    let varying = varying.max(1.0);
+    losses.iter_mut().for_each(|loss| *loss /= varying);
+    losses
+}
+
+/// Whether an error is of the features that were tried, and not of the recording or of somebody who asked to stop.
+fn is_own(error: &EvaluateError) -> bool {
+    match error {
+        EvaluateError::Model(error) => error.kind() != ErrorKind::Interrupted,
+        EvaluateError::Features(_) => true,
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_channel_whose_labels_are_all_the_same_takes_no_part() {
+        // Of 102 equal tenths the rounded mean is another number.
+        let all: Vec<f64> = (0..102).flat_map(|row| [f64::from(row % 2), 0.1]).collect();
+        let labels = [0.0, 0.1, 1.0, 0.1];
+        let found = [0.5, 0.1 + 1e-14, 1.0, 0.1];
+        assert_eq!(losses((&found, &labels), &all, 2), [1.0, 0.0]);
+        let nothing = losses((&[0.1], &[0.1]), &[0.1; 7], 1);
+        assert_eq!(nothing, [0.0]);
+    }
+}

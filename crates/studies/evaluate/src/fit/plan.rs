@@ -1,0 +1,171 @@
+//! A fit on a dataset: its channels, its rows, and what it will read.
+
+use taceva_core::Channels;
+use taceva_dataset::Dataset;
+use taceva_models::{
+    Checkpoints, ChosenModel, FeatureSpec, ModelEstimator, ModelSettings, OpenFeatures,
+};
+
+use super::{FitRequest, Recipe};
+use crate::error::EvaluateError;
+use crate::features::{kinds, recorded_frames};
+use crate::plan::Plan;
+use crate::rows::{
+    DataPart, Divided, Need, chosen_channels, require_samples, seen_channels, usable,
+};
+
+/// A request applied to a dataset: its model, channels and rows.
+pub struct FitPlan<'a> {
+    pub(super) dataset: &'a Dataset,
+    pub(super) model: ChosenModel,
+    pub(super) estimator: Box<dyn ModelEstimator>,
+    /// As typed.
+    pub(super) settings: ModelSettings,
+    /// Those of them that are the model's own.
+    pub(super) of_model: ModelSettings,
+    pub(super) features: FeatureSpec,
+    pub(super) open: Option<OpenFeatures>,
+    /// Finer features that it looks at too.
+    pub closer: Option<FeatureSpec>,
+    pub channels: Channels,
+    pub divided: Divided,
+    pub train: Vec<usize>,
+    pub validation: Vec<usize>,
+    pub(super) left_out: usize,
+}
+
+impl<'a> FitPlan<'a> {
+    pub fn new(dataset: &'a Dataset, request: &FitRequest) -> Result<FitPlan<'a>, EvaluateError> {
+        let recipe = Recipe::of(request)?;
+        require_samples(dataset)?;
+        let divided = Divided::of(dataset, request.split.as_deref(), request.seed)?;
+        FitPlan::on(dataset, request, recipe, divided)
+    }
+
+    /// The same of a dataset that was divided elsewhere.
+    pub fn on(
+        dataset: &'a Dataset,
+        request: &FitRequest,
+        recipe: Recipe,
+        divided: Divided,
+    ) -> Result<FitPlan<'a>, EvaluateError> {
+        let Recipe {
+            model,
+            estimator,
+            of_model,
+            features,
+            by_recording,
+            asked,
+            open,
+            closer,
+        } = recipe;
+        let model_reads = model.reads_features();
+        let (frame, signals) = kinds(dataset);
+        let frames = recorded_frames(dataset);
+        let features = by_recording.on(features, frames);
+        let features = match (model_reads, frame, signals) {
+            (true, _, _) => features.on(&asked, frame, signals)?,
+            // A model that looks at nothing is of whatever there is.
+            (false, None, Some(info)) => features.of_signals(info),
+            (false, _, _) => features,
+        };
+        let reads_frames = model_reads && features.channels.is_none();
+        let mut channels = chosen_channels(dataset, &request.channels)?;
+        if request.channels.is_empty() && features.channels.is_none() {
+            // Of a recording of a run: heights of the surface are met without a picture. A model that looks at no picture is compared with
+            // those that do, and no sample carries all channels of a run.
+            channels = seen_channels(dataset, &channels);
+        }
+        let need = || Need {
+            frame: reads_frames,
+            labels: Some(&channels),
+        };
+        let whole = [
+            divided.rows(DataPart::Train),
+            divided.rows(DataPart::Validation),
+        ];
+        let [train, validation] = [&whole[0], &whole[1]].map(|rows| usable(dataset, rows, need()));
+        let left_out = whole[0].len() + whole[1].len() - train.len() - validation.len();
+        let fits = |spec: &FeatureSpec| {
+            reads_frames
+                && frame
+                    .is_some_and(|frame| spec.width <= frame.width && spec.height <= frame.height)
+                && estimator.looks_closer([train.len(), spec.shape().len(), channels.len()])
+        };
+        let closer = closer.map(|(spec, by_recording)| by_recording.on(spec, frames));
+        // A grid that a person asks for is that of all.
+        let closer = closer.filter(|closer| *closer != features && fits(closer));
+        Ok(FitPlan {
+            dataset,
+            model,
+            estimator,
+            of_model,
+            settings: request.settings.clone(),
+            features,
+            open: open.filter(|_| model_reads),
+            closer,
+            channels,
+            divided,
+            train,
+            validation,
+            left_out,
+        })
+    }
+
+    /// Whether frames are decoded: not of a model that looks at nothing, or at signals.
+    pub fn reads_frames(&self) -> bool {
+        self.model.reads_features() && self.features.channels.is_none()
+    }
+
+    /// The features of frames or signals; where some of them are still to be chosen, those that the model asks for.
+    pub fn features(&self) -> FeatureSpec {
+        self.features
+    }
+
+    /// How many frames [`run`](FitPlan::run) decodes.
+    pub fn frames_to_decode(&self) -> u64 {
+        if self.reads_frames() {
+            let passes = if self.closer.is_some() { 2 } else { 1 };
+            passes * (self.train.len() + self.validation.len()) as u64
+        } else {
+            0
+        }
+    }
+
+    /// Says what [`run`](FitPlan::run) would do.
+    pub fn explain(&self, plan: &mut Plan) {
+        let rows = self.train.len() + self.validation.len();
+        if self.model.reads_features() {
+            let features = match self.open {
+                Some(_) => format!("{} and others, of which some are chosen", self.features),
+                None => match self.closer {
+                    Some(closer) => format!("{} and {closer}", self.features),
+                    None => self.features.to_string(),
+                },
+            };
+            match self.reads_frames() {
+                true => plan.step("decode", format!("{rows} frames to features {features}")),
+                false => plan.step("read", format!("{features} of {rows} samples")),
+            }
+        }
+        let names: Vec<&str> = self.channels.iter().map(|channel| channel.name()).collect();
+        plan.step(
+            "fit",
+            format!(
+                "{} of {} on {} training samples, settings chosen on {}",
+                self.model.name(),
+                names.join(", "),
+                self.train.len(),
+                match self.validation.len() {
+                    0 => "the training part, leaving groups out".to_owned(),
+                    count => format!("{count} validation samples"),
+                }
+            ),
+        );
+    }
+
+    /// Keeps checkpoints of a long training from now on, and resumes from one that is there.
+    pub fn keep_checkpoints(&mut self, checkpoints: Checkpoints) {
+        self.estimator.keep_checkpoints(checkpoints);
+    }
+}

@@ -1,0 +1,63 @@
+#![doc = include_str!("../README.md")]
+
+mod accumulate;
+mod bounded_share;
+mod cache;
+mod calibration;
+mod calibration_rows;
+mod claim;
+mod effort;
+mod error;
+mod evaluate;
+mod facts;
+mod features;
+mod fit;
+mod over_seeds;
+mod plan;
+mod predict;
+mod provenance;
+mod recordings;
+mod report;
+mod row_ledger;
+mod rows;
+mod run_layout;
+mod samples;
+mod score;
+mod skill;
+mod state_file;
+mod subject;
+mod work;
+
+pub use accumulate::{Columns, Rows, accumulate};
+pub use bounded_share::Bounded;
+pub use cache::{
+    Cache, CacheEntry, CachedStage, Kept, Key, KeyBuilder, Pruning, StageRecord, StudyCache,
+    cache_entries, pruned, remove, remove_entry,
+};
+pub use calibration::calibration_note;
+pub use claim::{Claim, Watch, unique_name};
+pub use effort::Effort;
+pub use error::EvaluateError;
+pub use evaluate::{
+    Asked, Behind, EvaluateRequest, Evaluated, GivenModel, GivenRequest, GivenRows, ModelChoice,
+    evaluate, evaluate_plan, score,
+};
+pub use features::{FeatureTable, blank, extract, extractor, feature_table};
+pub use fit::{FitPlan, FitRequest, Fitted, Recipe, fit};
+pub use over_seeds::{OverSeeds, SeedScore};
+pub use plan::{Plan, Step};
+pub use predict::{
+    Predicted, Predictor, Target, model_extractor, predict, predict_target, predicted_numbers,
+    predicted_table, truth,
+};
+pub use provenance::{ModelProvenance, Provenance, chosen_notes};
+pub use recordings::{RecordingProvenance, reduced_notes};
+pub use report::{EVALUATION_SCHEMA, EvaluationReport, RecordingScores, skipped};
+pub use rows::{DataPart, Divided, Need, require_samples, usable};
+pub use run_layout::{PLANS, RECORDINGS};
+pub use samples::Samples;
+pub use score::{ScoreRequest, ScoreTables, Scored, Scoring, Shard, ShardError, score_in_one_pass};
+pub use skill::{skill, with_skill};
+pub use state_file::{STATE_SCHEMA, StateFile, merge};
+pub use subject::Subject;
+pub use work::Work;

@@ -1,0 +1,69 @@
+//! What would be done, before anything is: the answer to `--explain`.
+
+use std::fmt;
+
+use taceva_core::Skipped;
+
+/// What an evaluation would read, decode, fit and skip.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Plan {
+    /// What would be done, in order.
+    pub steps: Vec<Step>,
+    /// What would not, and why.
+    pub skipped: Vec<Skipped>,
+}
+
+/// One thing that would be done.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Step {
+    /// `read`, `decode`, `fit`, `predict`, `score`, `write`.
+    pub verb: &'static str,
+    /// What, with its numbers.
+    pub what: String,
+}
+
+impl Plan {
+    /// Adds a step.
+    pub fn step(&mut self, verb: &'static str, what: impl Into<String>) {
+        self.steps.push(Step {
+            verb,
+            what: what.into(),
+        });
+    }
+}
+
+impl fmt::Display for Plan {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for Step { verb, what } in &self.steps {
+            writeln!(f, "{verb:<8} {what}")?;
+        }
+        let width = self
+            .skipped
+            .iter()
+            .map(|skipped| skipped.what.len())
+            .max()
+            .unwrap_or(0);
+        for Skipped { what, reason, .. } in &self.skipped {
+            writeln!(f, "{:<8} {what:<width$}  {reason}", "skip")?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use taceva_core::SkipReason;
+
+    #[test]
+    fn a_plan_reads_as_lines_of_verbs() {
+        let mut plan = Plan::default();
+        plan.step("read", "400 samples");
+        plan.skipped
+            .push(Skipped::new("field:frame", SkipReason::NothingReadsIt));
+        assert_eq!(
+            plan.to_string(),
+            "read     400 samples\nskip     field:frame  nothing that was asked for reads it\n"
+        );
+    }
+}

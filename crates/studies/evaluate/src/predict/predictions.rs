@@ -1,0 +1,157 @@
+//! Predictions of some rows of a dataset.
+
+use std::collections::BTreeMap;
+
+use taceva_core::{Channels, Column};
+
+use crate::bounded_share::Bounded;
+use crate::error::EvaluateError;
+use crate::rows::DataPart;
+
+/// Predictions of some rows of a dataset, with their truth.
+#[derive(Debug)]
+pub struct Predicted {
+    pub(super) part: DataPart,
+    pub(super) channels: Channels,
+    pub(super) ids: Vec<String>,
+    pub(super) points: Option<Vec<String>>,
+    /// What else the table says of the rows, by the name of its column.
+    pub(super) beside: Vec<(&'static str, Vec<Option<String>>)>,
+    pub(super) truth: Vec<Column>,
+    /// Within the bounds of the model.
+    pub(super) prediction: Vec<Column>,
+    /// As the model gives it.
+    pub(super) unbounded: Vec<Column>,
+    /// The standard deviation of each prediction, of a model that knows it.
+    pub(super) deviation: Option<Vec<Column>>,
+    /// Which predictions lie beyond the bounds of the model, channel by channel; absent of a channel without bounds.
+    pub(super) beyond: Vec<Option<Vec<bool>>>,
+    /// The best constant answers of the model, by channel, as far as it knows them.
+    pub(super) constants: BTreeMap<String, f64>,
+    pub frames_decoded: u64,
+    pub left_out: usize,
+}
+
+impl Predicted {
+    /// The predictions of both, those of `other` behind, which another model made; of these no constant is known.
+    ///
+    /// # Errors
+    /// [`EvaluateError::Unsuited`] if they are not of the same channels.
+    pub fn followed_by(mut self, other: Predicted) -> Result<Predicted, EvaluateError> {
+        if self.channels != other.channels {
+            return Err(EvaluateError::Unsuited(
+                "the models of two folds predict different channels: name them with --channels"
+                    .to_owned(),
+            ));
+        }
+        fn join(own: &mut [Column], other: &[Column]) {
+            for (own, other) in own.iter_mut().zip(other) {
+                (0..other.len()).for_each(|row| own.push(other.get(row)));
+            }
+        }
+        self.ids.extend(other.ids);
+        self.points = self.points.zip(other.points).map(|(mut own, other)| {
+            own.extend(other);
+            own
+        });
+        for (name, texts) in other.beside {
+            if let Some((_, own)) = self.beside.iter_mut().find(|(known, _)| *known == name) {
+                own.extend(texts);
+            }
+        }
+        join(&mut self.truth, &other.truth);
+        join(&mut self.prediction, &other.prediction);
+        join(&mut self.unbounded, &other.unbounded);
+        self.deviation = self.deviation.zip(other.deviation).map(|(mut own, other)| {
+            join(&mut own, &other);
+            own
+        });
+        let beyond = self.beyond.into_iter().zip(other.beyond);
+        let both = beyond.map(|pair| match pair {
+            (Some(mut own), Some(other)) => {
+                own.extend(other);
+                Some(own)
+            }
+            _ => None,
+        });
+        self.beyond = both.collect();
+        self.constants.clear();
+        self.frames_decoded += other.frames_decoded;
+        self.left_out += other.left_out;
+        Ok(self)
+    }
+
+    /// The part of the dataset.
+    pub fn part(&self) -> &'static str {
+        self.part.name()
+    }
+
+    /// Number of samples.
+    pub fn rows(&self) -> usize {
+        self.ids.len()
+    }
+
+    /// What was predicted.
+    pub fn channels(&self) -> &Channels {
+        &self.channels
+    }
+
+    /// The share of predictions that the model's bounds changed, channel by channel; `None` where there is none.
+    pub fn bounded_note(&self) -> Option<String> {
+        let shares = self.bounded(0..self.rows());
+        let channels = self.channels.iter();
+        let shares: Vec<String> = channels
+            .filter_map(|channel| {
+                let share = shares.share(channel.name()).filter(|share| *share > 0.0)?;
+                Some(format!("{} {:.1} %", channel.name(), 100.0 * share))
+            })
+            .collect();
+        (!shares.is_empty()).then(|| {
+            format!(
+                "of the predictions of all samples together, these shares lie beyond the bounds of the model, a quarter of the range of labels \
+                 on either side: {}; a score marked `bounded` gives the share among its own samples; robustness is of predictions as \
+                 they are, every other score of those brought back",
+                shares.join(", ")
+            )
+        })
+    }
+
+    /// How many predictions of the samples at `positions` lie beyond the bounds of the model, by channel.
+    pub fn bounded(&self, positions: impl Iterator<Item = usize> + Clone) -> Bounded {
+        let mut bounded = Bounded::default();
+        for (channel, beyond) in self.channels.iter().zip(&self.beyond) {
+            if let Some(beyond) = beyond {
+                let own = positions.clone().map(|position| beyond[position]);
+                bounded.add(channel.name(), own);
+            }
+        }
+        bounded
+    }
+
+    /// The best constant answers of the model, by channel, as far as it knows them.
+    pub fn constants(&self) -> &BTreeMap<String, f64> {
+        &self.constants
+    }
+
+    pub fn truth(&self) -> &[Column] {
+        &self.truth
+    }
+
+    /// Predictions within the bounds of the model.
+    pub fn prediction(&self) -> &[Column] {
+        &self.prediction
+    }
+
+    /// Predictions as the model gives them.
+    pub fn unbounded(&self) -> &[Column] {
+        &self.unbounded
+    }
+
+    pub fn deviation(&self) -> Option<&[Column]> {
+        self.deviation.as_deref()
+    }
+
+    pub fn points(&self) -> Option<&[String]> {
+        self.points.as_deref()
+    }
+}

@@ -1,0 +1,75 @@
+//! Which rows of a dataset are predicted.
+
+use taceva_dataset::Dataset;
+use taceva_models::Model;
+
+use crate::error::EvaluateError;
+use crate::rows::{DataPart, Divided, Need, require_samples, usable};
+
+/// The rows that are predicted, and how that was decided.
+#[derive(Debug)]
+pub struct Target {
+    pub part: DataPart,
+    pub rows: Vec<usize>,
+    pub divided: Option<Divided>,
+    pub left_out: usize,
+}
+
+impl Target {
+    /// Decides for a fitted model: on the dataset it was fitted on, its own split is made again.
+    pub fn new(
+        dataset: &Dataset,
+        model: &Model,
+        part: Option<DataPart>,
+    ) -> Result<Target, EvaluateError> {
+        require_samples(dataset)?;
+        let divided = Divided::by_model(dataset, model)?;
+        Target::of(dataset, divided, part, model.reads_frames())
+    }
+
+    pub fn of(
+        dataset: &Dataset,
+        divided: Option<Divided>,
+        part: Option<DataPart>,
+        reads_frames: bool,
+    ) -> Result<Target, EvaluateError> {
+        if let (Some(divided), None) = (&divided, part) {
+            divided.require_test()?;
+        }
+        let part = part.unwrap_or(if divided.is_some() {
+            DataPart::Test
+        } else {
+            DataPart::All
+        });
+        let all = match (&divided, part) {
+            (Some(divided), part) => divided.rows(part),
+            (None, DataPart::All) => dataset.all_rows(),
+            (None, part) => {
+                return Err(EvaluateError::Request(format!(
+                    "part `{}`: the model was fitted on another dataset, only `all` of this one can be taken",
+                    part.name()
+                )));
+            }
+        };
+        let rows = usable(
+            dataset,
+            &all,
+            Need {
+                frame: reads_frames,
+                labels: None,
+            },
+        );
+        if rows.is_empty() {
+            return Err(EvaluateError::Request(format!(
+                "the part `{}` has no sample that can be predicted",
+                part.name()
+            )));
+        }
+        Ok(Target {
+            part,
+            left_out: all.len() - rows.len(),
+            rows,
+            divided,
+        })
+    }
+}

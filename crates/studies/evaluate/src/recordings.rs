@@ -1,0 +1,291 @@
+//! Several recordings taken as one: which row is of which, what a model has seen of them, and how intervals treat them.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+use taceva_core::{Labels, shown};
+use taceva_dataset::Dataset;
+use taceva_models::Model;
+
+use crate::error::EvaluateError;
+use crate::row_ledger::Taken;
+
+/// The fewest recordings with scored samples by which intervals are formed; fewer clusters give no interval.
+pub const CLUSTERS_LEAST: usize = 5;
+/// Below so many recordings an interval that is formed by them says how few they are: Student's t has too few degrees of freedom to be narrow.
+const CLUSTERS_MANY: usize = 10;
+
+/// A recording among those that a result is of.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RecordingProvenance {
+    /// The name by which its samples and contact points are called.
+    pub name: String,
+    /// Its digest.
+    pub digest: String,
+    /// Samples in it, scored or not.
+    pub samples: usize,
+}
+
+/// The recordings that `dataset` was joined of; none of a single one.
+pub fn provenance(dataset: &Dataset) -> Vec<RecordingProvenance> {
+    let joined = dataset.recordings().iter();
+    joined
+        .map(|own| RecordingProvenance {
+            name: own.name().to_owned(),
+            digest: own.dataset().digest().to_string(),
+            samples: own.rows().len(),
+        })
+        .collect()
+}
+
+/// Where the recordings lie: all that were joined, or the one.
+pub fn paths(dataset: &Dataset) -> Vec<PathBuf> {
+    match dataset.recordings() {
+        [] => vec![dataset.path().to_owned()],
+        joined => {
+            let paths = joined.iter().map(|own| own.dataset().path());
+            paths.map(Path::to_owned).collect()
+        }
+    }
+}
+
+/// The name of the recording of each of `rows`, where several were joined.
+pub fn names(dataset: &Dataset, rows: &[usize]) -> Option<Vec<String>> {
+    let joined = dataset.recordings();
+    let name = |row: &usize| joined[at(dataset, *row)].name().to_owned();
+    (!joined.is_empty()).then(|| rows.iter().map(name).collect())
+}
+
+/// The digest of the recording of each of `rows`: labels by which intervals are formed, the same in every shard whatever folders are called.
+pub fn labels(dataset: &Dataset, rows: impl Iterator<Item = usize>) -> Labels {
+    let joined = dataset.recordings();
+    let digests = joined.iter().map(|own| own.dataset().digest().to_string());
+    let digests: Vec<String> = digests.collect();
+    let mut labels = Labels::default();
+    rows.for_each(|row| labels.push(&digests[at(dataset, row)]));
+    labels
+}
+
+/// Which of the joined recordings `row` is of.
+fn at(dataset: &Dataset, row: usize) -> usize {
+    let joined = dataset.recordings();
+    joined.partition_point(|own| own.rows().end <= row)
+}
+
+/// The positions among `rows`, which ascend, at which a recording begins or rows that were added later, but for the first.
+pub fn sections(dataset: &Dataset, rows: &[usize]) -> Vec<usize> {
+    let mut starts = BTreeSet::new();
+    let mut add = |recording: &Dataset, first: usize| {
+        starts.insert(first);
+        let extended = recording.header().extended.iter();
+        let added = extended.filter_map(|before| usize::try_from(before.rows).ok());
+        starts.extend(added.map(|row| first + row));
+    };
+    match dataset.recordings() {
+        [] => add(dataset, 0),
+        joined => joined
+            .iter()
+            .for_each(|own| add(own.dataset(), own.rows().start)),
+    }
+    let positions = starts
+        .into_iter()
+        .map(|start| rows.partition_point(|row| *row < start));
+    let positions: BTreeSet<usize> = positions
+        .filter(|position| (1..rows.len()).contains(position))
+        .collect();
+    positions.into_iter().collect()
+}
+
+/// `rows` in runs of one recording, each with that recording and its own numbers of the rows, in their order.
+pub fn runs<'a>(dataset: &'a Dataset, rows: &[usize]) -> Vec<(&'a Dataset, Vec<usize>)> {
+    if dataset.recordings().is_empty() {
+        return vec![(dataset, rows.to_vec())];
+    }
+    let joined = dataset.recordings();
+    let chunks = rows.chunk_by(|one, next| at(dataset, *one) == at(dataset, *next));
+    let run = |chunk: &[usize]| {
+        let own = &joined[at(dataset, chunk[0])];
+        let start = own.rows().start;
+        (own.dataset(), chunk.iter().map(|row| row - start).collect())
+    };
+    chunks.map(run).collect()
+}
+
+/// What was taken of `rows`, by the digest under which each row first stood in its recording: a row that was added later stands under that of
+/// the extended one, all before under that of before.
+pub fn taken(dataset: &Dataset, rows: &[usize]) -> Vec<Taken> {
+    let mut taken = Vec::new();
+    for (recording, own) in runs(dataset, rows) {
+        let mut before = 0;
+        for (digest, end) in recording.header().stages() {
+            let end = usize::try_from(end).unwrap_or(usize::MAX);
+            let of_stage = own
+                .iter()
+                .copied()
+                .filter(|row| (before..end).contains(row));
+            let of_stage: Vec<usize> = of_stage.collect();
+            if !of_stage.is_empty() {
+                taken.push(Taken::rows_of(digest.to_string(), &of_stage));
+            }
+            before = end;
+        }
+    }
+    taken
+}
+
+/// What was added to recordings after they were imported, a line each time.
+pub fn extended_notes(dataset: &Dataset) -> Vec<String> {
+    let of = |recording: &Dataset, name: &str| -> Vec<String> {
+        let mut stages = recording.header().stages().skip(1);
+        let extended = recording.header().extended.iter();
+        let lines = extended.filter_map(|extension| {
+            let (_, rows) = stages.next()?;
+            let added = rows.saturating_sub(extension.rows);
+            Some(format!(
+                "{name}{added} samples were added to {} on {} from {}; each sample before kept its part",
+                extension.rows,
+                extension.date,
+                shown(&extension.from)
+            ))
+        });
+        lines.collect()
+    };
+    of_each(dataset, of)
+}
+
+/// That frames are not as the camera gave them, a line a recording of which that is so.
+pub fn reduced_notes(dataset: &Dataset) -> Vec<String> {
+    of_each(dataset, |recording, name| {
+        let frames = recording.header().frames.as_ref();
+        let reduced = frames.and_then(|frames| Some((frames.info, frames.reduced.as_ref()?)));
+        let line = reduced.map(|(info, reduced)| {
+            let (from, by) = (reduced.from, shown(&reduced.by));
+            format!("{name}frames were kept as {info}: {by}, of {from}")
+        });
+        line.into_iter().collect()
+    })
+}
+
+/// The lines of each recording; those of several begin with its name.
+fn of_each(dataset: &Dataset, of: impl Fn(&Dataset, &str) -> Vec<String>) -> Vec<String> {
+    match dataset.recordings() {
+        [] => of(dataset, ""),
+        joined => {
+            let joined = joined.iter();
+            joined
+                .flat_map(|own| of(own.dataset(), &format!("{}: ", own.name())))
+                .collect()
+        }
+    }
+}
+
+/// Whether `model` was fitted on `dataset`: on each of its recordings, or on what that was before rows were added to it.
+///
+/// # Errors
+/// [`EvaluateError::Request`] if it was fitted on some of them and not on others, because nobody could say what it has not seen.
+pub fn is_fitted_on(model: &Model, dataset: &Dataset) -> Result<bool, EvaluateError> {
+    let provenance = &model.card().provenance;
+    let fitted_on: Vec<&str> = match &provenance.recordings[..] {
+        [] => provenance.data.iter().map(String::as_str).collect(),
+        recordings => recordings.iter().map(String::as_str).collect(),
+    };
+    let recordings: Vec<&Dataset> = match dataset.recordings() {
+        [] => vec![dataset],
+        joined => joined.iter().map(|own| own.dataset()).collect(),
+    };
+    let was = |recording: &Dataset, digest: &str| {
+        let mut stages = recording.header().stages();
+        stages.any(|(stage, _)| stage.to_string() == digest)
+    };
+    if fitted_on.len() == recordings.len() {
+        let mut pairs = recordings.iter().zip(&fitted_on);
+        if pairs.all(|(recording, digest)| was(recording, digest)) {
+            return Ok(true);
+        }
+    }
+    let seen = recordings
+        .iter()
+        .find(|recording| fitted_on.iter().any(|digest| was(recording, digest)));
+    match seen {
+        None => Ok(false),
+        Some(seen) => Err(EvaluateError::Request(format!(
+            "{}: the model was fitted on it, and on {} recordings altogether; score it on all of these in the order of the fit, or on others",
+            shown(seen.path()),
+            fitted_on.len()
+        ))),
+    }
+}
+
+/// By what intervals are formed, of the scored rows of joined recordings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Clusters {
+    recordings: usize,
+    points: usize,
+}
+
+impl Clusters {
+    /// Of `rows`; `None` where no recordings were joined.
+    pub fn of(dataset: &Dataset, rows: &[usize]) -> Option<Clusters> {
+        if dataset.recordings().is_empty() {
+            return None;
+        }
+        let own: BTreeSet<usize> = rows.iter().map(|row| at(dataset, *row)).collect();
+        let points = dataset.table().point_id();
+        let points: BTreeSet<&str> = rows
+            .iter()
+            .filter_map(|row| points[*row].as_deref())
+            .collect();
+        Some(Clusters {
+            recordings: own.len(),
+            points: points.len(),
+        })
+    }
+
+    /// Whether there are enough recordings for intervals by them.
+    pub fn are_recordings(self) -> bool {
+        self.recordings >= CLUSTERS_LEAST
+    }
+
+    /// What a reader should know of the intervals.
+    pub fn note(self) -> String {
+        let Clusters { recordings, points } = self;
+        if !self.are_recordings() {
+            return format!(
+                "scored on {points} contact points of {recordings} recordings; an interval by contact point within these recordings does not say \
+                 how scores vary from recording to recording, which takes {CLUSTERS_LEAST} recordings with scored samples"
+            );
+        }
+        let few = match recordings < CLUSTERS_MANY {
+            true => format!(
+                "; {recordings} are few: one recording more or less may change an interval much, and it is as wide as {} degrees of freedom make it",
+                recordings - 1
+            ),
+            false => String::new(),
+        };
+        format!(
+            "intervals of errors, R² and skill are by recording, {recordings} of them with {points} contact points: they say how scores vary from \
+             recording to recording{few}"
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_note_says_what_the_clusters_are_and_how_many_there_are_of_both() {
+        let note = |recordings, points| Clusters { recordings, points }.note();
+        let few = note(3, 24);
+        assert!(few.contains("24 contact points of 3 recordings"), "{few}");
+        assert!(few.contains("by contact point within"), "{few}");
+        let enough = note(5, 40);
+        assert!(
+            enough.contains("by recording, 5 of them with 40"),
+            "{enough}"
+        );
+        assert!(enough.contains("5 are few") && enough.contains("4 degrees of freedom"));
+        assert!(!note(12, 99).contains("few"));
+    }
+}

@@ -1,0 +1,369 @@
+//! A dataset as a split sees it, and the rows that can take part.
+
+use std::collections::BTreeMap;
+
+use taceva_core::{Channel, Channels, Field, shown};
+use taceva_dataset::{Dataset, Table};
+use taceva_models::{
+    Fractions, Model, Part as SplitPart, Split, SplitInput, SplitKind, SplitManifest, SplitSpec,
+};
+
+use crate::calibration_rows::{self, PlannedRows};
+use crate::error::EvaluateError;
+use crate::recordings::{self, is_fitted_on};
+
+/// What a table of samples says beside channels, in its order.
+pub const BESIDE_CHANNELS: [Field; 10] = [
+    Field::Point,
+    Field::UnitId,
+    Field::Scene,
+    Field::DepthStep,
+    Field::Repeat,
+    Field::Phase,
+    Field::Stamp,
+    Field::Kind,
+    Field::Spacing,
+    Field::Intensity,
+];
+
+/// The part of a dataset that is looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DataPart {
+    /// What a model was fitted on.
+    Train,
+    /// What its settings were chosen on.
+    Validation,
+    /// What it has not seen.
+    Test,
+    /// Every sample.
+    All,
+}
+
+impl DataPart {
+    /// The word used in results.
+    pub const fn name(self) -> &'static str {
+        match self {
+            DataPart::Train => "train",
+            DataPart::Validation => "validation",
+            DataPart::Test => "test",
+            DataPart::All => "all",
+        }
+    }
+}
+
+/// A dataset divided into parts, and how it was divided.
+#[derive(Clone, Debug)]
+pub struct Divided {
+    /// How.
+    pub spec: SplitSpec,
+    /// The seed.
+    pub seed: u64,
+    /// Which rows went where.
+    pub split: Split,
+}
+
+impl Divided {
+    /// How `dataset` is divided for `model`, which was fitted on it, or on what it was before rows were added; `None` if it was fitted on another.
+    /// Whatever `model` has seen is in the training and validation parts.
+    ///
+    /// # Errors
+    /// [`EvaluateError::Split`] as of [`Divided::new`]; [`EvaluateError::Request`] if a plan divided it that is not beside it, or if some of the
+    /// recordings are among those that `model` was fitted on and others are not.
+    pub fn by_model(dataset: &Dataset, model: &Model) -> Result<Option<Divided>, EvaluateError> {
+        let provenance = &model.card().provenance;
+        let is_own = is_fitted_on(model, dataset)?;
+        let Some(card) = provenance.split.as_ref().filter(|_| is_own) else {
+            return Ok(None);
+        };
+        let is_planned =
+            (provenance.notes.iter()).any(|note| note.contains(calibration_rows::NOTE));
+        let divided = match (is_planned, PlannedRows::of(dataset)?) {
+            (true, None) => {
+                return Err(EvaluateError::Request(format!(
+                    "{}: the model was fitted on what the plan of a run teaches by; name the recording in the folder of that run",
+                    shown(dataset.path())
+                )));
+            }
+            (true, Some(_)) => Divided::of(dataset, Some(&card.split), card.seed),
+            (false, _) => Divided::new(dataset, Some(&card.split), card.seed),
+        };
+        divided.map(Some)
+    }
+
+    /// Divides `dataset` as `text` says, or by point where points have repeats, else at random. Of joined recordings each is divided as it would
+    /// be alone, and rows that were added later change the part of none before.
+    ///
+    /// # Errors
+    /// [`EvaluateError::Split`] if the text means no split, or the table lacks what it needs.
+    pub fn new(dataset: &Dataset, text: Option<&str>, seed: u64) -> Result<Divided, EvaluateError> {
+        Divided::within(dataset, &dataset.all_rows(), text, seed)
+    }
+
+    /// Divides `dataset` as `text` says; a recording of a run as its plan does, which divides the presses that teach a model, by the seed of
+    /// its scene where nobody says how.
+    ///
+    /// # Errors
+    /// As [`new`](Divided::new), and [`EvaluateError::RunFolder`] if the plan of the run cannot be read.
+    pub fn of(dataset: &Dataset, text: Option<&str>, seed: u64) -> Result<Divided, EvaluateError> {
+        let Some(planned) = PlannedRows::of(dataset)? else {
+            return Divided::new(dataset, text, seed);
+        };
+        let seed = if text.is_none() { planned.seed } else { seed };
+        let mut divided = Divided::within(dataset, &planned.rows, text, seed)?;
+        let note = &mut divided.split.note;
+        *note = Some(match note.take() {
+            Some(before) => format!("{}; {before}", calibration_rows::NOTE),
+            None => calibration_rows::NOTE.to_owned(),
+        });
+        Ok(divided)
+    }
+
+    /// Divides `rows` of `dataset`, which ascend; all others are in no part.
+    ///
+    /// # Errors
+    /// As [`new`](Divided::new).
+    pub fn within(
+        dataset: &Dataset,
+        rows: &[usize],
+        text: Option<&str>,
+        seed: u64,
+    ) -> Result<Divided, EvaluateError> {
+        let points = all_texts(dataset.table().point_id(), rows);
+        let spec = match text {
+            Some(text) => text.parse::<SplitSpec>()?,
+            None => default_spec(points.as_deref()),
+        };
+        Divided::by_spec(dataset, rows, spec, seed)
+    }
+
+    /// Divides `rows` of `dataset` by point where points have repeats, else at random, into parts of these sizes.
+    ///
+    /// # Errors
+    /// As [`new`](Divided::new).
+    pub fn within_default(
+        dataset: &Dataset,
+        rows: &[usize],
+        fractions: Fractions,
+        seed: u64,
+    ) -> Result<Divided, EvaluateError> {
+        let points = all_texts(dataset.table().point_id(), rows);
+        let spec = SplitSpec {
+            fractions,
+            ..default_spec(points.as_deref())
+        };
+        Divided::by_spec(dataset, rows, spec, seed)
+    }
+
+    fn by_spec(
+        dataset: &Dataset,
+        rows: &[usize],
+        spec: SplitSpec,
+        seed: u64,
+    ) -> Result<Divided, EvaluateError> {
+        let table = dataset.table();
+        let points = all_texts(table.point_id(), rows);
+        let times: Option<Vec<f64>> = rows.iter().map(|&row| table.t_s()[row]).collect();
+        let parts = all_texts(table.part(), rows);
+        let column = match &spec.kind {
+            SplitKind::ByColumn(by) => table
+                .as_text(&by.column)
+                .map(|cells| (by.column.as_str(), cells)),
+            _ => None,
+        };
+        // A sample without the value is in no part: nobody can name the empty text.
+        let filled = column.map(|(name, cells)| {
+            (
+                name,
+                rows.iter()
+                    .map(|&row| cells[row].clone().unwrap_or_default())
+                    .collect::<Vec<String>>(),
+            )
+        });
+        let columns: BTreeMap<&str, &[String]> = filled
+            .iter()
+            .map(|(name, cells)| (*name, cells.as_slice()))
+            .collect();
+        let recordings = recordings::names(dataset, rows);
+        let sections = recordings::sections(dataset, rows);
+        let input = SplitInput {
+            rows: rows.len(),
+            points: points.as_deref(),
+            times_s: times.as_deref(),
+            parts: parts.as_deref(),
+            columns,
+            recordings: recordings.as_deref(),
+            sections: &sections,
+        };
+        let mut split = spec.assign(&input, seed)?;
+        if rows.len() < table.rows() {
+            split = split.among(rows, table.rows());
+        }
+        Ok(Divided { spec, seed, split })
+    }
+
+    /// The rows of a part, ascending.
+    pub fn rows(&self, part: DataPart) -> Vec<usize> {
+        match part {
+            DataPart::Train => self.split.rows(SplitPart::Train).to_vec(),
+            DataPart::Validation => self.split.rows(SplitPart::Validation).to_vec(),
+            DataPart::Test => self.split.rows(SplitPart::Test).to_vec(),
+            DataPart::All => {
+                let split = &self.split;
+                let mut rows = [
+                    &split.train[..],
+                    &split.validation,
+                    &split.test,
+                    &split.left_out,
+                ]
+                .concat();
+                rows.sort_unstable();
+                rows
+            }
+        }
+    }
+
+    /// Refuses a division that keeps nothing to test on.
+    ///
+    /// # Errors
+    /// [`EvaluateError::Request`], saying what can be scored instead.
+    pub fn require_test(&self) -> Result<(), EvaluateError> {
+        if self.spec.kind != SplitKind::All {
+            return Ok(());
+        }
+        Err(EvaluateError::Request(
+            "split all: the model is fitted on every sample, and none is left to test on; evaluate it on another recording, or score what it has seen with --part train"
+                .to_owned(),
+        ))
+    }
+
+    /// The parts by the names of their samples.
+    ///
+    /// # Errors
+    /// [`EvaluateError::Split`] if `table` is not the one that was divided.
+    pub fn manifest(&self, table: &Table) -> Result<SplitManifest, EvaluateError> {
+        Ok(SplitManifest::new(
+            &self.spec,
+            self.seed,
+            &self.split,
+            table.samples(),
+        )?)
+    }
+
+    /// Samples a part, for provenance.
+    pub fn counts(&self) -> BTreeMap<String, usize> {
+        let parts = [DataPart::Train, DataPart::Validation, DataPart::Test]
+            .map(|part| (part.name().to_owned(), self.rows(part).len()));
+        let left_out = (!self.split.left_out.is_empty())
+            .then(|| ("left_out".to_owned(), self.split.left_out.len()));
+        parts.into_iter().chain(left_out).collect()
+    }
+}
+
+fn default_spec(points: Option<&[String]>) -> SplitSpec {
+    let have_repeats = points.is_some_and(|points| {
+        let distinct: std::collections::BTreeSet<&String> = points.iter().collect();
+        distinct.len() < points.len()
+    });
+    let kind = if have_repeats {
+        SplitKind::ByPoint
+    } else {
+        SplitKind::Random
+    };
+    SplitSpec {
+        kind,
+        fractions: Default::default(),
+    }
+}
+
+/// The texts of `rows`, if each has one.
+fn all_texts(column: &[Option<String>], rows: &[usize]) -> Option<Vec<String>> {
+    rows.iter().map(|&row| column[row].clone()).collect()
+}
+
+/// Refuses a dataset without a sample.
+///
+/// # Errors
+/// [`EvaluateError::NoSamples`].
+pub fn require_samples(dataset: &Dataset) -> Result<(), EvaluateError> {
+    match dataset.table().rows() {
+        0 => Err(EvaluateError::NoSamples {
+            path: dataset.path().to_owned(),
+        }),
+        _ => Ok(()),
+    }
+}
+
+/// Of `channels`, those that a sample with a frame carries; all of them where there is none.
+pub fn seen_channels(dataset: &Dataset, channels: &Channels) -> Channels {
+    let table = dataset.table();
+    let is_seen = |channel: &&Channel| {
+        let position = table.channels().position(channel.name());
+        let seen = |(row, frame): (usize, &Option<_>)| {
+            let truth = position.and_then(|position| table.truth(position).get(row));
+            frame.is_some() && truth.is_some()
+        };
+        table.frames().iter().enumerate().any(seen)
+    };
+    let seen: Vec<Channel> = channels.iter().filter(is_seen).cloned().collect();
+    if seen.is_empty() {
+        return channels.clone();
+    }
+    Channels::new(seen).expect("some of distinct channels are distinct")
+}
+
+/// The channels called `names`, or all of the dataset.
+///
+/// # Errors
+/// [`EvaluateError::Request`] for a name that the dataset has not, or if there is no channel at all.
+pub fn chosen_channels(dataset: &Dataset, names: &[String]) -> Result<Channels, EvaluateError> {
+    let known = dataset.table().channels();
+    let chosen = if names.is_empty() {
+        known.clone()
+    } else {
+        let find = |name: &String| {
+            known.by_name(name).cloned().ok_or_else(|| {
+                let list: Vec<&str> = known.iter().map(|channel| channel.name()).collect();
+                EvaluateError::Request(format!(
+                    "`{}`: no such channel, the dataset has {}",
+                    shown(name),
+                    list.join(", ")
+                ))
+            })
+        };
+        let list = names.iter().map(find).collect::<Result<Vec<_>, _>>()?;
+        Channels::new(list).map_err(|error| EvaluateError::Request(error.to_string()))?
+    };
+    if chosen.is_empty() {
+        return Err(EvaluateError::Request(
+            "the dataset has no channel: there is nothing to predict".to_owned(),
+        ));
+    }
+    Ok(chosen)
+}
+
+/// Of `rows`, those that have a frame where one is needed, and a value of each of `channels` where `labelled`.
+pub fn usable(dataset: &Dataset, rows: &[usize], need: Need<'_>) -> Vec<usize> {
+    let table = dataset.table();
+    let positions: Vec<usize> = need
+        .labels
+        .iter()
+        .flat_map(|channels| channels.iter())
+        .filter_map(|channel| table.channels().position(channel.name()))
+        .collect();
+    let is_usable = |row: &usize| {
+        let framed = !need.frame || table.frames()[*row].is_some();
+        framed
+            && positions
+                .iter()
+                .all(|&position| table.truth(position).get(*row).is_some())
+    };
+    rows.iter().copied().filter(is_usable).collect()
+}
+
+/// What a row must have.
+pub struct Need<'a> {
+    /// A frame.
+    pub frame: bool,
+    /// A label of each of these.
+    pub labels: Option<&'a Channels>,
+}

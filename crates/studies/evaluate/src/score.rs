@@ -1,0 +1,229 @@
+//! Someone else's predictions against the truth: two tables, no pictures, no model.
+
+mod fields;
+mod id_order;
+mod ids;
+mod one_pass;
+mod parquet_parts;
+mod request;
+mod row_pairs;
+mod shard;
+mod shard_scores;
+mod table_parts;
+mod tables;
+
+use std::collections::BTreeMap;
+
+use taceva_core::{Channel, Column, Progress, shown};
+use taceva_dataset::SensorFile;
+use taceva_import::CsvTable;
+use taceva_metrics::{Evaluator, MetricPlan, SensorFacts, catalogue};
+
+use crate::accumulate::{self, Rows};
+use crate::bounded_share::Bounded;
+use crate::error::EvaluateError;
+use crate::facts;
+use crate::plan::Plan;
+use crate::provenance::Provenance;
+use crate::report::EvaluationReport;
+use crate::row_ledger::Taken;
+use crate::samples::Samples;
+use crate::skill::with_skill;
+use crate::state_file::StateFile;
+use crate::subject::Subject;
+
+use fields::Place;
+use row_pairs::PairedRows;
+use tables::Pairing;
+
+pub use one_pass::score_in_one_pass;
+pub use request::ScoreRequest;
+pub use shard::{Shard, ShardError};
+pub use shard_scores::ScoreTables;
+
+/// Finished scores of two tables.
+#[derive(Debug)]
+pub struct Scored {
+    /// The scores and where they come from.
+    pub report: EvaluationReport,
+    /// What was kept, to be joined with that of other tables.
+    pub state: StateFile,
+}
+
+/// The two tables with what was understood of them.
+#[derive(Debug)]
+pub struct Scoring {
+    request: ScoreRequest,
+    truth: CsvTable,
+    prediction: CsvTable,
+    digests: BTreeMap<String, String>,
+    metrics: MetricPlan,
+    sensor: SensorFile,
+    places: Vec<Place>,
+    pairing: Pairing,
+}
+
+impl Scoring {
+    /// Reads both tables and pairs their rows.
+    ///
+    /// # Errors
+    /// [`EvaluateError`] if a table cannot be read, a channel is in one of them only, ids differ or repeat, or numbers of rows differ.
+    pub fn read(request: ScoreRequest) -> Result<Scoring, EvaluateError> {
+        catalogue::select(request.metrics.iter().map(String::as_str))?;
+        tables::check_distinct(&request)?;
+        let [(truth, of_truth), (prediction, of_prediction)] = tables::read_both(&request)?;
+        tables::check_rows(&truth)?;
+        tables::check_rows(&prediction)?;
+        let digests = [("truth", of_truth), ("prediction", of_prediction)];
+        let (metrics, places, sensor) = planned(&request, &truth, &prediction)?;
+        let pairing = tables::pair(&truth, &prediction)?;
+        Ok(Scoring {
+            request,
+            truth,
+            prediction,
+            digests: digests
+                .map(|(role, digest)| (role.to_owned(), digest.to_string()))
+                .into(),
+            metrics,
+            sensor,
+            places,
+            pairing,
+        })
+    }
+
+    /// What [`run`](Scoring::run) would do.
+    pub fn plan(&self) -> Plan {
+        let mut plan = Plan {
+            skipped: self.metrics.skipped().to_vec(),
+            ..Plan::default()
+        };
+        let names = |names: Vec<&str>| names.join(", ");
+        plan.step(
+            "read",
+            format!(
+                "{} rows of {}",
+                self.truth.rows(),
+                shown(&self.request.truth)
+            ),
+        );
+        plan.step(
+            "read",
+            format!(
+                "{} rows of {}",
+                self.prediction.rows(),
+                shown(&self.request.prediction)
+            ),
+        );
+        plan.step(
+            "pair",
+            match self.pairing {
+                Pairing::ByOrder => "rows by order",
+                Pairing::ById(_) => "rows by id",
+            },
+        );
+        let channels = names(self.metrics.channels().iter().map(Channel::name).collect());
+        let metrics = names(self.metrics.kept().iter().map(|metric| metric.id).collect());
+        plan.step("score", format!("{metrics} of {channels}"));
+        plan
+    }
+
+    /// Scores.
+    ///
+    /// # Errors
+    /// [`EvaluateError`] at the first cell that is no finite number, unless they are allowed.
+    pub fn run(&self, progress: &dyn Progress) -> Result<Scored, EvaluateError> {
+        progress.begin("score", Some(self.truth.rows() as u64));
+        let scored = self.evaluate();
+        progress.end();
+        scored
+    }
+
+    /// The pairs of truth and prediction one by one, called by the `id` of the truth or by their number; scoring never holds them all.
+    ///
+    /// # Errors
+    /// As [`run`](Scoring::run).
+    pub fn samples(&self) -> Result<Samples, EvaluateError> {
+        let rows = self.truth.rows();
+        let batch = self.paired()?.batch(&self.metrics, 0..rows)?;
+        let ids = match self.truth.has("id") {
+            true => {
+                let column = self.truth.position("id")?;
+                let id = |row| Some(self.truth.cell(row, column).to_owned());
+                (0..rows).map(id).collect()
+            }
+            false => (1..=rows).map(|number| Some(number.to_string())).collect(),
+        };
+        let points = batch.points().map(|points| {
+            let point = |row| points.get(row).map(str::to_owned);
+            (0..rows).map(point).collect()
+        });
+        let channels = self.metrics.channels().iter().enumerate();
+        let channels = channels.map(|(at, channel)| {
+            let columns = [batch.truth(at), batch.prediction(at)].map(Column::clone);
+            let [truth, prediction] = columns;
+            (channel.clone(), truth, prediction)
+        });
+        Ok(Samples::of_pairs(ids, points, channels.collect()))
+    }
+
+    fn paired(&self) -> Result<PairedRows<'_>, EvaluateError> {
+        PairedRows::new(
+            [&self.truth, &self.prediction],
+            &self.pairing,
+            &self.metrics,
+            &self.places,
+            self.request.allow_invalid,
+        )
+    }
+
+    fn evaluate(&self) -> Result<Scored, EvaluateError> {
+        let rows = self.paired()?;
+        let evaluator = accumulate::accumulate(&rows, &self.metrics, self.request.jobs)?;
+        let input = tables::input_of(&self.digests);
+        let taken = Taken::all_of(input, self.truth.rows());
+        finished(evaluator, &self.sensor, self.digests.clone(), taken)
+    }
+}
+
+/// What can be scored by the columns of both tables, where fields are stated, and what is known of the sensor.
+fn planned(
+    request: &ScoreRequest,
+    truth: &CsvTable,
+    prediction: &CsvTable,
+) -> Result<(MetricPlan, Vec<Place>, SensorFile), EvaluateError> {
+    let wanted = catalogue::select(request.metrics.iter().map(String::as_str))?;
+    let channels = tables::channels(truth, prediction, &request.units)?;
+    let places = fields::places(truth, prediction)?;
+    let sensor = request
+        .sensor
+        .as_deref()
+        .map(SensorFile::read)
+        .transpose()?;
+    let sensor = sensor.unwrap_or_default();
+    let metrics = MetricPlan::new(&with_skill(wanted), channels, fields::stated(&places))
+        .with_facts(facts::of_file(&sensor, SensorFacts::default()));
+    Ok((metrics, places, sensor))
+}
+
+/// The scores and the state of what `evaluator` has seen of the tables with these digests.
+fn finished(
+    mut evaluator: Evaluator,
+    sensor: &SensorFile,
+    digests: BTreeMap<String, String>,
+    taken: Taken,
+) -> Result<Scored, EvaluateError> {
+    let provenance = Provenance {
+        taceva: env!("CARGO_PKG_VERSION").to_owned(),
+        notes: tables::same_bytes_note(&digests).into_iter().collect(),
+        tables: digests,
+        ..Provenance::default()
+    };
+    let subject = Subject::of_file(sensor);
+    let state = StateFile::of(&mut evaluator, &subject, &provenance, Bounded::default())?
+        .with_taken(vec![taken]);
+    let evaluation = state.finish(evaluator)?;
+    Ok(Scored {
+        report: EvaluationReport::new(subject, evaluation, provenance),
+        state,
+    })
+}

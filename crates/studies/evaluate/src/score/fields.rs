@@ -1,0 +1,143 @@
+//! What a table says of its rows beside the channels: contact point, scene, repeat and the like.
+
+use taceva_core::{Column, Field, FieldSet, GratingKind, Labels, Nanometre, Phase};
+use taceva_import::CsvTable;
+
+use crate::error::EvaluateError;
+
+/// Columns of a table that are no channels.
+pub(super) const NOT_CHANNELS: [&str; 14] = [
+    "id",
+    "sample",
+    "point_id",
+    "scene",
+    "unit_id",
+    "repeat",
+    "depth_step",
+    "phase",
+    "part",
+    "kind",
+    "spacing_mm",
+    "intensity",
+    "t_s",
+    "frame_sha256",
+];
+
+/// Fields that either table may state; the truth is asked first.
+const OF_EITHER: [Field; 10] = [
+    Field::Point,
+    Field::DepthStep,
+    Field::Repeat,
+    Field::Phase,
+    Field::Scene,
+    Field::UnitId,
+    Field::Stamp,
+    Field::Kind,
+    Field::Intensity,
+    Field::FrameDigest,
+];
+
+/// The column that states the spacing of a grating: what it is in the truth, what it was taken for in the prediction.
+const SPACING: &str = "spacing_mm";
+
+/// Where a field is stated.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    pub(super) field: Field,
+    /// Whether in the table of the truth.
+    pub(super) in_truth: bool,
+    pub(super) column: usize,
+}
+
+/// Where each field is stated, of those that one of the tables has.
+pub(super) fn places(truth: &CsvTable, prediction: &CsvTable) -> Result<Vec<Place>, EvaluateError> {
+    let mut places = Vec::new();
+    let mut state = |field, in_truth, name: &str| -> Result<(), EvaluateError> {
+        let table = if in_truth { truth } else { prediction };
+        let column = table.position(name)?;
+        places.push(Place {
+            field,
+            in_truth,
+            column,
+        });
+        Ok(())
+    };
+    for field in OF_EITHER {
+        match (truth.has(field.name()), prediction.has(field.name())) {
+            (true, _) => state(field, true, field.name())?,
+            (false, true) => state(field, false, field.name())?,
+            (false, false) => {}
+        }
+    }
+    if truth.has(SPACING) {
+        state(Field::Spacing, true, SPACING)?;
+    }
+    if prediction.has(SPACING) {
+        state(Field::PredictedSpacing, false, SPACING)?;
+    }
+    Ok(places)
+}
+
+/// The fields that are stated.
+pub(super) fn stated(places: &[Place]) -> FieldSet {
+    let fields = places.iter().map(|place| place.field);
+    FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction) | fields.collect()
+}
+
+/// The names in some rows of a column; an empty cell is no name.
+///
+/// # Errors
+/// [`EvaluateError`] naming the cell if the field has a closed list of names and it is none of them.
+pub(super) fn labels(
+    table: &CsvTable,
+    field: Field,
+    column: usize,
+    rows: impl Iterator<Item = usize>,
+) -> Result<Labels, EvaluateError> {
+    let expected = |name: &str| match field {
+        Field::Phase if Phase::from_name(name).is_none() => Some("expected `load` or `unload`"),
+        Field::Kind if GratingKind::from_name(name).is_none() => Some("expected `line` or `dot`"),
+        _ => None,
+    };
+    let mut labels = Labels::default();
+    for row in rows {
+        let name = table.cell(row, column);
+        if name.is_empty() {
+            labels.push_absent();
+        } else if let Some(expected) = expected(name) {
+            return Err(table.refuse(row, column, expected).into());
+        } else {
+            labels.push(name);
+        }
+    }
+    Ok(labels)
+}
+
+/// The numbers in some rows of a column of counts or spacings; an empty cell is absent.
+///
+/// # Errors
+/// [`EvaluateError`] naming the cell if it is no whole number from 0, or no length.
+pub(super) fn exact_numbers(
+    table: &CsvTable,
+    field: Field,
+    column: usize,
+    rows: impl Iterator<Item = usize>,
+) -> Result<Column, EvaluateError> {
+    let is_length = matches!(field, Field::Spacing | Field::PredictedSpacing);
+    let mut numbers = Column::default();
+    for row in rows {
+        let cell = table.cell(row, column);
+        let (number, expected) = if is_length {
+            let length = cell.parse().ok().map(Nanometre::to_f64);
+            (length, "expected a spacing in mm, such as 0.35")
+        } else {
+            let count = cell.strip_suffix(".0").unwrap_or(cell).parse::<u32>().ok();
+            (count.map(f64::from), "expected a whole number from 0")
+        };
+        if number.is_none() && !cell.is_empty() {
+            return Err(table.refuse(row, column, expected).into());
+        }
+        numbers.push(number);
+    }
+    Ok(numbers)
+}

@@ -1,0 +1,207 @@
+//! Rows of a shard and their predictions, paired by `id`.
+
+use std::cmp::Ordering;
+use std::collections::HashMap;
+use std::ops::Range;
+
+use taceva_core::shown;
+use taceva_import::{CsvParts, CsvTable};
+
+use super::table_parts::{Reader, TableParts};
+use crate::error::EvaluateError;
+
+/// The column that names rows.
+pub(super) const ID: &str = "id";
+
+/// How the rows of a shard find their predictions.
+pub(super) enum Found {
+    /// In the rows of the same numbers.
+    InOrder,
+    /// In this table, row by row from the first of the shard.
+    Gathered(CsvTable),
+}
+
+/// Both tables, with what reads their ids alone where that is less.
+pub(super) struct ById<'a> {
+    pub(super) truth: &'a TableParts,
+    pub(super) prediction: &'a TableParts,
+    /// What reads all columns of the prediction that are wanted.
+    pub(super) reader: &'a Reader<'a>,
+}
+
+impl ById<'_> {
+    /// Finds the predictions of the rows in `own`. Where the ids of both tables are the same row by row and ascend, no other row is looked at;
+    /// else both are looked through, and the predictions of the shard are brought into its order.
+    ///
+    /// # Errors
+    /// [`EvaluateError::Tables`] for an id that comes twice, or that one of the tables lacks.
+    pub(super) fn pair(&self, own: &Range<u64>) -> Result<Found, EvaluateError> {
+        let truth = self.truth.reader()?.with_columns(|name| name == ID);
+        let prediction = self.prediction.reader()?.with_columns(|name| name == ID);
+        if is_in_order(own, &truth, &prediction)? {
+            return Ok(Found::InOrder);
+        }
+        let wanted = self.own_ids(own, &truth)?;
+        self.check_once(own, &wanted, &truth)?;
+        let rows = self.rows_of_predictions(&wanted, &prediction)?;
+        self.gathered(&rows).map(Found::Gathered)
+    }
+
+    /// The ids of the shard, each with its position in it.
+    fn own_ids(
+        &self,
+        own: &Range<u64>,
+        truth: &Reader<'_>,
+    ) -> Result<HashMap<String, usize>, EvaluateError> {
+        let mut wanted = HashMap::new();
+        for part in parts_of(own) {
+            let table = truth.read(part)?;
+            let first = part * CsvParts::ROWS;
+            for (at, id) in table.text(ID)?.into_iter().enumerate() {
+                let row = first + at as u64;
+                if !own.contains(&row) {
+                    continue;
+                }
+                let position = usize::try_from(row - own.start).unwrap_or(usize::MAX);
+                if wanted.insert(id.to_owned(), position).is_some() {
+                    return Err(twice(self.truth, id));
+                }
+            }
+        }
+        Ok(wanted)
+    }
+
+    /// Refuses an id of the shard that another row of the truth has too.
+    fn check_once(
+        &self,
+        own: &Range<u64>,
+        wanted: &HashMap<String, usize>,
+        truth: &Reader<'_>,
+    ) -> Result<(), EvaluateError> {
+        for part in parts_of(&(0..self.truth.rows())) {
+            let table = truth.read(part)?;
+            let first = part * CsvParts::ROWS;
+            for (at, id) in table.text(ID)?.into_iter().enumerate() {
+                if !own.contains(&(first + at as u64)) && wanted.contains_key(id) {
+                    return Err(twice(self.truth, id));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// For each row of the shard, its row of the prediction.
+    fn rows_of_predictions(
+        &self,
+        wanted: &HashMap<String, usize>,
+        prediction: &Reader<'_>,
+    ) -> Result<Vec<u64>, EvaluateError> {
+        let mut found: Vec<Option<u64>> = vec![None; wanted.len()];
+        for part in parts_of(&(0..self.prediction.rows())) {
+            let table = prediction.read(part)?;
+            let first = part * CsvParts::ROWS;
+            for (at, id) in table.text(ID)?.into_iter().enumerate() {
+                if let Some(position) = wanted.get(id)
+                    && found[*position].replace(first + at as u64).is_some()
+                {
+                    return Err(twice(self.prediction, id));
+                }
+            }
+        }
+        let lacking = |position: usize| {
+            let mut ids = wanted.iter();
+            let id = ids.find(|(_, at)| **at == position).map(|(id, _)| id);
+            EvaluateError::Tables {
+                path: self.prediction.path().to_owned(),
+                problem: format!(
+                    "no row with id `{}`, which {} has",
+                    shown(id.map_or("", String::as_str)),
+                    shown(self.truth.path())
+                ),
+            }
+        };
+        let found = found.into_iter().enumerate();
+        found
+            .map(|(position, row)| row.ok_or_else(|| lacking(position)))
+            .collect()
+    }
+
+    /// The predictions in these rows, in their order.
+    fn gathered(&self, rows: &[u64]) -> Result<CsvTable, EvaluateError> {
+        let header = self.reader.header()?;
+        let mut positions: Vec<usize> = (0..rows.len()).collect();
+        positions.sort_unstable_by_key(|position| rows[*position]);
+        let mut cells: Vec<Vec<String>> = vec![Vec::new(); rows.len()];
+        for of_part in positions.chunk_by(|one, other| part_of(rows[*one]) == part_of(rows[*other]))
+        {
+            let Some(first) = of_part.first() else {
+                continue;
+            };
+            let part = part_of(rows[*first]);
+            let table = self.reader.read(part)?;
+            for &position in of_part {
+                let row =
+                    usize::try_from(rows[position] - part * CsvParts::ROWS).unwrap_or(usize::MAX);
+                let of_row = 0..table.names().len();
+                cells[position] = of_row
+                    .map(|column| table.cell(row, column).to_owned())
+                    .collect();
+            }
+        }
+        let names: Vec<&str> = header.names().iter().map(String::as_str).collect();
+        let rows = cells.iter().map(|cells| cells.iter().map(String::as_str));
+        Ok(CsvTable::of_cells(self.prediction.path(), &names, rows)?)
+    }
+}
+
+/// Whether the ids in `own` are those of the same rows in both tables, and ascend, from the row before on: so that none comes twice.
+fn is_in_order(
+    own: &Range<u64>,
+    truth: &Reader<'_>,
+    prediction: &Reader<'_>,
+) -> Result<bool, EvaluateError> {
+    let with_one_before = own.start.saturating_sub(1)..own.end;
+    let mut last: Option<String> = None;
+    for part in parts_of(&with_one_before) {
+        let [truth, prediction] = [truth.read(part)?, prediction.read(part)?];
+        let first = part * CsvParts::ROWS;
+        let pairs = truth.text(ID)?.into_iter().zip(prediction.text(ID)?);
+        for (at, (id, other)) in pairs.enumerate() {
+            if !with_one_before.contains(&(first + at as u64)) {
+                continue;
+            }
+            let ascends = last
+                .as_deref()
+                .is_none_or(|last| by_length(last, id).is_lt());
+            if id != other || !ascends {
+                return Ok(false);
+            }
+            last = Some(id.to_owned());
+        }
+    }
+    Ok(true)
+}
+
+/// Whole numbers in their order, and all other words in some order.
+pub(super) fn by_length(one: &str, other: &str) -> Ordering {
+    one.len().cmp(&other.len()).then_with(|| one.cmp(other))
+}
+
+fn part_of(row: u64) -> u64 {
+    row / CsvParts::ROWS
+}
+
+/// The parts that have some of these rows.
+pub(super) fn parts_of(rows: &Range<u64>) -> Range<u64> {
+    match rows.is_empty() {
+        true => 0..0,
+        false => part_of(rows.start)..part_of(rows.end - 1) + 1,
+    }
+}
+
+fn twice(table: &TableParts, id: &str) -> EvaluateError {
+    EvaluateError::Tables {
+        path: table.path().to_owned(),
+        problem: format!("id `{}` comes twice", shown(id)),
+    }
+}

@@ -1,0 +1,314 @@
+//! Two tables that are read once, side by side: a few thousand rows of each are in memory at a time, and in the cache of a core while they are
+//! digested, split, parsed and scored.
+
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+use taceva_core::{ErrorKind, ModelError, Progress};
+use taceva_import::{CsvStream, CsvTable};
+use taceva_metrics::{Evaluator, MetricPlan};
+
+use super::fields::Place;
+use super::id_order::IdOrder;
+use super::row_pairs::PairedRows;
+use super::tables::Pairing;
+use super::{ScoreRequest, Scored, finished, parquet_parts, planned, tables};
+use crate::accumulate::{BATCH_ROWS, Rows};
+use crate::error::EvaluateError;
+use crate::row_ledger::Taken;
+
+/// Scores the tables of `request` in one pass, to the same bytes as [`Scoring`](super::Scoring) does; `None` where that is not possible: rows with
+/// an `id` in both tables that does not ascend alike, quoted cells, Parquet, and whatever is refused: [`Scoring`](super::Scoring) reads the whole
+/// first, so that of several things that are wrong it says the same as ever.
+///
+/// # Errors
+/// [`EvaluateError`] if `progress` was cancelled.
+pub fn score_in_one_pass(
+    request: &ScoreRequest,
+    progress: &dyn Progress,
+) -> Result<Option<Scored>, EvaluateError> {
+    let paths = [&request.truth, &request.prediction];
+    if paths.iter().any(|path| parquet_parts::is_parquet(path)) {
+        return Ok(None);
+    }
+    let streams = paths.map(|path| CsvStream::open(path));
+    let (Ok(()), [Ok(truth), Ok(prediction)]) = (tables::check_distinct(request), streams) else {
+        return Ok(None);
+    };
+    let Ok((metrics, places, sensor)) = planned(request, truth.header(), prediction.header())
+    else {
+        return Ok(None);
+    };
+    let pass = Pass {
+        order: IdOrder::of(truth.header(), prediction.header()),
+        truth: Mutex::new(truth),
+        prediction: Mutex::new(prediction),
+        metrics: &metrics,
+        places: &places,
+        allow_invalid: request.allow_invalid,
+        blocks: AtomicU64::new(0),
+        rows: AtomicU64::new(0),
+        is_over: AtomicBool::new(false),
+        progress,
+    };
+    progress.begin("score", None);
+    let evaluator = pass.evaluate(request.jobs.get());
+    progress.end();
+    let is_in_order = pass.order.is_none_or(IdOrder::ascends);
+    let Some(evaluator) = evaluator?.filter(|_| is_in_order) else {
+        return Ok(None);
+    };
+    let rows = usize::try_from(pass.rows.into_inner()).unwrap_or(usize::MAX);
+    let digest = |stream: Mutex<CsvStream>| {
+        let stream = stream.into_inner().unwrap_or_else(PoisonError::into_inner);
+        stream.digest().to_string()
+    };
+    let digests: BTreeMap<String, String> = [
+        ("truth".to_owned(), digest(pass.truth)),
+        ("prediction".to_owned(), digest(pass.prediction)),
+    ]
+    .into();
+    let taken = Taken::all_of(tables::input_of(&digests), rows);
+    finished(evaluator, &sensor, digests, taken).map(Some)
+}
+
+/// What the threads of a pass have in common.
+struct Pass<'a> {
+    truth: Mutex<CsvStream>,
+    prediction: Mutex<CsvStream>,
+    metrics: &'a MetricPlan,
+    places: &'a [Place],
+    allow_invalid: bool,
+    /// Of tables that both have ids.
+    order: Option<IdOrder>,
+    /// Blocks that were begun to be read.
+    blocks: AtomicU64,
+    /// Rows that were scored.
+    rows: AtomicU64,
+    /// Whether a thread has met what ends the pass for all.
+    is_over: AtomicBool,
+    progress: &'a dyn Progress,
+}
+
+impl Pass<'_> {
+    /// What all rows come to; `None` if they cannot be scored so, or there are none. Sums are exact, so which thread takes which rows changes nothing.
+    fn evaluate(&self, threads: usize) -> Result<Option<Evaluator>, EvaluateError> {
+        let evaluators: Vec<Result<Option<Evaluator>, EvaluateError>> =
+            std::thread::scope(|scope| {
+                let threads: Vec<_> = (0..threads)
+                    .map(|_| {
+                        scope.spawn(|| {
+                            let found = self.batches();
+                            if !matches!(found, Ok(Some(_))) {
+                                self.is_over.store(true, Ordering::Relaxed);
+                            }
+                            found
+                        })
+                    })
+                    .collect();
+                let joined = threads.into_iter().map(|thread| {
+                    thread
+                        .join()
+                        .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+                });
+                joined.collect()
+            });
+        let mut total = Evaluator::new(self.metrics);
+        for evaluator in evaluators {
+            match evaluator? {
+                Some(evaluator) => total.merge(evaluator)?,
+                None => return Ok(None),
+            }
+        }
+        let has_rows = self.rows.load(Ordering::Relaxed) > 0;
+        Ok(has_rows.then_some(total))
+    }
+
+    /// Takes batches until there are none; `None` if one cannot be scored.
+    fn batches(&self) -> Result<Option<Evaluator>, EvaluateError> {
+        let block = |stream: &Mutex<CsvStream>| lock(stream).block();
+        let mut pair = [block(&self.truth), block(&self.prediction)];
+        let mut evaluator = Evaluator::new(self.metrics);
+        while !self.is_over.load(Ordering::Relaxed) {
+            if self.progress.is_cancelled() {
+                let stopped = ModelError::new(ErrorKind::Interrupted, "stopped while scoring");
+                return Err(stopped.into());
+            }
+            let Some(number) = self.next(&mut pair) else {
+                return Ok(None);
+            };
+            let rows = pair[0].rows();
+            if rows == 0 {
+                break;
+            }
+            if !self.take(number, [&pair[0], &pair[1]], &mut evaluator) {
+                return Ok(None);
+            }
+            self.rows.fetch_add(rows as u64, Ordering::Relaxed);
+            self.progress.advance(rows as u64);
+        }
+        Ok(Some(evaluator))
+    }
+
+    /// Reads the next block of both tables and says which it is; `None` if it cannot be read, or one table has more rows.
+    fn next(&self, [of_truth, of_prediction]: &mut [CsvTable; 2]) -> Option<u64> {
+        let mut truth = lock(&self.truth);
+        let number = self.blocks.fetch_add(1, Ordering::Relaxed);
+        truth.read(BATCH_ROWS, of_truth).ok()?;
+        // Taken before the other is let go, so that both tables come in the same order, and read while another thread reads on there.
+        let mut prediction = lock(&self.prediction);
+        drop(truth);
+        prediction.read(BATCH_ROWS, of_prediction).ok()?;
+        (of_truth.rows() == of_prediction.rows()).then_some(number)
+    }
+
+    /// Scores a block; returns whether that was possible.
+    fn take(&self, number: u64, tables: [&CsvTable; 2], evaluator: &mut Evaluator) -> bool {
+        let mut order = self.order.iter();
+        order.all(|order| order.is_kept_in(number, tables))
+            && self.update(tables, evaluator).is_ok()
+    }
+
+    fn update(
+        &self,
+        tables: [&CsvTable; 2],
+        evaluator: &mut Evaluator,
+    ) -> Result<(), EvaluateError> {
+        let rows = 0..tables[0].rows();
+        let paired = PairedRows::new(
+            tables,
+            &Pairing::ByOrder,
+            self.metrics,
+            self.places,
+            self.allow_invalid,
+        )?;
+        Ok(evaluator.update(&paired.batch(self.metrics, rows)?)?)
+    }
+}
+
+fn lock(stream: &Mutex<CsvStream>) -> std::sync::MutexGuard<'_, CsvStream> {
+    stream.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::num::NonZeroUsize;
+    use std::path::Path;
+
+    use taceva_core::SilentProgress;
+
+    use super::super::Scoring;
+    use super::*;
+
+    const ROWS: usize = 2 * BATCH_ROWS + 100;
+
+    /// A table of two channels, and the columns `front` before them as `cells` fills them in each row; `off` is how far numbers lie apart from those of 0.
+    fn table(front: &str, cells: impl Fn(usize) -> String, off: f64) -> String {
+        let mut text = format!("{front}Px,Fz\n");
+        for row in 0..ROWS {
+            let error = off * f64::from(u8::try_from(row * 7919 % 13).expect("below 13"));
+            let x = f64::from(u8::try_from(row % 90).expect("below 90")) / 7.0 + error;
+            text += &format!("{}{x},{}\n", cells(row), x / 3.0 - error);
+        }
+        text
+    }
+
+    fn request(folder: &Path, [truth, prediction]: [&str; 2], jobs: usize) -> ScoreRequest {
+        let write = |name: &str, text: &str| {
+            let path = folder.join(name);
+            std::fs::write(&path, text).expect("written");
+            path
+        };
+        ScoreRequest {
+            truth: write("truth.csv", truth),
+            prediction: write("prediction.csv", prediction),
+            units: Vec::new(),
+            sensor: None,
+            metrics: Vec::new(),
+            allow_invalid: false,
+            jobs: NonZeroUsize::new(jobs).expect("at least one"),
+        }
+    }
+
+    /// Everything that is written of scores.
+    fn written(scored: &Scored) -> (String, Vec<u8>) {
+        let mut state = Vec::new();
+        scored.state.write(&mut state).expect("in memory");
+        (format!("{:?}", scored.report), state)
+    }
+
+    fn in_one_pass(request: &ScoreRequest) -> Option<Scored> {
+        score_in_one_pass(request, &SilentProgress).expect("not cancelled")
+    }
+
+    #[test]
+    fn one_pass_on_any_number_of_threads_gives_the_bytes_of_both_tables_in_memory() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let point = |row: usize| format!("p{},", row / 4);
+        let both = |row: usize| format!("{row},p{},", row % 1000);
+        let id = |row: usize| format!("{row},");
+        for tables in [
+            [
+                table("point_id,", point, 0.0),
+                table("", |_| String::new(), 0.01),
+            ],
+            [table("id,point_id,", both, 0.0), table("id,", id, 0.01)],
+            [
+                table("point_id,", point, 0.0).trim_end().to_owned(),
+                table("", |_| String::new(), 0.01).replace('\n', "\r\n\n"),
+            ],
+        ] {
+            let tables = [tables[0].as_str(), tables[1].as_str()];
+            let scoring = Scoring::read(request(folder.path(), tables, 2)).expect("two tables");
+            let expected = written(&scoring.run(&SilentProgress).expect("scored"));
+            for jobs in [1, 2, 5] {
+                let found = in_one_pass(&request(folder.path(), tables, jobs)).expect("plain");
+                assert!(written(&found) == expected, "{jobs} threads");
+            }
+        }
+    }
+
+    #[test]
+    fn what_needs_the_whole_tables_or_is_refused_is_left_to_them() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let plain = |off| table("", |_| String::new(), off);
+        let with_id = |id: fn(usize) -> usize| table("id,", |row| format!("{},", id(row)), 0.01);
+        let (truth, prediction) = (plain(0.0), plain(0.01));
+        let last = prediction.trim_end().rfind('\n').expect("rows") + 1;
+        for (other, [truth, prediction]) in [
+            ("a row less", [&truth, &prediction[..last].to_owned()]),
+            (
+                "no number",
+                [&truth, &(prediction[..last].to_owned() + "x,1\n")],
+            ),
+            (
+                "three cells",
+                [&truth, &(prediction[..last].to_owned() + "1,1,1\n")],
+            ),
+            (
+                "a quote",
+                [&truth, &(prediction[..last].to_owned() + "\"1\",1\n")],
+            ),
+            ("no row", [&"Px,Fz\n".to_owned(), &"Px,Fz\n".to_owned()]),
+            (
+                "other channels",
+                [&truth, &prediction.replacen("Px", "Py", 1)],
+            ),
+            ("an empty file", [&truth, &String::new()]),
+            (
+                "ids that do not ascend",
+                [&with_id(|row| ROWS - row), &with_id(|row| ROWS - row)],
+            ),
+            ("other ids", [&with_id(|row| row), &with_id(|row| row + 1)]),
+        ] {
+            let request = request(folder.path(), [truth, prediction], 2);
+            assert!(in_one_pass(&request).is_none(), "{other}");
+        }
+        let none = ScoreRequest {
+            truth: folder.path().join("nowhere.csv"),
+            ..request(folder.path(), [&truth, &prediction], 2)
+        };
+        assert!(in_one_pass(&none).is_none());
+    }
+}

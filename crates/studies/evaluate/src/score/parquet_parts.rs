@@ -1,0 +1,66 @@
+//! Rows of a Parquet table as text, part by part: cells as a CSV has them, so that both are read and refused alike.
+
+use std::fs::File;
+use std::io::{Read, Seek, SeekFrom};
+use std::ops::Range;
+use std::path::Path;
+
+use taceva_dataset::DatasetError;
+use taceva_import::CsvTable;
+use taceva_tables::ParquetTable;
+
+use crate::error::EvaluateError;
+
+/// What every Parquet file begins and ends with.
+const MARK: &[u8; 4] = b"PAR1";
+
+/// Whether the file at `path` says of itself that it is a Parquet file. What cannot be read is none: whoever reads it says why.
+pub(super) fn is_parquet(path: &Path) -> bool {
+    if !path.is_file() {
+        return false;
+    }
+    let marks = File::open(path).and_then(|mut file| {
+        let mut marks = [[0; 4]; 2];
+        file.read_exact(&mut marks[0])?;
+        file.seek(SeekFrom::End(-4))?;
+        file.read_exact(&mut marks[1])?;
+        Ok(marks)
+    });
+    marks.is_ok_and(|marks| marks == [*MARK; 2])
+}
+
+/// The given columns of some rows.
+///
+/// # Errors
+/// [`EvaluateError::Parquet`]; [`EvaluateError::Dataset`] for more text than is read at once.
+pub(super) fn read(
+    table: &ParquetTable,
+    names: &[String],
+    rows: Range<u64>,
+) -> Result<CsvTable, EvaluateError> {
+    let mut columns = Vec::with_capacity(names.len());
+    for name in names {
+        let mut cells: Vec<String> = Vec::new();
+        table.visit_rows(name, rows.clone(), &mut |cell| {
+            cells.push(cell.text().into_owned());
+            Ok(())
+        })?;
+        columns.push(cells);
+    }
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let count = usize::try_from(rows.end - rows.start).unwrap_or(usize::MAX);
+    let row = |at: usize| columns.iter().map(move |cells| cells[at].as_str());
+    let read = CsvTable::of_cells(table.path(), &names, (0..count).map(row));
+    read.map_err(|error| by_row(error, rows.start).into())
+}
+
+/// An error of the table at the place in the file that it stands for: a row, where lines say nothing.
+pub(super) fn by_row(mut error: DatasetError, first: u64) -> DatasetError {
+    if let DatasetError::Table { place, .. } = &mut error
+        && let Some(line) = place.line.take()
+    {
+        // The header is line 1.
+        place.row = Some(first + line.saturating_sub(2));
+    }
+    error
+}

@@ -1,0 +1,137 @@
+//! The rows of both tables, parsed where they are scored: no column ever lies in memory as a whole.
+
+use std::ops::Range;
+
+use taceva_core::{Batch, Channel, Column, Field};
+use taceva_import::CsvTable;
+use taceva_metrics::MetricPlan;
+
+use super::fields::{self, Place};
+use super::tables::Pairing;
+use crate::accumulate::Rows;
+use crate::error::EvaluateError;
+
+/// Both tables, row by row.
+pub(super) struct PairedRows<'a> {
+    truth: &'a CsvTable,
+    prediction: &'a CsvTable,
+    pairing: &'a Pairing,
+    /// For each channel, where it stands in the truth and in the prediction.
+    channels: Vec<[usize; 2]>,
+    /// Where the fields that metrics read are stated.
+    places: Vec<Place>,
+    allow_invalid: bool,
+}
+
+impl<'a> PairedRows<'a> {
+    /// The rows of the truth with those of the prediction that `pairing` gives them; `places` say which columns state which fields.
+    pub(super) fn new(
+        [truth, prediction]: [&'a CsvTable; 2],
+        pairing: &'a Pairing,
+        metrics: &MetricPlan,
+        places: &[Place],
+        allow_invalid: bool,
+    ) -> Result<PairedRows<'a>, EvaluateError> {
+        let stand = |channel: &Channel| {
+            let name = channel.name();
+            Ok([truth.position(name)?, prediction.position(name)?])
+        };
+        let channels: Result<_, EvaluateError> = metrics.channels().iter().map(stand).collect();
+        let wanted = metrics.fields();
+        let places = places.iter().copied();
+        Ok(PairedRows {
+            truth,
+            prediction,
+            pairing,
+            channels: channels?,
+            places: places
+                .filter(|place| wanted.contains(place.field))
+                .collect(),
+            allow_invalid,
+        })
+    }
+
+    fn numbers(
+        &self,
+        table: &CsvTable,
+        column: usize,
+        rows: impl ExactSizeIterator<Item = usize>,
+    ) -> Result<Column, EvaluateError> {
+        Ok(match self.allow_invalid {
+            true => table.numbers_in_with_invalid(column, rows),
+            false => table.numbers_in(column, rows),
+        }?)
+    }
+
+    /// The rows of the truth, each with what is read of its row of the prediction.
+    fn side_by_side(
+        &self,
+        plan: &MetricPlan,
+        rows: Range<usize>,
+        paired: impl ExactSizeIterator<Item = usize> + Clone,
+    ) -> Result<Batch, EvaluateError> {
+        let truth: Result<_, EvaluateError> = self
+            .channels
+            .iter()
+            .map(|[column, _]| self.numbers(self.truth, *column, rows.clone()))
+            .collect();
+        let prediction: Result<_, EvaluateError> = self
+            .channels
+            .iter()
+            .map(|[_, column]| self.numbers(self.prediction, *column, paired.clone()))
+            .collect();
+        let point = self.places.iter().find(|place| place.field == Field::Point);
+        let points = point.map(|place| match place.in_truth {
+            true => fields::labels(self.truth, Field::Point, place.column, rows.clone()),
+            false => fields::labels(self.prediction, Field::Point, place.column, paired.clone()),
+        });
+        let channels = plan.channels().clone();
+        let mut batch = Batch::from_columns(channels, truth?, prediction?, points.transpose()?);
+        for place in self
+            .places
+            .iter()
+            .filter(|place| place.field != Field::Point)
+        {
+            batch = match place.in_truth {
+                true => self.with_field(batch, self.truth, *place, rows.clone())?,
+                false => self.with_field(batch, self.prediction, *place, paired.clone())?,
+            };
+        }
+        Ok(batch)
+    }
+
+    fn with_field(
+        &self,
+        batch: Batch,
+        table: &CsvTable,
+        place: Place,
+        rows: impl ExactSizeIterator<Item = usize>,
+    ) -> Result<Batch, EvaluateError> {
+        let Place { field, column, .. } = place;
+        Ok(match field {
+            Field::Stamp | Field::Intensity => {
+                batch.with_numbers(field, self.numbers(table, column, rows)?)
+            }
+            Field::DepthStep | Field::Repeat | Field::Spacing | Field::PredictedSpacing => {
+                batch.with_numbers(field, fields::exact_numbers(table, field, column, rows)?)
+            }
+            _ => batch.with_labels(field, fields::labels(table, field, column, rows)?),
+        })
+    }
+}
+
+impl Rows for PairedRows<'_> {
+    fn rows(&self) -> usize {
+        self.truth.rows()
+    }
+
+    fn batch(&self, plan: &MetricPlan, rows: Range<usize>) -> Result<Batch, EvaluateError> {
+        match self.pairing {
+            Pairing::ByOrder => self.side_by_side(plan, rows.clone(), rows),
+            Pairing::ById(paired) => {
+                let paired = paired[rows.clone()].iter().copied();
+                self.side_by_side(plan, rows, paired)
+            }
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! Which rows of two tables are scored: one of several shards of them.
+
+use std::fmt;
+use std::ops::Range;
+use std::str::FromStr;
+
+/// One of several shards of the rows of a table: together they have each row once, in its order.
+///
+/// ```
+/// use taceva_evaluate::Shard;
+///
+/// let shards: Vec<_> = (1..=3).map(|number| Shard::new(number, 3).map(|shard| shard.rows(10))).collect::<Result<_, _>>()?;
+/// assert_eq!(shards, [0..3, 3..6, 6..10]);
+/// assert_eq!("2/3".parse(), Shard::new(2, 3));
+/// assert!("4/3".parse::<Shard>().is_err());
+/// # Ok::<(), taceva_evaluate::ShardError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    number: u32,
+    of: u32,
+}
+
+/// What is no shard, with what would be.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "`{}`: {problem}, expected K/N with K from 1 to N, such as 1/8",
+    taceva_core::shown(written)
+)]
+pub struct ShardError {
+    written: String,
+    problem: &'static str,
+}
+
+impl Shard {
+    /// All rows.
+    pub const WHOLE: Shard = Shard { number: 1, of: 1 };
+
+    /// Shard `number`, from 1, of so many.
+    ///
+    /// # Errors
+    /// [`ShardError`] if there are none, or fewer than `number`.
+    pub fn new(number: u32, of: u32) -> Result<Shard, ShardError> {
+        let problem = match (number, of) {
+            (_, 0) => "there is no shard",
+            (0, _) => "shards count from 1",
+            (number, of) if number > of => "there are fewer shards",
+            _ => return Ok(Shard { number, of }),
+        };
+        Err(ShardError {
+            written: format!("{number}/{of}"),
+            problem,
+        })
+    }
+
+    /// Whether it is all there is.
+    pub fn is_whole(self) -> bool {
+        self.of == 1
+    }
+
+    /// Its rows of a table of so many; none where there are more shards than rows.
+    pub fn rows(self, rows: u64) -> Range<u64> {
+        let before = |number: u32| {
+            let before = u128::from(rows) * u128::from(number) / u128::from(self.of);
+            u64::try_from(before).unwrap_or(rows)
+        };
+        before(self.number - 1)..before(self.number)
+    }
+}
+
+impl fmt::Display for Shard {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}/{}", self.number, self.of)
+    }
+}
+
+impl FromStr for Shard {
+    type Err = ShardError;
+
+    fn from_str(text: &str) -> Result<Shard, ShardError> {
+        let parts = text.split_once('/');
+        let wrong = || ShardError {
+            written: text.to_owned(),
+            problem: "no shard",
+        };
+        let (number, of) = parts.ok_or_else(wrong)?;
+        let number = number.trim().parse().map_err(|_| wrong())?;
+        let of = of.trim().parse().map_err(|_| wrong())?;
+        Shard::new(number, of)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shards_have_every_row_once_whatever_their_number_and_that_of_rows() {
+        for rows in [0, 1, 2, 7, 100, u64::from(u32::MAX) * 5 + 3] {
+            for of in [1, 2, 3, 7, 101] {
+                let mut end = 0;
+                for number in 1..=of {
+                    let own = Shard::new(number, of).expect("a shard").rows(rows);
+                    assert_eq!(own.start, end);
+                    end = own.end;
+                }
+                assert_eq!(end, rows);
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_no_shard_is_refused_with_what_would_be() {
+        for (text, problem) in [
+            ("0/7", "shards count from 1"),
+            ("8/7", "there are fewer shards"),
+            ("1/0", "there is no shard"),
+            ("7", "no shard"),
+            ("-1/7", "no shard"),
+            ("1/7/2", "no shard"),
+            ("a/b", "no shard"),
+            ("1/99999999999", "no shard"),
+        ] {
+            let error = text.parse::<Shard>().expect_err(text).to_string();
+            assert!(error.contains(problem) && error.contains(text), "{error}");
+        }
+    }
+}

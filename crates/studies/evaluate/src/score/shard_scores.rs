@@ -1,0 +1,380 @@
+//! Tables of any length, scored shard by shard: of each, a part of the rows is in memory at a time.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::num::NonZeroUsize;
+use std::ops::Range;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use taceva_core::{Channel, ErrorKind, ModelError, Progress, shown};
+use taceva_dataset::{Digest, SensorFile};
+use taceva_import::{CsvParts, CsvTable};
+use taceva_metrics::{Evaluator, MetricPlan};
+
+use super::fields::{NOT_CHANNELS, Place};
+use super::ids::{ById, Found, ID, parts_of};
+use super::row_pairs::PairedRows;
+use super::shard::Shard;
+use super::table_parts::{Reader, TableParts};
+use super::tables::Pairing;
+use super::{ScoreRequest, Scored, finished, parquet_parts, planned, tables};
+use crate::accumulate::{BATCH_ROWS, Rows};
+use crate::error::EvaluateError;
+use crate::plan::Plan;
+use crate::row_ledger::Taken;
+
+/// Two tables of any length, looked through once: what there is to score, and where it lies. It may be kept, so that others need not look.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ScoreTables {
+    truth: TableParts,
+    prediction: TableParts,
+}
+
+/// What is understood of both tables before any row.
+struct Understood<'a> {
+    truth: Reader<'a>,
+    prediction: Reader<'a>,
+    metrics: MetricPlan,
+    places: Vec<Place>,
+    sensor: SensorFile,
+    is_by_id: bool,
+}
+
+impl ScoreTables {
+    /// Looks through both tables of `request`.
+    ///
+    /// # Errors
+    /// [`EvaluateError`] if a table cannot be read or has no row, or if they have different numbers of rows.
+    pub fn scan(request: &ScoreRequest) -> Result<ScoreTables, EvaluateError> {
+        tables::check_distinct(request)?;
+        let tables = both(request)?;
+        for table in [&tables.truth, &tables.prediction] {
+            tables::check_some(table.path(), table.rows())?;
+        }
+        match tables.truth.rows() == tables.prediction.rows() {
+            true => Ok(tables),
+            false => Err(EvaluateError::Tables {
+                path: tables.prediction.path().to_owned(),
+                problem: format!(
+                    "{} rows, but {} has {}: each row of the truth has one prediction",
+                    tables.prediction.rows(),
+                    shown(tables.truth.path()),
+                    tables.truth.rows()
+                ),
+            }),
+        }
+    }
+
+    /// The same tables, looked through again where a file does not look as it did.
+    ///
+    /// # Errors
+    /// [`EvaluateError::Tables`] if one holds something else now.
+    pub fn again(self) -> Result<ScoreTables, EvaluateError> {
+        Ok(ScoreTables {
+            truth: self.truth.again()?,
+            prediction: self.prediction.again()?,
+        })
+    }
+
+    /// Whether the tables of `request` are read in parts: one is no text, so that this takes less, or longer than text in memory may be.
+    pub fn are_in_parts(request: &ScoreRequest) -> bool {
+        let is_long = |path: &Path| {
+            let facts = fs::metadata(path);
+            facts.is_ok_and(|facts| facts.len() > CsvTable::MOST_BYTES)
+        };
+        [&request.truth, &request.prediction]
+            .into_iter()
+            .any(|path| parquet_parts::is_parquet(path) || is_long(path))
+    }
+
+    /// Number of rows.
+    pub fn rows(&self) -> u64 {
+        self.truth.rows()
+    }
+
+    /// The digests of the truth and of the predictions.
+    pub fn digests(&self) -> [Digest; 2] {
+        [self.truth.digest(), self.prediction.digest()]
+    }
+
+    /// Checks all that can be known without looking at a cell: channels, units, metrics and the sensor.
+    ///
+    /// # Errors
+    /// [`EvaluateError`].
+    pub fn check(&self, request: &ScoreRequest) -> Result<(), EvaluateError> {
+        self.understood(request).map(drop)
+    }
+
+    /// What [`score`](ScoreTables::score) would do.
+    ///
+    /// # Errors
+    /// As [`check`](ScoreTables::check).
+    pub fn plan(&self, request: &ScoreRequest, shard: Shard) -> Result<Plan, EvaluateError> {
+        let understood = self.understood(request)?;
+        let mut plan = Plan {
+            skipped: understood.metrics.skipped().to_vec(),
+            ..Plan::default()
+        };
+        let own = shard.rows(self.rows());
+        for path in [&request.truth, &request.prediction] {
+            plan.step(
+                "read",
+                format!(
+                    "rows {} to before {} of the {} of {}",
+                    own.start,
+                    own.end,
+                    self.rows(),
+                    shown(path)
+                ),
+            );
+        }
+        let how = match understood.is_by_id {
+            true => "rows by id",
+            false => "rows by order",
+        };
+        plan.step("pair", how);
+        let channels = understood.metrics.channels().iter().map(Channel::name);
+        let channels: Vec<&str> = channels.collect();
+        let metrics = understood.metrics.kept().iter().map(|metric| metric.id);
+        let metrics: Vec<&str> = metrics.collect();
+        plan.step(
+            "score",
+            format!("{} of {}", metrics.join(", "), channels.join(", ")),
+        );
+        Ok(plan)
+    }
+
+    /// Scores the rows of `shard`. The states of all shards join to the scores, and to the state, of all rows at once.
+    ///
+    /// # Errors
+    /// [`EvaluateError`] at the first cell that is no finite number, unless they are allowed; for an id that comes twice or that one table lacks.
+    pub fn score(
+        &self,
+        request: &ScoreRequest,
+        shard: Shard,
+        progress: &dyn Progress,
+    ) -> Result<Scored, EvaluateError> {
+        let understood = self.understood(request)?;
+        let own = shard.rows(self.rows());
+        progress.begin("score", Some(own.end - own.start));
+        let evaluator = self.accumulated(&understood, request, &own, progress);
+        progress.end();
+        let digests: BTreeMap<String, String> = [
+            ("truth", self.truth.digest()),
+            ("prediction", self.prediction.digest()),
+        ]
+        .map(|(role, digest)| (role.to_owned(), digest.to_string()))
+        .into();
+        let whole = usize::try_from(self.rows()).unwrap_or(usize::MAX);
+        let [first, end] =
+            [own.start, own.end].map(|row| usize::try_from(row).unwrap_or(usize::MAX));
+        let taken = Taken::part_of(tables::input_of(&digests), first..end, whole);
+        let mut scored = finished(evaluator?, &understood.sensor, digests, taken)?;
+        if !shard.is_whole() {
+            scored.report.provenance.notes.push(format!(
+                "shard {shard}: rows {} to before {} of {}, from 0",
+                own.start,
+                own.end,
+                self.rows()
+            ));
+        }
+        Ok(scored)
+    }
+
+    fn understood(&self, request: &ScoreRequest) -> Result<Understood<'_>, EvaluateError> {
+        let [truth, prediction] = [self.truth.reader()?, self.prediction.reader()?];
+        let predicted = prediction.header()?;
+        let is_six = |name: &str| Channel::SIX.iter().any(|channel| channel.name() == name);
+        // What is neither predicted nor stands beside channels is not read: pictures, for instance.
+        let truth = truth.with_columns(|name| {
+            predicted.has(name) || NOT_CHANNELS.contains(&name) || is_six(name)
+        });
+        let head = truth.header()?;
+        let (metrics, places, sensor) = planned(request, &head, &predicted)?;
+        Ok(Understood {
+            truth,
+            prediction,
+            metrics,
+            places,
+            sensor,
+            is_by_id: head.has(ID) && predicted.has(ID),
+        })
+    }
+
+    fn accumulated(
+        &self,
+        understood: &Understood<'_>,
+        request: &ScoreRequest,
+        own: &Range<u64>,
+        progress: &dyn Progress,
+    ) -> Result<Evaluator, EvaluateError> {
+        let found = match understood.is_by_id && !own.is_empty() {
+            true => ById {
+                truth: &self.truth,
+                prediction: &self.prediction,
+                reader: &understood.prediction,
+            }
+            .pair(own)?,
+            false => Found::InOrder,
+        };
+        let parts: Vec<u64> = parts_of(own).collect();
+        // Each thread takes parts that follow each other; sums are exact, so that their number changes nothing.
+        let work = Work {
+            understood,
+            own,
+            found: &found,
+            allow_invalid: request.allow_invalid,
+            progress,
+        };
+        let share = parts.len().div_ceil(request.jobs.get()).max(1);
+        let evaluators: Vec<Result<Evaluator, EvaluateError>> = std::thread::scope(|scope| {
+            let threads: Vec<_> = parts
+                .chunks(share)
+                .map(|parts| {
+                    let work = &work;
+                    scope.spawn(move || work.parts(parts))
+                })
+                .collect();
+            let joined = threads.into_iter().map(|thread| {
+                thread
+                    .join()
+                    .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+            });
+            joined.collect()
+        });
+        let mut total = Evaluator::new(&understood.metrics);
+        for evaluator in evaluators {
+            total.merge(evaluator?)?;
+        }
+        Ok(total)
+    }
+}
+
+/// Both tables, looked through at the same time where two threads are allowed.
+fn both(request: &ScoreRequest) -> Result<ScoreTables, EvaluateError> {
+    let prediction = || TableParts::scan(&request.prediction);
+    if request.jobs == NonZeroUsize::MIN {
+        return Ok(ScoreTables {
+            truth: TableParts::scan(&request.truth)?,
+            prediction: prediction()?,
+        });
+    }
+    std::thread::scope(|scope| {
+        let prediction = scope.spawn(prediction);
+        let truth = TableParts::scan(&request.truth);
+        let prediction = prediction
+            .join()
+            .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        Ok(ScoreTables {
+            truth: truth?,
+            prediction: prediction?,
+        })
+    })
+}
+
+/// What the threads of a shard have in common.
+struct Work<'a> {
+    understood: &'a Understood<'a>,
+    own: &'a Range<u64>,
+    found: &'a Found,
+    allow_invalid: bool,
+    progress: &'a dyn Progress,
+}
+
+impl Work<'_> {
+    fn parts(&self, parts: &[u64]) -> Result<Evaluator, EvaluateError> {
+        let mut evaluator = Evaluator::new(&self.understood.metrics);
+        for &part in parts {
+            if self.progress.is_cancelled() {
+                let stopped = ModelError::new(ErrorKind::Interrupted, "stopped while scoring");
+                return Err(stopped.into());
+            }
+            let scored = self.part(part, &mut evaluator);
+            scored.map_err(|error| self.understood.truth.placed(error, part))?;
+        }
+        Ok(evaluator)
+    }
+
+    fn part(&self, part: u64, evaluator: &mut Evaluator) -> Result<(), EvaluateError> {
+        let truth = self.understood.truth.read(part)?;
+        let begin = part * CsvParts::ROWS;
+        let here = self.own.start.max(begin)..self.own.end.min(begin + truth.rows() as u64);
+        let inside = |row: u64, first: u64| usize::try_from(row - first).unwrap_or(usize::MAX);
+        let rows = inside(here.start, begin)..inside(here.end, begin);
+        match self.found {
+            Found::InOrder => {
+                let prediction = self.understood.prediction.read(part)?;
+                self.update(evaluator, [&truth, &prediction], &Pairing::ByOrder, rows)
+            }
+            Found::Gathered(prediction) => {
+                // Rows before the shard have no prediction there, and are not asked for.
+                let paired = (0..truth.rows() as u64)
+                    .map(|at| inside((begin + at).max(self.own.start), self.own.start));
+                let pairing = Pairing::ById(paired.collect());
+                self.update(evaluator, [&truth, prediction], &pairing, rows)
+            }
+        }
+    }
+
+    fn update(
+        &self,
+        evaluator: &mut Evaluator,
+        [truth, prediction]: [&CsvTable; 2],
+        pairing: &Pairing,
+        rows: Range<usize>,
+    ) -> Result<(), EvaluateError> {
+        let metrics = &self.understood.metrics;
+        let paired = PairedRows::new(
+            [truth, prediction],
+            pairing,
+            metrics,
+            &self.understood.places,
+            self.allow_invalid,
+        )?;
+        for start in rows.clone().step_by(BATCH_ROWS) {
+            let end = rows.end.min(start + BATCH_ROWS);
+            evaluator.update(&paired.batch(metrics, start..end)?)?;
+            self.progress.advance((end - start) as u64);
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_longer_than_memory_may_hold_is_read_in_parts() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let of_length = |name: &str, bytes: u64| {
+            let path = folder.path().join(name);
+            // Nothing is written: the file is one hole.
+            let file = fs::File::create(&path).expect("created");
+            file.set_len(bytes).expect("a hole takes no room");
+            path
+        };
+        let request = |truth, prediction| ScoreRequest {
+            truth,
+            prediction,
+            units: Vec::new(),
+            sensor: None,
+            metrics: Vec::new(),
+            allow_invalid: false,
+            jobs: NonZeroUsize::MIN,
+        };
+        let short = of_length("short.csv", CsvTable::MOST_BYTES);
+        let long = of_length("long.csv", CsvTable::MOST_BYTES + 1);
+        assert!(!ScoreTables::are_in_parts(&request(
+            short.clone(),
+            short.clone()
+        )));
+        assert!(ScoreTables::are_in_parts(&request(
+            short.clone(),
+            long.clone()
+        )));
+        assert!(ScoreTables::are_in_parts(&request(long, short)));
+    }
+}

@@ -1,0 +1,32 @@
+//! The skill of a model, which is asked for wherever predictions are scored: without it no score of theirs takes part in a verdict.
+
+use taceva_metrics::{Metric, catalogue};
+
+/// `wanted`, and the skill score where one of them is formed from predictions.
+pub fn with_skill(mut wanted: Vec<&'static Metric>) -> Vec<&'static Metric> {
+    if wanted.iter().any(|metric| metric.reads_predictions()) {
+        wanted.push(skill());
+    }
+    wanted
+}
+
+/// The skill score.
+pub fn skill() -> &'static Metric {
+    catalogue::find("skill").expect("it is in the catalogue")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn skill_comes_with_what_is_formed_from_predictions_and_with_nothing_else() {
+        let asked = |names: &[&str]| {
+            let metrics = catalogue::select(names.iter().copied()).expect("known");
+            let metrics = with_skill(metrics).into_iter();
+            metrics.map(|metric| metric.id).collect::<Vec<_>>()
+        };
+        assert_eq!(asked(&["r_light"]), ["r_light", "skill"]);
+        assert_eq!(asked(&["sensitivity", "sr"]), ["sr", "sensitivity"]);
+    }
+}

@@ -1,0 +1,197 @@
+//! What a shard has kept, as a file: written by one lab, merged by another, with the scores of one unsharded run.
+
+mod merge;
+mod plan;
+
+use std::fs::File;
+use std::io::{self, Read, Write};
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use taceva_files::seal::{Edit, Version};
+use taceva_metrics::{Evaluation, Evaluator, State};
+
+use crate::bounded_share::Bounded;
+use crate::error::EvaluateError;
+use crate::provenance::Provenance;
+use crate::row_ledger::Taken;
+use crate::subject::Subject;
+use plan::WrittenPlan;
+
+pub use merge::merge;
+
+/// The schema of a state file. A minor version only adds keys; since 1.1 a state is sealed and says which rows it took.
+pub const STATE_SCHEMA: &str = "taceva.state/1.1";
+
+/// The schema of states of some of several shards of an input, which say how many rows it has.
+const SHARD_SCHEMA: &str = "taceva.state/1.2";
+
+/// The schema of states of before seals, which are read and marked.
+const UNSEALED_SCHEMA: &str = "taceva.state/1";
+
+/// The largest state file that is read: far above what 64 clusters of every family take.
+const LARGEST: u64 = 1 << 30;
+
+/// The accumulators of a plan after some samples, with all that is needed to continue.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StateFile {
+    schema: String,
+    subject: Subject,
+    plan: WrittenPlan,
+    provenance: Provenance,
+    /// Predictions beyond the bounds of their model, where there are any bounds.
+    #[serde(default, skip_serializing_if = "Bounded::is_empty")]
+    bounded: Bounded,
+    /// Whether the model was fitted on some of the samples.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    seen: bool,
+    states: Vec<State>,
+    #[serde(default)]
+    taken: Vec<Taken>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    history: Vec<Edit>,
+    #[serde(default, skip_serializing)]
+    seal: Option<serde_json::Value>,
+}
+
+/// A state that was read, and the digest of what it says.
+struct ReadState {
+    file: StateFile,
+    digest: String,
+}
+
+impl StateFile {
+    /// The state of `evaluator`.
+    ///
+    /// # Errors
+    /// [`EvaluateError::Scores`] for samples still collected that it cannot take.
+    pub(crate) fn of(
+        evaluator: &mut Evaluator,
+        subject: &Subject,
+        provenance: &Provenance,
+        bounded: Bounded,
+    ) -> Result<StateFile, EvaluateError> {
+        Ok(StateFile {
+            schema: STATE_SCHEMA.to_owned(),
+            subject: subject.clone(),
+            plan: WrittenPlan::of(evaluator.plan()),
+            provenance: provenance.clone(),
+            bounded,
+            seen: provenance.is_of_seen_samples(),
+            states: evaluator.states()?,
+            taken: Vec::new(),
+            history: Vec::new(),
+            seal: None,
+        })
+    }
+
+    /// The scores of `evaluator`, which has seen what is kept here: with the share of predictions beyond bounds, and whether the
+    /// model was fitted on the samples.
+    ///
+    /// # Errors
+    /// [`EvaluateError::Scores`] for samples still collected that it cannot take.
+    pub(crate) fn finish(&self, evaluator: Evaluator) -> Result<Evaluation, EvaluateError> {
+        let evaluation = evaluator.finish()?;
+        let evaluation = evaluation.with_bounded_shares(&self.bounded.shares());
+        Ok(match self.seen {
+            true => evaluation.of_seen_samples(),
+            false => evaluation,
+        })
+    }
+
+    /// The same, having taken these rows.
+    pub(crate) fn with_taken(self, taken: Vec<Taken>) -> StateFile {
+        let schema = match taken.iter().any(Taken::is_of_shard) {
+            true => SHARD_SCHEMA,
+            false => STATE_SCHEMA,
+        };
+        StateFile {
+            schema: schema.to_owned(),
+            taken,
+            ..self
+        }
+    }
+
+    /// Whether it took all rows of its inputs, and not some shards of them.
+    pub fn is_whole(&self) -> bool {
+        !self.taken.iter().any(Taken::is_of_shard)
+    }
+
+    /// Reads the file at `path`.
+    ///
+    /// # Errors
+    /// [`EvaluateError::State`] for what is no state file, one of a newer schema, or one that was changed after it was sealed.
+    pub fn read(path: &Path) -> Result<StateFile, EvaluateError> {
+        StateFile::read_whole(path).map(|read| read.file)
+    }
+
+    fn read_whole(path: &Path) -> Result<ReadState, EvaluateError> {
+        let wrong = |problem: String| EvaluateError::State {
+            path: path.to_owned(),
+            problem,
+        };
+        let text = read_capped(path).map_err(|error| wrong(error.to_string()))?;
+        let head: Head = serde_json::from_str(&text)
+            .map_err(|error| wrong(format!("no state of an evaluation: {error}")))?;
+        let version = match head.schema.as_str() {
+            STATE_SCHEMA | SHARD_SCHEMA => Version::Sealed,
+            UNSEALED_SCHEMA => Version::BeforeSeals,
+            schema => {
+                return Err(wrong(format!(
+                    "its schema is `{schema}`, expected `{STATE_SCHEMA}`"
+                )));
+            }
+        };
+        let opened = taceva_files::seal::json::check(&text, version)
+            .map_err(|error| wrong(error.to_string()))?;
+        let mut file: StateFile =
+            serde_json::from_str(&text).map_err(|error| wrong(error.to_string()))?;
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        if !opened.is_sealed {
+            file.provenance.unsealed.push(format!("state {name}"));
+        }
+        let edits = file
+            .history
+            .drain(..)
+            .map(|edit| format!("state {name}, {edit}"));
+        file.provenance.edits.extend(edits);
+        file.seal = None;
+        Ok(ReadState {
+            file,
+            digest: opened.digest,
+        })
+    }
+
+    /// Writes the file's content, one line, sealed.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        let text = serde_json::to_string(self)?;
+        writeln!(
+            out,
+            "{}",
+            taceva_files::seal::json::seal(&text).map_err(io::Error::other)?
+        )
+    }
+}
+
+/// The only key that is read before the schema is known.
+#[derive(Deserialize)]
+struct Head {
+    schema: String,
+}
+
+fn read_capped(path: &Path) -> io::Result<String> {
+    let file = File::open(path)?;
+    if !file.metadata()?.is_file() {
+        return Err(io::Error::other("no regular file"));
+    }
+    let mut text = String::new();
+    file.take(LARGEST + 1).read_to_string(&mut text)?;
+    if text.len() as u64 > LARGEST {
+        return Err(io::Error::other("larger than 1 GiB"));
+    }
+    Ok(text)
+}

@@ -1,0 +1,98 @@
+//! States of several shards, merged.
+
+use std::path::{Path, PathBuf};
+
+use taceva_core::shown;
+use taceva_metrics::Evaluator;
+
+use super::{ReadState, StateFile};
+use crate::error::EvaluateError;
+use crate::report::EvaluationReport;
+use crate::row_ledger::{AllTaken, Taken};
+
+/// The scores of several states together, and the merged state.
+///
+/// # Errors
+/// [`EvaluateError::State`] naming the first file that does not belong with the first; [`EvaluateError::Request`] for no file.
+pub fn merge(paths: &[PathBuf]) -> Result<(EvaluationReport, StateFile), EvaluateError> {
+    let (first_path, rest) = paths
+        .split_first()
+        .ok_or_else(|| EvaluateError::Request("there is no state to join".to_owned()))?;
+    let mut all_taken = AllTaken::default();
+    let ReadState {
+        file: first,
+        digest,
+    } = StateFile::read_whole(first_path)?;
+    let mut take_rows = |path: &Path, digest: &str, taken: &[Taken]| {
+        all_taken
+            .add(path, digest, taken)
+            .map_err(|problem| EvaluateError::State {
+                path: path.to_owned(),
+                problem,
+            })
+    };
+    take_rows(first_path, &digest, &first.taken)?;
+    let plan = first.plan.to_plan(first_path)?;
+    let mut constants = first.plan.constants.clone();
+    let mut evaluator = Evaluator::new(&plan);
+    let mut provenance = first.provenance.clone();
+    let mut bounded = first.bounded.clone();
+    let mut is_seen = first.seen;
+    let mut subject = first.subject.clone();
+    let mut take = |path: &Path, file: &StateFile| -> Result<(), EvaluateError> {
+        let wrong = |problem: String| EvaluateError::State {
+            path: path.to_owned(),
+            problem,
+        };
+        if !file.plan.merges_with(&first.plan) {
+            let problem = "it was made with another plan: metrics, channels, sensor facts and settings must be equal";
+            return Err(wrong(format!(
+                "{problem} to those of {}",
+                shown(first_path)
+            )));
+        }
+        let states = evaluator.merge_states(&file.states);
+        states.map_err(|error| wrong(error.to_string()))
+    };
+    take(first_path, &first)?;
+    for path in rest {
+        let ReadState { file, digest } = StateFile::read_whole(path)?;
+        take_rows(path, &digest, &file.taken)?;
+        take(path, &file)?;
+        // Models that were fitted on other samples have no common constant: skill is measured by the mean of truth there.
+        constants.retain(|channel, constant| {
+            let other = file.plan.constants.get(channel);
+            other.is_some_and(|other| other.to_bits() == constant.to_bits())
+        });
+        is_seen |= file.seen;
+        subject = subject.joined(&file.subject);
+        provenance = provenance.joined(&file.provenance);
+        bounded = bounded.joined(&file.bounded);
+    }
+    let mut finished = Evaluator::new(&plan.with_constants(constants)?);
+    finished.merge(evaluator)?;
+    let is_of_shards = all_taken.is_of_shards_of_one_input();
+    let taken = all_taken.into_taken();
+    // All shards of one input are that input, and one state is itself: nothing else is to be said of them.
+    let mut notes = Vec::new();
+    match (
+        is_of_shards || rest.is_empty(),
+        taken.first().and_then(Taken::share),
+    ) {
+        (false, _) => provenance
+            .notes
+            .push(format!("{} states joined", paths.len())),
+        (true, Some([own, all])) => notes.push(format!(
+            "{own} of {all} rows: the others are in no shard that was joined"
+        )),
+        (true, None) => {}
+    }
+    let mut state = StateFile::of(&mut finished, &subject, &provenance, bounded)?.with_taken(taken);
+    state.seen = is_seen;
+    let evaluation = state.finish(finished)?;
+    provenance.notes.extend(notes);
+    Ok((
+        EvaluationReport::new(subject, evaluation, provenance),
+        state,
+    ))
+}

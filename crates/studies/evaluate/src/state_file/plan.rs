@@ -1,0 +1,161 @@
+//! The plan of metrics in a state file.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use taceva_core::{
+    Channel, Channels, Field, FieldSet, Footprint, Nanometre, Newton, Outline, Unit,
+};
+use taceva_metrics::{ClusteredBy, MetricPlan, SensorFacts, Settings, catalogue};
+
+use crate::error::EvaluateError;
+
+/// A plan as a file says it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct WrittenPlan {
+    metrics: Vec<String>,
+    channels: Vec<(String, Unit)>,
+    fields: Vec<String>,
+    seed: u64,
+    footprint: Option<WrittenFootprint>,
+    opaque: Option<bool>,
+    reference_scene: String,
+    frame_size: Option<[u32; 2]>,
+    bins: u32,
+    n_min: u64,
+    ddof: u32,
+    gate_n: f64,
+    smoothing_window: u32,
+    resolution_tolerance_nm: i64,
+    /// The constants that skill is measured by, by channel, where they are known and the same in all states.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub(super) constants: BTreeMap<String, f64>,
+    /// Whether recordings are the clusters of intervals, and not contact points.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    by_recording: bool,
+}
+
+/// A footprint in whole nanometres: a radius, or half a width and half a height.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenFootprint {
+    radius_nm: Option<i64>,
+    half_nm: Option<[i64; 2]>,
+    depth_max_nm: Option<i64>,
+}
+
+impl WrittenPlan {
+    pub(super) fn of(plan: &MetricPlan) -> WrittenPlan {
+        let (facts, settings) = (plan.facts(), plan.settings());
+        WrittenPlan {
+            metrics: plan
+                .wanted()
+                .iter()
+                .map(|metric| metric.id.to_owned())
+                .collect(),
+            channels: plan
+                .channels()
+                .iter()
+                .map(|channel| (channel.name().to_owned(), channel.unit()))
+                .collect(),
+            fields: plan
+                .available()
+                .iter()
+                .map(|field| field.name().to_owned())
+                .collect(),
+            seed: plan.seed(),
+            footprint: facts.footprint.as_ref().map(WrittenFootprint::of),
+            opaque: facts.opaque,
+            reference_scene: facts.reference_scene.clone(),
+            frame_size: facts.frame_size,
+            bins: settings.bins,
+            n_min: settings.n_min,
+            ddof: settings.ddof,
+            gate_n: settings.gate.0,
+            smoothing_window: settings.smoothing_window,
+            resolution_tolerance_nm: settings.resolution_tolerance.0,
+            constants: plan.constants().clone(),
+            by_recording: plan.clustered_by() == ClusteredBy::Recording,
+        }
+    }
+
+    /// Whether states of both plans join: what skill is measured by enters when scores are finished, and may differ.
+    pub(super) fn merges_with(&self, other: &WrittenPlan) -> bool {
+        let without = |plan: &WrittenPlan| WrittenPlan {
+            constants: BTreeMap::new(),
+            ..plan.clone()
+        };
+        without(self) == without(other)
+    }
+
+    pub(super) fn to_plan(&self, path: &Path) -> Result<MetricPlan, EvaluateError> {
+        let wrong = |problem: String| EvaluateError::State {
+            path: path.to_owned(),
+            problem,
+        };
+        let metrics = catalogue::select(self.metrics.iter().map(String::as_str))?;
+        let channels = self
+            .channels
+            .iter()
+            .map(|(name, unit)| Channel::named(name, *unit))
+            .collect::<Result<Vec<_>, _>>()
+            .and_then(Channels::new)
+            .map_err(|error| wrong(error.to_string()))?;
+        let field = |name: &String| {
+            let found = Field::ALL.into_iter().find(|field| field.name() == name);
+            found.ok_or_else(|| wrong(format!("`{name}` is no field")))
+        };
+        let fields: FieldSet = self.fields.iter().map(field).collect::<Result<_, _>>()?;
+        let footprint = self.footprint.as_ref().map(WrittenFootprint::to_core);
+        let plan = MetricPlan::new(&metrics, channels, fields)
+            .with_facts(
+                SensorFacts::default()
+                    .with_footprint(footprint.transpose().map_err(wrong)?)
+                    .with_opaque(self.opaque)
+                    .with_reference_scene(self.reference_scene.clone())
+                    .with_frame_size(self.frame_size),
+            )
+            .with_seed(self.seed)
+            .with_constants(self.constants.clone())?
+            .with_settings(
+                Settings::default()
+                    .with_bins(self.bins)
+                    .with_n_min(self.n_min)
+                    .with_ddof(self.ddof)
+                    .with_gate(Newton(self.gate_n))
+                    .with_smoothing_window(self.smoothing_window)
+                    .with_resolution_tolerance(Nanometre(self.resolution_tolerance_nm)),
+            );
+        Ok(match self.by_recording {
+            true => plan?.by_recording(),
+            false => plan?,
+        })
+    }
+}
+
+impl WrittenFootprint {
+    fn of(footprint: &Footprint) -> WrittenFootprint {
+        let (radius_nm, half_nm) = match footprint.outline() {
+            Outline::Disc { radius } => (Some(radius.0), None),
+            _ => (None, Some(footprint.half_extent().map(|half| half.0))),
+        };
+        WrittenFootprint {
+            radius_nm,
+            half_nm,
+            depth_max_nm: footprint.depth_max().map(|depth| depth.0),
+        }
+    }
+
+    fn to_core(&self) -> Result<Footprint, String> {
+        let millimetres = |length: i64| Nanometre(length).to_millimetres();
+        let depth = self.depth_max_nm.map(millimetres);
+        match (self.radius_nm, self.half_nm) {
+            (Some(radius), None) => Footprint::disc(millimetres(radius), depth),
+            (None, Some([x, y])) => Footprint::rectangle(millimetres(x), millimetres(y), depth),
+            _ => return Err("a footprint has either `radius_nm` or `half_nm`".to_owned()),
+        }
+        .map_err(|error| error.to_string())
+    }
+}

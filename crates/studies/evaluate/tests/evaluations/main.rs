@@ -1,0 +1,5 @@
+//! Evaluations of whole recordings.
+
+mod networks;
+mod taxel_drawing;
+mod taxels;

@@ -1,0 +1,129 @@
+//! The models that a scene asks for: those of its studies, and the classifier of gratings.
+
+use taceva_acquire::{PlannedScene, PlannedStudy};
+use taceva_evaluate::{EvaluateError, FitRequest, Recipe};
+use taceva_models::Models;
+use taceva_protocol::{PhaseKind, SceneProblem};
+
+use crate::classifier::SpacingClassifier;
+use crate::error::StudyError;
+use crate::settings::settings_of;
+
+/// Refuses a model that is to be fitted and that this program does not have, or a setting that it does not take.
+///
+/// Apart from [`new`](PlannedScene::new), because a plan can be read where it cannot be run.
+///
+/// # Errors
+/// [`AcquireError::Scene`](taceva_acquire::AcquireError::Scene) with the line.
+pub fn check_models(scene: &PlannedScene, models: &Models) -> Result<(), StudyError> {
+    for planned in &scene.studies {
+        let (Some(model), false) = (&planned.study.model, planned.plan.fits.is_empty()) else {
+            continue;
+        };
+        let request = fit_request(planned, scene.scene.seed, models);
+        if let (Some(name), Some(request)) = (&model.name, request) {
+            let refused = |error: EvaluateError| {
+                if scene.is_model_typed {
+                    return StudyError::from(error);
+                }
+                let problem = SceneProblem::Contradiction(error.to_string());
+                scene.text.error(name.at(), problem).into()
+            };
+            let (request, recipe) = request
+                .and_then(|request| Recipe::of(&request).map(|recipe| (request, recipe)))
+                .map_err(refused)?;
+            if let Some(seed) = scene.seeds.first() {
+                request.with_seed(*seed)?;
+            }
+            check_kept(
+                scene,
+                planned,
+                &format!("model `{}`", name.value),
+                recipe.cells(),
+            )?;
+        }
+    }
+    let classifier = classifier(scene, models)?;
+    let pressed_on_boards =
+        |planned: &&PlannedStudy| planned.plan.phases.contains(&PhaseKind::Gratings);
+    for planned in scene.studies.iter().filter(pressed_on_boards) {
+        check_kept(
+            scene,
+            planned,
+            "the classifier of gratings",
+            classifier.cells(),
+        )?;
+    }
+    Ok(())
+}
+
+/// Refuses frames that are kept smaller than what a model looks at, which would be found out after the last press.
+fn check_kept(
+    scene: &PlannedScene,
+    planned: &PlannedStudy,
+    who: &str,
+    cells: Option<[u32; 2]>,
+) -> Result<(), StudyError> {
+    let kept = planned
+        .study
+        .frames
+        .filter(|_| planned.plan.cost.frames > 0);
+    let (Some(kept), Some(cells)) = (kept, cells) else {
+        return Ok(());
+    };
+    if kept.value.holds(cells) {
+        return Ok(());
+    }
+    let [least_width, least_height] = cells;
+    let problem = SceneProblem::FramesTooSmall {
+        found: kept.value,
+        who: format!("{who} of study `{}`", planned.plan.name),
+        least_width,
+        least_height,
+    };
+    Err(scene.text.error(kept.at(), problem).into())
+}
+
+/// The classifier of the spacings of gratings.
+///
+/// # Errors
+/// [`AcquireError::Scene`](taceva_acquire::AcquireError::Scene) with the line of settings that it does not take, or of a model that is not there.
+pub(crate) fn classifier(
+    scene: &PlannedScene,
+    models: &Models,
+) -> Result<SpacingClassifier, StudyError> {
+    let gratings = &scene.scene.protocol.gratings;
+    SpacingClassifier::of(gratings, models).map_err(|error| {
+        let problem = SceneProblem::Contradiction(error.to_string());
+        scene.text.error(gratings.set.at(), problem).into()
+    })
+}
+
+/// The fit that the scene asks for, if it asks for one; contact points are kept whole.
+///
+/// `seed` is that of the scene, by which samples are divided; what a model draws it draws from a setting of its own.
+pub(crate) fn fit_request(
+    planned: &PlannedStudy,
+    seed: u64,
+    models: &Models,
+) -> Option<Result<FitRequest, EvaluateError>> {
+    let model = planned.study.model.as_ref()?;
+    let name = model.name.as_ref()?;
+    let request = || {
+        let (model, settings) = models.asked(&name.value, settings_of(&model.set)?)?;
+        Ok(FitRequest {
+            model,
+            settings,
+            channels: planned.plan.channels.clone(),
+            split: None,
+            seed,
+        })
+    };
+    Some(request())
+}
+
+/// The file of the finished model that the scene names, relative to its folder.
+pub(crate) fn model_file(planned: &PlannedStudy) -> Option<&str> {
+    let model = planned.study.model.as_ref()?;
+    Some(model.file.as_ref()?.value.as_str())
+}

@@ -1,0 +1,75 @@
+//! The folder of a run as it is found: which run it is of, and whether its recordings are whole.
+
+use std::fs;
+use std::path::Path;
+
+use taceva_acquire::PlannedScene;
+use taceva_core::ErrorKind;
+use taceva_dataset::Dataset;
+use taceva_evaluate::{EvaluateError, PLANS};
+
+use super::{RunFolder, slug};
+use crate::error::StudyError;
+
+impl RunFolder {
+    /// The folder below `parent` that has the name of `scene`; it may not be there yet.
+    pub fn named(parent: &Path, scene: &PlannedScene) -> RunFolder {
+        RunFolder {
+            path: parent.join(slug(&scene.scene.name)),
+        }
+    }
+
+    /// Whether the run of `scene` was begun there; nothing is changed.
+    ///
+    /// # Errors
+    /// [`StudyError::RunFolder`] if the run there has other plans, or if they cannot be read.
+    pub fn is_begun(&self, scene: &PlannedScene) -> Result<bool, StudyError> {
+        let path = self.path.join(PLANS);
+        if !path.exists() {
+            return Ok(false);
+        }
+        let before = fs::read_to_string(&path).map_err(|error| self.refused(error.to_string()))?;
+        match in_todays_words(&before).trim_end() == self.plans_of(scene)? {
+            true => Ok(true),
+            false => Err(self.refused(
+                "the run there has other plans: run the same scene with the same seed, or choose another folder"
+                    .to_owned(),
+            )),
+        }
+    }
+
+    /// Whether every study of `scene` is recorded there, to its end; nothing is changed.
+    ///
+    /// # Errors
+    /// [`StudyError::Dataset`] for a recording that is not what was written.
+    pub fn is_acquired(&self, scene: &PlannedScene) -> Result<bool, StudyError> {
+        for (number, study) in scene.studies.iter().enumerate() {
+            match Dataset::open(&self.recording(number, &study.plan.name)) {
+                Ok(_) => {}
+                // There is none, it was not closed, or somebody is at it.
+                Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::Busy) => {
+                    return Ok(false);
+                }
+                Err(error) => return Err(EvaluateError::from(error).into()),
+            }
+        }
+        Ok(true)
+    }
+
+    /// The plans of `scene` as they are written.
+    pub(super) fn plans_of(&self, scene: &PlannedScene) -> Result<String, StudyError> {
+        serde_json::to_string(scene).map_err(|error| self.refused(error.to_string()))
+    }
+
+    fn refused(&self, problem: String) -> StudyError {
+        StudyError::RunFolder {
+            path: self.path.clone(),
+            problem,
+        }
+    }
+}
+
+/// Plans with keys as this version calls them. In a string of JSON the quotation marks of such a key would be escaped.
+fn in_todays_words(plans: &str) -> String {
+    plans.replace("\"gratings_told_by\":", "\"gratings_classified_by\":")
+}

@@ -1,0 +1,3 @@
+//! Whole studies.
+
+mod waiting;

@@ -1,0 +1,25 @@
+//! A run in the air.
+
+use taceva_acquire::{AIR_MM, rehearse_scene};
+use taceva_core::SilentProgress;
+
+use crate::waiting::guard::depth_mm;
+use crate::waiting::world::World;
+use crate::waiting::{SCENE, with_workshop};
+
+#[test]
+fn a_run_in_the_air_visits_every_place_far_above_the_gel_and_presses_nothing() {
+    let world = World::new();
+    let visited = with_workshop(
+        &world,
+        &SilentProgress,
+        (SCENE, None, None),
+        |planned, workshop| Ok(rehearse_scene(planned, workshop)?),
+    );
+    assert_eq!(visited.expect("nothing is in the way"), 3);
+    // Depths of the presses, a millimetre at most, are visited there too.
+    assert!(depth_mm(&world) < 1.0 - AIR_MM, "{} mm", depth_mm(&world));
+    let state = world.state();
+    assert!(state.motions >= 3 && state.deepest_mm <= 0.0);
+    assert_eq!(state.pictures, 0);
+}

@@ -1,0 +1,69 @@
+//! A camera that goes wrong amid presses.
+
+use std::collections::BTreeSet;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use taceva_core::{ErrorKind, Progress, SilentProgress};
+use taceva_protocol::{Left, StopCause};
+
+use crate::waiting::guard::{depth_mm, stopped};
+use crate::waiting::record_by_hand;
+use crate::waiting::world::World;
+
+/// Pictures of six places.
+const SEEN: &str = r#"
+scene_version = 1
+name = "wall"
+sensor = { driver = "wall/gel" }
+robot = { driver = "wall/robot" }
+force = { driver = "wall/force" }
+model = { name = "baseline" }
+[metrics]
+want = ["accuracy"]
+[protocol]
+contact = { clearance_mm = 0.3, search_mm = 0.5, speed_mm_s = 5.0, travel_mm_s = 50.0, settle_s = 0.01 }
+calibration = { points = 6, indentations = 2, shear_mm = 0.0 }
+"#;
+
+/// Spoils the camera once the tip is in the gel.
+struct Spoils<'a>(&'a World, ErrorKind, AtomicBool);
+
+impl Progress for Spoils<'_> {
+    fn begin(&self, _: &str, _: Option<u64>) {}
+    fn advance(&self, _: u64) {}
+    fn end(&self) {}
+    fn is_cancelled(&self) -> bool {
+        if depth_mm(self.0) > 0.1 && !self.2.swap(true, Ordering::SeqCst) {
+            self.0.state().camera = Some(self.1);
+        }
+        false
+    }
+}
+
+#[test]
+fn a_camera_that_is_unplugged_or_changes_its_size_ends_a_run_above_the_gel_which_goes_on_later() {
+    for kind in [ErrorKind::Disconnected, ErrorKind::Protocol] {
+        let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));
+        let folder = folder.path().join("run");
+        let spoils = Spoils(&world, kind, AtomicBool::new(false));
+        let error = stopped(record_by_hand(&world, &folder, &spoils, (SEEN, None)));
+        match &error.cause {
+            StopCause::Device(device) => {
+                assert_eq!((device.kind(), kind), (kind, ErrorKind::Disconnected));
+            }
+            // One frame of another size is a frame that is lost; nothing but such frames end the run.
+            StopCause::Frames { .. } => assert_eq!(kind, ErrorKind::Protocol),
+            other => panic!("{other}"),
+        }
+        assert!(error.to_string().contains("4 × 4, expected 2 × 2"));
+        assert_eq!(error.left, Left::Clear, "{error}");
+        assert!(depth_mm(&world) < -0.29);
+        world.state().camera = None;
+        let pictures = world.state().pictures;
+        let dataset = record_by_hand(&world, &folder, &SilentProgress, (SEEN, None));
+        let dataset = dataset.expect("it goes on");
+        let samples: BTreeSet<&String> = dataset.table().samples().iter().collect();
+        assert_eq!((samples.len(), dataset.table().samples().len()), (12, 12));
+        assert!(world.state().pictures > pictures);
+    }
+}

@@ -1,0 +1,154 @@
+//! What the threads of the guard see while the tip moves, and what comes of it.
+
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use taceva_acquire::AcquireError;
+use taceva_core::{Fault, Progress};
+use taceva_dataset::Dataset;
+use taceva_protocol::{Left, RunError, StopCause, Trip};
+use taceva_study::StudyError;
+
+use crate::waiting::record;
+use crate::waiting::world::World;
+
+/// Calls `look` with the world whenever the guard asks for wishes, a hundred times a second; what it returns are the wishes.
+struct Looking<'a, F>(&'a World, F);
+
+#[derive(Clone, Copy, Default)]
+struct Wishes {
+    is_cancelled: bool,
+    is_insisted: bool,
+}
+
+impl<F: Fn(&World) -> Wishes + Send + Sync> Progress for Looking<'_, F> {
+    fn begin(&self, _: &str, _: Option<u64>) {}
+    fn advance(&self, _: u64) {}
+    fn end(&self) {}
+    fn is_cancelled(&self) -> bool {
+        (self.1)(self.0).is_cancelled
+    }
+    fn is_insisted(&self) -> bool {
+        (self.1)(self.0).is_insisted
+    }
+}
+
+/// Records while `look` looks on.
+fn looked_on(
+    world: &World,
+    folder: &Path,
+    look: impl Fn(&World) -> Wishes + Send + Sync,
+) -> Result<Dataset, StudyError> {
+    record(world, folder, &Looking(world, look))
+}
+
+pub(crate) fn stopped(done: Result<Dataset, StudyError>) -> RunError {
+    match done {
+        Err(StudyError::Acquire(AcquireError::Acquisition { source, .. })) => *source,
+        Err(other) => panic!("{other}"),
+        Ok(_) => panic!("it went on to its end"),
+    }
+}
+
+pub(crate) fn depth_mm(world: &World) -> f64 {
+    let state = world.state();
+    state.tip(taceva_drivers::MonotonicClock.now_s())[2]
+}
+
+/// Every press of the scene once, with both of its samples.
+fn assert_whole(dataset: &Dataset) {
+    let mut names: Vec<&String> = dataset.table().samples().iter().collect();
+    assert_eq!(names.len(), 6);
+    names.sort();
+    names.dedup();
+    assert_eq!(names.len(), 6);
+}
+
+#[test]
+fn a_collision_on_the_way_through_the_air_is_seen_before_its_end() {
+    let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));
+    // Presses lie on both sides; the first that is to the right is not reached.
+    world.state().obstacle_x_mm = 0.05;
+    let error = stopped(looked_on(&world, &folder.path().join("run"), |_| {
+        Wishes::default()
+    }));
+    assert!(
+        matches!(
+            error.cause,
+            StopCause::Tripped(Trip::UnexpectedContact { .. })
+        ),
+        "{error}"
+    );
+    let state = world.state();
+    let struck_s = state.struck_s.expect("it came there");
+    let late_s = state.first_halt_after(struck_s) - struck_s;
+    // 5 ms to the next reading; the rest is what a busy machine takes to wake a thread.
+    assert!((0.0..0.2).contains(&late_s), "{late_s} s");
+}
+
+#[test]
+fn a_press_is_made_again_after_a_gap_in_the_stream_of_forces() {
+    let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));
+    let was_silent = AtomicBool::new(false);
+    let dataset = looked_on(&world, &folder.path().join("run"), |world| {
+        if depth_mm(world) > 0.1 && !was_silent.swap(true, Ordering::SeqCst) {
+            // Six questions of 20 ms each.
+            world.state().withheld = 6;
+        }
+        Wishes::default()
+    });
+    assert_whole(&dataset.expect("it spoke again"));
+    assert!(was_silent.load(Ordering::SeqCst));
+    assert!(world.state().halts > 0, "it was halted for silence");
+}
+
+#[test]
+fn a_wish_to_stop_ends_a_motion_and_the_tip_leaves_the_gel_and_what_was_recorded_goes_on() {
+    let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));
+    let folder = folder.path().join("run");
+    let was_deep = AtomicBool::new(false);
+    let error = stopped(looked_on(&world, &folder, |world| {
+        was_deep.fetch_or(depth_mm(world) > 0.1, Ordering::SeqCst);
+        Wishes {
+            is_cancelled: was_deep.load(Ordering::SeqCst),
+            ..Wishes::default()
+        }
+    }));
+    assert!(matches!(error.cause, StopCause::Cancelled), "{error}");
+    assert_eq!(error.left, Left::Clear);
+    assert!(depth_mm(&world) < -0.29);
+    let dataset = looked_on(&world, &folder, |_| Wishes::default());
+    assert_whole(&dataset.expect("it goes on"));
+}
+
+#[test]
+fn who_wishes_twice_leaves_the_tip_where_it_is() {
+    let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));
+    let was_deep = AtomicBool::new(false);
+    let error = stopped(looked_on(&world, &folder.path().join("run"), |world| {
+        let is_deep = was_deep.fetch_or(depth_mm(world) > 0.1, Ordering::SeqCst);
+        Wishes {
+            is_cancelled: is_deep,
+            is_insisted: is_deep,
+        }
+    }));
+    assert!(matches!(error.cause, StopCause::Cancelled), "{error}");
+    assert_eq!(error.left, Left::InPlace);
+    assert!(world.state().is_halted);
+}
+
+#[test]
+fn after_an_emergency_stop_nothing_moves_and_nothing_is_cleared() {
+    let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));
+    let error = stopped(looked_on(&world, &folder.path().join("run"), |world| {
+        if depth_mm(world) > 0.1 {
+            world.stop();
+        }
+        Wishes::default()
+    }));
+    assert_eq!(error.cause.fault(), Some(Fault::EmergencyStop), "{error}");
+    assert_eq!(error.left, Left::InPlace);
+    assert_eq!(world.state().defied, 0);
+    let place = depth_mm(&world);
+    assert!(place > 0.1, "{place} mm");
+}

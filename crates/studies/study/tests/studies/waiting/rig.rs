@@ -1,0 +1,126 @@
+//! Setting a rig up: what is heard of its devices, how soon its robot stands, and where somebody jogged it.
+
+use taceva_acquire::{AcquireError, RigProblem, check_rig, read_rig, teach_rig};
+use taceva_protocol::{Answer, Cancel, Operator, Question, RigFile, Spot};
+
+use crate::waiting::devices::drivers;
+use crate::waiting::session::{UPRIGHT, rig_file};
+use crate::waiting::world::World;
+
+/// Lets the robot move, or not.
+struct Person(Answer);
+
+impl Operator for Person {
+    fn ask(&mut self, question: &Question, _: &Cancel) -> Answer {
+        assert_eq!(*question, Question::Enable("wall/robot".to_owned()));
+        self.0
+    }
+}
+
+fn rig() -> RigFile {
+    let folder = tempfile::tempdir().expect("a folder");
+    read_rig(&rig_file(folder.path(), UPRIGHT)).expect("a rig")
+}
+
+#[test]
+fn a_check_hears_every_device_and_halts_the_robot_once_on_its_way_up_if_somebody_lets_it() {
+    let world = World::new();
+    let drivers = drivers(&world);
+    let before_mm = world.state().tip(taceva_drivers::MonotonicClock.now_s())[2];
+    let unmoved = check_rig(&rig(), &drivers, Some(&mut Person(Answer::Stop)));
+    let unmoved = unmoved.expect("devices that answer");
+    assert!(unmoved.halt.is_none() && world.state().motions == 0);
+    let check = check_rig(&rig(), &drivers, Some(&mut Person(Answer::Done)));
+    let check = check.expect("devices that answer");
+    let force = check.force.expect("it is in the file");
+    // One every 5 ms, and fewer where the machine is busy; it hisses by 1 mN.
+    assert!((20.0..201.0).contains(&force.rate_hz), "{force:?}");
+    let noise_n = force.noise.expect("numbers");
+    assert!((0.0009..0.0011).contains(&noise_n), "{force:?}");
+    assert!(check.sensor.is_some_and(|sensor| sensor.count > 0));
+    let robot = check.robot.expect("it is in the file");
+    assert!(
+        robot.count > 10 && robot.noise.is_some_and(|noise_mm| noise_mm < 1e-9),
+        "{robot:?}"
+    );
+    let halt = check.halt.expect("somebody let it move");
+    // 0.3 s at 5 mm/s, or a little more where the machine is busy; upwards.
+    assert!((1.0..4.9).contains(&halt.left_mm), "{halt:?}");
+    let now_s = taceva_drivers::MonotonicClock.now_s();
+    let state = world.state();
+    assert!(state.is_halted && state.tip(now_s)[2] < before_mm - 1.0);
+}
+
+#[test]
+fn a_transducer_that_says_nothing_is_a_problem_with_what_helps() {
+    let world = World::new();
+    world.state().withheld = u32::MAX;
+    let check = check_rig(&rig(), &drivers(&world), None).expect("the others answer");
+    let [RigProblem::Unheard { device: "force" }] = check.problems[..] else {
+        panic!("{:?}", check.problems);
+    };
+    assert!(check.problems[0].to_string().contains("see its cable"));
+}
+
+/// Jogs the robot in its base frame to places that it was given.
+struct Jogs {
+    world: World,
+    along: [[f64; 3]; 3],
+}
+
+impl Operator for Jogs {
+    fn ask(&mut self, question: &Question, _: &Cancel) -> Answer {
+        let Question::Jog(spot) = question else {
+            panic!("{question}");
+        };
+        let place = match spot {
+            Spot::Middle => self.along[0],
+            Spot::AlongX => self.along[1],
+            Spot::AlongY => self.along[2],
+        };
+        assert!(self.world.travel(place, 1e5));
+        Answer::Done
+    }
+}
+
+#[test]
+fn three_places_to_which_the_robot_is_jogged_become_its_origin_and_axes() {
+    let world = World::new();
+    let mut jogs = Jogs {
+        world: world.clone(),
+        along: [
+            [300.0, 5.0, 251.25],
+            [300.1, 13.0, 251.5],
+            [308.0, 5.2, 251.25],
+        ],
+    };
+    let (taught, text) = teach_rig(&rig(), &drivers(&world), &mut jogs).expect("a frame");
+    assert!(taught.origin_mm.iter().eq(&[300.0, 5.0, 251.25]));
+    let rig = RigFile::parse("lab.toml", &text).expect("it is a rig file still");
+    let robot = rig.robot.expect("a robot");
+    assert_eq!(robot.axes.value.to_string(), "[\"y\", \"x\", \"-z\"]");
+    assert!(robot.origin_mm.value.iter().eq(&taught.origin_mm));
+    assert_eq!(rig.force, self::rig().force);
+    // Nobody but the person moved it.
+    assert_eq!(world.state().motions, 3);
+}
+
+#[test]
+fn places_that_are_no_frame_are_refused_with_the_line_of_the_axes() {
+    let world = World::new();
+    let mut jogs = Jogs {
+        world: world.clone(),
+        along: [
+            [300.0, 5.0, 251.25],
+            [305.0, 9.0, 251.25],
+            [308.0, 5.0, 251.25],
+        ],
+    };
+    let refused = teach_rig(&rig(), &drivers(&world), &mut jogs).expect_err("askew");
+    let said = refused.to_string();
+    assert!(matches!(refused, AcquireError::Scene(_)), "{said}");
+    assert!(
+        said.contains("lab.toml, line 6: the way along x ends 4.00 mm beside"),
+        "{said}"
+    );
+}
