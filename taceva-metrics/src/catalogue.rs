@@ -1,13 +1,24 @@
 //! Every metric there is: the only source of names, units, directions, definitions and texts.
 
-mod accumulators;
 mod better;
+mod bias;
+mod entry_points;
+mod mae;
+mod r2;
+mod repeatability;
+mod rmse;
+mod sensitivity;
+mod signal_to_repeatability;
+mod skill;
+mod smape;
+mod smape_gated;
+mod uniformity;
 mod unknown;
 
 pub use unknown::UnknownMetric;
 
 use crate::evaluate::metric::Metric;
-use crate::families::accuracy::{BIAS, MAE, MAE_EUCLID, R2, RMSE, SKILL, SMAPE, SMAPE_GATED};
+use crate::families::accuracy::MAE_EUCLID;
 use crate::families::bias_level::BIAS_LEVEL;
 use crate::families::crosstalk::CROSSTALK;
 use crate::families::detection::MINIMUM_DETECTABLE_FORCE;
@@ -17,33 +28,31 @@ use crate::families::inter_sensor::INTER_SENSOR;
 use crate::families::intrinsic::INTRINSIC;
 use crate::families::lighting::R_LIGHT;
 use crate::families::linearity::LINEARITY;
-use crate::families::repeatability::{REPEATABILITY, SIGNAL_TO_REPEATABILITY};
 use crate::families::resolution::SR;
 use crate::families::spatial::R_SPATIAL;
-use crate::families::surface::{SENSITIVITY, UNIFORMITY};
 use crate::families::tolerance::TOLERANCE;
 
 /// Every metric, in the order of reports.
 pub static ALL: [&Metric; 24] = [
-    &MAE,
-    &RMSE,
-    &BIAS,
-    &R2,
-    &SKILL,
-    &SMAPE,
-    &SMAPE_GATED,
+    &mae::MAE,
+    &rmse::RMSE,
+    &bias::BIAS,
+    &r2::R2,
+    &skill::SKILL,
+    &smape::SMAPE,
+    &smape_gated::SMAPE_GATED,
     &MAE_EUCLID,
     &SR,
-    &SENSITIVITY,
-    &UNIFORMITY,
+    &sensitivity::SENSITIVITY,
+    &uniformity::UNIFORMITY,
     &R_SPATIAL,
     &R_LIGHT,
-    &REPEATABILITY,
+    &repeatability::REPEATABILITY,
     &HYSTERESIS,
     &INTER_SENSOR,
     &INTRINSIC,
     &MINIMUM_DETECTABLE_FORCE,
-    &SIGNAL_TO_REPEATABILITY,
+    &signal_to_repeatability::SIGNAL_TO_REPEATABILITY,
     &LINEARITY,
     &CROSSTALK,
     &BIAS_LEVEL,
@@ -52,7 +61,10 @@ pub static ALL: [&Metric; 24] = [
 ];
 
 /// Names that stand for several metrics.
-pub static GROUPS: [(&str, &[&Metric]); 2] = [("accuracy", &[&MAE, &R2, &SMAPE]), ("all", &ALL)];
+pub static GROUPS: [(&str, &[&Metric]); 2] = [
+    ("accuracy", &[&mae::MAE, &r2::R2, &smape::SMAPE]),
+    ("all", &ALL),
+];
 
 /// The metric called `id`.
 pub fn find(id: &str) -> Option<&'static Metric> {

@@ -16,7 +16,7 @@ pub(crate) mod inter_sensor;
 pub(crate) mod intrinsic;
 pub(crate) mod lighting;
 pub(crate) mod linearity;
-pub(crate) mod repeatability;
+pub(crate) mod repeats;
 pub(crate) mod resolution;
 pub(crate) mod spatial;
 pub(crate) mod surface;

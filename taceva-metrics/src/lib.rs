@@ -28,6 +28,7 @@ pub use score::map::Map;
 pub use score::matrix::Matrix;
 pub use score::range::Range;
 pub use score::standing::{GREATEST_BOUNDED_SHARE, Standing};
+pub use score::theme::Theme;
 pub use score::value::{InapplicableReason, UndefinedReason, Value};
 pub use score::{
     BootstrapEnds, ClusteredBy, Count, Fact, Interval, Parameter, Scale, Score, SensorFacts,

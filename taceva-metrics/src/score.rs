@@ -12,6 +12,7 @@ pub(crate) mod matrix;
 pub(crate) mod range;
 mod scale;
 pub(crate) mod standing;
+pub(crate) mod theme;
 pub(crate) mod value;
 
 pub use bootstrap_ends::BootstrapEnds;

@@ -4,11 +4,11 @@ use taceva_core::Isa;
 
 use super::compensated::{Kahan, Neumaier, Plain, Single, pairwise};
 use super::textbook::{in_halves, length, mean_error, number, one_pass, two_pass, welford};
-use crate::evaluate::metric::{Formula, Metric};
+use crate::catalogue;
 use crate::exact::Machine;
 use crate::exact::streams::{Stream, Streams};
 use crate::families::accuracy::pair_sums::{PairSpec, PairSums};
-use crate::families::accuracy::{MAE, R2, SMAPE};
+use crate::families::accuracy::pairs::value_of;
 use crate::paired::Paired;
 
 /// A way to form MAE, R² and sMAPE of two columns.
@@ -122,7 +122,7 @@ impl Kernel {
             }
             Kernel::Exact(isa) => {
                 let streams = Streams::of(&[Stream::Absolute]);
-                score(&MAE, &exact(isa, streams, pairs))
+                score("mae", &exact(isa, streams, pairs))
             }
         }
     }
@@ -161,20 +161,16 @@ fn exact(isa: Isa, streams: Streams, pairs: Paired<&[f64]>) -> PairSums {
 impl Scores {
     fn of(sums: &PairSums) -> Scores {
         Scores {
-            mae: score(&MAE, sums),
-            r2: score(&R2, sums),
-            smape: score(&SMAPE, sums),
+            mae: score("mae", sums),
+            r2: score("r2", sums),
+            smape: score("smape", sums),
         }
     }
 }
 
-fn score(metric: &Metric, sums: &PairSums) -> Option<f64> {
-    match &metric.formula {
-        Formula::Pairs { finish, .. } => (finish.evaluate)(sums)
-            .ok()
-            .filter(|value| value.is_finite()),
-        _ => None,
-    }
+fn score(id: &str, sums: &PairSums) -> Option<f64> {
+    let value = value_of(catalogue::find(id)?, sums).ok();
+    value.filter(|value| value.is_finite())
 }
 
 #[cfg(test)]

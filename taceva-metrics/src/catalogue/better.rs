@@ -3,18 +3,6 @@
 use super::find;
 use crate::score::better::Better;
 
-/// Variants whose direction is not that of their metric.
-const OF_VARIANTS: [(&str, Better); 8] = [
-    ("skill.constant", Better::Described),
-    ("sr.of_constant", Better::Described),
-    ("r_spatial.noise_floor", Better::Described),
-    ("linearity.slope", Better::Described),
-    ("linearity.offset", Better::NearZero),
-    ("uniformity.mean", Better::Described),
-    ("uniformity.deviation", Better::Lower),
-    ("hysteresis.signed_area", Better::NearZero),
-];
-
 impl Better {
     /// The direction of the metric or variant called `name`: `mae`, `hysteresis.ratio`; `None` for a name that is not in the catalogue.
     ///
@@ -25,9 +13,8 @@ impl Better {
     /// assert_eq!(Better::of("beauty"), None);
     /// ```
     pub fn of(name: &str) -> Option<Better> {
-        let metric = name.split('.').next().and_then(find)?;
-        let own = OF_VARIANTS.iter().find(|(variant, _)| *variant == name);
-        Some(own.map_or(metric.better, |(_, better)| *better))
+        let (id, variant) = name.split_once('.').unwrap_or((name, ""));
+        find(id).map(|metric| metric.better_of(variant))
     }
 
     /// The name of a metric or variant with its sign; a name that is not in the catalogue as it is.
@@ -49,13 +36,10 @@ mod tests {
             let other = format!("{}.any", metric.id);
             assert_eq!(Better::named(&other), metric.better.beside(&other));
         }
-        for (name, better) in OF_VARIANTS {
-            let (metric, _) = name.split_once('.').expect("a variant");
-            assert_ne!(
-                find(metric).map(|metric| metric.better),
-                Some(better),
-                "{name}"
-            );
+        for metric in ALL {
+            for (variant, better) in metric.variants {
+                assert_ne!(metric.better, *better, "{}.{variant}", metric.id);
+            }
         }
         assert_eq!(Better::named("beauty"), "beauty");
     }

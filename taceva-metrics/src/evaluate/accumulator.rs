@@ -7,11 +7,11 @@ mod scores;
 
 use taceva_core::{Batch, Channels};
 
-use self::any_family::{AnyFamily, Erased};
+pub(crate) use self::any_family::{AnyFamily, erased};
 use self::erased_sums::ErasedSums;
 use crate::error::MetricError;
 use crate::evaluate::batch_clusters::BatchClusters;
-use crate::evaluate::family::Family;
+use crate::evaluate::family::FamilyKind;
 use crate::evaluate::plan::MetricPlan;
 use crate::evaluate::state::{Shape, State, describe, written};
 use crate::score::ClusteredBy;
@@ -25,6 +25,7 @@ use crate::stats::grouped::Grouped;
 /// Any order, split and merge of the same samples gives equal states and, bit for bit, equal scores; the state of nothing
 /// changes nothing.
 pub(crate) struct Accumulator {
+    kind: &'static FamilyKind,
     family: Box<dyn AnyFamily>,
     channels: Channels,
     clustering: Clustering<ErasedSums>,
@@ -34,34 +35,34 @@ pub(crate) struct Accumulator {
 }
 
 impl Accumulator {
-    /// An accumulator of no sample.
-    pub(crate) fn new(family: impl Family, plan: &MetricPlan) -> Accumulator {
-        let family: Box<dyn AnyFamily> = Box::new(Erased(family));
-        let clustering = Clustering {
-            empty: family.empty(),
-            seed: plan.seed(),
-        };
-        Accumulator {
-            family,
-            channels: plan.channels().clone(),
-            clustering,
-            clusters: Clusters::default(),
-            interval_method: plan.interval_method(),
-            clustered_by: ClusteredBy::Point,
+    /// The accumulators of `plan` without samples, one for all metrics of a family, in the order of the catalogue.
+    pub(crate) fn of_plan(plan: &MetricPlan) -> Vec<Accumulator> {
+        let mut accumulators: Vec<Accumulator> = Vec::new();
+        for kind in plan.families() {
+            if let Some(family) = (kind.build)(plan) {
+                accumulators.push(Accumulator {
+                    clustering: Clustering {
+                        empty: family.empty(),
+                        seed: plan.seed(),
+                    },
+                    kind,
+                    family,
+                    channels: plan.channels().clone(),
+                    clusters: Clusters::default(),
+                    interval_method: plan.interval_method(),
+                    clustered_by: match kind.clusters_of_plan {
+                        true => plan.clustered_by(),
+                        false => ClusteredBy::Point,
+                    },
+                });
+            }
         }
-    }
-
-    /// The same accumulator with clusters of this kind.
-    pub(crate) fn clustered_by(self, clustered_by: ClusteredBy) -> Accumulator {
-        Accumulator {
-            clustered_by,
-            ..self
-        }
+        accumulators
     }
 
     /// Whether it keeps sums for every contact point.
     pub(crate) fn is_by_point(&self) -> bool {
-        self.clustered_by == ClusteredBy::Point && !self.family.is_whole()
+        self.clustered_by == ClusteredBy::Point && !self.kind.is_whole
     }
 
     /// Takes in the samples of `batch`, whose clusters are `clusters`.
@@ -78,7 +79,7 @@ impl Accumulator {
         }
         let family = &mut self.family;
         let rows = batch.rows();
-        if family.is_whole() {
+        if self.kind.is_whole {
             let are_clustered = match self.clustered_by {
                 ClusteredBy::Sample => true,
                 kind => clusters.by(kind).is_some(),
@@ -130,34 +131,19 @@ impl Accumulator {
 
     /// Whether states of `schema` are its own.
     pub(crate) fn reads(&self, schema: &str) -> bool {
-        schema == self.family.schema() || self.reads_earlier(schema)
-    }
-
-    fn reads_earlier(&self, schema: &str) -> bool {
-        self.family.earlier_schema() == Some(schema)
+        schema == self.kind.schema
     }
 
     /// Takes over what another one kept.
     pub(crate) fn merge(&mut self, state: &State) -> Result<(), MetricError> {
-        let mut shape = self.shape();
-        if let Some(earlier) = self.family.earlier_schema()
-            && self.reads_earlier(state.schema())
-        {
-            shape.schema = earlier;
-        }
-        state.check(&shape)?;
+        state.check(&self.shape())?;
         let clusters = state.clusters.try_map(|records| {
             let malformed = |what| MetricError::Malformed {
-                schema: self.family.schema(),
+                schema: self.kind.schema,
                 what,
             };
             self.family.read_records(records).map_err(malformed)
         })?;
-        // Before, families that keep one summary kept one a cluster.
-        let clusters = match self.family.is_whole() {
-            true => self.clustering.whole(&clusters),
-            false => clusters,
-        };
         self.clustering.merge(&mut self.clusters, &clusters);
         Ok(())
     }
@@ -174,7 +160,7 @@ impl Accumulator {
             parameters.insert("clusters".to_owned(), clusters.to_owned());
         }
         Shape {
-            schema: self.family.schema(),
+            schema: self.kind.schema,
             parameters,
             channels: written(&self.channels),
         }

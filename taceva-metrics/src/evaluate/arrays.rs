@@ -1,16 +1,11 @@
 //! Arrays of `ndarray` as input. One column needs nothing of this: a view of one dimension iterates over its numbers.
 
-use ndarray::{ArrayView1, ArrayView2};
+use ndarray::ArrayView2;
 use taceva_core::Channel;
 
 use crate::error::MetricError;
 use crate::evaluate::number::Number;
 use crate::evaluate::rows::Rows;
-use crate::families::accuracy::pair_sums::PairSums;
-use crate::paired::Paired;
-
-/// Pairs of views that lie apart in memory, or are no binary64, are gathered this many at a time.
-const BLOCK: usize = 1024;
 
 impl Rows {
     /// These rows with matrices of truth and prediction, of `f32` or `f64`, whose columns are `channels`, in that order. Values are copied once.
@@ -51,59 +46,5 @@ impl Rows {
         Ok(columns.fold(self, |rows, (channel, (truth, prediction))| {
             rows.pairs(channel.clone(), truth, prediction)
         }))
-    }
-}
-
-impl PairSums {
-    /// Adds the pairs of two views of `f32` or `f64`, as [`update`](PairSums::update) does. Contiguous views of `f64` are summed where they lie;
-    /// of others, 1,024 pairs at a time are gathered.
-    ///
-    /// # Errors
-    /// [`MetricError::Lengths`] if they differ in length; nothing is added then. [`MetricError::Absent`] for a number that is an `Option` and
-    /// `None`; the blocks before it are added.
-    ///
-    /// ```
-    /// use ndarray::array;
-    /// use taceva_metrics::{PairSpec, PairSums, Stream, Streams};
-    /// let mut sums = PairSums::new(PairSpec::new(Streams::ALL));
-    /// let matrix = array![[1.5, 1.0], [1.5, 2.0]];
-    /// sums.update_views(matrix.column(0), matrix.column(1))?;
-    /// sums.update_views(array![0.5_f32].view(), array![0.25].view())?;
-    /// assert_eq!((sums.n(), sums.sum(Stream::Absolute).to_f64()), (3, 1.25));
-    /// # Ok::<(), taceva_metrics::MetricError>(())
-    /// ```
-    pub fn update_views<P: Number, T: Number>(
-        &mut self,
-        estimate: ArrayView1<'_, P>,
-        reference: ArrayView1<'_, T>,
-    ) -> Result<(), MetricError> {
-        if estimate.len() != reference.len() {
-            return Err(MetricError::Lengths {
-                estimate: estimate.len(),
-                reference: reference.len(),
-            });
-        }
-        let estimates = estimate.to_slice().and_then(P::doubles);
-        let references = reference.to_slice().and_then(T::doubles);
-        if let (Some(estimate), Some(reference)) = (estimates, references) {
-            self.update(Paired {
-                estimate,
-                reference,
-            });
-            return Ok(());
-        }
-        let mut block = Paired::<Vec<f64>>::default();
-        for (row, (estimate, reference)) in estimate.iter().zip(reference).enumerate() {
-            let absent = || MetricError::Absent { row };
-            block.estimate.push(estimate.number().ok_or_else(absent)?);
-            block.reference.push(reference.number().ok_or_else(absent)?);
-            if block.estimate.len() == BLOCK {
-                self.update(block.as_slices());
-                block.estimate.clear();
-                block.reference.clear();
-            }
-        }
-        self.update(block.as_slices());
-        Ok(())
     }
 }

@@ -38,22 +38,17 @@ impl Evaluation {
         Evaluation { entries, skipped }
     }
 
-    /// The scores of `parts` as one evaluation, in the order of reports; what none of them has is in `skipped`.
-    ///
-    /// For metrics that are computed on samples of their own each: nothing is merged. Scores of every part have the standing that the skill of
-    /// their channels gives them, whichever part that is in.
-    pub fn joined(
+    /// The scores of `parts` as one evaluation, in the order of `catalogue`.
+    pub(crate) fn in_order(
+        catalogue: &[&Metric],
         parts: impl IntoIterator<Item = Evaluation>,
         skipped: Vec<Skipped>,
     ) -> Evaluation {
         let mut entries: Vec<Entry> = parts.into_iter().flat_map(|part| part.entries).collect();
-        let rank = |entry: &Entry| {
-            let order = crate::catalogue::ALL.iter();
-            order
-                .take_while(|metric| metric.id != entry.metric.id)
-                .count()
-        };
-        entries.sort_by_key(rank);
+        entries.sort_by_key(|entry| {
+            let mut order = catalogue.iter();
+            order.position(|metric| metric.id == entry.metric.id)
+        });
         Evaluation::new(entries, skipped)
     }
 

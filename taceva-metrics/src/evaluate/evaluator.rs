@@ -2,9 +2,7 @@
 
 use std::fmt;
 
-use taceva_core::{
-    Batch, BatchBuilder, Channel, ChannelError, Channels, FieldSet, Sample, SampleSink, SinkError,
-};
+use taceva_core::{Batch, BatchBuilder, Channel, FieldSet, Sample, SampleSink, SinkError};
 
 use crate::error::MetricError;
 use crate::evaluate::accumulator::Accumulator;
@@ -50,29 +48,9 @@ impl Evaluator {
     pub fn new(plan: &MetricPlan) -> Evaluator {
         Evaluator {
             plan: plan.clone(),
-            accumulators: plan.accumulators(),
+            accumulators: Accumulator::of_plan(plan),
             builder: BatchBuilder::new(plan.channels().clone(), plan.fields()),
         }
-    }
-
-    /// An evaluator of every metric that truth and prediction of `channels` and contact points allow.
-    ///
-    /// # Errors
-    /// [`ChannelError::Twice`] if a channel comes twice.
-    ///
-    /// ```
-    /// use taceva_metrics::{Channel, Evaluator};
-    /// let mut evaluator = Evaluator::of_channels([Channel::FZ])?;
-    /// evaluator.update_pairs(Channel::FZ, &[0.25, 0.5], &[0.5, 0.5])?;
-    /// assert_eq!(evaluator.score()?.mae(Channel::FZ).and_then(|score| score.value.scalar()), Some(0.125));
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    pub fn of_channels(
-        channels: impl IntoIterator<Item = Channel>,
-    ) -> Result<Evaluator, ChannelError> {
-        let channels = Channels::new(channels)?;
-        let plan = MetricPlan::new(&crate::catalogue::ALL, channels, FieldSet::PAIRS);
-        Ok(Evaluator::new(&plan))
     }
 
     /// This evaluator with every sample a cluster of its own, as [`MetricPlan::independent_samples`] says; samples taken in before

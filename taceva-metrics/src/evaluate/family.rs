@@ -3,15 +3,51 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use taceva_core::{Batch, Labels, Unit};
+use taceva_core::{Batch, FieldSet, Labels, SkipReason, Unit};
 
+pub(crate) use crate::evaluate::accumulator::{AnyFamily, erased};
 use crate::evaluate::metric::Metric;
+use crate::evaluate::plan::MetricPlan;
 use crate::exact::merge::Merge;
 use crate::exact::record::Record;
 use crate::score::flag::Flag;
 use crate::score::range::Range;
 use crate::score::value::{Finished, InapplicableReason, UndefinedReason};
 use crate::score::{Count, Interval, Parameter, Variant};
+
+/// Description of a family as data: what its states are called, and how it is made for a plan.
+#[derive(Debug)]
+pub(crate) struct FamilyKind {
+    /// The name and version of its states.
+    pub(crate) schema: &'static str,
+    /// Whether one summary of all samples is kept, and none a cluster: where no score has an interval, nobody would read those.
+    pub(crate) is_whole: bool,
+    /// Whether the plan says what a cluster is; contact points otherwise.
+    pub(crate) clusters_of_plan: bool,
+    /// Fields that are read where samples carry them.
+    pub(crate) optional: FieldSet,
+    /// What keeps its metrics from having a value, beside what they need.
+    pub(crate) obstacle: fn(&MetricPlan) -> Option<SkipReason>,
+    /// The family for a plan that keeps one of its metrics.
+    pub(crate) build: fn(&MetricPlan) -> Option<Box<dyn AnyFamily>>,
+}
+
+impl FamilyKind {
+    /// Family whose clusters are contact points and which reads no more than its metrics need.
+    pub(crate) const fn new(
+        schema: &'static str,
+        build: fn(&MetricPlan) -> Option<Box<dyn AnyFamily>>,
+    ) -> FamilyKind {
+        FamilyKind {
+            schema,
+            is_whole: false,
+            clusters_of_plan: false,
+            optional: FieldSet::EMPTY,
+            obstacle: |_| None,
+            build,
+        }
+    }
+}
 
 /// What is kept of a batch, and which scores come of it.
 ///
@@ -21,12 +57,6 @@ use crate::score::{Count, Interval, Parameter, Variant};
 pub(crate) trait Family: Send + 'static {
     /// What is kept of one part: a channel, a plane, a kind of grating, or everything at once.
     type Sums: Merge + Clone + Send + 'static;
-    /// The name and version of its states.
-    const SCHEMA: &'static str;
-    /// The version before, whose states are read too.
-    const EARLIER_SCHEMA: Option<&'static str> = None;
-    /// Whether one summary of all samples is kept, and none a cluster: where no score has an interval, nobody would read those.
-    const IS_WHOLE: bool = false;
 
     /// What must agree before states merge.
     fn parameters(&self) -> BTreeMap<String, String>;
@@ -47,7 +77,7 @@ pub(crate) trait Family: Send + 'static {
     /// Back from a state, for the part at `position`.
     fn read_record(&self, position: usize, record: &Record) -> Result<Self::Sums, String>;
 
-    /// The scores to give of `metric`; none if it does not belong here.
+    /// The scores to give of `metric`, which is of this family.
     fn outputs(&self, metric: &Metric) -> Vec<Output>;
     /// Samples of a part that take part in `metric`: what weighs its clusters.
     fn count(&self, metric: &Metric, sums: &Self::Sums) -> u64;

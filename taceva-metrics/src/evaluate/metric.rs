@@ -1,15 +1,17 @@
-//! A metric as data: what it is called, what it needs, and how it is finished from what was kept.
+//! Description of a metric as data: names, unit, direction, needs, and the family that its scores are finished from.
 
-use taceva_core::{Field, Needs, Unit};
+use std::any::Any;
+use std::fmt;
 
-use crate::exact::streams::Streams;
-use crate::families::accuracy::pair_sums::PairSums;
-use crate::families::accuracy::plane_sums::PlaneSums;
+use taceva_core::{Field, FieldSet, Needs, Unit};
+
+use crate::evaluate::family::FamilyKind;
+use crate::evaluate::standing::VerdictRule;
 use crate::score::Parameter;
 use crate::score::better::Better;
 use crate::score::facts::Fact;
 use crate::score::range::Range;
-use crate::score::value::UndefinedReason;
+use crate::score::theme::Theme;
 
 /// A measure of a sensor or of its predictions: one number per channel or plane, with its definition.
 ///
@@ -26,8 +28,14 @@ pub struct Metric {
     pub id: &'static str,
     /// The name in words.
     pub title: &'static str,
+    /// The symbol in papers, as LaTeX.
+    pub symbol: Option<&'static str>,
+    /// The section of reports that it stands in.
+    pub theme: Theme,
     /// Which values are good.
     pub better: Better,
+    /// Variants whose direction is not that of the metric.
+    pub variants: &'static [(&'static str, Better)],
     /// The unit of its values.
     pub unit: ScoreUnit,
     /// Which values there can be: what no interval leaves.
@@ -42,11 +50,43 @@ pub struct Metric {
     pub needs: Needs,
     /// Which facts about the sensor there is no value without.
     pub facts: &'static [Fact],
-    pub(crate) constants: Constants,
+    /// Constants that are reported with a score.
+    pub(crate) constants: fn(Unit) -> Vec<Parameter>,
+    /// Whether predictions enter as the model gives them, beyond its bounds too.
+    pub(crate) reads_unbounded: bool,
+    /// What decides whether its scores take part in verdicts.
+    pub(crate) verdict: VerdictRule,
+    /// The family whose sums it is finished from.
+    pub(crate) family: &'static FamilyKind,
+    /// How it is finished, if its family has several metrics.
     pub(crate) formula: Formula,
 }
 
 impl Metric {
+    /// Metric of `family` without a name: what stays where a metric says nothing else.
+    pub(crate) const fn of(family: &'static FamilyKind) -> Metric {
+        Metric {
+            id: "",
+            title: "",
+            symbol: None,
+            theme: Theme::Accuracy,
+            better: Better::Described,
+            variants: &[],
+            unit: ScoreUnit::One,
+            range: Range::Any,
+            definition: "",
+            reference: "",
+            documentation: "",
+            needs: Needs::new(FieldSet::EMPTY),
+            facts: &[],
+            constants: |_| Vec::new(),
+            reads_unbounded: false,
+            verdict: VerdictRule::Channels,
+            family,
+            formula: Formula(&()),
+        }
+    }
+
     /// Whether predictions of channels enter it.
     pub fn reads_predictions(&self) -> bool {
         self.needs.fields.contains(Field::Prediction)
@@ -55,7 +95,31 @@ impl Metric {
     /// Whether it reads predictions as the model gives them, and not brought back to the bounds of the model: robustness would be that of
     /// the bounds otherwise.
     pub fn reads_unbounded_predictions(&self) -> bool {
-        matches!(self.formula, Formula::Spatial | Formula::Lighting)
+        self.reads_unbounded
+    }
+
+    /// The direction of the variant called `variant`.
+    pub fn better_of(&self, variant: &str) -> Better {
+        let mut variants = self.variants.iter();
+        let own = variants.find(|(name, _)| *name == variant);
+        own.map_or(self.better, |(_, better)| *better)
+    }
+}
+
+/// Formula of a metric, of the type that its family defines.
+#[derive(Clone, Copy)]
+pub(crate) struct Formula(pub(crate) &'static (dyn Any + Send + Sync));
+
+impl Formula {
+    /// The formula as the type `F` of a family.
+    pub(crate) fn get<F: 'static>(self) -> Option<&'static F> {
+        self.0.downcast_ref()
+    }
+}
+
+impl fmt::Debug for Formula {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Formula")
     }
 }
 
@@ -91,66 +155,4 @@ impl ScoreUnit {
             ScoreUnit::One => Unit::One,
         }
     }
-}
-
-/// The constants that are reported with a score.
-pub(crate) type Constants = fn(Unit) -> Vec<Parameter>;
-
-/// What a metric is finished from, and how.
-#[derive(Debug)]
-pub(crate) enum Formula {
-    /// From the sums of each channel's pairs.
-    Pairs {
-        /// The sums it reads.
-        streams: Streams,
-        /// Whether it counts only samples that reach the gate.
-        gated: bool,
-        /// How it is finished.
-        finish: Finish<PairSums>,
-    },
-    /// From the sums of each channel's pairs and the constant that its model is measured by.
-    Skill,
-    /// From the distances in a plane of two channels.
-    Plane(Finish<PlaneSums>),
-    /// From the compliance of the surface: how far it yields.
-    Sensitivity,
-    /// From the compliance of the surface, by place: how alike it yields everywhere.
-    Uniformity,
-    /// From the errors of the spacing of gratings.
-    Resolution,
-    /// From errors by distance and depth.
-    Spatial,
-    /// From errors by scene.
-    Lighting,
-    /// From predictions of the same press: the spread within cells.
-    Repeatability,
-    /// From predictions of the same press: the spread of the cells' means in relation to that within them.
-    SignalToRepeatability,
-    /// From loading and unloading, by point.
-    Hysteresis,
-    /// From the surfaces of several units.
-    InterSensor,
-    /// From times, digests and places of contact.
-    Intrinsic,
-    /// From predictions without contact.
-    Detection,
-    /// From predictions over truth.
-    Linearity,
-    /// From all predictions over all truths.
-    Crosstalk,
-    /// From errors by level of the truth.
-    BiasLevel,
-    /// From magnitudes of errors.
-    Tolerance,
-    /// From errors over time.
-    Drift,
-}
-
-/// From sums to a value.
-#[derive(Debug)]
-pub(crate) struct Finish<S> {
-    /// The samples that take part.
-    pub(crate) count: fn(&S) -> u64,
-    /// The value.
-    pub(crate) evaluate: fn(&S) -> Result<f64, UndefinedReason>,
 }

@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use taceva_core::{Channels, Field, FieldSet, Skipped};
 
 use crate::error::MetricError;
+use crate::evaluate::family::FamilyKind;
 use crate::evaluate::metric::Metric;
 use crate::evaluate::settings::Settings;
 use crate::paired::is_valid;
@@ -26,6 +27,7 @@ use crate::stats::IntervalMethod;
 /// ```
 #[derive(Clone, Debug)]
 pub struct MetricPlan {
+    catalogue: &'static [&'static Metric],
     wanted: Vec<&'static Metric>,
     available: FieldSet,
     channels: Channels,
@@ -153,6 +155,23 @@ impl MetricPlan {
             });
         }
         Ok(MetricPlan { constants, ..self })
+    }
+
+    /// The families of the kept metrics, in the order of the catalogue.
+    pub(crate) fn families(&self) -> Vec<&'static FamilyKind> {
+        let is_kept = |kind: &FamilyKind| {
+            let mut kept = self.kept.iter();
+            kept.any(|metric| metric.family.schema == kind.schema)
+        };
+        let mut families: Vec<&'static FamilyKind> = Vec::new();
+        for metric in self.catalogue {
+            let mut known = families.iter();
+            let is_known = known.any(|known| known.schema == metric.family.schema);
+            if !is_known && is_kept(metric.family) {
+                families.push(metric.family);
+            }
+        }
+        families
     }
 
     /// The metrics that were asked for.

@@ -7,12 +7,27 @@
 use taceva_core::Field;
 
 use crate::evaluate::entry::Entry;
-use crate::evaluate::metric::{Formula, Metric};
-use crate::families::resolution::OF_CONSTANT;
+use crate::evaluate::metric::Metric;
 use crate::score::flag::Flag;
 use crate::score::standing::Standing;
 use crate::score::value::UndefinedReason;
 use crate::score::{Interval, Score};
+
+/// The variant of a share that says what the best constant prediction would reach.
+pub(crate) const OF_CONSTANT: &str = "of_constant";
+
+/// What decides whether scores of a metric take part in verdicts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum VerdictRule {
+    /// The skill of its channels.
+    Channels,
+    /// The score itself: it is the skill.
+    Skill,
+    /// The share of a constant prediction alone.
+    Share,
+    /// The skill of its channels and the share of a constant prediction.
+    ShareBesideConstant,
+}
 
 impl Standing {
     /// The standing of a score of `metric` that is made of `channels`, whose skill is what `skill_of` says of each.
@@ -39,7 +54,7 @@ impl Standing {
 pub(crate) fn set_standings(entries: &mut [Entry]) {
     let skills: Vec<(String, Standing)> = entries
         .iter()
-        .filter(|entry| matches!(entry.metric.formula, Formula::Skill))
+        .filter(|entry| entry.metric.verdict == VerdictRule::Skill)
         .map(|entry| (entry.channel.clone(), of_skill_score(&entry.score)))
         .collect();
     for entry in entries {
@@ -75,7 +90,7 @@ fn of_score(
     score: &Score,
     skills: &[(String, Standing)],
 ) -> Standing {
-    if matches!(metric.formula, Formula::Resolution) {
+    if metric.verdict == VerdictRule::Share {
         return of_share(score);
     }
     let channels = channels(channel, score);
@@ -102,9 +117,9 @@ fn of_score(
 
 /// A share within a tolerance takes no part where the constant of the skill reaches as much; where that is not known, skill alone decides.
 fn beside_constant(metric: &Metric, score: &Score) -> Standing {
-    match (&metric.formula, of_share(score)) {
-        (Formula::Tolerance, Standing::NoSkill) => Standing::NotAboveConstant,
-        (Formula::Tolerance, Standing::NoInterval) => Standing::NoInterval,
+    match (metric.verdict, of_share(score)) {
+        (VerdictRule::ShareBesideConstant, Standing::NoSkill) => Standing::NotAboveConstant,
+        (VerdictRule::ShareBesideConstant, Standing::NoInterval) => Standing::NoInterval,
         _ => Standing::Counts,
     }
 }

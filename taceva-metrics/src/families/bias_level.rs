@@ -6,18 +6,19 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Field, FieldSet, Needs, Unit};
 
-use crate::evaluate::family::{Details, Numbers, Output};
-use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
+use crate::evaluate::family::{Details, FamilyKind, Numbers, Output, erased};
+use crate::evaluate::metric::{Metric, ScoreUnit};
 use crate::exact::level::{from_millionths, step};
 use crate::exact::merge::{Merge, keyed, merge_cells};
 use crate::exact::record::Record;
 use crate::exact::{Dyadic, ExactSum};
-use crate::families::channelwise::Channelwise;
+use crate::families::channelwise::{ByChannel, Channelwise};
 use crate::families::gathered::Gathered;
 use crate::paired::Paired;
 use crate::score::better::Better;
 use crate::score::curve::Curve;
 use crate::score::range::Range;
+use crate::score::theme::Theme;
 use crate::score::value::{Finished, InapplicableReason, UndefinedReason, Value};
 use crate::score::{Count, Parameter, Variant};
 use window::Window;
@@ -28,6 +29,8 @@ const LEAST_SAMPLES: u64 = 5;
 pub(crate) static BIAS_LEVEL: Metric = Metric {
     id: "bias_level",
     title: "greatest mean error over the range",
+    symbol: Some("bias by level"),
+    theme: Theme::Accuracy,
     better: Better::Lower,
     unit: ScoreUnit::OfChannel,
     range: Range::Greatest,
@@ -38,9 +41,8 @@ pub(crate) static BIAS_LEVEL: Metric = Metric {
                     1 N mm wide, from −∞ to +∞, each with its lower edge; `curve` has every level that was met. A greatest value has no interval.",
     needs: Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction))
         .with_least_samples(LEAST_SAMPLES),
-    facts: &[],
     constants: width_and_least,
-    formula: Formula::BiasLevel,
+    ..Metric::of(&KIND)
 };
 
 fn width_and_least(unit: Unit) -> Vec<Parameter> {
@@ -54,6 +56,15 @@ fn width_and_least(unit: Unit) -> Vec<Parameter> {
     };
     width.into_iter().chain([least]).collect()
 }
+
+/// Family of errors by level of the truth.
+pub(crate) static KIND: FamilyKind = FamilyKind {
+    clusters_of_plan: true,
+    is_whole: true,
+    ..FamilyKind::new("taceva.levels/2", |plan| {
+        erased(ByChannel::new(Levels::default(), plan))
+    })
+};
 
 /// Errors by level of the truth.
 #[derive(Default)]
@@ -123,13 +134,6 @@ fn curve(sums: &LevelSums, unit: Unit, width: i64) -> Curve {
 
 impl Channelwise for Levels {
     type Sums = LevelSums;
-    const SCHEMA: &'static str = "taceva.levels/2";
-    const EARLIER_SCHEMA: Option<&'static str> = Some("taceva.levels/1");
-    const IS_WHOLE: bool = true;
-
-    fn finishes(&self, metric: &Metric) -> bool {
-        matches!(metric.formula, Formula::BiasLevel)
-    }
 
     fn deposit(
         &mut self,

@@ -17,19 +17,11 @@ use crate::score::value::InapplicableReason;
 pub(crate) trait Channelwise: Send + 'static {
     /// What is kept of one channel; the default is that of no row.
     type Sums: Merge + Clone + Default + Send + 'static;
-    /// The name and version of its states.
-    const SCHEMA: &'static str;
-    /// As [`Family::EARLIER_SCHEMA`].
-    const EARLIER_SCHEMA: Option<&'static str> = None;
-    /// As [`Family::IS_WHOLE`].
-    const IS_WHOLE: bool = false;
 
     /// What must agree before states merge.
     fn parameters(&self) -> BTreeMap<String, String> {
         BTreeMap::new()
     }
-    /// Whether `metric` is finished from what is kept here.
-    fn finishes(&self, metric: &Metric) -> bool;
     /// Whether `channel` takes part.
     fn takes(&self, _channel: &Channel) -> bool {
         true
@@ -74,11 +66,8 @@ pub(crate) struct ByChannel<K> {
 }
 
 impl<K: Channelwise> ByChannel<K> {
-    /// What `plan` needs of the kind; `None` if it needs nothing of it.
-    pub(crate) fn for_plan(kind: K, plan: &MetricPlan) -> Option<ByChannel<K>> {
-        if !plan.kept().iter().any(|metric| kind.finishes(metric)) {
-            return None;
-        }
+    /// The channels of `plan` that the kind takes.
+    pub(crate) fn new(kind: K, plan: &MetricPlan) -> ByChannel<K> {
         let channels = plan.channels().iter().enumerate();
         let positions: Vec<usize> = channels
             .filter(|(_, channel)| kind.takes(channel))
@@ -90,19 +79,16 @@ impl<K: Channelwise> ByChannel<K> {
             let parts = output.parts.iter().map(part).collect::<Option<Vec<_>>>()?;
             Some(Output { parts, ..output })
         });
-        Some(ByChannel {
+        ByChannel {
             outputs: outputs.collect(),
             kind,
             positions,
-        })
+        }
     }
 }
 
 impl<K: Channelwise> Family for ByChannel<K> {
     type Sums = K::Sums;
-    const SCHEMA: &'static str = K::SCHEMA;
-    const EARLIER_SCHEMA: Option<&'static str> = K::EARLIER_SCHEMA;
-    const IS_WHOLE: bool = K::IS_WHOLE;
 
     fn parameters(&self) -> BTreeMap<String, String> {
         self.kind.parameters()
@@ -126,12 +112,8 @@ impl<K: Channelwise> Family for ByChannel<K> {
         self.kind.read_record(record)
     }
 
-    fn outputs(&self, metric: &Metric) -> Vec<Output> {
-        if self.kind.finishes(metric) {
-            self.outputs.clone()
-        } else {
-            Vec::new()
-        }
+    fn outputs(&self, _metric: &Metric) -> Vec<Output> {
+        self.outputs.clone()
     }
 
     fn count(&self, _metric: &Metric, sums: &K::Sums) -> u64 {

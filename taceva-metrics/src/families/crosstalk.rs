@@ -7,24 +7,26 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Channel, Column, Field, FieldSet, Needs, Unit};
 
-use crate::evaluate::family::{Details, Family, Numbers, Output};
-use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
+use crate::evaluate::family::{Details, Family, FamilyKind, Numbers, Output, erased};
+use crate::evaluate::metric::{Metric, ScoreUnit};
 use crate::evaluate::plan::MetricPlan;
 use crate::exact::ColumnAdder;
 use crate::exact::record::Record;
 use crate::families::gathered::Gathered;
+use crate::score::Variant;
 use crate::score::better::Better;
 use crate::score::flag::Flag;
 use crate::score::matrix::Matrix;
 use crate::score::range::Range;
+use crate::score::theme::Theme;
 use crate::score::value::{UndefinedReason, Value};
-use crate::score::{Parameter, Variant};
 use fit::Leaks;
 use sums::{JointSums, products};
 
 pub(crate) static CROSSTALK: Metric = Metric {
     id: "crosstalk",
     title: "cross-talk between channels",
+    theme: Theme::Accuracy,
     better: Better::Lower,
     unit: ScoreUnit::One,
     range: Range::Greatest,
@@ -38,14 +40,15 @@ pub(crate) static CROSSTALK: Metric = Metric {
                     of them that there are. A greatest value has no interval.",
     needs: Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction))
         .with_least_samples(3),
-    facts: &[],
-    constants: no_constants,
-    formula: Formula::Crosstalk,
+    ..Metric::of(&KIND)
 };
 
-fn no_constants(_: Unit) -> Vec<Parameter> {
-    Vec::new()
-}
+/// Family of the joint fit of all channels.
+pub(crate) static KIND: FamilyKind = FamilyKind {
+    clusters_of_plan: true,
+    is_whole: true,
+    ..FamilyKind::new("taceva.joint/2", |plan| erased(Crosstalk::for_plan(plan)))
+};
 
 /// All channels of a contact at once.
 pub(crate) struct Crosstalk {
@@ -57,29 +60,24 @@ pub(crate) struct Crosstalk {
 }
 
 impl Crosstalk {
-    /// What `plan` needs of the kind; `None` if it needs nothing of it.
-    pub(crate) fn for_plan(plan: &MetricPlan) -> Option<Crosstalk> {
-        let mut kept = plan.kept().iter();
-        kept.find(|metric| matches!(metric.formula, Formula::Crosstalk))?;
+    /// The family for `plan`.
+    pub(crate) fn for_plan(plan: &MetricPlan) -> Crosstalk {
         let channels = plan.channels().iter().enumerate();
         let six = channels.filter(|(_, channel)| Channel::SIX.contains(channel));
         let (positions, names): (Vec<usize>, Vec<String>) = six
             .map(|(position, channel)| (position, channel.name().to_owned()))
             .unzip();
-        Some(Crosstalk {
+        Crosstalk {
             adder: ColumnAdder::new(products(positions.len())),
             gathered: Gathered::default(),
             positions,
             names,
-        })
+        }
     }
 }
 
 impl Family for Crosstalk {
     type Sums = JointSums;
-    const SCHEMA: &'static str = "taceva.joint/2";
-    const EARLIER_SCHEMA: Option<&'static str> = Some("taceva.joint/1");
-    const IS_WHOLE: bool = true;
 
     fn parameters(&self) -> BTreeMap<String, String> {
         BTreeMap::new()
@@ -109,16 +107,13 @@ impl Family for Crosstalk {
         JointSums::read_record(record, self.positions.len())
     }
 
-    fn outputs(&self, metric: &Metric) -> Vec<Output> {
-        match metric.formula {
-            Formula::Crosstalk => vec![Output {
-                label: "all".to_owned(),
-                unit: Unit::One,
-                of: self.names.clone(),
-                parts: vec![0],
-            }],
-            _ => Vec::new(),
-        }
+    fn outputs(&self, _metric: &Metric) -> Vec<Output> {
+        vec![Output {
+            label: "all".to_owned(),
+            unit: Unit::One,
+            of: self.names.clone(),
+            parts: vec![0],
+        }]
     }
 
     fn count(&self, _metric: &Metric, sums: &JointSums) -> u64 {

@@ -2,18 +2,19 @@
 
 use taceva_core::{Batch, Channel, Field, FieldSet, Needs, Unit};
 
-use crate::evaluate::family::{Numbers, Output};
-use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
+use crate::evaluate::family::{FamilyKind, Numbers, Output, erased};
+use crate::evaluate::metric::{Metric, ScoreUnit};
 use crate::evaluate::plan::MetricPlan;
 use crate::exact::merge::Merge;
 use crate::exact::moments::Moments;
 use crate::exact::record::Record;
-use crate::families::channelwise::Channelwise;
+use crate::families::channelwise::{ByChannel, Channelwise};
 use crate::families::gathered::Gathered;
 use crate::paired::{Paired, is_valid};
 use crate::score::Parameter;
 use crate::score::better::Better;
 use crate::score::range::Range;
+use crate::score::theme::Theme;
 use crate::score::value::UndefinedReason;
 
 /// k_α + k_β of Currie for risks of 5 % each: 2 × 1.645.
@@ -26,6 +27,8 @@ const GATE_N: f64 = 0.02;
 pub(crate) static MINIMUM_DETECTABLE_FORCE: Metric = Metric {
     id: "minimum_detectable_force",
     title: "minimum detectable force",
+    symbol: Some("$F_{\\min}$"),
+    theme: Theme::Detail,
     better: Better::Lower,
     unit: ScoreUnit::OfChannel,
     range: Range::Positive,
@@ -37,9 +40,8 @@ pub(crate) static MINIMUM_DETECTABLE_FORCE: Metric = Metric {
     needs: Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction))
         .with_channels(&["Fz"])
         .with_least_samples(LEAST_SAMPLES),
-    facts: &[],
     constants: factor_and_gate,
-    formula: Formula::Detection,
+    ..Metric::of(&KIND)
 };
 
 fn factor_and_gate(_: Unit) -> Vec<Parameter> {
@@ -49,6 +51,11 @@ fn factor_and_gate(_: Unit) -> Vec<Parameter> {
         parameter("gate", GATE_N),
     ]
 }
+
+/// Family of predictions without contact.
+pub(crate) static KIND: FamilyKind = FamilyKind::new("taceva.idle/1", |plan| {
+    erased(ByChannel::new(Idle::for_plan(plan)?, plan))
+});
 
 /// Predicted forces where nothing is touched.
 pub(crate) struct Idle {
@@ -87,11 +94,6 @@ fn minimum_detectable_force(sums: &IdleSums) -> Result<f64, UndefinedReason> {
 
 impl Channelwise for Idle {
     type Sums = IdleSums;
-    const SCHEMA: &'static str = "taceva.idle/1";
-
-    fn finishes(&self, metric: &Metric) -> bool {
-        matches!(metric.formula, Formula::Detection)
-    }
 
     fn takes(&self, channel: &Channel) -> bool {
         channel.unit() == Unit::Newton

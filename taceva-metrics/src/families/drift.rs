@@ -2,16 +2,16 @@
 
 use taceva_core::{Batch, Channel, Field, FieldSet, Needs, Unit};
 
-use crate::evaluate::family::{Numbers, Output};
-use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
+use crate::evaluate::family::{FamilyKind, Numbers, Output, erased};
+use crate::evaluate::metric::{Metric, ScoreUnit};
 use crate::exact::merge::Merge;
 use crate::exact::record::Record;
 use crate::exact::{Dyadic, ExactSum};
-use crate::families::channelwise::{Channelwise, each_pair};
+use crate::families::channelwise::{ByChannel, Channelwise, each_pair};
 use crate::paired::is_valid;
-use crate::score::Parameter;
 use crate::score::better::Better;
 use crate::score::range::Range;
+use crate::score::theme::Theme;
 use crate::score::value::{Finished, UndefinedReason};
 
 /// Seconds in an hour.
@@ -20,6 +20,7 @@ const HOUR_S: u64 = 3600;
 pub(crate) static DRIFT: Metric = Metric {
     id: "drift",
     title: "drift of the error",
+    theme: Theme::Robustness,
     better: Better::NearZero,
     unit: ScoreUnit::PerHour,
     range: Range::Any,
@@ -35,14 +36,13 @@ pub(crate) static DRIFT: Metric = Metric {
             .with(Field::Stamp),
     )
     .with_least_samples(2),
-    facts: &[],
-    constants: no_constants,
-    formula: Formula::Drift,
+    ..Metric::of(&KIND)
 };
 
-fn no_constants(_: Unit) -> Vec<Parameter> {
-    Vec::new()
-}
+/// Family of errors over time.
+pub(crate) static KIND: FamilyKind = FamilyKind::new("taceva.drifts/1", |plan| {
+    erased(ByChannel::new(Drifts, plan))
+});
 
 /// Errors over time.
 pub(crate) struct Drifts;
@@ -75,11 +75,6 @@ fn drift(sums: &DriftSums) -> Finished {
 
 impl Channelwise for Drifts {
     type Sums = DriftSums;
-    const SCHEMA: &'static str = "taceva.drifts/1";
-
-    fn finishes(&self, metric: &Metric) -> bool {
-        matches!(metric.formula, Formula::Drift)
-    }
 
     fn takes(&self, channel: &Channel) -> bool {
         matches!(channel.unit(), Unit::Millimetre | Unit::Newton)

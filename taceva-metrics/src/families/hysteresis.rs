@@ -4,19 +4,21 @@ mod branches;
 mod loops;
 mod press;
 
-pub(crate) use loops::Loops;
-
 use taceva_core::{Field, FieldSet, Needs, Unit};
 
-use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
-use crate::score::Parameter;
+use crate::evaluate::metric::{Metric, ScoreUnit};
+use crate::families::hysteresis::loops::KIND;
 use crate::score::better::Better;
 use crate::score::range::Range;
+use crate::score::theme::Theme;
 
 pub(crate) static HYSTERESIS: Metric = Metric {
     id: "hysteresis",
     title: "hysteresis area",
+    symbol: Some("hysteresis"),
+    theme: Theme::Robustness,
     better: Better::Lower,
+    variants: &[("signed_area", Better::NearZero)],
     unit: ScoreUnit::Fixed(Unit::NewtonMillimetre),
     range: Range::Positive,
     definition: "hysteresis/1",
@@ -35,11 +37,5 @@ pub(crate) static HYSTERESIS: Metric = Metric {
     )
     .with_channels(&["Pz", "Fz"])
     .with_least_samples(4),
-    facts: &[],
-    constants: no_constants,
-    formula: Formula::Hysteresis,
+    ..Metric::of(&KIND)
 };
-
-fn no_constants(_: Unit) -> Vec<Parameter> {
-    Vec::new()
-}

@@ -8,14 +8,15 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Field, FieldSet, Needs, Unit};
 
-use crate::evaluate::family::{Details, Family, Numbers, Output, each_row};
-use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
+use crate::evaluate::family::{Details, Family, FamilyKind, Numbers, Output, each_row, erased};
+use crate::evaluate::metric::{Metric, ScoreUnit};
 use crate::evaluate::plan::MetricPlan;
 use crate::exact::record::Record;
 use crate::score::better::Better;
 use crate::score::range::Range;
+use crate::score::theme::Theme;
 use crate::score::value::Value;
-use crate::score::{Count, Parameter, Variant};
+use crate::score::{Count, Variant};
 use pairs::UnitGaps;
 use surfaces::SurfaceClouds;
 
@@ -25,6 +26,8 @@ const SURFACE_CHANNEL: &str = "surface_z";
 pub(crate) static INTER_SENSOR: Metric = Metric {
     id: "inter_sensor",
     title: "gap between the surfaces of units",
+    symbol: Some("between units"),
+    theme: Theme::Robustness,
     better: Better::Lower,
     unit: ScoreUnit::Fixed(Unit::Millimetre),
     range: Range::Positive,
@@ -39,14 +42,13 @@ pub(crate) static INTER_SENSOR: Metric = Metric {
     needs: Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::UnitId))
         .with_channels(&["Px", "Py", SURFACE_CHANNEL])
         .with_least_samples(2),
-    facts: &[],
-    constants: no_constants,
-    formula: Formula::InterSensor,
+    ..Metric::of(&KIND)
 };
 
-fn no_constants(_: Unit) -> Vec<Parameter> {
-    Vec::new()
-}
+/// Family of the surfaces of units.
+pub(crate) static KIND: FamilyKind = FamilyKind::new("taceva.clouds/1", |plan| {
+    erased(InterSensor::for_plan(plan)?)
+});
 
 /// The surfaces of units.
 pub(crate) struct InterSensor {
@@ -54,10 +56,8 @@ pub(crate) struct InterSensor {
 }
 
 impl InterSensor {
-    /// What `plan` needs of the kind; `None` if it needs nothing of it.
+    /// The family for `plan`.
     pub(crate) fn for_plan(plan: &MetricPlan) -> Option<InterSensor> {
-        let mut kept = plan.kept().iter();
-        kept.find(|metric| matches!(metric.formula, Formula::InterSensor))?;
         let position = |name| plan.channels().position(name);
         Some(InterSensor {
             axes: [position("Px")?, position("Py")?, position(SURFACE_CHANNEL)?],
@@ -67,7 +67,6 @@ impl InterSensor {
 
 impl Family for InterSensor {
     type Sums = SurfaceClouds;
-    const SCHEMA: &'static str = "taceva.clouds/1";
 
     fn parameters(&self) -> BTreeMap<String, String> {
         BTreeMap::new()
@@ -103,16 +102,13 @@ impl Family for InterSensor {
         SurfaceClouds::read_record(record)
     }
 
-    fn outputs(&self, metric: &Metric) -> Vec<Output> {
-        match metric.formula {
-            Formula::InterSensor => vec![Output {
-                label: SURFACE_CHANNEL.to_owned(),
-                unit: Unit::Millimetre,
-                of: ["Px", "Py", SURFACE_CHANNEL].map(str::to_owned).to_vec(),
-                parts: vec![0],
-            }],
-            _ => Vec::new(),
-        }
+    fn outputs(&self, _metric: &Metric) -> Vec<Output> {
+        vec![Output {
+            label: SURFACE_CHANNEL.to_owned(),
+            unit: Unit::Millimetre,
+            of: ["Px", "Py", SURFACE_CHANNEL].map(str::to_owned).to_vec(),
+            parts: vec![0],
+        }]
     }
 
     fn count(&self, _metric: &Metric, sums: &SurfaceClouds) -> u64 {

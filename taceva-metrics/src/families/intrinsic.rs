@@ -8,20 +8,22 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Field, FieldSet, Labels, Needs, SkipReason, Unit};
 
-use crate::evaluate::family::{Details, Family, Numbers, Output, each_row};
-use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
+use crate::evaluate::family::{Details, Family, FamilyKind, Numbers, Output, each_row, erased};
+use crate::evaluate::metric::{Metric, ScoreUnit};
 use crate::evaluate::plan::MetricPlan;
 use crate::exact::record::Record;
+use crate::score::Count;
 use crate::score::better::Better;
 use crate::score::range::Range;
+use crate::score::theme::Theme;
 use crate::score::value::{Finished, UndefinedReason};
-use crate::score::{Count, Parameter};
 use sums::IntrinsicSums;
 use times::Intervals;
 
 pub(crate) static INTRINSIC: Metric = Metric {
     id: "intrinsic",
     title: "properties of the sensor",
+    theme: Theme::Camera,
     better: Better::Described,
     unit: ScoreUnit::OfChannel,
     range: Range::NotNegative,
@@ -35,9 +37,7 @@ pub(crate) static INTRINSIC: Metric = Metric {
                     where no force is measured. `resolution`: pixels of a picture, as declared. They describe the recording: \
                     presses that were never made at the rim are no part of the field of view, and pauses are gaps.",
     needs: Needs::new(FieldSet::EMPTY),
-    facts: &[],
-    constants: no_constants,
-    formula: Formula::Intrinsic,
+    ..Metric::of(&KIND)
 };
 
 /// What is read where samples carry it.
@@ -45,10 +45,6 @@ pub(crate) const OPTIONAL_FIELDS: FieldSet = FieldSet::EMPTY
     .with(Field::Truth)
     .with(Field::Stamp)
     .with(Field::FrameDigest);
-
-fn no_constants(_: Unit) -> Vec<Parameter> {
-    Vec::new()
-}
 
 /// The scores, in the order of reports.
 const PROPERTIES: [(&str, Unit); 6] = [
@@ -59,6 +55,15 @@ const PROPERTIES: [(&str, Unit); 6] = [
     ("field_of_view", Unit::SquareMillimetre),
     ("resolution", Unit::Pixel),
 ];
+
+/// Family of times, digests and places of contact.
+pub(crate) static KIND: FamilyKind = FamilyKind {
+    optional: OPTIONAL_FIELDS,
+    obstacle: Intrinsic::obstacle,
+    ..FamilyKind::new("taceva.intrinsic/1", |plan| {
+        erased(Intrinsic::for_plan(plan))
+    })
+};
 
 /// Times, digests and places of contact.
 pub(crate) struct Intrinsic {
@@ -89,18 +94,16 @@ impl Contact {
 }
 
 impl Intrinsic {
-    /// What `plan` needs of the kind; `None` if it needs nothing of it.
-    pub(crate) fn for_plan(plan: &MetricPlan) -> Option<Intrinsic> {
-        let mut kept = plan.kept().iter();
-        kept.find(|metric| matches!(metric.formula, Formula::Intrinsic))?;
+    /// The family for `plan`.
+    pub(crate) fn for_plan(plan: &MetricPlan) -> Intrinsic {
         let position = |name| plan.channels().position(name);
         let place = position("Px").zip(position("Py"));
         let by_depth = || position("Pz").map(Contact::Depth);
-        Some(Intrinsic {
+        Intrinsic {
             place: place.map(|(x, y)| [x, y]),
             contact: position("Fz").map(Contact::Force).or_else(by_depth),
             frame_size: plan.facts().frame_size,
-        })
+        }
     }
 
     /// What `plan` lacks, if the samples say nothing of any property.
@@ -129,7 +132,6 @@ impl Intrinsic {
 
 impl Family for Intrinsic {
     type Sums = IntrinsicSums;
-    const SCHEMA: &'static str = "taceva.intrinsic/1";
 
     fn parameters(&self) -> BTreeMap<String, String> {
         BTreeMap::new()
@@ -166,10 +168,7 @@ impl Family for Intrinsic {
         IntrinsicSums::read_record(record)
     }
 
-    fn outputs(&self, metric: &Metric) -> Vec<Output> {
-        if !matches!(metric.formula, Formula::Intrinsic) {
-            return Vec::new();
-        }
+    fn outputs(&self, _metric: &Metric) -> Vec<Output> {
         let outputs = PROPERTIES.iter().map(|&(label, unit)| Output {
             label: label.to_owned(),
             unit,

@@ -11,8 +11,10 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Field, Unit};
 
-use crate::evaluate::family::{Details, Family, Intervals, Numbers, Output, each_row};
-use crate::evaluate::metric::{Formula, Metric};
+use crate::evaluate::family::{
+    Details, Family, FamilyKind, Intervals, Numbers, Output, each_row, erased,
+};
+use crate::evaluate::metric::Metric;
 use crate::evaluate::plan::MetricPlan;
 use crate::exact::merge::Merge;
 use crate::exact::record::Record;
@@ -22,6 +24,10 @@ use crate::score::Variant;
 use crate::score::value::Value;
 use sums::LightingSums;
 
+/// Family of errors and brightness by scene.
+pub(crate) static KIND: FamilyKind =
+    FamilyKind::new("taceva.lighting/1", |plan| erased(Lighting::for_plan(plan)));
+
 /// Sums of the errors of each channel and of the brightness, by scene.
 pub(crate) struct Lighting {
     reference: String,
@@ -30,21 +36,18 @@ pub(crate) struct Lighting {
 }
 
 impl Lighting {
-    /// What the kept metrics of `plan` need; `None` if they need nothing of the kind.
-    pub(crate) fn for_plan(plan: &MetricPlan) -> Option<Lighting> {
-        let mut kept = plan.kept().iter();
-        kept.find(|metric| matches!(metric.formula, Formula::Lighting))?;
-        Some(Lighting {
+    /// The family for `plan`.
+    pub(crate) fn for_plan(plan: &MetricPlan) -> Lighting {
+        Lighting {
             reference: plan.facts().reference_scene.clone(),
             channels: plan.channels().len(),
             outputs: outputs(plan.channels()),
-        })
+        }
     }
 }
 
 impl Family for Lighting {
     type Sums = LightingSums;
-    const SCHEMA: &'static str = "taceva.lighting/1";
 
     fn parameters(&self) -> BTreeMap<String, String> {
         BTreeMap::new()
@@ -80,11 +83,8 @@ impl Family for Lighting {
         LightingSums::read_record(record)
     }
 
-    fn outputs(&self, metric: &Metric) -> Vec<Output> {
-        match metric.formula {
-            Formula::Lighting => self.outputs.clone(),
-            _ => Vec::new(),
-        }
+    fn outputs(&self, _metric: &Metric) -> Vec<Output> {
+        self.outputs.clone()
     }
 
     fn count(&self, _metric: &Metric, sums: &LightingSums) -> u64 {

@@ -6,22 +6,25 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Field, FieldSet, Needs, Unit};
 
-use crate::evaluate::family::{Numbers, Output};
-use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
+use crate::evaluate::family::{FamilyKind, Numbers, Output, erased};
+use crate::evaluate::metric::{Metric, ScoreUnit};
 use crate::exact::ColumnAdder;
 use crate::exact::record::Record;
-use crate::families::channelwise::Channelwise;
+use crate::families::channelwise::{ByChannel, Channelwise};
 use crate::families::gathered::Gathered;
-use crate::score::Parameter;
 use crate::score::better::Better;
 use crate::score::range::Range;
+use crate::score::theme::Theme;
 use crate::score::value::UndefinedReason;
 use line::{Deviation, LEAST_SAMPLES, Line, LineSums, PRODUCTS};
 
 pub(crate) static LINEARITY: Metric = Metric {
     id: "linearity",
     title: "linearity error",
+    symbol: Some("linearity"),
+    theme: Theme::Accuracy,
     better: Better::Lower,
+    variants: &[("slope", Better::Described), ("offset", Better::NearZero)],
     unit: ScoreUnit::One,
     range: Range::Greatest,
     definition: "linearity/1",
@@ -32,14 +35,16 @@ pub(crate) static LINEARITY: Metric = Metric {
                     that it has no interval.",
     needs: Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction))
         .with_least_samples(LEAST_SAMPLES),
-    facts: &[],
-    constants: no_constants,
-    formula: Formula::Linearity,
+    ..Metric::of(&KIND)
 };
 
-fn no_constants(_: Unit) -> Vec<Parameter> {
-    Vec::new()
-}
+/// Family of lines of predictions over truth.
+pub(crate) static KIND: FamilyKind = FamilyKind {
+    clusters_of_plan: true,
+    ..FamilyKind::new("taceva.lines/1", |plan| {
+        erased(ByChannel::new(Lines::default(), plan))
+    })
+};
 
 /// Predictions over truth.
 #[derive(Default)]
@@ -51,11 +56,6 @@ pub(crate) struct Lines {
 
 impl Channelwise for Lines {
     type Sums = LineSums;
-    const SCHEMA: &'static str = "taceva.lines/1";
-
-    fn finishes(&self, metric: &Metric) -> bool {
-        matches!(metric.formula, Formula::Linearity)
-    }
 
     fn deposit(
         &mut self,

@@ -3,19 +3,24 @@
 mod histogram;
 mod success_rate;
 
-pub(crate) use success_rate::{OF_CONSTANT, SR};
+pub(crate) use success_rate::SR;
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Field, GratingKind, Labels, Nanometre, Unit};
 
-use crate::evaluate::family::{Details, Family, Numbers, Output, each_row};
-use crate::evaluate::metric::{Formula, Metric};
+use crate::evaluate::family::{Details, Family, FamilyKind, Numbers, Output, each_row, erased};
+use crate::evaluate::metric::Metric;
 use crate::evaluate::plan::MetricPlan;
 use crate::exact::merge::keyed;
 use crate::exact::record::Record;
 use histogram::Histogram;
+
+/// Family of histograms of errors of grating spacing.
+pub(crate) static KIND: FamilyKind = FamilyKind::new("taceva.resolution/1", |plan| {
+    erased(Resolution::for_plan(plan))
+});
 
 /// Histograms of the errors of spacing, of each kind of grating.
 pub(crate) struct Resolution {
@@ -24,14 +29,12 @@ pub(crate) struct Resolution {
 }
 
 impl Resolution {
-    /// What the kept metrics of `plan` need; `None` if they need nothing of the kind.
-    pub(crate) fn for_plan(plan: &MetricPlan) -> Option<Resolution> {
-        let mut kept = plan.kept().iter();
-        let wanted = kept.any(|metric| matches!(metric.formula, Formula::Resolution));
-        wanted.then(|| Resolution {
+    /// The family for `plan`.
+    pub(crate) fn for_plan(plan: &MetricPlan) -> Resolution {
+        Resolution {
             tolerance: plan.settings().resolution_tolerance,
             by_point: plan.carries(Field::Point),
-        })
+        }
     }
 
     fn tolerance_nm(&self) -> u64 {
@@ -51,7 +54,6 @@ fn spacing(value: f64) -> Option<i64> {
 
 impl Family for Resolution {
     type Sums = Histogram;
-    const SCHEMA: &'static str = "taceva.resolution/1";
 
     fn parameters(&self) -> BTreeMap<String, String> {
         let clusters = if self.by_point { "point_id" } else { "board" };
@@ -104,10 +106,7 @@ impl Family for Resolution {
         Histogram::read_record(record)
     }
 
-    fn outputs(&self, metric: &Metric) -> Vec<Output> {
-        if !matches!(metric.formula, Formula::Resolution) {
-            return Vec::new();
-        }
+    fn outputs(&self, _metric: &Metric) -> Vec<Output> {
         let kinds = GratingKind::ALL.into_iter().enumerate();
         kinds
             .map(|(position, kind)| Output {

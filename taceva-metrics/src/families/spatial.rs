@@ -9,8 +9,8 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Nanometre, Unit};
 
-use crate::evaluate::family::{Details, Family, Numbers, Output, each_row};
-use crate::evaluate::metric::{Formula, Metric};
+use crate::evaluate::family::{Details, Family, FamilyKind, Numbers, Output, each_row, erased};
+use crate::evaluate::metric::Metric;
 use crate::evaluate::plan::MetricPlan;
 use crate::evaluate::settings::Settings;
 use crate::exact::merge::keyed;
@@ -24,6 +24,10 @@ use crate::score::value::Value;
 use crate::score::{Count, Parameter, Variant};
 use sums::{BINS, Reach, SpatialSums};
 
+/// Family of errors by distance and depth.
+pub(crate) static KIND: FamilyKind =
+    FamilyKind::new("taceva.spatial/1", |plan| erased(Spatial::for_plan(plan)?));
+
 /// Sums of the errors of each channel by distance and depth.
 pub(crate) struct Spatial {
     settings: Settings,
@@ -35,10 +39,8 @@ pub(crate) struct Spatial {
 }
 
 impl Spatial {
-    /// What the kept metrics of `plan` need; `None` if they need nothing of the kind.
+    /// The family for `plan`.
     pub(crate) fn for_plan(plan: &MetricPlan) -> Option<Spatial> {
-        let mut kept = plan.kept().iter();
-        kept.find(|metric| matches!(metric.formula, Formula::Spatial))?;
         let footprint = plan.facts().footprint?;
         let channels = plan.channels();
         let position = |name| channels.position(name);
@@ -77,7 +79,6 @@ impl Spatial {
 
 impl Family for Spatial {
     type Sums = SpatialSums;
-    const SCHEMA: &'static str = "taceva.spatial/1";
 
     fn parameters(&self) -> BTreeMap<String, String> {
         keyed([
@@ -112,11 +113,8 @@ impl Family for Spatial {
         SpatialSums::read_record(record)
     }
 
-    fn outputs(&self, metric: &Metric) -> Vec<Output> {
-        match metric.formula {
-            Formula::Spatial => self.outputs.clone(),
-            _ => Vec::new(),
-        }
+    fn outputs(&self, _metric: &Metric) -> Vec<Output> {
+        self.outputs.clone()
     }
 
     fn count(&self, _metric: &Metric, sums: &SpatialSums) -> u64 {

@@ -1,20 +1,16 @@
 //! How the surface yields to normal force: sensitivity and its uniformity, finished from the same sums.
 
 mod grid;
-mod sensitivity;
-mod sums;
-mod uniformity;
+pub(crate) mod sums;
 
 pub(crate) use grid::Grid;
-pub(crate) use sensitivity::SENSITIVITY;
-pub(crate) use uniformity::UNIFORMITY;
 
 use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Unit};
 
-use crate::evaluate::family::{Details, Family, Numbers, Output, each_row};
-use crate::evaluate::metric::{Formula, Metric};
+use crate::evaluate::family::{Details, Family, FamilyKind, Numbers, Output, each_row, erased};
+use crate::evaluate::metric::Metric;
 use crate::evaluate::plan::MetricPlan;
 use crate::evaluate::settings::Settings;
 use crate::exact::merge::keyed;
@@ -23,9 +19,29 @@ use crate::paired::is_valid;
 use crate::score::facts;
 use crate::score::flag::Flag;
 use crate::score::map::Map;
-use crate::score::value::{InapplicableReason, Value};
+use crate::score::value::{InapplicableReason, UndefinedReason, Value};
 use crate::score::{Count, Parameter, Variant};
 use sums::{NORMAL_ONLY, Place, Press, SurfaceSums};
+
+/// Family of the compliance of the surface.
+pub(crate) static SURFACE: FamilyKind =
+    FamilyKind::new("taceva.surface/1", |plan| erased(Surface::for_plan(plan)?));
+
+/// Formula of a metric that is finished from the compliance of the surface.
+pub(crate) struct SurfaceFormula {
+    /// The channels it is made of.
+    pub(crate) of: &'static [&'static str],
+    /// The samples that take part.
+    pub(crate) count: fn(&SurfaceSums) -> u64,
+    /// The numbers.
+    pub(crate) finish: fn(&SurfaceSums, &Settings) -> Numbers,
+    /// Whether the score holds the mean of each cell.
+    pub(crate) has_map: bool,
+}
+
+fn formula(metric: &Metric) -> Option<&'static SurfaceFormula> {
+    metric.formula.get()
+}
 
 /// Sums of the compliance of the surface, by cell where there is a footprint.
 pub(crate) struct Surface {
@@ -38,11 +54,8 @@ pub(crate) struct Surface {
 }
 
 impl Surface {
-    /// What the kept metrics of `plan` need; `None` if they need nothing of the kind.
+    /// The family for `plan`.
     pub(crate) fn for_plan(plan: &MetricPlan) -> Option<Surface> {
-        let wanted =
-            |metric: &&Metric| matches!(metric.formula, Formula::Sensitivity | Formula::Uniformity);
-        plan.kept().iter().copied().find(wanted)?;
         let position = |name: &'static str| plan.channels().position(name).ok_or(name);
         let both = |[first, second]: [&'static str; 2]| Ok([position(first)?, position(second)?]);
         let place = both(["Px", "Py"]).ok();
@@ -105,7 +118,6 @@ impl Surface {
 
 impl Family for Surface {
     type Sums = SurfaceSums;
-    const SCHEMA: &'static str = "taceva.surface/1";
 
     fn parameters(&self) -> BTreeMap<String, String> {
         let mut parameters = keyed([
@@ -151,24 +163,17 @@ impl Family for Surface {
     }
 
     fn outputs(&self, metric: &Metric) -> Vec<Output> {
-        let of: &[&str] = match metric.formula {
-            Formula::Sensitivity => &["Pz", "Fz"],
-            Formula::Uniformity => &["Px", "Py", "Pz", "Fz"],
-            _ => return Vec::new(),
-        };
+        let of = formula(metric).into_iter().flat_map(|formula| formula.of);
         vec![Output {
             label: "Fz".to_owned(),
             unit: Unit::Newton,
-            of: of.iter().map(|&name| name.to_owned()).collect(),
+            of: of.map(|&name| name.to_owned()).collect(),
             parts: vec![0],
         }]
     }
 
     fn count(&self, metric: &Metric, sums: &SurfaceSums) -> u64 {
-        match metric.formula {
-            Formula::Uniformity => sums.binned(),
-            _ => sums.compliance.n,
-        }
+        formula(metric).map_or(0, |formula| (formula.count)(sums))
     }
 
     fn invalid(&self, sums: &SurfaceSums) -> u64 {
@@ -176,10 +181,10 @@ impl Family for Surface {
     }
 
     fn numbers(&self, metric: &Metric, _output: &Output, sums: &SurfaceSums) -> Numbers {
-        let mut numbers = match metric.formula {
-            Formula::Uniformity => uniformity::uniformity(sums, &self.settings),
-            _ => sensitivity::sensitivity(sums),
+        let Some(formula) = formula(metric) else {
+            return Numbers::of(Err(UndefinedReason::Empty));
         };
+        let mut numbers = (formula.finish)(sums, &self.settings);
         if self.shear.is_err() {
             numbers
                 .variants
@@ -223,14 +228,12 @@ impl Family for Surface {
             parameter("n_min", facts::as_f64(self.settings.n_min)),
             parameter("ddof", f64::from(self.settings.ddof)),
         ]);
-        match metric.formula {
-            Formula::Sensitivity => {
-                let map = Value::Map(self.map(grid, sums));
-                let map = Variant::plain("map", Unit::MillimetrePerNewton, map);
-                details.variants.push(map);
-            }
-            _ if used == 1 => details.flags.push(Flag::OneBin),
-            _ => {}
+        if formula(metric).is_some_and(|formula| formula.has_map) {
+            let map = Value::Map(self.map(grid, sums));
+            let map = Variant::plain("map", Unit::MillimetrePerNewton, map);
+            details.variants.push(map);
+        } else if used == 1 {
+            details.flags.push(Flag::OneBin);
         }
         details
     }

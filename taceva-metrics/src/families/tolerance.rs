@@ -2,19 +2,20 @@
 
 use taceva_core::{Batch, Field, FieldSet, Needs, Unit};
 
-use crate::evaluate::family::{Details, Numbers, Output};
-use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
+use crate::evaluate::family::{Details, FamilyKind, Numbers, Output, erased};
+use crate::evaluate::metric::{Metric, ScoreUnit};
 use crate::evaluate::plan::MetricPlan;
+use crate::evaluate::standing::{OF_CONSTANT, VerdictRule};
 use crate::exact::Dyadic;
 use crate::exact::level::{from_millionths, millionths, step};
 use crate::exact::merge::Merge;
 use crate::exact::record::Record;
-use crate::families::channelwise::Channelwise;
+use crate::families::channelwise::{ByChannel, Channelwise};
 use crate::families::gathered::Gathered;
-use crate::families::resolution::OF_CONSTANT;
 use crate::score::better::Better;
 use crate::score::curve::Curve;
 use crate::score::range::Range;
+use crate::score::theme::Theme;
 use crate::score::value::{Finished, InapplicableReason, UndefinedReason, Value};
 use crate::score::{Parameter, Variant};
 
@@ -26,6 +27,7 @@ const HEADLINE: usize = 2;
 pub(crate) static TOLERANCE: Metric = Metric {
     id: "tolerance",
     title: "share within tolerance",
+    theme: Theme::Accuracy,
     better: Better::Higher,
     unit: ScoreUnit::One,
     range: Range::Share,
@@ -38,9 +40,9 @@ pub(crate) static TOLERANCE: Metric = Metric {
                     does not lie above it takes part in no verdict.",
     needs: Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction))
         .with_least_samples(1),
-    facts: &[],
     constants: headline,
-    formula: Formula::Tolerance,
+    verdict: VerdictRule::ShareBesideConstant,
+    ..Metric::of(&KIND)
 };
 
 fn headline(unit: Unit) -> Vec<Parameter> {
@@ -56,6 +58,14 @@ fn tolerances(unit: Unit) -> Option<[i64; 8]> {
     let step = step(unit)?;
     Some(TOLERANCES.map(|thousandths| step / 1000 * thousandths))
 }
+
+/// Family of magnitudes of errors.
+pub(crate) static KIND: FamilyKind = FamilyKind {
+    clusters_of_plan: true,
+    ..FamilyKind::new("taceva.tolerances/1", |plan| {
+        erased(ByChannel::new(Tolerances::for_plan(plan), plan))
+    })
+};
 
 /// Magnitudes of errors.
 pub(crate) struct Tolerances {
@@ -143,11 +153,6 @@ impl ErrorCounts {
 
 impl Channelwise for Tolerances {
     type Sums = ErrorCounts;
-    const SCHEMA: &'static str = "taceva.tolerances/1";
-
-    fn finishes(&self, metric: &Metric) -> bool {
-        matches!(metric.formula, Formula::Tolerance)
-    }
 
     fn deposit(
         &mut self,
@@ -198,7 +203,7 @@ impl Channelwise for Tolerances {
     }
 
     fn read_record(&self, record: &Record) -> Result<ErrorCounts, String> {
-        // States that were written before constants were counted have two numbers less.
+        // Two numbers fewer if no constant is known.
         let ((n, n_invalid, classes), of_constant) = match record.counts.len() {
             10 => {
                 let (&[n, n_invalid, ref classes @ ..], []) = record.exactly::<10, 0>()?;

@@ -12,10 +12,7 @@ use crate::exact::record::Record;
 use crate::score::value::{InapplicableReason, UndefinedReason};
 
 /// A [`Family`] whose sums are [`ErasedSums`]; its methods are documented there.
-pub(super) trait AnyFamily: Send {
-    fn schema(&self) -> &'static str;
-    fn earlier_schema(&self) -> Option<&'static str>;
-    fn is_whole(&self) -> bool;
+pub(crate) trait AnyFamily: Send {
     fn parameters(&self) -> BTreeMap<String, String>;
     fn empty(&self) -> ErasedSums;
     fn deposit(&mut self, parts: &mut ErasedSums, batch: &Batch, rows: Option<&[u32]>);
@@ -47,22 +44,15 @@ pub(super) trait AnyFamily: Send {
     ) -> Option<Intervals>;
 }
 
+/// `family` without the name of its type.
+pub(crate) fn erased(family: impl Family) -> Option<Box<dyn AnyFamily>> {
+    Some(Box::new(Erased(family)))
+}
+
 /// A family as an [`AnyFamily`].
-pub(super) struct Erased<F>(pub(super) F);
+struct Erased<F>(F);
 
 impl<F: Family> AnyFamily for Erased<F> {
-    fn schema(&self) -> &'static str {
-        F::SCHEMA
-    }
-
-    fn earlier_schema(&self) -> Option<&'static str> {
-        F::EARLIER_SCHEMA
-    }
-
-    fn is_whole(&self) -> bool {
-        F::IS_WHOLE
-    }
-
     fn parameters(&self) -> BTreeMap<String, String> {
         self.0.parameters()
     }

@@ -81,7 +81,8 @@ impl Accumulator {
     /// Every score of `metrics`, without intervals.
     fn requests(&self, metrics: &[&'static Metric], total: &ErasedSums) -> Vec<Request> {
         let mut requests = Vec::new();
-        for &metric in metrics {
+        let of_family = |metric: &&&Metric| metric.family.schema == self.kind.schema;
+        for &metric in metrics.iter().filter(of_family) {
             for output in self.family.outputs(metric) {
                 let numbers = self.numbers(metric, &output, total);
                 requests.push(Request {

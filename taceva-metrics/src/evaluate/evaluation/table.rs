@@ -7,7 +7,6 @@ use taceva_core::Unit;
 use super::Evaluation;
 use crate::evaluate::entry::Entry;
 use crate::score::Interval;
-use crate::score::better::Better;
 use crate::score::value::Value;
 
 const HEADINGS: [&str; 6] = ["metric", "channel", "value", "95% interval", "unit", "n"];
@@ -48,7 +47,7 @@ fn rows(entry: &Entry) -> Vec<[String; 6]> {
     };
     let row = |name: String, value: &Value, interval: Option<&Interval>, unit: Unit, n: String| {
         [
-            Better::named(&name),
+            name,
             entry.channel.clone(),
             said(value),
             interval_said(value, interval),
@@ -57,11 +56,18 @@ fn rows(entry: &Entry) -> Vec<[String; 6]> {
         ]
     };
     let interval = Some(&score.interval);
-    let mut rows = vec![row(id.to_owned(), &score.value, interval, score.unit, n)];
+    let mut rows = vec![row(
+        entry.metric.better.beside(id),
+        &score.value,
+        interval,
+        score.unit,
+        n,
+    )];
     let variants = score.variants.iter();
     let numbers = variants.filter(|variant| !is_many(&variant.value));
     rows.extend(numbers.map(|variant| {
-        let name = format!("{id}.{}", variant.name);
+        let better = entry.metric.better_of(&variant.name);
+        let name = better.beside(&format!("{id}.{}", variant.name));
         let interval = variant.interval.as_ref();
         row(name, &variant.value, interval, variant.unit, String::new())
     }));

@@ -5,21 +5,24 @@ use std::collections::BTreeMap;
 use taceva_core::{Channels, Field, FieldSet, SkipReason, Skipped};
 
 use super::MetricPlan;
-use crate::catalogue;
-use crate::evaluate::metric::{Formula, Metric};
+use crate::evaluate::metric::Metric;
 use crate::evaluate::settings::Settings;
-use crate::families::accuracy::Plane;
-use crate::families::intrinsic::{self, Intrinsic};
 use crate::score::ClusteredBy;
 use crate::score::facts::SensorFacts;
 use crate::stats::IntervalMethod;
 
 impl MetricPlan {
-    /// Keeps of `wanted` what samples with these channels and fields allow, in the order of reports.
-    pub fn new(wanted: &[&'static Metric], channels: Channels, available: FieldSet) -> MetricPlan {
-        let in_order = catalogue::ALL.into_iter();
+    /// Keeps of `wanted` what samples with these channels and fields allow, in the order of `catalogue`.
+    pub(crate) fn of(
+        catalogue: &'static [&'static Metric],
+        wanted: &[&'static Metric],
+        channels: Channels,
+        available: FieldSet,
+    ) -> MetricPlan {
+        let in_order = catalogue.iter().copied();
         let wanted = in_order.filter(|metric| wanted.iter().any(|wanted| wanted.id == metric.id));
         let plan = MetricPlan {
+            catalogue,
             wanted: wanted.collect(),
             available,
             channels,
@@ -78,10 +81,7 @@ impl MetricPlan {
 
     /// What `metric` reads where samples carry it, and does without where they do not.
     fn optional(&self, metric: &Metric) -> FieldSet {
-        let fields = match metric.formula {
-            Formula::Intrinsic => intrinsic::OPTIONAL_FIELDS,
-            _ => FieldSet::EMPTY,
-        };
+        let fields = metric.family.optional;
         fields.iter().filter(|field| self.carries(*field)).collect()
     }
 
@@ -97,21 +97,13 @@ impl MetricPlan {
         }
         let absent = |name: &&str| self.channels.position(name).is_none();
         let absent_channel = metric.needs.channels.iter().copied().find(absent);
-        let absent_axis = || match metric.formula {
-            Formula::Plane(_) => Plane::missing_axis(&self.channels),
-            _ => None,
-        };
         absent_channel
-            .or_else(absent_axis)
             .map(|name| SkipReason::ChannelAbsent(name.to_owned()))
             .or_else(|| {
                 let facts = metric.facts.iter();
                 facts.filter_map(|fact| fact.obstacle(&self.facts)).next()
             })
-            .or_else(|| match metric.formula {
-                Formula::Intrinsic => Intrinsic::obstacle(self),
-                _ => None,
-            })
+            .or_else(|| (metric.family.obstacle)(self))
     }
 }
 
@@ -120,6 +112,8 @@ mod tests {
     use taceva_core::Channel;
 
     use super::*;
+    use crate::catalogue;
+    use crate::evaluate::accumulator::Accumulator;
 
     #[test]
     fn without_predictions_nothing_is_kept_and_nothing_is_read() {
@@ -141,7 +135,7 @@ mod tests {
         let wanted = catalogue::select(["accuracy", "mae_euclid"]).expect("known names");
         let plan = MetricPlan::new(&wanted, channels, available);
         assert_eq!((plan.skipped(), plan.fields()), (&[][..], available));
-        assert_eq!(plan.accumulators().len(), 2);
+        assert_eq!(Accumulator::of_plan(&plan).len(), 2);
     }
 
     #[test]

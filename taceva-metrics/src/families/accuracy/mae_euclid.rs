@@ -1,16 +1,20 @@
 //! Mean Euclidean error in a plane.
 
-use super::{needs, no_constants};
-use crate::evaluate::metric::{Finish, Formula, Metric, ScoreUnit};
+use crate::evaluate::metric::{Metric, ScoreUnit};
 use crate::exact::Dyadic;
+use crate::families::accuracy::pairs::PAIR_NEEDS;
+use crate::families::accuracy::plane::KIND;
 use crate::families::accuracy::plane_sums::PlaneSums;
 use crate::score::better::Better;
 use crate::score::range::Range;
-use crate::score::value::UndefinedReason;
+use crate::score::theme::Theme;
+use crate::score::value::{Finished, UndefinedReason};
 
 pub(crate) static MAE_EUCLID: Metric = Metric {
     id: "mae_euclid",
     title: "mean Euclidean error in the plane",
+    symbol: Some("MAE, Euclidean"),
+    theme: Theme::Accuracy,
     better: Better::Lower,
     unit: ScoreUnit::OfChannel,
     range: Range::Positive,
@@ -18,17 +22,12 @@ pub(crate) static MAE_EUCLID: Metric = Metric {
     reference: "mean of √((x − x̂)² + (y − ŷ)²)",
     documentation: "How far the predicted point is from the true one on average; 1.57 times the mean absolute error of an \
                     axis if errors are Gaussian. Not the paper's xy value, which is the mean of the two axes' scores.",
-    needs: needs(1, &[]),
-    facts: &[],
-    constants: no_constants,
-    formula: Formula::Plane(Finish {
-        count: PlaneSums::n,
-        evaluate: mae_euclid,
-    }),
+    needs: PAIR_NEEDS,
+    ..Metric::of(&KIND)
 };
 
 /// RN(Se / n), e the distance of each sample.
-fn mae_euclid(sums: &PlaneSums) -> Result<f64, UndefinedReason> {
+pub(super) fn mae_euclid(sums: &PlaneSums) -> Finished {
     if sums.n() == 0 {
         return Err(UndefinedReason::Empty);
     }

@@ -2,26 +2,65 @@
 
 use std::collections::BTreeMap;
 
-use taceva_core::{Batch, Channels, Unit};
+use taceva_core::{Batch, Channels, Field, FieldSet, Needs, Unit};
 
 use super::plane::planes;
-use crate::evaluate::family::{Details, Family, Numbers, Output};
-use crate::evaluate::metric::{Formula, Metric};
+use crate::evaluate::family::{Details, Family, FamilyKind, Numbers, Output, erased};
+use crate::evaluate::metric::Metric;
 use crate::evaluate::plan::MetricPlan;
 use crate::exact::merge::keyed;
 use crate::exact::record::Record;
 use crate::exact::streams::{Stream, Streams};
 use crate::exact::{Counts, Sums};
+use crate::families::accuracy::gate;
 use crate::families::accuracy::pair_sums::{PairSpec, PairSums};
-use crate::families::accuracy::{Axis, SKILL_STREAMS, constant, gate, skill};
 use crate::families::gathered::Gathered;
 use crate::paired::{EPSILON, Paired};
-use crate::score::Variant;
-use crate::score::flag::Flag;
-use crate::score::value::{InapplicableReason, UndefinedReason, Value};
+use crate::score::value::{Finished, InapplicableReason, UndefinedReason};
+
+/// Family of the pairs of each channel.
+pub(crate) static PAIRS: FamilyKind = FamilyKind {
+    clusters_of_plan: true,
+    ..FamilyKind::new("taceva.pairs/1", |plan| erased(Pairs::for_plan(plan)))
+};
+
+/// What every score of pairs needs.
+pub(crate) const PAIR_NEEDS: Needs =
+    Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction)).with_least_samples(1);
+
+/// Formula of a metric that is finished from the sums of pairs.
+pub(crate) struct PairFormula {
+    /// The sums it reads.
+    pub(crate) streams: Streams,
+    /// Whether it counts only samples that reach the gate.
+    pub(crate) gated: bool,
+    /// The samples that take part.
+    pub(crate) count: fn(&PairSums) -> u64,
+    /// How it is finished.
+    pub(crate) finish: PairFinish,
+}
+
+/// From sums of pairs to a value.
+pub(crate) enum PairFinish {
+    /// Of one channel with at least one pair; the value of a plane is the mean of its axes'.
+    Channel(fn(&PairSums) -> Finished),
+    /// Of all axes together, beside the constants of the model.
+    Axes {
+        value: fn(&[Axis<'_>]) -> Finished,
+        details: fn(&[Axis<'_>], &Output) -> Details,
+    },
+}
+
+/// One channel with the constant that its model is measured by.
+#[derive(Clone, Copy)]
+pub(crate) struct Axis<'a> {
+    pub(crate) sums: &'a PairSums,
+    /// The constant of the training part; `None` for the mean of truth.
+    pub(crate) constant: Option<f64>,
+}
 
 /// Sums of the pairs of each channel.
-pub(crate) struct Pairs {
+struct Pairs {
     streams: Streams,
     gated: bool,
     specs: Vec<PairSpec>,
@@ -32,30 +71,20 @@ pub(crate) struct Pairs {
 }
 
 impl Pairs {
-    /// What the kept metrics of `plan` need; `None` if they need nothing of the kind.
-    pub(crate) fn for_plan(plan: &MetricPlan) -> Option<Pairs> {
+    /// The sums that the kept metrics of `plan` read.
+    fn for_plan(plan: &MetricPlan) -> Pairs {
         let channels = plan.channels();
         let mut streams = Streams::NONE;
         let mut any_gated = false;
-        for metric in plan.kept() {
-            match metric.formula {
-                Formula::Pairs {
-                    streams: needed,
-                    gated,
-                    ..
-                } => {
-                    streams = streams | needed;
-                    any_gated |= gated;
-                }
-                Formula::Skill => streams = streams | SKILL_STREAMS,
-                _ => {}
-            }
+        for formula in plan.kept().iter().filter_map(|metric| formula(metric)) {
+            streams = streams | formula.streams;
+            any_gated |= formula.gated;
         }
         let specs = channels.iter().map(|channel| PairSpec {
             streams,
             gate: gate(channel.unit()).filter(|_| any_gated),
         });
-        (streams != Streams::NONE).then(|| Pairs {
+        Pairs {
             streams,
             gated: any_gated,
             specs: specs.collect(),
@@ -65,7 +94,19 @@ impl Pairs {
                 .collect(),
             outputs: outputs(channels),
             gathered: Gathered::default(),
-        })
+        }
+    }
+}
+
+fn formula(metric: &Metric) -> Option<&'static PairFormula> {
+    metric.formula.get()
+}
+
+/// The value of `metric` for one channel.
+pub(crate) fn value_of(metric: &Metric, sums: &PairSums) -> Finished {
+    match formula(metric).map(|formula| &formula.finish) {
+        Some(PairFinish::Channel(value)) if sums.n() > 0 => value(sums),
+        _ => Err(UndefinedReason::Empty),
     }
 }
 
@@ -89,7 +130,6 @@ pub(crate) fn outputs(channels: &Channels) -> Vec<Output> {
 
 impl Family for Pairs {
     type Sums = PairSums;
-    const SCHEMA: &'static str = "taceva.pairs/1";
 
     fn parameters(&self) -> BTreeMap<String, String> {
         let mut parameters = keyed([("streams".to_owned(), self.streams.to_string())]);
@@ -164,19 +204,12 @@ impl Family for Pairs {
         Ok(sums)
     }
 
-    fn outputs(&self, metric: &Metric) -> Vec<Output> {
-        match metric.formula {
-            Formula::Pairs { .. } | Formula::Skill => self.outputs.clone(),
-            _ => Vec::new(),
-        }
+    fn outputs(&self, _metric: &Metric) -> Vec<Output> {
+        self.outputs.clone()
     }
 
     fn count(&self, metric: &Metric, sums: &PairSums) -> u64 {
-        match &metric.formula {
-            Formula::Pairs { finish, .. } => (finish.count)(sums),
-            Formula::Skill => sums.n(),
-            _ => 0,
-        }
+        formula(metric).map_or(0, |formula| (formula.count)(sums))
     }
 
     fn invalid(&self, sums: &PairSums) -> u64 {
@@ -184,44 +217,40 @@ impl Family for Pairs {
     }
 
     fn numbers(&self, metric: &Metric, _output: &Output, sums: &PairSums) -> Numbers {
-        match &metric.formula {
-            Formula::Pairs { finish, .. } => Numbers::of((finish.evaluate)(sums)),
-            _ => Numbers::of(Err(UndefinedReason::Empty)),
-        }
+        Numbers::of(value_of(metric, sums))
     }
 
     fn joint(&self, metric: &Metric, output: &Output, sums: &[PairSums]) -> Option<Numbers> {
-        matches!(metric.formula, Formula::Skill).then(|| {
-            let axes: Vec<Axis<'_>> = output
-                .parts
-                .iter()
-                .map(|&part| (&sums[part], self.constants[part]))
-                .collect();
-            Numbers::of(skill(&axes))
-        })
+        let PairFinish::Axes { value, .. } = formula(metric)?.finish else {
+            return None;
+        };
+        let axes: Vec<Axis<'_>> = output
+            .parts
+            .iter()
+            .map(|&part| Axis {
+                sums: &sums[part],
+                constant: self.constants[part],
+            })
+            .collect();
+        Some(Numbers::of(value(&axes)))
     }
 
     fn details(&self, metric: &Metric, output: &Output, parts: &[&PairSums]) -> Details {
-        if !matches!(metric.formula, Formula::Skill) {
-            return Details::default();
-        }
-        let constants = output.parts.iter().map(|&part| self.constants[part]);
-        let axes: Vec<Axis<'_>> = parts.iter().copied().zip(constants).collect();
-        let is_mean = axes.iter().any(|(_, constant)| constant.is_none());
-        let variants = match axes[..] {
-            [axis] => constant(axis)
-                .map(|constant| Variant::plain("constant", output.unit, Value::Scalar(constant))),
-            _ => None,
-        };
-        Details {
-            variants: variants.into_iter().collect(),
-            flags: is_mean.then_some(Flag::MeanOfTruth).into_iter().collect(),
-            ..Details::default()
+        match formula(metric).map(|formula| &formula.finish) {
+            Some(PairFinish::Axes { details, .. }) => {
+                let constants = output.parts.iter().map(|&part| self.constants[part]);
+                let axes = parts.iter().zip(constants);
+                let axes: Vec<Axis<'_>> = axes
+                    .map(|(sums, constant)| Axis { sums, constant })
+                    .collect();
+                details(&axes, output)
+            }
+            _ => Details::default(),
         }
     }
 
     fn inapplicable(&self, metric: &Metric, output: &Output) -> Option<InapplicableReason> {
-        let gated = matches!(metric.formula, Formula::Pairs { gated: true, .. });
+        let gated = formula(metric).is_some_and(|formula| formula.gated);
         (gated && gate(output.unit).is_none()).then_some(InapplicableReason::NoGate(output.unit))
     }
 }

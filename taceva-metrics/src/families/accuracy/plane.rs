@@ -2,16 +2,18 @@
 
 use std::collections::BTreeMap;
 
-use taceva_core::{Batch, Channels, Unit};
+use taceva_core::{Batch, Channels, SkipReason, Unit};
 
-use crate::evaluate::family::{Family, Numbers, Output};
-use crate::evaluate::metric::{Formula, Metric};
+use super::mae_euclid::mae_euclid;
+
+use crate::evaluate::family::{Family, FamilyKind, Numbers, Output, erased};
+use crate::evaluate::metric::Metric;
+use crate::evaluate::plan::MetricPlan;
 use crate::exact::ColumnAdder;
 use crate::exact::record::Record;
 use crate::families::accuracy::plane_sums::PlaneSums;
 use crate::families::gathered::Gathered;
 use crate::paired::{Paired, is_valid};
-use crate::score::value::UndefinedReason;
 
 /// Two channels that are the axes of a plane.
 #[derive(Clone, Debug)]
@@ -54,6 +56,15 @@ pub(crate) fn planes(channels: &Channels) -> Vec<PlaneAxes> {
     spanned.collect()
 }
 
+/// Family of distances in planes of two channels.
+pub(crate) static KIND: FamilyKind = FamilyKind {
+    clusters_of_plan: true,
+    obstacle: Plane::obstacle,
+    ..FamilyKind::new("taceva.plane/1", |plan| {
+        erased(Plane::for_channels(plan.channels())?)
+    })
+};
+
 /// Sums of the distances in each plane.
 pub(crate) struct Plane {
     planes: Vec<PlaneAxes>,
@@ -65,13 +76,10 @@ pub(crate) struct Plane {
 }
 
 impl Plane {
-    /// What `metrics` need of `channels`; `None` if they need nothing of the kind.
-    pub(crate) fn for_metrics(metrics: &[&Metric], channels: &Channels) -> Option<Plane> {
+    /// The planes of `channels`; `None` if they span none.
+    fn for_channels(channels: &Channels) -> Option<Plane> {
         let planes = planes(channels);
-        let wanted = metrics
-            .iter()
-            .any(|metric| matches!(metric.formula, Formula::Plane(_)));
-        if !wanted || planes.is_empty() {
+        if planes.is_empty() {
             return None;
         }
         let outputs = planes.iter().enumerate().map(|(position, plane)| Output {
@@ -91,7 +99,7 @@ impl Plane {
 
 impl Plane {
     /// An axis without which `channels` span no plane: the second of a plane whose first is there, or else the first of all.
-    pub(crate) fn missing_axis(channels: &Channels) -> Option<&'static str> {
+    fn missing_axis(channels: &Channels) -> Option<&'static str> {
         if !planes(channels).is_empty() {
             return None;
         }
@@ -104,9 +112,16 @@ impl Plane {
     }
 }
 
+impl Plane {
+    /// The axis that the channels of `plan` lack.
+    fn obstacle(plan: &MetricPlan) -> Option<SkipReason> {
+        let axis = Plane::missing_axis(plan.channels())?;
+        Some(SkipReason::ChannelAbsent(axis.to_owned()))
+    }
+}
+
 impl Family for Plane {
     type Sums = PlaneSums;
-    const SCHEMA: &'static str = "taceva.plane/1";
 
     fn parameters(&self) -> BTreeMap<String, String> {
         BTreeMap::new()
@@ -162,11 +177,8 @@ impl Family for Plane {
         })
     }
 
-    fn outputs(&self, metric: &Metric) -> Vec<Output> {
-        match metric.formula {
-            Formula::Plane(_) => self.outputs.clone(),
-            _ => Vec::new(),
-        }
+    fn outputs(&self, _metric: &Metric) -> Vec<Output> {
+        self.outputs.clone()
     }
 
     fn count(&self, _metric: &Metric, sums: &PlaneSums) -> u64 {
@@ -177,11 +189,8 @@ impl Family for Plane {
         sums.n_invalid()
     }
 
-    fn numbers(&self, metric: &Metric, _output: &Output, sums: &PlaneSums) -> Numbers {
-        match &metric.formula {
-            Formula::Plane(finish) => Numbers::of((finish.evaluate)(sums)),
-            _ => Numbers::of(Err(UndefinedReason::Empty)),
-        }
+    fn numbers(&self, _metric: &Metric, _output: &Output, sums: &PlaneSums) -> Numbers {
+        Numbers::of(mae_euclid(sums))
     }
 }
 

@@ -6,8 +6,8 @@ use taceva_core::{Batch, Field, Phase, Unit};
 
 use super::branches::Branches;
 use super::press::Press;
-use crate::evaluate::family::{Details, Family, Numbers, Output, each_row};
-use crate::evaluate::metric::{Formula, Metric};
+use crate::evaluate::family::{Details, Family, FamilyKind, Numbers, Output, each_row, erased};
+use crate::evaluate::metric::Metric;
 use crate::evaluate::plan::MetricPlan;
 use crate::exact::merge::Merge;
 use crate::exact::moments::Moments;
@@ -20,6 +20,10 @@ use crate::score::map::Map;
 use crate::score::range::Range;
 use crate::score::value::{Finished, UndefinedReason, Value};
 use crate::score::{Count, Variant};
+
+/// Family of force over depth by contact point.
+pub(crate) static KIND: FamilyKind =
+    FamilyKind::new("taceva.loops/1", |plan| erased(Loops::for_plan(plan)?));
 
 /// Force over depth of each point, on both branches.
 pub(crate) struct Loops {
@@ -38,10 +42,8 @@ pub(crate) struct LoopSums {
 }
 
 impl Loops {
-    /// What `plan` needs of the kind; `None` if it needs nothing of it.
+    /// The family for `plan`.
     pub(crate) fn for_plan(plan: &MetricPlan) -> Option<Loops> {
-        let mut kept = plan.kept().iter();
-        kept.find(|metric| matches!(metric.formula, Formula::Hysteresis))?;
         let position = |name| plan.channels().position(name);
         let place = position("Px").zip(position("Py"));
         let footprint = plan.facts().footprint.filter(|_| place.is_some());
@@ -63,7 +65,6 @@ impl Loops {
 
 impl Family for Loops {
     type Sums = LoopSums;
-    const SCHEMA: &'static str = "taceva.loops/1";
 
     fn parameters(&self) -> BTreeMap<String, String> {
         BTreeMap::new()
@@ -120,16 +121,13 @@ impl Family for Loops {
         })
     }
 
-    fn outputs(&self, metric: &Metric) -> Vec<Output> {
-        match metric.formula {
-            Formula::Hysteresis => vec![Output {
-                label: "Fz".to_owned(),
-                unit: Unit::Newton,
-                of: ["Pz", "Fz"].map(str::to_owned).to_vec(),
-                parts: vec![0],
-            }],
-            _ => Vec::new(),
-        }
+    fn outputs(&self, _metric: &Metric) -> Vec<Output> {
+        vec![Output {
+            label: "Fz".to_owned(),
+            unit: Unit::Newton,
+            of: ["Pz", "Fz"].map(str::to_owned).to_vec(),
+            parts: vec![0],
+        }]
     }
 
     fn count(&self, _metric: &Metric, sums: &LoopSums) -> u64 {

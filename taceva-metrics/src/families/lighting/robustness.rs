@@ -5,19 +5,23 @@ use taceva_core::{Field, FieldSet, Needs, Unit};
 use super::change::Change;
 use super::sums::LightingSums;
 use crate::evaluate::family::{Details, Numbers};
-use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
+use crate::evaluate::metric::{Metric, ScoreUnit};
 use crate::exact::{Dyadic, ExactSum};
+use crate::families::lighting::KIND;
 use crate::score::better::Better;
 use crate::score::facts::Fact;
 use crate::score::flag::Flag;
 use crate::score::matrix::Matrix;
 use crate::score::range::Range;
+use crate::score::theme::Theme;
 use crate::score::value::{Finished, UndefinedReason, Value};
 use crate::score::{Count, Variant};
 
 pub(crate) static R_LIGHT: Metric = Metric {
     id: "r_light",
     title: "robustness to lighting",
+    symbol: Some("$R_{\\mathrm{light}}$"),
+    theme: Theme::Robustness,
     better: Better::Higher,
     unit: ScoreUnit::One,
     range: Range::Ratio,
@@ -36,8 +40,8 @@ pub(crate) static R_LIGHT: Metric = Metric {
     )
     .with_least_samples(1),
     facts: &[Fact::NotOpaque],
-    constants: crate::families::accuracy::no_constants,
-    formula: Formula::Lighting,
+    reads_unbounded: true,
+    ..Metric::of(&KIND)
 };
 
 /// Each scene but the reference, beside it.

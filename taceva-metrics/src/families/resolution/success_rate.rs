@@ -4,10 +4,13 @@ use taceva_core::{Field, FieldSet, Nanometre, Needs, Unit};
 
 use super::histogram::Histogram;
 use crate::evaluate::family::{Details, Numbers};
-use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
+use crate::evaluate::metric::{Metric, ScoreUnit};
+use crate::evaluate::standing::{OF_CONSTANT, VerdictRule};
+use crate::families::resolution::KIND;
 use crate::score::better::Better;
 use crate::score::curve::Curve;
 use crate::score::range::Range;
+use crate::score::theme::Theme;
 use crate::score::value::{UndefinedReason, Value};
 use crate::score::{Parameter, Variant};
 use crate::stats::wilson;
@@ -15,7 +18,10 @@ use crate::stats::wilson;
 pub(crate) static SR: Metric = Metric {
     id: "sr",
     title: "success rate of spacings",
+    symbol: Some("SR"),
+    theme: Theme::Detail,
     better: Better::Higher,
+    variants: &[("of_constant", Better::Described)],
     unit: ScoreUnit::One,
     range: Range::Share,
     definition: "sr/1",
@@ -33,13 +39,9 @@ pub(crate) static SR: Metric = Metric {
             .with(Field::PredictedSpacing),
     )
     .with_least_samples(1),
-    facts: &[],
-    constants: crate::families::accuracy::no_constants,
-    formula: Formula::Resolution,
+    verdict: VerdictRule::Share,
+    ..Metric::of(&KIND)
 };
-
-/// The variant that is what the best constant prediction would reach.
-pub(crate) const OF_CONSTANT: &str = "of_constant";
 
 /// Step of the tolerances of the curve.
 const STEP_NM: u64 = 50_000;

@@ -4,19 +4,24 @@ use taceva_core::{Field, FieldSet, Needs, Unit};
 
 use super::sums::SpatialSums;
 use crate::evaluate::family::{Numbers, midpoint};
-use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
+use crate::evaluate::metric::{Metric, ScoreUnit};
 use crate::evaluate::settings::Settings;
 use crate::exact::moments::Moments;
+use crate::families::spatial::KIND;
 use crate::score::better::Better;
 use crate::score::facts::Fact;
 use crate::score::range::Range;
+use crate::score::theme::Theme;
 use crate::score::value::{Finished, UndefinedReason};
 use crate::stats::spread::{Bin, Spread};
 
 pub(crate) static R_SPATIAL: Metric = Metric {
     id: "r_spatial",
     title: "spatial robustness",
+    symbol: Some("$R_{\\mathrm{spatial}}$"),
+    theme: Theme::Robustness,
     better: Better::Lower,
+    variants: &[("noise_floor", Better::Described)],
     unit: ScoreUnit::OfChannel,
     range: Range::Positive,
     definition: "r_spatial/1",
@@ -30,8 +35,8 @@ pub(crate) static R_SPATIAL: Metric = Metric {
         .with_channels(&["Px", "Py", "Pz"])
         .with_least_samples(1),
     facts: &[Fact::Footprint, Fact::DepthMax],
-    constants: crate::families::accuracy::no_constants,
-    formula: Formula::Spatial,
+    reads_unbounded: true,
+    ..Metric::of(&KIND)
 };
 
 /// Samples per bin from which on a bin counts for the variant `n_min_5`, beside the paper's least of one.

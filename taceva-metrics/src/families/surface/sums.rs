@@ -11,39 +11,39 @@ use crate::paired::is_valid;
 use crate::score::value::UndefinedReason;
 
 /// The variant that leaves out what has shear.
-pub(super) const NORMAL_ONLY: &str = "normal_only";
+pub(crate) const NORMAL_ONLY: &str = "normal_only";
 
 /// The depth and the normal force of a press, as the reference instruments measured them.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Press {
-    pub(super) depth_mm: f64,
-    pub(super) force_n: f64,
+pub(crate) struct Press {
+    pub(crate) depth_mm: f64,
+    pub(crate) force_n: f64,
 }
 
 /// Counts and exact sums of s = RN(Δz / F) of the samples in contact.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct SurfaceSums {
-    pub(super) n_invalid: u64,
+    pub(crate) n_invalid: u64,
     /// Samples below the gate, or not pressed into the surface.
-    pub(super) gated: u64,
+    pub(crate) gated: u64,
     /// Samples in contact whose place lies outside the footprint.
-    pub(super) outside: u64,
-    pub(super) compliance: Total,
+    pub(crate) outside: u64,
+    pub(crate) compliance: Total,
     /// Of those without shear.
-    pub(super) normal: Total,
+    pub(crate) normal: Total,
     /// Σ Δz F.
-    pub(super) work: ExactSum,
+    pub(crate) work: ExactSum,
     /// Σ F².
-    pub(super) force_squares: ExactSum,
+    pub(crate) force_squares: ExactSum,
     /// s of the samples within the footprint, by cell: of all, and of those without shear.
-    pub(super) cells: BTreeMap<Cell, [Moments; 2]>,
+    pub(crate) cells: BTreeMap<Cell, [Moments; 2]>,
 }
 
 /// Count and exact sum.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Total {
-    pub(super) n: u64,
-    pub(super) sum: ExactSum,
+pub(crate) struct Total {
+    pub(crate) n: u64,
+    pub(crate) sum: ExactSum,
 }
 
 impl Total {
@@ -60,7 +60,7 @@ impl Total {
 
 /// Where a press lies.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Place {
+pub(crate) enum Place {
     /// Not known, or not needed.
     Unknown,
     /// Outside the footprint.
@@ -71,7 +71,7 @@ pub(super) enum Place {
 
 impl SurfaceSums {
     /// Adds a press from `gate_n` on.
-    pub(super) fn add(&mut self, press: Press, gate_n: f64, without_shear: bool, place: Place) {
+    pub(crate) fn add(&mut self, press: Press, gate_n: f64, without_shear: bool, place: Place) {
         let Press { depth_mm, force_n } = press;
         if !is_valid(depth_mm) || !is_valid(force_n) {
             self.n_invalid += 1;
@@ -106,11 +106,11 @@ impl SurfaceSums {
     }
 
     /// Samples that lie in a cell.
-    pub(super) fn binned(&self) -> u64 {
+    pub(crate) fn binned(&self) -> u64 {
         self.cells.values().map(|[all, _]| all.n).sum()
     }
 
-    pub(super) fn to_record(&self) -> Record {
+    pub(crate) fn to_record(&self) -> Record {
         let cell = |(&(row, column), [all, normal]): (&Cell, &[Moments; 2])| {
             let mut record = all.to_record();
             let normal = normal.to_record();
@@ -138,7 +138,7 @@ impl SurfaceSums {
     }
 
     /// Back from a state whose grid has `bins` cells along each side.
-    pub(super) fn read_record(record: &Record, bins: u32) -> Result<SurfaceSums, String> {
+    pub(crate) fn read_record(record: &Record, bins: u32) -> Result<SurfaceSums, String> {
         let ([n, n_invalid, gated, outside, n_normal], sums) = record.with_cells()?;
         let [compliance, work, force_squares, normal] = sums;
         let parse = |key: &str| {
@@ -194,7 +194,7 @@ impl Merge for SurfaceSums {
 }
 
 /// The reason for no value if nothing is in contact.
-pub(super) fn contact(sums: &SurfaceSums) -> Result<(), UndefinedReason> {
+pub(crate) fn contact(sums: &SurfaceSums) -> Result<(), UndefinedReason> {
     match (sums.compliance.n, sums.gated) {
         (0, 0) => Err(UndefinedReason::Empty),
         (0, _) => Err(UndefinedReason::BelowGate),

@@ -160,7 +160,7 @@ fn whole(count: u64) -> f64 {
 }
 
 /// RN of the mean of exact values.
-pub(super) fn mean(sum: &ExactSum, count: u64) -> Result<f64, UndefinedReason> {
+pub(crate) fn mean(sum: &ExactSum, count: u64) -> Result<f64, UndefinedReason> {
     if count == 0 {
         return Err(UndefinedReason::NoRepeatedPress);
     }

@@ -1,28 +1,57 @@
 //! The family of scores that are finished from the repeats of each press.
 
+pub(crate) mod spread;
+
 use std::collections::BTreeMap;
 
-use taceva_core::{Batch, Field, Unit};
+use taceva_core::{Batch, Field, FieldSet, Needs, Unit};
 
-use super::repeatability;
-use super::signal::signal_to_repeatability;
-use super::spread::{Cell, SpreadSums, mean};
-use crate::evaluate::family::{Details, Numbers, Output, each_row};
-use crate::evaluate::metric::{Formula, Metric};
+use crate::evaluate::family::{Details, FamilyKind, Numbers, Output, each_row, erased};
+use crate::evaluate::metric::Metric;
 use crate::exact::ExactSum;
 use crate::exact::merge::Merge;
 use crate::exact::moments::Moments;
 use crate::exact::record::Record;
 use crate::families::cells::{Cells, add_times};
-use crate::families::channelwise::Channelwise;
+use crate::families::channelwise::{ByChannel, Channelwise};
 use crate::paired::is_valid;
 use crate::score::curve::Curve;
 use crate::score::flag::Flag;
 use crate::score::value::{UndefinedReason, Value};
 use crate::score::{Count, Variant};
+use spread::{Cell, SpreadSums, mean};
+
+/// Family of the repeats of each press.
+pub(crate) static REPEATS: FamilyKind = FamilyKind::new("taceva.repeats/1", |plan| {
+    erased(ByChannel::new(Repeats, plan))
+});
+
+/// What scores of repeats need.
+pub(crate) const REPEAT_NEEDS: Needs = Needs::new(
+    FieldSet::EMPTY
+        .with(Field::Prediction)
+        .with(Field::Point)
+        .with(Field::DepthStep)
+        .with(Field::Repeat),
+)
+.with_least_samples(2);
+
+/// Formula of a metric that is finished from the repeats of each press.
+pub(crate) struct RepeatFormula {
+    /// The numbers, in the unit of the channel.
+    pub(crate) finish: fn(&SpreadSums, Unit) -> Numbers,
+    /// Whether the score holds the mean spread at each depth step.
+    pub(crate) has_curve: bool,
+    /// Whether it is flagged where labels hardly differ.
+    pub(crate) needs_stimulus: bool,
+}
+
+fn formula(metric: &Metric) -> Option<&'static RepeatFormula> {
+    metric.formula.get()
+}
 
 /// Predictions by point and depth step.
-pub(crate) struct Repeats;
+struct Repeats;
 
 /// What is kept of one channel.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -60,14 +89,6 @@ impl Merge for RepeatSums {
 
 impl Channelwise for Repeats {
     type Sums = RepeatSums;
-    const SCHEMA: &'static str = "taceva.repeats/1";
-
-    fn finishes(&self, metric: &Metric) -> bool {
-        matches!(
-            metric.formula,
-            Formula::Repeatability | Formula::SignalToRepeatability
-        )
-    }
 
     fn deposit(
         &mut self,
@@ -123,21 +144,11 @@ impl Channelwise for Repeats {
     }
 
     fn read_record(&self, record: &Record) -> Result<RepeatSums, String> {
-        // States that were written before labels were kept have counts alone.
-        let ((n, n_invalid, named), truth) = match record.counts.len() {
-            3 => {
-                let (&[n, n_invalid, named], []) = record.with_cells()?;
-                ((n, n_invalid, named), Moments::default())
-            }
-            _ => {
-                let (&[n, n_invalid, named, labels], [sum, squares]) = record.with_cells()?;
-                let truth = Moments {
-                    n: labels,
-                    sum: sum.clone(),
-                    squares: squares.clone(),
-                };
-                ((n, n_invalid, named), truth)
-            }
+        let (&[n, n_invalid, named, labels], [sum, squares]) = record.with_cells()?;
+        let truth = Moments {
+            n: labels,
+            sum: sum.clone(),
+            squares: squares.clone(),
         };
         let read = |record: &Record| Moments::read_record(record).map(Cell::new);
         Ok(RepeatSums {
@@ -158,10 +169,9 @@ impl Channelwise for Repeats {
 
     fn numbers(&self, metric: &Metric, output: &Output, sums: &RepeatSums) -> Numbers {
         let spreads = SpreadSums::of(&sums.cells);
-        match metric.formula {
-            Formula::Repeatability => repeatability(&spreads, output.unit),
-            Formula::SignalToRepeatability => signal_to_repeatability(&spreads),
-            _ => Numbers::of(Err(UndefinedReason::Empty)),
+        match formula(metric) {
+            Some(formula) => (formula.finish)(&spreads, output.unit),
+            None => Numbers::of(Err(UndefinedReason::Empty)),
         }
     }
 
@@ -177,13 +187,12 @@ impl Channelwise for Repeats {
                 sums.cells.iter().fold(0, |count, _| count + 1)
             }),
         ];
-        let variants = match metric.formula {
-            Formula::Repeatability => {
-                vec![Variant::plain("curve", output.unit, depth_curve(parts))]
-            }
-            _ => Vec::new(),
+        let formula = formula(metric);
+        let variants = match formula.is_some_and(|formula| formula.has_curve) {
+            true => vec![Variant::plain("curve", output.unit, depth_curve(parts))],
+            false => Vec::new(),
         };
-        let is_low = matches!(metric.formula, Formula::SignalToRepeatability)
+        let is_low = formula.is_some_and(|formula| formula.needs_stimulus)
             && parts.iter().any(|part| part.is_low_stimulus());
         Details {
             variants,

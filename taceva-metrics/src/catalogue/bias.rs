@@ -1,37 +1,36 @@
 //! Mean error with its sign.
 
-use super::{needs, no_constants, not_empty};
-use crate::evaluate::metric::{Finish, Formula, Metric, ScoreUnit};
+use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
 use crate::exact::streams::{Stream, Streams};
 use crate::families::accuracy::pair_sums::PairSums;
+use crate::families::accuracy::pairs::{PAIR_NEEDS, PAIRS, PairFinish, PairFormula};
 use crate::score::better::Better;
 use crate::score::range::Range;
-use crate::score::value::UndefinedReason;
+use crate::score::theme::Theme;
+use crate::score::value::Finished;
 
 pub(crate) static BIAS: Metric = Metric {
     id: "bias",
     title: "mean error",
+    symbol: Some("bias"),
+    theme: Theme::Accuracy,
     better: Better::NearZero,
     unit: ScoreUnit::OfChannel,
     range: Range::Any,
     definition: "bias/1",
     reference: "mean of truth − prediction",
     documentation: "By how much the truth exceeds the predictions on average: what a constant correction would remove.",
-    needs: needs(1, &[]),
-    facts: &[],
-    constants: no_constants,
-    formula: Formula::Pairs {
+    needs: PAIR_NEEDS,
+    formula: Formula(&PairFormula {
         streams: Streams::of(&[Stream::Residual]),
         gated: false,
-        finish: Finish {
-            count: PairSums::n,
-            evaluate: bias,
-        },
-    },
+        count: PairSums::n,
+        finish: PairFinish::Channel(bias),
+    }),
+    ..Metric::of(&PAIRS)
 };
 
 /// RN(Sd / n).
-fn bias(sums: &PairSums) -> Result<f64, UndefinedReason> {
-    not_empty(sums)?;
+fn bias(sums: &PairSums) -> Finished {
     Ok(sums.mean(Stream::Residual))
 }

@@ -1,38 +1,25 @@
 //! How far predictions of the same press scatter.
 
-mod repeats;
-mod signal;
-mod spread;
-
-pub(crate) use repeats::Repeats;
-pub(crate) use signal::SIGNAL_TO_REPEATABILITY;
-
-use taceva_core::{Field, FieldSet, Needs, Unit};
+use taceva_core::Unit;
 
 use crate::evaluate::family::Numbers;
 use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
+use crate::families::repeats::spread::SpreadSums;
+use crate::families::repeats::{REPEAT_NEEDS, REPEATS, RepeatFormula};
 use crate::score::Parameter;
 use crate::score::better::Better;
 use crate::score::range::Range;
-use spread::SpreadSums;
+use crate::score::theme::Theme;
 
 /// The factor between repeatability standard deviation and repeatability limit: f √2 with f = 1.96, rounded to one decimal as
 /// ISO 5725-6 (4.1.4) does.
-pub(crate) const LIMIT_FACTOR: f64 = 2.8;
-
-/// What scores of repeats need.
-const NEEDS: Needs = Needs::new(
-    FieldSet::EMPTY
-        .with(Field::Prediction)
-        .with(Field::Point)
-        .with(Field::DepthStep)
-        .with(Field::Repeat),
-)
-.with_least_samples(2);
+const LIMIT_FACTOR: f64 = 2.8;
 
 pub(crate) static REPEATABILITY: Metric = Metric {
     id: "repeatability",
     title: "repeatability standard deviation",
+    symbol: Some("$\\sigma_{\\mathrm{rep}}$"),
+    theme: Theme::Robustness,
     better: Better::Lower,
     unit: ScoreUnit::OfChannel,
     range: Range::Positive,
@@ -42,10 +29,14 @@ pub(crate) static REPEATABILITY: Metric = Metric {
                     (over n − 1) of each cell of point and depth step with two repeats or more, averaged over cells. \
                     `population` divides by n; `pooled` is s_r, the root of the mean variance weighted by n − 1; `limit` is \
                     2.8 s_r, which two repeats exceed once in twenty times; `curve` is the mean at each depth step.",
-    needs: NEEDS,
-    facts: &[],
+    needs: REPEAT_NEEDS,
     constants: limit_factor,
-    formula: Formula::Repeatability,
+    formula: Formula(&RepeatFormula {
+        finish: repeatability,
+        has_curve: true,
+        needs_stimulus: false,
+    }),
+    ..Metric::of(&REPEATS)
 };
 
 fn limit_factor(_: Unit) -> Vec<Parameter> {

@@ -1,17 +1,20 @@
 //! Coefficient of determination.
 
-use super::{needs, no_constants, not_empty};
-use crate::evaluate::metric::{Finish, Formula, Metric, ScoreUnit};
+use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
 use crate::exact::Dyadic;
 use crate::exact::streams::{Stream, Streams};
 use crate::families::accuracy::pair_sums::PairSums;
+use crate::families::accuracy::pairs::{PAIR_NEEDS, PAIRS, PairFinish, PairFormula};
 use crate::score::better::Better;
 use crate::score::range::Range;
-use crate::score::value::UndefinedReason;
+use crate::score::theme::Theme;
+use crate::score::value::{Finished, UndefinedReason};
 
 pub(crate) static R2: Metric = Metric {
     id: "r2",
     title: "coefficient of determination",
+    symbol: Some("$R^2$"),
+    theme: Theme::Accuracy,
     better: Better::Higher,
     unit: ScoreUnit::One,
     range: Range::BelowOne,
@@ -20,22 +23,18 @@ pub(crate) static R2: Metric = Metric {
     documentation: "Which share of the truth's spread the predictions explain: 1 is perfect, 0 is no better than always \
                     predicting the mean of the evaluated truth, and below 0 is worse. Never clipped; undefined where the truth \
                     does not vary.",
-    needs: needs(2, &[]),
-    facts: &[],
-    constants: no_constants,
-    formula: Formula::Pairs {
+    needs: PAIR_NEEDS.with_least_samples(2),
+    formula: Formula(&PairFormula {
         streams: Streams::of(&[Stream::Squared, Stream::Truth, Stream::TruthSquared]),
         gated: false,
-        finish: Finish {
-            count: PairSums::n,
-            evaluate: r2,
-        },
-    },
+        count: PairSums::n,
+        finish: PairFinish::Channel(r2),
+    }),
+    ..Metric::of(&PAIRS)
 };
 
 /// RN(1 − n Sdd / (n Syy − Sy²)): the textbook formula is safe because nothing rounds before the end.
-fn r2(sums: &PairSums) -> Result<f64, UndefinedReason> {
-    not_empty(sums)?;
+fn r2(sums: &PairSums) -> Finished {
     if sums.n() < R2.needs.least_samples {
         return Err(UndefinedReason::TooFew {
             least: R2.needs.least_samples,

@@ -1,37 +1,36 @@
 //! Mean absolute error.
 
-use super::{needs, no_constants, not_empty};
-use crate::evaluate::metric::{Finish, Formula, Metric, ScoreUnit};
+use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
 use crate::exact::streams::{Stream, Streams};
 use crate::families::accuracy::pair_sums::PairSums;
+use crate::families::accuracy::pairs::{PAIR_NEEDS, PAIRS, PairFinish, PairFormula};
 use crate::score::better::Better;
 use crate::score::range::Range;
-use crate::score::value::UndefinedReason;
+use crate::score::theme::Theme;
+use crate::score::value::Finished;
 
 pub(crate) static MAE: Metric = Metric {
     id: "mae",
     title: "mean absolute error",
+    symbol: Some("MAE"),
+    theme: Theme::Accuracy,
     better: Better::Lower,
     unit: ScoreUnit::OfChannel,
     range: Range::Positive,
     definition: "mae/1",
     reference: "TacEva, equation (1)",
     documentation: "How far predictions are from the truth on average, in the unit of the channel.",
-    needs: needs(1, &[]),
-    facts: &[],
-    constants: no_constants,
-    formula: Formula::Pairs {
+    needs: PAIR_NEEDS,
+    formula: Formula(&PairFormula {
         streams: Streams::of(&[Stream::Absolute]),
         gated: false,
-        finish: Finish {
-            count: PairSums::n,
-            evaluate: mae,
-        },
-    },
+        count: PairSums::n,
+        finish: PairFinish::Channel(mae),
+    }),
+    ..Metric::of(&PAIRS)
 };
 
 /// RN(S|d| / n).
-fn mae(sums: &PairSums) -> Result<f64, UndefinedReason> {
-    not_empty(sums)?;
+fn mae(sums: &PairSums) -> Finished {
     Ok(sums.mean(Stream::Absolute))
 }

@@ -1,18 +1,21 @@
 //! How much larger the differences between presses are than those between repeats.
 
-use super::NEEDS;
-use super::spread::SpreadSums;
+use taceva_core::{Field, Needs};
+
 use crate::evaluate::family::Numbers;
 use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
-use crate::score::Parameter;
+use crate::families::repeats::spread::SpreadSums;
+use crate::families::repeats::{REPEAT_NEEDS, REPEATS, RepeatFormula};
 use crate::score::better::Better;
 use crate::score::range::Range;
+use crate::score::theme::Theme;
 use crate::score::value::{Finished, UndefinedReason};
-use taceva_core::{Field, Needs, Unit};
 
 pub(crate) static SIGNAL_TO_REPEATABILITY: Metric = Metric {
     id: "signal_to_repeatability",
     title: "signal to repeatability",
+    symbol: Some("signal to repeatability"),
+    theme: Theme::Detail,
     better: Better::Higher,
     unit: ScoreUnit::One,
     range: Range::Positive,
@@ -23,18 +26,17 @@ pub(crate) static SIGNAL_TO_REPEATABILITY: Metric = Metric {
                     repeats do not differ at all although presses do. Where labels differ less from press to press than predictions of one press \
                     do, the score is flagged `low stimulus` and takes part in no verdict: what predictions differ by is no signal.",
     // Without labels it is not known whether there was a signal.
-    needs: Needs::new(NEEDS.fields.with(Field::Truth)).with_least_samples(2),
-    facts: &[],
-    constants: no_constants,
-    formula: Formula::SignalToRepeatability,
+    needs: Needs::new(REPEAT_NEEDS.fields.with(Field::Truth)).with_least_samples(2),
+    formula: Formula(&RepeatFormula {
+        finish: |spreads, _| signal_to_repeatability(spreads),
+        has_curve: false,
+        needs_stimulus: true,
+    }),
+    ..Metric::of(&REPEATS)
 };
 
-fn no_constants(_: Unit) -> Vec<Parameter> {
-    Vec::new()
-}
-
 /// RN(s_m / s_r), s_m the standard deviation of the cells' means; 0 where the means do not differ.
-pub(super) fn signal_to_repeatability(spreads: &SpreadSums) -> Numbers {
+fn signal_to_repeatability(spreads: &SpreadSums) -> Numbers {
     let ratio = || -> Finished {
         let (signal, noise) = (spreads.deviation_of_means()?, spreads.pooled()?);
         match (signal > 0.0, noise > 0.0) {

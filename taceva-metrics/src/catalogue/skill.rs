@@ -1,19 +1,27 @@
 //! Skill: how much better than a constant.
 
-use super::{needs, no_constants};
+use crate::evaluate::family::{Details, Output};
 use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
+use crate::evaluate::standing::VerdictRule;
 use crate::exact::Dyadic;
 use crate::exact::single::exactly;
 use crate::exact::streams::{Stream, Streams};
 use crate::families::accuracy::pair_sums::PairSums;
+use crate::families::accuracy::pairs::{Axis, PAIR_NEEDS, PAIRS, PairFinish, PairFormula};
+use crate::score::Variant;
 use crate::score::better::Better;
+use crate::score::flag::Flag;
 use crate::score::range::Range;
-use crate::score::value::UndefinedReason;
+use crate::score::theme::Theme;
+use crate::score::value::{Finished, UndefinedReason, Value};
 
 pub(crate) static SKILL: Metric = Metric {
     id: "skill",
     title: "skill score",
+    symbol: Some("skill"),
+    theme: Theme::Accuracy,
     better: Better::Higher,
+    variants: &[("constant", Better::Described)],
     unit: ScoreUnit::One,
     range: Range::BelowOne,
     definition: "skill/1",
@@ -23,30 +31,34 @@ pub(crate) static SKILL: Metric = Metric {
                     the model was fitted on; where those are not known, it is the mean of the evaluated truth, and the score is \
                     flagged. In a plane both are squared distances, the constant a point. A channel whose interval of 95 % does \
                     not lie above zero takes part in no verdict.",
-    needs: needs(1, &[]),
-    facts: &[],
-    constants: no_constants,
-    formula: Formula::Skill,
+    needs: PAIR_NEEDS,
+    verdict: VerdictRule::Skill,
+    formula: Formula(&PairFormula {
+        streams: STREAMS,
+        gated: false,
+        count: PairSums::n,
+        finish: PairFinish::Axes {
+            value: skill,
+            details,
+        },
+    }),
+    ..Metric::of(&PAIRS)
 };
 
 /// The sums that it reads.
-pub(crate) const STREAMS: Streams =
-    Streams::of(&[Stream::Squared, Stream::Truth, Stream::TruthSquared]);
-
-/// One channel with the constant that its model is measured by: that of the training part, or the mean of truth for `None`.
-pub(crate) type Axis<'a> = (&'a PairSums, Option<f64>);
+const STREAMS: Streams = Streams::of(&[Stream::Squared, Stream::Truth, Stream::TruthSquared]);
 
 /// RN(1 − Σ Sdd / Σ Scc) over the axes, Scc = Syy − 2 c Sy + n c² about the constant c, or Syy − Sy² / n about the mean of truth.
 ///
 /// Each axis brings the pairs that it has; where both have all of them, Sdd and Scc are sums of squared distances in the plane.
-pub(crate) fn skill(axes: &[Axis<'_>]) -> Result<f64, UndefinedReason> {
+fn skill(axes: &[Axis<'_>]) -> Finished {
     let mut total = Parts {
         scale: Dyadic::from(1),
         unexplained: Dyadic::from(0),
         spread: Dyadic::from(0),
     };
-    for (sums, constant) in axes {
-        total = total.and(&Parts::of(sums, *constant)?);
+    for axis in axes {
+        total = total.and(&Parts::of(*axis)?);
     }
     if total.spread.is_zero() {
         return Err(UndefinedReason::ConstantTruth {
@@ -56,10 +68,25 @@ pub(crate) fn skill(axes: &[Axis<'_>]) -> Result<f64, UndefinedReason> {
     Ok((&total.spread - &total.unexplained).over(&total.spread))
 }
 
-/// The constant that `sums` are measured by, as a number: the given one, or the mean of truth.
-pub(crate) fn constant((sums, constant): Axis<'_>) -> Option<f64> {
-    let mean = || (sums.n() > 0).then(|| sums.mean(Stream::Truth));
-    constant.or_else(mean)
+/// The constant that a channel is measured by, as a number: the given one, or the mean of truth.
+fn constant(axis: Axis<'_>) -> Option<f64> {
+    let mean = || (axis.sums.n() > 0).then(|| axis.sums.mean(Stream::Truth));
+    axis.constant.or_else(mean)
+}
+
+/// The constant of one channel, and whether it is the mean of truth.
+fn details(axes: &[Axis<'_>], output: &Output) -> Details {
+    let is_mean = axes.iter().any(|axis| axis.constant.is_none());
+    let variants = match axes[..] {
+        [axis] => constant(axis)
+            .map(|constant| Variant::plain("constant", output.unit, Value::Scalar(constant))),
+        _ => None,
+    };
+    Details {
+        variants: variants.into_iter().collect(),
+        flags: is_mean.then_some(Flag::MeanOfTruth).into_iter().collect(),
+        ..Details::default()
+    }
 }
 
 /// Squared errors of the model and of the constant, both times `scale`.
@@ -70,7 +97,8 @@ struct Parts {
 }
 
 impl Parts {
-    fn of(sums: &PairSums, constant: Option<f64>) -> Result<Parts, UndefinedReason> {
+    fn of(axis: Axis<'_>) -> Result<Parts, UndefinedReason> {
+        let Axis { sums, constant } = axis;
         let squared = sums.sum(Stream::Squared).to_dyadic();
         let n = Dyadic::from(sums.n());
         match (sums.n(), constant) {
@@ -125,20 +153,24 @@ mod tests {
         sums
     }
 
+    fn about(sums: &PairSums, constant: Option<f64>) -> Axis<'_> {
+        Axis { sums, constant }
+    }
+
     #[test]
     fn it_agrees_with_a_calculation_by_hand_about_both_constants() {
         // Errors 0, 1, 0; truths 1, 2, 6: about 1 the constant misses 0, 1, 25, about their mean 3 it misses 4, 1, 9.
         let sums = sums(&[1.0, 3.0, 6.0], &[1.0, 2.0, 6.0]);
-        assert_eq!(skill(&[(&sums, Some(1.0))]), Ok(1.0 - 1.0 / 26.0));
-        assert_eq!(skill(&[(&sums, None)]), Ok(1.0 - 1.0 / 14.0));
-        assert_eq!(constant((&sums, None)), Some(3.0));
+        assert_eq!(skill(&[about(&sums, Some(1.0))]), Ok(1.0 - 1.0 / 26.0));
+        assert_eq!(skill(&[about(&sums, None)]), Ok(1.0 - 1.0 / 14.0));
+        assert_eq!(constant(about(&sums, None)), Some(3.0));
     }
 
     #[test]
     fn the_constant_itself_has_no_skill_but_for_the_rounding_of_its_residuals() {
         let constant = 0.1 + 0.2;
         let sums = sums(&[constant; 3], &[0.7, -1.9, 0.3]);
-        let skill = skill(&[(&sums, Some(constant))]).expect("a spread");
+        let skill = skill(&[about(&sums, Some(constant))]).expect("a spread");
         assert!(skill.abs() < 1e-15, "{skill}");
     }
 
@@ -148,23 +180,32 @@ mod tests {
         let x = sums(&[4.0, 0.0], &[3.0, 0.0]);
         let y = sums(&[2.0, 1.0], &[4.0, 1.0]);
         let origin = Some(0.0);
-        assert_eq!(skill(&[(&x, origin), (&y, origin)]), Ok(1.0 - 5.0 / 26.0));
+        assert_eq!(
+            skill(&[about(&x, origin), about(&y, origin)]),
+            Ok(1.0 - 5.0 / 26.0)
+        );
         // About the mean (1.5, 2.5): 2.25 + 2.25 and 2.25 + 2.25.
-        assert_eq!(skill(&[(&x, None), (&y, None)]), Ok(1.0 - 5.0 / 9.0));
+        assert_eq!(
+            skill(&[about(&x, None), about(&y, None)]),
+            Ok(1.0 - 5.0 / 9.0)
+        );
     }
 
     #[test]
     fn without_a_spread_about_the_constant_there_is_no_skill_to_speak_of() {
         let perfect = sums(&[2.0, 2.0], &[2.0, 2.0]);
         let constant = Err(UndefinedReason::ConstantTruth { perfect: true });
-        assert_eq!(skill(&[(&perfect, None)]), constant);
-        assert_eq!(skill(&[(&perfect, Some(2.0))]), constant);
-        assert_eq!(skill(&[(&perfect, Some(1.0))]), Ok(1.0));
+        assert_eq!(skill(&[about(&perfect, None)]), constant);
+        assert_eq!(skill(&[about(&perfect, Some(2.0))]), constant);
+        assert_eq!(skill(&[about(&perfect, Some(1.0))]), Ok(1.0));
         let nothing = sums(&[], &[]);
-        assert_eq!(skill(&[(&nothing, Some(1.0))]), Err(UndefinedReason::Empty));
+        assert_eq!(
+            skill(&[about(&nothing, Some(1.0))]),
+            Err(UndefinedReason::Empty)
+        );
         let one = sums(&[1.0], &[2.0]);
         assert_eq!(
-            skill(&[(&one, None)]),
+            skill(&[about(&one, None)]),
             Err(UndefinedReason::TooFew { least: 2 })
         );
     }

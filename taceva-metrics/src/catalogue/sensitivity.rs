@@ -2,17 +2,21 @@
 
 use taceva_core::{Field, FieldSet, Needs, Unit};
 
-use super::sums::{NORMAL_ONLY, SurfaceSums, Total, contact};
 use crate::evaluate::family::Numbers;
 use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
 use crate::exact::Dyadic;
+use crate::families::surface::sums::{NORMAL_ONLY, SurfaceSums, Total, contact};
+use crate::families::surface::{SURFACE, SurfaceFormula};
 use crate::score::better::Better;
 use crate::score::range::Range;
+use crate::score::theme::Theme;
 use crate::score::value::{Finished, UndefinedReason};
 
 pub(crate) static SENSITIVITY: Metric = Metric {
     id: "sensitivity",
     title: "sensitivity",
+    symbol: Some("$S$"),
+    theme: Theme::Surface,
     better: Better::Higher,
     unit: ScoreUnit::Fixed(Unit::MillimetrePerNewton),
     range: Range::Any,
@@ -24,13 +28,17 @@ pub(crate) static SENSITIVITY: Metric = Metric {
     needs: Needs::new(FieldSet::EMPTY.with(Field::Truth))
         .with_channels(&["Pz", "Fz"])
         .with_least_samples(1),
-    facts: &[],
-    constants: crate::families::accuracy::no_constants,
-    formula: Formula::Sensitivity,
+    formula: Formula(&SurfaceFormula {
+        of: &["Pz", "Fz"],
+        count: |sums| sums.compliance.n,
+        finish: |sums, _| sensitivity(sums),
+        has_map: true,
+    }),
+    ..Metric::of(&SURFACE)
 };
 
 /// S = RN(Σ s / n) with s = RN(Δz / F); slope = RN(Σ Δz F / Σ F²).
-pub(super) fn sensitivity(sums: &SurfaceSums) -> Numbers {
+fn sensitivity(sums: &SurfaceSums) -> Numbers {
     let unit = Unit::MillimetrePerNewton;
     let slope = contact(sums).map(|()| {
         let forces = sums.force_squares.to_dyadic();

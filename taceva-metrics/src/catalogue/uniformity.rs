@@ -2,21 +2,26 @@
 
 use taceva_core::{Field, FieldSet, Needs, Unit};
 
-use super::sums::{NORMAL_ONLY, SurfaceSums, contact};
 use crate::evaluate::family::Numbers;
 use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
 use crate::evaluate::settings::Settings;
 use crate::exact::Dyadic;
+use crate::families::surface::sums::{NORMAL_ONLY, SurfaceSums, contact};
+use crate::families::surface::{SURFACE, SurfaceFormula};
 use crate::score::better::Better;
 use crate::score::facts::Fact;
 use crate::score::range::Range;
+use crate::score::theme::Theme;
 use crate::score::value::{Finished, UndefinedReason};
 use crate::stats::spread::{Bin, Spread};
 
 pub(crate) static UNIFORMITY: Metric = Metric {
     id: "uniformity",
     title: "uniformity of sensitivity",
+    symbol: Some("$U$"),
+    theme: Theme::Surface,
     better: Better::Higher,
+    variants: &[("mean", Better::Described), ("deviation", Better::Lower)],
     unit: ScoreUnit::One,
     range: Range::Ratio,
     definition: "uniformity/1",
@@ -29,15 +34,20 @@ pub(crate) static UNIFORMITY: Metric = Metric {
         .with_channels(&["Px", "Py", "Pz", "Fz"])
         .with_least_samples(1),
     facts: &[Fact::Footprint],
-    constants: crate::families::accuracy::no_constants,
-    formula: Formula::Uniformity,
+    formula: Formula(&SurfaceFormula {
+        of: &["Px", "Py", "Pz", "Fz"],
+        count: SurfaceSums::binned,
+        finish: uniformity,
+        has_map: false,
+    }),
+    ..Metric::of(&SURFACE)
 };
 
 /// Samples per cell from which on a cell counts for the variant `n_min_5`, beside the paper's least of one.
 const WELL_SAMPLED: u64 = 5;
 
 /// U = RN(1 / (1 + σ/|μ|)) over the cells with at least `n_min` samples.
-pub(super) fn uniformity(sums: &SurfaceSums, settings: &Settings) -> Numbers {
+fn uniformity(sums: &SurfaceSums, settings: &Settings) -> Numbers {
     let Settings { n_min, ddof, .. } = *settings;
     if let Err(reason) = contact(sums).and_then(|()| on_surface(sums)) {
         return Numbers::of(Err(reason));

@@ -1,0 +1,49 @@
+//! Plans, evaluators and evaluations of every metric of the catalogue.
+
+use taceva_core::{Channel, ChannelError, Channels, FieldSet, Skipped};
+
+use super::ALL;
+use crate::evaluate::metric::Metric;
+use crate::evaluate::{Evaluation, Evaluator, MetricPlan};
+
+impl MetricPlan {
+    /// Keeps of `wanted` what samples with these channels and fields allow, in the order of reports.
+    pub fn new(wanted: &[&'static Metric], channels: Channels, available: FieldSet) -> MetricPlan {
+        MetricPlan::of(&ALL, wanted, channels, available)
+    }
+}
+
+impl Evaluator {
+    /// An evaluator of every metric that truth and prediction of `channels` and contact points allow.
+    ///
+    /// # Errors
+    /// [`ChannelError::Twice`] if a channel comes twice.
+    ///
+    /// ```
+    /// use taceva_metrics::{Channel, Evaluator};
+    /// let mut evaluator = Evaluator::of_channels([Channel::FZ])?;
+    /// evaluator.update_pairs(Channel::FZ, &[0.25, 0.5], &[0.5, 0.5])?;
+    /// assert_eq!(evaluator.score()?.mae(Channel::FZ).and_then(|score| score.value.scalar()), Some(0.125));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn of_channels(
+        channels: impl IntoIterator<Item = Channel>,
+    ) -> Result<Evaluator, ChannelError> {
+        let channels = Channels::new(channels)?;
+        let plan = MetricPlan::new(&ALL, channels, FieldSet::PAIRS);
+        Ok(Evaluator::new(&plan))
+    }
+}
+
+impl Evaluation {
+    /// The scores of `parts` as one evaluation, in the order of reports; what none of them has is in `skipped`.
+    ///
+    /// For metrics that are computed on samples of their own each: nothing is merged. Scores of every part have the standing that the skill of
+    /// their channels gives them, whichever part that is in.
+    pub fn joined(
+        parts: impl IntoIterator<Item = Evaluation>,
+        skipped: Vec<Skipped>,
+    ) -> Evaluation {
+        Evaluation::in_order(&ALL, parts, skipped)
+    }
+}

@@ -1,0 +1,51 @@
+//! Symmetric mean absolute percentage error, as a fraction.
+
+use taceva_core::Unit;
+
+use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
+use crate::exact::streams::{Stream, Streams};
+use crate::families::accuracy::pair_sums::PairSums;
+use crate::families::accuracy::pairs::{PAIR_NEEDS, PAIRS, PairFinish, PairFormula};
+use crate::paired::EPSILON;
+use crate::score::Parameter;
+use crate::score::better::Better;
+use crate::score::range::Range;
+use crate::score::theme::Theme;
+use crate::score::value::Finished;
+
+pub(crate) static SMAPE: Metric = Metric {
+    id: "smape",
+    title: "symmetric mean absolute percentage error",
+    symbol: Some("sMAPE"),
+    theme: Theme::Accuracy,
+    better: Better::Lower,
+    unit: ScoreUnit::One,
+    range: Range::BelowTwo,
+    definition: "smape/1",
+    reference: "TacEva, equation (3)",
+    documentation: "Errors relative to the mean magnitude of truth and prediction, as a fraction from 0 to 2 (the printer \
+                    multiplies by 100 where it writes %). ε is absolute, so that the value depends on the unit, which is \
+                    fixed to mm and N. Channels of both signs saturate towards 2 near zero: see smape_gated.",
+    needs: PAIR_NEEDS,
+    constants: epsilon,
+    formula: Formula(&PairFormula {
+        streams: Streams::of(&[Stream::Symmetric]),
+        gated: false,
+        count: PairSums::n,
+        finish: PairFinish::Channel(smape),
+    }),
+    ..Metric::of(&PAIRS)
+};
+
+/// RN(St / n).
+fn smape(sums: &PairSums) -> Finished {
+    Ok(sums.mean(Stream::Symmetric))
+}
+
+/// The ε of the denominator.
+pub(super) fn epsilon(_: Unit) -> Vec<Parameter> {
+    vec![Parameter {
+        name: "eps",
+        value: EPSILON,
+    }]
+}
