@@ -2,7 +2,7 @@
 
 #![no_main]
 
-#[path = "../../tests/support/program.rs"]
+#[path = "../../tests/metrics/support/program.rs"]
 mod program;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {

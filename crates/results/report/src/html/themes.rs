@@ -1,6 +1,7 @@
 //! Scores and figures that are read together, theme by theme, each folded.
 
 use maud::{Markup, html};
+use taceva_metrics::{Theme, catalogue};
 
 use super::figures::{is_radar, one as figure};
 use super::fold::{counted, fold};
@@ -8,66 +9,32 @@ use super::tables::table;
 use crate::figure::Figure;
 use crate::scores::{ScoreRow, ScoreTable};
 
-/// What is read together.
-struct Theme {
+/// Section of a page: a theme of the catalogue, or the labels alone.
+struct Section {
     id: &'static str,
     title: &'static str,
-    metrics: &'static [&'static str],
+    theme: Option<Theme>,
     /// What the ids of its figures begin with.
     figures: &'static [&'static str],
 }
 
-/// Every theme, in the order of reports; what belongs to none of them comes last.
-const THEMES: [Theme; 6] = [
-    Theme {
+/// Every section, in the order of reports; what belongs to none of them comes last.
+const SECTIONS: [Section; 6] = [
+    Section {
         id: "asked",
         title: "Label distributions",
-        metrics: &[],
+        theme: None,
         figures: &["labels"],
     },
-    Theme {
-        id: "accuracy",
-        title: "Accuracy",
-        metrics: &[
-            "skill",
-            "mae",
-            "rmse",
-            "bias",
-            "r2",
-            "smape",
-            "smape_gated",
-            "mae_euclid",
-            "tolerance",
-            "linearity",
-            "bias_level",
-            "crosstalk",
-        ],
-        figures: &["predicted-", "bias", "tolerance", "crosstalk"],
-    },
-    Theme {
-        id: "detail",
-        title: "Finest detail and least force",
-        metrics: &["sr", "minimum_detectable_force", "signal_to_repeatability"],
-        figures: &["resolution"],
-    },
-    Theme {
-        id: "surface",
-        title: "Sensitivity",
-        metrics: &["sensitivity", "uniformity"],
-        figures: &["sensitivity"],
-    },
-    Theme {
-        id: "robustness",
-        title: "Robustness",
-        metrics: &[
-            "r_spatial",
-            "r_light",
-            "repeatability",
-            "hysteresis",
-            "inter_sensor",
-            "drift",
-        ],
-        figures: &[
+    of_theme(
+        Theme::Accuracy,
+        &["predicted-", "bias", "tolerance", "crosstalk"],
+    ),
+    of_theme(Theme::Detail, &["resolution"]),
+    of_theme(Theme::Surface, &["sensitivity"]),
+    of_theme(
+        Theme::Robustness,
+        &[
             "distance",
             "depth",
             "lighting",
@@ -75,14 +42,18 @@ const THEMES: [Theme; 6] = [
             "hysteresis",
             "units",
         ],
-    },
-    Theme {
-        id: "camera",
-        title: "Camera and field of view",
-        metrics: &["intrinsic"],
-        figures: &[],
-    },
+    ),
+    of_theme(Theme::Camera, &[]),
 ];
+
+const fn of_theme(theme: Theme, figures: &'static [&'static str]) -> Section {
+    Section {
+        id: theme.id(),
+        title: theme.title(),
+        theme: Some(theme),
+        figures,
+    }
+}
 
 /// Every score that is no variant and every figure but the radars, theme by theme, and all rows at the end.
 pub(super) fn section(table: &ScoreTable, figures: &[Figure]) -> Markup {
@@ -92,14 +63,14 @@ pub(super) fn section(table: &ScoreTable, figures: &[Figure]) -> Markup {
         figures.iter().filter(|figure| !is_radar(figure)).collect(),
     );
     let mut folds = Vec::new();
-    for theme in &THEMES {
-        let (rows, others) = rows_left.into_iter().partition(|row| theme.has_metric(row));
+    for section in &SECTIONS {
+        let (rows, others) = rows_left.into_iter().partition(|row| section.has_metric(row));
         let (drawn, others_drawn) = figures_left
             .into_iter()
-            .partition(|drawn| theme.has_figure(drawn));
+            .partition(|drawn| section.has_figure(drawn));
         (rows_left, figures_left) = (others, others_drawn);
         folds.extend(one(
-            (theme.id, theme.title),
+            (section.id, section.title),
             &headlines.names,
             &rows,
             &drawn,
@@ -129,10 +100,11 @@ pub(super) fn section(table: &ScoreTable, figures: &[Figure]) -> Markup {
     }
 }
 
-impl Theme {
+impl Section {
     fn has_metric(&self, row: &ScoreRow) -> bool {
-        let metric = row.metric.split('.').next().unwrap_or_default();
-        self.metrics.contains(&metric)
+        let id = row.metric.split('.').next().unwrap_or_default();
+        let theme = catalogue::find(id).map(|metric| metric.theme);
+        theme.is_some() && theme == self.theme
     }
 
     fn has_figure(&self, figure: &Figure) -> bool {

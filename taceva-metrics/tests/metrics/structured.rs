@@ -1,16 +1,11 @@
 //! Golden values of scores by grating, place and scene, bit for bit: in order, backwards, and shuffled, split and merged.
 
-#![expect(clippy::print_stdout, reason = "says how many values were compared")]
-
 mod lighting;
 mod spatial;
 mod success_rate;
 mod surface;
 
-#[path = "../golden/structured.rs"]
-mod structured;
-
-use structured::{
+use crate::support::golden_vectors::{
     Comparison, Random, check_keys, exact, in_every_way, real, section, signed, text, whole,
 };
 use taceva_core::{
@@ -57,5 +52,5 @@ fn point(row: usize) -> Option<String> {
 
 #[test]
 fn scores_by_place_scene_and_grating_are_the_same_on_every_instruction_set() {
-    structured::again_on_every_instruction_set();
+    crate::support::golden_vectors::again_on_every_instruction_set("structured::");
 }

@@ -1,10 +1,8 @@
 //! Scores beside plain fractions of small integers, rounded by schoolbook division, and a report as it is written.
 
-mod support;
-
+use crate::support::rows::{Row, evaluate};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use support::{Row, evaluate};
 
 /// The binary64 nearest to a fraction, ties to even, by plain long division.
 fn nearest(numerator: i128, denominator: i128) -> f64 {

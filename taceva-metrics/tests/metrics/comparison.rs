@@ -1,8 +1,6 @@
 //! Whether two models or two sensors differ: published examples, and the words that come of them.
 
-mod support;
-
-use support::{Row, evaluate};
+use crate::support::rows::{Row, evaluate};
 use taceva_core::Unit;
 use taceva_metrics::{
     Better, ClusterSums, ComparisonError, Difference, DifferenceTest, Estimate, Question, Scale,

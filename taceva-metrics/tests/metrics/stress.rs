@@ -1,8 +1,5 @@
 //! What no input may break: laws of the scores on every instruction set, and programs of random bytes.
 
-#[path = "support/program.rs"]
-mod program;
-
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use taceva_core::random::SplitMix64;
@@ -20,7 +17,7 @@ fn no_program_of_random_bytes_panics() {
         let bytes: Vec<u8> = (0..length)
             .map(|_| random.next_u64().to_le_bytes()[0])
             .collect();
-        let counts = program::run(&bytes);
+        let counts = crate::support::program::run(&bytes);
         done.iter_mut()
             .zip(counts)
             .for_each(|(all, count)| *all += count);

@@ -3,11 +3,6 @@
 //! Whatever is not understood is a panic, because a case that is skipped proves nothing. `TACEVA_GOLDEN` names a folder with
 //! another `structured.json` of the same schema.
 
-#![allow(
-    dead_code,
-    reason = "each test file is a program of its own and uses some of it"
-)]
-
 use std::path::PathBuf;
 
 use serde_json::Value;
@@ -183,13 +178,13 @@ impl Comparison {
     }
 }
 
-/// Runs all other tests of this program in a process of its own for each instruction set, as which one is used is decided once
-/// a process.
-pub(crate) fn again_on_every_instruction_set() {
+/// Runs the other tests of `module` in a process of its own for each instruction set, as which one is used is decided once a
+/// process.
+pub(crate) fn again_on_every_instruction_set(module: &str) {
     let program = std::env::current_exe().expect("this program");
     for isa in taceva_metrics::Isa::available() {
         let run = std::process::Command::new(&program)
-            .args(["--nocapture", "--skip", "on_every_instruction_set"])
+            .args([module, "--nocapture", "--skip", "on_every_instruction_set"])
             .env("TACEVA_ISA", isa.name())
             .output()
             .expect("this program starts");

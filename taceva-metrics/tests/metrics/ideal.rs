@@ -1,9 +1,6 @@
 //! Scores of sensors and classifiers that are ideal in one way, by algebra.
 
-#[path = "support/press.rs"]
-mod press;
-
-use press::{METRICS, evaluate, press as pressed};
+use crate::support::press::{METRICS, evaluate, press as pressed};
 use taceva_core::{GratingKind, Nanometre, Sample};
 use taceva_metrics::{Evaluation, Value};
 

@@ -1,10 +1,5 @@
 //! What several test files build: samples in, evaluators out.
 
-#![allow(
-    dead_code,
-    reason = "each test file is a program of its own and uses some of it"
-)]
-
 use taceva_core::{Batch, Channel, Channels, Column, FieldSet, Labels};
 use taceva_metrics::{Evaluation, Evaluator, MetricPlan, catalogue};
 

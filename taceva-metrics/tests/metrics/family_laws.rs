@@ -1,12 +1,7 @@
 //! What must hold of scores by place, scene and grating whatever the samples.
 
-#[path = "support/laws.rs"]
-mod laws;
-#[path = "support/press.rs"]
-mod press;
-
-use laws::states;
-use press::{METRICS, evaluate, evaluator, plan, press as pressed};
+use crate::support::laws::{self, states};
+use crate::support::press::{METRICS, evaluate, evaluator, plan, press as pressed};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use taceva_core::{GratingKind, Nanometre, Readings, Sample};

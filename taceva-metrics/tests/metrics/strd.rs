@@ -18,7 +18,7 @@ struct Dataset {
 }
 
 fn datasets() -> Vec<Dataset> {
-    let text = include_str!("golden/strd.json");
+    let text = include_str!("../golden/strd.json");
     let file: Value = serde_json::from_str(text).expect("golden files are JSON");
     assert_eq!(file["schema"], "taceva-golden-strd/1");
     let number = |value: &Value| -> f64 {

@@ -1,12 +1,6 @@
 //! Scores that compare presses at one point: golden vectors, in every order, split and merge.
 
-#![expect(clippy::print_stdout, reason = "says how many values were compared")]
-
-mod golden {
-    pub(crate) mod structured;
-}
-
-use golden::structured::{
+use crate::support::golden_vectors::{
     Comparison, Random, check_keys, exact, in_every_way, real, section, text, whole,
 };
 use serde_json::Value;
@@ -179,5 +173,5 @@ fn hysteresis_is_that_of_the_golden_vectors_to_a_rounding() {
 
 #[test]
 fn scores_by_press_are_the_same_on_every_instruction_set() {
-    golden::structured::again_on_every_instruction_set();
+    crate::support::golden_vectors::again_on_every_instruction_set("structured_cells::");
 }

@@ -1,8 +1,6 @@
 //! Where there is no value there is a reason, in words that a report prints.
 
-mod support;
-
-use support::{Row, evaluate};
+use crate::support::rows::{Row, evaluate};
 use taceva_core::{Batch, Channel, Channels, Column, FieldSet, Unit};
 use taceva_metrics::{Evaluation, Evaluator, GREATEST, Interval, MetricPlan, Value, catalogue};
 
@@ -168,7 +166,7 @@ fn a_batch_of_other_channels_is_refused() {
         vec![Column::default()],
         None,
     );
-    let error = Evaluator::new(&support::plan())
+    let error = Evaluator::new(&crate::support::rows::plan())
         .update(&batch)
         .expect_err("other channels");
     assert_eq!(

@@ -1,13 +1,9 @@
 //! Splitting, ordering and merging change nothing: states are equal, reports are equal byte by byte.
 
-#[path = "support/laws.rs"]
-mod laws;
-mod support;
-
-use laws::states;
+use crate::support::laws::{self, states};
+use crate::support::rows::{Row, evaluator, plan};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use support::{Row, evaluator, plan};
 use taceva_metrics::{Evaluator, ExactSum, MetricError, State};
 
 fn config() -> ProptestConfig {
@@ -56,7 +52,7 @@ proptest! {
     fn one_by_one_and_backwards_is_the_same(rows in rows()) {
         let mut single = Evaluator::new(&plan());
         for row in rows.iter().rev() {
-            single.update(&support::batch(std::slice::from_ref(row))).expect("the plan's channels");
+            single.update(&crate::support::rows::batch(std::slice::from_ref(row))).expect("the plan's channels");
         }
         prop_assert_eq!(states(single), states(evaluator(&rows)));
     }

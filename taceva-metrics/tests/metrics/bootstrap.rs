@@ -1,10 +1,8 @@
 //! The Poisson bootstrap depends on the set of samples, the seed and the number of replicates, and on nothing else.
 
-mod support;
-
+use crate::support::rows::{Row, batch, plan};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use support::{Row, batch, plan};
 use taceva_metrics::{
     BootstrapEnds, Evaluation, Evaluator, Interval, IntervalMethod, PoissonBootstrap, Score,
     UndefinedReason,
@@ -85,7 +83,7 @@ fn it_agrees_with_the_jackknife_on_a_smooth_score() {
     let many = BOOTSTRAP.with_replicates(2000);
     for points in [60, 600] {
         let rows = uneven(points);
-        let jackknife = support::evaluate(&rows);
+        let jackknife = crate::support::rows::evaluate(&rows);
         let bootstrap = finish(evaluator(many, &rows));
         for metric in ["mae", "rmse", "r2"] {
             let errors = [&jackknife, &bootstrap].map(|of| match score(of, metric).interval {

@@ -1,10 +1,8 @@
 //! What must hold whatever the samples: powers of two scale exactly, and an error has no direction.
 
-mod support;
-
+use crate::support::rows::{Row, evaluate};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use support::{Row, evaluate};
 use taceva_metrics::{Interval, Value};
 
 fn rows() -> impl Strategy<Value = Vec<Row>> {

@@ -1,8 +1,6 @@
 //! What no score has an interval of is kept once and not by contact point: scores and reasons stay what they would be by cluster.
 
-mod support;
-
-use support::{Row, batch};
+use crate::support::rows::{Row, batch};
 use taceva_core::{Channel, Channels, FieldSet};
 use taceva_metrics::{
     Clusters, Evaluator, Interval, MetricPlan, State, UndefinedReason, catalogue,

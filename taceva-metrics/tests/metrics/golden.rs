@@ -2,14 +2,9 @@
 //!
 //! `TACEVA_GOLDEN` names a folder with another `pairs.json` of the same schema.
 
-#![expect(clippy::print_stdout, reason = "says how many cases were compared")]
-
-#[path = "golden/recipe.rs"]
-mod recipe;
-
 use std::path::PathBuf;
 
-use recipe::{Case, read_cases};
+use crate::support::golden_pairs::{Case, read_cases};
 use taceva_core::random::SplitMix64;
 use taceva_core::{Batch, Channel, Channels, Column, FieldSet};
 use taceva_metrics::{
@@ -182,7 +177,7 @@ fn every_golden_value_is_met_on_every_instruction_set_of_the_machine() {
 }
 
 /// The name of the test below.
-const EVERY_VALUE: &str = "every_golden_value_is_met_bit_for_bit_however_the_samples_come";
+const EVERY_VALUE: &str = "golden::every_golden_value_is_met_bit_for_bit_however_the_samples_come";
 
 #[test]
 fn every_golden_value_is_met_bit_for_bit_however_the_samples_come() {

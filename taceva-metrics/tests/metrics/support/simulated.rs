@@ -1,10 +1,5 @@
 //! Simulated presses whose scores are known before they are made: how often does an interval hold them?
 
-#![allow(
-    dead_code,
-    reason = "an example and a test share it and each uses some of it"
-)]
-
 use std::f64::consts::FRAC_2_PI;
 use std::ops::{AddAssign, Range};
 
@@ -72,13 +67,6 @@ pub(crate) enum Method {
 }
 
 impl Method {
-    pub(crate) const ALL: [Method; 4] = [
-        Method::Jackknife,
-        Method::JackknifeBySample,
-        Method::Bootstrap(BootstrapEnds::Normal),
-        Method::Bootstrap(BootstrapEnds::Percentile),
-    ];
-
     /// The plans of the scores of forces, of places and of the surface.
     fn plans(self) -> [(Kind, MetricPlan); 3] {
         let place = Channels::new([Channel::PX]).expect("one channel");

@@ -3,10 +3,7 @@
 mod lighting;
 mod states;
 
-#[path = "../support/press.rs"]
-mod press;
-
-use press::{METRICS, evaluate, evaluator, facts, plan, press as pressed};
+use crate::support::press::{METRICS, evaluate, evaluator, facts, plan, press as pressed};
 use serde_json::json;
 use taceva_core::{
     Batch, Channel, Channels, Column, Field, FieldSet, Footprint, GratingKind, Labels, Nanometre,

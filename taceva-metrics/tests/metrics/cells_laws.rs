@@ -1,9 +1,6 @@
 //! Splitting, ordering and merging change nothing of what is kept by press, unit, time or level, and states survive a file.
 
-#[path = "support/laws.rs"]
-mod laws;
-
-use laws::states;
+use crate::support::laws::{self, states};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use taceva_core::{
