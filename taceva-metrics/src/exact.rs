@@ -22,6 +22,7 @@ pub(crate) mod record;
 mod round;
 mod simd;
 pub(crate) mod single;
+pub(crate) mod sorted;
 pub(crate) mod streams;
 mod sum;
 mod vector;

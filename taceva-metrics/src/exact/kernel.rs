@@ -97,14 +97,12 @@ impl Block<'_> {
         const R: u8 = Streams::of(&[Stream::Residual]).bits();
         const S: u8 = Streams::of(&[Stream::Squared]).bits();
         match self.streams.bits() & (A | R | S) {
-            R => machine.run(Errors::<R>(self)),
-            S => machine.run(Errors::<S>(self)),
-            bits if bits == A | R => machine.run(Errors::<{ A | R }>(self)),
-            bits if bits == A | S => machine.run(Errors::<{ A | S }>(self)),
-            bits if bits == R | S => machine.run(Errors::<{ R | S }>(self)),
-            bits if bits == A | R | S => machine.run(Errors::<{ A | R | S }>(self)),
             // At least one sum is needed to notice a NaN.
-            _ => machine.run(Errors::<A>(self)),
+            0 | A => machine.run(Errors::<A>(self)),
+            S => machine.run(Errors::<S>(self)),
+            bits if bits == A | S => machine.run(Errors::<{ A | S }>(self)),
+            // Sums that nobody reads cost less than kernels for every combination.
+            _ => machine.run(Errors::<{ A | R | S }>(self)),
         }
     }
 
@@ -116,13 +114,9 @@ impl Block<'_> {
         let wanted = self.streams.bits() & (Y | S | T);
         match (wanted, self.gate.is_some()) {
             (0, _) => ValueUnits::default(),
-            (Y, _) => machine.run(Values::<Y, false>(self)),
-            (S, _) => machine.run(Values::<S, false>(self)),
             (T, false) => machine.run(Values::<T, false>(self)),
-            (T, true) => machine.run(Values::<T, true>(self)),
-            (bits, _) if bits == Y | S => machine.run(Values::<{ Y | S }, false>(self)),
-            (bits, false) if bits == Y | S | T => machine.run(Values::<{ Y | S | T }, false>(self)),
-            // Sums of y that nobody reads cost less than kernels for every combination.
+            (bits, _) if bits & T == 0 => machine.run(Values::<{ Y | S }, false>(self)),
+            (_, false) => machine.run(Values::<{ Y | S | T }, false>(self)),
             _ => machine.run(Values::<{ Y | S | T }, true>(self)),
         }
     }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::exact::ExactSum;
+use crate::exact::sorted::SortedMap;
 
 /// Counts and exact sums; the schema says of what.
 ///
@@ -67,12 +68,12 @@ impl Record {
         &self,
         parse: impl Fn(&str) -> Option<K>,
         read: impl Fn(&Record) -> Result<T, String>,
-    ) -> Result<BTreeMap<K, T>, String> {
-        let mut cells = BTreeMap::new();
+    ) -> Result<SortedMap<K, T>, String> {
+        let mut cells = SortedMap::default();
         for (name, record) in &self.cells {
             let key = parse(name).ok_or_else(|| format!("`{name}` is no key of a cell"))?;
             let sums = read(record).map_err(|what| format!("cell `{name}`: {what}"))?;
-            if cells.insert(key, sums).is_some() {
+            if !cells.insert(key, sums) {
                 return Err(format!("cell `{name}` comes twice"));
             }
         }

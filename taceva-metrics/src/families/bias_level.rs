@@ -2,8 +2,6 @@
 
 mod window;
 
-use std::collections::BTreeMap;
-
 use taceva_core::{Batch, Field, FieldSet, Needs, Unit};
 
 use crate::evaluate::family::{Details, FamilyKind, Numbers, Output, erased};
@@ -11,6 +9,7 @@ use crate::evaluate::metric::{Metric, ScoreUnit};
 use crate::exact::level::{from_millionths, step};
 use crate::exact::merge::{Merge, keyed, merge_cells};
 use crate::exact::record::Record;
+use crate::exact::sorted::SortedMap;
 use crate::exact::{Dyadic, ExactSum};
 use crate::families::channelwise::{ByChannel, Channelwise};
 use crate::families::gathered::Gathered;
@@ -79,7 +78,7 @@ pub(crate) struct LevelSums {
     n: u64,
     n_invalid: u64,
     /// By ⌊truth / width⌋, the truth in millionths.
-    levels: BTreeMap<i64, LevelErrors>,
+    levels: SortedMap<i64, LevelErrors>,
 }
 
 /// Count and exact sum of d = RN(y − ŷ) at one level.
@@ -120,7 +119,7 @@ fn greatest_bias(sums: &LevelSums) -> Finished {
 fn curve(sums: &LevelSums, unit: Unit, width: i64) -> Curve {
     let middle = |level: &i64| from_millionths(level * width + width / 2);
     Curve {
-        x: sums.levels.keys().map(middle).collect(),
+        x: sums.levels.iter().map(|(level, _)| middle(level)).collect(),
         x_unit: unit,
         values: sums
             .levels

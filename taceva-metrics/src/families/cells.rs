@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use crate::exact::merge::{Merge, keyed};
 use crate::exact::record::Record;
+use crate::exact::sorted::SortedMap;
 
 /// Where presses belong together: a contact point, and a depth step within it where that matters.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -49,14 +50,14 @@ impl CellKey {
 /// two it is depends on the set of rows alone.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Cells<V> {
-    cells: BTreeMap<CellKey, Arc<V>>,
+    cells: SortedMap<CellKey, Arc<V>>,
     named: bool,
 }
 
 impl<V> Default for Cells<V> {
     fn default() -> Cells<V> {
         Cells {
-            cells: BTreeMap::new(),
+            cells: SortedMap::default(),
             named: true,
         }
     }
@@ -92,7 +93,7 @@ impl<V: Merge + Clone + Default> Cells<V> {
                 CellKey::default()
             }
         };
-        Arc::make_mut(self.cells.entry(key).or_default())
+        Arc::make_mut(self.cells.entry(key))
     }
 
     /// Makes all cells one.
@@ -102,8 +103,8 @@ impl<V: Merge + Clone + Default> Cells<V> {
         }
         self.named = false;
         let mut all: Option<V> = None;
-        for cell in std::mem::take(&mut self.cells).into_values() {
-            all.get_or_insert_default().merge(&cell);
+        for (_, cell) in &std::mem::take(&mut self.cells) {
+            all.get_or_insert_default().merge(cell);
         }
         if let Some(all) = all {
             self.cells.insert(CellKey::default(), Arc::new(all));
@@ -139,8 +140,8 @@ impl<V: Merge + Clone + Default> Cells<V> {
         read: impl Fn(&Record) -> Result<V, String>,
     ) -> Result<Cells<V>, String> {
         let cells = record.read_cells(CellKey::from_text, |record| read(record).map(Arc::new))?;
-        match cells.keys().find(|key| key.point.is_some() != named) {
-            Some(key) => Err(format!(
+        match cells.iter().find(|(key, _)| key.point.is_some() != named) {
+            Some((key, _)) => Err(format!(
                 "cell `{}` in a state {} locations",
                 key.to_text(),
                 if named { "with" } else { "without" }

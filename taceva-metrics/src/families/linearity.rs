@@ -2,8 +2,6 @@
 
 mod line;
 
-use std::collections::BTreeMap;
-
 use taceva_core::{Batch, Field, FieldSet, Needs, Unit};
 
 use crate::evaluate::family::{FamilyKind, Numbers, Output, erased};
@@ -50,7 +48,7 @@ pub(crate) static KIND: FamilyKind = FamilyKind {
 #[derive(Default)]
 pub(crate) struct Lines {
     /// By the position of the channel: channels have magnitudes of their own.
-    adders: BTreeMap<usize, ColumnAdder>,
+    adders: Vec<ColumnAdder>,
     gathered: Gathered,
 }
 
@@ -65,9 +63,10 @@ impl Channelwise for Lines {
         rows: Option<&[u32]>,
     ) {
         let columns = [batch.truth(position), batch.prediction(position)];
-        let adder = self.adders.entry(position);
-        let adder = adder.or_insert_with(|| ColumnAdder::new(PRODUCTS.to_vec()));
-        adder.add(&self.gathered.rows(&columns, rows), sums);
+        while self.adders.len() <= position {
+            self.adders.push(ColumnAdder::new(PRODUCTS.to_vec()));
+        }
+        self.adders[position].add(&self.gathered.rows(&columns, rows), sums);
     }
 
     fn to_record(&self, sums: &LineSums) -> Record {

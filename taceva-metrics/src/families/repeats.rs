@@ -2,8 +2,6 @@
 
 pub(crate) mod spread;
 
-use std::collections::BTreeMap;
-
 use taceva_core::{Batch, Field, FieldSet, Needs, Unit};
 
 use crate::evaluate::family::{Details, FamilyKind, Numbers, Output, each_row, erased};
@@ -12,6 +10,7 @@ use crate::exact::ExactSum;
 use crate::exact::merge::Merge;
 use crate::exact::moments::Moments;
 use crate::exact::record::Record;
+use crate::exact::sorted::SortedMap;
 use crate::families::cells::{Cells, add_times};
 use crate::families::channelwise::{ByChannel, Channelwise};
 use crate::paired::is_valid;
@@ -205,13 +204,13 @@ impl Channelwise for Repeats {
 
 /// The mean spread at each depth step; of two channels the mean of both.
 fn depth_curve(parts: &[&RepeatSums]) -> Value {
-    let mut steps: BTreeMap<u32, (ExactSum, u64)> = BTreeMap::new();
+    let mut steps: SortedMap<u32, (ExactSum, u64)> = SortedMap::default();
     for part in parts {
         if !part.cells.are_named() {
             return Value::Undefined(UndefinedReason::NoClusters);
         }
         for (key, cell) in part.cells.iter() {
-            let (sum, count) = steps.entry(key.step()).or_default();
+            let (sum, count) = steps.entry(key.step());
             if let Some(spread) = cell.spread().filter(|spread| spread.variance.is_finite()) {
                 sum.add(spread.deviation);
                 *count += 1;
@@ -220,7 +219,7 @@ fn depth_curve(parts: &[&RepeatSums]) -> Value {
     }
     let channels = parts.iter().fold(0, |channels, _| channels + 1).max(1);
     Value::Curve(Curve {
-        x: steps.keys().map(|&step| f64::from(step)).collect(),
+        x: steps.iter().map(|(&step, _)| f64::from(step)).collect(),
         x_unit: Unit::One,
         values: steps
             .values()

@@ -16,6 +16,7 @@ use crate::evaluate::settings::Settings;
 use crate::exact::merge::keyed;
 use crate::exact::moments::Moments;
 use crate::exact::record::Record;
+use crate::exact::sorted::SortedMap;
 use crate::families::accuracy::outputs;
 use crate::paired::Paired;
 use crate::score::curve::Curve;
@@ -55,7 +56,7 @@ impl Spatial {
     }
 
     /// The mean absolute error over the centres of the bins.
-    fn curve(&self, bins: &BTreeMap<u8, Moments>, extent: Nanometre) -> Value {
+    fn curve(&self, bins: &SortedMap<u8, Moments>, extent: Nanometre) -> Value {
         let of = |bin: u8| {
             bins.get(&bin)
                 .filter(|moments| moments.n >= self.settings.n_min)
@@ -141,7 +142,7 @@ impl Family for Spatial {
             ..Details::default()
         };
         if let [sums] = parts {
-            let used = |bins: &BTreeMap<u8, Moments>| {
+            let used = |bins: &SortedMap<u8, Moments>| {
                 let used = bins.values().filter(|bin| bin.n >= self.settings.n_min);
                 used.fold(0, |used, _| used + 1)
             };

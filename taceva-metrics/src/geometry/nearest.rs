@@ -2,6 +2,8 @@
 
 use super::rigid::Point;
 
+use crate::exact::ordered::ranked;
+
 /// Points in an order in which the nearest is found without visiting all.
 #[derive(Clone, Debug)]
 pub(crate) struct NearestPoints {
@@ -23,13 +25,14 @@ pub(crate) struct Nearest {
 impl NearestPoints {
     /// The given points; their order decides between equally near ones.
     pub(crate) fn new(points: impl IntoIterator<Item = Point>) -> NearestPoints {
-        let mut sorted: Vec<(Point, usize)> = points
-            .into_iter()
-            .enumerate()
-            .map(|(index, point)| (point, index))
-            .collect();
-        sorted.sort_by(|(left, _), (right, _)| left[0].total_cmp(&right[0]));
-        NearestPoints { sorted }
+        let points: Vec<Point> = points.into_iter().collect();
+        let order = ranked(points.len(), &|left, right| {
+            points[left][0].total_cmp(&points[right][0])
+        });
+        let sorted = order.into_iter().map(|index| (points[index], index));
+        NearestPoints {
+            sorted: sorted.collect(),
+        }
     }
 
     /// The point nearest to `place`; `None` if there is no point.

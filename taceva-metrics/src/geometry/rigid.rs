@@ -1,5 +1,7 @@
 //! The rigid motion that brings one cloud of points closest to another.
 
+use crate::exact::ordered::ranked;
+
 /// A place in space, mm.
 pub(crate) type Point = [f64; 3];
 
@@ -78,8 +80,9 @@ fn leading_vector(mut matrix: [[f64; 4]; 4]) -> Option<[f64; 4]> {
             }
         }
     }
-    let mut order = [0, 1, 2, 3];
-    order.sort_by(|&left, &right| matrix[right][right].total_cmp(&matrix[left][left]));
+    let order = ranked(4, &|left, right| {
+        matrix[right][right].total_cmp(&matrix[left][left])
+    });
     let [first, second] = [order[0], order[1]];
     let apart = matrix[first][first] - matrix[second][second];
     let determined = apart > OPEN * matrix[first][first].abs();

@@ -1,6 +1,7 @@
 //! Many tests at once.
 
 use super::error::ComparisonError;
+use crate::exact::ordered::ranked;
 
 /// The level of every test: how often chance alone may show a difference.
 pub(super) const LEVEL: f64 = 0.05;
@@ -53,8 +54,9 @@ pub(super) fn steps(p_values: &[f64], level: f64) -> Result<Vec<Step>, Compariso
             value: p_values[position],
         });
     }
-    let mut order: Vec<usize> = (0..p_values.len()).collect();
-    order.sort_by(|&left, &right| p_values[left].total_cmp(&p_values[right]));
+    let order = ranked(p_values.len(), &|left, right| {
+        p_values[left].total_cmp(&p_values[right])
+    });
     let undecided = Step {
         adjusted_p: 1.0,
         is_rejected: false,

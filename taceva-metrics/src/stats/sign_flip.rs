@@ -137,9 +137,8 @@ impl SignFlip {
             tried(self.flips, false)
         };
         flips.from_below.sort_unstable_by(f64::total_cmp);
-        flips
-            .from_above
-            .sort_unstable_by(|left, right| right.total_cmp(left));
+        flips.from_above.sort_unstable_by(f64::total_cmp);
+        flips.from_above.reverse();
         let patterns = flips.from_below.iter().fold(0.0, |count, _| count + 1.0);
         Tried {
             test,

@@ -56,12 +56,12 @@ impl Window {
                 is_held
             });
             if !is_held {
-                sums.levels.entry(level).or_default().add(error);
+                sums.levels.entry(level).add(error);
             }
         }
         for (level, (n, errors)) in (lowest..).zip(&mut self.levels) {
             if *n > 0 {
-                let of_level: &mut LevelErrors = sums.levels.entry(level).or_default();
+                let of_level: &mut LevelErrors = sums.levels.entry(level);
                 of_level.n += u64::from(*n);
                 errors.settle_into(&mut of_level.errors);
             }
@@ -97,7 +97,7 @@ mod tests {
             };
             match millionths(reference).filter(|_| pair.is_valid()) {
                 Some(truth) => {
-                    let level = sums.levels.entry(truth.div_euclid(width)).or_default();
+                    let level = sums.levels.entry(truth.div_euclid(width));
                     level.add(pair.residual());
                     sums.n += 1;
                 }

@@ -1,6 +1,5 @@
 //! What is kept of the presses at one point.
 
-use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 use taceva_core::Phase;
@@ -9,6 +8,7 @@ use super::press::Press;
 use crate::exact::merge::{Merge, keyed};
 use crate::exact::ordered::Ordered;
 use crate::exact::record::Record;
+use crate::exact::sorted::SortedMap;
 use crate::exact::{Dyadic, ExactSum};
 use crate::paired::is_valid;
 use crate::score::value::UndefinedReason;
@@ -23,7 +23,7 @@ pub(super) struct Branches {
 }
 
 /// The forces at each depth: their count and exact sum.
-type Branch = BTreeMap<Ordered, (u64, ExactSum)>;
+type Branch = SortedMap<Ordered, (u64, ExactSum)>;
 
 /// Count and exact sums of the x and y of samples, mm.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -40,7 +40,7 @@ impl Branches {
             Phase::Load => &mut self.load,
             Phase::Unload => &mut self.unload,
         };
-        let (count, forces) = branch.entry(Ordered::new(depth_mm)).or_default();
+        let (count, forces) = branch.entry(Ordered::new(depth_mm));
         *count += 1;
         forces.add(force_n);
     }
@@ -73,7 +73,7 @@ impl Branches {
             let record = Record {
                 counts: branch.values().map(|(count, _)| *count).collect(),
                 sums: branch.values().map(|(_, forces)| forces.clone()).collect(),
-                values: branch.keys().map(|depth| depth.value()).collect(),
+                values: branch.iter().map(|(depth, _)| depth.value()).collect(),
                 ..Record::default()
             };
             (!branch.is_empty()).then(|| (name.to_owned(), record))
@@ -93,8 +93,8 @@ impl Branches {
     /// Back from a state.
     pub(super) fn read_record(record: &Record) -> Result<Branches, String> {
         let (&[n], sums) = record.with_cells()?;
-        let mut branches = record.read_cells(Phase::from_name, read_branch)?;
-        let mut branch = |phase| branches.remove(&phase).unwrap_or_default();
+        let branches = record.read_cells(Phase::from_name, read_branch)?;
+        let branch = |phase| branches.get(&phase).cloned().unwrap_or_default();
         Ok(Branches {
             load: branch(Phase::Load),
             unload: branch(Phase::Unload),
@@ -121,7 +121,7 @@ impl Merge for Branches {
             (&mut self.unload, &other.unload),
         ] {
             for (depth, (n, forces)) in theirs {
-                let (count, sum) = ours.entry(*depth).or_default();
+                let (count, sum) = ours.entry(*depth);
                 *count = count.saturating_add(*n);
                 sum.merge(forces);
             }
@@ -149,11 +149,12 @@ fn read_branch(record: &Record) -> Result<Branch, String> {
     if !sound || record.counts.len() != depths.len() || record.sums.len() != depths.len() {
         return Err("depths are not ascending, each with a count and a sum of forces".to_owned());
     }
-    let forces = record
-        .counts
-        .iter()
-        .copied()
-        .zip(record.sums.iter().cloned());
-    let depths = depths.iter().map(|depth| Ordered::new(*depth));
-    Ok(keyed(depths.zip(forces)))
+    let mut branch = Branch::default();
+    for (row, depth) in depths.iter().enumerate() {
+        branch.insert(
+            Ordered::new(*depth),
+            (record.counts[row], record.sums[row].clone()),
+        );
+    }
+    Ok(branch)
 }

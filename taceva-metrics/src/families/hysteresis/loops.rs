@@ -12,6 +12,7 @@ use crate::evaluate::plan::MetricPlan;
 use crate::exact::merge::Merge;
 use crate::exact::moments::Moments;
 use crate::exact::record::Record;
+use crate::exact::sorted::SortedMap;
 use crate::exact::{Dyadic, ExactSum};
 use crate::families::cells::{Cells, add_times};
 use crate::families::surface::Grid;
@@ -210,11 +211,11 @@ impl LoopSums {
 
     /// The mean area of the points in each cell of `grid`.
     fn map(&self, grid: &Grid) -> Map {
-        let mut areas: BTreeMap<(u32, u32), Moments> = BTreeMap::new();
+        let mut areas: SortedMap<(u32, u32), Moments> = SortedMap::default();
         for (_, cell) in self.cells.iter() {
             let place = cell.place_mm().and_then(|[x, y]| grid.cell(x, y));
             if let (Some(place), Ok(press)) = (place, cell.press()) {
-                areas.entry(place).or_default().add(press.area);
+                areas.entry(place).add(press.area);
             }
         }
         let bins = grid.bins();

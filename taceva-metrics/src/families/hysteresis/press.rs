@@ -80,7 +80,7 @@ fn common_grid(load: Branch<'_>, unload: Branch<'_>) -> Result<Vec<f64>, Undefin
     let mut grid: Vec<f64> = depths
         .filter(|depth| (start..=end).contains(depth))
         .collect();
-    grid.sort_by(f64::total_cmp);
+    grid.sort_unstable_by(f64::total_cmp);
     grid.dedup_by(|one, other| one.total_cmp(other) == Ordering::Equal);
     Ok(grid)
 }

@@ -2,7 +2,6 @@
 
 use super::gap::Gap;
 use super::surfaces::{Cloud, SurfaceClouds};
-use crate::exact::merge::keyed;
 use crate::exact::{Dyadic, ExactSum};
 use crate::geometry::{Motion, Point, Registration, register_clouds};
 use crate::score::matrix::Matrix;
@@ -28,7 +27,7 @@ impl UnitGaps {
     /// # Errors
     /// [`UndefinedReason`] if there is no sample or one unit only.
     pub(super) fn of(sums: &SurfaceClouds) -> Result<UnitGaps, UndefinedReason> {
-        let clouds: Vec<(&str, Cloud)> = sums.by_unit().into_iter().collect();
+        let clouds = sums.by_unit();
         match clouds.len() {
             0 => return Err(UndefinedReason::Empty),
             1 => return Err(UndefinedReason::OneUnit),
@@ -139,11 +138,12 @@ fn compare(units: [usize; 2], onto: &Cloud, from: &Cloud) -> UnitPair {
 
 /// The points of both clouds at the locations they share, in one order.
 fn shared_points(from: &Cloud, onto: &Cloud) -> [Vec<Point>; 2] {
-    let locations = onto.locations.iter().copied();
-    let onto = keyed(locations.zip(onto.points.iter().copied()));
     let located = from.locations.iter().zip(&from.points);
     let (from, onto) = located
-        .filter_map(|(location, &point)| Some((point, *onto.get(location)?)))
+        .filter_map(|(location, &point)| {
+            let at = onto.locations.binary_search(location).ok()?;
+            Some((point, onto.points[at]))
+        })
         .unzip();
     [from, onto]
 }

@@ -1,11 +1,10 @@
 //! What is kept of the surfaces of units: where each was first met.
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use crate::exact::level::millionths;
-use crate::exact::merge::Merge;
+use crate::exact::merge::{Merge, keyed};
 use crate::exact::ordered::Ordered;
 use crate::exact::record::Record;
+use crate::exact::sorted::SortedMap;
 use crate::exact::{Dyadic, ExactSum};
 use crate::families::cells::{Cells, add_times};
 use crate::geometry::Point;
@@ -20,10 +19,13 @@ pub(crate) struct SurfaceClouds {
     cells: Cells<Places>,
 }
 
+/// Places in a defined order, each once.
+type PlaceSet = SortedMap<[Ordered; 3], ()>;
+
 /// The places of one location, by unit.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Places {
-    units: BTreeMap<String, BTreeSet<[Ordered; 3]>>,
+    units: SortedMap<String, PlaceSet>,
 }
 
 /// The surface of one unit: points in a defined order, those of a location under its number.
@@ -44,11 +46,11 @@ impl SurfaceClouds {
         }
         self.n += 1;
         let units = &mut self.cells.at(point, 0).units;
-        if !units.contains_key(unit) {
-            units.insert(unit.to_owned(), BTreeSet::new());
+        if units.get(unit).is_none() {
+            units.insert(unit.to_owned(), PlaceSet::default());
         }
         if let Some(places) = units.get_mut(unit) {
-            places.insert(place_mm.map(Ordered::new));
+            places.insert(place_mm.map(Ordered::new), ());
         }
     }
 
@@ -69,22 +71,23 @@ impl SurfaceClouds {
 
     /// The cloud of each unit. Where samples name locations, a location's point is RN of the mean of its places along each
     /// axis; otherwise every place is a point.
-    pub(super) fn by_unit(&self) -> BTreeMap<&str, Cloud> {
-        let mut clouds: BTreeMap<&str, Cloud> = BTreeMap::new();
+    pub(super) fn by_unit(&self) -> Vec<(&str, Cloud)> {
+        let mut clouds: SortedMap<&str, Cloud> = SortedMap::default();
         for (location, (_, cell)) in self.cells.iter().enumerate() {
             for (unit, places) in &cell.units {
-                let cloud = clouds.entry(unit).or_default();
+                let cloud = clouds.entry(unit.as_str());
                 if self.cells.are_named() {
                     cloud.points.push(mean_place(places));
                     cloud.locations.push(location);
                 } else {
                     cloud
                         .points
-                        .extend(places.iter().map(|place| place.map(Ordered::value)));
+                        .extend(places.iter().map(|(place, ())| place.map(Ordered::value)));
                 }
             }
         }
-        clouds
+        let clouds = clouds.iter().map(|(unit, cloud)| (*unit, cloud.clone()));
+        clouds.collect()
     }
 
     /// As a state holds it: by location, by unit, x y z of each place.
@@ -92,13 +95,16 @@ impl SurfaceClouds {
         let cell = |cell: &Places| {
             let units = cell.units.iter().map(|(unit, places)| {
                 let record = Record {
-                    values: places.iter().flatten().map(|value| value.value()).collect(),
+                    values: places
+                        .iter()
+                        .flat_map(|(place, ())| place.map(Ordered::value))
+                        .collect(),
                     ..Record::default()
                 };
                 (unit.clone(), record)
             });
             Record {
-                cells: units.collect(),
+                cells: keyed(units),
                 ..Record::default()
             }
         };
@@ -119,9 +125,9 @@ impl SurfaceClouds {
                 .all(|value| millionths(*value).is_some());
             let whole = lengths && record.values.len().is_multiple_of(3) && record.cells.is_empty();
             let triples = record.values.chunks_exact(3);
-            let mut places = BTreeSet::new();
+            let mut places = PlaceSet::default();
             for place in triples {
-                places.insert([place[0], place[1], place[2]].map(Ordered::new));
+                places.insert([place[0], place[1], place[2]].map(Ordered::new), ());
             }
             let found = whole.then_some(places).filter(|places| !places.is_empty());
             found.ok_or_else(|| "no places of three lengths each".to_owned())
@@ -154,16 +160,22 @@ impl Merge for SurfaceClouds {
 impl Merge for Places {
     fn merge(&mut self, other: &Places) {
         for (unit, places) in &other.units {
-            self.units.entry(unit.clone()).or_default().extend(places);
+            let ours = self.units.entry(unit.clone());
+            for (place, ()) in places {
+                ours.insert(*place, ());
+            }
         }
     }
 }
 
 /// RN of the mean along each axis.
-fn mean_place(places: &BTreeSet<[Ordered; 3]>) -> Point {
+fn mean_place(places: &PlaceSet) -> Point {
     let count = places.iter().fold(0, |count, _| count + 1);
     std::array::from_fn(|axis| {
-        let sum: ExactSum = places.iter().map(|place| place[axis].value()).collect();
+        let sum: ExactSum = places
+            .iter()
+            .map(|(place, ())| place[axis].value())
+            .collect();
         sum.to_dyadic().over(&Dyadic::from(count))
     })
 }

@@ -1,11 +1,10 @@
 //! What is kept of the frames of a recording and of the places that were touched.
 
-use std::collections::BTreeSet;
-
 use crate::exact::Dyadic;
 use crate::exact::merge::{Merge, keyed};
 use crate::exact::ordered::Ordered;
 use crate::exact::record::Record;
+use crate::exact::sorted::SortedMap;
 use crate::geometry::{GrowingHull, Hull};
 use crate::paired::is_valid;
 use crate::score::value::{Finished, UndefinedReason};
@@ -23,7 +22,7 @@ pub(crate) struct IntrinsicSums {
     /// Samples in contact that say where.
     contacts: u64,
     hull: GrowingHull,
-    frames: BTreeSet<(Ordered, Option<u64>)>,
+    frames: SortedMap<(Ordered, Option<u64>), ()>,
 }
 
 impl IntrinsicSums {
@@ -31,7 +30,7 @@ impl IntrinsicSums {
     pub(super) fn add_time(&mut self, time_s: f64, digest: Option<&str>) {
         if is_valid(time_s) {
             let digest = digest.map(|digest| fnv1a64(digest.as_bytes()));
-            self.frames.insert((Ordered::new(time_s), digest));
+            self.frames.insert((Ordered::new(time_s), digest), ());
             self.timed += 1;
         } else {
             self.n_invalid += 1;
@@ -53,7 +52,7 @@ impl IntrinsicSums {
 
     /// The times in s, ascending, each once.
     pub(super) fn times_s(&self) -> Vec<f64> {
-        let mut times: Vec<Ordered> = self.frames.iter().map(|(time, _)| *time).collect();
+        let mut times: Vec<Ordered> = self.frames.iter().map(|((time, _), ())| *time).collect();
         times.dedup();
         times.into_iter().map(Ordered::value).collect()
     }
@@ -84,12 +83,13 @@ impl IntrinsicSums {
             return Err(UndefinedReason::NoTimes);
         }
         let (mut followers, mut duplicates) = (0_u64, 0_u64);
-        let frames = self.frames.iter();
-        for ((_, before), (_, after)) in frames.clone().zip(frames.skip(1)) {
+        let mut before = None;
+        for ((_, after), ()) in &self.frames {
             if before.is_some() && after.is_some() {
                 followers += 1;
-                duplicates += u64::from(before == after);
+                duplicates += u64::from(before == *after);
             }
+            before = *after;
         }
         if followers == 0 {
             return Err(UndefinedReason::NoDigests);
@@ -118,9 +118,10 @@ impl IntrinsicSums {
     /// As a state holds it: the corners of the hull; frames as two records, times and digests of those that have one.
     pub(super) fn to_record(&self) -> Record {
         let part = |of: &dyn Fn(&Option<u64>) -> bool| {
-            let frames = self.frames.iter().filter(|(_, digest)| of(digest));
-            let (values, digests): (Vec<f64>, Vec<Option<u64>>) =
-                frames.map(|(time, digest)| (time.value(), *digest)).unzip();
+            let frames = self.frames.iter().filter(|((_, digest), ())| of(digest));
+            let (values, digests): (Vec<f64>, Vec<Option<u64>>) = frames
+                .map(|((time, digest), ())| (time.value(), *digest))
+                .unzip();
             Record {
                 counts: digests.into_iter().flatten().collect(),
                 values,
@@ -148,8 +149,8 @@ impl IntrinsicSums {
         let hull = Hull::from_values(&record.values)?;
         let known = |name: &str| [PLAIN, DIGESTED].into_iter().find(|known| *known == name);
         let parts = record.read_cells(known, |record| Ok(record.clone()))?;
-        let mut frames = BTreeSet::new();
-        for (name, part) in parts {
+        let mut frames = SortedMap::default();
+        for (&name, part) in &parts {
             let digests = if name == PLAIN { 0 } else { part.values.len() };
             let whole = part.counts.len() == digests
                 && part.sums.is_empty()
@@ -158,12 +159,10 @@ impl IntrinsicSums {
             if !whole {
                 return Err(format!("frames `{name}` are no times with their digests"));
             }
-            let digests = part
-                .counts
-                .into_iter()
-                .map(Some)
-                .chain(std::iter::repeat(None));
-            frames.extend(part.values.into_iter().map(Ordered::new).zip(digests));
+            for (row, time) in part.values.iter().enumerate() {
+                let digest = part.counts.get(row).copied();
+                frames.insert((Ordered::new(*time), digest), ());
+            }
         }
         Ok(IntrinsicSums {
             n_invalid,
@@ -186,6 +185,8 @@ impl Merge for IntrinsicSums {
         self.timed = self.timed.saturating_add(other.timed);
         self.contacts = self.contacts.saturating_add(other.contacts);
         self.hull.merge(other.hull.hull());
-        self.frames.extend(&other.frames);
+        for (frame, ()) in &other.frames {
+            self.frames.insert(*frame, ());
+        }
     }
 }

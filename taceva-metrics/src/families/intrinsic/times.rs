@@ -27,7 +27,7 @@ impl Intervals {
             [_] => Err(UndefinedReason::EqualTimes),
             ref times => {
                 let mut sorted: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
-                sorted.sort_by(f64::total_cmp);
+                sorted.sort_unstable_by(f64::total_cmp);
                 let intervals = Intervals { sorted };
                 match intervals.median() > STREAM_S {
                     true => Err(UndefinedReason::NoStream),

@@ -1,9 +1,8 @@
 //! What is kept of the errors under each light.
 
-use std::collections::BTreeMap;
-
 use crate::exact::merge::{Merge, keyed, merge_cells};
 use crate::exact::record::Record;
+use crate::exact::sorted::SortedMap;
 use crate::exact::{Dyadic, ExactSum};
 use crate::paired::{Paired, is_valid};
 
@@ -12,7 +11,7 @@ use crate::paired::{Paired, is_valid};
 pub(crate) struct LightingSums {
     pub(super) n_invalid: u64,
     /// Only scenes that have samples.
-    pub(super) scenes: BTreeMap<String, SceneSums>,
+    pub(super) scenes: SortedMap<String, SceneSums>,
 }
 
 /// Count and exact sums of one scene.
@@ -44,13 +43,12 @@ impl LightingSums {
             self.n_invalid += 1;
             return;
         }
-        if !self.scenes.contains_key(scene) {
+        if self.scenes.get(scene).is_none() {
             self.scenes.insert(scene.to_owned(), SceneSums::default());
         }
-        let sums = self
-            .scenes
-            .get_mut(scene)
-            .expect("it was there or was inserted");
+        let Some(sums) = self.scenes.get_mut(scene) else {
+            return;
+        };
         sums.n += 1;
         sums.error.add(pair.residual().abs());
         sums.intensity.add(intensity);

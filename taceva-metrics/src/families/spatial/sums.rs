@@ -1,12 +1,11 @@
 //! What is kept of errors by distance from the axis and by depth.
 
-use std::collections::BTreeMap;
-
 use taceva_core::{Footprint, Nanometre};
 
 use crate::exact::merge::{Merge, keyed, merge_cells};
 use crate::exact::moments::Moments;
 use crate::exact::record::Record;
+use crate::exact::sorted::SortedMap;
 use crate::paired::{Paired, is_valid};
 
 /// Bins along each axis.
@@ -19,8 +18,8 @@ pub(crate) struct SpatialSums {
     pub(super) n_invalid: u64,
     /// Samples beyond the reach or the depth of the sensor.
     pub(super) outside: u64,
-    pub(super) distance: BTreeMap<u8, Moments>,
-    pub(super) depth: BTreeMap<u8, Moments>,
+    pub(super) distance: SortedMap<u8, Moments>,
+    pub(super) depth: SortedMap<u8, Moments>,
 }
 
 impl SpatialSums {
@@ -35,12 +34,12 @@ impl SpatialSums {
         };
         let error = pair.residual().abs();
         self.n += 1;
-        self.distance.entry(distance).or_default().add(error);
-        self.depth.entry(depth).or_default().add(error);
+        self.distance.entry(distance).add(error);
+        self.depth.entry(depth).add(error);
     }
 
     pub(super) fn to_record(&self) -> Record {
-        let cells = |axis: &'static str, bins: &BTreeMap<u8, Moments>| {
+        let cells = |axis: &'static str, bins: &SortedMap<u8, Moments>| {
             let bins = bins.iter();
             bins.map(|(bin, moments)| (format!("{axis} {bin:02}"), moments.to_record()))
                 .collect::<Vec<_>>()
@@ -75,13 +74,13 @@ impl SpatialSums {
             outside: *outside,
             ..SpatialSums::default()
         };
-        for ((axis, bin), moments) in cells {
+        for (&(axis, bin), moments) in &cells {
             let bins = if axis == 0 {
                 &mut sums.distance
             } else {
                 &mut sums.depth
             };
-            bins.insert(bin, moments);
+            bins.insert(bin, moments.clone());
         }
         for bins in [&sums.distance, &sums.depth] {
             let binned = bins

@@ -1,12 +1,11 @@
 //! What is kept of the compliance of a surface.
 
-use std::collections::BTreeMap;
-
 use super::grid::Cell;
 use crate::exact::ExactSum;
 use crate::exact::merge::{Merge, keyed, merge_cells};
 use crate::exact::moments::Moments;
 use crate::exact::record::Record;
+use crate::exact::sorted::SortedMap;
 use crate::paired::is_valid;
 use crate::score::value::UndefinedReason;
 
@@ -36,7 +35,7 @@ pub(crate) struct SurfaceSums {
     /// Σ F².
     pub(crate) force_squares: ExactSum,
     /// s of the samples within the footprint, by cell: of all, and of those without shear.
-    pub(crate) cells: BTreeMap<Cell, [Moments; 2]>,
+    pub(crate) cells: SortedMap<Cell, [Moments; 2]>,
 }
 
 /// Count and exact sum.
@@ -96,7 +95,7 @@ impl SurfaceSums {
             Place::Unknown => {}
             Place::Outside => self.outside += 1,
             Place::Cell(cell) => {
-                let [all, normal] = self.cells.entry(cell).or_default();
+                let [all, normal] = self.cells.entry(cell);
                 all.add(compliance);
                 if without_shear {
                     normal.add(compliance);
