@@ -21,15 +21,15 @@ mod needs;
 mod outcome;
 mod panic;
 mod phase;
+mod printable;
 mod progress;
 mod quantity;
 pub mod random;
 mod registry;
 mod sample;
-mod shown;
 mod si;
 mod signals;
-mod skip;
+mod skip_reason;
 mod specimen;
 mod stamp;
 mod stream;
@@ -65,6 +65,7 @@ pub use needs::Needs;
 pub use outcome::{Limit, PressOutcome};
 pub use panic::contained;
 pub use phase::Phase;
+pub use printable::{Shown, is_obeyed, shown, shown_lines};
 pub use progress::{Progress, SilentProgress};
 pub use quantity::{Degree, Hertz, Lux, Millimetre, Newton, NewtonMillimetre};
 pub use registry::{
@@ -73,10 +74,9 @@ pub use registry::{
     SensorFacts, Workspace,
 };
 pub use sample::{Readings, Sample};
-pub use shown::{Shown, is_obeyed, shown, shown_lines};
 pub use si::SiPose;
 pub use signals::{SignalError, SignalInfo, Signals};
-pub use skip::{SkipReason, Skipped};
+pub use skip_reason::{SkipReason, Skipped};
 pub use specimen::Specimen;
 pub use stamp::{Clock, Stamp};
 pub use stream::{SampleSink, Select, SinkError, Tee};

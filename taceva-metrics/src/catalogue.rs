@@ -1,7 +1,7 @@
 //! Every metric there is: the only source of names, units, directions, definitions and texts.
 
-mod better;
 mod bias;
+mod direction;
 mod entry_points;
 mod mae;
 mod r2;
@@ -13,9 +13,9 @@ mod skill;
 mod smape;
 mod smape_gated;
 mod uniformity;
-mod unknown;
+mod unknown_metric;
 
-pub use unknown::UnknownMetric;
+pub use unknown_metric::UnknownMetric;
 
 use crate::evaluate::metric::Metric;
 use crate::families::accuracy::MAE_EUCLID;

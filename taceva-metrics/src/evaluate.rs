@@ -8,13 +8,13 @@ pub(crate) mod entry;
 pub(crate) mod evaluation;
 pub(crate) mod evaluator;
 pub(crate) mod family;
-pub(crate) mod independent;
 pub(crate) mod metric;
 pub(crate) mod number;
 #[cfg(feature = "rayon")]
 mod parallel;
 pub(crate) mod plan;
 pub(crate) mod rows;
+pub(crate) mod sample_clusters;
 pub(crate) mod settings;
 pub(crate) mod standing;
 pub(crate) mod state;

@@ -5,11 +5,11 @@ mod hull;
 mod hull_core;
 mod nearest;
 mod orientation;
-mod register;
+mod registration;
 mod rigid;
 
 pub(crate) use growing_hull::GrowingHull;
 pub(crate) use hull::Hull;
 pub(crate) use nearest::NearestPoints;
-pub(crate) use register::{Registration, register_clouds};
+pub(crate) use registration::{Registration, register_clouds};
 pub(crate) use rigid::{Motion, Point};

@@ -8,7 +8,7 @@ mod evaluate;
 mod exact;
 mod families;
 mod geometry;
-mod paired;
+mod pair;
 mod score;
 mod stats;
 
@@ -19,15 +19,14 @@ pub use evaluate::{
 };
 pub use exact::{Canonical, CanonicalError, ExactSum, Record, Stream, Streams};
 pub use families::accuracy::pair_sums::{PairSpec, PairSums};
-pub use families::accuracy::plane_sums::PlaneSums;
-pub use paired::{EPSILON, GREATEST, Paired};
-pub use score::better::Better;
+pub use pair::{EPSILON, GREATEST, Paired};
 pub use score::curve::{Band, Curve};
+pub use score::direction::Better;
 pub use score::flag::Flag;
 pub use score::map::Map;
 pub use score::matrix::Matrix;
 pub use score::range::Range;
-pub use score::standing::{GREATEST_BOUNDED_SHARE, Standing};
+pub use score::standing::Standing;
 pub use score::theme::Theme;
 pub use score::value::{InapplicableReason, UndefinedReason, Value};
 pub use score::{

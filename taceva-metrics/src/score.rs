@@ -1,8 +1,8 @@
 //! One number of a report with all that is needed to trust and repeat it.
 
-pub(crate) mod better;
 mod bootstrap_ends;
 pub(crate) mod curve;
+pub(crate) mod direction;
 pub(crate) mod facts;
 pub(crate) mod flag;
 mod interval;

@@ -1,6 +1,6 @@
 //! Why an argument was refused.
 
-use crate::shown::shown;
+use crate::printable::shown;
 use std::fmt;
 
 /// An argument that the driver does not take; every text is as the user wrote it.

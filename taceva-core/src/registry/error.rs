@@ -1,6 +1,6 @@
 //! Why a driver could not be added or found.
 
-use crate::shown::shown;
+use crate::printable::shown;
 use std::fmt;
 
 use super::DescriptorError;

@@ -3,7 +3,7 @@
 use taceva_core::Isa;
 
 use crate::exact::{Job, Machine, Vector};
-use crate::paired::Paired;
+use crate::pair::Paired;
 
 /// Sums that are in flight at once, so that no addition waits for the one before.
 const IN_FLIGHT: usize = 4;

@@ -1,7 +1,7 @@
 //! Test inputs as cases: a few numbers from which every machine makes the same columns, bit for bit.
 
 use super::numbers::Numbers;
-use crate::paired::Paired;
+use crate::pair::Paired;
 
 /// How to make two columns. A plain value, which gets no further fields.
 ///

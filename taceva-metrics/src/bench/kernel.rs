@@ -9,7 +9,7 @@ use crate::exact::Machine;
 use crate::exact::streams::{Stream, Streams};
 use crate::families::accuracy::pair_sums::{PairSpec, PairSums};
 use crate::families::accuracy::pairs::value_of;
-use crate::paired::Paired;
+use crate::pair::Paired;
 
 /// A way to form MAE, R² and sMAPE of two columns.
 ///

@@ -2,7 +2,7 @@
 
 use taceva_core::random::SplitMix64;
 
-use crate::paired::Paired;
+use crate::pair::Paired;
 
 /// The rows of `columns` in another order, the same for the same `seed`.
 pub fn shuffled(columns: &Paired<Vec<f64>>, seed: u64) -> Paired<Vec<f64>> {

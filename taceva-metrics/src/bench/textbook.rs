@@ -2,7 +2,7 @@
 
 use super::compensated::{RunningSum, pairwise};
 use super::kernel::Scores;
-use crate::paired::Paired;
+use crate::pair::Paired;
 
 /// Σ|d|, Σd², SST and Σt as a library rounds them, over n rows.
 fn finish(n: f64, absolute: f64, squared: f64, total: f64, symmetric: f64) -> Scores {

@@ -4,7 +4,7 @@ use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
 use crate::exact::streams::{Stream, Streams};
 use crate::families::accuracy::pair_sums::PairSums;
 use crate::families::accuracy::pairs::{PAIR_NEEDS, PAIRS, PairFinish, PairFormula};
-use crate::score::better::Better;
+use crate::score::direction::Better;
 use crate::score::range::Range;
 use crate::score::theme::Theme;
 use crate::score::value::Finished;

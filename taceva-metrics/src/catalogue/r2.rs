@@ -5,7 +5,7 @@ use crate::exact::Dyadic;
 use crate::exact::streams::{Stream, Streams};
 use crate::families::accuracy::pair_sums::PairSums;
 use crate::families::accuracy::pairs::{PAIR_NEEDS, PAIRS, PairFinish, PairFormula};
-use crate::score::better::Better;
+use crate::score::direction::Better;
 use crate::score::range::Range;
 use crate::score::theme::Theme;
 use crate::score::value::{Finished, UndefinedReason};

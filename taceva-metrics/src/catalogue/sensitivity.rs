@@ -7,7 +7,7 @@ use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
 use crate::exact::Dyadic;
 use crate::families::surface::sums::{NORMAL_ONLY, SurfaceSums, Total, contact};
 use crate::families::surface::{SURFACE, SurfaceFormula};
-use crate::score::better::Better;
+use crate::score::direction::Better;
 use crate::score::range::Range;
 use crate::score::theme::Theme;
 use crate::score::value::{Finished, UndefinedReason};

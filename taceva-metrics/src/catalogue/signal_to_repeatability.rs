@@ -6,7 +6,7 @@ use crate::evaluate::family::Numbers;
 use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
 use crate::families::repeats::spread::SpreadSums;
 use crate::families::repeats::{REPEAT_NEEDS, REPEATS, RepeatFormula};
-use crate::score::better::Better;
+use crate::score::direction::Better;
 use crate::score::range::Range;
 use crate::score::theme::Theme;
 use crate::score::value::{Finished, UndefinedReason};

@@ -9,7 +9,7 @@ use crate::exact::streams::{Stream, Streams};
 use crate::families::accuracy::pair_sums::PairSums;
 use crate::families::accuracy::pairs::{Axis, PAIR_NEEDS, PAIRS, PairFinish, PairFormula};
 use crate::score::Variant;
-use crate::score::better::Better;
+use crate::score::direction::Better;
 use crate::score::flag::Flag;
 use crate::score::range::Range;
 use crate::score::theme::Theme;
@@ -139,7 +139,7 @@ impl Parts {
 mod tests {
     use super::*;
     use crate::families::accuracy::pair_sums::PairSpec;
-    use crate::paired::Paired;
+    use crate::pair::Paired;
 
     fn sums(estimate: &[f64], reference: &[f64]) -> PairSums {
         let mut sums = PairSums::new(PairSpec {

@@ -10,7 +10,7 @@ use crate::families::accuracy::gate;
 use crate::families::accuracy::pair_sums::PairSums;
 use crate::families::accuracy::pairs::{PAIR_NEEDS, PAIRS, PairFinish, PairFormula};
 use crate::score::Parameter;
-use crate::score::better::Better;
+use crate::score::direction::Better;
 use crate::score::range::Range;
 use crate::score::theme::Theme;
 use crate::score::value::{Finished, UndefinedReason};

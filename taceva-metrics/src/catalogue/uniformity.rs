@@ -8,7 +8,7 @@ use crate::evaluate::settings::Settings;
 use crate::exact::Dyadic;
 use crate::families::surface::sums::{NORMAL_ONLY, SurfaceSums, contact};
 use crate::families::surface::{SURFACE, SurfaceFormula};
-use crate::score::better::Better;
+use crate::score::direction::Better;
 use crate::score::facts::Fact;
 use crate::score::range::Range;
 use crate::score::theme::Theme;

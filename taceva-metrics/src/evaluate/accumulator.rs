@@ -17,7 +17,7 @@ use crate::evaluate::state::{Shape, State, describe, written};
 use crate::score::ClusteredBy;
 use crate::stats::IntervalMethod;
 use crate::stats::clusters::{Clustering, Clusters};
-use crate::stats::grouped::Grouped;
+use crate::stats::row_groups::Grouped;
 
 /// Keeps what the metrics of one family are finished from, apart by contact point.
 ///

@@ -5,10 +5,10 @@ use std::cell::OnceCell;
 
 use taceva_core::{Batch, Labels};
 
-use crate::evaluate::independent::rows_as_clusters;
+use crate::evaluate::sample_clusters::rows_as_clusters;
 use crate::score::ClusteredBy;
 use crate::stats::NAMED_CLUSTERS;
-use crate::stats::grouped::{Grouped, Groups};
+use crate::stats::row_groups::{Grouped, Groups};
 
 /// Batches of fewer rows are taken as they are: their clusters have too few rows for the order to matter.
 const LEAST_ROWS: usize = 512;

@@ -8,7 +8,7 @@ use taceva_core::{Field, FieldSet, Needs, Unit};
 use crate::evaluate::family::FamilyKind;
 use crate::evaluate::standing::VerdictRule;
 use crate::score::Parameter;
-use crate::score::better::Better;
+use crate::score::direction::Better;
 use crate::score::facts::Fact;
 use crate::score::range::Range;
 use crate::score::theme::Theme;

@@ -1,6 +1,6 @@
 //! Which metrics are computed, which are not and why, and what that takes.
 
-mod decide;
+mod selection;
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use crate::error::MetricError;
 use crate::evaluate::family::FamilyKind;
 use crate::evaluate::metric::Metric;
 use crate::evaluate::settings::Settings;
-use crate::paired::is_valid;
+use crate::pair::is_valid;
 use crate::score::ClusteredBy;
 use crate::score::facts::SensorFacts;
 use crate::stats::IntervalMethod;
@@ -86,10 +86,10 @@ impl MetricPlan {
     /// [`HASHED_CLUSTERS`](crate::HASHED_CLUSTERS), so that scores depend on the set of samples alone.
     ///
     /// ```
-    /// use taceva_metrics::{Channel, Channels, FieldSet, MetricPlan, catalogue};
+    /// use taceva_metrics::{Channel, Channels, ClusteredBy, FieldSet, MetricPlan, catalogue};
     /// let channels = Channels::new([Channel::FZ])?;
     /// let plan = MetricPlan::new(&catalogue::ALL, channels, FieldSet::PAIRS).independent_samples();
-    /// assert!(plan.takes_samples_as_independent());
+    /// assert_eq!(plan.clustered_by(), ClusteredBy::Sample);
     /// # Ok::<(), taceva_metrics::ChannelError>(())
     /// ```
     #[must_use]
@@ -98,11 +98,6 @@ impl MetricPlan {
             clustered_by: ClusteredBy::Sample,
             ..self
         }
-    }
-
-    /// Whether every sample is a cluster of its own.
-    pub fn takes_samples_as_independent(&self) -> bool {
-        self.clustered_by == ClusteredBy::Sample
     }
 
     /// The same plan for samples of several recordings, each of which is a cluster: intervals of errors, R², skill, planes, linearity, cross-talk,

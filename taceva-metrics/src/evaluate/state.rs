@@ -7,7 +7,7 @@ use taceva_core::{Channels, Unit};
 use crate::error::MetricError;
 use crate::exact::record::Record;
 use crate::stats::clusters::Clusters;
-use crate::stats::grouped::HASHED_CLUSTERS;
+use crate::stats::row_groups::HASHED_CLUSTERS;
 
 /// The mergeable summary of some samples.
 ///

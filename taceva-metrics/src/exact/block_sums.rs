@@ -6,14 +6,14 @@
 //! sums do not, because every way is exact.
 
 use super::bounds::{Grids, TERMS};
-use super::divided::Parts;
 use super::kernel::{BLOCK_ROWS, Block};
 use super::machine::Machine;
-use super::pending::{Pending, deposit};
+use super::partition::Parts;
 use super::sum::ExactSum;
+use super::unit_sums::{Pending, deposit};
 use crate::exact::merge::Merge;
 use crate::exact::streams::{Stream, Streams};
-use crate::paired::Paired;
+use crate::pair::Paired;
 
 /// Fewer rows than this are added one by one: that is sooner done than a block.
 const FEW_ROWS: usize = 4;

@@ -3,7 +3,7 @@
 use super::grid::{Grid, power_of_two};
 use super::vector::Vector;
 use crate::exact::streams::{Stream, Streams};
-use crate::paired::Paired;
+use crate::pair::Paired;
 
 /// The greatest exponent of a grid: squares and all bits that rounding takes from them stay far from over- and underflow.
 const GREATEST_TOP: i32 = 400;

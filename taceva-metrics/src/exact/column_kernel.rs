@@ -4,7 +4,7 @@ use super::bounds::Range;
 use super::grid::{Grid, GridSum, ProductSum, ProductUnits};
 use super::kernel::{Visit, visit_all};
 use super::vector::{Job, Vector};
-use crate::paired::Paired;
+use crate::pair::Paired;
 
 /// The values that `grid` holds together with their products.
 pub(super) fn range_of(grid: Grid) -> Range {

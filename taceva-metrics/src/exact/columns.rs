@@ -8,9 +8,9 @@ use super::column_kernel::{OfColumn, OfProducts, range_of};
 use super::grid::{Grid, ProductUnits};
 use super::kernel::{Block, add, add_products};
 use super::machine::Machine;
-use super::pending::{deposit, deposit_products};
 use super::sum::ExactSum;
-use crate::paired::is_valid;
+use super::unit_sums::{deposit, deposit_products};
+use crate::pair::is_valid;
 
 /// Fewer rows than this are added one by one: that is sooner done than a block.
 const FEW_ROWS: usize = 8;

@@ -9,7 +9,7 @@ use super::grid::{DEPTH, GridSum, ProductSum, ProductUnits};
 use super::machine::Machine;
 use super::vector::{Job, Vector};
 use crate::exact::streams::{Stream, Streams};
-use crate::paired::{EPSILON, Paired};
+use crate::pair::{EPSILON, Paired};
 
 /// Rows of the longest block.
 pub(super) const BLOCK_ROWS: usize = 512;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::exact::sorted::SortedMap;
+use crate::exact::sorted_map::SortedMap;
 
 /// A summary whose parts can be joined, exactly; what is merged twice counts twice.
 pub(crate) trait Merge {

@@ -5,7 +5,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 use super::canonical::Canonical;
 use super::digits::UNIT_EXPONENT;
 use super::integer::Natural;
-use super::round::round;
+use super::rounding::round;
 use super::sum::ExactSum;
 
 /// An integer times a power of two, exactly.

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::exact::ExactSum;
-use crate::exact::sorted::SortedMap;
+use crate::exact::sorted_map::SortedMap;
 
 /// Counts and exact sums; the schema says of what.
 ///

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::exact::merge::{Merge, keyed};
 use crate::exact::record::Record;
-use crate::exact::sorted::SortedMap;
+use crate::exact::sorted_map::SortedMap;
 
 /// Where presses belong together: a contact point, and a depth step within it where that matters.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]

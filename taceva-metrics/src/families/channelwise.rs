@@ -10,7 +10,7 @@ use crate::evaluate::plan::MetricPlan;
 use crate::exact::merge::Merge;
 use crate::exact::record::Record;
 use crate::families::accuracy::outputs;
-use crate::paired::Paired;
+use crate::pair::Paired;
 use crate::score::value::InapplicableReason;
 
 /// What is kept of a channel, and which scores come of it.

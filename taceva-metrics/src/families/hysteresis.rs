@@ -8,7 +8,7 @@ use taceva_core::{Field, FieldSet, Needs, Unit};
 
 use crate::evaluate::metric::{Metric, ScoreUnit};
 use crate::families::hysteresis::loops::KIND;
-use crate::score::better::Better;
+use crate::score::direction::Better;
 use crate::score::range::Range;
 use crate::score::theme::Theme;
 

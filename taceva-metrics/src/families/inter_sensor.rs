@@ -12,7 +12,7 @@ use crate::evaluate::family::{Details, Family, FamilyKind, Numbers, Output, each
 use crate::evaluate::metric::{Metric, ScoreUnit};
 use crate::evaluate::plan::MetricPlan;
 use crate::exact::record::Record;
-use crate::score::better::Better;
+use crate::score::direction::Better;
 use crate::score::range::Range;
 use crate::score::theme::Theme;
 use crate::score::value::Value;

@@ -13,7 +13,7 @@ use crate::evaluate::metric::{Metric, ScoreUnit};
 use crate::evaluate::plan::MetricPlan;
 use crate::exact::record::Record;
 use crate::score::Count;
-use crate::score::better::Better;
+use crate::score::direction::Better;
 use crate::score::range::Range;
 use crate::score::theme::Theme;
 use crate::score::value::{Finished, UndefinedReason};

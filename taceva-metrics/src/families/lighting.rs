@@ -19,7 +19,7 @@ use crate::evaluate::plan::MetricPlan;
 use crate::exact::merge::Merge;
 use crate::exact::record::Record;
 use crate::families::accuracy::outputs;
-use crate::paired::Paired;
+use crate::pair::Paired;
 use crate::score::Variant;
 use crate::score::value::Value;
 use sums::LightingSums;

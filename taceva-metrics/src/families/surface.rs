@@ -15,7 +15,7 @@ use crate::evaluate::plan::MetricPlan;
 use crate::evaluate::settings::Settings;
 use crate::exact::merge::keyed;
 use crate::exact::record::Record;
-use crate::paired::is_valid;
+use crate::pair::is_valid;
 use crate::score::facts;
 use crate::score::flag::Flag;
 use crate::score::map::Map;

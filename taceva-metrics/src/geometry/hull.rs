@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use super::orientation::{Place, doubled_area, turn};
-use crate::paired::is_valid;
+use crate::pair::is_valid;
 
 /// The corners of the convex hull of points in the plane.
 ///

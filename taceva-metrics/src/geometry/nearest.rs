@@ -2,7 +2,7 @@
 
 use super::rigid::Point;
 
-use crate::exact::ordered::ranked;
+use crate::exact::number_key::ranked;
 
 /// Points in an order in which the nearest is found without visiting all.
 #[derive(Clone, Debug)]

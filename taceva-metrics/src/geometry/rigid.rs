@@ -1,6 +1,6 @@
 //! The rigid motion that brings one cloud of points closest to another.
 
-use crate::exact::ordered::ranked;
+use crate::exact::number_key::ranked;
 
 /// A place in space, mm.
 pub(crate) type Point = [f64; 3];

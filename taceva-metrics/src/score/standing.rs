@@ -3,7 +3,7 @@
 use std::fmt;
 
 /// The share of predictions brought back to their bounds from which on a score is of the bounds rather than of the model.
-pub const GREATEST_BOUNDED_SHARE: f64 = 0.05;
+const GREATEST_BOUNDED_SHARE: f64 = 0.05;
 
 /// Up to here a skill is rounding: predictions that equal the constant but for their last bits reach 10⁻¹⁵.
 const ROUNDING: f64 = 1e-9;
@@ -23,7 +23,7 @@ pub enum Standing {
     Counts,
     /// It takes part and is marked: nothing shows whether the model does better than a constant.
     SkillUnknown,
-    /// It takes no part: more than [`GREATEST_BOUNDED_SHARE`] of its predictions lie beyond the bounds of the model.
+    /// It takes no part: more than 5 % of its predictions lie beyond the bounds of the model.
     Bounded,
     /// It takes no part: what it is formed from hardly changed, the light of some scene or the labels of repeated presses.
     LowStimulus,
@@ -130,7 +130,7 @@ impl Standing {
     }
 
     /// What a share of predictions that were, or would have been, brought back to the bounds of the model says.
-    pub fn of_bounded_share(share: f64) -> Standing {
+    pub(crate) fn of_bounded_share(share: f64) -> Standing {
         match share > GREATEST_BOUNDED_SHARE {
             true => Standing::Bounded,
             false => Standing::Counts,

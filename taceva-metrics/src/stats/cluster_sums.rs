@@ -6,7 +6,7 @@ use taceva_core::Batch;
 
 use super::error::ComparisonError;
 use crate::exact::ExactSum;
-use crate::paired::Paired;
+use crate::pair::Paired;
 
 /// Samples of one cluster, and the sum of what is compared.
 ///

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::fnv::fnv1a64;
-use super::grouped::{Grouped, HASHED_CLUSTERS, bucket};
+use super::row_groups::{Grouped, HASHED_CLUSTERS, bucket};
 use crate::exact::merge::Merge;
 
 /// Distinct locations up to which each is a cluster of its own.

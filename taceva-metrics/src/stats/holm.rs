@@ -1,7 +1,7 @@
 //! Many tests at once.
 
 use super::error::ComparisonError;
-use crate::exact::ordered::ranked;
+use crate::exact::number_key::ranked;
 
 /// The level of every test: how often chance alone may show a difference.
 pub(super) const LEVEL: f64 = 0.05;

@@ -7,7 +7,7 @@ use taceva_core::Unit;
 use super::difference::Difference;
 use super::error::ComparisonError;
 use super::sides::Side;
-use crate::score::better::Better;
+use crate::score::direction::Better;
 
 /// What is asked of a difference.
 ///

@@ -5,7 +5,7 @@ use crate::exact::Dyadic;
 use crate::families::accuracy::pairs::PAIR_NEEDS;
 use crate::families::accuracy::plane::KIND;
 use crate::families::accuracy::plane_sums::PlaneSums;
-use crate::score::better::Better;
+use crate::score::direction::Better;
 use crate::score::range::Range;
 use crate::score::theme::Theme;
 use crate::score::value::{Finished, UndefinedReason};

@@ -6,7 +6,7 @@ use crate::error::MetricError;
 use crate::exact::merge::Merge;
 use crate::exact::streams::{Stream, Streams};
 use crate::exact::{BlockSums, Counts, Dyadic, ExactSum, Machine, Sums};
-use crate::paired::Paired;
+use crate::pair::Paired;
 
 /// What is to be summed, and from which magnitude of truth on the gated score counts a sample.
 ///

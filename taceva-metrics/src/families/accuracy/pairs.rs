@@ -14,8 +14,8 @@ use crate::exact::streams::{Stream, Streams};
 use crate::exact::{Counts, Sums};
 use crate::families::accuracy::gate;
 use crate::families::accuracy::pair_sums::{PairSpec, PairSums};
-use crate::families::gathered::Gathered;
-use crate::paired::{EPSILON, Paired};
+use crate::families::row_columns::Gathered;
+use crate::pair::{EPSILON, Paired};
 use crate::score::value::{Finished, InapplicableReason, UndefinedReason};
 
 /// Family of the pairs of each channel.

@@ -12,8 +12,8 @@ use crate::evaluate::plan::MetricPlan;
 use crate::exact::ColumnAdder;
 use crate::exact::record::Record;
 use crate::families::accuracy::plane_sums::PlaneSums;
-use crate::families::gathered::Gathered;
-use crate::paired::{Paired, is_valid};
+use crate::families::row_columns::Gathered;
+use crate::pair::{Paired, is_valid};
 
 /// Two channels that are the axes of a plane.
 #[derive(Clone, Debug)]
@@ -199,7 +199,7 @@ mod tests {
     use taceva_core::Channel;
 
     use crate::evaluate::{Evaluator, Rows};
-    use crate::paired::GREATEST;
+    use crate::pair::GREATEST;
 
     #[test]
     fn a_distance_beyond_usable_numbers_is_summed_all_the_same() {

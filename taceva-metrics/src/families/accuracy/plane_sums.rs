@@ -2,18 +2,11 @@
 
 use crate::exact::merge::Merge;
 use crate::exact::{ColumnSums, ExactSum};
-use crate::paired::Paired;
+use crate::pair::Paired;
 
 /// Count and exact sum of Euclidean distances.
-///
-/// ```
-/// use taceva_metrics::{Paired, PlaneSums};
-/// let mut sums = PlaneSums::default();
-/// sums.add(Paired { estimate: 3.0, reference: 0.0 }, Paired { estimate: 4.0, reference: 0.0 });
-/// assert_eq!((sums.n(), sums.distance().to_f64()), (1, 5.0));
-/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct PlaneSums {
+pub(crate) struct PlaneSums {
     pub(crate) n: u64,
     pub(crate) n_invalid: u64,
     pub(crate) distance: ExactSum,
@@ -21,7 +14,7 @@ pub struct PlaneSums {
 
 impl PlaneSums {
     /// Adds one sample: its pair along x and along y; if a value is no usable number, the sample is counted and left out.
-    pub fn add(&mut self, x: Paired<f64>, y: Paired<f64>) {
+    pub(crate) fn add(&mut self, x: Paired<f64>, y: Paired<f64>) {
         match PlaneSums::distance_of(x, y) {
             Some(distance) => {
                 self.n += 1;
@@ -39,17 +32,17 @@ impl PlaneSums {
     }
 
     /// Number of samples.
-    pub fn n(&self) -> u64 {
+    pub(crate) fn n(&self) -> u64 {
         self.n
     }
 
     /// Number of samples left out.
-    pub fn n_invalid(&self) -> u64 {
+    pub(crate) fn n_invalid(&self) -> u64 {
         self.n_invalid
     }
 
     /// The sum of the distances.
-    pub fn distance(&self) -> &ExactSum {
+    pub(crate) fn distance(&self) -> &ExactSum {
         &self.distance
     }
 }

@@ -5,7 +5,7 @@ use ndarray::ArrayView1;
 use crate::error::MetricError;
 use crate::evaluate::number::Number;
 use crate::families::accuracy::pair_sums::PairSums;
-use crate::paired::Paired;
+use crate::pair::Paired;
 
 /// Pairs of views that lie apart in memory, or are no binary64, are gathered this many at a time.
 const BLOCK: usize = 1024;

@@ -3,7 +3,7 @@
 use super::{LevelErrors, LevelSums};
 use crate::exact::FixedSum;
 use crate::exact::level::millionths;
-use crate::paired::Paired;
+use crate::pair::Paired;
 
 /// Levels that are summed in place; those of a truth that spans more are looked up.
 const LEVELS: usize = 1 << 12;

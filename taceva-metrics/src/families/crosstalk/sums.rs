@@ -3,7 +3,7 @@
 use crate::exact::merge::Merge;
 use crate::exact::record::Record;
 use crate::exact::{ColumnSums, Dyadic, ExactSum};
-use crate::paired::is_valid;
+use crate::pair::is_valid;
 
 /// Counts, exact sums of values and products, and the range of each truth.
 #[derive(Clone, Debug, PartialEq)]

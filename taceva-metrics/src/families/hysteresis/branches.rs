@@ -6,11 +6,11 @@ use taceva_core::Phase;
 
 use super::press::Press;
 use crate::exact::merge::{Merge, keyed};
-use crate::exact::ordered::Ordered;
+use crate::exact::number_key::Ordered;
 use crate::exact::record::Record;
-use crate::exact::sorted::SortedMap;
+use crate::exact::sorted_map::SortedMap;
 use crate::exact::{Dyadic, ExactSum};
-use crate::paired::is_valid;
+use crate::pair::is_valid;
 use crate::score::value::UndefinedReason;
 
 /// Forces by depth on both branches, where the point lies, and the comparison, which is computed when it is first needed.

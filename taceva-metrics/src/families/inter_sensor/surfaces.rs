@@ -2,9 +2,9 @@
 
 use crate::exact::level::millionths;
 use crate::exact::merge::{Merge, keyed};
-use crate::exact::ordered::Ordered;
+use crate::exact::number_key::Ordered;
 use crate::exact::record::Record;
-use crate::exact::sorted::SortedMap;
+use crate::exact::sorted_map::SortedMap;
 use crate::exact::{Dyadic, ExactSum};
 use crate::families::cells::{Cells, add_times};
 use crate::geometry::Point;

@@ -2,11 +2,11 @@
 
 use crate::exact::Dyadic;
 use crate::exact::merge::{Merge, keyed};
-use crate::exact::ordered::Ordered;
+use crate::exact::number_key::Ordered;
 use crate::exact::record::Record;
-use crate::exact::sorted::SortedMap;
+use crate::exact::sorted_map::SortedMap;
 use crate::geometry::{GrowingHull, Hull};
-use crate::paired::is_valid;
+use crate::pair::is_valid;
 use crate::score::value::{Finished, UndefinedReason};
 use crate::stats::fnv::fnv1a64;
 

@@ -8,7 +8,7 @@ use crate::evaluate::family::{Details, Numbers};
 use crate::evaluate::metric::{Metric, ScoreUnit};
 use crate::exact::{Dyadic, ExactSum};
 use crate::families::lighting::KIND;
-use crate::score::better::Better;
+use crate::score::direction::Better;
 use crate::score::facts::Fact;
 use crate::score::flag::Flag;
 use crate::score::matrix::Matrix;

@@ -2,9 +2,9 @@
 
 use crate::exact::merge::{Merge, keyed, merge_cells};
 use crate::exact::record::Record;
-use crate::exact::sorted::SortedMap;
+use crate::exact::sorted_map::SortedMap;
 use crate::exact::{Dyadic, ExactSum};
-use crate::paired::{Paired, is_valid};
+use crate::pair::{Paired, is_valid};
 
 /// Errors of one channel and brightness of the pictures, by scene.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -5,7 +5,7 @@ use crate::exact::record::Record;
 use crate::exact::single::exactly;
 use crate::exact::{ColumnSums, Dyadic, ExactSum};
 use crate::geometry::{GrowingHull, Hull};
-use crate::paired::is_valid;
+use crate::pair::is_valid;
 use crate::score::value::UndefinedReason;
 
 /// Samples below which a line says nothing: two are always on one.

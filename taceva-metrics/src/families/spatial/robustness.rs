@@ -8,7 +8,7 @@ use crate::evaluate::metric::{Metric, ScoreUnit};
 use crate::evaluate::settings::Settings;
 use crate::exact::moments::Moments;
 use crate::families::spatial::KIND;
-use crate::score::better::Better;
+use crate::score::direction::Better;
 use crate::score::facts::Fact;
 use crate::score::range::Range;
 use crate::score::theme::Theme;

@@ -5,8 +5,8 @@ use taceva_core::{Footprint, Nanometre};
 use crate::exact::merge::{Merge, keyed, merge_cells};
 use crate::exact::moments::Moments;
 use crate::exact::record::Record;
-use crate::exact::sorted::SortedMap;
-use crate::paired::{Paired, is_valid};
+use crate::exact::sorted_map::SortedMap;
+use crate::pair::{Paired, is_valid};
 
 /// Bins along each axis.
 pub(super) const BINS: u8 = 100;

@@ -5,8 +5,8 @@ use crate::exact::ExactSum;
 use crate::exact::merge::{Merge, keyed, merge_cells};
 use crate::exact::moments::Moments;
 use crate::exact::record::Record;
-use crate::exact::sorted::SortedMap;
-use crate::paired::is_valid;
+use crate::exact::sorted_map::SortedMap;
+use crate::pair::is_valid;
 use crate::score::value::UndefinedReason;
 
 /// The variant that leaves out what has shear.

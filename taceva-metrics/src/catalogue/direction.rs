@@ -1,7 +1,7 @@
 //! Which values of a metric or of a variant are good, by its name.
 
 use super::find;
-use crate::score::better::Better;
+use crate::score::direction::Better;
 
 impl Better {
     /// The direction of the metric or variant called `name`: `mae`, `hysteresis.ratio`; `None` for a name that is not in the catalogue.

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::bounds::Bounds;
 use super::kernel::BLOCK_ROWS;
-use crate::paired::Paired;
+use crate::pair::Paired;
 
 /// A block's rows, those that fit before those that stray.
 pub(super) struct Parts {
