@@ -64,7 +64,9 @@ pub(super) fn section(table: &ScoreTable, figures: &[Figure]) -> Markup {
     );
     let mut folds = Vec::new();
     for section in &SECTIONS {
-        let (rows, others) = rows_left.into_iter().partition(|row| section.has_metric(row));
+        let (rows, others) = rows_left
+            .into_iter()
+            .partition(|row| section.has_metric(row));
         let (drawn, others_drawn) = figures_left
             .into_iter()
             .partition(|drawn| section.has_figure(drawn));
