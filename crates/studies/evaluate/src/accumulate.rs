@@ -11,7 +11,7 @@ use crate::error::EvaluateError;
 use crate::recordings;
 
 /// Rows a batch: large enough that merging is rare, small enough that a batch stays in the cache.
-pub const BATCH_ROWS: usize = 1 << 12;
+pub(crate) const BATCH_ROWS: usize = 1 << 12;
 
 /// Where rows with truth and prediction come from: any of them, asked for from any thread.
 pub trait Rows: Sync {
@@ -78,9 +78,13 @@ fn accumulate_block(
 /// # Shapes
 /// A column a channel of the plan, all as long as `rows`.
 pub struct Columns<'a> {
+    /// The truth.
     pub truth: &'a [Column],
+    /// The predictions.
     pub prediction: &'a [Column],
+    /// The recording.
     pub dataset: &'a Dataset,
+    /// The numbers of the rows in it.
     pub rows: &'a [usize],
 }
 

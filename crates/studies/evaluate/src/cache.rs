@@ -39,8 +39,6 @@ pub use value::Kept;
 
 /// How entries are laid out; another layout is another folder, so that no version reads what it cannot know.
 const LAYOUT: &str = "2";
-/// The layout before, which kept recordings whole.
-const BEFORE: &str = "1";
 /// Where entries are written before they are whole.
 const PARTIAL: &str = "partial";
 /// No run takes longer to write a result.
@@ -88,6 +86,7 @@ impl Cache {
         }
     }
 
+    /// Whether features are made of whole recordings.
     pub fn is_of_many(&self) -> bool {
         self.is_of_many
     }
@@ -111,6 +110,7 @@ impl Cache {
         records.into_iter().map(|(_, record)| record).collect()
     }
 
+    /// The models behind the simulated drivers, as [`Cache::new`] was told.
     pub fn models(&self) -> &str {
         &self.models
     }

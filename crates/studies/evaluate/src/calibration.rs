@@ -9,18 +9,19 @@ use taceva_models::NORMAL_95;
 
 use crate::accumulate::{Columns, accumulate};
 use crate::error::EvaluateError;
+use crate::note::{Coverage, Note};
 use crate::predict::Predicted;
 
 /// What part of `predicted`, the rows `rows` of `dataset`, lies within 1.96 of its own standard deviations of the truth, channel by channel
 /// with an interval by contact point; `None` of a model that does not know how sure it is.
 ///
 /// Only rows pressed in the same light as the training data count: a model states nothing about others.
-pub fn calibration_note(
+pub fn calibration(
     dataset: &Dataset,
     (predicted, rows): (&Predicted, &[usize]),
     counts: impl Fn(usize) -> bool,
     jobs: NonZeroUsize,
-) -> Result<Option<String>, EvaluateError> {
+) -> Result<Option<Note>, EvaluateError> {
     let Some(deviations) = predicted.deviation() else {
         return Ok(None);
     };
@@ -56,24 +57,19 @@ pub fn calibration_note(
         rows,
     };
     let evaluation = accumulate(&columns, &plan, jobs)?.finish()?;
-    let text = |channel: &str| {
+    let percent = |value: f64| 100.0 * value.clamp(0.0, 1.0);
+    let coverage = |channel: &str| {
         let score = evaluation.score(share.id, channel)?;
-        let percent = |value: f64| 100.0 * value.clamp(0.0, 1.0);
-        let value = percent(score.value.scalar()?);
-        let interval = score
-            .interval
-            .ends()
-            .map_or_else(String::new, |[low, high]| {
-                format!("{:.1} … {:.1} %, ", percent(low), percent(high))
-            });
-        Some(format!("{channel} {value:.1} % ({interval}n {})", score.n))
+        Some(Coverage {
+            channel: channel.to_owned(),
+            percent: percent(score.value.scalar()?),
+            interval: score.interval.ends().map(|ends| ends.map(percent)),
+            n: score.n,
+        })
     };
-    let shares = predicted.channels().iter();
-    let shares: Vec<String> = shares.filter_map(|channel| text(channel.name())).collect();
-    Ok((!shares.is_empty()).then(|| {
-        format!(
-            "within 1.96 predicted standard deviations of the truth lie {}; 95 % would if the deviations were calibrated",
-            shares.join(", ")
-        )
-    }))
+    let channels = predicted.channels().iter();
+    let channels: Vec<Coverage> = channels
+        .filter_map(|channel| coverage(channel.name()))
+        .collect();
+    Ok((!channels.is_empty()).then_some(Note::Calibration(channels)))
 }

@@ -1,7 +1,7 @@
 //! From a dataset to scores, step by step: divide, fit, predict, score.
 
 mod callers_model;
-pub mod folds;
+pub(crate) mod folds;
 mod notes;
 mod passes;
 mod plan;
@@ -11,13 +11,14 @@ mod scores;
 use taceva_dataset::Dataset;
 use taceva_metrics::catalogue;
 
+use crate::assess::FitFacts;
 use crate::error::EvaluateError;
 use crate::fit::FitPlan;
+use crate::note::Note;
 use crate::predict::{self, Target};
 use crate::work::Work;
 
 pub use callers_model::{GivenModel, GivenRequest, GivenRows};
-use notes::left_out_note;
 pub use plan::evaluate_plan;
 pub use request::{Asked, EvaluateRequest, Evaluated, ModelChoice};
 pub use scores::{Behind, score};
@@ -51,20 +52,21 @@ pub fn evaluate(
                 model.reads_frames(),
             )?;
             let predicted = predict::predict_target(dataset, model, &target, work)?;
-            let behind = Behind::of(model)?;
-            let mut scored = score(
+            let notes = Note::left_out("training and validation", fitted.left_out);
+            let behind = Behind {
+                fit: FitFacts {
+                    frames_decoded: fitted.frames_decoded,
+                    notes: notes.into_iter().collect(),
+                },
+                ..Behind::of(model)?
+            };
+            let scored = score(
                 dataset,
                 request.asked(),
                 behind,
                 (&target, &predicted),
                 work.jobs,
             )?;
-            let report = &mut scored.report;
-            report.provenance.frames_decoded += fitted.frames_decoded;
-            report
-                .provenance
-                .notes
-                .extend(left_out_note("training and validation", fitted.left_out));
             Ok(Evaluated {
                 manifest: Some(fitted.manifest),
                 ..scored

@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod accumulate;
+mod assess;
 mod bounded_share;
 mod cache;
 mod calibration;
@@ -12,6 +13,8 @@ mod evaluate;
 mod facts;
 mod features;
 mod fit;
+mod merge;
+mod note;
 mod over_seeds;
 mod plan;
 mod predict;
@@ -29,12 +32,13 @@ mod subject;
 mod work;
 
 pub use accumulate::{Columns, Rows, accumulate};
+pub use assess::{Assessed, Context, FitFacts, ScoredRows, assess};
 pub use bounded_share::Bounded;
 pub use cache::{
     Cache, CacheEntry, CachedStage, Kept, Key, KeyBuilder, Pruning, StageRecord, StudyCache,
     cache_entries, pruned, remove, remove_entry,
 };
-pub use calibration::calibration_note;
+pub use calibration::calibration;
 pub use claim::{Claim, Watch, unique_name};
 pub use effort::Effort;
 pub use error::EvaluateError;
@@ -44,20 +48,23 @@ pub use evaluate::{
 };
 pub use features::{FeatureTable, blank, extract, extractor, feature_table};
 pub use fit::{FitPlan, FitRequest, Fitted, Recipe, fit};
+pub use merge::merge;
+pub use note::{Coverage, Learning, Note};
 pub use over_seeds::{OverSeeds, SeedScore};
 pub use plan::{Plan, Step};
 pub use predict::{
     Predicted, Predictor, Target, model_extractor, predict, predict_target, predicted_numbers,
     predicted_table, truth,
 };
-pub use provenance::{ModelProvenance, Provenance, chosen_notes};
-pub use recordings::{RecordingProvenance, reduced_notes};
+pub use provenance::{ModelProvenance, Provenance, choices};
+pub use recordings::{RecordingProvenance, reduced};
 pub use report::{EVALUATION_SCHEMA, EvaluationReport, RecordingScores, skipped};
+pub use row_ledger::Taken;
 pub use rows::{DataPart, Divided, Need, require_samples, usable};
 pub use run_layout::{PLANS, RECORDINGS};
 pub use samples::Samples;
 pub use score::{ScoreRequest, ScoreTables, Scored, Scoring, Shard, ShardError, score_in_one_pass};
 pub use skill::{skill, with_skill};
-pub use state_file::{STATE_SCHEMA, StateFile, merge};
+pub use state_file::{STATE_SCHEMA, StateFile};
 pub use subject::Subject;
 pub use work::Work;

@@ -8,6 +8,7 @@ use taceva_dataset::Dataset;
 use taceva_models::{ChosenBy, Model};
 
 use crate::error::EvaluateError;
+use crate::note::Note;
 use crate::recordings::{self, RecordingProvenance};
 use crate::rows::DataPart;
 
@@ -235,11 +236,12 @@ impl ModelProvenance {
     }
 }
 
-/// What was chosen where a person left it open, and why.
-pub fn chosen_notes(model: &Model) -> impl Iterator<Item = String> {
+/// The choices that a person left open.
+pub fn choices(model: &Model) -> impl Iterator<Item = Note> {
     let card = model.card();
     let features = card.feature_choice.as_ref().map(ToString::to_string);
-    features
+    let choices = features
         .into_iter()
-        .chain(card.auto.as_ref().map(ToString::to_string))
+        .chain(card.auto.as_ref().map(ToString::to_string));
+    choices.map(|choice| Note::Chosen { fold: None, choice })
 }

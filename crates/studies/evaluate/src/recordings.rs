@@ -9,12 +9,11 @@ use taceva_dataset::Dataset;
 use taceva_models::Model;
 
 use crate::error::EvaluateError;
+use crate::note::Note;
 use crate::row_ledger::Taken;
 
 /// The fewest recordings with scored samples by which intervals are formed; fewer clusters give no interval.
-pub const CLUSTERS_LEAST: usize = 5;
-/// Below so many recordings an interval that is formed by them says how few they are: Student's t has too few degrees of freedom to be narrow.
-const CLUSTERS_MANY: usize = 10;
+pub(crate) const CLUSTERS_LEAST: usize = 5;
 
 /// A recording among those that a result is of.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -28,7 +27,7 @@ pub struct RecordingProvenance {
 }
 
 /// The recordings that `dataset` was joined of; none of a single one.
-pub fn provenance(dataset: &Dataset) -> Vec<RecordingProvenance> {
+pub(crate) fn provenance(dataset: &Dataset) -> Vec<RecordingProvenance> {
     let joined = dataset.recordings().iter();
     joined
         .map(|own| RecordingProvenance {
@@ -40,7 +39,7 @@ pub fn provenance(dataset: &Dataset) -> Vec<RecordingProvenance> {
 }
 
 /// Where the recordings lie: all that were joined, or the one.
-pub fn paths(dataset: &Dataset) -> Vec<PathBuf> {
+pub(crate) fn paths(dataset: &Dataset) -> Vec<PathBuf> {
     match dataset.recordings() {
         [] => vec![dataset.path().to_owned()],
         joined => {
@@ -51,14 +50,14 @@ pub fn paths(dataset: &Dataset) -> Vec<PathBuf> {
 }
 
 /// The name of the recording of each of `rows`, where several were joined.
-pub fn names(dataset: &Dataset, rows: &[usize]) -> Option<Vec<String>> {
+pub(crate) fn names(dataset: &Dataset, rows: &[usize]) -> Option<Vec<String>> {
     let joined = dataset.recordings();
     let name = |row: &usize| joined[at(dataset, *row)].name().to_owned();
     (!joined.is_empty()).then(|| rows.iter().map(name).collect())
 }
 
 /// The digest of the recording of each of `rows`: labels by which intervals are formed, the same in every shard whatever folders are called.
-pub fn labels(dataset: &Dataset, rows: impl Iterator<Item = usize>) -> Labels {
+pub(crate) fn labels(dataset: &Dataset, rows: impl Iterator<Item = usize>) -> Labels {
     let joined = dataset.recordings();
     let digests = joined.iter().map(|own| own.dataset().digest().to_string());
     let digests: Vec<String> = digests.collect();
@@ -74,7 +73,7 @@ fn at(dataset: &Dataset, row: usize) -> usize {
 }
 
 /// The positions among `rows`, which ascend, at which a recording begins or rows that were added later, but for the first.
-pub fn sections(dataset: &Dataset, rows: &[usize]) -> Vec<usize> {
+pub(crate) fn sections(dataset: &Dataset, rows: &[usize]) -> Vec<usize> {
     let mut starts = BTreeSet::new();
     let mut add = |recording: &Dataset, first: usize| {
         starts.insert(first);
@@ -98,7 +97,7 @@ pub fn sections(dataset: &Dataset, rows: &[usize]) -> Vec<usize> {
 }
 
 /// `rows` in runs of one recording, each with that recording and its own numbers of the rows, in their order.
-pub fn runs<'a>(dataset: &'a Dataset, rows: &[usize]) -> Vec<(&'a Dataset, Vec<usize>)> {
+pub(crate) fn runs<'a>(dataset: &'a Dataset, rows: &[usize]) -> Vec<(&'a Dataset, Vec<usize>)> {
     if dataset.recordings().is_empty() {
         return vec![(dataset, rows.to_vec())];
     }
@@ -114,7 +113,7 @@ pub fn runs<'a>(dataset: &'a Dataset, rows: &[usize]) -> Vec<(&'a Dataset, Vec<u
 
 /// What was taken of `rows`, by the digest under which each row first stood in its recording: a row that was added later stands under that of
 /// the extended one, all before under that of before.
-pub fn taken(dataset: &Dataset, rows: &[usize]) -> Vec<Taken> {
+pub(crate) fn taken(dataset: &Dataset, rows: &[usize]) -> Vec<Taken> {
     let mut taken = Vec::new();
     for (recording, own) in runs(dataset, rows) {
         let mut before = 0;
@@ -134,47 +133,45 @@ pub fn taken(dataset: &Dataset, rows: &[usize]) -> Vec<Taken> {
     taken
 }
 
-/// What was added to recordings after they were imported, a line each time.
-pub fn extended_notes(dataset: &Dataset) -> Vec<String> {
-    let of = |recording: &Dataset, name: &str| -> Vec<String> {
+/// Rows that were added to recordings after they were imported.
+pub(crate) fn extended(dataset: &Dataset) -> Vec<Note> {
+    let of = |recording: &Dataset, name: Option<&str>| -> Vec<Note> {
         let mut stages = recording.header().stages().skip(1);
         let extended = recording.header().extended.iter();
-        let lines = extended.filter_map(|extension| {
+        let notes = extended.filter_map(|extension| {
             let (_, rows) = stages.next()?;
-            let added = rows.saturating_sub(extension.rows);
-            Some(format!(
-                "{name}{added} samples were added to {} on {} from {}; each sample before kept its part",
-                extension.rows,
-                extension.date,
-                shown(&extension.from)
-            ))
+            Some(Note::Extended {
+                recording: name.map(str::to_owned),
+                added: rows.saturating_sub(extension.rows),
+                extension: extension.clone(),
+            })
         });
-        lines.collect()
+        notes.collect()
     };
     of_each(dataset, of)
 }
 
-/// That frames are not as the camera gave them, a line a recording of which that is so.
-pub fn reduced_notes(dataset: &Dataset) -> Vec<String> {
+/// Recordings whose frames are not as the camera gave them.
+pub fn reduced(dataset: &Dataset) -> Vec<Note> {
     of_each(dataset, |recording, name| {
         let frames = recording.header().frames.as_ref();
-        let reduced = frames.and_then(|frames| Some((frames.info, frames.reduced.as_ref()?)));
-        let line = reduced.map(|(info, reduced)| {
-            let (from, by) = (reduced.from, shown(&reduced.by));
-            format!("{name}frames were kept as {info}: {by}, of {from}")
+        let reduced = frames.filter(|frames| frames.reduced.is_some());
+        let note = reduced.map(|frames| Note::Reduced {
+            recording: name.map(str::to_owned),
+            frames: frames.clone(),
         });
-        line.into_iter().collect()
+        note.into_iter().collect()
     })
 }
 
-/// The lines of each recording; those of several begin with its name.
-fn of_each(dataset: &Dataset, of: impl Fn(&Dataset, &str) -> Vec<String>) -> Vec<String> {
+/// The notes of each recording; those of several name it.
+fn of_each(dataset: &Dataset, of: impl Fn(&Dataset, Option<&str>) -> Vec<Note>) -> Vec<Note> {
     match dataset.recordings() {
-        [] => of(dataset, ""),
+        [] => of(dataset, None),
         joined => {
             let joined = joined.iter();
             joined
-                .flat_map(|own| of(own.dataset(), &format!("{}: ", own.name())))
+                .flat_map(|own| of(own.dataset(), Some(own.name())))
                 .collect()
         }
     }
@@ -184,7 +181,7 @@ fn of_each(dataset: &Dataset, of: impl Fn(&Dataset, &str) -> Vec<String>) -> Vec
 ///
 /// # Errors
 /// [`EvaluateError::Request`] if it was fitted on some of them and not on others, because nobody could say what it has not seen.
-pub fn is_fitted_on(model: &Model, dataset: &Dataset) -> Result<bool, EvaluateError> {
+pub(crate) fn is_fitted_on(model: &Model, dataset: &Dataset) -> Result<bool, EvaluateError> {
     let provenance = &model.card().provenance;
     let fitted_on: Vec<&str> = match &provenance.recordings[..] {
         [] => provenance.data.iter().map(String::as_str).collect(),
@@ -219,14 +216,14 @@ pub fn is_fitted_on(model: &Model, dataset: &Dataset) -> Result<bool, EvaluateEr
 
 /// By what intervals are formed, of the scored rows of joined recordings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Clusters {
+pub(crate) struct Clusters {
     recordings: usize,
     points: usize,
 }
 
 impl Clusters {
     /// Of `rows`; `None` where no recordings were joined.
-    pub fn of(dataset: &Dataset, rows: &[usize]) -> Option<Clusters> {
+    pub(crate) fn of(dataset: &Dataset, rows: &[usize]) -> Option<Clusters> {
         if dataset.recordings().is_empty() {
             return None;
         }
@@ -243,49 +240,16 @@ impl Clusters {
     }
 
     /// Whether there are enough recordings for intervals by them.
-    pub fn are_recordings(self) -> bool {
+    pub(crate) fn are_recordings(self) -> bool {
         self.recordings >= CLUSTERS_LEAST
     }
 
-    /// What a reader should know of the intervals.
-    pub fn note(self) -> String {
-        let Clusters { recordings, points } = self;
-        if !self.are_recordings() {
-            return format!(
-                "scored on {points} contact points of {recordings} recordings; an interval by contact point within these recordings does not say \
-                 how scores vary from recording to recording, which takes {CLUSTERS_LEAST} recordings with scored samples"
-            );
+    /// The note on the intervals.
+    pub(crate) fn note(self) -> Note {
+        Note::Clusters {
+            recordings: self.recordings,
+            points: self.points,
+            least: CLUSTERS_LEAST,
         }
-        let few = match recordings < CLUSTERS_MANY {
-            true => format!(
-                "; {recordings} are few: one recording more or less may change an interval much, and it is as wide as {} degrees of freedom make it",
-                recordings - 1
-            ),
-            false => String::new(),
-        };
-        format!(
-            "intervals of errors, R² and skill are by recording, {recordings} of them with {points} contact points: they say how scores vary from \
-             recording to recording{few}"
-        )
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_note_says_what_the_clusters_are_and_how_many_there_are_of_both() {
-        let note = |recordings, points| Clusters { recordings, points }.note();
-        let few = note(3, 24);
-        assert!(few.contains("24 contact points of 3 recordings"), "{few}");
-        assert!(few.contains("by contact point within"), "{few}");
-        let enough = note(5, 40);
-        assert!(
-            enough.contains("by recording, 5 of them with 40"),
-            "{enough}"
-        );
-        assert!(enough.contains("5 are few") && enough.contains("4 degrees of freedom"));
-        assert!(!note(12, 99).contains("few"));
     }
 }

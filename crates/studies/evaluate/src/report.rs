@@ -55,6 +55,7 @@ pub struct RecordingScores {
 }
 
 impl EvaluationReport {
+    /// A report of one recording, without samples.
     pub fn new(
         subject: Subject,
         evaluation: Evaluation,

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// Rows of one input.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Taken {
+pub struct Taken {
     /// The digest of the recording, or of both tables.
     input: String,
     /// From which row to before which, counted from 0, in order.

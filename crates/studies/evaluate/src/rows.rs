@@ -13,7 +13,7 @@ use crate::error::EvaluateError;
 use crate::recordings::{self, is_fitted_on};
 
 /// What a table of samples says beside channels, in its order.
-pub const BESIDE_CHANNELS: [Field; 10] = [
+pub(crate) const BESIDE_CHANNELS: [Field; 10] = [
     Field::Point,
     Field::UnitId,
     Field::Scene,
@@ -294,7 +294,7 @@ pub fn require_samples(dataset: &Dataset) -> Result<(), EvaluateError> {
 }
 
 /// Of `channels`, those that a sample with a frame carries; all of them where there is none.
-pub fn seen_channels(dataset: &Dataset, channels: &Channels) -> Channels {
+pub(crate) fn seen_channels(dataset: &Dataset, channels: &Channels) -> Channels {
     let table = dataset.table();
     let is_seen = |channel: &&Channel| {
         let position = table.channels().position(channel.name());
@@ -315,7 +315,10 @@ pub fn seen_channels(dataset: &Dataset, channels: &Channels) -> Channels {
 ///
 /// # Errors
 /// [`EvaluateError::Request`] for a name that the dataset has not, or if there is no channel at all.
-pub fn chosen_channels(dataset: &Dataset, names: &[String]) -> Result<Channels, EvaluateError> {
+pub(crate) fn chosen_channels(
+    dataset: &Dataset,
+    names: &[String],
+) -> Result<Channels, EvaluateError> {
     let known = dataset.table().channels();
     let chosen = if names.is_empty() {
         known.clone()

@@ -20,9 +20,11 @@ use taceva_import::CsvTable;
 use taceva_metrics::{Evaluator, MetricPlan, SensorFacts, catalogue};
 
 use crate::accumulate::{self, Rows};
+use crate::assess::{Assessed, Context, FitFacts, ScoredRows, assess};
 use crate::bounded_share::Bounded;
 use crate::error::EvaluateError;
 use crate::facts;
+use crate::note::Note;
 use crate::plan::Plan;
 use crate::provenance::Provenance;
 use crate::report::EvaluationReport;
@@ -181,7 +183,13 @@ impl Scoring {
         let evaluator = accumulate::accumulate(&rows, &self.metrics, self.request.jobs)?;
         let input = tables::input_of(&self.digests);
         let taken = Taken::all_of(input, self.truth.rows());
-        finished(evaluator, &self.sensor, self.digests.clone(), taken)
+        finished(
+            evaluator,
+            &self.sensor,
+            self.digests.clone(),
+            taken,
+            Vec::new(),
+        )
     }
 }
 
@@ -205,25 +213,36 @@ fn planned(
     Ok((metrics, places, sensor))
 }
 
-/// The scores and the state of what `evaluator` has seen of the tables with these digests.
+/// The scores and the state of what `evaluator` has seen of the tables with these digests; the report alone says `notes`.
 fn finished(
-    mut evaluator: Evaluator,
+    evaluator: Evaluator,
     sensor: &SensorFile,
     digests: BTreeMap<String, String>,
     taken: Taken,
+    notes: Vec<Note>,
 ) -> Result<Scored, EvaluateError> {
+    let same_bytes =
+        digests.get("truth").is_some() && digests.get("truth") == digests.get("prediction");
     let provenance = Provenance {
         taceva: env!("CARGO_PKG_VERSION").to_owned(),
-        notes: tables::same_bytes_note(&digests).into_iter().collect(),
         tables: digests,
         ..Provenance::default()
     };
-    let subject = Subject::of_file(sensor);
-    let state = StateFile::of(&mut evaluator, &subject, &provenance, Bounded::default())?
-        .with_taken(vec![taken]);
-    let evaluation = state.finish(evaluator)?;
+    let rows = ScoredRows::Accumulated {
+        evaluator: Box::new(evaluator),
+        taken: vec![taken],
+    };
+    let context = Context {
+        notes: same_bytes.then_some(Note::SameBytes).into_iter().collect(),
+        fit: FitFacts {
+            frames_decoded: 0,
+            notes,
+        },
+        ..Context::new(Subject::of_file(sensor), provenance)
+    };
+    let Assessed { report, state } = assess(rows, Bounded::default(), context)?;
     Ok(Scored {
-        report: EvaluationReport::new(subject, evaluation, provenance),
-        state,
+        report,
+        state: state.expect("accumulators have a state"),
     })
 }

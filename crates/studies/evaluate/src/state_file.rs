@@ -1,6 +1,5 @@
 //! What a shard has kept, as a file: written by one lab, merged by another, with the scores of one unsharded run.
 
-mod merge;
 mod plan;
 
 use std::fs::File;
@@ -17,8 +16,6 @@ use crate::provenance::Provenance;
 use crate::row_ledger::Taken;
 use crate::subject::Subject;
 use plan::WrittenPlan;
-
-pub use merge::merge;
 
 /// The schema of a state file. A minor version only adds keys; since 1.1 a state is sealed and says which rows it took.
 pub const STATE_SCHEMA: &str = "taceva.state/1.1";
@@ -37,18 +34,18 @@ const LARGEST: u64 = 1 << 30;
 #[serde(deny_unknown_fields)]
 pub struct StateFile {
     schema: String,
-    subject: Subject,
-    plan: WrittenPlan,
-    provenance: Provenance,
+    pub(crate) subject: Subject,
+    pub(crate) plan: WrittenPlan,
+    pub(crate) provenance: Provenance,
     /// Predictions beyond the bounds of their model, where there are any bounds.
     #[serde(default, skip_serializing_if = "Bounded::is_empty")]
-    bounded: Bounded,
+    pub(crate) bounded: Bounded,
     /// Whether the model was fitted on some of the samples.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    seen: bool,
-    states: Vec<State>,
+    pub(crate) seen: bool,
+    pub(crate) states: Vec<State>,
     #[serde(default)]
-    taken: Vec<Taken>,
+    pub(crate) taken: Vec<Taken>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     history: Vec<Edit>,
     #[serde(default, skip_serializing)]
@@ -56,9 +53,9 @@ pub struct StateFile {
 }
 
 /// A state that was read, and the digest of what it says.
-struct ReadState {
-    file: StateFile,
-    digest: String,
+pub(crate) struct ReadState {
+    pub(crate) file: StateFile,
+    pub(crate) digest: String,
 }
 
 impl StateFile {
@@ -113,6 +110,14 @@ impl StateFile {
         }
     }
 
+    /// The same; if `is_seen`, of a model that was fitted on some of the samples.
+    pub(crate) fn with_seen(self, is_seen: bool) -> StateFile {
+        StateFile {
+            seen: self.seen || is_seen,
+            ..self
+        }
+    }
+
     /// Whether it took all rows of its inputs, and not some shards of them.
     pub fn is_whole(&self) -> bool {
         !self.taken.iter().any(Taken::is_of_shard)
@@ -126,7 +131,7 @@ impl StateFile {
         StateFile::read_whole(path).map(|read| read.file)
     }
 
-    fn read_whole(path: &Path) -> Result<ReadState, EvaluateError> {
+    pub(crate) fn read_whole(path: &Path) -> Result<ReadState, EvaluateError> {
         let wrong = |problem: String| EvaluateError::State {
             path: path.to_owned(),
             problem,

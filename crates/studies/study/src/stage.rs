@@ -16,12 +16,11 @@ use taceva_evaluate::EvaluationReport;
 use taceva_evaluate::OverSeeds;
 use taceva_evaluate::Samples;
 use taceva_evaluate::Subject;
-use taceva_evaluate::calibration_note;
-use taceva_evaluate::reduced_notes;
+use taceva_evaluate::{Bounded, Context, Note, ScoredRows, calibration, choices, reduced};
 use taceva_evaluate::{CachedStage, Key};
 use taceva_evaluate::{DataPart, Divided, Need, usable};
 use taceva_evaluate::{FitPlan, FitRequest, Recipe};
-use taceva_evaluate::{ModelProvenance, Provenance, chosen_notes};
+use taceva_evaluate::{ModelProvenance, Provenance};
 use taceva_evaluate::{Predicted, Predictor, Target, predicted_numbers, predicted_table};
 
 use crate::error::StudyError;
@@ -81,24 +80,23 @@ pub(crate) fn assess(
         let evaluations: Vec<&Evaluation> = [&evaluation].into_iter().chain(&others).collect();
         OverSeeds::of(&scene.seeds, &evaluations)
     });
-    notes.extend(spacings.as_ref().map(|_| classifier.note().to_owned()));
+    notes.extend(spacings.as_ref().map(|_| Note::Spacings(classifier.note())));
     notes.extend(phase_rows.shortfall());
-    notes.extend(reduced_notes(dataset));
-    notes.extend(RecordedSessions::of(dataset.path()).map(|sessions| sessions.note));
-    let retried = frame_retries(dataset.path());
-    notes.extend((retried > 0).then(|| {
-        format!(
-            "{retried} frames were lost, damaged or older than their contact, and were taken again"
-        )
-    }));
+    notes.extend(reduced(dataset));
+    let sessions = RecordedSessions::of(dataset.path());
+    notes.extend(sessions.map(|sessions| Note::Sessions(sessions.note)));
+    let retries = frame_retries(dataset.path());
+    notes.extend((retries > 0).then_some(Note::FramesRetried(retries)));
+    let mut beyond = Bounded::default();
     if let Some((predicted, rows)) = &predicted {
-        notes.extend(predicted.bounded_note());
-        let calibration = phase_rows.rows(PhaseKind::Calibration);
-        let counts = |row: usize| calibration.binary_search(&row).is_ok();
+        beyond = predicted.bounded(0..predicted.rows());
+        notes.extend(predicted.beyond());
+        let calibrated = phase_rows.rows(PhaseKind::Calibration);
+        let counts = |row: usize| calibrated.binary_search(&row).is_ok();
         let jobs = context.work.jobs;
-        notes.extend(calibration_note(dataset, (predicted, rows), counts, jobs)?);
+        notes.extend(calibration(dataset, (predicted, rows), counts, jobs)?);
     }
-    notes.extend(learnt.iter().flat_map(|learnt| chosen_notes(&learnt.model)));
+    notes.extend(learnt.iter().flat_map(|learnt| choices(&learnt.model)));
     let divided = learnt.as_ref().and_then(|learnt| learnt.divided.as_ref());
     let frames_decoded = [
         learnt.as_ref().map(|learnt| learnt.frames_decoded),
@@ -116,7 +114,6 @@ pub(crate) fn assess(
         seed: Some(scene.scene.seed),
         samples: divided.map(Divided::counts).unwrap_or_default(),
         frames_decoded: frames_decoded.into_iter().flatten().sum(),
-        notes,
         ..Provenance::of(dataset)
     };
     let rows = dataset.all_rows();
@@ -127,9 +124,14 @@ pub(crate) fn assess(
     if let Some((predicted, of_rows)) = &predicted {
         samples = samples.with_predictions(&rows, (predicted, of_rows));
     }
-    let mut report = EvaluationReport::new(Subject::of(dataset), evaluation, provenance);
-    report.over_seeds = over_seeds;
-    Ok(report.with_samples(samples))
+    let context = Context {
+        notes,
+        over_seeds,
+        samples: Some(samples),
+        ..Context::new(Subject::of(dataset), provenance)
+    };
+    let rows = ScoredRows::Finished(Box::new(evaluation));
+    Ok(taceva_evaluate::assess(rows, beyond, context)?.report)
 }
 
 /// The model of a study, and the split it was fitted on.

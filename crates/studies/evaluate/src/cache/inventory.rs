@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
 use super::key::CachedStage;
-use super::{ABANDONED, BEFORE, LAYOUT, PARTIAL, remove};
+use super::{ABANDONED, LAYOUT, PARTIAL, remove};
 
 /// The digits of a key.
 const DIGITS: usize = 64;
@@ -61,18 +61,11 @@ pub struct Pruning {
 /// If the folder cannot be read.
 pub fn cache_entries(folder: &Path) -> io::Result<Vec<CacheEntry>> {
     let mut entries = Vec::new();
-    // What earlier versions kept is never read again, and takes its room until somebody prunes it.
-    for layout in [BEFORE, LAYOUT].map(|layout| folder.join(layout)) {
-        for stage in CachedStage::ALL {
-            for name in [Some(stage.name()), stage.name_before()]
-                .into_iter()
-                .flatten()
-            {
-                gather(&layout.join(name), Some(stage), &mut entries)?;
-            }
-        }
-        gather(&layout.join(PARTIAL), None, &mut entries)?;
+    let layout = folder.join(LAYOUT);
+    for stage in CachedStage::ALL {
+        gather(&layout.join(stage.name()), Some(stage), &mut entries)?;
     }
+    gather(&layout.join(PARTIAL), None, &mut entries)?;
     entries.sort_by(|left, right| {
         (left.stage, left.used, &left.name).cmp(&(right.stage, right.used, &right.name))
     });

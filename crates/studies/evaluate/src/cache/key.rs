@@ -42,14 +42,6 @@ impl CachedStage {
         }
     }
 
-    /// The word that earlier versions used, where it was another.
-    pub(super) const fn name_before(self) -> Option<&'static str> {
-        match self {
-            CachedStage::Classify => Some("tell"),
-            _ => None,
-        }
-    }
-
     /// Counted on when the result of the same parts becomes another one within a version of this program.
     const fn version(self) -> u32 {
         match self {
@@ -90,6 +82,7 @@ impl Key {
             .part("taceva", env!("CARGO_PKG_VERSION"))
     }
 
+    /// The stage of the result.
     pub fn stage(&self) -> CachedStage {
         self.stage
     }
@@ -114,6 +107,7 @@ pub struct KeyBuilder {
 }
 
 impl KeyBuilder {
+    /// Adds a part in words.
     pub fn part(mut self, name: &str, part: &str) -> KeyBuilder {
         for text in [name, part] {
             self.parts.extend((text.len() as u64).to_le_bytes());
@@ -127,6 +121,7 @@ impl KeyBuilder {
         self.part(name, &format!("{part:?}"))
     }
 
+    /// The key of all parts.
     pub fn finish(self) -> Key {
         Key {
             stage: self.stage,

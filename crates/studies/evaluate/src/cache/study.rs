@@ -23,9 +23,11 @@ pub struct StageRecord {
 /// The cache as one study uses it; where there is none, every stage is carried out.
 #[derive(Clone, Copy)]
 pub struct StudyCache<'a> {
+    /// The cache, if there is one.
     pub cache: Option<&'a Cache>,
     /// The number of the study, from 0.
     pub number: usize,
+    /// The name of the study.
     pub study: &'a str,
 }
 

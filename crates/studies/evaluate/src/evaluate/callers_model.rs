@@ -9,7 +9,9 @@ use taceva_models::{LabelBounds, label_means};
 
 use super::request::{Asked, Evaluated};
 use super::scores::{Behind, score};
+use crate::assess::FitFacts;
 use crate::error::EvaluateError;
+use crate::note::{Learning, Note};
 use crate::predict::{self, Predictor, Target};
 use crate::provenance::ModelProvenance;
 use crate::rows::{DataPart, Divided, Need, chosen_channels, require_samples, usable};
@@ -189,7 +191,8 @@ impl GivenRows {
                 origin: Some("given".to_owned()),
             },
             unsealed: Vec::new(),
-            chosen: notes(
+            fit: FitFacts::default(),
+            notes: notes(
                 self.learns,
                 self.target.divided.is_some(),
                 self.train_left_out,
@@ -226,29 +229,18 @@ impl GivenRows {
     }
 }
 
-fn notes(learns: bool, is_divided: bool, left_out: usize, is_unbounded: bool) -> Vec<String> {
-    let learnt = match (learns, is_divided) {
-        (true, _) => {
-            "the model is one that the caller holds, fitted here on the training part alone"
-        }
-        (false, true) => {
-            "the model is one that the caller holds; that it has learnt from the training part of this split alone is the caller's word"
-        }
-        (false, false) => {
-            "the model is one that the caller holds; what it has learnt from is not known, so these samples may be among it"
-        }
+fn notes(learns: bool, is_divided: bool, left_out: usize, is_unbounded: bool) -> Vec<Note> {
+    let learning = match (learns, is_divided) {
+        (true, _) => Learning::Here,
+        (false, true) => Learning::Stated,
+        (false, false) => Learning::Unknown,
     };
-    let mut notes = vec![learnt.to_owned()];
-    if left_out > 0 {
-        notes.push(format!(
-            "{left_out} samples of the part train lack a label or a frame and were left out"
-        ));
-    }
-    if is_unbounded {
-        notes.push(
-            "predictions were not brought within the bounds of the labels that were learnt, as those of other models are"
-                .to_owned(),
-        );
-    }
-    notes
+    [
+        Some(Note::CallersModel(learning)),
+        Note::left_out("train", left_out),
+        is_unbounded.then_some(Note::Unbounded),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
 }

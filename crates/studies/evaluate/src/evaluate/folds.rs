@@ -3,11 +3,12 @@
 use taceva_dataset::{Dataset, Digest, JoinedRecording};
 use taceva_models::{Fractions, Split, SplitError, SplitKind, SplitSpec};
 
-use super::notes::left_out_note;
 use super::request::{EvaluateRequest, Evaluated};
 use super::scores::{Behind, score};
+use crate::assess::FitFacts;
 use crate::error::EvaluateError;
 use crate::fit::{FitPlan, FitRequest, Recipe};
+use crate::note::Note;
 use crate::plan::Plan;
 use crate::predict::{self, Predicted, Target};
 use crate::provenance::ModelProvenance;
@@ -119,19 +120,22 @@ impl<'a> Folds<'a> {
             divided: Some(self.divided()),
             left_out: unpredicted,
         };
-        let mut scored = score(
+        let fit = FitFacts {
+            frames_decoded,
+            notes: Note::left_out("training and validation of all folds", unlearnt)
+                .into_iter()
+                .collect(),
+        };
+        let scored = score(
             dataset,
             request.asked(),
-            together(dataset, models),
+            Behind {
+                fit,
+                ..together(dataset, models)
+            },
             (&target, &predicted),
             work.jobs,
         )?;
-        let provenance = &mut scored.report.provenance;
-        provenance.frames_decoded += frames_decoded;
-        provenance.notes.extend(left_out_note(
-            "training and validation of all folds",
-            unlearnt,
-        ));
         let manifest = self.divided().manifest(dataset.table())?;
         Ok(Evaluated {
             manifest: Some(manifest),
@@ -183,7 +187,7 @@ impl<'a> Folds<'a> {
 fn together(dataset: &Dataset, models: Vec<(&str, Behind)>) -> Behind {
     let mut digests = String::new();
     let mut settings = models[0].1.model.settings.clone();
-    let (mut unsealed, mut chosen) = (Vec::new(), Vec::new());
+    let (mut unsealed, mut notes) = (Vec::new(), Vec::new());
     for (_, behind) in &models {
         digests.push_str(&behind.model.digest);
         settings.retain(|key, value| behind.model.settings.get(key) == Some(value));
@@ -191,8 +195,13 @@ fn together(dataset: &Dataset, models: Vec<(&str, Behind)>) -> Behind {
     let name = models[0].1.model.name.clone();
     for (left_out, behind) in models {
         unsealed.extend(behind.unsealed);
-        let own = behind.chosen.into_iter();
-        chosen.extend(own.map(|line| format!("without {left_out}: {line}")));
+        notes.extend(behind.notes.into_iter().map(|note| match note {
+            Note::Chosen { choice, .. } => Note::Chosen {
+                fold: Some(left_out.to_owned()),
+                choice,
+            },
+            note => note,
+        }));
     }
     unsealed.dedup();
     Behind {
@@ -204,6 +213,7 @@ fn together(dataset: &Dataset, models: Vec<(&str, Behind)>) -> Behind {
             origin: None,
         },
         unsealed,
-        chosen,
+        notes,
+        fit: FitFacts::default(),
     }
 }

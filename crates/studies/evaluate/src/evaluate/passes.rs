@@ -9,6 +9,7 @@ use taceva_metrics::{ClusteredBy, Evaluation, Evaluator, Metric, MetricPlan};
 
 use crate::accumulate::{Columns, accumulate};
 use crate::error::EvaluateError;
+use crate::note::Note;
 use crate::predict::{Predicted, truth};
 
 /// The metrics of a plan by the rows they read.
@@ -114,15 +115,12 @@ impl<'a> Passes<'a> {
         Ok(evaluation.with_bounded_shares(&predicted.bounded(own).shares()))
     }
 
-    /// A note where two sets of rows were read.
-    pub(super) fn note(&self, dataset: &Dataset) -> Option<String> {
-        let ids: Vec<&str> = self.of_truth.iter().map(|metric| metric.id).collect();
+    /// The metrics that read every row, where others read predictions.
+    pub(super) fn note(&self, dataset: &Dataset) -> Option<Note> {
+        let metrics: Vec<&str> = self.of_truth.iter().map(|metric| metric.id).collect();
         let reads_predictions = !self.of_predictions.is_empty() || !self.of_unbounded.is_empty();
-        (!ids.is_empty() && reads_predictions).then(|| {
-            let rows = dataset.table().rows();
-            let ids = ids.join(", ");
-            format!("no prediction enters {ids}: all {rows} samples count there, in every part")
-        })
+        let rows = dataset.table().rows();
+        (!metrics.is_empty() && reads_predictions).then_some(Note::EveryRow { metrics, rows })
     }
 
     /// The plan with fewer metrics and everything else alike, so that its states join those of the whole one.

@@ -30,6 +30,7 @@ pub struct Asked<'a> {
 }
 
 impl EvaluateRequest {
+    /// The request without its model.
     pub fn asked(&self) -> Asked<'_> {
         Asked {
             metrics: &self.metrics,

@@ -7,22 +7,21 @@ use taceva_dataset::Dataset;
 use taceva_metrics::{MetricPlan, catalogue};
 use taceva_models::Model;
 
-use super::notes::{
-    copies_note, elsewhere_note, few_points_note, left_out_note, seen_note, stage_note,
-};
+use super::notes::few_points;
 use super::passes::Passes;
 use super::request::{Asked, Evaluated};
-use crate::calibration::calibration_note;
+use crate::assess::{Assessed, Context, FitFacts, ScoredRows, assess};
+use crate::calibration::calibration;
 use crate::error::EvaluateError;
 use crate::facts;
+use crate::note::Note;
 use crate::predict::{Predicted, Target};
-use crate::provenance::{ModelProvenance, Provenance, chosen_notes};
+use crate::provenance::{ModelProvenance, Provenance, choices};
 use crate::recordings::{self, Clusters};
-use crate::report::{EvaluationReport, RecordingScores};
+use crate::report::RecordingScores;
 use crate::rows::Divided;
 use crate::samples::Samples;
 use crate::skill::with_skill;
-use crate::state_file::StateFile;
 use crate::subject::Subject;
 
 /// The metrics that are asked for, of what is known of `dataset`.
@@ -42,16 +41,23 @@ pub struct Behind {
     pub(super) model: ModelProvenance,
     /// Files of models without a seal.
     pub(super) unsealed: Vec<String>,
-    /// What was chosen where a person left it open.
-    pub(super) chosen: Vec<String>,
+    /// What a reader must know of it.
+    pub(super) notes: Vec<Note>,
+    /// The fit, where it was made for this result.
+    pub(super) fit: FitFacts,
 }
 
 impl Behind {
+    /// The card of `model` in the words of a report.
+    ///
+    /// # Errors
+    /// [`EvaluateError::ModelFormat`] for a model that cannot be written down.
     pub fn of(model: &Model) -> Result<Behind, EvaluateError> {
         Ok(Behind {
             model: ModelProvenance::of(model)?,
             unsealed: Provenance::unsealed_model(model).into_iter().collect(),
-            chosen: chosen_notes(model).collect(),
+            notes: choices(model).collect(),
+            fit: FitFacts::default(),
         })
     }
 }
@@ -72,19 +78,30 @@ pub fn score(
         true => plan.by_recording(),
         false => plan,
     };
-    let points: Option<Vec<&str>> = predicted
-        .points()
-        .map(|points| points.iter().map(String::as_str).collect());
     let passes = Passes::new(&plan, asked.part.is_some());
-    let mut evaluator = passes.run(dataset, predicted, &target.rows, jobs)?;
+    let evaluator = passes.run(dataset, predicted, &target.rows, jobs)?;
     let divided = target.divided.as_ref();
-    let note = divided.and_then(|divided| divided.split.note.clone());
+    let split = divided.and_then(|divided| divided.split.note.clone());
     let few_points = match clusters.is_some_and(Clusters::are_recordings) {
         true => None,
-        false => few_points_note(points.as_deref()),
+        false => few_points(predicted.points()),
     };
-    let elsewhere = elsewhere_note(target, &behind.model);
-    let fitted_on = behind.model.fitted_on.clone();
+    let mut notes: Vec<Note> = split.map(Note::Split).into_iter().collect();
+    notes.extend(clusters.map(Clusters::note));
+    notes.extend(few_points);
+    notes.extend(recordings::extended(dataset));
+    notes.extend(recordings::reduced(dataset));
+    notes.extend(target.notes(dataset, &behind.model));
+    notes.extend(Note::left_out(target.part.name(), predicted.left_out));
+    notes.extend(predicted.beyond());
+    notes.extend(calibration(
+        dataset,
+        (predicted, &target.rows),
+        |_| true,
+        jobs,
+    )?);
+    notes.extend(behind.notes);
+    notes.extend(passes.note(dataset));
     let mut provenance = Provenance {
         model: Some(behind.model),
         split: divided.map(|divided| divided.spec.to_string()),
@@ -92,42 +109,26 @@ pub fn score(
         part: Some(target.part.name().to_owned()),
         samples: divided.map(Divided::counts).unwrap_or_default(),
         frames_decoded: predicted.frames_decoded,
-        notes: note
-            .into_iter()
-            .chain(clusters.map(Clusters::note))
-            .chain(few_points)
-            .chain(recordings::extended_notes(dataset))
-            .chain(recordings::reduced_notes(dataset))
-            .chain(seen_note(target))
-            .chain(elsewhere)
-            .chain(copies_note(dataset, target))
-            .chain(stage_note(dataset, &fitted_on))
-            .chain(left_out_note(target.part.name(), predicted.left_out))
-            .chain(predicted.bounded_note())
-            .chain(calibration_note(
-                dataset,
-                (predicted, &target.rows),
-                |_| true,
-                jobs,
-            )?)
-            .chain(behind.chosen)
-            .chain(passes.note(dataset))
-            .collect(),
         ..Provenance::of(dataset)
     };
     provenance.unsealed.extend(behind.unsealed);
-    let subject = Subject::of(dataset);
-    let bounded = predicted.bounded(0..predicted.rows());
-    let state = StateFile::of(&mut evaluator, &subject, &provenance, bounded)?
-        .with_taken(recordings::taken(dataset, &target.rows));
-    let evaluation = state.finish(evaluator)?;
     let samples = Samples::of(dataset, &target.rows)?
         .with_predictions(&target.rows, (predicted, &target.rows));
+    let rows = ScoredRows::Accumulated {
+        evaluator: Box::new(evaluator),
+        taken: recordings::taken(dataset, &target.rows),
+    };
+    let context = Context {
+        notes,
+        fit: behind.fit,
+        by_recording,
+        samples: Some(samples),
+        ..Context::new(Subject::of(dataset), provenance)
+    };
+    let Assessed { report, state } = assess(rows, predicted.bounded(0..predicted.rows()), context)?;
     Ok(Evaluated {
-        report: EvaluationReport::new(subject, evaluation, provenance)
-            .with_samples(samples)
-            .with_recordings(by_recording),
-        state,
+        report,
+        state: state.expect("accumulators have a state"),
         manifest: None,
     })
 }
@@ -150,9 +151,9 @@ fn by_recording(
             recording: recording.name().to_owned(),
             digest: recording.dataset().digest().to_string(),
             samples: own.len(),
-            evaluation: match seen_note(target) {
-                Some(_) => evaluation.of_seen_samples(),
-                None => evaluation,
+            evaluation: match target.is_seen() {
+                true => evaluation.of_seen_samples(),
+                false => evaluation,
             },
         });
     }

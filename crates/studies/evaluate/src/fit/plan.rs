@@ -27,14 +27,22 @@ pub struct FitPlan<'a> {
     pub(super) open: Option<OpenFeatures>,
     /// Finer features that it looks at too.
     pub closer: Option<FeatureSpec>,
+    /// The channels that are predicted.
     pub channels: Channels,
+    /// The division of the rows.
     pub divided: Divided,
+    /// The rows that are learnt from.
     pub train: Vec<usize>,
+    /// The rows that settings are chosen by.
     pub validation: Vec<usize>,
     pub(super) left_out: usize,
 }
 
 impl<'a> FitPlan<'a> {
+    /// Plans `request` on the parts that its split makes.
+    ///
+    /// # Errors
+    /// [`EvaluateError`] for a request that does not suit the dataset.
     pub fn new(dataset: &'a Dataset, request: &FitRequest) -> Result<FitPlan<'a>, EvaluateError> {
         let recipe = Recipe::of(request)?;
         require_samples(dataset)?;

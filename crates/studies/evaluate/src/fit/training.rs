@@ -22,6 +22,10 @@ pub(super) struct Seen {
 }
 
 impl FitPlan<'_> {
+    /// Takes the features and fits the model.
+    ///
+    /// # Errors
+    /// [`EvaluateError`] if the dataset cannot be read, or the model cannot be fitted.
     pub fn run(mut self, work: Work<'_>) -> Result<Fitted, EvaluateError> {
         let choice = match self.open {
             Some(open) => Some(self.choose_features(open, work)?),

@@ -6,6 +6,7 @@ use taceva_core::{Channels, Column};
 
 use crate::bounded_share::Bounded;
 use crate::error::EvaluateError;
+use crate::note::Note;
 use crate::rows::DataPart;
 
 /// Predictions of some rows of a dataset, with their truth.
@@ -28,7 +29,9 @@ pub struct Predicted {
     pub(super) beyond: Vec<Option<Vec<bool>>>,
     /// The best constant answers of the model, by channel, as far as it knows them.
     pub(super) constants: BTreeMap<String, f64>,
+    /// Frames that the predictions rest on.
     pub frames_decoded: u64,
+    /// Rows of the part that could not be predicted.
     pub left_out: usize,
 }
 
@@ -96,24 +99,17 @@ impl Predicted {
         &self.channels
     }
 
-    /// The share of predictions that the model's bounds changed, channel by channel; `None` where there is none.
-    pub fn bounded_note(&self) -> Option<String> {
+    /// The shares of predictions that the bounds of the model changed, by channel; `None` where there is none.
+    pub fn beyond(&self) -> Option<Note> {
         let shares = self.bounded(0..self.rows());
         let channels = self.channels.iter();
-        let shares: Vec<String> = channels
+        let shares: Vec<(String, f64)> = channels
             .filter_map(|channel| {
                 let share = shares.share(channel.name()).filter(|share| *share > 0.0)?;
-                Some(format!("{} {:.1} %", channel.name(), 100.0 * share))
+                Some((channel.name().to_owned(), share))
             })
             .collect();
-        (!shares.is_empty()).then(|| {
-            format!(
-                "of the predictions of all samples together, these shares lie beyond the bounds of the model, a quarter of the range of labels \
-                 on either side: {}; a score marked `bounded` gives the share among its own samples; robustness is of predictions as \
-                 they are, every other score of those brought back",
-                shares.join(", ")
-            )
-        })
+        (!shares.is_empty()).then_some(Note::Bounded(shares))
     }
 
     /// How many predictions of the samples at `positions` lie beyond the bounds of the model, by channel.
@@ -133,6 +129,7 @@ impl Predicted {
         &self.constants
     }
 
+    /// The truth, channel by channel.
     pub fn truth(&self) -> &[Column] {
         &self.truth
     }
@@ -147,10 +144,12 @@ impl Predicted {
         &self.unbounded
     }
 
+    /// The standard deviations of the predictions, of a model that states them.
     pub fn deviation(&self) -> Option<&[Column]> {
         self.deviation.as_deref()
     }
 
+    /// The contact point of each row, where all rows name one.
     pub fn points(&self) -> Option<&[String]> {
         self.points.as_deref()
     }

@@ -8,11 +8,13 @@ use taceva_models::{LabelBounds, Model};
 /// What is known of whatever predicted.
 #[derive(Debug)]
 pub struct Predictor {
+    /// The channels.
     pub channels: Channels,
     /// By the labels that were learnt, as far as they are known.
     pub bounds: LabelBounds,
     /// The best constant answers, by channel, as far as they are known.
     pub constants: BTreeMap<String, f64>,
+    /// Whether frames are read.
     pub reads_frames: bool,
 }
 

@@ -9,9 +9,13 @@ use crate::rows::{DataPart, Divided, Need, require_samples, usable};
 /// The rows that are predicted, and how that was decided.
 #[derive(Debug)]
 pub struct Target {
+    /// The part.
     pub part: DataPart,
+    /// The rows, ascending.
     pub rows: Vec<usize>,
+    /// The division, if there is one.
     pub divided: Option<Divided>,
+    /// Rows of the part that lack what the model reads.
     pub left_out: usize,
 }
 
@@ -27,6 +31,10 @@ impl Target {
         Target::of(dataset, divided, part, model.reads_frames())
     }
 
+    /// Decides for the rows of `part` of a division, or of the whole dataset.
+    ///
+    /// # Errors
+    /// [`EvaluateError::Request`] for a part without a row.
     pub fn of(
         dataset: &Dataset,
         divided: Option<Divided>,

@@ -70,7 +70,7 @@ pub fn score_in_one_pass(
     ]
     .into();
     let taken = Taken::all_of(tables::input_of(&digests), rows);
-    finished(evaluator, &sensor, digests, taken).map(Some)
+    finished(evaluator, &sensor, digests, taken, Vec::new()).map(Some)
 }
 
 /// What the threads of a pass have in common.

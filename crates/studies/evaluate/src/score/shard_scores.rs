@@ -21,6 +21,7 @@ use super::tables::Pairing;
 use super::{ScoreRequest, Scored, finished, parquet_parts, planned, tables};
 use crate::accumulate::{BATCH_ROWS, Rows};
 use crate::error::EvaluateError;
+use crate::note::Note;
 use crate::plan::Plan;
 use crate::row_ledger::Taken;
 
@@ -171,16 +172,13 @@ impl ScoreTables {
         let [first, end] =
             [own.start, own.end].map(|row| usize::try_from(row).unwrap_or(usize::MAX));
         let taken = Taken::part_of(tables::input_of(&digests), first..end, whole);
-        let mut scored = finished(evaluator?, &understood.sensor, digests, taken)?;
-        if !shard.is_whole() {
-            scored.report.provenance.notes.push(format!(
-                "shard {shard}: rows {} to before {} of {}, from 0",
-                own.start,
-                own.end,
-                self.rows()
-            ));
-        }
-        Ok(scored)
+        let note = (!shard.is_whole()).then(|| Note::Shard {
+            shard: shard.to_string(),
+            rows: [own.start, own.end],
+            of: self.rows(),
+        });
+        let notes = note.into_iter().collect();
+        finished(evaluator?, &understood.sensor, digests, taken, notes)
     }
 
     fn understood(&self, request: &ScoreRequest) -> Result<Understood<'_>, EvaluateError> {

@@ -95,15 +95,6 @@ pub(super) fn input_of(digests: &BTreeMap<String, String>) -> String {
     digests.join(" ")
 }
 
-/// What a reader must know where both tables hold the same bytes.
-pub(super) fn same_bytes_note(digests: &BTreeMap<String, String>) -> Option<String> {
-    let (truth, prediction) = (digests.get("truth")?, digests.get("prediction")?);
-    (truth == prediction).then(|| {
-        "truth and predictions are the same bytes: every error is 0, which no sensor reaches"
-            .to_owned()
-    })
-}
-
 /// The channels of the prediction; the truth must have each, and no channel of the six that the prediction lacks.
 pub(super) fn channels(
     truth: &CsvTable,

@@ -14,7 +14,7 @@ use crate::error::EvaluateError;
 /// A plan as a file says it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct WrittenPlan {
+pub(crate) struct WrittenPlan {
     metrics: Vec<String>,
     channels: Vec<(String, Unit)>,
     fields: Vec<String>,
@@ -31,7 +31,7 @@ pub(super) struct WrittenPlan {
     resolution_tolerance_nm: i64,
     /// The constants that skill is measured by, by channel, where they are known and the same in all states.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub(super) constants: BTreeMap<String, f64>,
+    pub(crate) constants: BTreeMap<String, f64>,
     /// Whether recordings are the clusters of intervals, and not contact points.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     by_recording: bool,
@@ -82,7 +82,7 @@ impl WrittenPlan {
     }
 
     /// Whether states of both plans join: what skill is measured by enters when scores are finished, and may differ.
-    pub(super) fn merges_with(&self, other: &WrittenPlan) -> bool {
+    pub(crate) fn merges_with(&self, other: &WrittenPlan) -> bool {
         let without = |plan: &WrittenPlan| WrittenPlan {
             constants: BTreeMap::new(),
             ..plan.clone()
@@ -90,7 +90,7 @@ impl WrittenPlan {
         without(self) == without(other)
     }
 
-    pub(super) fn to_plan(&self, path: &Path) -> Result<MetricPlan, EvaluateError> {
+    pub(crate) fn to_plan(&self, path: &Path) -> Result<MetricPlan, EvaluateError> {
         let wrong = |problem: String| EvaluateError::State {
             path: path.to_owned(),
             problem,

@@ -10,6 +10,7 @@ use taceva_protocol::{PhaseKind, Plan, PlannedMetric};
 use taceva_acquire::PlannedStudy;
 use taceva_evaluate::EvaluateError;
 use taceva_evaluate::FitRequest;
+use taceva_evaluate::Note;
 use taceva_evaluate::{DataPart, Divided};
 
 /// The rows of a recording, assigned to the phases of the protocol that they were pressed for.
@@ -113,16 +114,14 @@ impl<'a> PhaseRows<'a> {
     }
 
     /// A note if presses ended early.
-    pub(super) fn shortfall(&self) -> Option<String> {
+    pub(super) fn shortfall(&self) -> Option<Note> {
         self.rows.as_ref()?;
         let presses = self.plan.presses.iter();
         let planned: usize = presses.map(|press| press.press.samples()).sum();
         let found = self.dataset.table().rows();
-        (found < planned).then(|| {
-            format!(
-                "{} of {planned} planned samples were not taken: their presses met a limit of the gel, or no gel",
-                planned - found
-            )
+        (found < planned).then(|| Note::Untaken {
+            count: planned - found,
+            of: planned,
         })
     }
 }

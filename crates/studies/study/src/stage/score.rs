@@ -13,6 +13,7 @@ use super::gratings::PredictedSpacings;
 use super::phase_rows::PhaseRows;
 use taceva_acquire::{PlannedScene, PlannedStudy};
 use taceva_evaluate::EvaluateError;
+use taceva_evaluate::Note;
 use taceva_evaluate::skill;
 use taceva_evaluate::{Columns, Rows, accumulate};
 use taceva_evaluate::{Predicted, truth};
@@ -67,7 +68,7 @@ impl Within {
 const OF_SENSOR: &str = "intrinsic";
 
 /// The scores, and what a reader must know of what was left out beyond what a skip can say.
-pub(super) fn score(scores: &Scores<'_>) -> Result<(Evaluation, Vec<String>), EvaluateError> {
+pub(super) fn score(scores: &Scores<'_>) -> Result<(Evaluation, Vec<Note>), EvaluateError> {
     let mut groups: BTreeMap<ScoreGroup, Vec<&'static Metric>> = BTreeMap::new();
     for (planned, metric) in scores.phase_rows.metrics() {
         let group = ScoreGroup {
@@ -258,7 +259,7 @@ impl Rows for Samples<'_> {
 }
 
 /// What the plan left out of what was asked for: reasons that any stream may have, and in words those that only a plan can.
-fn left_out(study: &PlannedStudy) -> (Vec<Skipped>, Vec<String>) {
+fn left_out(study: &PlannedStudy) -> (Vec<Skipped>, Vec<Note>) {
     let (mut skipped, mut notes) = (Vec::new(), Vec::new());
     for skip in &study.plan.skipped {
         if !matches!(skip.subject, Subject::Metric(_)) {
@@ -268,7 +269,10 @@ fn left_out(study: &PlannedStudy) -> (Vec<Skipped>, Vec<String>) {
         match &skip.reason {
             PlanReason::Skip(SkipReason::NotWanted) => {}
             PlanReason::Skip(reason) => skipped.push(Skipped::new(what, reason.clone())),
-            reason => notes.push(format!("{what}: {reason}")),
+            reason => notes.push(Note::NotPlanned {
+                what,
+                reason: reason.to_string(),
+            }),
         }
     }
     (skipped, notes)

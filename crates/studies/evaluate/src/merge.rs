@@ -5,10 +5,12 @@ use std::path::{Path, PathBuf};
 use taceva_core::shown;
 use taceva_metrics::Evaluator;
 
-use super::{ReadState, StateFile};
+use crate::assess::{Assessed, Context, FitFacts, ScoredRows, assess};
 use crate::error::EvaluateError;
+use crate::note::Note;
 use crate::report::EvaluationReport;
 use crate::row_ledger::{AllTaken, Taken};
+use crate::state_file::{ReadState, StateFile};
 
 /// The scores of several states together, and the merged state.
 ///
@@ -74,25 +76,28 @@ pub fn merge(paths: &[PathBuf]) -> Result<(EvaluationReport, StateFile), Evaluat
     let is_of_shards = all_taken.is_of_shards_of_one_input();
     let taken = all_taken.into_taken();
     // All shards of one input are that input, and one state is itself: nothing else is to be said of them.
-    let mut notes = Vec::new();
+    let (mut notes, mut of_report) = (Vec::new(), Vec::new());
     match (
         is_of_shards || rest.is_empty(),
         taken.first().and_then(Taken::share),
     ) {
-        (false, _) => provenance
-            .notes
-            .push(format!("{} states joined", paths.len())),
-        (true, Some([own, all])) => notes.push(format!(
-            "{own} of {all} rows: the others are in no shard that was joined"
-        )),
+        (false, _) => notes.push(Note::States(paths.len())),
+        (true, Some(share)) => of_report.push(Note::Shards(share)),
         (true, None) => {}
     }
-    let mut state = StateFile::of(&mut finished, &subject, &provenance, bounded)?.with_taken(taken);
-    state.seen = is_seen;
-    let evaluation = state.finish(finished)?;
-    provenance.notes.extend(notes);
-    Ok((
-        EvaluationReport::new(subject, evaluation, provenance),
-        state,
-    ))
+    let rows = ScoredRows::Accumulated {
+        evaluator: Box::new(finished),
+        taken,
+    };
+    let context = Context {
+        notes,
+        is_seen,
+        fit: FitFacts {
+            frames_decoded: 0,
+            notes: of_report,
+        },
+        ..Context::new(subject, provenance)
+    };
+    let Assessed { report, state } = assess(rows, bounded, context)?;
+    Ok((report, state.expect("accumulators have a state")))
 }

@@ -1,0 +1,113 @@
+//! The one way from scores to a report, with what it is about and where it comes from.
+
+use taceva_metrics::{Evaluation, Evaluator};
+
+use crate::bounded_share::Bounded;
+use crate::error::EvaluateError;
+use crate::note::Note;
+use crate::over_seeds::OverSeeds;
+use crate::provenance::Provenance;
+use crate::report::{EvaluationReport, RecordingScores};
+use crate::row_ledger::Taken;
+use crate::samples::Samples;
+use crate::state_file::StateFile;
+use crate::subject::Subject;
+
+/// Rows that were scored.
+pub enum ScoredRows {
+    /// Accumulators, whose state can be joined with that of other rows.
+    Accumulated {
+        /// The accumulators.
+        evaluator: Box<Evaluator>,
+        /// The rows that they took.
+        taken: Vec<Taken>,
+    },
+    /// A finished evaluation of several groups of rows, of which no state is kept.
+    Finished(Box<Evaluation>),
+}
+
+/// What a report says beside its scores.
+pub struct Context {
+    /// The sensor.
+    pub subject: Subject,
+    /// The inputs and settings.
+    pub provenance: Provenance,
+    /// What a reader must know, in order; `provenance` has what states said before.
+    pub notes: Vec<Note>,
+    /// Whether a model was fitted on some of the rows, beyond what `provenance` says.
+    pub is_seen: bool,
+    /// The fit behind the predictions, of which states say nothing.
+    pub fit: FitFacts,
+    /// The scores of each recording alone, where several were joined.
+    pub by_recording: Vec<RecordingScores>,
+    /// The scores of other seeds of the training.
+    pub over_seeds: Option<OverSeeds>,
+    /// The samples, where one call has them all.
+    pub samples: Option<Samples>,
+}
+
+/// What only the call that made a report knows.
+#[derive(Clone, Debug, Default)]
+pub struct FitFacts {
+    /// Frames that were learnt from.
+    pub frames_decoded: u64,
+    /// What a reader must know, behind everything else.
+    pub notes: Vec<Note>,
+}
+
+/// A report, and the state behind it where one can be kept.
+pub struct Assessed {
+    /// The report.
+    pub report: EvaluationReport,
+    /// The state.
+    pub state: Option<StateFile>,
+}
+
+impl Context {
+    /// A context without notes, recordings, seeds and samples.
+    pub fn new(subject: Subject, provenance: Provenance) -> Context {
+        Context {
+            subject,
+            provenance,
+            notes: Vec::new(),
+            is_seen: false,
+            fit: FitFacts::default(),
+            by_recording: Vec::new(),
+            over_seeds: None,
+            samples: None,
+        }
+    }
+}
+
+/// The report of `rows`; `predictions` says how many of them lie beyond the bounds of their model.
+///
+/// # Errors
+/// [`EvaluateError::Scores`] for samples that the accumulators cannot take.
+pub fn assess(
+    rows: ScoredRows,
+    predictions: Bounded,
+    context: Context,
+) -> Result<Assessed, EvaluateError> {
+    let mut provenance = context.provenance;
+    let sentences = |notes: &[Note]| notes.iter().map(Note::to_string).collect::<Vec<_>>();
+    provenance.notes.extend(sentences(&context.notes));
+    let (evaluation, state) = match rows {
+        ScoredRows::Finished(evaluation) => (*evaluation, None),
+        ScoredRows::Accumulated {
+            mut evaluator,
+            taken,
+        } => {
+            let state = StateFile::of(&mut evaluator, &context.subject, &provenance, predictions)?
+                .with_taken(taken)
+                .with_seen(context.is_seen);
+            (state.finish(*evaluator)?, Some(state))
+        }
+    };
+    provenance.frames_decoded += context.fit.frames_decoded;
+    provenance.notes.extend(sentences(&context.fit.notes));
+    let mut report = EvaluationReport::new(context.subject, evaluation, provenance)
+        .with_recordings(context.by_recording);
+    report.over_seeds = context.over_seeds;
+    report.samples = context.samples;
+    Ok(Assessed { report, state })
+}

@@ -1,0 +1,354 @@
+//! What a reader of scores must know of the samples and the model behind them: data here, sentences in a report.
+
+use std::fmt;
+
+use taceva_core::shown;
+use taceva_dataset::{Extension, FramesInfo};
+
+/// Below so many recordings an interval by them states how few they are: Student's t has too few degrees of freedom to be narrow.
+const CLUSTERS_MANY: usize = 10;
+
+/// One thing that a reader of scores must know; the sentence of it is its `Display`.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Note {
+    /// The division of the rows, in the words of the split.
+    Split(String),
+    /// The clusters of intervals, where recordings were joined.
+    Clusters {
+        /// Recordings with scored rows.
+        recordings: usize,
+        /// Contact points within them.
+        points: usize,
+        /// Recordings that intervals by them take.
+        least: usize,
+    },
+    /// Too few contact points for any interval.
+    FewPoints(usize),
+    /// Rows that were added to a recording later.
+    Extended {
+        /// The recording, where several were joined.
+        recording: Option<String>,
+        /// Rows that were added.
+        added: u64,
+        /// The rows before, the day and the folder.
+        extension: Extension,
+    },
+    /// Frames that are not as the camera gave them.
+    Reduced {
+        /// The recording, where several were joined.
+        recording: Option<String>,
+        /// The frames as they were kept.
+        frames: FramesInfo,
+    },
+    /// A scored part that the model was fitted on.
+    Seen(&'static str),
+    /// A model that was fitted on other data, with their digest.
+    FittedElsewhere(String),
+    /// Pictures of the test part that are fitted on too.
+    Copies {
+        /// Such pictures.
+        copies: usize,
+        /// Scored rows.
+        of: usize,
+    },
+    /// A model that was fitted before rows were added.
+    FittedBefore {
+        /// Rows at that time.
+        rows: u64,
+        /// Rows now.
+        now: u64,
+    },
+    /// Samples without a label or a frame.
+    LeftOut {
+        /// Their part.
+        part: String,
+        /// Their number.
+        count: usize,
+    },
+    /// Shares of predictions beyond the bounds of the model, by channel.
+    Bounded(Vec<(String, f64)>),
+    /// Shares of samples within 1.96 predicted standard deviations, by channel.
+    Calibration(Vec<Coverage>),
+    /// A choice that a person left open, in the words of the model's card.
+    Chosen {
+        /// The recording that the fold leaves out, where there are folds.
+        fold: Option<String>,
+        /// The choice.
+        choice: String,
+    },
+    /// Metrics of the truth alone, which read every row.
+    EveryRow {
+        /// Their ids.
+        metrics: Vec<&'static str>,
+        /// The rows.
+        rows: usize,
+    },
+    /// A model that a caller holds.
+    CallersModel(Learning),
+    /// Predictions of such a model that were scored as they came.
+    Unbounded,
+    /// States that were joined.
+    States(usize),
+    /// Rows of an input, of which some are in no joined shard.
+    Shards([usize; 2]),
+    /// The shard of two tables that was scored.
+    Shard {
+        /// Its number among all.
+        shard: String,
+        /// Its first row and the row behind its last one.
+        rows: [u64; 2],
+        /// Rows of the tables.
+        of: u64,
+    },
+    /// Tables of truth and predictions with the same bytes.
+    SameBytes,
+    /// Something that a plan left out.
+    NotPlanned {
+        /// The thing.
+        what: String,
+        /// The reason.
+        reason: String,
+    },
+    /// Planned samples that were not taken.
+    Untaken {
+        /// Their number.
+        count: usize,
+        /// Planned samples.
+        of: usize,
+    },
+    /// The way in which spacings of gratings were predicted.
+    Spacings(&'static str),
+    /// The sessions on a real rig in which a recording was made.
+    Sessions(String),
+    /// Frames that were taken again.
+    FramesRetried(u64),
+}
+
+/// What is known of the learning of a model that a caller holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Learning {
+    /// On the training part, here.
+    Here,
+    /// On the training part, by the word of the caller.
+    Stated,
+    /// On unknown samples.
+    Unknown,
+}
+
+/// The share of samples of a channel whose truth lies within 1.96 predicted standard deviations.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coverage {
+    /// The channel.
+    pub channel: String,
+    /// The share, in percent.
+    pub percent: f64,
+    /// Its 95 % interval by contact point, in percent.
+    pub interval: Option<[f64; 2]>,
+    /// Samples.
+    pub n: u64,
+}
+
+impl Note {
+    /// Samples of `part` without a label or a frame, if there are any.
+    pub(crate) fn left_out(part: &str, count: usize) -> Option<Note> {
+        let part = part.to_owned();
+        (count > 0).then_some(Note::LeftOut { part, count })
+    }
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Note::Split(words) | Note::Sessions(words) => f.write_str(words),
+            Note::Clusters {
+                recordings,
+                points,
+                least,
+            } => clusters(*recordings, *points, *least, f),
+            Note::FewPoints(points) => write!(
+                f,
+                "scored on {points} contact points, too few for intervals; test on more of them: --split 'by-point 50/10/40'"
+            ),
+            Note::Extended {
+                recording,
+                added,
+                extension,
+            } => write!(
+                f,
+                "{}{added} samples were added to {} on {} from {}; each sample before kept its part",
+                of(recording),
+                extension.rows,
+                extension.date,
+                shown(&extension.from)
+            ),
+            Note::Reduced { recording, frames } => {
+                write!(f, "{}frames were kept as {}", of(recording), frames.info)?;
+                match &frames.reduced {
+                    Some(reduced) => write!(f, ": {}, of {}", shown(&reduced.by), reduced.from),
+                    None => Ok(()),
+                }
+            }
+            Note::Seen(part) => write!(
+                f,
+                "scored on the part `{part}`, which the model has seen: this is no test"
+            ),
+            Note::FittedElsewhere(digest) => write!(
+                f,
+                "every sample is scored, because the model was fitted on other data, {digest}; samples that both hold, as an export or a second import of one recording does, are not distinguished"
+            ),
+            Note::Copies { copies, of } => write!(
+                f,
+                "{copies} of {of} pictures of the test part are, byte for byte, also fitted on: the scores flatter (taceva check, TAC002 and TAC007)"
+            ),
+            Note::FittedBefore { rows, now } => write!(
+                f,
+                "the model was fitted when the dataset had {rows} of its {now} samples; the parts are those of now"
+            ),
+            Note::LeftOut { part, count } => write!(
+                f,
+                "{count} samples of the part {part} lack a label or a frame and were left out"
+            ),
+            Note::Bounded(shares) => {
+                let shares: Vec<String> = shares
+                    .iter()
+                    .map(|(channel, share)| format!("{channel} {:.1} %", 100.0 * share))
+                    .collect();
+                write!(
+                    f,
+                    "of the predictions of all samples together, these shares lie beyond the bounds of the model, a quarter of the range of labels \
+                     on either side: {}; a score marked `bounded` gives the share among its own samples; robustness is of predictions as \
+                     they are, every other score of those brought back",
+                    shares.join(", ")
+                )
+            }
+            Note::Calibration(channels) => {
+                let shares: Vec<String> = channels.iter().map(ToString::to_string).collect();
+                write!(
+                    f,
+                    "within 1.96 predicted standard deviations of the truth lie {}; 95 % would if the deviations were calibrated",
+                    shares.join(", ")
+                )
+            }
+            Note::Chosen { fold: None, choice } => f.write_str(choice),
+            Note::Chosen {
+                fold: Some(fold),
+                choice,
+            } => write!(f, "without {fold}: {choice}"),
+            Note::EveryRow { metrics, rows } => write!(
+                f,
+                "no prediction enters {}: all {rows} samples count there, in every part",
+                metrics.join(", ")
+            ),
+            Note::CallersModel(learning) => f.write_str(match learning {
+                Learning::Here => {
+                    "the model is one that the caller holds, fitted here on the training part alone"
+                }
+                Learning::Stated => {
+                    "the model is one that the caller holds; that it has learnt from the training part of this split alone is the caller's word"
+                }
+                Learning::Unknown => {
+                    "the model is one that the caller holds; what it has learnt from is not known, so these samples may be among it"
+                }
+            }),
+            Note::Unbounded => f.write_str(
+                "predictions were not brought within the bounds of the labels that were learnt, as those of other models are",
+            ),
+            Note::States(count) => write!(f, "{count} states joined"),
+            Note::Shards([own, all]) => write!(
+                f,
+                "{own} of {all} rows: the others are in no shard that was joined"
+            ),
+            Note::Shard {
+                shard,
+                rows: [first, end],
+                of,
+            } => write!(f, "shard {shard}: rows {first} to before {end} of {of}, from 0"),
+            Note::SameBytes => f.write_str(
+                "truth and predictions are the same bytes: every error is 0, which no sensor reaches",
+            ),
+            Note::NotPlanned { what, reason } => write!(f, "{what}: {reason}"),
+            Note::Untaken { count, of } => write!(
+                f,
+                "{count} of {of} planned samples were not taken: their presses met a limit of the gel, or no gel"
+            ),
+            Note::Spacings(way) => f.write_str(way),
+            Note::FramesRetried(count) => write!(
+                f,
+                "{count} frames were lost, damaged or older than their contact, and were taken again"
+            ),
+        }
+    }
+}
+
+impl fmt::Display for Coverage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {:.1} % (", self.channel, self.percent)?;
+        if let Some([low, high]) = self.interval {
+            write!(f, "{low:.1} … {high:.1} %, ")?;
+        }
+        write!(f, "n {})", self.n)
+    }
+}
+
+/// The name of a recording before what is said of it alone.
+fn of(recording: &Option<String>) -> String {
+    recording
+        .as_ref()
+        .map_or_else(String::new, |name| format!("{name}: "))
+}
+
+fn clusters(
+    recordings: usize,
+    points: usize,
+    least: usize,
+    f: &mut fmt::Formatter<'_>,
+) -> fmt::Result {
+    if recordings < least {
+        return write!(
+            f,
+            "scored on {points} contact points of {recordings} recordings; an interval by contact point within these recordings does not say \
+             how scores vary from recording to recording, which takes {least} recordings with scored samples"
+        );
+    }
+    write!(
+        f,
+        "intervals of errors, R² and skill are by recording, {recordings} of them with {points} contact points: they say how scores vary from \
+         recording to recording"
+    )?;
+    if recordings < CLUSTERS_MANY {
+        write!(
+            f,
+            "; {recordings} are few: one recording more or less may change an interval much, and it is as wide as {} degrees of freedom make it",
+            recordings - 1
+        )?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_note_says_what_the_clusters_are_and_how_many_there_are_of_both() {
+        let note = |recordings, points| {
+            let note = Note::Clusters {
+                recordings,
+                points,
+                least: 5,
+            };
+            note.to_string()
+        };
+        let few = note(3, 24);
+        assert!(few.contains("24 contact points of 3 recordings"), "{few}");
+        assert!(few.contains("by contact point within"), "{few}");
+        let enough = note(5, 40);
+        assert!(
+            enough.contains("by recording, 5 of them with 40"),
+            "{enough}"
+        );
+        assert!(enough.contains("5 are few") && enough.contains("4 degrees of freedom"));
+        assert!(!note(12, 99).contains("few"));
+    }
+}
