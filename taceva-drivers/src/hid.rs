@@ -3,4 +3,4 @@
 mod listener;
 pub mod pedal;
 pub mod scale;
-mod selected;
+mod selection;

@@ -4,6 +4,7 @@
 mod arguments;
 #[cfg(feature = "netft")]
 pub mod ati;
+mod bench_sensor;
 #[cfg(feature = "camera")]
 pub mod camera;
 mod clock;
@@ -17,7 +18,6 @@ pub mod hid;
 #[cfg(feature = "link")]
 mod link;
 mod name_order;
-mod on_bench;
 mod open_error;
 mod pace;
 #[cfg(all(any(feature = "gcode", feature = "hid", feature = "v4l2"), unix))]
@@ -36,10 +36,10 @@ pub mod ur;
 #[cfg(any(feature = "hid", feature = "netft", feature = "sri"))]
 mod zero;
 
+pub use bench_sensor::OnBench;
 pub use clock::MonotonicClock;
 pub use devices::{Devices, ListedArgument, ListedDevice, ListedDriver, devices};
 pub use drivers::{Drivers, open};
-pub use on_bench::OnBench;
 pub use open_error::OpenError;
 pub use pace::{Pace, RealPace, VirtualPace};
 pub use selector::{Selector, SelectorError};

@@ -152,7 +152,7 @@ fn lints_are_never_switched_off_and_unsafe_code_stands_where_the_architecture_sa
                 "taceva-metrics" | "taceva-network" | "taceva-sim" => is_simd,
                 "taceva-drivers" => {
                     source.ends_with("v4l2/kernel/ioctls.rs")
-                        || source.ends_with("v4l2/kernel/mapped.rs")
+                        || source.ends_with("v4l2/kernel/frame_memory.rs")
                 }
                 "taceva-video" => source.ends_with("av1/rav1d.rs"),
                 "taceva-python" => {

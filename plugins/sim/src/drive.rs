@@ -10,11 +10,11 @@
 mod error;
 mod force;
 mod lighting;
-mod mounted;
 mod place;
 mod rig;
 mod robot;
 mod sensor;
+mod specimen;
 mod state;
 mod ticks;
 mod touch;
@@ -23,7 +23,7 @@ mod wall;
 
 pub use force::ForceTransducerFactory;
 pub use lighting::LightingFactory;
-pub use mounted::{MountError, Mounted};
 pub use rig::SimulatedRig;
 pub use robot::RobotFactory;
 pub use sensor::SensorFactory;
+pub use specimen::{MountError, Mounted};

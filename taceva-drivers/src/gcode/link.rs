@@ -124,7 +124,8 @@ impl<S: Clone + Send + 'static> SerialLink<S> {
     /// Those of [`open_line`], and `Internal` where no thread can be had.
     pub(super) fn open(
         driver: &DriverKey,
-        (path, baud): (&str, u32),
+        path: &str,
+        baud: u32,
         read: fn(&str) -> Heard<S>,
     ) -> Result<SerialLink<S>, DriverError> {
         let doing = "connect to the machine";
@@ -143,7 +144,7 @@ impl<S: Clone + Send + 'static> SerialLink<S> {
         let reader = std::thread::Builder::new()
             .name("gcode lines".to_owned())
             .spawn(move || {
-                if let Err(error) = read(reading, understand, &over, (&posting, &sender)) {
+                if let Err(error) = read(reading, understand, &over, &posting, &sender) {
                     posting.end(Ending {
                         kind: ErrorKind::Disconnected,
                         why: format!("the line broke: {error}"),
@@ -237,7 +238,8 @@ fn read<S: Clone>(
     mut file: File,
     understand: fn(&str) -> Heard<S>,
     is_over: &AtomicBool,
-    (posting, answers): (&Mailbox<S>, &Sender<Answer>),
+    posting: &Mailbox<S>,
+    answers: &Sender<Answer>,
 ) -> io::Result<()> {
     let mut lines = Lines::default();
     let mut bytes = [0; 1024];

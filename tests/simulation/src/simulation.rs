@@ -18,15 +18,15 @@ mod fault;
 mod gel;
 mod guard;
 mod journal;
-mod look_on;
 mod oracle;
 mod record;
 mod scenario;
-mod shared;
 mod switch;
 #[cfg(test)]
 mod tests;
+mod threads;
 mod world;
+mod world_handle;
 
 pub use fault::{FaultCounts, FaultKind};
 pub use oracle::{Checks, HALT_WITHIN_S, Violation};

@@ -18,12 +18,12 @@
 
 mod base;
 mod bench;
+mod bench_server;
 mod error;
 mod fault;
 mod link;
 mod options;
 mod rig_file;
-mod served;
 mod server;
 #[cfg(unix)]
 mod terminal;
@@ -43,7 +43,7 @@ pub mod xarm;
 
 pub use base::Base;
 pub use bench::{Truth, WallBench};
+pub use bench_server::{ForceKind, RobotKind, ServeOptions, Served};
 pub use error::WireError;
 pub use fault::{Arm, ArmFault, Device, Fault, FaultKind};
 pub use options::BenchOptions;
-pub use served::{ForceKind, RobotKind, ServeOptions, Served};

@@ -69,7 +69,8 @@ const ALWAYS: &str = "Cache-Control: no-store\r\n\
 pub(crate) fn whole(
     out: &mut impl Write,
     status: Status,
-    (kind, body): (&str, &[u8]),
+    kind: &str,
+    body: &[u8],
 ) -> io::Result<()> {
     let head = format!(
         "HTTP/1.1 {}\r\n{ALWAYS}Content-Type: {kind}\r\nContent-Length: {}\r\n\r\n",
@@ -84,7 +85,8 @@ pub(crate) fn bare(out: &mut impl Write, status: Status) -> io::Result<()> {
     whole(
         out,
         status,
-        ("text/plain; charset=utf-8", status.hint().as_bytes()),
+        "text/plain; charset=utf-8",
+        status.hint().as_bytes(),
     )
 }
 

@@ -45,7 +45,7 @@ pub(crate) fn serve(mut stream: TcpStream, site: &Site) -> io::Result<()> {
         }
         Ok(Reply::Bare(status)) => response::bare(&mut stream, status),
         Ok(Reply::File(kind, body)) => {
-            response::whole(&mut stream, Status::Ok, (kind, body.as_bytes()))
+            response::whole(&mut stream, Status::Ok, kind, body.as_bytes())
         }
         Ok(Reply::Frames(_viewer)) => frames(&mut stream, &site.shared),
         Ok(Reply::Events(_viewer)) => events(&mut stream, &site.shared),

@@ -215,12 +215,12 @@ impl Tighten<'_> {
                 let of_rig = of_rig.filter(|(named, _)| *named == key);
                 let limit = of_rig.filter_map(|(_, limit)| limit).next();
                 let who = format!("[limits] of the rig file `{}`", rig.name());
-                tightened((key, limit), tightest, (&rig.text, who))?
+                tightened(key, limit, tightest, &rig.text, who)?
             }
             None => tightest,
         };
         let who = "[limits] of the scene".to_owned();
-        tightened((key, written), tightest, (&self.scene.text, who))
+        tightened(key, written, tightest, &self.scene.text, who)
     }
 
     fn required(
@@ -256,9 +256,11 @@ impl Tighten<'_> {
 
 /// The limit that `written` makes of the `tightest` that stood before it, which it may not loosen.
 fn tightened(
-    (key, written): (&'static str, Option<Setting<f64>>),
+    key: &'static str,
+    written: Option<Setting<f64>>,
     tightest: Option<Stated>,
-    (text, who): (&Text, String),
+    text: &Text,
+    who: String,
 ) -> Result<Option<Stated>, SceneError> {
     match (written, tightest) {
         (Some(written), Some(tightest)) if written.value > tightest.limit => {

@@ -7,11 +7,11 @@ mod check;
 mod collect;
 mod cost;
 mod explain;
-mod facts;
 mod fields;
 mod merge;
 mod phases;
 mod resolve;
+mod study_facts;
 #[cfg(test)]
 pub(crate) mod tests;
 
@@ -33,7 +33,7 @@ use crate::source::SourceInfo;
 use crate::text::{SceneError, SceneProblem};
 use collect::Collected;
 pub(crate) use collect::{MetricNeeds, SURFACE};
-use facts::{Gather, StudyFacts};
+use study_facts::{Gather, StudyFacts};
 
 /// What is done for one sensor, what is not, and why. [`Display`](std::fmt::Display) explains it.
 #[derive(Clone, Debug, PartialEq)]
@@ -171,7 +171,7 @@ pub(crate) fn plan_study(
     source: &SourceInfo,
     needs: &[MetricNeeds],
 ) -> Result<Plan, SceneError> {
-    let lights = facts::lights(scene, study, source)?;
+    let lights = study_facts::lights(scene, study, source)?;
     let units = study.units();
     let gather = Gather {
         scene,

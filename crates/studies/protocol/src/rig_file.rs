@@ -291,9 +291,9 @@ impl Check<'_> {
             turned_deg,
             latency_ms,
         } = robot;
-        self.within("origin_mm", "mm", (&origin_mm, GREATEST_PLACE_MM))?;
+        self.within("origin_mm", "mm", &origin_mm, GREATEST_PLACE_MM)?;
         if let Some(turned) = &turned_deg {
-            self.within("turned_deg", "degrees", (turned, 360.0))?;
+            self.within("turned_deg", "degrees", turned, 360.0)?;
         }
         Ok(RigRobot {
             driver,
@@ -325,7 +325,8 @@ impl Check<'_> {
         &self,
         key: &str,
         unit: &str,
-        (numbers, greatest): (&Setting<[f64; 3]>, f64),
+        numbers: &Setting<[f64; 3]>,
+        greatest: f64,
     ) -> Result<(), SceneError> {
         // NaN is in no range.
         let is_inside = |number: &f64| (-greatest..=greatest).contains(number);

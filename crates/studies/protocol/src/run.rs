@@ -6,31 +6,33 @@
 //! reports no fault of its own, and the same call resumes the run.
 
 mod align;
-mod bearing;
-mod begin;
 mod bounds;
 mod by_hand;
 mod camera;
 mod change;
+mod clearance;
 mod devices;
+mod enabling_wait;
 mod error;
 mod event;
-mod go;
 mod guard;
-mod hold;
+mod halt_reason;
 mod indent;
+mod load_limit;
 mod log;
-mod look;
+mod motion;
 mod observe;
 mod operator;
 mod press;
-mod raise;
+mod reading;
+mod reference_touch;
 mod retreat;
 #[cfg(test)]
 mod rig;
 mod sample;
 mod search;
 mod session;
+mod session_start;
 mod stride;
 mod supervisor;
 mod tap;
@@ -38,24 +40,22 @@ mod tap;
 mod tests;
 mod time;
 mod tip;
-mod touched;
-mod trip;
 mod way;
 mod zero;
 
 pub use align::wrench_between;
+pub use clearance::raise;
 pub use devices::{Devices, SpecimenChanger};
 pub use error::{Left, RunError, StopCause};
 pub use event::Event;
 pub use guard::RunGuard;
+pub use halt_reason::Trip;
 pub use log::{PressLog, PressRecord};
 pub use operator::{Answer, ChangedTouch, Operator, Question, Spot};
-pub use raise::raise;
+pub use reference_touch::{ReferenceTouch, SessionRecord, SessionSpec, TouchFault};
 pub use supervisor::{Enabling, MotionStage, Observation, SharedSupervisor, Supervisor};
 pub use tap::{TapError, TapHeard, TapListener, Tapped, tap};
 pub use time::{Cancel, Timekeeper};
-pub use touched::{ReferenceTouch, SessionRecord, SessionSpec, TouchFault};
-pub use trip::Trip;
 
 use taceva_core::Millimetre;
 

@@ -7,7 +7,7 @@ use std::time::Duration;
 use taceva_core::{DriverError, ErrorKind, Rig, SimulatedBench, Specimen};
 
 use super::error::{ROBOT, failed};
-use super::mounted::{MountError, Mounted};
+use super::specimen::{MountError, Mounted};
 use super::state::State;
 use crate::contact::Contact;
 use crate::provenance::{MODEL_VERSION, Provenance};

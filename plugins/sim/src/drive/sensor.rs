@@ -13,8 +13,8 @@ use taceva_core::{
 
 use super::error::{failed, rig_name};
 use super::lighting::Lamps;
-use super::mounted::Mounted;
 use super::rig::SimulatedRig;
+use super::specimen::Mounted;
 use super::state::State;
 use crate::bench::Bench;
 use crate::contact::BOARD_SIDE_MM;

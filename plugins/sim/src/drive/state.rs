@@ -10,8 +10,8 @@ use std::time::Duration;
 
 use taceva_core::{Millimetre, Pose};
 
-use super::mounted::Mounted;
 use super::place::{Visits, nanometres, point_of};
+use super::specimen::Mounted;
 use super::ticks::Ticks;
 use super::touch::Touch;
 use super::visit::{SurfaceBelow, Visit, VisitErrors};

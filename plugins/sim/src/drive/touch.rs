@@ -1,6 +1,6 @@
 //! An indentation under way.
 
-use super::mounted::Mounted;
+use super::specimen::Mounted;
 use crate::bench::Bench;
 use crate::contact::{BoardStand, Contact, Indentation, Relaxation, Wear};
 

@@ -1,7 +1,7 @@
 //! The time over one place.
 
-use super::mounted::Mounted;
 use super::place::VisitKey;
+use super::specimen::Mounted;
 use super::ticks::Ticks;
 use super::touch::{Touch, surface_mm};
 use crate::bench::Bench;

@@ -1,6 +1,6 @@
 //! Cameras of Linux by the kernel's own interface (Video4Linux, version 2), on 64-bit addresses with the low byte first.
 //!
-//! `unsafe` stands in `ioctls.rs` and `mapped.rs` alone.
+//! `unsafe` stands in `ioctls.rs` and `frame_memory.rs` alone.
 //!
 //! ```rust,no_run
 //! use std::time::Duration;
@@ -21,8 +21,8 @@
 mod camera;
 mod control;
 mod error;
+mod frame_memory;
 mod ioctls;
-mod mapped;
 mod picture;
 mod stream;
 

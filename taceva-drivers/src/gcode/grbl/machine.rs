@@ -49,7 +49,7 @@ const GLANCE: Duration = Duration::from_millis(50);
 impl Machine {
     /// Opens the line and waits until the machine answers; nothing moves.
     pub(super) fn open(options: SerialOptions) -> Result<Machine, DriverError> {
-        let link = SerialLink::open(&KEY, (&options.port, options.baud), read)?;
+        let link = SerialLink::open(&KEY, &options.port, options.baud, read)?;
         let stop = Arc::new(Stop::new(KEY, link.writer().clone(), HOLD));
         let mut machine = Machine {
             link,

@@ -41,7 +41,7 @@ const GLANCE: Duration = Duration::from_millis(100);
 impl Printer {
     /// Opens the line and waits until the printer answers; nothing moves.
     pub(super) fn open(options: SerialOptions) -> Result<Printer, DriverError> {
-        let link = SerialLink::open(&KEY, (&options.port, options.baud), read)?;
+        let link = SerialLink::open(&KEY, &options.port, options.baud, read)?;
         let stop = Arc::new(Stop::new(KEY, link.writer().clone(), QUICK_STOP));
         let mut printer = Printer {
             link,

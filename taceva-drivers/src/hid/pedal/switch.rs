@@ -11,7 +11,7 @@ use taceva_core::{
 use super::KEY;
 use super::report::Bits;
 use crate::hid::listener::Listener;
-use crate::hid::selected::Selection;
+use crate::hid::selection::Selection;
 use crate::link::Mailbox;
 use crate::{OpenError, Selector};
 

@@ -9,7 +9,7 @@ use super::KEY;
 use super::transducer::{SCALE, Transducer};
 use crate::arguments::force::{FORCE_MAX, add_facts_of_force, force_facts};
 use crate::arguments::optional_number;
-use crate::hid::selected::{Present, Selection};
+use crate::hid::selection::{Present, Selection};
 
 submit_builtin!(dyn ForceTransducer, || Ok(Box::new(ScaleFactory::new()?)));
 

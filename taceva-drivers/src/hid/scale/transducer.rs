@@ -10,7 +10,7 @@ use taceva_core::{
 use super::KEY;
 use super::report::{self, Weight, WeightError};
 use crate::hid::listener::Listener;
-use crate::hid::selected::Selection;
+use crate::hid::selection::Selection;
 use crate::link::Mailbox;
 use crate::zero::{HostZero, READ};
 

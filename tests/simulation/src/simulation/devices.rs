@@ -9,8 +9,8 @@ use taceva_core::{
 };
 
 use super::guard::Guard;
-use super::shared::Shared;
 use super::world::Sabotage;
+use super::world_handle::Shared;
 
 const ROBOT: DriverKey = DriverKey::fixed("faults/robot");
 const FORCE: DriverKey = DriverKey::fixed("faults/force");

@@ -2,8 +2,8 @@
 
 use super::draws::Draws;
 use super::fault::FaultKind;
-use super::shared::Shared;
 use super::world::Sabotage;
+use super::world_handle::Shared;
 
 /// One file that only grows.
 pub(super) struct Disk {

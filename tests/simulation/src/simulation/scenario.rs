@@ -16,8 +16,8 @@ use super::guard::Guard;
 use super::journal::{Journal, entries};
 use super::oracle::{Checks, Oracle, Stated, Violation};
 use super::record::{judge_log, missing};
-use super::shared::{Killed, Shared};
 use super::world::Sabotage;
+use super::world_handle::{Killed, Shared};
 use taceva_protocol::{
     Cancel, ContentId, Controls, Devices, Enabling, Event, Left, Mode, Plan, RigInfo, RunError,
     RunGuard, RunSpec, Scene, SceneError, Setting, SharedSupervisor, SourceInfo, StopCause,

@@ -4,8 +4,8 @@ use taceva_core::{Fault, Millimetre, Newton, Point, Pose, Stamp, Wrench};
 
 use super::fault::FaultKind;
 use super::guard::{Guard, Heard, Thread};
-use super::shared::Shared;
 use super::world::World;
+use super::world_handle::Shared;
 use taceva_protocol::STALE_S;
 use taceva_protocol::{Observation, Supervisor};
 

@@ -3,7 +3,7 @@
 use taceva_core::{Field, SkipReason};
 
 use super::collect::{Collected, PlannedMetric};
-use super::facts::StudyFacts;
+use super::study_facts::StudyFacts;
 use crate::phase_kind::PhaseKind;
 use crate::reason::{PlanReason, Subject};
 

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use taceva_core::Nanometre;
 
 use super::collect::{Collected, PlannedPress};
-use super::facts::StudyFacts;
+use super::study_facts::StudyFacts;
 use crate::phase_kind::PhaseKind;
 use crate::text::SceneProblem;
 

@@ -3,7 +3,7 @@
 use taceva_core::{Field, FieldSet};
 use taceva_metrics::{Fact, Metric, catalogue};
 
-use super::facts::StudyFacts;
+use super::study_facts::StudyFacts;
 use crate::content_id::ContentId;
 use crate::phase_kind::PhaseKind;
 use crate::press::Press;

@@ -3,7 +3,7 @@
 use taceva_core::{FrameInfo, Nanometre};
 
 use super::collect::PlannedPress;
-use super::facts::StudyFacts;
+use super::study_facts::StudyFacts;
 use crate::press::Motion;
 use crate::scene::Contact;
 

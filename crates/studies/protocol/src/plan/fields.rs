@@ -3,7 +3,7 @@
 use taceva_core::{Field, FieldSet};
 
 use super::collect::{Collected, PlannedMetric, SURFACE};
-use super::facts::StudyFacts;
+use super::study_facts::StudyFacts;
 use crate::phase_kind::PhaseKind;
 use crate::reason::{PlanReason, Subject};
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::collect::{Collected, PlannedPress};
-use super::facts::StudyFacts;
+use super::study_facts::StudyFacts;
 use crate::content_id::ContentId;
 use crate::phase_kind::PhaseKind;
 use crate::reason::{PlanReason, Subject};

@@ -3,7 +3,7 @@
 use taceva_core::SkipReason;
 
 use super::collect::{Collected, Fit};
-use super::facts::{ModelChoice, StudyFacts};
+use super::study_facts::{ModelChoice, StudyFacts};
 use crate::reason::{PlanReason, Subject};
 
 /// Removes models that no metric reads, then phases that no metric or model uses.

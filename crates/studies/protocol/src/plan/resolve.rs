@@ -3,7 +3,7 @@
 use taceva_core::{Field, SkipReason};
 
 use super::collect::Collected;
-use super::facts::{FieldSource, ModelChoice, OF_THE_PROTOCOL, StudyFacts, axis_of};
+use super::study_facts::{FieldSource, ModelChoice, OF_THE_PROTOCOL, StudyFacts, axis_of};
 use crate::reason::{Cause, PlanReason, Subject};
 
 /// Removes the channels and fields without a source.

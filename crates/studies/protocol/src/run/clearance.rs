@@ -4,8 +4,8 @@ use taceva_core::{ForceTransducer, Robot};
 
 use super::Controls;
 use super::bounds::Bounds;
+use super::enabling_wait::Attendant;
 use super::error::{Left, RunError, StopCause};
-use super::hold::Attendant;
 use super::operator::{Answer, Operator, Question};
 use super::supervisor::SharedSupervisor;
 use super::time::Cancel;

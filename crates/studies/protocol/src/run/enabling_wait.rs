@@ -4,10 +4,10 @@ use std::time::Duration;
 
 use super::error::{Left, RunError, StopCause};
 use super::event::Event;
+use super::halt_reason::Trip;
 use super::operator::Operator;
 use super::session::Run;
 use super::tip::{Step, Tip};
-use super::trip::Trip;
 use crate::content_id::ContentId;
 
 /// From one look at the switch to the next.

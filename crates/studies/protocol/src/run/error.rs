@@ -4,8 +4,8 @@ use std::fmt;
 
 use taceva_core::{DriverError, Fault, SinkError};
 
-use super::touched::TouchFault;
-use super::trip::Trip;
+use super::halt_reason::Trip;
+use super::reference_touch::TouchFault;
 use crate::content_id::ContentId;
 use crate::text::SceneError;
 

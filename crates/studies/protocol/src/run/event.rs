@@ -2,7 +2,7 @@
 
 use taceva_core::{Millimetre, PressOutcome, Specimen};
 
-use super::trip::Trip;
+use super::halt_reason::Trip;
 use crate::content_id::ContentId;
 
 /// Something that happened.

@@ -1,7 +1,7 @@
 //! Guard of a run: who watches the robot while it moves, and what must be tried before the first press.
 
+use super::reference_touch::SessionSpec;
 use super::supervisor::SharedSupervisor;
-use super::touched::SessionSpec;
 
 /// Guard of a run on a robot that threads watch.
 ///

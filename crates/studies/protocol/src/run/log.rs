@@ -2,7 +2,7 @@
 
 use taceva_core::{Frame, PressOutcome, Sample, SinkError};
 
-use super::touched::SessionRecord;
+use super::reference_touch::SessionRecord;
 use crate::content_id::ContentId;
 
 /// A record of finished presses that outlives the process.

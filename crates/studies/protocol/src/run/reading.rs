@@ -5,11 +5,11 @@ use std::time::Duration;
 use taceva_core::{Deadline, ErrorKind, Stamp, Wrench};
 
 use super::align::Look;
-use super::bearing::Felt;
 use super::error::StopCause;
+use super::halt_reason::Trip;
+use super::load_limit::Felt;
 use super::supervisor::Observation;
 use super::tip::{DEADLINE, Step, Tip, is_silent};
-use super::trip::Trip;
 
 /// A transducer that says nothing for so long is asked again, until the supervisor calls it silent.
 pub(super) const READ_DEADLINE: Duration = Duration::from_millis(20);

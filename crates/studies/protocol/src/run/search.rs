@@ -8,9 +8,9 @@ use taceva_core::Millimetre;
 
 use super::align::Look;
 use super::error::StopCause;
+use super::halt_reason::Trip;
 use super::supervisor::MotionStage;
 use super::tip::{Step, Tip};
-use super::trip::Trip;
 
 /// The gel of one sensor may begin so much higher at another place than wherever it was felt before, in mm: a millimetre on 20 is 3 degrees.
 const UNEVEN_MM: f64 = 0.4;

@@ -10,9 +10,9 @@ use super::event::Event;
 use super::guard::RunGuard;
 use super::log::{PressLog, PressRecord};
 use super::operator::{Operator, Question};
+use super::reference_touch::SessionSpec;
 use super::supervisor::{SharedSupervisor, Supervisor};
 use super::tip::{DEADLINE, Pace, Step, Tip};
-use super::touched::SessionSpec;
 use super::{Controls, Mode, RunReport, RunSpec};
 use crate::plan::{Plan, PlannedPress};
 

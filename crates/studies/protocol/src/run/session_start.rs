@@ -9,13 +9,13 @@ use std::time::Duration;
 
 use taceva_core::{Degree, Nanometre, Speed};
 
+use super::clearance::enable;
 use super::error::{Left, RunError, StopCause};
 use super::log::PressLog;
 use super::operator::{Answer, Operator, Question};
-use super::raise::enable;
+use super::reference_touch::{SessionRecord, SessionSpec};
 use super::session::Run;
 use super::tip::Step;
-use super::touched::{SessionRecord, SessionSpec};
 use crate::limits::RigLimits;
 use crate::plan::PlannedPress;
 

@@ -18,7 +18,7 @@ use taceva_core::{
 };
 
 use super::align::Look;
-use super::trip::Trip;
+use super::halt_reason::Trip;
 use super::way::{distance, distance_from_way};
 use crate::limits::{FROZEN_READINGS, RigLimits};
 use reaction::Lateness;

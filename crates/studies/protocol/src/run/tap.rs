@@ -16,10 +16,10 @@ use taceva_core::{Degree, ForceTransducer, Frame, Millimetre, Robot, SinkError, 
 use super::error::{RunError, StopCause};
 use super::guard::RunGuard;
 use super::log::{PressLog, PressRecord};
+use super::reference_touch::{ReferenceTouch, SessionRecord, SessionSpec};
 use super::session::Run;
 use super::supervisor::{MotionStage, SharedSupervisor};
 use super::tip::Step;
-use super::touched::{ReferenceTouch, SessionRecord, SessionSpec};
 use super::{Controls, Devices, Mode, RunSpec};
 use crate::content_id::ContentId;
 use crate::plan::Plan;

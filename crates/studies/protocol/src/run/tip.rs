@@ -8,14 +8,14 @@ use taceva_core::{
 };
 
 use super::align::Look;
-use super::bearing::{Bearing, Felt};
 use super::bounds::Bounds;
 use super::error::StopCause;
-use super::look::READ_DEADLINE;
+use super::load_limit::{Bearing, Felt};
+use super::reading::READ_DEADLINE;
 
+use super::halt_reason::Trip;
 use super::supervisor::{MotionStage, SharedSupervisor};
 use super::time::{Cancel, Timekeeper};
-use super::trip::Trip;
 use super::way::{distance, part_way, settled};
 use crate::limits::FROZEN_READINGS;
 use crate::plan::Plan;

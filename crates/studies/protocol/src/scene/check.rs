@@ -1,9 +1,9 @@
 //! From what is written to a scene: the checks that a parser of types cannot make.
 
+mod document;
 mod protocol;
 mod recording;
 mod study;
-mod written;
 
 use taceva_core::shown;
 
@@ -15,7 +15,7 @@ use crate::limit_spec::LimitSpec;
 use crate::text::Setting;
 use crate::text::Text;
 use crate::text::{SceneError, SceneProblem};
-use written::WrittenScene;
+use document::WrittenScene;
 
 /// The longest length in a scene, in mm.
 const GREATEST_LENGTH: f64 = 1_000.0;

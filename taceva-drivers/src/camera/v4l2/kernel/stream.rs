@@ -7,8 +7,8 @@ use rustix::io::Errno;
 
 use super::camera::Camera;
 use super::error::V4l2Error;
+use super::frame_memory::Mapped;
 use super::ioctls::{self, Buffer, Request};
-use super::mapped::Mapped;
 
 /// A camera that streams, until it is stopped or dropped.
 #[derive(Debug)]

@@ -8,7 +8,7 @@ use crate::simulation::fault::Faults;
 use crate::simulation::gel::Gel;
 use crate::simulation::oracle::{Oracle, Stated};
 use crate::simulation::scenario::scenario_plan;
-use crate::simulation::shared::Shared;
+use crate::simulation::world_handle::Shared;
 use taceva_protocol::ContentId;
 use taceva_protocol::Plan;
 use taceva_protocol::{

@@ -7,7 +7,7 @@ use taceva_core::{Fault, Specimen};
 use super::bench::{Bench, Memory, SOFT};
 use crate::simulation::fault::{FaultKind, Faults};
 use crate::simulation::scenario::planned_scene;
-use crate::simulation::shared::Shared;
+use crate::simulation::world_handle::Shared;
 use taceva_protocol::{Answer, Cancel, Event, Left, Mode, Operator, Question, StopCause};
 
 const SCENE: &str = r#"

@@ -8,10 +8,10 @@ use super::signs::Felt;
 use crate::plan::PlannedPress;
 use crate::run::align::Look;
 use crate::run::error::StopCause;
+use crate::run::reference_touch::{ReferenceTouch, SessionRecord, SessionSpec, TouchFault};
 use crate::run::session::Run;
 use crate::run::supervisor::MotionStage;
 use crate::run::tip::{Step, Tip};
-use crate::run::touched::{ReferenceTouch, SessionRecord, SessionSpec, TouchFault};
 use crate::text::SceneProblem;
 
 /// Readings whose mean is one force.

@@ -3,7 +3,7 @@
 use taceva_core::Pose;
 
 use super::Supervisor;
-use crate::run::trip::Trip;
+use crate::run::halt_reason::Trip;
 
 /// What is known of an enabling switch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use taceva_core::{Frame, Pose, Stamp, Wrench};
 
-use crate::run::begin::picture::means;
+use crate::run::session_start::picture::means;
 
 /// Parts along each side of a picture whose mean brightness is heard.
 const PARTS: usize = 8;

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use taceva_core::shown;
 
+use super::document::{WrittenScene, WrittenStudy};
 use super::recording::WrittenRecording;
-use super::written::{WrittenScene, WrittenStudy};
 use super::{Check, Checked};
 use crate::frame_size::FrameSize;
 use crate::limit_spec::LimitSpec;
