@@ -6,11 +6,10 @@ mod press;
 pub use error::PressError;
 pub use press::Press;
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use crate::contact::{Conditioning, Contact, History, Indentation, Solid};
-use crate::displacement::Tables;
-use crate::parameters::{Body, Outline, Parameters};
+use crate::parameters::{Outline, Parameters};
 use crate::provenance::Provenance;
 use crate::random::{Purpose, Random};
 use crate::rig::{Label, Touch, TransducerModel, search};
@@ -40,7 +39,6 @@ pub struct Bench {
     conditioning: Conditioning,
     transducer: TransducerModel,
     outline: Outline,
-    surface: Arc<OnceLock<Tables>>,
 }
 
 impl Bench {
@@ -55,7 +53,6 @@ impl Bench {
             conditioning: Conditioning::new(&parameters.material),
             transducer: TransducerModel::new(parameters.transducer, random),
             outline: parameters.outline(),
-            surface: Arc::default(),
             parameters: Arc::new(parameters),
         }
     }
@@ -87,17 +84,6 @@ impl Bench {
             unit: self.unit.number(),
             seed: self.seed,
             parameters: *self.parameters.digest(),
-        }
-    }
-
-    /// The tables of the gel's surface, made when they are first asked for; `None` for a dome, whose shapes are closed forms.
-    pub fn surface_tables(&self) -> Option<&Tables> {
-        match self.parameters.body {
-            Body::Layer(layer) => Some(
-                self.surface
-                    .get_or_init(|| Tables::new(layer.thickness_mm, 0.0)),
-            ),
-            Body::Dome(_) => None,
         }
     }
 

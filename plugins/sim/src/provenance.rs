@@ -23,9 +23,6 @@ pub struct Provenance {
 impl Provenance {
     /// The word that stands where others say how they were measured.
     pub const SOURCE: &'static str = "simulated";
-    /// What a reader has to know.
-    pub const CAVEAT: &'static str = "simulated: parameters marked fit were tuned to published numbers; this checks software and \
-                                      metrics and confirms no measurement";
 
     /// Names and values, in a fixed order, for files and reports.
     pub fn facts(&self) -> [(&'static str, String); 6] {

@@ -11,17 +11,6 @@ pub fn decay_length(radius_mm: f64, thickness_mm: f64, poisson_ratio: f64) -> f6
     (radius_mm * thickness_mm).sqrt() / (12.0 * (1.0 - poisson_ratio * poisson_ratio)).sqrt().sqrt()
 }
 
-/// Force a depth under a point load, in N/mm, for depths up to about the shell's thickness.
-pub fn point_stiffness(
-    young_modulus_mpa: f64,
-    radius_mm: f64,
-    thickness_mm: f64,
-    poisson_ratio: f64,
-) -> f64 {
-    let bending = (3.0 * (1.0 - poisson_ratio * poisson_ratio)).sqrt();
-    4.0 * young_modulus_mpa * thickness_mm * thickness_mm / (radius_mm * bending)
-}
-
 /// The depth of the dimple at `arc` decay lengths from the load, a unit of depth under it.
 pub fn dimple(arc: f64) -> f64 {
     -kelvin::kei(arc) / FRAC_PI_4
@@ -30,6 +19,17 @@ pub fn dimple(arc: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Force a depth under a point load, in N/mm, for depths up to about the shell's thickness.
+    fn point_stiffness(
+        young_modulus_mpa: f64,
+        radius_mm: f64,
+        thickness_mm: f64,
+        poisson_ratio: f64,
+    ) -> f64 {
+        let bending = (3.0 * (1.0 - poisson_ratio * poisson_ratio)).sqrt();
+        4.0 * young_modulus_mpa * thickness_mm * thickness_mm / (radius_mm * bending)
+    }
 
     #[test]
     fn the_dimple_is_one_deep_under_the_load_and_has_a_raised_rim() {
