@@ -7,7 +7,7 @@ mod finding;
 mod machine;
 #[cfg(feature = "plugin")]
 mod plugins;
-mod port_driver;
+pub(crate) mod port_driver;
 mod ports;
 mod usb;
 mod user;
@@ -17,8 +17,6 @@ pub use machine::Machine;
 #[cfg(feature = "plugin")]
 pub use plugins::examine_plugins;
 pub use usb::UsbDevice;
-
-pub(crate) use port_driver::{PortClass, PortDriver};
 
 use crate::devices::{Devices, devices};
 use crate::drivers::Drivers;

@@ -19,10 +19,6 @@ struct Entry {
 }
 
 /// Driver of enabling switches that is linked into the program, submitted from its folder.
-#[cfg_attr(
-    not(all(feature = "hid", target_os = "linux")),
-    expect(dead_code, reason = "every such driver stands behind a feature")
-)]
 pub(crate) struct LinkedSwitch {
     /// Key of the driver.
     pub(crate) key: DriverKey,

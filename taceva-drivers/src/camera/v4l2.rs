@@ -13,7 +13,8 @@ pub use factory::V4l2Factory;
 
 use taceva_core::DriverKey;
 
-use crate::doctor::{Machine, PortClass, PortDriver};
+use crate::doctor::Machine;
+use crate::doctor::port_driver::{PortClass, PortDriver};
 
 const KEY: DriverKey = DriverKey::fixed("camera/v4l2");
 

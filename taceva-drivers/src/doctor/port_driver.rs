@@ -16,15 +16,6 @@ pub(crate) enum PortClass {
 }
 
 /// Driver that opens device files of one class.
-#[cfg_attr(
-    not(any(
-        feature = "grbl",
-        feature = "hid",
-        feature = "marlin",
-        feature = "v4l2"
-    )),
-    expect(dead_code, reason = "only drivers behind features open device files")
-)]
 pub(crate) struct PortDriver {
     /// Class of the files.
     pub(crate) class: PortClass,

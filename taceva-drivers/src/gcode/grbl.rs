@@ -9,7 +9,7 @@ pub use factory::GrblFactory;
 
 use taceva_core::DriverKey;
 
-use crate::doctor::{PortClass, PortDriver};
+use crate::doctor::port_driver::{PortClass, PortDriver};
 
 const KEY: DriverKey = DriverKey::fixed("gcode/grbl");
 

@@ -8,7 +8,8 @@ pub use factory::ScaleFactory;
 
 use taceva_core::DriverKey;
 
-use crate::doctor::{Machine, PortClass, PortDriver};
+use crate::doctor::Machine;
+use crate::doctor::port_driver::{PortClass, PortDriver};
 
 const KEY: DriverKey = DriverKey::fixed("hid/scale");
 
