@@ -82,7 +82,7 @@ fn planning_twice_changes_nothing() {
         let study = &scene.studies[0];
         let (units, lights) = (
             study.units(),
-            facts::lights(&scene, study, &source).expect("lights"),
+            study_facts::lights(&scene, study, &source).expect("lights"),
         );
         let gather = Gather {
             scene: &scene,
