@@ -15,7 +15,7 @@ mod sweep;
 
 use clap::{Args, Parser, Subcommand};
 
-pub(crate) use self::bench::{Bench, BenchDecode, BenchKernels, BenchModels, BenchSubject};
+pub(crate) use self::bench::{Bench, BenchKernels, BenchModels, BenchSubject};
 pub(crate) use self::cache::{CacheCommand, CacheList, CachePrune, CacheSubject};
 pub(crate) use self::dataset::{Check, Export, Import, Reseal};
 pub(crate) use self::live::{Capture, LiveArgs, Preview};

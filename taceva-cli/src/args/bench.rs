@@ -18,8 +18,6 @@ pub(crate) struct Bench {
 pub(crate) enum BenchSubject {
     /// Summation kernels: nanoseconds for each pair of values against correct digits
     Kernels(BenchKernels),
-    /// JPEG decoded at a fraction of its size: decoding time against the error of a model
-    Decode(BenchDecode),
     /// Models: time to fit, to predict and for one prediction against the error
     Models(BenchModels),
 }
@@ -58,29 +56,6 @@ pub(crate) struct BenchModels {
     #[arg(long, value_name = "N", default_value = "1")]
     pub(crate) rounds: NonZeroUsize,
     /// Fewer simulated presses, and short trainings where no model is named
-    #[arg(long)]
-    pub(crate) quick: bool,
-    #[command(flatten)]
-    pub(crate) split: SplitArgs,
-    #[command(flatten)]
-    pub(crate) figure: FigureArgs,
-    #[command(flatten)]
-    pub(crate) output: Output,
-}
-
-/// Decodes every frame at full size, 1/2, 1/4 and 1/8, fits a model on the training part at each and scores it on the test part of the same
-/// split: milliseconds to read, verify and decode a frame beside mean absolute errors, and how much more they are than at full size, with
-/// intervals by contact point. Only JPEG can be decoded so; a dataset of PNG is refused.
-#[derive(Debug, Args)]
-pub(crate) struct BenchDecode {
-    /// The dataset, of JPEG frames [default: one of the simulated bench, 400 points of four presses, whose frames are rounded to 8 bits and
-    /// encoded as JPEG of quality 95 in a temporary folder]
-    #[arg(value_name = "DATASET")]
-    pub(crate) dataset: Option<PathBuf>,
-    /// The model, its settings after a colon: ridge:size=16x16
-    #[arg(long, value_name = "NAME[:KEY=VALUE,…]", default_value = "ridge")]
-    pub(crate) model: String,
-    /// Fewer simulated presses
     #[arg(long)]
     pub(crate) quick: bool,
     #[command(flatten)]

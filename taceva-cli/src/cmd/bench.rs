@@ -1,6 +1,5 @@
 //! `taceva bench`.
 
-mod decode;
 mod models;
 mod pressed;
 
@@ -13,7 +12,6 @@ use crate::{exit, output, report};
 pub(crate) fn run(args: &Bench, context: &Context) -> anyhow::Result<u8> {
     match &args.subject {
         BenchSubject::Kernels(args) => run_kernels(args, context),
-        BenchSubject::Decode(args) => decode::run(args, context),
         BenchSubject::Models(args) => models::run(args, context),
     }
 }

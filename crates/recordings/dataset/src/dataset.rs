@@ -13,12 +13,11 @@ use std::sync::{Arc, Mutex};
 use taceva_core::Frame;
 
 use crate::absence::absence;
-use crate::digest::{Digest, PartsDigest};
+use crate::digest::Digest;
 use crate::error::DatasetError;
 use crate::header::Header;
 use crate::held::HeldFolder;
 use crate::layout;
-use crate::scaled::DecodeScale;
 use crate::signals::SignalsReader;
 use crate::table::Table;
 use verify::read_table;
@@ -55,7 +54,6 @@ pub struct Dataset {
     folder: HeldFolder,
     header: Header,
     table: Table,
-    scale: DecodeScale,
     /// The first frame of each pack that was looked into.
     firsts: Mutex<BTreeMap<String, Arc<Frame>>>,
     /// The file of signals, once a row of it was asked for.
@@ -89,40 +87,11 @@ impl Dataset {
             folder,
             header,
             table,
-            scale: DecodeScale::Full,
             firsts: Mutex::default(),
             signals: Mutex::default(),
             joined: Vec::new(),
         };
         dataset.check_consistency()?;
-        Ok(dataset)
-    }
-
-    /// Opens the recording at `path`, whose frames are JPEG, to be seen at a fraction of their size: header, digest and frames are those of a
-    /// recording by a camera with fewer pixels.
-    ///
-    /// # Errors
-    /// As [`open`](Dataset::open); [`DatasetError::Request`] if it has no frames, [`DatasetError::Image`] if the first of them is no JPEG.
-    pub fn open_scaled(path: &Path, scale: DecodeScale) -> Result<Dataset, DatasetError> {
-        let mut dataset = Dataset::open(path)?;
-        if scale == DecodeScale::Full {
-            return Ok(dataset);
-        }
-        let row = dataset.table.frames().iter().position(Option::is_some);
-        let (Some(row), Some(frames)) = (row, &mut dataset.header.frames) else {
-            return Err(DatasetError::Request {
-                path: path.to_owned(),
-                problem: "no frames that could be decoded".to_owned(),
-            });
-        };
-        frames.info = scale.of(frames.info);
-        let mut digest = PartsDigest::default();
-        digest.part(b"taceva.dataset/1 at a scale");
-        digest.fixed(dataset.header.digest.as_bytes());
-        digest.part(scale.denominator().to_string().as_bytes());
-        dataset.header.digest = digest.finish();
-        dataset.scale = scale;
-        dataset.frame(row)?;
         Ok(dataset)
     }
 

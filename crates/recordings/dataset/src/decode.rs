@@ -4,8 +4,8 @@ mod tiff;
 
 use std::io::Cursor;
 
-use image::codecs::png::PngDecoder;
-use image::{ColorType, ImageDecoder, Limits};
+use jpeg_decoder::{Decoder, PixelFormat as JpegFormat};
+use png::{BitDepth, ColorType};
 use serde::{Deserialize, Serialize};
 use taceva_core::{Frame, FrameInfo, PixelFormat};
 use zune_core::bytestream::ZCursor;
@@ -16,7 +16,6 @@ use zune_jpeg::JpegDecoder;
 use crate::guard::guarded;
 use crate::jpeg::check_whole;
 use crate::limits;
-use crate::scaled::{DecodeScale, jpeg_at};
 
 /// In which order the colours of a pixel are stored in the image files.
 ///
@@ -112,8 +111,7 @@ pub fn decode(bytes: &[u8], order: ChannelOrder) -> Result<(ImageKind, Frame), S
     let kind = kind_of_whole(bytes)?;
     let (info, pixels) = guarded(|| match kind {
         ImageKind::Png => decode_png(bytes),
-        // `zune-jpeg` gives another picture of these, and no error.
-        ImageKind::Jpeg if has_a_scan_a_component(bytes) => jpeg_at(bytes, DecodeScale::Full),
+        ImageKind::Jpeg if has_a_scan_a_component(bytes) => decode_scan_a_component(bytes),
         ImageKind::Jpeg => decode_jpeg(bytes),
         ImageKind::Tiff => tiff::decode(bytes),
     })??;
@@ -155,28 +153,36 @@ pub(crate) fn kind_of_whole(bytes: &[u8]) -> Result<ImageKind, String> {
 }
 
 fn decode_png(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
-    let mut limits = Limits::no_limits();
-    limits.max_image_width = Some(limits::IMAGE_SIDE);
-    limits.max_image_height = Some(limits::IMAGE_SIDE);
-    limits.max_alloc = Some(limits::DECODED_BYTES);
-    let text = |error: image::ImageError| error.to_string();
-    let decoder = PngDecoder::with_limits(Cursor::new(bytes), limits).map_err(text)?;
-    let (width, height) = decoder.dimensions();
-    let color = decoder.color_type();
-    let mut pixels = vec![0; checked_length(decoder.total_bytes())?];
-    decoder.read_image(&mut pixels).map_err(text)?;
-    let (format, pixels) = match color {
-        ColorType::L8 => (PixelFormat::Gray8, pixels),
-        ColorType::Rgb8 => (PixelFormat::Rgb8, pixels),
-        ColorType::L16 => (PixelFormat::Gray16, little_endian(pixels)),
-        ColorType::Rgb16 => (PixelFormat::Rgb16, little_endian(pixels)),
-        ColorType::La8 => (PixelFormat::Gray8, without_alpha::<2, 1>(&pixels)?),
-        ColorType::Rgba8 => (PixelFormat::Rgb8, without_alpha::<4, 1>(&pixels)?),
-        ColorType::La16 => (
+    let text = |error: png::DecodingError| error.to_string();
+    let most = png::Limits {
+        bytes: checked_length(limits::DECODED_BYTES)?,
+    };
+    let mut decoder = png::Decoder::new_with_limits(Cursor::new(bytes), most);
+    // Palettes become colours, and fewer than 8 bits become 8.
+    decoder.set_transformations(png::Transformations::EXPAND);
+    let (width, height) = decoder.read_header_info().map_err(text)?.size();
+    if width.max(height) > limits::IMAGE_SIDE {
+        return Err(format!("an image of {width}×{height}, larger than is accepted"));
+    }
+    let mut reader = decoder.read_info().map_err(text)?;
+    let length = reader.output_buffer_size();
+    let length = length.ok_or("an image larger than the address space")?;
+    let mut pixels = vec![0; checked_length(length as u64)?];
+    reader.next_frame(&mut pixels).map_err(text)?;
+    let (format, pixels) = match reader.output_color_type() {
+        (ColorType::Grayscale, BitDepth::Eight) => (PixelFormat::Gray8, pixels),
+        (ColorType::Rgb, BitDepth::Eight) => (PixelFormat::Rgb8, pixels),
+        (ColorType::Grayscale, BitDepth::Sixteen) => (PixelFormat::Gray16, little_endian(pixels)),
+        (ColorType::Rgb, BitDepth::Sixteen) => (PixelFormat::Rgb16, little_endian(pixels)),
+        (ColorType::GrayscaleAlpha, BitDepth::Eight) => {
+            (PixelFormat::Gray8, without_alpha::<2, 1>(&pixels)?)
+        }
+        (ColorType::Rgba, BitDepth::Eight) => (PixelFormat::Rgb8, without_alpha::<4, 1>(&pixels)?),
+        (ColorType::GrayscaleAlpha, BitDepth::Sixteen) => (
             PixelFormat::Gray16,
             little_endian(without_alpha::<4, 2>(&pixels)?),
         ),
-        ColorType::Rgba16 => (
+        (ColorType::Rgba, BitDepth::Sixteen) => (
             PixelFormat::Rgb16,
             little_endian(without_alpha::<8, 2>(&pixels)?),
         ),
@@ -249,7 +255,32 @@ fn decode_jpeg(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     Ok((info, pixels))
 }
 
-pub(crate) fn checked_length(bytes: u64) -> Result<usize, String> {
+/// Decodes a JPEG whose colours stand in a scan each, which `zune-jpeg` decodes to another picture without an error.
+fn decode_scan_a_component(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
+    let text = |error: jpeg_decoder::Error| error.to_string();
+    let mut decoder = Decoder::new(bytes);
+    let most = checked_length(limits::DECODED_BYTES)?;
+    decoder.set_max_decoding_buffer_size(most);
+    decoder.read_info().map_err(text)?;
+    let found = decoder.info().ok_or("no size in the file")?;
+    let format = match found.pixel_format {
+        JpegFormat::L8 => PixelFormat::Gray8,
+        JpegFormat::RGB24 => PixelFormat::Rgb8,
+        other => return Err(format!("colours of type {other:?} are not read")),
+    };
+    let info = FrameInfo {
+        width: found.width.into(),
+        height: found.height.into(),
+        format,
+    };
+    if info.width.max(info.height) > limits::IMAGE_SIDE {
+        return Err(format!("an image of {info}, larger than is accepted"));
+    }
+    let pixels = decoder.decode().map_err(text)?;
+    Ok((info, pixels))
+}
+
+fn checked_length(bytes: u64) -> Result<usize, String> {
     if bytes > limits::DECODED_BYTES {
         return Err(format!(
             "{bytes} bytes when decoded, more than the {} that are accepted",
@@ -259,13 +290,11 @@ pub(crate) fn checked_length(bytes: u64) -> Result<usize, String> {
     usize::try_from(bytes).map_err(|_| "an image larger than the address space".to_owned())
 }
 
-/// The decoder gives 16-bit numbers in the order of the machine; frames hold them little-endian.
+/// The 16-bit numbers of a PNG, which are big-endian, as frames hold them.
 fn little_endian(mut pixels: Vec<u8>) -> Vec<u8> {
-    if cfg!(target_endian = "big") {
-        pixels
-            .chunks_exact_mut(2)
-            .for_each(|number| number.reverse());
-    }
+    pixels
+        .chunks_exact_mut(2)
+        .for_each(|number| number.reverse());
     pixels
 }
 
@@ -283,7 +312,7 @@ fn without_alpha<const PIXEL: usize, const ALPHA: usize>(pixels: &[u8]) -> Resul
 }
 
 /// The pixels with their colours in order, if `order` can be meant.
-pub(crate) fn in_order(
+fn in_order(
     info: FrameInfo,
     mut pixels: Vec<u8>,
     order: ChannelOrder,

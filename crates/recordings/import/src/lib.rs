@@ -8,7 +8,6 @@ mod foreign;
 mod import;
 mod preset;
 mod source_folder;
-mod transcode;
 
 pub use advice::advice;
 pub use csv_table::CsvTable;
@@ -23,4 +22,3 @@ pub use import::{
 };
 pub use preset::Preset;
 pub use taceva_video::Decoders;
-pub use transcode::write_as_jpeg;

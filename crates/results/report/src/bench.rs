@@ -1,9 +1,9 @@
-//! Benchmarks of models and of decoding as rows.
+//! Benchmarks of models as rows.
 
 use taceva_metrics::Better;
 
 use crate::number::{FormattedValue, numeral};
-use crate::results::{DecodeBench, DecodeRow, ModelBench, ModelRow, ScaledError};
+use crate::results::{ModelBench, ModelRow};
 use crate::table::{Column, Direction, Table};
 
 impl ModelBench {
@@ -79,89 +79,6 @@ impl ModelRow {
         cells.extend(channels.iter().map(error));
         let front = self.front_of().filter(|front| !front.is_empty());
         cells.push(front.map_or_else(|| "–".to_owned(), |front| front.join(" ")));
-        cells
-    }
-}
-
-impl DecodeBench {
-    /// One row for each scale: the time to decode a frame, the error of each channel, and how much more it is than at full size.
-    pub fn table(&self) -> Table {
-        let known = self.rows.iter().map(|row| &row.errors);
-        let known: &[ScaledError] = known
-            .max_by_key(|errors| errors.len())
-            .map_or(&[], |all| all);
-        let lower = |name: String, unit: String| {
-            let column = Column::new(name).unit(unit);
-            column.direction(Direction::Is(Better::Lower))
-        };
-        let mut columns = vec![Column::new("scale"), Column::new("pixels")];
-        columns.push(lower("decode".to_owned(), "ms".to_owned()));
-        for own in known {
-            let error = &own.error;
-            let unit = error.unit.to_string();
-            columns.push(lower(format!("MAE {}", error.channel), unit.clone()));
-            columns.push(lower(format!("change of {}", error.channel), unit));
-        }
-        let recording = &self.recording;
-        let caption = format!(
-            "JPEG decoded at a fraction of its size: {}, {}",
-            recording.name, recording.sensor
-        );
-        let mut table = Table::new(caption, columns);
-        let channels: Vec<&str> = known.iter().map(|own| own.error.channel.as_str()).collect();
-        for row in &self.rows {
-            table.push(row.cells(&channels));
-        }
-        for note in self.notes() {
-            table.note(note);
-        }
-        table
-    }
-
-    fn notes(&self) -> Vec<String> {
-        let recording = &self.recording;
-        let model = format!("{} {}", self.model, self.settings);
-        let mut notes = Vec::new();
-        if self.is_simulated() {
-            let source = &recording.source;
-            notes.push(format!(
-                "Nothing here was measured: the samples are {source}."
-            ));
-        }
-        notes.extend((!self.note.is_empty()).then(|| self.note.clone()));
-        notes.push(format!(
-            "{} fitted on {} samples, scored on {}, split {}; {}, decoded on one core of {}. Intervals of 95 % by contact point; a change is paired sample by sample.",
-            model.trim_end(), recording.train, recording.test, recording.split, self.machine.cpu, self.machine.cores
-        ));
-        let failed = self.rows.iter();
-        let failed = failed.filter_map(|row| Some((row.scale(), row.failed.as_ref()?)));
-        notes.extend(failed.map(|(scale, why)| format!("{scale}: {why}")));
-        notes
-    }
-}
-
-impl DecodeRow {
-    fn cells(&self, channels: &[&str]) -> Vec<String> {
-        let pixels = format!("{}×{}", self.width, self.height);
-        let mut cells = vec![self.scale(), pixels, numeral(self.decode_s * 1e3)];
-        let formatted = |value: Option<f64>, ends| {
-            value.map_or_else(
-                || "–".to_owned(),
-                |value| FormattedValue::number(value, ends).phrase(""),
-            )
-        };
-        for channel in channels {
-            let own = self.error(channel);
-            let error = own.map(|own| &own.error);
-            cells.push(formatted(
-                error.map(|error| error.mae),
-                error.and_then(|error| error.ci95),
-            ));
-            cells.push(formatted(
-                own.and_then(|own| own.change),
-                own.and_then(|own| own.change_ci95),
-            ));
-        }
         cells
     }
 }

@@ -18,7 +18,7 @@ mod sensitivity;
 mod spatial;
 mod thin;
 
-pub use models::{decode_bench, model_bench};
+pub use models::model_bench;
 pub use race::{Race, RacePoint, race};
 
 use crate::figure::{Figure, short};

@@ -37,13 +37,13 @@ pub use escape::{
     markdown as escape_markdown, terminal as escape_terminal,
 };
 pub use figure::{DARK, Figure, LIGHT, SERIES, STYLE};
-pub use figures::{Race, RacePoint, decode_bench, figures, model_bench, names, race};
+pub use figures::{Race, RacePoint, figures, model_bench, names, race};
 pub use html::{Pick, Picture, Report, Triple, picks, report};
 pub use number::{FormattedValue, spaced, with_interval};
 pub use results::{
-    BENCH_SCHEMA, BenchMachine, BenchRecording, ChannelError, DecodeBench, DecodeRow,
+    BENCH_SCHEMA, BenchMachine, BenchRecording, ChannelError,
     EVALUATION_SCHEMA, Interval, Made, ModelBench, ModelRow, OverSeeds, RUN_SCHEMA, ResultsError,
-    ScaledError, Score, SeedScore, Skip, Study, Value, Variant,
+    Score, SeedScore, Skip, Study, Value, Variant,
 };
 pub use samples::{SampleChannel, Samples, SamplesError};
 pub use scores::{ScoreCell, ScoreRow, ScoreTable};

@@ -1,6 +1,5 @@
 //! Results as they are read back from what `evaluate`, `score` and `run` write.
 
-mod decode_bench;
 mod error;
 mod made;
 mod model_bench;
@@ -9,7 +8,6 @@ mod read;
 mod score;
 mod standing;
 
-pub use decode_bench::{DecodeBench, DecodeRow, ScaledError};
 pub use error::ResultsError;
 pub use made::Made;
 pub use model_bench::{

@@ -1,6 +1,5 @@
 //! Run time against error: what `taceva bench` measures, as data.
 
-mod decode;
 mod front;
 mod kernels;
 mod machine;
@@ -8,7 +7,6 @@ mod models;
 mod paired;
 mod stopwatch;
 
-pub use decode::{DecodeTrial, DecodeTrials, ErrorChange, decode};
 pub use kernels::{Floor, InputDigits, KernelBench, KernelRequest, KernelRow, kernels};
 pub use machine::Machine;
 pub use models::{ModelRace, ModelTrial, ModelTrials, TrialError, models};

@@ -13,7 +13,6 @@ use crate::error::DatasetError;
 use crate::header::FramesInfo;
 use crate::limits;
 use crate::pack::read_span;
-use crate::scaled::{DecodeScale, decode_scaled};
 use crate::table::FrameEntry;
 
 impl Dataset {
@@ -84,11 +83,7 @@ impl Dataset {
             path: path.clone(),
             problem,
         };
-        let frame = match self.scale {
-            DecodeScale::Full => decode(&bytes, info.channel_order).map(|(_, frame)| frame),
-            scale => decode_scaled(&bytes, info.channel_order, scale),
-        };
-        let mut frame = frame.map_err(wrong)?;
+        let (_, mut frame) = decode(&bytes, info.channel_order).map_err(wrong)?;
         if let Some(first) = first.filter(|first| first.info() == frame.info()) {
             frame = difference::plus(&frame, &first).map_err(|error| wrong(error.to_string()))?;
         }

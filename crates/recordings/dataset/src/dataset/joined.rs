@@ -11,7 +11,6 @@ use super::Dataset;
 use crate::digest::{Digest, PartsDigest};
 use crate::error::DatasetError;
 use crate::header::Header;
-use crate::scaled::DecodeScale;
 use crate::table::{FrameEntry, RowNames, Table};
 use crate::text::shown;
 
@@ -111,7 +110,6 @@ impl Dataset {
             folder,
             header,
             table,
-            scale: DecodeScale::Full,
             firsts: Mutex::default(),
             signals: Mutex::default(),
         })

@@ -5,7 +5,7 @@ use crate::figure::{
     extent, short,
 };
 use crate::number::numeral;
-use crate::results::{BenchRecording, ChannelError, DecodeBench, DecodeRow, ModelBench, ModelRow};
+use crate::results::{BenchRecording, ChannelError, ModelBench, ModelRow};
 
 /// Errors that differ by a greater factor are drawn on a logarithmic axis.
 const FAR: f64 = 8.0;
@@ -29,41 +29,6 @@ pub fn model_bench(bench: &ModelBench) -> Option<Figure> {
         description: format!("On the Pareto front by channel. {fronts}."),
         canvas,
     })
-}
-
-/// The time to decode a frame against the mean absolute error of the model, at each scale; `None` if there is no error.
-pub fn decode_bench(bench: &DecodeBench) -> Option<Figure> {
-    let mut raced = ModelBench::new(bench.machine.clone(), bench.recording.clone());
-    raced.rows = bench.rows.iter().map(as_model).collect();
-    let (canvas, fronts) = draw(&raced, "time to decode a frame (ms)")?;
-    let recording = &bench.recording;
-    let simulated = simulated(bench.is_simulated(), recording);
-    Some(Figure {
-        id: "decode".to_owned(),
-        title: "Decode time against error".to_owned(),
-        caption: format!(
-            "Mean absolute error of {} on {} samples, with its 95 % interval by contact point, over the time to read, verify and decode one JPEG at each scale. {}, {}; split {}; {}, one core. {}{simulated}",
-            bench.model,
-            recording.test,
-            recording.name,
-            recording.sensor,
-            recording.split,
-            bench.machine.cpu,
-            bench.note
-        ),
-        description: format!("On the Pareto front by channel. {fronts}."),
-        canvas,
-    })
-}
-
-/// A scale in the place of a model.
-fn as_model(row: &DecodeRow) -> ModelRow {
-    ModelRow {
-        model: row.scale(),
-        latency_s: row.decode_s,
-        errors: row.errors.iter().map(|own| own.error.clone()).collect(),
-        ..ModelRow::default()
-    }
 }
 
 /// A panel a channel, and who is on the fronts.
