@@ -30,7 +30,7 @@ pub(crate) fn run(args: &Reseal, context: &Context) -> anyhow::Result<u8> {
     let date = date_of(SystemTime::now());
     let is_header = path.file_name().is_some_and(|name| name == HEADER);
     let accepted = match is_header {
-        true => taceva_dataset::reseal_header(&text, &date, reason),
+        true => taceva_files::seal::toml_text::reseal(&text, &date, reason),
         false => taceva_files::seal::json::reseal(&text, &date, reason),
     };
     let accepted = accepted.with_context(|| path.display().to_string())?;

@@ -96,11 +96,7 @@ pub enum DatasetError {
         problem: String,
     },
     /// A dataset of a format that this version cannot read.
-    #[error(
-        "{}: format {found} needs a newer TacEva; this one reads up to {}.x",
-        shown_path(path),
-        Version::CURRENT.major
-    )]
+    #[error("{}: format {found} {}", shown_path(path), unreadable(*found))]
     Version {
         /// The header.
         path: PathBuf,
@@ -380,6 +376,18 @@ impl fmt::Display for Place {
             write!(f, ", column `{}`", shown(column))?;
         }
         Ok(())
+    }
+}
+
+/// Why a format is not read, and what to do.
+fn unreadable(found: Version) -> String {
+    match found.is_earlier() {
+        true => "was written by a TacEva before release 0.2.0; make the dataset anew: taceva import FOLDER --map MAP.toml --out DATASET, or record again"
+            .to_owned(),
+        false => format!(
+            "needs a newer TacEva; this one reads up to {}.x",
+            Version::CURRENT.major
+        ),
     }
 }
 

@@ -31,9 +31,9 @@ use crate::limits;
 use crate::signals::{SignalsInfo, WrittenSignals};
 use crate::toml_file::{parse_toml, toml_error, utf8};
 use crate::version::Version;
-use taceva_files::seal::{Edit, Opened, SealError};
+use taceva_files::seal::{Edit, Opened};
 
-pub(crate) use content_digest::{dataset_digest, digest_with};
+pub(crate) use content_digest::dataset_digest;
 pub use extended::Extension;
 pub use facts::{FrameCodec, FramesInfo, Known, ReferenceInfo, SensorFacts, Source, TableInfo};
 pub use footprint::{Footprint, Shape};
@@ -87,15 +87,15 @@ pub struct Header {
     pub sensor: SensorFacts,
     /// Where the sensor senses, if it is known.
     pub footprint: Option<Footprint>,
-    /// The settings of the camera that were set and read back, by name: `exposure_ms` is `15.7`; empty where nobody knows, and before format 1.5.
+    /// The settings of the camera that were set and read back, by name: `exposure_ms` is `15.7`; empty where nobody knows.
     pub settings: BTreeMap<String, String>,
     /// What was measured beside the frames, each with its unit.
     pub channels: Channels,
     /// The names of the text columns kept for splits.
     pub attributes: Vec<String>,
-    /// Columns of the imported table that no key of its map names; empty of a recording, and before format 1.4.
+    /// Columns of the imported table that no key of its map names; empty of a recording.
     pub unmentioned_columns: Vec<String>,
-    /// How each label was read, by every map that rows came by; empty of a recording, and before format 1.9.
+    /// How each label was read, by every map that rows came by; empty of a recording.
     pub columns: Vec<MappedColumn>,
     /// How the rows of joined tables were found, by every map that rows came by; likewise.
     pub joins: Vec<MappedJoin>,
@@ -103,18 +103,18 @@ pub struct Header {
     pub pictures: Vec<MappedPictures>,
     /// The closed lists of classes, by every map that rows came by; likewise.
     pub classes: Vec<MappedClass>,
-    /// What an import left out; empty of a recording, and before format 1.8.
+    /// What an import left out; empty of a recording.
     pub left_out: LeftOut,
     /// What all frames share; `None` if there is none.
     pub frames: Option<FramesInfo>,
-    /// How many presses ended in which way, those without a sample too; empty where no protocol pressed, and before format 1.2.
+    /// How many presses ended in which way, those without a sample too; empty where no protocol pressed.
     pub presses: BTreeMap<PressOutcome, u64>,
-    /// What was lost of a stream that was recorded as it came; `None` of anything else, and before format 1.5.
+    /// What was lost of a stream that was recorded as it came; `None` of anything else.
     pub stream: Option<StreamFacts>,
-    /// What the numbers of taxels share, and what their file must be; `None` where there are none, and before format 1.7.
+    /// What the numbers of taxels share, and what their file must be; `None` where there are none.
     pub signals: Option<SignalsInfo>,
     /// What the recording was before each time that rows were added to it, the first first; empty of one that is as it was imported or
-    /// recorded, and before format 1.8.
+    /// recorded.
     pub extended: Vec<Extension>,
     /// What `samples.parquet` must be: its number of rows and its digests.
     pub table: TableInfo,
@@ -188,14 +188,10 @@ impl Header {
                 found: format,
             });
         }
-        let version = match format >= Version::SEALED {
-            true => taceva_files::seal::Version::Sealed,
-            false => taceva_files::seal::Version::BeforeSeals,
-        };
         // A text that is no TOML is refused with its line.
         parse_toml::<toml::Table>(path, &text)?;
-        let seal = taceva_files::seal::toml_text::check(&text, version).map_err(|source| {
-            DatasetError::Seal {
+        let seal =
+            taceva_files::seal::toml_text::check(&text, taceva_files::seal::Version::Sealed).map_err(|source| DatasetError::Seal {
                 path: path.to_owned(),
                 source,
             }
@@ -229,7 +225,7 @@ impl Header {
             presses: written.presses,
             stream: written.stream,
             table: written.table,
-            digest: digest_with(written.digest, signals.as_ref(), &written.extended),
+            digest: written.digest,
             extended: written.extended,
             signals,
             seal,
@@ -270,11 +266,7 @@ impl Header {
             clock: self.clock,
             attributes: self.attributes.clone(),
             unmentioned_columns: self.unmentioned_columns.clone(),
-            digest: match (&self.signals, self.extended.as_slice()) {
-                (None, []) => self.digest,
-                // Without them: a reader of before 1.7 knows nothing of signals, one of before 1.8 nothing of rows that were added.
-                _ => dataset_digest(self.table.digest, self.frames.as_ref()),
-            },
+            digest: self.digest,
             sensor: self.sensor.clone(),
             footprint: self.footprint,
             settings: self.settings.clone(),
@@ -301,27 +293,4 @@ impl Header {
         };
         toml::to_string(&written).expect("text, numbers and tables of them can be written as TOML")
     }
-}
-
-/// The text of an edited `dataset.toml`, accepted: sealed, with the edit in its history, and of a version that has seals.
-///
-/// # Errors
-/// [`SealError`] if it is no TOML, or nothing but a seal.
-pub fn reseal_header(text: &str, date: &str, reason: &str) -> Result<String, SealError> {
-    #[derive(Deserialize)]
-    struct OnlyFormat {
-        format: Version,
-    }
-
-    // A description of before seals would not be missed one: it becomes one of the version that has them.
-    let older = toml::from_str::<OnlyFormat>(text).ok();
-    let text = match older.filter(|older| older.format < Version::SEALED) {
-        Some(older) => text.replacen(
-            &format!("format = \"{}\"", older.format),
-            &format!("format = \"{}\"", Version::SEALED),
-            1,
-        ),
-        None => text.to_owned(),
-    };
-    taceva_files::seal::toml_text::reseal(&text, date, reason)
 }

@@ -45,7 +45,6 @@ pub use decode::ChannelOrder;
 pub use digest::{Digest, DigestError};
 pub use error::{DatasetError, Place};
 pub use frame_retries::{add_frame_retries, frame_retries};
-pub use header::reseal_header;
 pub use header::{
     Extension, Footprint, FrameCodec, FramesInfo, Header, Known, LeftOut, MappedClass,
     MappedColumn, MappedJoin, MappedPictures, RecordingFacts, ReducedFrames, ReferenceInfo,

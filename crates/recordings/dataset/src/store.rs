@@ -10,7 +10,7 @@ use crate::error::DatasetError;
 use crate::file::write_durable;
 use crate::header::{
     Extension, FramesInfo, Header, LeftOut, Mapping, RecordingFacts, StreamFacts, TableInfo,
-    dataset_digest, digest_with,
+    dataset_digest,
 };
 use crate::samples::to_parquet;
 use crate::signals::SignalsInfo;
@@ -54,25 +54,8 @@ pub fn write_table_and_header(
     })?;
     write_durable(samples, &bytes)?;
     let table_digest = table.digest();
-    let has_more_codecs = frames
-        .as_ref()
-        .is_some_and(|frames| !frames.other_codecs.is_empty());
-    let is_reduced = frames
-        .as_ref()
-        .is_some_and(|frames| frames.reduced.is_some());
     let mut written = Header {
-        format: match table.source_row().iter().any(Option::is_some) {
-            _ if is_reduced => Version::CURRENT,
-            _ if !beside.mapping.is_empty() => Version::WITHOUT_REDUCTION,
-            _ if !beside.extended.is_empty() => Version::WITHOUT_COLUMNS,
-            _ if !beside.left_out.is_empty() || has_more_codecs => Version::WITHOUT_COLUMNS,
-            _ if beside.signals.is_some() => Version::NEVER_EXTENDED,
-            true => Version::WITHOUT_SIGNALS,
-            false if facts.settings.is_empty() && beside.stream.is_none() => {
-                Version::WITHOUT_SETTINGS
-            }
-            false => Version::WITHOUT_ORIGIN,
-        },
+        format: Version::CURRENT,
         source: facts.source,
         clock: facts.clock,
         sensor: facts.sensor.clone(),
@@ -86,8 +69,9 @@ pub fn write_table_and_header(
         pictures: beside.mapping.pictures,
         classes: beside.mapping.classes,
         left_out: beside.left_out,
-        digest: digest_with(
-            dataset_digest(table_digest, frames.as_ref()),
+        digest: dataset_digest(
+            table_digest,
+            frames.as_ref(),
             beside.signals.as_ref(),
             &beside.extended,
         ),

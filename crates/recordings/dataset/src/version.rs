@@ -7,7 +7,8 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
 /// A version of the dataset format, written `major.minor`.
 ///
-/// A minor adds and never changes a meaning, so any minor of a known major can be read; a newer major cannot.
+/// A minor adds and never changes a meaning, so any minor of a known major can be read; a newer major cannot. Formats 1.1 to 1.10
+/// were written before release 0.2.0 and are not read.
 ///
 /// ```
 /// use taceva_dataset::Version;
@@ -27,35 +28,19 @@ pub struct Version {
 
 impl Version {
     /// The newest that this crate writes.
-    pub const CURRENT: Version = Version {
-        major: 1,
-        minor: 10,
-    };
+    pub const CURRENT: Version = Version { major: 1, minor: 0 };
 
-    /// The version of a header of frames that are as they came, so that it is what it was before 1.10.
-    pub(crate) const WITHOUT_REDUCTION: Version = Version { major: 1, minor: 9 };
-
-    /// The version of a header that does not say how a map read labels, joined tables, pictures and classes, so that it is what it was before 1.9.
-    pub(crate) const WITHOUT_COLUMNS: Version = Version { major: 1, minor: 8 };
-
-    /// The version of a header of a recording to which no rows were added and of which nothing was left out, so that it is what it was before 1.8.
-    pub(crate) const NEVER_EXTENDED: Version = Version { major: 1, minor: 7 };
-
-    /// The version of a header of a recording without signals, so that it is what it was before 1.7.
-    pub(crate) const WITHOUT_SIGNALS: Version = Version { major: 1, minor: 6 };
-
-    /// The version of a header of a recording whose rows do not say which row of a lab's table they were, so that it is what it was before 1.6.
-    pub(crate) const WITHOUT_ORIGIN: Version = Version { major: 1, minor: 5 };
-
-    /// The version of a header that says nothing of what was set of the camera or of a stream, so that it is what it was before 1.5.
-    pub(crate) const WITHOUT_SETTINGS: Version = Version { major: 1, minor: 4 };
-
-    /// The first version whose headers are sealed.
-    pub const SEALED: Version = Version { major: 1, minor: 3 };
+    /// The last minor that was written before release 0.2.0, which began again at 1.0.
+    const LAST_BEFORE_RELEASE: u32 = 10;
 
     /// Whether this crate can read it.
     pub fn is_readable(self) -> bool {
-        self.major == Version::CURRENT.major
+        self.major == Version::CURRENT.major && !self.is_earlier()
+    }
+
+    /// Whether it was written before release 0.2.0.
+    pub fn is_earlier(self) -> bool {
+        self.major == 1 && (1..=Version::LAST_BEFORE_RELEASE).contains(&self.minor)
     }
 }
 
@@ -97,12 +82,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn another_minor_is_readable_and_another_major_is_not() {
+    fn a_later_minor_is_readable_and_an_earlier_format_and_another_major_are_not() {
         let readable = |text: &str| text.parse::<Version>().map(Version::is_readable);
         assert_eq!(readable("1.0"), Ok(true));
-        assert_eq!(readable("1.9"), Ok(true));
-        assert_eq!(readable("2.0"), Ok(false));
-        assert_eq!(readable("0.9"), Ok(false));
+        assert_eq!(readable("1.11"), Ok(true));
+        for refused in ["1.1", "1.10", "2.0", "0.9"] {
+            assert_eq!(readable(refused), Ok(false), "{refused}");
+        }
         assert!(readable("1").is_err() && readable("one.two").is_err());
     }
 }

@@ -133,28 +133,3 @@ fn a_press_that_a_limit_ended_is_counted_by_its_limit_though_it_has_no_sample() 
     let sample = dataset.table().sample(5, FieldSet::EMPTY, None);
     assert_eq!(sample.limited_by, Some(Limit::ShearForce));
 }
-
-#[test]
-fn a_recording_of_format_1_1_says_of_no_press_how_it_ended_and_reads_as_before() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("r");
-    let mut recorder = Recorder::create(&path, &spec()).expect("new");
-    let whole = PressOutcome::Complete;
-    recorder
-        .append_press("a", whole, &press("a"))
-        .expect("recorded");
-    let digest = recorder.close().expect("closes").digest;
-    // Such a table had no column of limits: one without a limited sample has none either.
-    let header = path.join("dataset.toml");
-    let text = fs::read_to_string(&header).expect("reads");
-    let (body, _) = text.split_once("\n[seal]").expect("sealed");
-    let older = body
-        .replace("format = \"1.4\"", "format = \"1.1\"")
-        .replace("[presses]\ncomplete = 1\n", "");
-    assert!(older.len() + 20 < text.len(), "{text}");
-    fs::write(&header, older).expect("written");
-    let dataset = Dataset::open(&path).expect("reads");
-    assert_eq!(dataset.digest(), digest);
-    assert!(dataset.header().presses.is_empty());
-    assert_eq!(dataset.table().limited_by(), [None; 3]);
-}

@@ -75,10 +75,7 @@ fn what_was_sent_stays_byte_for_byte_and_what_was_drawn_reads_back() {
     let path = folder.path().join("stream");
     let header = recorded(&path).close().expect("closed");
     assert_eq!(header.stream, Some(StreamFacts::new(true).with_lost(5, 1)));
-    assert_eq!(
-        header.format,
-        Version::CURRENT.min("1.5".parse().expect("a version"))
-    );
+    assert_eq!(header.format, Version::CURRENT);
     let dataset = Dataset::open(&path).expect("whole");
     for row in 0..2 {
         let read = dataset.frame(row).expect("read").expect("a frame");

@@ -7,8 +7,7 @@ use super::Dataset;
 use crate::digest::Digest;
 use crate::error::DatasetError;
 use crate::file::check_relative;
-use crate::header::Header;
-use crate::header::{dataset_digest, digest_with};
+use crate::header::{Header, dataset_digest};
 use crate::held::HeldFolder;
 use crate::layout;
 use crate::limits;
@@ -55,8 +54,9 @@ impl Dataset {
                 found: digest,
             });
         }
-        let digest = digest_with(
-            dataset_digest(digest, self.header.frames.as_ref()),
+        let digest = dataset_digest(
+            digest,
+            self.header.frames.as_ref(),
             self.header.signals.as_ref(),
             &self.header.extended,
         );

@@ -182,10 +182,10 @@ pub struct FramesInfo {
     /// How the frames were coded and decoded, if they came as a clip; of several clips, how those of the first were.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub codec: Option<FrameCodec>,
-    /// How the frames of other clips were coded and decoded, where that differs, each way once; absent before format 1.8.
+    /// How the frames of other clips were coded and decoded, where that differs, each way once.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub other_codecs: Vec<FrameCodec>,
-    /// From what frames were reduced before they were recorded; absent where they are as they came, and before format 1.10.
+    /// From what frames were reduced before they were recorded; absent where they are as they came.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reduced: Option<ReducedFrames>,
     /// The frame without contact; absent if the lab does not know one.

@@ -30,28 +30,9 @@ const OTHER_ARRAY: &str =
     "if the pictures were written otherwise this time, give their array another name";
 
 impl Mapping {
-    /// Whether nothing is known of any map: no import, or one by an older version.
+    /// Whether no map is known: the dataset was recorded.
     pub fn is_empty(&self) -> bool {
         *self == Mapping::default()
-    }
-
-    /// What `self`, which maps of before read, leaves unsaid of what `new` says, as files of before format 1.9 do.
-    pub fn unsaid(&self, new: &Mapping, has_frames: bool) -> Option<&'static str> {
-        let is_joined = |name: &str| {
-            let mut columns = self.columns.iter().flat_map(|column| &column.from);
-            columns.any(|from| from.split_once('.').is_some_and(|(join, _)| join == name))
-        };
-        let is_known = |join: &MappedJoin| self.joins.iter().any(|known| known.name == join.name);
-        if self.columns.is_empty() && !new.columns.is_empty() {
-            return Some("labels");
-        }
-        if has_frames && self.pictures.is_empty() && !new.pictures.is_empty() {
-            return Some("pictures");
-        }
-        let mut joins = new.joins.iter();
-        joins
-            .any(|join| !is_known(join) && is_joined(&join.name))
-            .then_some("joined tables")
     }
 
     /// The first key by which `new`, another map, reads what `self` knows otherwise. What has another name says nothing.

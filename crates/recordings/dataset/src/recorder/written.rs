@@ -125,7 +125,7 @@ pub(super) struct WrittenSample {
 #[derive(Serialize, Deserialize)]
 pub(super) struct WrittenPress {
     pub(super) press: String,
-    /// Before format 1.2 it was not written: then the press counts as complete.
+    /// Not written of a complete press.
     #[serde(default = "complete", skip_serializing_if = "is_complete")]
     pub(super) outcome: PressOutcome,
     pub(super) samples: Vec<WrittenSample>,

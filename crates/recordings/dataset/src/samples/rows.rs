@@ -60,29 +60,9 @@ pub(super) fn assemble(
             return Err(format!("no column `{channel}`"));
         }
     }
-    // Before format 1.2, and 1.6, a lab could give these names to columns of its own.
-    let is_own = |name: &str| attributes.iter().any(|attribute| attribute == name);
-    let [is_own_limit, is_own_table, is_own_row, is_own_frame] =
-        ["limited_by", "source_table", "source_row", "source_frame"].map(is_own);
     let mut columns = Columns(columns);
     let mut table = Table::new(channels.clone(), attributes.to_vec());
     for row in 0..rows {
-        let limit = match is_own_limit {
-            true => None,
-            false => columns.text("limited_by", row)?,
-        };
-        let source_table = match is_own_table {
-            true => None,
-            false => columns.text("source_table", row)?,
-        };
-        let source_row = match is_own_row {
-            true => None,
-            false => columns.count("source_row", row)?,
-        };
-        let source_frame = match is_own_frame {
-            true => None,
-            false => columns.text("source_frame", row)?,
-        };
         let frame = columns.text("frame", row)?;
         let digest = columns.text("frame_sha256", row)?;
         table.push(Row {
@@ -96,11 +76,11 @@ pub(super) fn assemble(
             repeat: columns.count("repeat", row)?,
             phase: known(columns.text("phase", row)?, Phase::from_name)
                 .ok_or_else(|| format!("row {row}: no such phase"))?,
-            limited_by: known(limit, Limit::from_name)
+            limited_by: known(columns.text("limited_by", row)?, Limit::from_name)
                 .ok_or_else(|| format!("row {row}: no such limit"))?,
-            source_table,
-            source_row,
-            source_frame,
+            source_table: columns.text("source_table", row)?,
+            source_row: columns.count("source_row", row)?,
+            source_frame: columns.text("source_frame", row)?,
             part: columns.text("part", row)?,
             t_s: columns.number("t_s", row)?,
             kind: known(columns.text("kind", row)?, GratingKind::from_name)

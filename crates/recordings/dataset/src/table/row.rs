@@ -93,7 +93,7 @@ pub struct Row {
     pub repeat: Option<u32>,
     /// Load or unload.
     pub phase: Option<Phase>,
-    /// The limit of the gel that kept the tip from where it was sent; none in recordings before format 1.2.
+    /// The limit of the gel that kept the tip from where it was sent.
     pub limited_by: Option<Limit>,
     /// The table that it was imported from, relative to the folder of the lab, or the file that was the row; of maps of version 2.
     pub source_table: Option<String>,

@@ -175,10 +175,11 @@ impl ImportPlan {
             return Err(refused(differs(key, &own, &other)));
         }
         let known = header.mapping();
-        if let Some(what) = known.unsaid(&self.mapping, header.frames.is_some()) {
-            return Err(refused(format!(
-                "it does not say how its {what} were read, as files of before format 1.9, so that another way of reading them would not be noticed; import its folder anew with this version"
-            )));
+        if known.is_empty() && !self.mapping.is_empty() {
+            return Err(refused(
+                "recorded and not imported, so no map says how its labels were read; import these rows as a dataset of their own"
+                    .to_owned(),
+            ));
         }
         match known.misread(&self.mapping) {
             None => Ok(()),
