@@ -58,7 +58,7 @@ fn no_name_of_cards_ids_points_or_files_reaches_a_terminal_raw_by_any_command() 
     );
     bench.write(
         "unknown.toml",
-        &format!("map_version = 1\n\"{HOSTILE_TOML}\" = 1\n"),
+        &format!("map_version = 2\n\"{HOSTILE_TOML}\" = 1\n"),
     );
     let mut ran = 0;
     for words in [

@@ -132,7 +132,7 @@ pub fn scratch() -> tempfile::TempDir {
         .expect("a place for temporary files")
 }
 
-const MAP: &str = r#"map_version = 1
+const MAP: &str = r#"map_version = 2
 table = "labels.csv"
 
 [frame]

@@ -238,7 +238,7 @@ fn spec() -> RecordingSpec {
     )
 }
 
-pub(crate) const MAP: &str = r#"map_version = 1
+pub(crate) const MAP: &str = r#"map_version = 2
 table = "labels.csv"
 
 [frame]

@@ -19,7 +19,7 @@ fn ours(path: &Path, order: &str) -> Vec<u8> {
     fs::copy(path, folder.path().join("1.jpg")).expect("copied");
     fs::write(folder.path().join("labels.csv"), "file,Fz\n1.jpg,1\n").expect("written");
     let text = format!(
-        "map_version = 1\ntable = \"labels.csv\"\n[frame]\ncolumn = \"file\"\nchannel_order = \"{order}\"\nreference = \"unknown\"\n[columns]\nFz = {{ from = \"Fz\", unit = \"N\" }}\n[time]\nclock = \"unknown\"\n[sensor]\nmodel = \"m\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = true\n"
+        "map_version = 2\ntable = \"labels.csv\"\n[frame]\ncolumn = \"file\"\nchannel_order = \"{order}\"\nreference = \"unknown\"\n[columns]\nFz = {{ from = \"Fz\", unit = \"N\" }}\n[time]\nclock = \"unknown\"\n[sensor]\nmodel = \"m\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = true\n"
     );
     let map = ImportMap::parse("map.toml".as_ref(), &text).expect("a map");
     let target = folder.path().join("dataset");

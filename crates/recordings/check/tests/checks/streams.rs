@@ -223,7 +223,7 @@ fn frames_in_jpeg_are_said_to_depend_on_their_decoder() {
     let folder = tempfile::tempdir().expect("a folder");
     std::fs::write(folder.path().join("1.jpg"), jpeg).expect("written");
     std::fs::write(folder.path().join("labels.csv"), "file,Fz\n1.jpg,1\n").expect("written");
-    let text = "map_version = 1\ntable = \"labels.csv\"\n[frame]\ncolumn = \"file\"\nchannel_order = \"gray\"\nreference = \"unknown\"\n[columns]\nFz = { from = \"Fz\", unit = \"N\" }\n[time]\nclock = \"unknown\"\n[sensor]\nmodel = \"m\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = true\n";
+    let text = "map_version = 2\ntable = \"labels.csv\"\n[frame]\ncolumn = \"file\"\nchannel_order = \"gray\"\nreference = \"unknown\"\n[columns]\nFz = { from = \"Fz\", unit = \"N\" }\n[time]\nclock = \"unknown\"\n[sensor]\nmodel = \"m\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = true\n";
     let report = imported_and_checked(folder.path(), text, &["lossy-frames"]);
     assert!(message(&report, "TAC026").starts_with("1 frames are JPEG"));
 }

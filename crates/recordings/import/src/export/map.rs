@@ -69,9 +69,6 @@ pub(super) fn text(exported: &Exported<'_>, form: ExportForm, written: &Written)
     let header = exported.dataset.header();
     let table = exported.dataset.table();
     let has = |name: &str| exported.columns.iter().any(|column| column.name == name);
-    let has_origin = ORIGIN.iter().any(|(_, column)| has(column));
-    // A plain table with pictures beside it is what the first version of maps reads, and its rows have no origin of their own.
-    let is_plain = form == ExportForm::Csv && written.signals.is_none() && !has_origin;
     let mut text = String::from(
         "# The dataset again: taceva import FOLDER --map FOLDER/map.toml --out DATASET\n",
     );
@@ -79,10 +76,7 @@ pub(super) fn text(exported: &Exported<'_>, form: ExportForm, written: &Written)
     let mut line = |words: std::fmt::Arguments<'_>| {
         let _ = text.write_fmt(format_args!("{words}\n"));
     };
-    line(format_args!(
-        "map_version = {}",
-        if is_plain { 1 } else { 2 }
-    ));
+    line(format_args!("map_version = 2"));
     let source = format!("{:?}", header.source).to_lowercase();
     line(format_args!("source = {}", quoted(&source)));
     line(format_args!(
@@ -124,11 +118,9 @@ pub(super) fn text(exported: &Exported<'_>, form: ExportForm, written: &Written)
     for id in IDS.into_iter().filter(|id| has(id)) {
         line(format_args!("{id} = {}", quoted(&(written.names)(id))));
     }
-    if !is_plain {
-        line(format_args!("\n[origin]"));
-        for (key, column) in ORIGIN.into_iter().filter(|(_, column)| has(column)) {
-            line(format_args!("{key} = {}", quoted(&(written.names)(column))));
-        }
+    line(format_args!("\n[origin]"));
+    for (key, column) in ORIGIN.into_iter().filter(|(_, column)| has(column)) {
+        line(format_args!("{key} = {}", quoted(&(written.names)(column))));
     }
     line(format_args!(
         "\n[time]\nclock = {}",

@@ -1,7 +1,7 @@
 //! Which cells of a row name its frame.
 
 use super::map::FrameNames;
-use super::resolve::RowTable;
+use super::resolve::ResolvedTable;
 use taceva_dataset::DatasetError;
 
 /// The cells that name a frame.
@@ -41,16 +41,8 @@ pub(super) fn filled<'c>(parts: &'c [PatternPart], cell: impl Fn(usize) -> &'c s
     texts.collect()
 }
 
-/// The columns of a pattern.
-pub(super) fn columns_of(parts: &[PatternPart]) -> impl Iterator<Item = usize> {
-    parts.iter().filter_map(|part| match part {
-        PatternPart::Cell(column) => Some(*column),
-        PatternPart::Text(_) => None,
-    })
-}
-
 impl FrameCells {
-    pub(super) fn find(names: &FrameNames, table: &RowTable) -> Result<FrameCells, DatasetError> {
+    pub(super) fn find(names: &FrameNames, table: &ResolvedTable) -> Result<FrameCells, DatasetError> {
         Ok(match names {
             FrameNames::Column(name) => FrameCells::Column(table.position(name)?),
             FrameNames::Pattern(pattern) => FrameCells::Pattern(parts(pattern, table)?),
@@ -72,7 +64,7 @@ impl FrameCells {
 }
 
 /// The texts and columns of a pattern.
-fn parts(pattern: &str, table: &RowTable) -> Result<Vec<PatternPart>, DatasetError> {
+fn parts(pattern: &str, table: &ResolvedTable) -> Result<Vec<PatternPart>, DatasetError> {
     let mut parts = Vec::new();
     let mut rest = pattern;
     while let Some((text, after)) = rest.split_once('{') {

@@ -44,7 +44,7 @@ pub use frames::{ArrayFrames, ArrayLayout, FrameMap, FrameNames, PixelRange, Vid
 /// let map = taceva_import::ImportMap::parse(
 ///     "map.toml".as_ref(),
 ///     r#"
-///     map_version = 1
+///     map_version = 2
 ///     table = "labels.csv"
 ///     [columns]
 ///     Fz = { from = "force", unit = "mN" }
@@ -93,8 +93,6 @@ pub struct ImportMap {
     pub(crate) origin: Option<OriginMap>,
     /// Text columns whose values are of a closed list: name, column and list.
     pub(crate) classes: BTreeMap<String, ClassMap>,
-    /// Whether names of columns may be ways into cells, paths and other tables: of map version 2.
-    pub(crate) is_extended: bool,
 }
 
 /// A column whose values are of a closed list.
@@ -142,7 +140,6 @@ impl ImportMap {
             signals: None,
             origin: None,
             classes: BTreeMap::new(),
-            is_extended: false,
         }
     }
 

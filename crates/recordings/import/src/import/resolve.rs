@@ -26,12 +26,12 @@ pub(super) use join::JoinMatches;
 pub(super) use matrix::matrix_rows;
 pub(super) use named_by::NamedBy;
 pub(super) use signals::place_first;
-pub(super) use stated::{problem_of_name, problem_of_signals};
-pub(super) use table::RowTable;
+pub(super) use stated::problem_of_signals;
+pub(super) use table::ResolvedTable;
 
 /// A table in which every column that the map names is found by that name.
 pub(super) struct Resolved {
-    pub(super) table: table::ResolvedTable,
+    pub(super) table: ResolvedTable,
     /// The columns of the main table that the map does not mention.
     pub(super) unmentioned: Vec<String>,
     pub(super) joins: Vec<JoinMatches>,
@@ -105,7 +105,7 @@ pub(super) fn resolve(
     for joined in &sources.joined {
         joined.count_absent_chunks(folder, &names, &mut absent_chunks)?;
     }
-    let mut table = table::ResolvedTable::new(&sources, names, cells);
+    let mut table = ResolvedTable::new(&sources, names, cells);
     for map in &map.matrices {
         matrix::apply(map, folder, &mut table)?;
     }

@@ -7,10 +7,9 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::frame_cells::{FrameCells, FrameName, columns_of, filled};
+use super::frame_cells::{FrameCells, FrameName, filled};
 use super::map::{FrameNames, ImportMap};
-use super::resolve::{ClassCells, JoinMatches, NamedBy, RowTable, problem_of_name, resolve};
-use crate::csv_table::CsvTable;
+use super::resolve::{ClassCells, JoinMatches, NamedBy, ResolvedTable, resolve};
 use crate::foreign::{Pictures, TableForm};
 use crate::source_folder::SourceFolder;
 use taceva_dataset::DatasetError;
@@ -21,9 +20,9 @@ use taceva_dataset::internal::shown;
 /// A table whose columns have been found.
 pub(super) struct MappedTable<'a> {
     map: &'a ImportMap,
-    table: RowTable,
+    table: ResolvedTable,
     /// The columns that the map mentions nowhere, where they are not found by the others.
-    unmentioned: Option<Vec<String>>,
+    unmentioned: Vec<String>,
     pub(super) joins: Vec<JoinMatches>,
     /// Chunks that were never written of the arrays that are read, by file and array.
     pub(super) absent_chunks: BTreeMap<String, u64>,
@@ -60,65 +59,24 @@ pub(super) struct MappedTable<'a> {
     pub(super) has_row_column: bool,
 }
 
-/// The table, unless the name of a column says another unit than the map.
-fn checked(map: &ImportMap, table: CsvTable) -> Result<CsvTable, DatasetError> {
-    let columns = map.columns.iter();
-    let columns = columns.map(|column| (column.from.as_str(), &column.unit));
-    let times = map.time.iter();
-    let times = times.map(|time| (time.column.as_str(), &time.unit));
-    let mut wrong = columns
-        .chain(times)
-        .filter(|(name, _)| table.position(name).is_ok());
-    let wrong = wrong.find_map(|(name, unit)| Some((name, problem_of_name(name, unit)?)));
-    match wrong {
-        None => Ok(table),
-        Some((name, problem)) => Err(DatasetError::Table {
-            place: Place::line(table.path(), 1).in_column(name),
-            problem,
-        }),
-    }
-}
-
 impl<'a> MappedTable<'a> {
     pub(super) fn open(
         map: &'a ImportMap,
         folder: &SourceFolder,
         path: &Path,
     ) -> Result<MappedTable<'a>, DatasetError> {
-        let mut clips = None;
-        let mut absent_chunks = BTreeMap::new();
-        let mut class_cells = Vec::new();
-        let (mut named_by, mut has_row_column) = (NamedBy::default(), false);
-        let (table, unmentioned, joins, pictures, signals) = match map.is_extended {
-            false => (
-                RowTable::AsItLies(checked(map, CsvTable::read(path)?)?),
-                None,
-                Vec::new(),
-                None,
-                None,
-            ),
-            true => {
-                let found = resolve(map, folder, path)?;
-                absent_chunks = found.absent_chunks;
-                class_cells = found.class_cells;
-                named_by = found.named_by;
-                has_row_column = found.main.has("row");
-                let names = map.frame.as_ref().map(|frame| &frame.names);
-                if let (TableForm::LeRobot, Some(FrameNames::Video(video))) = (&map.form, names) {
-                    clips = Some(found.main.clips(&video.file)?);
-                }
-                let inside = names.filter(|names| names.is_in_table());
-                let pictures = inside.map(|names| found.main.pictures(names));
-                let table = RowTable::Resolved(found.table);
-                (
-                    table,
-                    Some(found.unmentioned),
-                    found.joins,
-                    pictures.transpose()?,
-                    found.signals,
-                )
+        let found = resolve(map, folder, path)?;
+        let has_row_column = found.main.has("row");
+        let names = map.frame.as_ref().map(|frame| &frame.names);
+        let clips = match (&map.form, names) {
+            (TableForm::LeRobot, Some(FrameNames::Video(video))) => {
+                Some(found.main.clips(&video.file)?)
             }
+            _ => None,
         };
+        let inside = names.filter(|names| names.is_in_table());
+        let pictures = inside.map(|names| found.main.pictures(names)).transpose()?;
+        let table = found.table;
         let find = |name: &String| table.position(name);
         let find_optional = |name: &Option<String>| name.as_ref().map(find).transpose();
         let ids = &map.ids;
@@ -180,12 +138,12 @@ impl<'a> MappedTable<'a> {
                 .map(find)
                 .transpose()?,
             pictures,
-            signals,
-            unmentioned,
-            joins,
-            absent_chunks,
-            class_cells,
-            named_by,
+            signals: found.signals,
+            unmentioned: found.unmentioned,
+            joins: found.joins,
+            absent_chunks: found.absent_chunks,
+            class_cells: found.class_cells,
+            named_by: found.named_by,
             has_row_column,
             table,
         })
@@ -193,44 +151,7 @@ impl<'a> MappedTable<'a> {
 
     /// The columns of the table that the map mentions nowhere.
     pub(super) fn unmentioned(&self) -> Vec<String> {
-        if let Some(names) = &self.unmentioned {
-            return names.clone();
-        }
-        let single = [
-            self.sample,
-            self.unit_id,
-            self.scene,
-            self.depth_step,
-            self.repeat,
-            self.phase,
-            self.limited_by,
-            self.part,
-            self.kind,
-            self.spacing,
-            self.time,
-            self.flags,
-        ];
-        let mut mentioned: Vec<usize> = single.into_iter().flatten().collect();
-        mentioned.extend(
-            self.truth
-                .iter()
-                .chain(&self.point_id)
-                .chain(&self.attributes),
-        );
-        match &self.frame {
-            Some(FrameCells::Column(column)) => mentioned.push(*column),
-            Some(FrameCells::Pattern(parts)) => mentioned.extend(columns_of(parts)),
-            Some(FrameCells::Within { file, index }) => {
-                mentioned.push(*index);
-                mentioned.extend(file.iter().flat_map(|parts| columns_of(parts)));
-            }
-            Some(FrameCells::Clips(_) | FrameCells::OfRow) | None => {}
-        }
-        let names = self.table.names().iter().enumerate();
-        names
-            .filter(|(position, _)| !mentioned.contains(position))
-            .map(|(_, name)| name.clone())
-            .collect()
+        self.unmentioned.clone()
     }
 
     /// The numbers of taxels of a row, where they are in columns; NaN where there is none.
@@ -303,10 +224,9 @@ impl<'a> MappedTable<'a> {
                 .ok_or_else(|| self.wrong(row, column, "empty, expected the name of the sample"))?,
         };
         let [table, of_table, frame] = self.origin;
-        let (source_table, source_row) = match (&self.map.origin, self.table.source()) {
-            (Some(_), _) => (text(table), self.count(row, of_table)?),
-            (None, Some(source)) => (Some(source.to_owned()), u32::try_from(row).ok()),
-            (None, None) => (None, None),
+        let (source_table, source_row) = match &self.map.origin {
+            Some(_) => (text(table), self.count(row, of_table)?),
+            None => (Some(self.table.source().to_owned()), u32::try_from(row).ok()),
         };
         let mut read = Row::new(sample);
         read.point_id = self.point_id(row);

@@ -240,14 +240,6 @@ fn an_array_of_other_rows_or_numbers_than_the_table_is_refused() {
         "{}",
         said()
     );
-    let version = signals.replace("table =", "map_version = 1\ntable =");
-    let text = format!("{version}\n{}", super::FACTS);
-    let map = taceva_import::ImportMap::parse("map.toml".as_ref(), &text);
-    assert!(
-        map.expect_err("of version 2")
-            .to_string()
-            .contains("`signals` as it stands here")
-    );
 }
 
 /// Three rows of 4 × 3 places with two numbers each, as an array of this shape, and their forces.

@@ -104,14 +104,6 @@ fn a_unit_in_the_name_of_a_column_is_held_against_the_map_of_either_version() {
     let problem = planned(folder.path(), &map("N")).expect_err("a thousand times too much");
     assert!(problem.contains("says `mN`, the map says `N`"), "{problem}");
     planned(folder.path(), &map("mN")).expect("as it says");
-    let old = format!("map_version = 1\n{}\n{}", map("N"), super::FACTS);
-    let old = taceva_import::ImportMap::parse("map.toml".as_ref(), &old).expect("a map");
-    let problem = taceva_import::ImportPlan::new(folder.path(), &old).expect_err("the same");
-    let problem = problem.to_string();
-    assert!(
-        problem.contains("t.csv, line 1, column `Fz [mN]`: its name says `mN`"),
-        "{problem}"
-    );
 }
 
 #[test]

@@ -11,7 +11,7 @@ use taceva_dataset::DatasetError;
 use taceva_import::{ImportMap, ImportPlan, ImportReport};
 use tempfile::TempDir;
 
-pub(crate) const MAP: &str = r#"map_version = 1
+pub(crate) const MAP: &str = r#"map_version = 2
 table = "labels.csv"
 
 [frame]

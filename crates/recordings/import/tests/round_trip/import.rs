@@ -90,7 +90,7 @@ fn frames_of_an_array_are_kept_bit_for_bit() {
     lab.replace(
         "map.toml",
         "column = \"file\"",
-        "array = \"frames.npy\"\nindex = \"x\"",
+        "array = { file = \"frames.npy\" }\nindex = \"x\"",
     );
     lab.import().expect("imported");
     let dataset = Dataset::open(&lab.path("set")).expect("opens");
@@ -126,7 +126,7 @@ fn tables_of_several_runs_join_and_name_frames_by_a_pattern() {
     lab.write(
         "map.toml",
         br#"
-map_version = 1
+map_version = 2
 table = "run_*/labels.csv"
 [frame]
 pattern = "images/image_{n}.png"
@@ -163,7 +163,7 @@ fn placeholders_are_left_out_only_where_all_of_them_stand() {
     lab.write(
         "map.toml",
         br#"
-map_version = 1
+map_version = 2
 table = "plain.csv"
 [columns]
 Fx = { from = "Fx", unit = "N" }

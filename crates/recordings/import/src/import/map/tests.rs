@@ -2,7 +2,7 @@
 
 use super::*;
 
-const GOOD: &str = r#"map_version = 1
+const GOOD: &str = r#"map_version = 2
 table = "labels.csv"
 [frame]
 column = "file"
@@ -43,7 +43,7 @@ fn a_whole_map_is_understood() {
 fn each_mistake_names_its_line_and_what_is_accepted() {
     for (from, to, expected) in [
         (
-            "map_version = 1",
+            "map_version = 2",
             "map_version = 3",
             "line 1: map version 3",
         ),
@@ -119,9 +119,9 @@ fn each_mistake_names_its_line_and_what_is_accepted() {
             "no unit of time",
         ),
         (
-            "[time]",
-            "[origin]\ntable = \"t\"\n[time]",
-            "`origin` as it stands here is of map version 2",
+            "map_version = 2",
+            "map_version = 1",
+            "line 1: map version 1 is not read any more",
         ),
     ] {
         let message = message(from, to);

@@ -22,6 +22,7 @@ use taceva_dataset::Source;
 use taceva_dataset::internal::RESERVED;
 use taceva_dataset::internal::is_attribute_name;
 use taceva_dataset::internal::parse_toml;
+use taceva_dataset::internal::shown;
 use taceva_dataset::internal::toml_error;
 
 #[derive(Deserialize)]
@@ -102,7 +103,6 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
     let written: WrittenMap = parse_toml(path, text)?;
     let check = Check { path, text };
     check.version(&written)?;
-    let is_extended = *written.map_version.get_ref() > 1;
     let (table, form) = check.table(&written.table)?;
     let matrices = check.matrices(&written.matrix)?;
     let (channels, columns) = check.columns(&written.columns, &matrices)?;
@@ -146,7 +146,7 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
     Ok(ImportMap {
         frame: written
             .frame
-            .map(|frame| check.frame(frame, is_extended))
+            .map(|frame| check.frame(frame))
             .transpose()?,
         time: check.time(&written.time)?,
         drop: check.drop(written.drop, &channels)?,
@@ -158,7 +158,6 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
             .map(|signals| check.signals(signals))
             .transpose()?,
         origin: written.origin.map(Spanned::into_inner),
-        is_extended,
         table,
         form,
         matrices,
@@ -175,46 +174,21 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
 }
 
 impl Check<'_> {
-    /// Refuses a version that is not known, and keys of version 2 in a map that states version 1.
+    /// Refuses another version than 2, and says of version 1 what to change.
     fn version(&self, written: &WrittenMap) -> Result<(), DatasetError> {
-        let scaled = written.columns.values().find(|column| {
-            let column = column.get_ref();
-            column.offset.is_some() || column.scale.is_some()
-        });
-        let table = &written.table;
-        let newer = [
-            ("table", table.get_ref().is_extended().then(|| table.span())),
-            (
-                "frame",
-                written
-                    .frame
-                    .as_ref()
-                    .filter(|frame| frame.get_ref().is_extended())
-                    .map(Spanned::span),
+        let array = written.frame.as_ref();
+        let array = array.and_then(|frame| frame.get_ref().array_name());
+        let problem = match (*written.map_version.get_ref(), array) {
+            (2, _) => return Ok(()),
+            (1, None) => "map version 1 is not read any more: write `map_version = 2`".to_owned(),
+            (1, Some(array)) => format!(
+                "map version 1 is not read any more: write `map_version = 2`, and in [frame] `array = {{ file = \"{0}\" }}` for `array = \"{0}\"`, which \
+                 names an array in the table's own file now",
+                shown(array)
             ),
-            ("path", written.path.as_ref().map(Spanned::span)),
-            ("join", written.join.first().map(Spanned::span)),
-            ("matrix", written.matrix.first().map(Spanned::span)),
-            (
-                "classes",
-                written.classes.values().next().map(Spanned::span),
-            ),
-            ("signals", written.signals.as_ref().map(Spanned::span)),
-            ("origin", written.origin.as_ref().map(Spanned::span)),
-            ("offset` or `scale", scaled.map(Spanned::span)),
-        ];
-        let newer = newer.into_iter().find_map(|(key, span)| Some((key, span?)));
-        match (written.map_version.get_ref(), newer) {
-            (1, None) | (2, _) => Ok(()),
-            (1, Some((key, span))) => Err(self.at(
-                span.start,
-                &format!("`{key}` as it stands here is of map version 2: write `map_version = 2`"),
-            )),
-            (other, _) => Err(self.at(
-                written.map_version.span().start,
-                &format!("map version {other} is not known here, expected 1 or 2"),
-            )),
-        }
+            (other, _) => format!("map version {other} is not known here, expected 2"),
+        };
+        Err(self.at(written.map_version.span().start, &problem))
     }
 
     fn columns(

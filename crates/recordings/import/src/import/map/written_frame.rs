@@ -65,30 +65,17 @@ impl WrittenFrame {
         matches!(self.reference, WrittenReference::Column(_))
     }
 
-    /// Whether maps of version 1 cannot say it.
-    pub(super) fn is_extended(&self) -> bool {
-        let is_array_extended = match &self.array {
-            None => false,
-            Some(WrittenArray::InFile(_)) => true,
-            // Named twice, it is wrong in any version.
-            Some(WrittenArray::Name(_)) => {
-                self.index.is_none() && self.column.is_none() && self.pattern.is_none()
-            }
-        };
-        let has_more = self.has_reference_column()
-            || self.layout.is_some()
-            || self.range.is_some()
-            || self.bits.is_some();
-        is_array_extended || has_more || self.bytes.is_some() || self.video.is_some()
+    /// The name of an array, where it is given as a text.
+    pub(super) fn array_name(&self) -> Option<&str> {
+        match &self.array {
+            Some(WrittenArray::Name(name)) => Some(name),
+            _ => None,
+        }
     }
 }
 
 impl Check<'_> {
-    pub(super) fn frame(
-        &self,
-        written: Spanned<WrittenFrame>,
-        is_extended: bool,
-    ) -> Result<FrameMap, DatasetError> {
+    pub(super) fn frame(&self, written: Spanned<WrittenFrame>) -> Result<FrameMap, DatasetError> {
         let offset = written.span().start;
         let written = written.into_inner();
         let range = self.range(written.range, written.bits, offset)?;
@@ -116,7 +103,6 @@ impl Check<'_> {
             }
             (None, None, Some(array), None, None) => {
                 let (file, path) = match array {
-                    WrittenArray::Name(file) if !is_extended => (Some(file), None),
                     WrittenArray::Name(path) => (None, Some(path)),
                     WrittenArray::InFile(array) => (Some(array.file), array.path),
                 };

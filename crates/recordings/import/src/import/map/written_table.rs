@@ -73,16 +73,6 @@ impl Format {
     }
 }
 
-impl WrittenTable {
-    /// Whether maps of version 1 cannot say it.
-    pub(super) fn is_extended(&self) -> bool {
-        let WrittenTable::Path(path) = self else {
-            return true;
-        };
-        !matches!(form_of(path, None), TableForm::Delimited { .. })
-    }
-}
-
 /// The form of the table at `path`, by `format` or what its name ends with.
 fn form_of(path: &str, format: Option<Format>) -> TableForm {
     let ending = path

@@ -1,21 +1,14 @@
-//! A table of the cells that a map names, and one whose columns are named as they are.
+//! Table of the cells that a map names.
 
 use std::path::{Path, PathBuf};
 
 use taceva_core::SourceUnit;
 
 use super::Sources;
-use crate::csv_table::{CsvTable, number};
+use crate::csv_table::number;
 use taceva_dataset::DatasetError;
 use taceva_dataset::Place;
 use taceva_dataset::internal::shown;
-
-/// The rows that an import reads.
-pub(in crate::import) enum RowTable {
-    /// Every column is one of the file.
-    AsItLies(CsvTable),
-    Resolved(ResolvedTable),
-}
 
 /// The cells of the columns that a map names.
 pub(in crate::import) struct ResolvedTable {
@@ -53,12 +46,49 @@ impl ResolvedTable {
         }
     }
 
-    pub(super) fn names(&self) -> &[String] {
+    /// The file.
+    pub(in crate::import) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The path of the table in the folder of the lab.
+    pub(in crate::import) fn source(&self) -> &str {
+        &self.relative
+    }
+
+    pub(in crate::import) fn names(&self) -> &[String] {
         &self.names
     }
 
-    pub(super) fn rows(&self) -> usize {
+    pub(in crate::import) fn rows(&self) -> usize {
         self.places.len()
+    }
+
+    /// Where the column called `name` stands.
+    pub(in crate::import) fn position(&self, name: &str) -> Result<usize, DatasetError> {
+        self.find(name).ok_or_else(|| DatasetError::Table {
+            place: Place::file(&self.path),
+            problem: format!("no column `{}`", shown(name)),
+        })
+    }
+
+    pub(in crate::import) fn cell(&self, row: usize, column: usize) -> &str {
+        self.cells[column][row].trim()
+    }
+
+    pub(in crate::import) fn number_in_unit(
+        &self,
+        row: usize,
+        column: usize,
+        unit: &SourceUnit,
+    ) -> Result<Option<f64>, DatasetError> {
+        let number = number::number_in_unit(self.cell(row, column), unit);
+        number.map_err(|problem| self.refuse(row, column, &problem))
+    }
+
+    /// Why a row is left out before its cells are looked at.
+    pub(in crate::import) fn unmatched(&self, row: usize) -> Option<&str> {
+        self.unmatched[row].as_deref()
     }
 
     /// Where the column called `name` stands; every one that the map names is there.
@@ -67,7 +97,11 @@ impl ResolvedTable {
     }
 
     /// The number in a cell.
-    pub(super) fn number(&self, row: usize, column: usize) -> Result<Option<f64>, DatasetError> {
+    pub(in crate::import) fn number(
+        &self,
+        row: usize,
+        column: usize,
+    ) -> Result<Option<f64>, DatasetError> {
         let cell = &self.cells[column][row];
         number::number(cell).map_err(|problem| self.refuse(row, column, &problem))
     }
@@ -78,7 +112,7 @@ impl ResolvedTable {
         self.cells.push(cells);
     }
 
-    fn place(&self, row: usize, column: usize) -> Place {
+    pub(in crate::import) fn place(&self, row: usize, column: usize) -> Place {
         let mut place = self.places[row].clone();
         place.column = self.names.get(column).cloned();
         place
@@ -88,96 +122,6 @@ impl ResolvedTable {
         DatasetError::Table {
             place: self.place(row, column),
             problem: format!("`{}`: {problem}", shown(&self.cells[column][row])),
-        }
-    }
-}
-
-impl RowTable {
-    pub(in crate::import) fn path(&self) -> &Path {
-        match self {
-            RowTable::AsItLies(table) => table.path(),
-            RowTable::Resolved(table) => &table.path,
-        }
-    }
-
-    /// The path of the table in the folder of the lab, where rows keep it.
-    pub(in crate::import) fn source(&self) -> Option<&str> {
-        match self {
-            RowTable::AsItLies(_) => None,
-            RowTable::Resolved(table) => Some(&table.relative),
-        }
-    }
-
-    pub(in crate::import) fn rows(&self) -> usize {
-        match self {
-            RowTable::AsItLies(table) => table.rows(),
-            RowTable::Resolved(table) => table.rows(),
-        }
-    }
-
-    pub(in crate::import) fn names(&self) -> &[String] {
-        match self {
-            RowTable::AsItLies(table) => table.names(),
-            RowTable::Resolved(table) => &table.names,
-        }
-    }
-
-    pub(in crate::import) fn position(&self, name: &str) -> Result<usize, DatasetError> {
-        match self {
-            RowTable::AsItLies(table) => table.position(name),
-            RowTable::Resolved(table) => table.find(name).ok_or_else(|| DatasetError::Table {
-                place: Place::file(&table.path),
-                problem: format!("no column `{}`", shown(name)),
-            }),
-        }
-    }
-
-    pub(in crate::import) fn cell(&self, row: usize, column: usize) -> &str {
-        match self {
-            RowTable::AsItLies(table) => table.cell(row, column),
-            RowTable::Resolved(table) => table.cells[column][row].trim(),
-        }
-    }
-
-    pub(in crate::import) fn place(&self, row: usize, column: usize) -> Place {
-        match self {
-            RowTable::AsItLies(table) => table.place(row, column),
-            RowTable::Resolved(table) => table.place(row, column),
-        }
-    }
-
-    pub(in crate::import) fn number(
-        &self,
-        row: usize,
-        column: usize,
-    ) -> Result<Option<f64>, DatasetError> {
-        match self {
-            RowTable::AsItLies(table) => table.number(row, column),
-            RowTable::Resolved(table) => table.number(row, column),
-        }
-    }
-
-    pub(in crate::import) fn number_in_unit(
-        &self,
-        row: usize,
-        column: usize,
-        unit: &SourceUnit,
-    ) -> Result<Option<f64>, DatasetError> {
-        match self {
-            RowTable::AsItLies(table) => table.number_in_unit(row, column, unit),
-            RowTable::Resolved(table) => {
-                let cell = table.cells[column][row].trim();
-                let number = number::number_in_unit(cell, unit);
-                number.map_err(|problem| table.refuse(row, column, &problem))
-            }
-        }
-    }
-
-    /// Why a row is left out before its cells are looked at.
-    pub(in crate::import) fn unmatched(&self, row: usize) -> Option<&str> {
-        match self {
-            RowTable::AsItLies(_) => None,
-            RowTable::Resolved(table) => table.unmatched[row].as_deref(),
         }
     }
 }
