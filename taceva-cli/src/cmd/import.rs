@@ -225,7 +225,7 @@ fn preset(args: &Import) -> anyhow::Result<Option<Preset>> {
         return Ok(None);
     };
     let found = Preset::from_name(name).ok_or_else(|| {
-        let known: Vec<&str> = Preset::ALL.iter().map(|preset| preset.name()).collect();
+        let known: Vec<&str> = Preset::all().map(|preset| preset.name()).collect();
         Usage::error(format!(
             "no preset is called `{}`, expected one of {}",
             shown(name),

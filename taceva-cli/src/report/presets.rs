@@ -16,7 +16,7 @@ pub(crate) fn list(format: ListFormat, line: usize, out: &mut dyn Write) -> io::
     if format == ListFormat::Json {
         return json::write(&WrittenPresets::all(), out);
     }
-    for preset in Preset::ALL {
+    for preset in Preset::all() {
         let open = format!("leaves open: {}", preset.leaves_open());
         let reads = format!("reads {}", preset.reads());
         let mut name = preset.name();
@@ -65,7 +65,7 @@ struct WrittenPreset {
 
 impl WrittenPresets {
     fn all() -> WrittenPresets {
-        let presets = Preset::ALL.iter().map(|preset| WrittenPreset {
+        let presets = Preset::all().iter().map(|preset| WrittenPreset {
             name: preset.name(),
             layout: preset.layout(),
             reads: preset.reads(),

@@ -1,7 +1,7 @@
 //! Layouts that are common enough to need no map from the user: a map that is built in, fitted to the folder.
 
-mod assumed;
-mod fitted;
+mod draft_map;
+mod fit;
 pub(crate) mod layouts;
 mod lines;
 
@@ -11,6 +11,7 @@ use crate::import::ImportMap;
 use crate::source_folder::SourceFolder;
 use taceva_dataset::DatasetError;
 
+use layouts::Fit;
 pub use layouts::Preset;
 
 impl Preset {
@@ -25,16 +26,17 @@ impl Preset {
     /// # let folder = tempfile::tempdir()?;
     /// # std::fs::write(folder.path().join("targets.csv"), "sensor_image,pose_x,pose_y\na.png,1,2\n")?;
     /// # std::fs::create_dir(folder.path().join("images"))?;
-    /// let text = Preset::Bristol.text(folder.path())?;
+    /// let preset = Preset::from_name("bristol").ok_or("a preset")?;
+    /// let text = preset.text(folder.path())?;
     /// assert!(text.contains(r#"Px = { from = "pose_x", unit = "mm" }"#));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn text(self, source: &Path) -> Result<String, DatasetError> {
         let folder = SourceFolder::open(source)?;
         self.check(&folder)?;
-        match self {
-            Preset::LerobotV3 | Preset::Rosbag => assumed::text(self, source),
-            _ => fitted::text(self, &folder),
+        match self.facts().fit {
+            Some(Fit::Draft) => draft_map::text(self.facts().map, source),
+            _ => fit::text(self.facts(), &folder),
         }
     }
 

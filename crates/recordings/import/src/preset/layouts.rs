@@ -1,8 +1,9 @@
 //! The layouts that are known by name: what lies where, what of it is read, what it leaves open.
 
-pub(super) mod facts;
-
 use std::path::Path;
+use std::sync::OnceLock;
+
+use serde::Deserialize;
 
 use crate::import::converter;
 use crate::import::source::has_match;
@@ -11,119 +12,175 @@ use taceva_dataset::DatasetError;
 use taceva_dataset::internal::shown;
 use taceva_dataset::internal::shown_path;
 
+macro_rules! files {
+    ($($name:literal),* $(,)?) => {
+        &[$(($name, include_str!(concat!("maps/", $name, ".toml")))),*]
+    };
+}
+
+/// The presets by name, in the order in which folders are recognised: a file a preset, its map and behind that its `[preset]`.
+const FILES: &[(&str, &str)] = files![
+    "bristol",
+    "py3dcal",
+    "9dtact",
+    "allsight",
+    "sparsh-force",
+    "ycb-slide",
+    "touchd",
+    "tacquad",
+    "poseit",
+    "tool-force",
+    "univtac",
+    "lerobot-v3",
+    "gelsight-live",
+    "fota",
+    "rosbag",
+    "diffusion-zarr",
+];
+
+/// Begins what a file says of the preset, behind its map.
+const SECTION: &str = "[preset]\n";
+
+/// A file or folder without which a folder does not have the layout.
+#[derive(Debug, Deserialize, PartialEq, Eq)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Need {
+    /// Any of these, relative to the folder; `*` stands for any characters within a name. The map names the first, and reads that which is there.
+    pub(super) any_of: Vec<String>,
+    pub(super) what: String,
+}
+
+/// Texts of the map that others replace where no file is like `absent`.
+#[derive(Debug, Deserialize, PartialEq, Eq)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Instead {
+    pub(super) absent: String,
+    pub(super) replace: Vec<[String; 2]>,
+}
+
+/// A fit of the map to a folder that takes a function of its own.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum Fit {
+    Bristol,
+    DiffusionZarr,
+    /// The map is a draft of the folder, in the units that the layout is written in.
+    Draft,
+    Poseit,
+    ToolForce,
+    Touchd,
+    Univtac,
+}
+
+/// What is known of a layout.
+#[derive(Debug, Deserialize, PartialEq, Eq)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Layout {
+    #[serde(skip)]
+    name: &'static str,
+    /// The map, or the comments above it where it is drafted.
+    #[serde(skip)]
+    pub(super) map: &'static str,
+    layout: String,
+    reads: String,
+    leaves_open: String,
+    pub(super) needs: Vec<Need>,
+    /// A pattern that other folders lack, where what the layout needs is common.
+    mark: Option<String>,
+    #[serde(default)]
+    pub(super) instead: Vec<Instead>,
+    pub(super) fit: Option<Fit>,
+    /// Whether lines of columns that the first table lacks are left out.
+    #[serde(default)]
+    pub(super) drops_absent_columns: bool,
+}
+
+impl Layout {
+    fn read(name: &'static str, file: &'static str) -> Layout {
+        let (map, section) = file.split_once(SECTION).unwrap_or_default();
+        let layout: Layout = toml::from_str(section)
+            .unwrap_or_else(|error| unreachable!("maps/{name}.toml is tested: {error}"));
+        Layout {
+            name,
+            map,
+            ..layout
+        }
+    }
+}
+
 /// A layout whose map is built in.
 ///
 /// ```
 /// use taceva_import::Preset;
 ///
-/// assert_eq!(Preset::from_name("bristol"), Some(Preset::Bristol));
-/// for preset in Preset::ALL {
+/// assert!(Preset::from_name("bristol").is_some());
+/// for preset in Preset::all() {
 ///     println!("{}: {}", preset.name(), preset.layout());
 /// }
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Preset {
-    /// `targets.csv` beside `sensor_images/` or `images/`, of either generation of columns.
-    Bristol,
-    /// `annotations/probe_data.csv`, `probe_images/` and `blank_images/`.
-    Py3dcal,
-    /// Pictures in `image/`, wrenches in `wrench/`, each in a file of its own.
-    NineDTact,
-    /// One JSON file for each session below `GEL/LED/data/`, pictures below `GEL/LED/images/`.
-    AllSight,
-    /// Pickles of encoded pictures and one of presses, in one folder for each batch.
-    SparshForce,
-    /// `synced_data.npy` with a dictionary in it, and the pictures it names.
-    YcbSlide,
-    /// `all_data_direction.json` with lists of picture and force.
-    Touchd,
-    /// `contact_indoor.csv` and `data_indoor/`.
-    Tacquad,
-    /// One folder for each grasp, with `gelsight/`, `f_t.csv` and `stages.csv`.
-    PoseIt,
-    /// `tactile1/`, `tactile2/` and `force/` for each trial.
-    ToolForce,
-    /// HDF5 with `/tactile/left_gsmini/` or `/tactile/left_tactile/`.
-    UniVtac,
-    /// LeRobot, versions 2.1 and 3.0.
-    LerobotV3,
-    /// Pictures of a live view.
-    GelsightLive,
-    /// Shards of WebDataset.
-    Fota,
-    /// An MCAP recording of ROS 2.
-    Rosbag,
-    /// A store of zarr with `data` and `meta/episode_ends`.
-    DiffusionZarr,
-}
+pub struct Preset(&'static Layout);
 
 impl Preset {
     /// Every preset.
-    pub const ALL: [Preset; 16] = [
-        Preset::Bristol,
-        Preset::Py3dcal,
-        Preset::NineDTact,
-        Preset::AllSight,
-        Preset::SparshForce,
-        Preset::YcbSlide,
-        Preset::Touchd,
-        Preset::Tacquad,
-        Preset::PoseIt,
-        Preset::ToolForce,
-        Preset::UniVtac,
-        Preset::LerobotV3,
-        Preset::GelsightLive,
-        Preset::Fota,
-        Preset::Rosbag,
-        Preset::DiffusionZarr,
-    ];
+    pub fn all() -> impl Iterator<Item = Preset> {
+        static LAYOUTS: OnceLock<Vec<Layout>> = OnceLock::new();
+        let layouts = LAYOUTS.get_or_init(|| {
+            let files = FILES.iter();
+            files.map(|(name, file)| Layout::read(name, file)).collect()
+        });
+        layouts.iter().map(Preset)
+    }
+
+    pub(super) fn facts(self) -> &'static Layout {
+        self.0
+    }
 
     /// The name on the command line.
-    pub const fn name(self) -> &'static str {
-        self.facts().name
+    pub fn name(self) -> &'static str {
+        self.0.name
     }
 
     /// What lies where in the folder.
     ///
     /// ```
-    /// assert!(taceva_import::Preset::Py3dcal.layout().contains("annotations/probe_data.csv"));
+    /// assert!(taceva_import::Preset::from_name("py3dcal").is_some_and(|preset| preset.layout().contains("annotations/probe_data.csv")));
     /// ```
-    pub const fn layout(self) -> &'static str {
-        self.facts().layout
+    pub fn layout(self) -> &'static str {
+        &self.0.layout
     }
 
     /// What of it is read, with the units that are taken for it.
     ///
     /// ```
-    /// assert!(taceva_import::Preset::ToolForce.reads().contains("Fz"));
+    /// assert!(taceva_import::Preset::from_name("tool-force").is_some_and(|preset| preset.reads().contains("Fz")));
     /// ```
-    pub const fn reads(self) -> &'static str {
-        self.facts().reads
+    pub fn reads(self) -> &'static str {
+        &self.0.reads
     }
 
     /// What the layout does not say, or what of it is not read.
     ///
     /// ```
-    /// assert!(taceva_import::Preset::GelsightLive.leaves_open().contains("force"));
+    /// assert!(taceva_import::Preset::from_name("gelsight-live").is_some_and(|preset| preset.leaves_open().contains("force")));
     /// ```
-    pub const fn leaves_open(self) -> &'static str {
-        self.facts().leaves_open
+    pub fn leaves_open(self) -> &'static str {
+        &self.0.leaves_open
     }
 
     /// The preset called `name`.
     pub fn from_name(name: &str) -> Option<Preset> {
-        Preset::ALL.into_iter().find(|preset| preset.name() == name)
+        Preset::all().find(|preset| preset.name() == name)
     }
 
     /// The preset whose layout the folder at `source` has.
     pub(crate) fn recognised(source: &Path) -> Option<Preset> {
         let is_there = |pattern: &str| has_match(source, pattern);
-        Preset::ALL.into_iter().find(|preset| {
+        Preset::all().find(|preset| {
             let facts = preset.facts();
             let mut needs = facts.needs.iter();
             needs.all(|need| need.any_of.iter().any(|pattern| is_there(pattern)))
-                && facts.mark.is_none_or(is_there)
+                && facts.mark.as_deref().is_none_or(is_there)
         })
     }
 
@@ -133,7 +190,7 @@ impl Preset {
     /// [`DatasetError::Path`] naming what was expected where.
     pub(super) fn check(self, folder: &SourceFolder) -> Result<(), DatasetError> {
         let facts = self.facts();
-        let is_there = |pattern: &&str| has_match(folder.path(), pattern);
+        let is_there = |pattern: &String| has_match(folder.path(), pattern);
         let mut needs = facts.needs.iter();
         let Some(missing) = needs.find(|need| !need.any_of.iter().any(is_there)) else {
             return Ok(());
@@ -176,8 +233,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_and_presets_are_one_to_one() {
-        for preset in Preset::ALL {
+    fn every_file_says_what_its_preset_is_and_names_are_one_to_one() {
+        assert!(FILES.iter().all(|(_, file)| file.contains(SECTION)));
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/preset/maps");
+        let files = std::fs::read_dir(folder).expect("listed").flatten();
+        // The older columns of Bristol have a map of their own and are no preset.
+        assert_eq!(files.count(), FILES.len() + 1);
+        for preset in Preset::all() {
             assert_eq!(Preset::from_name(preset.name()), Some(preset));
         }
         assert_eq!(Preset::from_name("no such"), None);
@@ -188,7 +250,7 @@ mod tests {
         let empty = tempfile::tempdir().expect("a folder");
         let folder = SourceFolder::open(empty.path()).expect("opens");
         assert_eq!(Preset::recognised(empty.path()), None);
-        for preset in Preset::ALL {
+        for preset in Preset::all() {
             let message = preset.check(&folder).expect_err("empty").to_string();
             let expected = format!("preset {} expects", preset.name());
             assert!(message.contains(&expected), "{message}");
@@ -200,8 +262,12 @@ mod tests {
         let lab = tempfile::tempdir().expect("a folder");
         std::fs::write(lab.path().join("targets.csv"), "x").expect("written");
         let folder = SourceFolder::open(lab.path()).expect("opens");
-        assert_eq!(Preset::recognised(lab.path()), Some(Preset::Bristol));
-        let message = Preset::Rosbag
+        assert_eq!(
+            Preset::recognised(lab.path()),
+            Preset::from_name("bristol")
+        );
+        let message = Preset::from_name("rosbag")
+            .expect("a preset")
             .check(&folder)
             .expect_err("no MCAP")
             .to_string();
@@ -212,7 +278,8 @@ mod tests {
         let bags = tempfile::tempdir().expect("a folder");
         std::fs::write(bags.path().join("run_0.db3"), "x").expect("written");
         let folder = SourceFolder::open(bags.path()).expect("opens");
-        let message = Preset::Rosbag
+        let message = Preset::from_name("rosbag")
+            .expect("a preset")
             .check(&folder)
             .expect_err("no MCAP")
             .to_string();

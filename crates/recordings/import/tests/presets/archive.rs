@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use flate2::Compression;
 use flate2::write::GzEncoder;
-use taceva_import::{ImportMap, ImportPlan, MapDraft, Preset, UnpackedArchive};
+use super::preset;
+use taceva_import::{ImportMap, ImportPlan, MapDraft, UnpackedArchive};
 use tar::{Builder, EntryType, Header};
 
 use super::{drawn, import};
@@ -112,7 +113,7 @@ fn an_archive_gives_the_dataset_of_the_folder_packed_or_compressed() {
     let plain = lab.path().join("run.tar");
     packed(&drawn("bristol"), &plain);
     let digest = |source: &Path, name: &str| {
-        let map = Preset::Bristol.map(source).expect("a map");
+        let map = preset("bristol").map(source).expect("a map");
         import(source, &map, &lab.path().join(name)).digest()
     };
     let expected = digest(&drawn("bristol"), "folder");
@@ -281,7 +282,7 @@ fn every_cut_and_every_flipped_bit_of_a_shard_is_refused_or_read() {
     std::fs::write(&path, &bytes).expect("written");
     let map = ImportMap::parse(
         "map.toml".as_ref(),
-        &Preset::Fota.text(lab.path()).expect("a map"),
+        &preset("fota").text(lab.path()).expect("a map"),
     )
     .expect("a map");
     let mut refused = 0;

@@ -12,7 +12,8 @@ use taceva_import::{Decoders, ImportMap, ImportPlan, MapDraft, Preset};
 
 /// What an import of a layout gives.
 struct Expected {
-    preset: Preset,
+    /// The name of the preset.
+    preset: &'static str,
     rows: usize,
     channels: &'static [&'static str],
     /// Row, channel, number in the unit that is kept.
@@ -27,7 +28,7 @@ struct Expected {
 /// Torques are kept in N·mm, places in mm.
 const EXPECTED: [Expected; 14] = [
     Expected {
-        preset: Preset::Bristol,
+        preset: "bristol",
         rows: 3,
         channels: &[
             "Px", "Py", "Pz", "Rx", "Ry", "Rz", "shear_Rx", "shear_Ry", "shear_Rz", "shear_x",
@@ -40,7 +41,7 @@ const EXPECTED: [Expected; 14] = [
         time: None,
     },
     Expected {
-        preset: Preset::Py3dcal,
+        preset: "py3dcal",
         rows: 3,
         channels: &["Px", "Py", "Pz"],
         numbers: &[(1, "Px", 2.0), (2, "Py", 5.0), (0, "Pz", 0.5)],
@@ -50,7 +51,7 @@ const EXPECTED: [Expected; 14] = [
         time: None,
     },
     Expected {
-        preset: Preset::NineDTact,
+        preset: "9dtact",
         rows: 3,
         channels: &["Fx", "Fy", "Fz", "Tx", "Ty", "Tz"],
         numbers: &[
@@ -65,7 +66,7 @@ const EXPECTED: [Expected; 14] = [
         time: None,
     },
     Expected {
-        preset: Preset::AllSight,
+        preset: "allsight",
         rows: 3,
         channels: &["Px", "Py", "Pz", "Fx", "Fy", "Fz", "Tx", "Ty", "Tz"],
         numbers: &[(1, "Fy", -0.5), (2, "Fz", 3.5), (1, "Px", 2000.0)],
@@ -79,7 +80,7 @@ const EXPECTED: [Expected; 14] = [
         time: Some((2, 1.0)),
     },
     Expected {
-        preset: Preset::SparshForce,
+        preset: "sparsh-force",
         rows: 4,
         channels: &["Fx", "Fy", "Fz"],
         numbers: &[(0, "Fz", 2.5), (2, "Fx", 1.0), (3, "Fz", 6.5)],
@@ -90,7 +91,7 @@ const EXPECTED: [Expected; 14] = [
         time: None,
     },
     Expected {
-        preset: Preset::YcbSlide,
+        preset: "ycb-slide",
         rows: 3,
         channels: &["Px", "Py", "Pz"],
         numbers: &[(1, "Px", 2000.0), (2, "Py", 5000.0)],
@@ -100,7 +101,7 @@ const EXPECTED: [Expected; 14] = [
         time: Some((1, 10.5)),
     },
     Expected {
-        preset: Preset::Touchd,
+        preset: "touchd",
         rows: 3,
         channels: &["Fx", "Fy", "Fz"],
         numbers: &[(1, "Fy", -0.5), (2, "Fz", 3.5)],
@@ -110,7 +111,7 @@ const EXPECTED: [Expected; 14] = [
         time: None,
     },
     Expected {
-        preset: Preset::Tacquad,
+        preset: "tacquad",
         rows: 3,
         channels: &[],
         numbers: &[],
@@ -124,7 +125,7 @@ const EXPECTED: [Expected; 14] = [
         time: None,
     },
     Expected {
-        preset: Preset::PoseIt,
+        preset: "poseit",
         rows: 3,
         channels: &["Fx", "Fy", "Fz", "Tx", "Ty", "Tz"],
         // The first of the forces of a second.
@@ -139,7 +140,7 @@ const EXPECTED: [Expected; 14] = [
         time: Some((1, 1_612_630_173.0)),
     },
     Expected {
-        preset: Preset::ToolForce,
+        preset: "tool-force",
         rows: 3,
         channels: &["Fz"],
         numbers: &[(0, "Fz", 1.5), (2, "Fz", 3.5)],
@@ -149,7 +150,7 @@ const EXPECTED: [Expected; 14] = [
         time: None,
     },
     Expected {
-        preset: Preset::UniVtac,
+        preset: "univtac",
         rows: 3,
         channels: &["Px", "Py", "Pz"],
         numbers: &[(1, "Px", 2000.0), (2, "Py", 5000.0)],
@@ -159,7 +160,7 @@ const EXPECTED: [Expected; 14] = [
         time: None,
     },
     Expected {
-        preset: Preset::GelsightLive,
+        preset: "gelsight-live",
         rows: 3,
         channels: &[],
         numbers: &[],
@@ -169,7 +170,7 @@ const EXPECTED: [Expected; 14] = [
         time: None,
     },
     Expected {
-        preset: Preset::Fota,
+        preset: "fota",
         rows: 6,
         channels: &["Px", "Py", "Pz"],
         numbers: &[(1, "Px", 2.0), (5, "Py", 5.0)],
@@ -179,7 +180,7 @@ const EXPECTED: [Expected; 14] = [
         time: None,
     },
     Expected {
-        preset: Preset::DiffusionZarr,
+        preset: "diffusion-zarr",
         rows: 3,
         channels: &["Fx", "Fy", "Fz"],
         numbers: &[(1, "Fx", 0.25), (2, "Fz", 3.5)],
@@ -189,6 +190,10 @@ const EXPECTED: [Expected; 14] = [
         time: None,
     },
 ];
+
+pub(crate) fn preset(name: &str) -> Preset {
+    Preset::from_name(name).expect("a preset")
+}
 
 /// The folder that is drawn in a layout.
 pub(crate) fn drawn(name: &str) -> PathBuf {
@@ -205,7 +210,7 @@ fn import(source: &Path, map: &ImportMap, target: &Path) -> Dataset {
 
 impl Expected {
     fn hold(&self, dataset: &Dataset) {
-        let name = self.preset.name();
+        let name = self.preset;
         let table = dataset.table();
         assert_eq!(table.rows(), self.rows, "{name}");
         let mut channels: Vec<&str> = dataset
@@ -267,9 +272,8 @@ impl Expected {
 fn every_layout_is_imported_by_its_preset() {
     for expected in EXPECTED {
         let target = tempfile::tempdir().expect("a folder");
-        let source = drawn(expected.preset.name());
-        let map = expected
-            .preset
+        let source = drawn(expected.preset);
+        let map = preset(expected.preset)
             .map(&source)
             .unwrap_or_else(|error| panic!("{error}"));
         let dataset = import(&source, &map, &target.path().join("set"));
@@ -279,10 +283,11 @@ fn every_layout_is_imported_by_its_preset() {
 
 #[test]
 fn lerobot_and_ros_recordings_of_other_libraries_are_imported_by_their_presets() {
-    for (preset, recording, rows) in [
-        (Preset::LerobotV3, "lerobot-v3-h264", 24),
-        (Preset::Rosbag, "mcap-none", 24),
+    for (name, recording, rows) in [
+        ("lerobot-v3", "lerobot-v3-h264", 24),
+        ("rosbag", "mcap-none", 24),
     ] {
+        let preset = preset(name);
         let own = Path::new(env!("CARGO_MANIFEST_DIR"))
             .join("../../../tests/recordings")
             .join(recording);
@@ -321,7 +326,7 @@ fn lerobot_and_ros_recordings_of_other_libraries_are_imported_by_their_presets()
 #[test]
 fn every_drawn_folder_is_recognised_and_a_draft_names_its_preset() {
     for expected in EXPECTED {
-        let name = expected.preset.name();
+        let name = expected.preset;
         let draft = MapDraft::of(&drawn(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
         let line = format!("--preset {name}");
         assert!(draft.text().contains(&line), "{name}: {}", draft.text());
@@ -330,7 +335,7 @@ fn every_drawn_folder_is_recognised_and_a_draft_names_its_preset() {
 
 #[test]
 fn a_preset_on_a_folder_of_another_layout_names_what_it_expects_and_which_fits() {
-    let error = Preset::PoseIt
+    let error = preset("poseit")
         .map(&drawn("tacquad"))
         .expect_err("no grasps");
     let message = error.to_string();
@@ -346,9 +351,9 @@ fn a_preset_on_a_folder_of_another_layout_names_what_it_expects_and_which_fits()
 #[test]
 fn the_written_map_is_the_map_that_is_imported() {
     for expected in EXPECTED {
-        let source = drawn(expected.preset.name());
-        let text = expected.preset.text(&source).expect("a map");
+        let source = drawn(expected.preset);
+        let text = preset(expected.preset).text(&source).expect("a map");
         let parsed = ImportMap::parse("map.toml".as_ref(), &text).expect("a map");
-        assert_eq!(parsed, expected.preset.map(&source).expect("a map"));
+        assert_eq!(parsed, preset(expected.preset).map(&source).expect("a map"));
     }
 }

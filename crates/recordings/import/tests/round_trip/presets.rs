@@ -3,7 +3,7 @@
 use std::fs;
 
 use taceva_dataset::Dataset;
-use taceva_import::Preset;
+use crate::presets::preset;
 
 use crate::lab::{Lab, import, png, rgb_png};
 
@@ -38,7 +38,7 @@ fn the_bristol_layout_needs_no_map_in_either_generation() {
             }
         }
         lab.write("run/targets.csv", table.as_bytes());
-        let map = Preset::Bristol.map(&source).expect("a map");
+        let map = preset("bristol").map(&source).expect("a map");
         let report = import(&source, &map, &lab.path("set"), 1).expect("imported");
         let names: Vec<&str> = map
             .channels
@@ -65,7 +65,7 @@ fn the_py3dcal_layout_needs_no_map() {
     lab.write("cal/probe_images/12_X3.0Y4.5Z0.8.png", &rgb_png(8, 6, 1));
     lab.write("cal/blank_images/blank.png", &rgb_png(8, 6, 0));
     let source = lab.path("cal");
-    let map = Preset::Py3dcal.map(&source).expect("a map");
+    let map = preset("py3dcal").map(&source).expect("a map");
     let summary = import(&source, &map, &lab.path("set"), 1)
         .expect("imported")
         .summary;

@@ -2,8 +2,7 @@
 
 use std::path::Path;
 
-use super::layouts::Preset;
-use super::layouts::facts::{FOTA_FILES, UNIVTAC_FILES};
+use super::layouts::{Fit, Layout};
 use super::lines::{kept, without_section};
 use crate::csv_table::CsvTable;
 use crate::foreign::ForeignTable;
@@ -17,50 +16,34 @@ use taceva_dataset::internal::decode;
 use taceva_dataset::internal::limits;
 use taceva_dataset::internal::read_capped;
 
-/// The map that is built in.
-const fn built_in(preset: Preset) -> &'static str {
-    match preset {
-        Preset::Bristol => include_str!("maps/bristol.toml"),
-        Preset::Py3dcal => include_str!("maps/py3dcal.toml"),
-        Preset::NineDTact => include_str!("maps/9dtact.toml"),
-        Preset::AllSight => include_str!("maps/allsight.toml"),
-        Preset::SparshForce => include_str!("maps/sparsh-force.toml"),
-        Preset::YcbSlide => include_str!("maps/ycb-slide.toml"),
-        Preset::Touchd => include_str!("maps/touchd.toml"),
-        Preset::Tacquad => include_str!("maps/tacquad.toml"),
-        Preset::PoseIt => include_str!("maps/poseit.toml"),
-        Preset::ToolForce => include_str!("maps/tool-force.toml"),
-        Preset::UniVtac => include_str!("maps/univtac.toml"),
-        Preset::GelsightLive => include_str!("maps/gelsight-live.toml"),
-        Preset::Fota => include_str!("maps/fota.toml"),
-        Preset::DiffusionZarr => include_str!("maps/diffusion-zarr.toml"),
-        // Made from the folder.
-        Preset::LerobotV3 | Preset::Rosbag => "",
-    }
-}
-
 /// The map for the folder.
-pub(super) fn text(preset: Preset, folder: &SourceFolder) -> Result<String, DatasetError> {
-    let text = built_in(preset).to_owned();
-    let text = match preset {
-        Preset::Bristol => bristol(text, folder)?,
-        Preset::SparshForce if !has_match(folder.path(), "*/*/dataset_digit_*.pkl") => text
-            .replace("dataset_digit_", "dataset_gelsight_")
-            .replace("\"DIGIT\"", "\"GelSight Mini\""),
-        Preset::Touchd => touchd(&text, folder)?,
-        Preset::PoseIt => poseit(&text, folder)?,
-        Preset::ToolForce => tool_force(&text, folder)?,
-        Preset::UniVtac => univtac(&text, folder)?,
-        Preset::Fota => text.replace(FOTA_FILES[0], there(folder, FOTA_FILES)),
-        Preset::DiffusionZarr => diffusion_zarr(&text, folder)?,
-        _ => text,
+pub(super) fn text(layout: &Layout, folder: &SourceFolder) -> Result<String, DatasetError> {
+    let mut text = format!("{}\n", layout.map.trim_end());
+    for instead in &layout.instead {
+        if !has_match(folder.path(), &instead.absent) {
+            for [from, to] in &instead.replace {
+                text = text.replace(from, to);
+            }
+        }
+    }
+    for need in &layout.needs {
+        text = text.replace(&need.any_of[0], there(folder, &need.any_of));
+    }
+    let text = match layout.fit {
+        None | Some(Fit::Draft) => text,
+        Some(Fit::Bristol) => bristol(text, folder)?,
+        Some(Fit::DiffusionZarr) => diffusion_zarr(&text, folder)?,
+        Some(Fit::Poseit) => poseit(&text, folder)?,
+        Some(Fit::ToolForce) => tool_force(&text, folder)?,
+        Some(Fit::Touchd) => touchd(&text, folder)?,
+        Some(Fit::Univtac) => univtac(&text, folder)?,
     };
-    let text = match preset {
-        Preset::AllSight | Preset::SparshForce | Preset::Fota | Preset::Py3dcal => {
+    let text = match layout.drops_absent_columns {
+        true => {
             let table = first_table(&text, folder)?;
             with_time(&kept(&text, |_, column| is_there(&table, column)), &table)
         }
-        _ => text,
+        false => text,
     };
     coloured(text, folder)
 }
@@ -72,7 +55,7 @@ fn first(folder: &SourceFolder, pattern: &str) -> Result<std::path::PathBuf, Dat
 }
 
 /// The first of the patterns that some file is like.
-fn there<'p>(folder: &SourceFolder, patterns: &[&'p str]) -> &'p str {
+fn there<'p>(folder: &SourceFolder, patterns: &'p [String]) -> &'p str {
     let mut found = patterns
         .iter()
         .filter(|pattern| has_match(folder.path(), pattern));
@@ -259,13 +242,12 @@ fn tool_force(text: &str, folder: &SourceFolder) -> Result<String, DatasetError>
     Ok(text.replace("\"force.0\"", &format!("\"force.{last}\"")))
 }
 
-/// Where the episodes lie, and how they call the left gel and its pictures.
+/// The names of the left gel and of its pictures.
 fn univtac(text: &str, folder: &SourceFolder) -> Result<String, DatasetError> {
-    let text = text.replace(UNIVTAC_FILES[0], there(folder, UNIVTAC_FILES));
-    let table = first_table(&text, folder)?;
+    let table = first_table(text, folder)?;
     let text = match table.has("/tactile/left_gsmini/pose") || table.has("/tactile/left_gsmini/rgb")
     {
-        true => text,
+        true => text.to_owned(),
         false => text.replace("left_gsmini/", "left_tactile/"),
     };
     let pictures = quoted(&text, "bytes = \"").unwrap_or_default();
@@ -306,15 +288,15 @@ fn diffusion_zarr(text: &str, folder: &SourceFolder) -> Result<String, DatasetEr
 
 #[cfg(test)]
 mod tests {
+    use super::super::layouts::Preset;
     use super::*;
 
     #[test]
     fn every_built_in_map_is_a_map() {
         let numbered = include_str!("maps/bristol-numbered.toml");
-        let others = Preset::ALL
-            .into_iter()
-            .map(built_in)
-            .filter(|text| !text.is_empty());
+        let others = Preset::all()
+            .filter(|preset| preset.facts().fit != Some(Fit::Draft))
+            .map(|preset| preset.facts().map);
         for text in others.chain([numbered]) {
             ImportMap::parse(Path::new("preset.toml"), &kept(text, |_, _| true)).expect("a map");
         }
