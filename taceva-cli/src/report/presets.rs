@@ -65,7 +65,7 @@ struct WrittenPreset {
 
 impl WrittenPresets {
     fn all() -> WrittenPresets {
-        let presets = Preset::all().iter().map(|preset| WrittenPreset {
+        let presets = Preset::all().map(|preset| WrittenPreset {
             name: preset.name(),
             layout: preset.layout(),
             reads: preset.reads(),

@@ -162,7 +162,9 @@ fn decode_png(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     decoder.set_transformations(png::Transformations::EXPAND);
     let (width, height) = decoder.read_header_info().map_err(text)?.size();
     if width.max(height) > limits::IMAGE_SIDE {
-        return Err(format!("an image of {width}×{height}, larger than is accepted"));
+        return Err(format!(
+            "an image of {width}×{height}, larger than is accepted"
+        ));
     }
     let mut reader = decoder.read_info().map_err(text)?;
     let length = reader.output_buffer_size();
@@ -312,11 +314,7 @@ fn without_alpha<const PIXEL: usize, const ALPHA: usize>(pixels: &[u8]) -> Resul
 }
 
 /// The pixels with their colours in order, if `order` can be meant.
-fn in_order(
-    info: FrameInfo,
-    mut pixels: Vec<u8>,
-    order: ChannelOrder,
-) -> Result<Vec<u8>, String> {
+fn in_order(info: FrameInfo, mut pixels: Vec<u8>, order: ChannelOrder) -> Result<Vec<u8>, String> {
     let is_gray = info.format.samples() == 1;
     if is_gray != (order == ChannelOrder::Gray) {
         return Err(format!(

@@ -2,6 +2,7 @@
 
 use std::fs::{self, File, Metadata};
 use std::io::{Read, Write};
+use std::os::unix::fs::MetadataExt;
 use std::path::{Component, Path};
 
 use taceva_files::sync_folder;
@@ -85,6 +86,14 @@ pub fn write_durable(path: &Path, bytes: &[u8]) -> Result<(), DatasetError> {
 /// Forces the names in a folder to disk.
 pub(crate) fn make_names_durable(folder: &Path) -> Result<(), DatasetError> {
     sync_folder(folder).map_err(DatasetError::io("make durable", folder))
+}
+
+/// Whether `path` is still the name of what is held.
+pub(crate) fn is_same(held: &File, path: &Path) -> bool {
+    let (Ok(held), Ok(named)) = (held.metadata(), fs::metadata(path)) else {
+        return false;
+    };
+    (held.dev(), held.ino()) == (named.dev(), named.ino())
 }
 
 #[cfg(test)]

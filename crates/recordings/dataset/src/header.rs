@@ -31,7 +31,8 @@ use crate::limits;
 use crate::signals::{SignalsInfo, WrittenSignals};
 use crate::toml_file::{parse_toml, toml_error, utf8};
 use crate::version::Version;
-use taceva_files::seal::{Edit, Opened};
+use taceva_files::seal::Version::Sealed;
+use taceva_files::seal::{Edit, Opened, toml_text};
 
 pub(crate) use content_digest::dataset_digest;
 pub use extended::Extension;
@@ -190,11 +191,10 @@ impl Header {
         }
         // A text that is no TOML is refused with its line.
         parse_toml::<toml::Table>(path, &text)?;
-        let seal =
-            taceva_files::seal::toml_text::check(&text, taceva_files::seal::Version::Sealed).map_err(|source| DatasetError::Seal {
-                path: path.to_owned(),
-                source,
-            }
+        let checked = toml_text::check(&text, Sealed);
+        let seal = checked.map_err(|source| DatasetError::Seal {
+            path: path.to_owned(),
+            source,
         })?;
         let written: Written = parse_toml(path, &text)?;
         let channels = written
@@ -255,7 +255,7 @@ impl Header {
 
     /// The text of the header, sealed.
     pub(crate) fn to_toml(&self) -> String {
-        taceva_files::seal::toml_text::seal(&self.body()).expect("what was just written is TOML")
+        toml_text::seal(&self.body()).expect("what was just written is TOML")
     }
 
     /// What the text says.

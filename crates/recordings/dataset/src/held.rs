@@ -1,14 +1,14 @@
 //! The folder of a dataset that is being read: held open, so that the same files are read whatever becomes of its name.
 
-use std::fs::{self, File, TryLockError};
+use std::fs::{File, TryLockError};
 use std::io::{self, Read};
-use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use rustix::fs::{Mode, OFlags, openat};
 
 use crate::error::DatasetError;
+use crate::file::is_same;
 use crate::layout;
 use crate::replaced::settle;
 
@@ -118,12 +118,4 @@ fn open_in(folder: &File, relative: &str) -> io::Result<File> {
 fn is_there(folder: &File, name: &str) -> bool {
     use rustix::fs::{AtFlags, statat};
     statat(folder, name, AtFlags::empty()).is_ok()
-}
-
-/// Whether `path` is still the name of what is held.
-pub(crate) fn is_same(held: &File, path: &Path) -> bool {
-    let (Ok(held), Ok(named)) = (held.metadata(), fs::metadata(path)) else {
-        return false;
-    };
-    (held.dev(), held.ino()) == (named.dev(), named.ino())
 }

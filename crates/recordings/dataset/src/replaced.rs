@@ -13,8 +13,7 @@ use std::time::Duration;
 use taceva_files::parent_of;
 
 use crate::error::DatasetError;
-use crate::file::make_names_durable;
-use crate::held::is_same;
+use crate::file::{is_same, make_names_durable};
 use crate::layout;
 
 /// The most old datasets of one name that are kept while they are still read.

@@ -7,8 +7,7 @@ use std::path::{Path, PathBuf};
 use taceva_files::parent_of;
 
 use crate::error::DatasetError;
-use crate::file::make_names_durable;
-use crate::held::is_same;
+use crate::file::{is_same, make_names_durable};
 use crate::layout;
 use crate::lock::lock_folder;
 use crate::replaced;

@@ -162,7 +162,8 @@ fn a_header_that_says_something_else_of_the_taxels_is_refused() {
         assert!(Dataset::open(&path).is_err(), "{from} → {to}");
         // And by whoever accepts the edit, by the digest of what the file says.
         let text = fs::read_to_string(&header).expect("there");
-        let sealed = taceva_files::seal::toml_text::reseal(&text, "2026-01-01", "a test").expect("sealed");
+        let sealed =
+            taceva_files::seal::toml_text::reseal(&text, "2026-01-01", "a test").expect("sealed");
         fs::write(&header, sealed).expect("written");
         let read = Dataset::open(&path).and_then(|dataset| dataset.verify_frames());
         assert!(read.is_err(), "{from} → {to}");

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use taceva_dataset::internal::{is_foreign_folder, quoted, shown};
 
-use crate::preset::layouts::Preset;
+use crate::layouts::Preset;
 
 /// The command that makes a dataset of the folder at `path`, if it has a known layout or a table.
 ///

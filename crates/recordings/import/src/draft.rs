@@ -10,7 +10,7 @@ mod written;
 
 use std::path::Path;
 
-use crate::preset::layouts::Preset;
+use crate::layouts::Preset;
 use crate::source_folder::SourceFolder;
 use survey::FileGroup;
 use tables::SeenTable;

@@ -156,7 +156,7 @@ impl<'a> ExportPlan<'a> {
         };
         progress.end();
         let (map, folders) = written?;
-        let map = map::text(&exported, form, &map);
+        let map = map::text(&exported, &map);
         write_durable(&staged.path().join(MAP), map.as_bytes())?;
         staged.put_in_place(&folders)?;
         let pictures = exported.pictures.as_ref();

@@ -25,7 +25,7 @@ use std::sync::Arc;
 use taceva_arrays::ArrayFormat;
 
 use crate::csv_table::CsvTable;
-use crate::import::FrameNames;
+use crate::frame_names::FrameNames;
 use crate::source_folder::SourceFolder;
 use taceva_dataset::DatasetError;
 use taceva_dataset::Place;

@@ -21,11 +21,11 @@ mod suspicion;
 pub use archive::UnpackedArchive;
 pub use copy::ImportReport;
 pub use extend::Addition;
+pub(crate) use map::converter;
 pub use map::{
     ArrayFrames, ArrayLayout, ColumnMap, DropRules, FrameMap, FrameNames, IdMap, ImportMap,
     PixelRange, Placeholder, TimeMap, VideoFrames,
 };
-pub(crate) use map::{OWN_ROW, converter};
 pub use plan::ImportPlan;
 pub use summary::{Conversion, ImportSummary, JoinSummary};
 pub use suspicion::{Suspicion, magnitude_suspicion};

@@ -5,7 +5,9 @@ mod csv_table;
 mod draft;
 mod export;
 mod foreign;
+mod frame_names;
 mod import;
+mod layouts;
 mod preset;
 mod source_folder;
 
@@ -20,5 +22,5 @@ pub use import::{
     IdMap, ImportMap, ImportPlan, ImportReport, ImportSummary, JoinSummary, PixelRange,
     Placeholder, Suspicion, TimeMap, UnpackedArchive, VideoFrames, magnitude_suspicion,
 };
-pub use preset::Preset;
+pub use layouts::Preset;
 pub use taceva_video::Decoders;

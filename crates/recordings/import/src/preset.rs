@@ -2,7 +2,6 @@
 
 mod draft_map;
 mod fit;
-pub(crate) mod layouts;
 mod lines;
 
 use std::path::Path;
@@ -11,8 +10,7 @@ use crate::import::ImportMap;
 use crate::source_folder::SourceFolder;
 use taceva_dataset::DatasetError;
 
-use layouts::Fit;
-pub use layouts::Preset;
+use crate::layouts::{Fit, Preset};
 
 impl Preset {
     /// The map for the folder at `source`, with comments that say what of it was verified: what `import --preset` reads, to be printed and adapted.

@@ -41,9 +41,9 @@ pub use figures::{Race, RacePoint, figures, model_bench, names, race};
 pub use html::{Pick, Picture, Report, Triple, picks, report};
 pub use number::{FormattedValue, spaced, with_interval};
 pub use results::{
-    BENCH_SCHEMA, BenchMachine, BenchRecording, ChannelError,
-    EVALUATION_SCHEMA, Interval, Made, ModelBench, ModelRow, OverSeeds, RUN_SCHEMA, ResultsError,
-    Score, SeedScore, Skip, Study, Value, Variant,
+    BENCH_SCHEMA, BenchMachine, BenchRecording, ChannelError, EVALUATION_SCHEMA, Interval, Made,
+    ModelBench, ModelRow, OverSeeds, RUN_SCHEMA, ResultsError, Score, SeedScore, Skip, Study,
+    Value, Variant,
 };
 pub use samples::{SampleChannel, Samples, SamplesError};
 pub use scores::{ScoreCell, ScoreRow, ScoreTable};

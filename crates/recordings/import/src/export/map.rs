@@ -3,7 +3,6 @@
 use std::fmt::Write as _;
 
 use super::exported::Exported;
-use super::form::ExportForm;
 use taceva_dataset::ChannelOrder;
 use taceva_dataset::Footprint;
 use taceva_dataset::ReducedFrames;
@@ -65,7 +64,7 @@ const ORIGIN: [(&str, &str); 3] = [
 ];
 
 /// The map of an export of which `written` says where things are.
-pub(super) fn text(exported: &Exported<'_>, form: ExportForm, written: &Written) -> String {
+pub(super) fn text(exported: &Exported<'_>, written: &Written) -> String {
     let header = exported.dataset.header();
     let table = exported.dataset.table();
     let has = |name: &str| exported.columns.iter().any(|column| column.name == name);

@@ -15,7 +15,7 @@ use taceva_arrays::{ArrayFile, ArrayFormat, Element, Problem};
 
 use super::columns::{ColumnSource, PictureColumn, Stated};
 use super::pictures::Pictures;
-use crate::import::FrameNames;
+use crate::frame_names::FrameNames;
 pub(crate) use frames::ArrayPictures;
 use group::{Group, candidates, rows_of};
 pub(crate) use said::stated;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::pictures::Pictures;
-use crate::import::FrameNames;
+use crate::frame_names::FrameNames;
 use taceva_dataset::DatasetError;
 use taceva_dataset::Place;
 use taceva_dataset::internal::guarded;

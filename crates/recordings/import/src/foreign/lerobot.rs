@@ -9,7 +9,7 @@ use super::columns::{ColumnSource, PictureColumn, PictureKind};
 use super::encoded::{ByteColumns, EncodedPictures};
 use super::pictures::Pictures;
 use super::said;
-use crate::import::FrameNames;
+use crate::frame_names::FrameNames;
 
 /// The rows of all episodes, in order.
 #[derive(Debug)]

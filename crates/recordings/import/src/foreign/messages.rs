@@ -9,7 +9,7 @@ use taceva_tables::{Cell, Mcap, McapTable, SampleForm};
 use super::columns::{ColumnSource, PictureColumn, PictureKind};
 use super::pictures::{Ended, Picture, Pictures, Visit, damaged, guarded_visit};
 use super::said;
-use crate::import::FrameNames;
+use crate::frame_names::FrameNames;
 use taceva_dataset::ChannelOrder;
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::guarded;

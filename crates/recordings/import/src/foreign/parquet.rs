@@ -10,7 +10,7 @@ use super::columns::{ColumnSource, PictureColumn, PictureKind};
 use super::encoded::{ByteColumns, EncodedPictures};
 use super::pictures::Pictures;
 use super::said;
-use crate::import::FrameNames;
+use crate::frame_names::FrameNames;
 use taceva_dataset::internal::ImageKind;
 
 /// The rows of a Parquet file.

@@ -12,7 +12,7 @@ use super::columns::{ColumnSource, PictureColumn, PictureKind};
 use super::json::json_problem;
 use super::pictures::{Picture, Pictures, Visit, damaged};
 use super::tar::{FileTape, Members, TarError};
-use crate::import::FrameNames;
+use crate::frame_names::FrameNames;
 use taceva_dataset::ChannelOrder;
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::ImageKind;

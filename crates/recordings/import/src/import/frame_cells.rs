@@ -42,7 +42,10 @@ pub(super) fn filled<'c>(parts: &'c [PatternPart], cell: impl Fn(usize) -> &'c s
 }
 
 impl FrameCells {
-    pub(super) fn find(names: &FrameNames, table: &ResolvedTable) -> Result<FrameCells, DatasetError> {
+    pub(super) fn find(
+        names: &FrameNames,
+        table: &ResolvedTable,
+    ) -> Result<FrameCells, DatasetError> {
         Ok(match names {
             FrameNames::Column(name) => FrameCells::Column(table.position(name)?),
             FrameNames::Pattern(pattern) => FrameCells::Pattern(parts(pattern, table)?),

@@ -5,7 +5,6 @@ mod check;
 mod columns;
 mod drop;
 mod extended;
-mod frames;
 mod join;
 mod matrix;
 mod path_pattern;
@@ -26,17 +25,19 @@ use taceva_dataset::DatasetError;
 use taceva_dataset::RecordingFacts;
 use taceva_dataset::internal::read_toml_text;
 
-pub(crate) use frames::{OWN_ROW, REFERENCE_ATTRIBUTE};
+pub(crate) use crate::frame_names::{OWN_ROW, REFERENCE_ATTRIBUTE};
 pub(crate) use join::{JoinBy, JoinMap, Pick, TimeJoin, Unmatched};
 pub(crate) use matrix::{MatrixMap, MatrixRows};
 pub(crate) use path_pattern::PathPattern;
 pub(crate) use signals::{SignalsFrom, SignalsMap};
 pub(crate) use written_table::converter;
 
+pub use crate::frame_names::{
+    ArrayFrames, ArrayLayout, FrameMap, FrameNames, PixelRange, VideoFrames,
+};
 pub(crate) use columns::OriginMap;
 pub use columns::{ColumnMap, IdMap, TimeMap};
 pub use drop::{DropRules, Placeholder};
-pub use frames::{ArrayFrames, ArrayLayout, FrameMap, FrameNames, PixelRange, VideoFrames};
 
 /// A checked map.
 ///

@@ -26,7 +26,7 @@ pub(super) use join::JoinMatches;
 pub(super) use matrix::matrix_rows;
 pub(super) use named_by::NamedBy;
 pub(super) use signals::place_first;
-pub(super) use stated::problem_of_signals;
+pub(super) use stated::{problem_of_name, problem_of_signals};
 pub(super) use table::ResolvedTable;
 
 /// A table in which every column that the map names is found by that name.

@@ -226,7 +226,10 @@ impl<'a> MappedTable<'a> {
         let [table, of_table, frame] = self.origin;
         let (source_table, source_row) = match &self.map.origin {
             Some(_) => (text(table), self.count(row, of_table)?),
-            None => (Some(self.table.source().to_owned()), u32::try_from(row).ok()),
+            None => (
+                Some(self.table.source().to_owned()),
+                u32::try_from(row).ok(),
+            ),
         };
         let mut read = Row::new(sample);
         read.point_id = self.point_id(row);
@@ -284,13 +287,9 @@ impl<'a> MappedTable<'a> {
             }
             FrameCells::Clips(clips) => {
                 let (file, frame) = &clips[row];
-                let inside = self
-                    .table
-                    .source()
-                    .filter(|folder| !matches!(*folder, "" | "."));
-                let file = match inside {
-                    Some(folder) => format!("{folder}/{file}"),
-                    None => file.clone(),
+                let file = match self.table.source() {
+                    "" | "." => file.clone(),
+                    folder => format!("{folder}/{file}"),
                 };
                 (FrameName::Within(Some(file), *frame), usize::MAX)
             }

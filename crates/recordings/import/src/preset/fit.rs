@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use super::layouts::{Fit, Layout};
 use super::lines::{kept, without_section};
 use crate::csv_table::CsvTable;
 use crate::foreign::ForeignTable;
 use crate::import::ImportMap;
 use crate::import::source::{has_match, matching_files};
+use crate::layouts::{Fit, Layout};
 use crate::source_folder::SourceFolder;
 use taceva_dataset::ChannelOrder;
 use taceva_dataset::DatasetError;
@@ -140,7 +140,7 @@ fn quoted<'t>(text: &'t str, before: &str) -> Option<&'t str> {
 fn bristol(text: String, folder: &SourceFolder) -> Result<String, DatasetError> {
     let table = CsvTable::read(&folder.file(folder.path(), "targets.csv")?)?;
     let mut text = match table.has("pose_1") {
-        true => include_str!("maps/bristol-numbered.toml").to_owned(),
+        true => include_str!("../layouts/bristol-numbered.toml").to_owned(),
         false => text,
     };
     let mut has_force = false;
@@ -288,12 +288,12 @@ fn diffusion_zarr(text: &str, folder: &SourceFolder) -> Result<String, DatasetEr
 
 #[cfg(test)]
 mod tests {
-    use super::super::layouts::Preset;
     use super::*;
+    use crate::layouts::Preset;
 
     #[test]
     fn every_built_in_map_is_a_map() {
-        let numbered = include_str!("maps/bristol-numbered.toml");
+        let numbered = include_str!("../layouts/bristol-numbered.toml");
         let others = Preset::all()
             .filter(|preset| preset.facts().fit != Some(Fit::Draft))
             .map(|preset| preset.facts().map);

@@ -296,7 +296,10 @@ fn paths_that_leave_the_folder_or_do_not_follow_the_pattern_are_refused() {
 #[test]
 fn a_map_of_version_1_is_refused_with_what_to_write() {
     for (more, expected) in [
-        ("table = \"a.csv\"", "line 1: map version 1 is not read any more: write `map_version = 2`"),
+        (
+            "table = \"a.csv\"",
+            "line 1: map version 1 is not read any more: write `map_version = 2`",
+        ),
         (
             "table = \"a.csv\"\n[frame]\narray = \"x.npy\"\nindex = \"n\"\nchannel_order = \"gray\"\nreference = \"unknown\"",
             "write `map_version = 2`, and in [frame] `array = { file = \"x.npy\" }` for `array = \"x.npy\"`",

@@ -4,9 +4,9 @@ use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use super::preset;
 use flate2::Compression;
 use flate2::write::GzEncoder;
-use super::preset;
 use taceva_import::{ImportMap, ImportPlan, MapDraft, UnpackedArchive};
 use tar::{Builder, EntryType, Header};
 

@@ -2,8 +2,8 @@
 
 use std::fs;
 
-use taceva_dataset::Dataset;
 use crate::presets::preset;
+use taceva_dataset::Dataset;
 
 use crate::lab::{Lab, import, png, rgb_png};
 

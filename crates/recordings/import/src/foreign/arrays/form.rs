@@ -7,7 +7,7 @@ use taceva_core::{Frame, FrameInfo, PixelFormat};
 
 use crate::foreign::columns::PictureKind;
 use crate::foreign::pictures::Picture;
-use crate::import::{ArrayLayout, FrameNames, PixelRange};
+use crate::frame_names::{ArrayLayout, FrameNames, PixelRange};
 use taceva_dataset::internal::ImageKind;
 use taceva_dataset::internal::limits;
 

@@ -9,7 +9,7 @@ use taceva_arrays::{ArrayFile, ArrayFormat};
 use super::form::{Form, READ_BYTES, form_of};
 use super::said::{absent_chunks, problem};
 use crate::foreign::pictures::{Pictures, Visit, damaged};
-use crate::import::{ArrayFrames, FrameNames};
+use crate::frame_names::{ArrayFrames, FrameNames};
 use taceva_dataset::ChannelOrder;
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::guarded;

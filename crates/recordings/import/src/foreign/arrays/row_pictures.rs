@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::ArrayRows;
 use super::frames::ArrayPictures;
 use crate::foreign::columns::ColumnSource as _;
-use crate::import::{FrameNames, OWN_ROW};
+use crate::frame_names::{FrameNames, OWN_ROW};
 use taceva_dataset::internal::listed;
 
 impl ArrayRows {

@@ -7,9 +7,9 @@ use serde::Deserialize;
 use taceva_core::{Channel, Channels, Clock, is_scorable};
 use toml::Spanned;
 
+use super::REFERENCE_ATTRIBUTE;
 use super::check::{Check, ColumnName};
 use super::extended::{WrittenClass, WrittenJoin, WrittenMatrix, WrittenPath};
-use super::frames::REFERENCE_ATTRIBUTE;
 use super::signals::WrittenSignals;
 use super::written_frame::WrittenFrame;
 use super::written_table::WrittenTable;
@@ -144,10 +144,7 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
     let mut facts = RecordingFacts::new(written.source, written.time.clock, written.sensor);
     facts.footprint = written.footprint.map(Spanned::into_inner);
     Ok(ImportMap {
-        frame: written
-            .frame
-            .map(|frame| check.frame(frame))
-            .transpose()?,
+        frame: written.frame.map(|frame| check.frame(frame)).transpose()?,
         time: check.time(&written.time)?,
         drop: check.drop(written.drop, &channels)?,
         path: check.path_pattern(written.path)?,

@@ -14,7 +14,7 @@ use taceva_dataset::internal::shown_path;
 
 macro_rules! files {
     ($($name:literal),* $(,)?) => {
-        &[$(($name, include_str!(concat!("maps/", $name, ".toml")))),*]
+        &[$(($name, include_str!(concat!("layouts/", $name, ".toml")))),*]
     };
 }
 
@@ -44,24 +44,24 @@ const SECTION: &str = "[preset]\n";
 /// A file or folder without which a folder does not have the layout.
 #[derive(Debug, Deserialize, PartialEq, Eq)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Need {
+pub(crate) struct Need {
     /// Any of these, relative to the folder; `*` stands for any characters within a name. The map names the first, and reads that which is there.
-    pub(super) any_of: Vec<String>,
-    pub(super) what: String,
+    pub(crate) any_of: Vec<String>,
+    pub(crate) what: String,
 }
 
 /// Texts of the map that others replace where no file is like `absent`.
 #[derive(Debug, Deserialize, PartialEq, Eq)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Instead {
-    pub(super) absent: String,
-    pub(super) replace: Vec<[String; 2]>,
+pub(crate) struct Instead {
+    pub(crate) absent: String,
+    pub(crate) replace: Vec<[String; 2]>,
 }
 
 /// A fit of the map to a folder that takes a function of its own.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
-pub(super) enum Fit {
+pub(crate) enum Fit {
     Bristol,
     DiffusionZarr,
     /// The map is a draft of the folder, in the units that the layout is written in.
@@ -75,31 +75,31 @@ pub(super) enum Fit {
 /// What is known of a layout.
 #[derive(Debug, Deserialize, PartialEq, Eq)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Layout {
+pub(crate) struct Layout {
     #[serde(skip)]
     name: &'static str,
     /// The map, or the comments above it where it is drafted.
     #[serde(skip)]
-    pub(super) map: &'static str,
+    pub(crate) map: &'static str,
     layout: String,
     reads: String,
     leaves_open: String,
-    pub(super) needs: Vec<Need>,
+    pub(crate) needs: Vec<Need>,
     /// A pattern that other folders lack, where what the layout needs is common.
     mark: Option<String>,
     #[serde(default)]
-    pub(super) instead: Vec<Instead>,
-    pub(super) fit: Option<Fit>,
+    pub(crate) instead: Vec<Instead>,
+    pub(crate) fit: Option<Fit>,
     /// Whether lines of columns that the first table lacks are left out.
     #[serde(default)]
-    pub(super) drops_absent_columns: bool,
+    pub(crate) drops_absent_columns: bool,
 }
 
 impl Layout {
     fn read(name: &'static str, file: &'static str) -> Layout {
         let (map, section) = file.split_once(SECTION).unwrap_or_default();
         let layout: Layout = toml::from_str(section)
-            .unwrap_or_else(|error| unreachable!("maps/{name}.toml is tested: {error}"));
+            .unwrap_or_else(|error| unreachable!("layouts/{name}.toml is tested: {error}"));
         Layout {
             name,
             map,
@@ -132,7 +132,7 @@ impl Preset {
         layouts.iter().map(Preset)
     }
 
-    pub(super) fn facts(self) -> &'static Layout {
+    pub(crate) fn facts(self) -> &'static Layout {
         self.0
     }
 
@@ -188,7 +188,7 @@ impl Preset {
     ///
     /// # Errors
     /// [`DatasetError::Path`] naming what was expected where.
-    pub(super) fn check(self, folder: &SourceFolder) -> Result<(), DatasetError> {
+    pub(crate) fn check(self, folder: &SourceFolder) -> Result<(), DatasetError> {
         let facts = self.facts();
         let is_there = |pattern: &String| has_match(folder.path(), pattern);
         let mut needs = facts.needs.iter();
@@ -235,7 +235,7 @@ mod tests {
     #[test]
     fn every_file_says_what_its_preset_is_and_names_are_one_to_one() {
         assert!(FILES.iter().all(|(_, file)| file.contains(SECTION)));
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/preset/maps");
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/layouts");
         let files = std::fs::read_dir(folder).expect("listed").flatten();
         // The older columns of Bristol have a map of their own and are no preset.
         assert_eq!(files.count(), FILES.len() + 1);
@@ -262,10 +262,7 @@ mod tests {
         let lab = tempfile::tempdir().expect("a folder");
         std::fs::write(lab.path().join("targets.csv"), "x").expect("written");
         let folder = SourceFolder::open(lab.path()).expect("opens");
-        assert_eq!(
-            Preset::recognised(lab.path()),
-            Preset::from_name("bristol")
-        );
+        assert_eq!(Preset::recognised(lab.path()), Preset::from_name("bristol"));
         let message = Preset::from_name("rosbag")
             .expect("a preset")
             .check(&folder)
