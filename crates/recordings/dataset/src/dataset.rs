@@ -1,9 +1,9 @@
 //! A recording on disk, opened for reading.
 
 mod frames;
-mod joined;
 mod pass;
 mod signals;
+mod union;
 mod verify;
 
 use std::collections::BTreeMap;
@@ -15,16 +15,16 @@ use taceva_core::Frame;
 use crate::absence::absence;
 use crate::digest::Digest;
 use crate::error::DatasetError;
+use crate::folder_handle::HeldFolder;
 use crate::header::Header;
-use crate::held::HeldFolder;
 use crate::layout;
 use crate::signals::SignalsReader;
 use crate::table::Table;
 use verify::read_table;
 
-pub use joined::JoinedRecording;
-pub use joined::{Difference, differences_of_added};
 pub use pass::{Pass, StreamReport};
+pub use union::JoinedRecording;
+pub use union::{Difference, differences_of_added};
 
 /// A recording: its header, its labels in memory, and its frames on disk, decoded when asked for.
 ///

@@ -1,18 +1,18 @@
 //! `dataset.toml`: what is known about a recording as a whole.
 
+mod class_mapping;
+mod column_mapping;
 mod content_digest;
-mod extended;
+mod extension;
 mod facts;
 mod footprint;
-mod left_out;
-mod mapped_class;
-mod mapped_column;
-mod mapped_join;
-mod mapped_pictures;
+mod join_mapping;
+mod map_conflict;
 mod mapping;
-mod misread;
+mod omissions;
+mod picture_mapping;
 mod recording_facts;
-mod reduced;
+mod reduction;
 mod stream;
 #[cfg(test)]
 mod tests;
@@ -25,7 +25,7 @@ use taceva_core::{Channel, Channels, Clock, PressOutcome, Unit};
 
 use crate::digest::Digest;
 use crate::error::DatasetError;
-use crate::held::HeldFolder;
+use crate::folder_handle::HeldFolder;
 use crate::layout;
 use crate::limits;
 use crate::signals::{SignalsInfo, WrittenSignals};
@@ -34,20 +34,20 @@ use crate::version::Version;
 use taceva_files::seal::Version::Sealed;
 use taceva_files::seal::{Edit, Opened, toml_text};
 
+pub use class_mapping::MappedClass;
+pub use column_mapping::MappedColumn;
 pub(crate) use content_digest::dataset_digest;
-pub use extended::Extension;
+pub use extension::Extension;
 pub use facts::{FrameCodec, FramesInfo, Known, ReferenceInfo, SensorFacts, Source, TableInfo};
 pub use footprint::{Footprint, Shape};
-pub use left_out::LeftOut;
-pub use left_out::add as add_left_out;
-pub use mapped_class::MappedClass;
-pub use mapped_column::MappedColumn;
-pub use mapped_join::MappedJoin;
-pub use mapped_pictures::MappedPictures;
+pub use join_mapping::MappedJoin;
+pub use map_conflict::Misread;
 pub use mapping::Mapping;
-pub use misread::Misread;
+pub use omissions::LeftOut;
+pub use omissions::add as add_left_out;
+pub use picture_mapping::MappedPictures;
 pub use recording_facts::RecordingFacts;
-pub use reduced::ReducedFrames;
+pub use reduction::ReducedFrames;
 pub use stream::StreamFacts;
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -13,7 +13,6 @@ mod file;
 mod frame_retries;
 mod guard;
 mod header;
-mod held;
 mod journal;
 mod jpeg;
 #[doc(hidden)]
@@ -25,13 +24,13 @@ mod pack;
 mod parallel;
 mod quality;
 mod recorder;
-mod replaced;
+mod replacement;
 mod samples;
 mod sensor_file;
 mod session_table;
 mod signals;
 #[doc(hidden)]
-pub mod staged;
+pub mod staging;
 mod store;
 mod table;
 mod text;
@@ -53,7 +52,7 @@ pub use header::{
 pub use pack::Span;
 pub use quality::names_quality;
 pub use recorder::{Recorder, RecordingSpec, Streamed};
-pub use replaced::settle;
+pub use replacement::settle;
 pub use sensor_file::SensorFile;
 pub use session_table::{RecordedSessions, Session, SessionTable};
 pub use signals::{SignalsInfo, SignalsSpec};
@@ -78,5 +77,5 @@ pub mod internal {
     pub use crate::table::{Cells, NamedColumn, RESERVED, RowNames, is_attribute_name};
     pub use crate::text::{listed, nearest, shown, shown_path};
     pub use crate::toml_file::{line_of, parse_toml, read_toml_text, toml_error, utf8};
-    pub use crate::{layout, limits, staged};
+    pub use crate::{layout, limits, staging};
 }

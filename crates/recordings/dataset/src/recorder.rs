@@ -26,15 +26,15 @@ mod check;
 mod close;
 mod folder;
 mod frames;
+mod payload;
 mod press;
 mod replay;
 mod stream;
-mod written;
 
 use folder::{empty_folder, remove_journal};
+use payload::{WrittenFrame, WrittenSample, WrittenStart};
 use replay::ReplayError;
 pub use stream::Streamed;
-use written::{WrittenFrame, WrittenSample, WrittenStart};
 
 /// What a recording is of.
 ///

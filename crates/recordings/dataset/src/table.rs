@@ -2,8 +2,8 @@
 
 mod cells;
 mod fields;
-mod joined;
 mod row;
+mod row_union;
 
 use taceva_core::{
     Channels, Column, Field, FieldSet, Frame, GratingKind, Limit, Nanometre, Phase, Readings,
@@ -13,8 +13,8 @@ use taceva_core::{
 use crate::digest::{Digest, PartsDigest};
 
 pub use cells::{Cells, NamedColumn, RESERVED, is_attribute_name};
-pub use joined::RowNames;
 pub use row::{FrameEntry, Row};
+pub use row_union::RowNames;
 
 /// All labels of a recording.
 ///

@@ -4,7 +4,7 @@ mod cells;
 mod columns;
 pub(crate) mod number;
 pub(crate) mod parts;
-mod quoted;
+mod quotation;
 mod scan;
 mod split;
 pub(crate) mod stream;
@@ -105,7 +105,7 @@ impl CsvTable {
         jobs: NonZeroUsize,
     ) -> Result<CsvTable, DatasetError> {
         let table = if text.as_bytes().contains(&b'"') {
-            quoted::read(path, &text, delimiter)?
+            quotation::read(path, &text, delimiter)?
         } else {
             split::read(path, text, delimiter, jobs)?
         };

@@ -2,11 +2,11 @@
 
 mod frames;
 mod joins;
+mod map_text;
 mod path_parts;
 mod roles;
 mod survey;
 mod tables;
-mod written;
 
 use std::path::Path;
 
@@ -60,7 +60,7 @@ impl MapDraft {
             }
             match SeenTable::read(&source, group) {
                 Ok(Some(table)) => tables.push(table),
-                Ok(None) => notes.extend(written::refused_form(group)),
+                Ok(None) => notes.extend(map_text::refused_form(group)),
                 Err(problem) => notes.push(format!("not read: {problem}")),
             }
         }
@@ -76,12 +76,12 @@ impl MapDraft {
             }
         }
         if let Some(preset) = Preset::recognised(folder) {
-            notes.push(written::known_layout(preset.name()));
+            notes.push(map_text::known_layout(preset.name()));
         }
         let text = match main_table(&source, &tables) {
-            Some(main) => written::of_table(&source, &groups, (main, &tables), &notes),
+            Some(main) => map_text::of_table(&source, &groups, (main, &tables), &notes),
             None => match pictures.iter().max_by_key(|group| group.paths.len()) {
-                Some(group) => written::of_files(group, &notes),
+                Some(group) => map_text::of_files(group, &notes),
                 None => {
                     return Err(DatasetError::Request {
                         path: folder.to_owned(),

@@ -1,8 +1,8 @@
 //! A dataset for other programs: its table as CSV, or the whole in a form that they read, with the map that brings it back.
 
 mod cells;
+mod content;
 mod csv;
-mod exported;
 mod form;
 mod hdf5;
 mod hugging_face;
@@ -19,11 +19,11 @@ use taceva_core::Progress;
 use taceva_dataset::Dataset;
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::Cells;
-use taceva_dataset::internal::staged::Place;
-use taceva_dataset::internal::staged::StagedFolder;
+use taceva_dataset::internal::staging::Place;
+use taceva_dataset::internal::staging::StagedFolder;
 use taceva_dataset::internal::write_durable;
 
-use exported::Exported;
+use content::Exported;
 use picture::Pictures;
 
 pub use form::ExportForm;

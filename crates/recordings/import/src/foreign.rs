@@ -1,18 +1,18 @@
 //! Tables as other programs wrote them: rows of cells that are asked for by the name of a column.
 
 mod arrays;
+mod byte_pictures;
+pub(crate) mod cell_list;
 mod clips;
 mod columns;
-mod encoded;
+mod file_series;
 mod files;
 mod json;
 mod lerobot;
 mod members;
 mod messages;
-pub(crate) mod packed;
 mod parquet;
 mod pictures;
-mod several;
 pub(crate) mod tar;
 mod webdataset;
 
@@ -36,11 +36,11 @@ use taceva_dataset::internal::shown;
 pub(crate) use arrays::{ArrayPictures, stated};
 pub(crate) use clips::ClipPictures;
 pub(crate) use columns::{ColumnTable, PictureColumn, PictureKind, Stated};
+pub(crate) use file_series::SeveralPictures;
 pub(crate) use files::FileRows;
 pub(crate) use json::JsonRows;
 pub(crate) use messages::topics;
 pub(crate) use pictures::{Picture, Pictures};
-pub(crate) use several::SeveralPictures;
 
 /// A table of any form.
 #[derive(Debug)]

@@ -3,13 +3,13 @@
 mod archive;
 mod copy;
 mod explain;
-mod extend;
+mod extension;
 mod frame_cells;
-mod left_out;
+mod frame_plan;
 mod map;
-mod mapped;
+mod mapping;
+mod omissions;
 mod plan;
-mod planned_frames;
 mod references;
 mod resolve;
 mod rows;
@@ -20,7 +20,7 @@ mod suspicion;
 
 pub use archive::UnpackedArchive;
 pub use copy::ImportReport;
-pub use extend::Addition;
+pub use extension::Addition;
 pub(crate) use map::converter;
 pub use map::{
     ArrayFrames, ArrayLayout, ColumnMap, DropRules, FrameMap, FrameNames, IdMap, ImportMap,

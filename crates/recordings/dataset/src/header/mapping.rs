@@ -1,10 +1,10 @@
 //! How the maps of an import read what is in a dataset, and what of it another map would read otherwise.
 
-use super::mapped_class::MappedClass;
-use super::mapped_column::{MappedColumn, misread};
-use super::mapped_join::MappedJoin;
-use super::mapped_pictures::MappedPictures;
-use super::misread::{Misread, differing};
+use super::class_mapping::MappedClass;
+use super::column_mapping::{MappedColumn, misread};
+use super::join_mapping::MappedJoin;
+use super::map_conflict::{Misread, differing};
+use super::picture_mapping::MappedPictures;
 
 /// What decides the values that an import reads from the cells, the rows and the arrays of a lab.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use taceva_core::{Frame, PressOutcome, Sample};
 
-use super::written::{WrittenPress, WrittenSample};
+use super::payload::{WrittenPress, WrittenSample};
 use super::{Recorder, ReplayError, signals_of};
 use crate::error::DatasetError;
 use crate::journal::RecordKind;

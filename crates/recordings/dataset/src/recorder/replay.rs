@@ -1,7 +1,7 @@
 //! Restoring a recording from its journal, record by record.
 
 use super::Recorder;
-use super::written::{WrittenFrame, WrittenPress, WrittenSample, WrittenStream};
+use super::payload::{WrittenFrame, WrittenPress, WrittenSample, WrittenStream};
 use crate::error::DatasetError;
 use crate::journal::{JournalRecord, RecordKind};
 

@@ -2,7 +2,7 @@
 
 use taceva_core::{Frame, Sample};
 
-use super::written::{WrittenSample, WrittenStream};
+use super::payload::{WrittenSample, WrittenStream};
 use super::{Recorder, ReplayError, signals_of};
 use crate::decode::{check_to_the_end, kind_of_whole};
 use crate::error::DatasetError;

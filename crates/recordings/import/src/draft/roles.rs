@@ -4,7 +4,7 @@ mod doubts;
 mod times;
 
 use crate::csv_table::number;
-use crate::foreign::packed;
+use crate::foreign::cell_list;
 use doubts::doubt_of;
 use times::time;
 
@@ -191,12 +191,12 @@ fn several(words: &[String], width: usize) -> Option<Vec<(&'static str, String)>
 fn width(cells: &[&str]) -> Option<usize> {
     let count = |cell: &str| {
         let is_number = |at: usize| {
-            packed::item(cell, &[at])
+            cell_list::item(cell, &[at])
                 .is_ok_and(|item| number::number(item).is_ok_and(|found| found.is_some()))
         };
         (0..=64)
             .find(|at| !is_number(*at))
-            .filter(|count| *count > 1 && packed::item(cell, &[*count]).is_err())
+            .filter(|count| *count > 1 && cell_list::item(cell, &[*count]).is_err())
     };
     let first = count(cells.first()?)?;
     cells

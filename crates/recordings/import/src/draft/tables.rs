@@ -9,7 +9,7 @@ use taceva_arrays::ArrayFormat;
 use super::roles::{Role, doubt, of_named, role};
 use super::survey::FileGroup;
 use crate::csv_table::number;
-use crate::foreign::{ForeignTable, PictureColumn, TableForm, packed, topics};
+use crate::foreign::{ForeignTable, PictureColumn, TableForm, cell_list, topics};
 use crate::source_folder::SourceFolder;
 use form::{NUMBERED_HEADER, form_of};
 
@@ -142,7 +142,9 @@ impl<'g> SeenTable<'g> {
         let columns = names.map(|name| {
             let cells = 0..rows.min(SAMPLED);
             let cells = cells.map(|row| table.cell(row, &name).unwrap_or_default());
-            let cells: Vec<String> = cells.map(|cell| packed::plain(&cell).to_owned()).collect();
+            let cells: Vec<String> = cells
+                .map(|cell| cell_list::plain(&cell).to_owned())
+                .collect();
             let mut role = of_named(&name, &table.element_names(&name))
                 .unwrap_or_else(|| role(&name, about, &cells));
             // Times that the file says to be times are read in seconds.

@@ -3,7 +3,7 @@
 use taceva_arrays::{ArrayError, Problem};
 use taceva_tables::{Cell, TableError, WrittenKind};
 
-use super::exported::Exported;
+use super::content::Exported;
 use super::picture::Encoded;
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::Cells;

@@ -5,13 +5,13 @@ use std::fs::File;
 use std::io::BufWriter;
 use std::num::NonZeroUsize;
 
-use super::exported::Exported;
+use super::content::Exported;
 use super::map::{self, Written, quoted};
 use super::picture::Encoded;
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::layout;
 use taceva_dataset::internal::ordered_map;
-use taceva_dataset::internal::staged::StagedFolder;
+use taceva_dataset::internal::staging::StagedFolder;
 use taceva_dataset::internal::write_durable;
 
 /// The table, whose rows are as those of the dataset.

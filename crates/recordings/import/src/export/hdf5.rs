@@ -4,11 +4,11 @@ use taceva_arrays::{Hdf5Writer, WrittenElement};
 use taceva_core::PixelFormat;
 
 use super::cells::of_arrays;
-use super::exported::Exported;
+use super::content::Exported;
 use super::map::{self, Written, quoted};
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::Cells;
-use taceva_dataset::internal::staged::StagedFolder;
+use taceva_dataset::internal::staging::StagedFolder;
 
 const FILE: &str = "recording.h5";
 /// Longest text of a column, bytes: all texts of an array have the room of the longest.

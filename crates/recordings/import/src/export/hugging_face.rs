@@ -4,10 +4,10 @@ use taceva_tables::{ParquetWriter, WrittenColumn, WrittenKind, huggingface_featu
 
 use super::cells;
 use super::cells::of_table;
-use super::exported::Exported;
+use super::content::Exported;
 use super::map::{self, Written, quoted};
 use taceva_dataset::DatasetError;
-use taceva_dataset::internal::staged::StagedFolder;
+use taceva_dataset::internal::staging::StagedFolder;
 use taceva_dataset::internal::write_durable;
 
 /// Where the file lies in the folder.

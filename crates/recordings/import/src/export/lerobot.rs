@@ -13,13 +13,13 @@ use taceva_tables::{
 
 use super::cells;
 use super::cells::of_table;
-use super::exported::Exported;
+use super::content::Exported;
 use super::map::{Written, quoted};
 use super::picture::Pictures;
 use taceva_dataset::DatasetError;
 use taceva_dataset::Table;
 use taceva_dataset::internal::RESERVED;
-use taceva_dataset::internal::staged::StagedFolder;
+use taceva_dataset::internal::staging::StagedFolder;
 
 const STATE: &str = "observation.state";
 const TAXELS: &str = "observation.tactile";

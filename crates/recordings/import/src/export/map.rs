@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::exported::Exported;
+use super::content::Exported;
 use taceva_dataset::ChannelOrder;
 use taceva_dataset::Footprint;
 use taceva_dataset::ReducedFrames;

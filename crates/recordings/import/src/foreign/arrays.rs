@@ -1,12 +1,12 @@
 //! Arrays as tables: a row is what the arrays hold at one place of their first axis.
 
+mod attributes;
 mod cells;
 mod column;
 mod form;
 mod frames;
 mod group;
 mod row_pictures;
-mod said;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -16,10 +16,10 @@ use taceva_arrays::{ArrayFile, ArrayFormat, Element, Problem};
 use super::columns::{ColumnSource, PictureColumn, Stated};
 use super::pictures::Pictures;
 use crate::frame_names::FrameNames;
+pub(crate) use attributes::stated;
+use attributes::{absent_chunks, problem};
 pub(crate) use frames::ArrayPictures;
 use group::{Group, candidates, rows_of};
-pub(crate) use said::stated;
-use said::{absent_chunks, problem};
 
 /// Arrays that a draft looks into for pictures.
 const LISTED: usize = 64;

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use taceva_tables::{ColumnKind, LeRobot};
 
+use super::byte_pictures::{ByteColumns, EncodedPictures};
 use super::columns::{ColumnSource, PictureColumn, PictureKind};
-use super::encoded::{ByteColumns, EncodedPictures};
 use super::pictures::Pictures;
 use super::said;
 use crate::frame_names::FrameNames;

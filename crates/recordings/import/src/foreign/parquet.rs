@@ -6,8 +6,8 @@ use std::sync::Arc;
 use serde_json::Value;
 use taceva_tables::{ColumnKind, ParquetTable, TableError};
 
+use super::byte_pictures::{ByteColumns, EncodedPictures};
 use super::columns::{ColumnSource, PictureColumn, PictureKind};
-use super::encoded::{ByteColumns, EncodedPictures};
 use super::pictures::Pictures;
 use super::said;
 use crate::frame_names::FrameNames;

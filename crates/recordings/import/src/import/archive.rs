@@ -11,8 +11,8 @@ use taceva_dataset::DatasetError;
 use taceva_dataset::Place;
 use taceva_dataset::internal::open_regular;
 use taceva_dataset::internal::shown_path;
-use taceva_dataset::internal::staged;
-use taceva_dataset::internal::staged::StagedFolder;
+use taceva_dataset::internal::staging;
+use taceva_dataset::internal::staging::StagedFolder;
 
 /// How many times as large as its file a compressed archive may be, and how many bytes more.
 const GROWTH: u64 = 128;
@@ -65,7 +65,7 @@ impl UnpackedArchive {
     pub fn open(archive: &Path, beside: &Path) -> Result<UnpackedArchive, DatasetError> {
         let name = archive.file_name().unwrap_or_default().to_string_lossy();
         let target = beside.join(format!("{name}.unpacked"));
-        let staged = StagedFolder::create(&target, staged::Place::Free)?;
+        let staged = StagedFolder::create(&target, staging::Place::Free)?;
         let (mut file, length) = open_regular(archive, u64::MAX)?;
         let mut first = [0; 2];
         let is_packed = file.read_exact(&mut first).is_ok() && first == GZIP;

@@ -15,8 +15,8 @@ use taceva_dataset::DatasetError;
 use taceva_dataset::Digest;
 use taceva_dataset::internal::Beside;
 use taceva_dataset::internal::layout;
-use taceva_dataset::internal::staged::Place;
-use taceva_dataset::internal::staged::StagedFolder;
+use taceva_dataset::internal::staging::Place;
+use taceva_dataset::internal::staging::StagedFolder;
 use taceva_dataset::internal::write_table_and_header;
 
 /// What an import did.

@@ -4,16 +4,16 @@ mod axes;
 mod check;
 mod columns;
 mod drop;
-mod extended;
+mod frame_schema;
 mod join;
 mod matrix;
 mod path_pattern;
+mod schema;
+mod sections;
 mod signals;
+mod table_schema;
 #[cfg(test)]
 mod tests;
-mod written;
-mod written_frame;
-mod written_table;
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -30,7 +30,7 @@ pub(crate) use join::{JoinBy, JoinMap, Pick, TimeJoin, Unmatched};
 pub(crate) use matrix::{MatrixMap, MatrixRows};
 pub(crate) use path_pattern::PathPattern;
 pub(crate) use signals::{SignalsFrom, SignalsMap};
-pub(crate) use written_table::converter;
+pub(crate) use table_schema::converter;
 
 pub use crate::frame_names::{
     ArrayFrames, ArrayLayout, FrameMap, FrameNames, PixelRange, VideoFrames,
@@ -158,6 +158,6 @@ impl ImportMap {
     /// # Errors
     /// [`DatasetError::Toml`] naming the line.
     pub fn parse(path: &Path, text: &str) -> Result<ImportMap, DatasetError> {
-        written::checked(path, text)
+        schema::checked(path, text)
     }
 }

@@ -1,18 +1,18 @@
 //! What an import would read, convert and leave out, before anything is written.
 
 mod channels;
+mod completion;
 mod name_order;
 mod pictures;
 mod reading;
-mod settled;
 
 use std::collections::BTreeSet;
 use std::path::Path;
 
 use taceva_video::Decoders;
 
+use super::frame_plan::{FrameSource, PlannedFrames};
 use super::map::ImportMap;
-use super::planned_frames::{FrameSource, PlannedFrames};
 use super::signals::{FoundSignals, PlannedSignals};
 use super::source::matching_files;
 use super::summary::ImportSummary;

@@ -4,17 +4,17 @@ mod classes;
 mod columns;
 mod join;
 mod matrix;
-mod named_by;
+mod naming_folder;
 mod signals;
-mod stated;
 mod table;
 mod times;
+mod unit_statement;
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::map::{FrameNames, ImportMap, OWN_ROW};
-use crate::foreign::{ForeignTable, packed};
+use crate::foreign::{ForeignTable, cell_list};
 use crate::source_folder::SourceFolder;
 use columns::{base_of, mentioned};
 use join::Joined;
@@ -24,10 +24,10 @@ use taceva_dataset::Place;
 pub(super) use classes::ClassCells;
 pub(super) use join::JoinMatches;
 pub(super) use matrix::matrix_rows;
-pub(super) use named_by::NamedBy;
+pub(super) use naming_folder::NamedBy;
 pub(super) use signals::place_first;
-pub(super) use stated::{problem_of_name, problem_of_signals};
 pub(super) use table::ResolvedTable;
+pub(super) use unit_statement::{problem_of_name, problem_of_signals};
 
 /// A table in which every column that the map names is found by that name.
 pub(super) struct Resolved {
@@ -263,7 +263,7 @@ impl Sources<'_> {
 /// What a row of `table` has in the column `name`, or at its position in what the cell packs: `ft[2]`.
 fn cell_of(table: &ForeignTable, row: usize, name: &str) -> Result<String, DatasetError> {
     if table.has(name) {
-        return Ok(packed::plain(&table.cell(row, name)?).to_owned());
+        return Ok(cell_list::plain(&table.cell(row, name)?).to_owned());
     }
     let Some((base, index)) = columns::indexed(name) else {
         return Err(table.no_column(name));
@@ -272,7 +272,7 @@ fn cell_of(table: &ForeignTable, row: usize, name: &str) -> Result<String, Datas
     if cell.is_empty() {
         return Ok(String::new());
     }
-    let found = packed::value(&cell, &index);
+    let found = cell_list::value(&cell, &index);
     found
         .map(|found| match table {
             ForeignTable::Columns(_) | ForeignTable::Json(_) if found.is_null() => String::new(),

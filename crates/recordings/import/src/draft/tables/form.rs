@@ -6,7 +6,7 @@ use taceva_arrays::ArrayFormat;
 
 use crate::csv_table::number;
 use crate::draft::survey::FileGroup;
-use crate::foreign::{ForeignTable, TableForm, packed};
+use crate::foreign::{ForeignTable, TableForm, cell_list};
 
 /// What a map says of a table whose header is numbers.
 pub(super) const NUMBERED_HEADER: &str = "header = true";
@@ -70,7 +70,7 @@ pub(super) fn form_of(path: &Path, group: &FileGroup) -> Option<(TableForm, Stri
 /// Whether what would be names of columns are numbers: the file has no header.
 fn is_of_numbers(names: &[String]) -> bool {
     let is_number =
-        |name: &&String| number::number(packed::plain(name)).is_ok_and(|found| found.is_some());
+        |name: &&String| number::number(cell_list::plain(name)).is_ok_and(|found| found.is_some());
     names.iter().filter(is_number).count() * 2 > names.len()
 }
 

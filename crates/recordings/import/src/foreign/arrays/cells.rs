@@ -2,7 +2,7 @@
 
 use taceva_arrays::ArrayValues;
 
-use crate::foreign::packed;
+use crate::foreign::cell_list;
 
 /// Values of an array as the cells of a table.
 pub(super) struct Texts<'a>(pub(super) &'a ArrayValues);
@@ -20,7 +20,7 @@ impl Texts<'_> {
         let Some((count, rest)) = shape.split_first() else {
             let one = self.one(first);
             return match self.0 {
-                ArrayValues::Text(_) => packed::member(one),
+                ArrayValues::Text(_) => cell_list::member(one),
                 _ => one,
             };
         };

@@ -3,9 +3,9 @@
 use taceva_arrays::ArrayInfo;
 
 use super::ArrayRows;
+use super::attributes::problem;
 use super::cells::Texts;
 use super::group::{Group, candidates};
-use super::said::problem;
 
 /// The most bytes that a column may take in memory as text.
 const COLUMN_BYTES: u64 = 1 << 30;

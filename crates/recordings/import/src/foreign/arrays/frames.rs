@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use taceva_arrays::{ArrayFile, ArrayFormat};
 
+use super::attributes::{absent_chunks, problem};
 use super::form::{Form, READ_BYTES, form_of};
-use super::said::{absent_chunks, problem};
 use crate::foreign::pictures::{Pictures, Visit, damaged};
 use crate::frame_names::{ArrayFrames, FrameNames};
 use taceva_dataset::ChannelOrder;

@@ -8,7 +8,7 @@ use taceva_core::{FrameInfo, Progress};
 
 use super::picture::Copied;
 use crate::foreign::{Picture, Pictures};
-use crate::import::planned_frames::{FrameSource, PlannedFrames, within};
+use crate::import::frame_plan::{FrameSource, PlannedFrames, within};
 use taceva_dataset::DatasetError;
 use taceva_dataset::FrameCodec;
 use taceva_dataset::FramesInfo;
@@ -17,7 +17,7 @@ use taceva_dataset::Table;
 use taceva_dataset::internal::ImageKind;
 use taceva_dataset::internal::layout;
 use taceva_dataset::internal::ordered_map;
-use taceva_dataset::internal::staged::StagedFolder;
+use taceva_dataset::internal::staging::StagedFolder;
 
 /// Frames copied at a time by each job: most of the time is spent waiting until they are on the disk, and disks write
 /// several files at once faster.

@@ -16,7 +16,7 @@ use taceva_dataset::internal::encode_png;
 use taceva_dataset::internal::layout;
 use taceva_dataset::internal::limits;
 use taceva_dataset::internal::read_capped;
-use taceva_dataset::internal::staged::StagedFolder;
+use taceva_dataset::internal::staging::StagedFolder;
 use taceva_dataset::internal::write_durable;
 
 /// A frame that was verified and written.

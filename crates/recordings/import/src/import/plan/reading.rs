@@ -8,8 +8,8 @@ use taceva_video::Decoders;
 
 use crate::foreign::{Pictures, TableForm};
 use crate::import::frame_cells::FrameName;
+use crate::import::frame_plan::{FrameSource, PlannedFrame};
 use crate::import::map::ImportMap;
-use crate::import::planned_frames::{FrameSource, PlannedFrame};
 use crate::import::references::References;
 use crate::import::resolve::JoinMatches;
 use crate::import::rows::MappedTable;

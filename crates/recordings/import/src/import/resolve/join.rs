@@ -8,7 +8,7 @@ use std::path::Path;
 
 use super::classes::holds_integers;
 use super::columns::{base_of, mentioned};
-use super::stated::{self, Of, Reading};
+use super::unit_statement::{self, Of, Reading};
 use super::{Sources, cell_of};
 use crate::csv_table::number;
 use crate::foreign::ForeignTable;
@@ -159,7 +159,7 @@ impl<'a> Joined<'a> {
     /// Checks that what the map says of `column` agrees with what the files say of it.
     pub(super) fn check(&self, column: &str, reading: Reading<'_>) -> Result<(), DatasetError> {
         let mut tables = self.tables.iter();
-        tables.try_for_each(|candidates| stated::check(&candidates.table, column, reading))
+        tables.try_for_each(|candidates| unit_statement::check(&candidates.table, column, reading))
     }
 
     /// Counts the chunks that were never written of the arrays that are read.
@@ -363,7 +363,7 @@ impl Candidates {
                     is_moved: false,
                     of: Of::Others,
                 };
-                stated::check(table, &join.time.column, reading)?;
+                unit_statement::check(table, &join.time.column, reading)?;
                 for row in rows.iter() {
                     let cell = cell_of(table, *row, &join.time.column)?;
                     let place = || table.place(*row, &join.time.column);

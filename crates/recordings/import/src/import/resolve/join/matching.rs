@@ -1,7 +1,7 @@
 //! When a row of one table belongs to a row of another: equal keys, near times.
 
 use crate::csv_table::number;
-use crate::foreign::packed;
+use crate::foreign::cell_list;
 use crate::import::map::{Pick, TimeJoin, TimeMap};
 use taceva_dataset::DatasetError;
 use taceva_dataset::Place;
@@ -22,7 +22,7 @@ pub(super) enum At {
 /// A key as it is compared: 3, 3.0 and `np.int64(3)` are one, and so are texts that are equal; an empty one is none. Whole numbers are compared
 /// digit by digit, however many they have; what is written with an exponent may be an id and is a text.
 pub(super) fn comparable(cell: &str) -> String {
-    let cell = packed::plain(cell.trim());
+    let cell = cell_list::plain(cell.trim());
     let whole = cell.strip_suffix(".0").unwrap_or(cell);
     if let Ok(number) = whole.parse::<i128>() {
         return number.to_string();

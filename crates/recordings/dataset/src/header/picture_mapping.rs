@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::misread::{Fact, number, or_none};
+use super::map_conflict::{Fact, number, or_none};
 
 /// How the map of an import read pictures: the same numbers in another range, or counted by another column, are other pictures.
 ///

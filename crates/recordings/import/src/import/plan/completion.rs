@@ -5,10 +5,10 @@ use std::path::PathBuf;
 
 use super::ImportPlan;
 use super::reading::Reading;
-use crate::import::left_out;
+use crate::import::frame_plan::PlannedFrames;
 use crate::import::map::{FrameMap, FrameNames};
-use crate::import::mapped::mapping;
-use crate::import::planned_frames::PlannedFrames;
+use crate::import::mapping::mapping;
+use crate::import::omissions;
 use crate::import::references::Settled;
 use crate::import::resolve::JoinMatches;
 use crate::import::source::unnamed_images;
@@ -59,7 +59,7 @@ impl Reading<'_> {
         if let Some(signals) = &self.signals {
             signals.count_absent_chunks(self.folder, &mut self.absent_chunks)?;
         }
-        left_out::count(
+        omissions::count(
             self.folder,
             self.map.frame.as_ref().zip(frames.as_ref()),
             self.absent_chunks,

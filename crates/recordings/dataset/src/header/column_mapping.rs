@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::misread::{Misread, differing, number, quoted};
+use super::map_conflict::{Misread, differing, number, quoted};
 
 /// How the map of an import read a label: what a dataset must know before rows by another map are added to it, since a column of the same name in
 /// another unit, with another sign or through another matrix gives numbers that nothing tells from the others.

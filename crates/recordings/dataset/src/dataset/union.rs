@@ -14,10 +14,10 @@ use crate::header::Header;
 use crate::table::{FrameEntry, RowNames, Table};
 use crate::text::shown;
 
-mod alike;
+mod agreement;
 
-use alike::differences;
-pub use alike::{Difference, differences_of_added};
+use agreement::differences;
+pub use agreement::{Difference, differences_of_added};
 
 /// Separates the name of a recording from the name of a sample, a contact point or a frame in it; no name of a recording contains it.
 const SEPARATOR: char = '/';

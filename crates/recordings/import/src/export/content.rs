@@ -8,7 +8,7 @@ use super::picture::Pictures;
 use taceva_dataset::Dataset;
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::NamedColumn;
-use taceva_dataset::internal::staged::StagedFolder;
+use taceva_dataset::internal::staging::StagedFolder;
 use taceva_dataset::internal::write_durable;
 
 /// What an export is made of.

@@ -10,7 +10,7 @@ use crate::error::DatasetError;
 use crate::file::{is_same, make_names_durable};
 use crate::layout;
 use crate::lock::lock_folder;
-use crate::replaced;
+use crate::replacement;
 use crate::text::shown;
 
 /// How often a folder that vanishes before it is locked is made again.
@@ -46,9 +46,9 @@ impl StagedFolder {
             true => fs::canonicalize(target).map_err(DatasetError::io("follow", target))?,
             false => target.to_owned(),
         };
-        replaced::settle(&target)?;
+        replacement::settle(&target)?;
         check_place(&target, place)?;
-        let path = replaced::partial_name(&target).ok_or_else(|| DatasetError::Request {
+        let path = replacement::partial_name(&target).ok_or_else(|| DatasetError::Request {
             path: target.clone(),
             problem: "no name for a new folder".to_owned(),
         })?;
@@ -113,7 +113,7 @@ impl StagedFolder {
     /// Makes the names in this folder and in the given ones durable, then gives it the name of its target: in one step, whether
     /// something stood there or not, where the file system can exchange names.
     pub fn put_in_place(self, folders: &[String]) -> Result<(), DatasetError> {
-        self.put_in_place_by(folders, replaced::exchange)
+        self.put_in_place_by(folders, replacement::exchange)
     }
 
     fn put_in_place_by(
@@ -146,7 +146,7 @@ impl StagedFolder {
         } else if swapped(exchange(&self.path, &self.target))? {
             Some(self.path.clone())
         } else {
-            let aside = replaced::move_aside(&self.target, &self.target)?;
+            let aside = replacement::move_aside(&self.target, &self.target)?;
             if let Err(error) = fs::rename(&self.path, &self.target) {
                 // Should this fail as well, whoever looks for the dataset puts it back.
                 let _ = fs::rename(&aside, &self.target);
@@ -167,7 +167,7 @@ impl StagedFolder {
         self.is_in_place = true;
         self.lock = None;
         if let Some(old) = old {
-            replaced::retire(&old, &self.target);
+            replacement::retire(&old, &self.target);
         }
         Ok(())
     }
@@ -193,11 +193,11 @@ pub fn check_place(target: &Path, place: Place) -> Result<(), DatasetError> {
     if fs::symlink_metadata(target).is_err() {
         return Ok(());
     }
-    match (place, replaced::foreign_entry(target)) {
+    match (place, replacement::foreign_entry(target)) {
         (Place::Free, _) => Err(DatasetError::TargetExists {
             path: target.to_owned(),
         }),
-        (Place::OfDataset, _) if !replaced::is_dataset(target) => {
+        (Place::OfDataset, _) if !replacement::is_dataset(target) => {
             refused("--force replaces datasets only, and this is none".to_owned())
         }
         (Place::OfDataset, Some(stranger)) => refused(format!(
@@ -211,7 +211,7 @@ pub fn check_place(target: &Path, place: Place) -> Result<(), DatasetError> {
 /// Removes the folder that an interrupted import left at `path`; what was set aside and is still read gets out of the way.
 fn remove_leftover(path: &Path, target: &Path) -> Result<(), DatasetError> {
     let is_export = path.join(layout::MARK).is_file();
-    if let Some(stranger) = replaced::foreign_entry(path).filter(|_| !is_export) {
+    if let Some(stranger) = replacement::foreign_entry(path).filter(|_| !is_export) {
         return Err(DatasetError::Request {
             path: path.to_owned(),
             problem: format!(
@@ -223,12 +223,14 @@ fn remove_leftover(path: &Path, target: &Path) -> Result<(), DatasetError> {
     match lock_folder(path) {
         // Held until it is gone: nobody else takes it for a leftover meanwhile.
         Ok(stale) => match is_same(&stale, path) {
-            true => replaced::remove(path).map_err(DatasetError::io("remove the leftover", path)),
+            true => {
+                replacement::remove(path).map_err(DatasetError::io("remove the leftover", path))
+            }
             false => Ok(()),
         },
         Err(DatasetError::Io { source, .. }) if source.kind() == io::ErrorKind::NotFound => Ok(()),
         Err(DatasetError::Busy { .. }) if is_read(path) => {
-            replaced::move_aside(path, target).map(drop)
+            replacement::move_aside(path, target).map(drop)
         }
         Err(error) => Err(error),
     }
@@ -236,7 +238,7 @@ fn remove_leftover(path: &Path, target: &Path) -> Result<(), DatasetError> {
 
 /// Whether those who hold the folder at `path` only read in it.
 fn is_read(path: &Path) -> bool {
-    replaced::is_dataset(path)
+    replacement::is_dataset(path)
         && File::open(path).is_ok_and(|folder| folder.try_lock_shared().is_ok())
 }
 
@@ -314,7 +316,7 @@ mod tests {
             let folder = tempfile::tempdir().expect("a folder");
             let target = dataset(folder.path(), "old");
             let exchange = |one: &Path, other: &Path| match can_exchange {
-                true => replaced::exchange(one, other),
+                true => replacement::exchange(one, other),
                 false => Ok(false),
             };
             let placed = successor(&target).put_in_place_by(&[], exchange);
@@ -333,10 +335,10 @@ mod tests {
         let target = dataset(folder.path(), "old");
         let staged = successor(&target);
         // As a kill between the two leaves it, but for the lock.
-        replaced::move_aside(&target, &target).expect("set aside");
+        replacement::move_aside(&target, &target).expect("set aside");
         let waiting = std::thread::spawn({
             let target = target.clone();
-            move || replaced::settle(&target).map(|()| target.exists())
+            move || replacement::settle(&target).map(|()| target.exists())
         });
         std::thread::sleep(std::time::Duration::from_millis(50));
         assert!(!target.exists(), "somebody is still at work");
@@ -358,7 +360,7 @@ mod tests {
     fn a_dataset_that_is_read_is_set_aside_and_cleared_once_it_is_not() {
         let folder = tempfile::tempdir().expect("a folder");
         let target = dataset(folder.path(), "old");
-        let reader = crate::held::HeldFolder::open(&target).expect("held");
+        let reader = crate::folder_handle::HeldFolder::open(&target).expect("held");
         successor(&target).put_in_place(&[]).expect("in place");
         assert_eq!(reader.read(layout::HEADER, 9).expect("still there"), b"old");
         assert_eq!(names(folder.path()), [".set.replaced", "set"]);
@@ -367,7 +369,7 @@ mod tests {
             .expect("in place again");
         assert_eq!(reader.read(layout::HEADER, 9).expect("still there"), b"old");
         drop(reader);
-        replaced::settle(&target).expect("cleared");
+        replacement::settle(&target).expect("cleared");
         assert_eq!(names(folder.path()), ["set"]);
     }
 

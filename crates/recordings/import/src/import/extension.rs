@@ -1,6 +1,6 @@
 //! Adding rows to a dataset that was imported: a successor is written beside it, which shares its files, and takes its place at once.
 
-mod twice;
+mod duplicates;
 
 use std::collections::BTreeSet;
 use std::fs::{self, File};
@@ -10,9 +10,10 @@ use std::path::Path;
 use taceva_core::Progress;
 
 use super::copy::{ImportReport, copy_frames};
+use super::frame_plan::PlannedFrames;
 use super::plan::ImportPlan;
-use super::planned_frames::PlannedFrames;
 use super::signals::PlannedSignals;
+use duplicates::refuse_twice;
 use taceva_dataset::Dataset;
 use taceva_dataset::DatasetError;
 use taceva_dataset::Digest;
@@ -30,10 +31,9 @@ use taceva_dataset::internal::differences_of_added;
 use taceva_dataset::internal::layout;
 use taceva_dataset::internal::limits;
 use taceva_dataset::internal::read_capped;
-use taceva_dataset::internal::staged::Place;
-use taceva_dataset::internal::staged::StagedFolder;
+use taceva_dataset::internal::staging::Place;
+use taceva_dataset::internal::staging::StagedFolder;
 use taceva_dataset::internal::write_table_and_header;
-use twice::refuse_twice;
 
 /// When rows are added, and from where, as the header of the dataset will say it.
 ///

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::check::{Check, ColumnName};
-use super::written_table::WrittenTable;
+use super::table_schema::WrittenTable;
 use super::{
     ClassMap, JoinBy, JoinMap, MatrixMap, MatrixRows, PathPattern, Pick, TimeJoin, Unmatched,
 };

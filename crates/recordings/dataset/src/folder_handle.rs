@@ -10,7 +10,7 @@ use rustix::fs::{Mode, OFlags, openat};
 use crate::error::DatasetError;
 use crate::file::is_same;
 use crate::layout;
-use crate::replaced::settle;
+use crate::replacement::settle;
 
 /// How often a folder that is being put in its place is tried again, and how long the pause before each try is.
 const ATTEMPTS: u32 = 200;

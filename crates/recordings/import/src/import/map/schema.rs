@@ -9,10 +9,10 @@ use toml::Spanned;
 
 use super::REFERENCE_ATTRIBUTE;
 use super::check::{Check, ColumnName};
-use super::extended::{WrittenClass, WrittenJoin, WrittenMatrix, WrittenPath};
+use super::frame_schema::WrittenFrame;
+use super::sections::{WrittenClass, WrittenJoin, WrittenMatrix, WrittenPath};
 use super::signals::WrittenSignals;
-use super::written_frame::WrittenFrame;
-use super::written_table::WrittenTable;
+use super::table_schema::WrittenTable;
 use super::{ColumnMap, DropRules, IdMap, ImportMap, MatrixMap, OriginMap, Placeholder, TimeMap};
 use taceva_dataset::DatasetError;
 use taceva_dataset::Footprint;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::misread::{Fact, number, or_none, quoted};
+use super::map_conflict::{Fact, number, or_none, quoted};
 
 /// How the map of an import joined a table: with another lag or another pick the same columns give the readings of other instants.
 ///

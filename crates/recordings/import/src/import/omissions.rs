@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use super::frame_plan::{PlannedFrames, within};
 use super::map::{FrameMap, FrameNames};
-use super::planned_frames::{PlannedFrames, within};
 use super::summary::ImportSummary;
 use crate::source_folder::SourceFolder;
 use taceva_dataset::DatasetError;
