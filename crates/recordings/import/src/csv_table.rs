@@ -13,14 +13,8 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use taceva_dataset::DatasetError;
-use taceva_dataset::Digest;
-use taceva_dataset::Place;
-use taceva_dataset::internal::all_cores;
-use taceva_dataset::internal::limits;
-use taceva_dataset::internal::nearest;
-use taceva_dataset::internal::read_capped;
-use taceva_dataset::internal::shown;
+use taceva_dataset::internal::{all_cores, limits, nearest, read_capped, shown};
+use taceva_dataset::{DatasetError, Digest, Place};
 
 use number::parse_number;
 use split::Block;

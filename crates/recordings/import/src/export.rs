@@ -16,12 +16,8 @@ use std::path::{Path, PathBuf};
 
 use taceva_core::Progress;
 
-use taceva_dataset::Dataset;
-use taceva_dataset::DatasetError;
-use taceva_dataset::internal::Cells;
-use taceva_dataset::internal::staging::Place;
-use taceva_dataset::internal::staging::StagedFolder;
-use taceva_dataset::internal::write_durable;
+use taceva_dataset::internal::{Cells, staging::Place, staging::StagedFolder, write_durable};
+use taceva_dataset::{Dataset, DatasetError};
 
 use content::Exported;
 use picture::Pictures;

@@ -27,11 +27,8 @@ use taceva_arrays::ArrayFormat;
 use crate::csv_table::CsvTable;
 use crate::frame_names::FrameNames;
 use crate::source_folder::SourceFolder;
-use taceva_dataset::DatasetError;
-use taceva_dataset::Place;
-use taceva_dataset::internal::listed;
-use taceva_dataset::internal::nearest;
-use taceva_dataset::internal::shown;
+use taceva_dataset::internal::{listed, nearest, shown};
+use taceva_dataset::{DatasetError, Place};
 
 pub(crate) use arrays::{ArrayPictures, stated};
 pub(crate) use clips::ClipPictures;

@@ -9,8 +9,7 @@ use crate::import::converter;
 use crate::import::source::has_match;
 use crate::source_folder::SourceFolder;
 use taceva_dataset::DatasetError;
-use taceva_dataset::internal::shown;
-use taceva_dataset::internal::shown_path;
+use taceva_dataset::internal::{shown, shown_path};
 
 macro_rules! files {
     ($($name:literal),* $(,)?) => {

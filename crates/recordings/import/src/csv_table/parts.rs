@@ -10,11 +10,8 @@ use serde::{Deserialize, Serialize};
 
 use super::scan::{Found, LineScan, Mark, QuotedScan};
 use super::{CsvTable, as_text, delimiter_of};
-use taceva_dataset::DatasetError;
-use taceva_dataset::Digest;
-use taceva_dataset::Place;
-use taceva_dataset::internal::limits;
-use taceva_dataset::internal::open_regular;
+use taceva_dataset::internal::{limits, open_regular};
+use taceva_dataset::{DatasetError, Digest, Place};
 
 /// Rows of a part; the last one has fewer.
 pub(super) const PART_ROWS: u64 = 1 << 16;

@@ -4,9 +4,8 @@ use std::path::Path;
 
 use super::CsvTable;
 use super::split::Block;
-use taceva_dataset::DatasetError;
-use taceva_dataset::Place;
 use taceva_dataset::internal::limits;
+use taceva_dataset::{DatasetError, Place};
 
 pub(super) fn read(path: &Path, text: &str, delimiter: u8) -> Result<CsvTable, DatasetError> {
     let wrong = |line: u64, problem: String| DatasetError::Table {

@@ -6,9 +6,8 @@ use std::path::Path;
 
 use super::cells::{Ragged, RowSplitter};
 use super::{CsvTable, line_at};
-use taceva_dataset::DatasetError;
-use taceva_dataset::Place;
 use taceva_dataset::internal::each_part;
+use taceva_dataset::{DatasetError, Place};
 
 /// Text below this is not worth a second thread.
 const LEAST_PART: usize = 1 << 16;

@@ -9,11 +9,8 @@ use super::cells::RowSplitter;
 use super::parts::{begin_of, header_line_of};
 use super::split::Block;
 use super::{CsvTable, delimiter_of, line_at};
-use taceva_dataset::DatasetError;
-use taceva_dataset::Digest;
-use taceva_dataset::Place;
-use taceva_dataset::internal::PartsDigest;
-use taceva_dataset::internal::open_regular;
+use taceva_dataset::internal::{PartsDigest, open_regular};
+use taceva_dataset::{DatasetError, Digest, Place};
 
 /// How many bytes are read at once.
 const AHEAD: usize = 1 << 16;

@@ -8,9 +8,7 @@ use super::tables::{SeenColumn, SeenTable};
 use crate::foreign::{PictureColumn, PictureKind};
 use crate::source_folder::SourceFolder;
 use taceva_dataset::ChannelOrder;
-use taceva_dataset::internal::decode;
-use taceva_dataset::internal::limits;
-use taceva_dataset::internal::read_capped;
+use taceva_dataset::internal::{decode, limits, read_capped};
 
 /// How many cells of a column are looked up as files.
 const LOOKED_UP: usize = 20;

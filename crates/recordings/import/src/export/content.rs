@@ -5,11 +5,8 @@ use std::num::NonZeroUsize;
 use taceva_core::Progress;
 
 use super::picture::Pictures;
-use taceva_dataset::Dataset;
-use taceva_dataset::DatasetError;
-use taceva_dataset::internal::NamedColumn;
-use taceva_dataset::internal::staging::StagedFolder;
-use taceva_dataset::internal::write_durable;
+use taceva_dataset::internal::{NamedColumn, staging::StagedFolder, write_durable};
+use taceva_dataset::{Dataset, DatasetError};
 
 /// What an export is made of.
 pub(super) struct Exported<'a> {

@@ -9,10 +9,7 @@ use super::content::Exported;
 use super::map::{self, Written, quoted};
 use super::picture::Encoded;
 use taceva_dataset::DatasetError;
-use taceva_dataset::internal::layout;
-use taceva_dataset::internal::ordered_map;
-use taceva_dataset::internal::staging::StagedFolder;
-use taceva_dataset::internal::write_durable;
+use taceva_dataset::internal::{layout, ordered_map, staging::StagedFolder, write_durable};
 
 /// The table, whose rows are as those of the dataset.
 const TABLE: &str = "labels.csv";

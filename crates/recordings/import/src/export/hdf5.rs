@@ -7,8 +7,7 @@ use super::cells::of_arrays;
 use super::content::Exported;
 use super::map::{self, Written, quoted};
 use taceva_dataset::DatasetError;
-use taceva_dataset::internal::Cells;
-use taceva_dataset::internal::staging::StagedFolder;
+use taceva_dataset::internal::{Cells, staging::StagedFolder};
 
 const FILE: &str = "recording.h5";
 /// Longest text of a column, bytes: all texts of an array have the room of the longest.

@@ -7,8 +7,7 @@ use super::cells::of_table;
 use super::content::Exported;
 use super::map::{self, Written, quoted};
 use taceva_dataset::DatasetError;
-use taceva_dataset::internal::staging::StagedFolder;
-use taceva_dataset::internal::write_durable;
+use taceva_dataset::internal::{staging::StagedFolder, write_durable};
 
 /// Where the file lies in the folder.
 const FILE: &str = "data/train-00000-of-00001.parquet";

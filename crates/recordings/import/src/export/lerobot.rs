@@ -16,10 +16,8 @@ use super::cells::of_table;
 use super::content::Exported;
 use super::map::{Written, quoted};
 use super::picture::Pictures;
-use taceva_dataset::DatasetError;
-use taceva_dataset::Table;
-use taceva_dataset::internal::RESERVED;
-use taceva_dataset::internal::staging::StagedFolder;
+use taceva_dataset::internal::{RESERVED, staging::StagedFolder};
+use taceva_dataset::{DatasetError, Table};
 
 const STATE: &str = "observation.state";
 const TAXELS: &str = "observation.tactile";

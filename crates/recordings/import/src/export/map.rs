@@ -3,11 +3,8 @@
 use std::fmt::Write as _;
 
 use super::content::Exported;
-use taceva_dataset::ChannelOrder;
-use taceva_dataset::Footprint;
-use taceva_dataset::ReducedFrames;
-use taceva_dataset::SensorFacts;
 use taceva_dataset::internal::RESERVED;
+use taceva_dataset::{ChannelOrder, Footprint, ReducedFrames, SensorFacts};
 
 /// Where a form has what the map names.
 pub(super) struct Written {

@@ -3,11 +3,8 @@
 use taceva_core::{Frame, PixelFormat};
 
 use super::form::ExportForm;
-use taceva_dataset::ChannelOrder;
-use taceva_dataset::Dataset;
-use taceva_dataset::DatasetError;
-use taceva_dataset::internal::ImageKind;
-use taceva_dataset::internal::encode_png;
+use taceva_dataset::internal::{ImageKind, encode_png};
+use taceva_dataset::{ChannelOrder, Dataset, DatasetError};
 
 /// The pictures of a dataset that has any.
 pub(super) struct Pictures<'a> {

@@ -8,8 +8,7 @@ use taceva_tables::{Cell, ColumnKind, LeRobot, ParquetTable, TableError};
 
 use super::pictures::{Ended, Picture, Pictures, Visit, damaged, guarded_visit};
 use super::said;
-use taceva_dataset::ChannelOrder;
-use taceva_dataset::DatasetError;
+use taceva_dataset::{ChannelOrder, DatasetError};
 
 /// What is done with the bytes of each cell.
 type VisitBytes<'v> = &'v mut dyn FnMut(u64, Option<Vec<u8>>) -> Result<(), Ended<TableError>>;

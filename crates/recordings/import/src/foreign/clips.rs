@@ -7,10 +7,8 @@ use taceva_video::{Colours, Decoders, Video, VisitError};
 
 use super::pictures::{Ended, Picture, Pictures, Visit, damaged, guarded_visit};
 use super::said;
-use taceva_dataset::ChannelOrder;
-use taceva_dataset::DatasetError;
-use taceva_dataset::FrameCodec;
 use taceva_dataset::internal::guarded;
+use taceva_dataset::{ChannelOrder, DatasetError, FrameCodec};
 
 /// The frames of a clip in the order in which they are shown. The file is opened for each visit: a recording may have one clip for each press.
 #[derive(Debug)]

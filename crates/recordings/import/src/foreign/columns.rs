@@ -7,9 +7,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::pictures::Pictures;
 use crate::frame_names::FrameNames;
-use taceva_dataset::DatasetError;
-use taceva_dataset::Place;
 use taceva_dataset::internal::guarded;
+use taceva_dataset::{DatasetError, Place};
 
 /// What a file says of the numbers in a column, in attributes of its array.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -5,9 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::pictures::{Pictures, Visit};
-use taceva_dataset::ChannelOrder;
-use taceva_dataset::DatasetError;
-use taceva_dataset::FrameCodec;
+use taceva_dataset::{ChannelOrder, DatasetError, FrameCodec};
 
 /// The pictures of several files, one file after the other.
 #[derive(Debug)]

@@ -7,12 +7,8 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use super::members::in_order;
-use taceva_dataset::DatasetError;
-use taceva_dataset::Place;
-use taceva_dataset::internal::limits;
-use taceva_dataset::internal::read_capped;
-use taceva_dataset::internal::shown;
-use taceva_dataset::internal::utf8;
+use taceva_dataset::internal::{limits, read_capped, shown, utf8};
+use taceva_dataset::{DatasetError, Place};
 
 /// How many rows are looked at to list the members that there are.
 const LISTED: usize = 100;

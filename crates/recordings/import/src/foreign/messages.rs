@@ -10,9 +10,8 @@ use super::columns::{ColumnSource, PictureColumn, PictureKind};
 use super::pictures::{Ended, Picture, Pictures, Visit, damaged, guarded_visit};
 use super::said;
 use crate::frame_names::FrameNames;
-use taceva_dataset::ChannelOrder;
-use taceva_dataset::DatasetError;
 use taceva_dataset::internal::guarded;
+use taceva_dataset::{ChannelOrder, DatasetError};
 
 /// Messages of these types are pictures in their field `data`.
 const PICTURES: [&str; 2] = ["sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"];

@@ -6,10 +6,8 @@ use std::path::Path;
 use taceva_core::Frame;
 
 use super::said;
-use taceva_dataset::ChannelOrder;
-use taceva_dataset::DatasetError;
-use taceva_dataset::FrameCodec;
 use taceva_dataset::internal::guarded;
+use taceva_dataset::{ChannelOrder, DatasetError, FrameCodec};
 
 /// Pictures by their number, from 0.
 pub(crate) trait Pictures: fmt::Debug + Send + Sync {

@@ -13,10 +13,8 @@ use super::json::json_problem;
 use super::pictures::{Picture, Pictures, Visit, damaged};
 use super::tar::{FileTape, Members, TarError};
 use crate::frame_names::FrameNames;
-use taceva_dataset::ChannelOrder;
-use taceva_dataset::DatasetError;
-use taceva_dataset::internal::ImageKind;
-use taceva_dataset::internal::limits;
+use taceva_dataset::internal::{ImageKind, limits};
+use taceva_dataset::{ChannelOrder, DatasetError};
 
 /// How many samples are looked at to find whether a JSON has a member.
 const LOOKED_AT: usize = 100;

@@ -7,12 +7,8 @@ use std::path::{Path, PathBuf};
 use flate2::read::MultiGzDecoder;
 
 use crate::foreign::tar::{FileTape, Members, Tape, TarError};
-use taceva_dataset::DatasetError;
-use taceva_dataset::Place;
-use taceva_dataset::internal::open_regular;
-use taceva_dataset::internal::shown_path;
-use taceva_dataset::internal::staging;
-use taceva_dataset::internal::staging::StagedFolder;
+use taceva_dataset::internal::{open_regular, shown_path, staging, staging::StagedFolder};
+use taceva_dataset::{DatasetError, Place};
 
 /// How many times as large as its file a compressed archive may be, and how many bytes more.
 const GROWTH: u64 = 128;

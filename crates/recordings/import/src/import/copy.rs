@@ -11,13 +11,10 @@ use taceva_core::{FrameInfo, Progress};
 use super::plan::ImportPlan;
 use super::summary::ImportSummary;
 pub(super) use frames::copy_frames;
-use taceva_dataset::DatasetError;
-use taceva_dataset::Digest;
-use taceva_dataset::internal::Beside;
-use taceva_dataset::internal::layout;
-use taceva_dataset::internal::staging::Place;
-use taceva_dataset::internal::staging::StagedFolder;
-use taceva_dataset::internal::write_table_and_header;
+use taceva_dataset::internal::{
+    Beside, layout, staging::Place, staging::StagedFolder, write_table_and_header,
+};
+use taceva_dataset::{DatasetError, Digest};
 
 /// What an import did.
 ///

@@ -5,8 +5,7 @@ use std::fmt;
 use super::copy::ImportReport;
 use super::plan::ImportPlan;
 use super::summary::{Conversion, ImportSummary, JoinSummary};
-use taceva_dataset::internal::shown;
-use taceva_dataset::internal::shown_path;
+use taceva_dataset::internal::{shown, shown_path};
 use taceva_dataset::names_quality;
 
 impl fmt::Display for ImportSummary {

@@ -14,26 +14,13 @@ use super::frame_plan::PlannedFrames;
 use super::plan::ImportPlan;
 use super::signals::PlannedSignals;
 use duplicates::refuse_twice;
-use taceva_dataset::Dataset;
-use taceva_dataset::DatasetError;
-use taceva_dataset::Digest;
-use taceva_dataset::Extension;
-use taceva_dataset::FramesInfo;
-use taceva_dataset::Header;
-use taceva_dataset::SignalsInfo;
-use taceva_dataset::Table;
-use taceva_dataset::internal::Beside;
-use taceva_dataset::internal::Difference;
-use taceva_dataset::internal::Misread;
-use taceva_dataset::internal::RowNames;
-use taceva_dataset::internal::SignalsWriter;
-use taceva_dataset::internal::differences_of_added;
-use taceva_dataset::internal::layout;
-use taceva_dataset::internal::limits;
-use taceva_dataset::internal::read_capped;
-use taceva_dataset::internal::staging::Place;
-use taceva_dataset::internal::staging::StagedFolder;
-use taceva_dataset::internal::write_table_and_header;
+use taceva_dataset::internal::{
+    Beside, Difference, Misread, RowNames, SignalsWriter, differences_of_added, layout, limits,
+    read_capped, staging::Place, staging::StagedFolder, write_table_and_header,
+};
+use taceva_dataset::{
+    Dataset, DatasetError, Digest, Extension, FramesInfo, Header, SignalsInfo, Table,
+};
 
 /// When rows are added, and from where, as the header of the dataset will say it.
 ///

@@ -4,8 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::foreign::Pictures;
-use taceva_dataset::ChannelOrder;
-use taceva_dataset::Place;
+use taceva_dataset::{ChannelOrder, Place};
 
 /// Where the frames come from.
 #[derive(Debug)]

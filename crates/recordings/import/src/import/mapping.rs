@@ -7,9 +7,8 @@ use std::borrow::Cow;
 
 use super::map::ImportMap;
 use crate::source_folder::SourceFolder;
-use taceva_dataset::DatasetError;
-use taceva_dataset::Digest;
 use taceva_dataset::internal::Mapping;
+use taceva_dataset::{DatasetError, Digest};
 
 /// Of so many columns of taxels all are named, and each by so many bytes; what is more is told apart by a digest, so that a header stays small.
 const NAMED: usize = 64;

@@ -19,10 +19,8 @@ use super::summary::ImportSummary;
 use crate::foreign::TableForm;
 use crate::source_folder::SourceFolder;
 use reading::Reading;
-use taceva_dataset::DatasetError;
-use taceva_dataset::RecordingFacts;
-use taceva_dataset::Table;
 use taceva_dataset::internal::Mapping;
+use taceva_dataset::{DatasetError, RecordingFacts, Table};
 
 /// An import that can be made: every label is read and converted, every frame is found; frames are verified when it is run.
 ///

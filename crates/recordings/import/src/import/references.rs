@@ -5,9 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::map::REFERENCE_ATTRIBUTE;
 use crate::source_folder::SourceFolder;
-use taceva_dataset::DatasetError;
-use taceva_dataset::Place;
-use taceva_dataset::Table;
+use taceva_dataset::{DatasetError, Place, Table};
 
 /// The picture without contact of each kept row, relative to the folder of the lab.
 #[derive(Debug, Default)]

@@ -18,8 +18,7 @@ use crate::foreign::{ForeignTable, cell_list};
 use crate::source_folder::SourceFolder;
 use columns::{base_of, mentioned};
 use join::Joined;
-use taceva_dataset::DatasetError;
-use taceva_dataset::Place;
+use taceva_dataset::{DatasetError, Place};
 
 pub(super) use classes::ClassCells;
 pub(super) use join::JoinMatches;

@@ -12,10 +12,8 @@ use super::map::{FrameNames, ImportMap};
 use super::resolve::{ClassCells, JoinMatches, NamedBy, ResolvedTable, resolve};
 use crate::foreign::{Pictures, TableForm};
 use crate::source_folder::SourceFolder;
-use taceva_dataset::DatasetError;
-use taceva_dataset::Place;
-use taceva_dataset::Row;
 use taceva_dataset::internal::shown;
+use taceva_dataset::{DatasetError, Place, Row};
 
 /// A table whose columns have been found.
 pub(super) struct MappedTable<'a> {

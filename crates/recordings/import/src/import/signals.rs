@@ -11,10 +11,8 @@ use super::map::{SignalsFrom, SignalsMap};
 use super::rows::MappedTable;
 use crate::source_folder::SourceFolder;
 use array::ArraySignals;
-use taceva_dataset::DatasetError;
-use taceva_dataset::SignalsInfo;
-use taceva_dataset::SignalsSpec;
 use taceva_dataset::internal::SignalsWriter;
+use taceva_dataset::{DatasetError, SignalsInfo, SignalsSpec};
 
 /// The signals of the rows that are kept, as they are found.
 #[derive(Debug)]

@@ -6,8 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::source_folder::SourceFolder;
 use taceva_dataset::DatasetError;
-use taceva_dataset::internal::limits;
-use taceva_dataset::internal::shown;
+use taceva_dataset::internal::{limits, shown};
 
 /// The files that `pattern` names, sorted; `*` stands for any characters within one name.
 pub(crate) fn matching_files(

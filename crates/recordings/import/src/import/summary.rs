@@ -6,9 +6,7 @@ use std::path::PathBuf;
 use taceva_core::{SignalInfo, SourceUnit, Unit};
 
 use super::suspicion::Suspicion;
-use taceva_dataset::ChannelOrder;
-use taceva_dataset::LeftOut;
-use taceva_dataset::names_quality;
+use taceva_dataset::{ChannelOrder, LeftOut, names_quality};
 
 /// The counts of an import.
 ///

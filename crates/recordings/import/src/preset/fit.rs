@@ -9,12 +9,8 @@ use crate::import::ImportMap;
 use crate::import::source::{has_match, matching_files};
 use crate::layouts::{Fit, Layout};
 use crate::source_folder::SourceFolder;
-use taceva_dataset::ChannelOrder;
-use taceva_dataset::DatasetError;
-use taceva_dataset::Place;
-use taceva_dataset::internal::decode;
-use taceva_dataset::internal::limits;
-use taceva_dataset::internal::read_capped;
+use taceva_dataset::internal::{decode, limits, read_capped};
+use taceva_dataset::{ChannelOrder, DatasetError, Place};
 
 /// The map for the folder.
 pub(super) fn text(layout: &Layout, folder: &SourceFolder) -> Result<String, DatasetError> {

@@ -8,8 +8,7 @@ use taceva_core::{Frame, FrameInfo, PixelFormat};
 use crate::foreign::columns::PictureKind;
 use crate::foreign::pictures::Picture;
 use crate::frame_names::{ArrayLayout, FrameNames, PixelRange};
-use taceva_dataset::internal::ImageKind;
-use taceva_dataset::internal::limits;
+use taceva_dataset::internal::{ImageKind, limits};
 
 /// How many bytes of an array are read at once.
 pub(super) const READ_BYTES: u64 = 8 << 20;

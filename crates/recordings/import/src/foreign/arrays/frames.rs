@@ -10,10 +10,8 @@ use super::attributes::{absent_chunks, problem};
 use super::form::{Form, READ_BYTES, form_of};
 use crate::foreign::pictures::{Pictures, Visit, damaged};
 use crate::frame_names::{ArrayFrames, FrameNames};
-use taceva_dataset::ChannelOrder;
-use taceva_dataset::DatasetError;
-use taceva_dataset::internal::guarded;
-use taceva_dataset::internal::listed;
+use taceva_dataset::internal::{guarded, listed};
+use taceva_dataset::{ChannelOrder, DatasetError};
 
 /// The frames of one array, or of several one after the other.
 #[derive(Debug)]

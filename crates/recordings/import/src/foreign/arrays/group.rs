@@ -4,8 +4,7 @@ use std::collections::BTreeMap;
 
 use taceva_arrays::ArrayFile;
 
-use taceva_dataset::internal::limits;
-use taceva_dataset::internal::listed;
+use taceva_dataset::internal::{limits, listed};
 
 /// The arrays of one group, or of the whole file.
 #[derive(Debug)]

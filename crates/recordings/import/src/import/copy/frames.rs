@@ -9,15 +9,8 @@ use taceva_core::{FrameInfo, Progress};
 use super::picture::Copied;
 use crate::foreign::{Picture, Pictures};
 use crate::import::frame_plan::{FrameSource, PlannedFrames, within};
-use taceva_dataset::DatasetError;
-use taceva_dataset::FrameCodec;
-use taceva_dataset::FramesInfo;
-use taceva_dataset::ReferenceInfo;
-use taceva_dataset::Table;
-use taceva_dataset::internal::ImageKind;
-use taceva_dataset::internal::layout;
-use taceva_dataset::internal::ordered_map;
-use taceva_dataset::internal::staging::StagedFolder;
+use taceva_dataset::internal::{ImageKind, layout, ordered_map, staging::StagedFolder};
+use taceva_dataset::{DatasetError, FrameCodec, FramesInfo, ReferenceInfo, Table};
 
 /// Frames copied at a time by each job: most of the time is spent waiting until they are on the disk, and disks write
 /// several files at once faster.

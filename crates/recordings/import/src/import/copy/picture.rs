@@ -5,19 +5,11 @@ use std::path::Path;
 use taceva_core::{Frame, FrameInfo};
 
 use crate::foreign::Picture;
-use taceva_dataset::ChannelOrder;
-use taceva_dataset::DatasetError;
-use taceva_dataset::Digest;
-use taceva_dataset::FrameEntry;
-use taceva_dataset::internal::ImageKind;
-use taceva_dataset::internal::check_to_the_end;
-use taceva_dataset::internal::decode;
-use taceva_dataset::internal::encode_png;
-use taceva_dataset::internal::layout;
-use taceva_dataset::internal::limits;
-use taceva_dataset::internal::read_capped;
-use taceva_dataset::internal::staging::StagedFolder;
-use taceva_dataset::internal::write_durable;
+use taceva_dataset::internal::{
+    ImageKind, check_to_the_end, decode, encode_png, layout, limits, read_capped,
+    staging::StagedFolder, write_durable,
+};
+use taceva_dataset::{ChannelOrder, DatasetError, Digest, FrameEntry};
 
 /// A frame that was verified and written.
 pub(super) struct Copied {

@@ -4,15 +4,8 @@ use std::collections::{BTreeMap, HashMap};
 use std::fs::File;
 use std::path::Path;
 
-use taceva_dataset::Dataset;
-use taceva_dataset::DatasetError;
-use taceva_dataset::Digest;
-use taceva_dataset::SignalsInfo;
-use taceva_dataset::Table;
-use taceva_dataset::internal::PartsDigest;
-use taceva_dataset::internal::SignalsReader;
-use taceva_dataset::internal::layout;
-use taceva_dataset::internal::shown;
+use taceva_dataset::internal::{PartsDigest, SignalsReader, layout, shown};
+use taceva_dataset::{Dataset, DatasetError, Digest, SignalsInfo, Table};
 
 /// So many different pictures that come again are no chance: no camera takes a picture twice.
 const SAME_PICTURES: usize = 3;

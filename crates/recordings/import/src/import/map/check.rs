@@ -7,9 +7,7 @@ use taceva_core::SourceUnit;
 use toml::Spanned;
 
 use taceva_dataset::DatasetError;
-use taceva_dataset::internal::check_relative;
-use taceva_dataset::internal::line_of;
-use taceva_dataset::internal::toml_error;
+use taceva_dataset::internal::{check_relative, line_of, toml_error};
 
 /// Checks what a parser of types cannot, and says where.
 pub(super) struct Check<'a> {

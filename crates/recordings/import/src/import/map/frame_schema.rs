@@ -5,8 +5,7 @@ use toml::Spanned;
 
 use super::check::{Check, ColumnName};
 use super::{ArrayFrames, ArrayLayout, FrameMap, FrameNames, OWN_ROW, PixelRange, VideoFrames};
-use taceva_dataset::ChannelOrder;
-use taceva_dataset::DatasetError;
+use taceva_dataset::{ChannelOrder, DatasetError};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table")]

@@ -14,16 +14,8 @@ use super::sections::{WrittenClass, WrittenJoin, WrittenMatrix, WrittenPath};
 use super::signals::WrittenSignals;
 use super::table_schema::WrittenTable;
 use super::{ColumnMap, DropRules, IdMap, ImportMap, MatrixMap, OriginMap, Placeholder, TimeMap};
-use taceva_dataset::DatasetError;
-use taceva_dataset::Footprint;
-use taceva_dataset::RecordingFacts;
-use taceva_dataset::SensorFacts;
-use taceva_dataset::Source;
-use taceva_dataset::internal::RESERVED;
-use taceva_dataset::internal::is_attribute_name;
-use taceva_dataset::internal::parse_toml;
-use taceva_dataset::internal::shown;
-use taceva_dataset::internal::toml_error;
+use taceva_dataset::internal::{RESERVED, is_attribute_name, parse_toml, shown, toml_error};
+use taceva_dataset::{DatasetError, Footprint, RecordingFacts, SensorFacts, Source};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table")]

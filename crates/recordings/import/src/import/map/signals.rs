@@ -5,8 +5,7 @@ use taceva_core::{SignalInfo, SourceUnit};
 use toml::Spanned;
 
 use super::check::{Check, ColumnName};
-use taceva_dataset::DatasetError;
-use taceva_dataset::SignalsSpec;
+use taceva_dataset::{DatasetError, SignalsSpec};
 
 /// Where the numbers of taxels are.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,8 +4,7 @@ use super::short;
 use crate::import::map::{ImportMap, SignalsFrom};
 use crate::import::resolve::matrix_rows;
 use crate::source_folder::SourceFolder;
-use taceva_dataset::DatasetError;
-use taceva_dataset::MappedColumn;
+use taceva_dataset::{DatasetError, MappedColumn};
 
 /// How `map` reads the channels, the time and the numbers of taxels.
 ///

@@ -2,9 +2,7 @@
 
 use super::{short, short_name};
 use crate::import::map::{FrameMap, FrameNames, ImportMap, JoinBy, JoinMap, OWN_ROW};
-use taceva_dataset::MappedClass;
-use taceva_dataset::MappedJoin;
-use taceva_dataset::MappedPictures;
+use taceva_dataset::{MappedClass, MappedJoin, MappedPictures};
 
 pub(super) fn join(map: &JoinMap) -> MappedJoin {
     let name = short_name(&map.name);

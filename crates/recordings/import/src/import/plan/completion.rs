@@ -12,9 +12,8 @@ use crate::import::omissions;
 use crate::import::references::Settled;
 use crate::import::resolve::JoinMatches;
 use crate::import::source::unnamed_images;
-use taceva_dataset::DatasetError;
-use taceva_dataset::Place;
 use taceva_dataset::internal::shown;
+use taceva_dataset::{DatasetError, Place};
 
 /// How many images that no row names are listed.
 const LISTED_IMAGES: usize = 20;

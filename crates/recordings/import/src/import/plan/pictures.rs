@@ -9,9 +9,8 @@ use crate::foreign::{ArrayPictures, ClipPictures, Pictures, SeveralPictures, Tab
 use crate::import::map::{FrameNames, OWN_ROW};
 use crate::import::rows::MappedTable;
 use crate::import::source::matching_files;
-use taceva_dataset::DatasetError;
-use taceva_dataset::Place;
 use taceva_dataset::internal::shown;
+use taceva_dataset::{DatasetError, Place};
 
 impl Reading<'_> {
     /// Checks that no two tables have the pictures in `file` by the number of the row, where no column says which picture a row has: each table

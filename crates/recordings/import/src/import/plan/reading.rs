@@ -16,8 +16,7 @@ use crate::import::rows::MappedTable;
 use crate::import::signals::FoundSignals;
 use crate::import::summary::ImportSummary;
 use crate::source_folder::SourceFolder;
-use taceva_dataset::DatasetError;
-use taceva_dataset::Table;
+use taceva_dataset::{DatasetError, Table};
 
 /// The rows of all tables as they are read.
 pub(super) struct Reading<'a> {

@@ -4,9 +4,8 @@ use super::Sources;
 use super::columns::base_of;
 use crate::foreign::ForeignTable;
 use crate::import::map::ClassMap;
-use taceva_dataset::DatasetError;
-use taceva_dataset::Place;
 use taceva_dataset::internal::shown;
+use taceva_dataset::{DatasetError, Place};
 
 /// What the cells of a class are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

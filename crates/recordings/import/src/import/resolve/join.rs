@@ -16,9 +16,8 @@ use crate::import::map::{JoinBy, JoinMap, Unmatched};
 use crate::source_folder::SourceFolder;
 use matches::TableUses;
 use matching::{At, about, comparable, seconds};
-use taceva_dataset::DatasetError;
-use taceva_dataset::Place;
 use taceva_dataset::internal::shown;
+use taceva_dataset::{DatasetError, Place};
 
 pub(in crate::import) use matches::JoinMatches;
 

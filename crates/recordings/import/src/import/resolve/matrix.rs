@@ -4,8 +4,7 @@ use super::table::ResolvedTable;
 use crate::csv_table::CsvTable;
 use crate::import::map::{MatrixMap, MatrixRows};
 use crate::source_folder::SourceFolder;
-use taceva_dataset::DatasetError;
-use taceva_dataset::Place;
+use taceva_dataset::{DatasetError, Place};
 
 /// Adds the columns that `map` gives to `table`; a product is empty where one of its factors is.
 pub(super) fn apply(

@@ -6,9 +6,8 @@ use taceva_core::SourceUnit;
 
 use super::Sources;
 use crate::csv_table::number;
-use taceva_dataset::DatasetError;
-use taceva_dataset::Place;
 use taceva_dataset::internal::shown;
+use taceva_dataset::{DatasetError, Place};
 
 /// The cells of the columns that a map names.
 pub(in crate::import) struct ResolvedTable {

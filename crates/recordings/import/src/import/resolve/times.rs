@@ -4,8 +4,7 @@ use taceva_core::SourceUnit;
 
 use super::columns::base_of;
 use crate::foreign::ForeignTable;
-use taceva_dataset::DatasetError;
-use taceva_dataset::Place;
+use taceva_dataset::{DatasetError, Place};
 
 /// Checks that `unit`, which the map states of the column `name` of `table`, is seconds where the file itself says that it holds times.
 pub(super) fn check(

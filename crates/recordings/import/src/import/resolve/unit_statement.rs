@@ -6,8 +6,7 @@ use super::Sources;
 use super::columns::base_of;
 use super::times;
 use crate::foreign::{ForeignTable, Stated};
-use taceva_dataset::DatasetError;
-use taceva_dataset::Place;
+use taceva_dataset::{DatasetError, Place};
 
 /// How a map reads a column.
 #[derive(Clone, Copy)]

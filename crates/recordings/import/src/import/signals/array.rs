@@ -10,10 +10,8 @@ use crate::foreign::stated;
 use crate::import::map::SignalsMap;
 use crate::import::resolve::{place_first, problem_of_name, problem_of_signals};
 use crate::source_folder::SourceFolder;
-use taceva_dataset::DatasetError;
-use taceva_dataset::Place;
-use taceva_dataset::internal::SignalsWriter;
-use taceva_dataset::internal::guarded;
+use taceva_dataset::internal::{SignalsWriter, guarded};
+use taceva_dataset::{DatasetError, Place};
 
 /// Numbers that are read at once: 8 MiB as 64 bits.
 const READ_VALUES: u64 = 1 << 20;

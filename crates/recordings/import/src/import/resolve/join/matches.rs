@@ -4,9 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use crate::import::summary::JoinSummary;
-use taceva_dataset::DatasetError;
-use taceva_dataset::Place;
 use taceva_dataset::internal::shown_path;
+use taceva_dataset::{DatasetError, Place};
 
 /// What one main table found in a joined one.
 pub(in crate::import) struct JoinMatches {

@@ -3,9 +3,8 @@
 use crate::csv_table::number;
 use crate::foreign::cell_list;
 use crate::import::map::{Pick, TimeJoin, TimeMap};
-use taceva_dataset::DatasetError;
-use taceva_dataset::Place;
 use taceva_dataset::internal::shown;
+use taceva_dataset::{DatasetError, Place};
 
 /// Seconds since 1970 are rounded by less than this in binary64.
 const ROUNDING_S: f64 = 1e-6;
