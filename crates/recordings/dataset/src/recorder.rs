@@ -279,7 +279,7 @@ impl Recorder {
         let row = self.row(sample, entries.pop().flatten());
         let info = sample.frame.as_ref().map(Frame::info);
         let written =
-            WrittenSample::new(&row, self.table.channels(), (info, signals_of(sample))).to_toml();
+            WrittenSample::new(&row, self.table.channels(), info, signals_of(sample)).to_toml();
         let sequence = self
             .journal
             .append(RecordKind::Sample, written.as_bytes())?;

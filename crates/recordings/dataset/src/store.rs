@@ -45,7 +45,8 @@ pub fn write_table_and_header(
     samples: &Path,
     header: &Path,
     facts: &RecordingFacts,
-    (table, frames): (&Table, Option<FramesInfo>),
+    table: &Table,
+    frames: Option<FramesInfo>,
     beside: Beside,
 ) -> Result<Header, DatasetError> {
     let bytes = to_parquet(table).map_err(|problem| DatasetError::Damaged {

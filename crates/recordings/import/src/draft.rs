@@ -79,7 +79,7 @@ impl MapDraft {
             notes.push(map_text::known_layout(preset.name()));
         }
         let text = match main_table(&source, &tables) {
-            Some(main) => map_text::of_table(&source, &groups, (main, &tables), &notes),
+            Some(main) => map_text::of_table(&source, &groups, main, &tables, &notes),
             None => match pictures.iter().max_by_key(|group| group.paths.len()) {
                 Some(group) => map_text::of_files(group, &notes),
                 None => {

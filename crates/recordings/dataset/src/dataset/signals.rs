@@ -101,7 +101,7 @@ impl Dataset {
         let (file, _) = self.folder.file(layout::SIGNALS, u64::MAX)?;
         let path = self.path().join(layout::SIGNALS);
         let rows = self.table.rows() as u64;
-        let reader = Arc::new(SignalsReader::open(&path, file, (info, rows))?);
+        let reader = Arc::new(SignalsReader::open(&path, file, info, rows)?);
         *opened = Some(Arc::clone(&reader));
         Ok(Some(reader))
     }

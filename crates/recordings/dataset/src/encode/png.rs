@@ -62,7 +62,7 @@ fn filtered(samples: &[u8], row: usize, pixel: usize) -> Vec<u8> {
     for current in samples.chunks_exact(row.max(1)) {
         let mut best = (u64::MAX, 0);
         for filter in 0..FILTERS {
-            apply(filter, (current, above, pixel), &mut tried);
+            apply(filter, current, above, pixel, &mut tried);
             let sizes = tried.iter().map(|byte| byte.cast_signed().unsigned_abs());
             let left: u64 = sizes.map(u64::from).sum();
             if left < best.0 {
@@ -81,7 +81,7 @@ fn filtered(samples: &[u8], row: usize, pixel: usize) -> Vec<u8> {
 const FILTERS: u8 = 5;
 
 /// Writes what `filter` leaves of a row under `above`, whose pixels have `pixel` bytes.
-fn apply(filter: u8, (current, above, pixel): (&[u8], &[u8], usize), into: &mut [u8]) {
+fn apply(filter: u8, current: &[u8], above: &[u8], pixel: usize, into: &mut [u8]) {
     for (at, into) in into.iter_mut().enumerate() {
         let left = at.checked_sub(pixel);
         let [left, corner] = [current, above].map(|row| left.map_or(0, |left| row[left]));

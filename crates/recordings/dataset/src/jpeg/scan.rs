@@ -131,9 +131,7 @@ impl Scan {
                     let (x, y) = (x * across + block % across, y * down + block / across);
                     let place = y * component.padded[0] + x;
                     match is_progressive {
-                        true => {
-                            self.progressive(coder, component, place, (&mut bits, &mut state))?
-                        }
+                        true => self.progressive(coder, component, place, &mut bits, &mut state)?,
                         false => sequential(coder, &mut bits, &mut state)?,
                     }
                 }
@@ -172,14 +170,15 @@ impl Scan {
         coder: &Coder<'_>,
         component: &mut Component,
         place: usize,
-        (bits, state): (&mut Bits<'_>, &mut State),
+        bits: &mut Bits<'_>,
+        state: &mut State,
     ) -> Result<(), String> {
         let nonzero = &mut component.nonzero[place];
         match (coder.first, coder.others, self.before) {
             (Some(first), _, _) => state.first(bits, first, coder, self.later),
             (None, None, _) => bits.take(1).map(drop),
-            (None, Some(others), 0) => self.first_of_band(bits, others, (nonzero, state)),
-            (None, Some(others), _) => self.refined(bits, others, (nonzero, state)),
+            (None, Some(others), 0) => self.first_of_band(bits, others, nonzero, state),
+            (None, Some(others), _) => self.refined(bits, others, nonzero, state),
         }
     }
 
@@ -188,7 +187,8 @@ impl Scan {
         &self,
         bits: &mut Bits<'_>,
         table: &Huffman,
-        (nonzero, state): (&mut u64, &mut State),
+        nonzero: &mut u64,
+        state: &mut State,
     ) -> Result<(), String> {
         if state.empty_blocks > 0 {
             state.empty_blocks -= 1;
@@ -219,7 +219,8 @@ impl Scan {
         &self,
         bits: &mut Bits<'_>,
         table: &Huffman,
-        (nonzero, state): (&mut u64, &mut State),
+        nonzero: &mut u64,
+        state: &mut State,
     ) -> Result<(), String> {
         let [mut at, last] = self.band;
         if state.empty_blocks == 0 {

@@ -26,7 +26,8 @@ impl Recorder {
             &samples,
             &header_path,
             &self.facts,
-            (&self.table, self.frames_info()),
+            &self.table,
+            self.frames_info(),
             Beside {
                 presses: self.press_counts(),
                 stream: self.stream,
@@ -63,7 +64,7 @@ impl Recorder {
     fn verify_signals(&self, path: &Path, info: &SignalsInfo) -> Result<(), DatasetError> {
         let file = File::open(path).map_err(DatasetError::io("open", path))?;
         let rows = self.table.rows() as u64;
-        SignalsReader::open(path, file, (info, rows))?.verify()
+        SignalsReader::open(path, file, info, rows)?.verify()
     }
 
     fn put_in_place(&self, from: &Path, name: &str) -> Result<(), DatasetError> {

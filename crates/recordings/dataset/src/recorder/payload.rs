@@ -189,7 +189,8 @@ impl WrittenSample {
     pub(super) fn new(
         row: &Row,
         channels: &Channels,
-        (info, signals): (Option<FrameInfo>, Option<&[f32]>),
+        info: Option<FrameInfo>,
+        signals: Option<&[f32]>,
     ) -> WrittenSample {
         let truth = channels.iter().zip(&row.truth);
         WrittenSample {

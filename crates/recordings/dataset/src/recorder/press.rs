@@ -48,7 +48,7 @@ impl Recorder {
         let channels = self.table.channels();
         let written = rows
             .iter()
-            .map(|(row, info, signals)| WrittenSample::new(row, channels, (*info, *signals)));
+            .map(|(row, info, signals)| WrittenSample::new(row, channels, *info, *signals));
         let written = WrittenPress {
             press: press.to_owned(),
             outcome,

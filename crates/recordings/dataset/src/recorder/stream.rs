@@ -70,7 +70,7 @@ impl Recorder {
         let channels = self.table().channels();
         let written = rows
             .iter()
-            .map(|(row, info, signals)| WrittenSample::new(row, channels, (*info, *signals)));
+            .map(|(row, info, signals)| WrittenSample::new(row, channels, *info, *signals));
         let written = WrittenStream::new(facts, written.collect());
         let sequence = self
             .journal

@@ -36,7 +36,8 @@ impl SignalsReader {
     pub fn open(
         path: &Path,
         mut file: File,
-        (info, rows): (&SignalsInfo, u64),
+        info: &SignalsInfo,
+        rows: u64,
     ) -> Result<SignalsReader, DatasetError> {
         let found = Digest::of_reader(&mut file).map_err(DatasetError::io("read", path))?;
         if found != info.sha256 {

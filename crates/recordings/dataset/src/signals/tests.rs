@@ -30,7 +30,7 @@ fn written(folder: &Path, rows: u16) -> (PathBuf, SignalsInfo) {
 }
 
 fn opened(path: &Path, info: &SignalsInfo, rows: u64) -> Result<SignalsReader, DatasetError> {
-    SignalsReader::open(path, File::open(path).expect("there"), (info, rows))
+    SignalsReader::open(path, File::open(path).expect("there"), info, rows)
 }
 
 #[test]

@@ -61,7 +61,8 @@ pub(super) fn file_column<'t>(
 pub(super) fn of(
     folder: &SourceFolder,
     groups: &[FileGroup],
-    (main, tables): (&SeenTable<'_>, &[SeenTable<'_>]),
+    main: &SeenTable<'_>,
+    tables: &[SeenTable<'_>],
 ) -> Option<FrameLines> {
     if let Some((column, is_below_source)) = file_column(folder, main) {
         let mut lines = vec![format!("column = {:?}", column.name)];

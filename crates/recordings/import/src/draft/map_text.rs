@@ -38,10 +38,11 @@ pub(super) fn known_layout(preset: &str) -> String {
 pub(super) fn of_table(
     folder: &SourceFolder,
     groups: &[FileGroup],
-    (main, tables): (&SeenTable<'_>, &[SeenTable<'_>]),
+    main: &SeenTable<'_>,
+    tables: &[SeenTable<'_>],
     notes: &[String],
 ) -> String {
-    let frame = frames::of(folder, groups, (main, tables));
+    let frame = frames::of(folder, groups, main, tables);
     let joins = joins::of(main, tables);
     let mut text = begun(notes);
     line(
@@ -90,7 +91,7 @@ pub(super) fn of_table(
     }
     let mut ids = Lines::default();
     if let Some(parts) = parts {
-        add_parts(parts, (&mut channels, &mut ids, &mut attributes));
+        add_parts(parts, &mut channels, &mut ids, &mut attributes);
         let mut counted = parts
             .names
             .iter()
@@ -216,7 +217,7 @@ pub(super) fn of_files(group: &FileGroup, notes: &[String]) -> String {
         );
     } else {
         add_path(&mut text, &group.parts);
-        add_parts(&group.parts, (&mut channels, &mut ids, &mut attributes));
+        add_parts(&group.parts, &mut channels, &mut ids, &mut attributes);
     }
     add_frame(
         &mut text,
@@ -279,7 +280,7 @@ fn add_channels(lines: &mut Lines, name: &str, found: &[(&'static str, String)],
 }
 
 /// What the parts of a path seem to be: channels by their names, a unit, texts.
-fn add_parts(parts: &PathParts, (channels, ids, attributes): (&mut Lines, &mut Lines, &mut Lines)) {
+fn add_parts(parts: &PathParts, channels: &mut Lines, ids: &mut Lines, attributes: &mut Lines) {
     for (name, is_number) in &parts.names {
         let from = format!("path.{name}");
         match (is_number, channel(&words(name))) {

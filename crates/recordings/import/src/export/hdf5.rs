@@ -22,7 +22,7 @@ pub(super) fn write(
     let rows = dataset.table().rows();
     let mut writer = Hdf5Writer::create(&staged.path().join(FILE)).map_err(of_arrays)?;
     for column in &exported.columns {
-        write_column(exported, &mut writer, (column.name, &column.cells))?;
+        write_column(exported, &mut writer, column.name, &column.cells)?;
     }
     let taxels = header
         .signals
@@ -93,7 +93,8 @@ pub(super) fn write(
 fn write_column(
     exported: &Exported<'_>,
     writer: &mut Hdf5Writer,
-    (name, cells): (&str, &Cells<'_>),
+    name: &str,
+    cells: &Cells<'_>,
 ) -> Result<(), DatasetError> {
     let rows = exported.dataset.table().rows();
     let shape = [rows as u64];
@@ -139,7 +140,7 @@ fn write_column(
                 .max(1);
             let bytes = u32::try_from(longest).unwrap_or(u32::MAX);
             for (row, text) in texts.clone().enumerate() {
-                check_text(exported, (row, name), &text)?;
+                check_text(exported, row, name, &text)?;
             }
             writer
                 .begin(name, WrittenElement::Text { bytes }, &shape, &attributes)
@@ -156,7 +157,8 @@ fn write_column(
 
 fn check_text(
     exported: &Exported<'_>,
-    (row, name): (usize, &str),
+    row: usize,
+    name: &str,
     text: &str,
 ) -> Result<(), DatasetError> {
     let problem = if text.len() > TEXT_BYTES {

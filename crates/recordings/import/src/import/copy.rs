@@ -65,7 +65,7 @@ impl ImportPlan {
         jobs: NonZeroUsize,
         progress: &dyn Progress,
     ) -> Result<ImportReport, DatasetError> {
-        self.run_at(target, Place::Free, (jobs, progress))
+        self.run_at(target, Place::Free, jobs, progress)
     }
 
     /// As [`run`](ImportPlan::run), in the place of the dataset at `target` if there is one: a reader sees the old one until
@@ -80,19 +80,20 @@ impl ImportPlan {
         jobs: NonZeroUsize,
         progress: &dyn Progress,
     ) -> Result<ImportReport, DatasetError> {
-        self.run_at(target, Place::OfDataset, (jobs, progress))
+        self.run_at(target, Place::OfDataset, jobs, progress)
     }
 
     fn run_at(
         self,
         target: &Path,
         place: Place,
-        (jobs, progress): (NonZeroUsize, &dyn Progress),
+        jobs: NonZeroUsize,
+        progress: &dyn Progress,
     ) -> Result<ImportReport, DatasetError> {
         let staged = StagedFolder::create(target, place)?;
         let mut table = self.table;
         let (frames, folders) = match &self.frames {
-            Some(frames) => copy_frames(&staged, (frames, 0), &mut table, jobs, progress)?,
+            Some(frames) => copy_frames(&staged, frames, 0, &mut table, jobs, progress)?,
             None => (None, Vec::new()),
         };
         let signals = self.signals.as_ref().map(|signals| {
@@ -104,7 +105,8 @@ impl ImportPlan {
             &staged.path().join(layout::SAMPLES),
             &staged.path().join(layout::HEADER),
             &self.facts,
-            (&table, frames),
+            &table,
+            frames,
             Beside {
                 unmentioned_columns: self.summary.columns_left_behind(),
                 mapping: self.mapping,

@@ -97,7 +97,7 @@ impl ImportPlan {
         let (frames, new_folders) = match &mut self.frames {
             Some(frames) => {
                 check_reference(&before, frames)?;
-                copy_frames(&staged, (frames, first), &mut self.table, jobs, progress)?
+                copy_frames(&staged, frames, first, &mut self.table, jobs, progress)?
             }
             None => (None, Vec::new()),
         };
@@ -108,7 +108,7 @@ impl ImportPlan {
         let signals = signals.map(|new| write_signals(&before, new, &staged, progress));
         let signals = signals.transpose()?;
         refuse_twice(&before, &table, signals.as_ref(), staged.path())?;
-        let header = write_header(&staged, &before, (&table, frames, signals), &self, added)?;
+        let header = write_header(&staged, &before, &table, frames, signals, &self, added)?;
         // Nobody reads the predecessor on our behalf any more: it is removed with its names, and not set aside.
         drop(before);
         staged.put_in_place(&folders.into_iter().collect::<Vec<_>>())?;
@@ -282,7 +282,9 @@ fn write_signals(
 fn write_header(
     staged: &StagedFolder,
     before: &Dataset,
-    (table, frames, signals): (&Table, Option<FramesInfo>, Option<SignalsInfo>),
+    table: &Table,
+    frames: Option<FramesInfo>,
+    signals: Option<SignalsInfo>,
     plan: &ImportPlan,
     added: &Addition,
 ) -> Result<Header, DatasetError> {
@@ -309,7 +311,8 @@ fn write_header(
         &staged.path().join(layout::SAMPLES),
         &staged.path().join(layout::HEADER),
         &facts,
-        (table, all),
+        table,
+        all,
         Beside {
             unmentioned_columns: unmentioned,
             signals,

@@ -22,7 +22,8 @@ impl References {
         &mut self,
         folder: &SourceFolder,
         base: &Path,
-        (name, named_at): (&str, Place),
+        name: &str,
+        named_at: Place,
     ) -> Result<(), DatasetError> {
         let found = match name {
             "" => None,

@@ -177,7 +177,7 @@ impl PlannedSignals {
                     writer.push(row)?;
                 }
             }
-            Found::Array(array, rows) => array.write(&self.map, rows, (writer, progress))?,
+            Found::Array(array, rows) => array.write(&self.map, rows, writer, progress)?,
         }
         Ok(())
     }

@@ -52,7 +52,7 @@ impl ArrayPictures {
                     ));
                 }
             };
-            ArrayPictures::new((path, Arc::new(file)), vec![array], names)
+            ArrayPictures::new(path, Arc::new(file), vec![array], names)
         });
         opened
             .and_then(|opened| opened)
@@ -60,7 +60,8 @@ impl ArrayPictures {
     }
 
     pub(super) fn new(
-        (path, file): (&Path, Arc<ArrayFile>),
+        path: &Path,
+        file: Arc<ArrayFile>,
         arrays: Vec<String>,
         names: &FrameNames,
     ) -> Result<ArrayPictures, String> {

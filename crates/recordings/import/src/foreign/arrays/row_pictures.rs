@@ -53,6 +53,6 @@ impl ArrayRows {
                 })
             })
             .collect();
-        ArrayPictures::new((&self.path, Arc::clone(&self.file)), parts?, names)
+        ArrayPictures::new(&self.path, Arc::clone(&self.file), parts?, names)
     }
 }

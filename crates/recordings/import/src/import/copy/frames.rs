@@ -22,7 +22,8 @@ const HELD_BYTES: usize = 16 << 20;
 /// they are not there.
 pub(in crate::import) fn copy_frames(
     staged: &StagedFolder,
-    (frames, first): (&PlannedFrames, usize),
+    frames: &PlannedFrames,
+    first: usize,
     table: &mut Table,
     jobs: NonZeroUsize,
     progress: &dyn Progress,
@@ -153,7 +154,7 @@ impl Copying<'_> {
             self.jobs,
             |at| {
                 let (row, picture) = &held[at];
-                Copied::of_picture(staged, path, picture, (order, number + *row))
+                Copied::of_picture(staged, path, picture, order, number + *row)
             },
             |at, copied| self.take(held[at].0, copied),
         )

@@ -25,7 +25,8 @@ impl Copied {
         staged: &StagedFolder,
         relative: String,
         bytes: &[u8],
-        (kind, frame): (ImageKind, &Frame),
+        kind: ImageKind,
+        frame: &Frame,
     ) -> Result<Copied, DatasetError> {
         write_durable(&staged.path().join(&relative), bytes)?;
         Ok(Copied {
@@ -50,7 +51,7 @@ impl Copied {
             .and_then(|extension| extension.to_str())
             .filter(|extension| kind.has_extension(extension))
             .unwrap_or(kind.extension());
-        Copied::write(staged, place(extension), &bytes, (kind, &frame))
+        Copied::write(staged, place(extension), &bytes, kind, &frame)
     }
 
     /// Writes a picture found in the file at `path` as frame `number`: its bytes where it was encoded, else as PNG.
@@ -58,13 +59,14 @@ impl Copied {
         staged: &StagedFolder,
         path: &Path,
         picture: &Picture,
-        (order, number): (ChannelOrder, usize),
+        order: ChannelOrder,
+        number: usize,
     ) -> Result<Copied, DatasetError> {
         match picture {
             Picture::Encoded(bytes) => {
                 let (kind, frame) = whole(bytes, order).map_err(|problem| wrong(path, problem))?;
                 let relative = layout::frame_path(number, kind.extension());
-                Copied::write(staged, relative, bytes, (kind, &frame))
+                Copied::write(staged, relative, bytes, kind, &frame)
             }
             Picture::Pixels(frame) => {
                 let is_gray = frame.info().format.samples() == 1;
@@ -78,7 +80,7 @@ impl Copied {
                 }
                 let bytes = encode_png(frame).map_err(|problem| wrong(path, problem))?;
                 let relative = layout::frame_path(number, ImageKind::Png.extension());
-                Copied::write(staged, relative, &bytes, (ImageKind::Png, frame))
+                Copied::write(staged, relative, &bytes, ImageKind::Png, frame)
             }
         }
     }

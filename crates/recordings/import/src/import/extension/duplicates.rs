@@ -123,5 +123,5 @@ fn origin(table: &Table, row: usize, old: usize) -> String {
 fn open(folder: &Path, info: &SignalsInfo, rows: usize) -> Result<SignalsReader, DatasetError> {
     let path = folder.join(layout::SIGNALS);
     let file = File::open(&path).map_err(DatasetError::io("open", &path))?;
-    SignalsReader::open(&path, file, (info, rows as u64))
+    SignalsReader::open(&path, file, info, rows as u64)
 }

@@ -103,15 +103,17 @@ impl PathPattern {
         let mut found = Vec::new();
         // A place that led nowhere once leads nowhere again, so that the time is bounded by length times parts.
         let mut failed = vec![vec![false; path.len() + 1]; self.pieces.len() + 1];
-        self.follow((0, 0), path, (&mut found, &mut failed))
+        self.follow(0, 0, path, &mut found, &mut failed)
             .then_some(found)
     }
 
     fn follow<'p>(
         &self,
-        (piece, at): (usize, usize),
+        piece: usize,
+        at: usize,
         path: &'p str,
-        (found, failed): (&mut Vec<&'p str>, &mut Vec<Vec<bool>>),
+        found: &mut Vec<&'p str>,
+        failed: &mut Vec<Vec<bool>>,
     ) -> bool {
         if failed[piece][at] {
             return false;
@@ -121,16 +123,11 @@ impl PathPattern {
             None => rest.is_empty(),
             Some(Piece::Text(text)) => {
                 rest.starts_with(text.as_str())
-                    && self.follow(
-                        (piece + 1, at + text.len()),
-                        path,
-                        (&mut *found, &mut *failed),
-                    )
+                    && self.follow(piece + 1, at + text.len(), path, &mut *found, &mut *failed)
             }
             Some(Piece::Named { kind, .. }) => kind.lengths(rest).into_iter().any(|length| {
                 found.push(&rest[..length]);
-                let matches =
-                    self.follow((piece + 1, at + length), path, (&mut *found, &mut *failed));
+                let matches = self.follow(piece + 1, at + length, path, &mut *found, &mut *failed);
                 if !matches {
                     found.pop();
                 }

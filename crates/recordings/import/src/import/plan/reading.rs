@@ -87,7 +87,7 @@ impl<'a> Reading<'a> {
             match joins.find(|known| known.name() == join.name()) {
                 Some(known) => {
                     let are_files = self.map.form == TableForm::Files;
-                    known.check_counted_once(&join, path, (self.count, are_files))?;
+                    known.check_counted_once(&join, path, self.count, are_files)?;
                     known.add(join);
                 }
                 None => self.joins.push(join),
@@ -151,9 +151,9 @@ impl<'a> Reading<'a> {
             }
             self.frames.push(PlannedFrame { from, named_at });
         }
-        if let Some(named) = rows.reference_name(row) {
+        if let Some((name, named_at)) = rows.reference_name(row) {
             let base = beside(rows.named_by.reference(row));
-            self.references.take(self.folder, &base, named)?;
+            self.references.take(self.folder, &base, name, named_at)?;
         }
         if let Some(signals) = &mut self.signals {
             signals.take(rows, row, number)?;

@@ -116,7 +116,7 @@ impl MappedTable<'_> {
         for (column, (class, cells)) in self.classes.iter().zip(classes) {
             texts.push(match self.table.cell(row, *column) {
                 "" => None,
-                cell => Some(self.class(row, (*column, cell), (class, *cells))?),
+                cell => Some(self.class(row, *column, cell, class, *cells)?),
             });
         }
         Ok(texts)
@@ -126,8 +126,10 @@ impl MappedTable<'_> {
     pub(super) fn class(
         &self,
         row: usize,
-        (column, cell): (usize, &str),
-        (class, cells): (&ClassMap, ClassCells),
+        column: usize,
+        cell: &str,
+        class: &ClassMap,
+        cells: ClassCells,
     ) -> Result<String, DatasetError> {
         let by_position = || class.names.get(class.position(cell)?);
         let by_name = || class.names.iter().find(|name| *name == cell);

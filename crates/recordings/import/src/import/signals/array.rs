@@ -130,7 +130,8 @@ impl ArraySignals {
         &self,
         map: &SignalsMap,
         rows: &[u64],
-        (writer, progress): (&mut SignalsWriter, &dyn Progress),
+        writer: &mut SignalsWriter,
+        progress: &dyn Progress,
     ) -> Result<(), DatasetError> {
         let step = (READ_VALUES / self.length).max(1);
         for chunk in rows.chunk_by(|left, right| left / step == right / step) {

@@ -47,7 +47,8 @@ impl JoinMatches {
         &self,
         other: &JoinMatches,
         main: &Path,
-        (tables, are_files): (usize, bool),
+        tables: usize,
+        are_files: bool,
     ) -> Result<(), DatasetError> {
         let shared = other
             .tables
