@@ -122,15 +122,6 @@ impl Table {
         self.attributes.push(texts);
     }
 
-    /// The same labels with other frames.
-    ///
-    /// # Panics
-    /// If there is not one entry, which may be `None`, for each row.
-    pub fn with_frames(self, frames: Vec<Option<FrameEntry>>) -> Table {
-        assert_eq!(frames.len(), self.frames.len(), "one a row");
-        Table { frames, ..self }
-    }
-
     /// Number of rows.
     pub fn rows(&self) -> usize {
         self.sample.len()
@@ -196,7 +187,7 @@ impl Table {
         &self.source_row
     }
 
-    /// The picture that each sample came with in the folder of its lab, such as `clip.mp4#12`; of imports by maps of version 2.
+    /// The picture that each sample came with in the folder of its lab, such as `clip.mp4#12`.
     pub fn source_frame(&self) -> &[Option<String>] {
         &self.source_frame
     }

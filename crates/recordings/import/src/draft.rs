@@ -19,7 +19,7 @@ use taceva_dataset::DatasetError;
 /// The most tables that are read for a draft.
 const TABLES: usize = 64;
 
-/// A map of version 2 with gaps to fill in: every unit is `"?"`, but that of times whose size or step says it; an import refuses it, naming the line.
+/// A map with gaps to fill in: every unit is `"?"`, but that of times whose size or step says it; an import refuses it, naming the line.
 ///
 /// ```
 /// # let folder = tempfile::tempdir()?;

@@ -95,7 +95,7 @@ pub struct Row {
     pub phase: Option<Phase>,
     /// The limit of the gel that kept the tip from where it was sent.
     pub limited_by: Option<Limit>,
-    /// The table that it was imported from, relative to the folder of the lab, or the file that was the row; of maps of version 2.
+    /// The table that it was imported from, relative to the folder of the lab, or the file that was the row.
     pub source_table: Option<String>,
     /// Which row of that table it was, from 0.
     pub source_row: Option<u32>,

@@ -1,4 +1,4 @@
-//! The columns that a map of version 2 names, which may stand in a cell of others, in the path of a file or in another table, as one table.
+//! One table of the columns that a map names, which may stand in a cell of others, in the path of a file or in another table.
 
 mod classes;
 mod columns;

@@ -1,4 +1,4 @@
-//! What a map of version 2 may say beside: labels in paths, joins, matrices, classes.
+//! Sections of a map beside columns and frames: labels in paths, joins, matrices, classes.
 
 use std::collections::BTreeMap;
 
