@@ -42,7 +42,8 @@ const POINTS: [usize; 2] = [400, 60];
 /// A recording that is removed on drop.
 pub(super) struct Pressed {
     pub(super) dataset: Dataset,
-    folder: Folder,
+    /// Removed with it.
+    _folder: Folder,
 }
 
 /// A folder of this process among temporary files.
@@ -56,11 +57,6 @@ impl Drop for Folder {
 }
 
 impl Pressed {
-    /// The folder that is removed with it.
-    pub(super) fn folder(&self) -> &Path {
-        &self.folder.0
-    }
-
     /// Presses the simulated bench; the same seed gives the same recording.
     pub(super) fn new(
         is_quick: bool,
@@ -95,7 +91,7 @@ impl Pressed {
         let study = &planned.studies[0].plan.name;
         Ok(Pressed {
             dataset: Dataset::open(&run.recording(0, study))?,
-            folder,
+            _folder: folder,
         })
     }
 }
