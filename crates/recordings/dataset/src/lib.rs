@@ -10,6 +10,7 @@ mod digest;
 mod encode;
 mod error;
 mod file;
+mod folder_handle;
 mod frame_retries;
 mod guard;
 mod header;
