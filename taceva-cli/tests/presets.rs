@@ -212,7 +212,7 @@ fn assert_auto_takes_the_default(info: FrameInfo, pixel: fn(bool, u32) -> Vec<u3
         .auto
         .as_ref()
         .expect("it says how it was chosen");
-    assert_eq!(card.taken.as_deref(), Some("cnn"), "{card}");
+    assert_eq!(card.taken, "cnn", "{card}");
     assert_eq!(named.card().auto, None);
     // What was taken is what its name gives, to the last bit.
     assert_eq!(auto.card().model, named.card().model);

@@ -6,4 +6,3 @@ mod read;
 mod seal;
 
 pub use self::disk::ModelFileError;
-pub(crate) use self::seal::is_sealed;

@@ -8,54 +8,51 @@ mod file;
 mod linalg;
 mod model;
 mod models;
-mod registry;
 mod settings;
 mod split;
 mod training;
 
 #[cfg(feature = "ndarray")]
 pub use arrays::{EstimatorArrays, RegressorArrays, features_of};
-pub use estimators::auto::{Auto, AutoCard, AutoTrial, Untried};
+pub use estimators::auto::Auto;
 pub use estimators::baseline::Baseline;
 pub use estimators::discriminant::{ClassRegressor, Discriminant, LinearDiscriminant};
 pub use estimators::elastic_net::ElasticNet;
 pub use estimators::kernel::{GaussianProcess, KernelRegressor, KernelRidge, NORMAL_95};
-pub use estimators::library::{
-    LibraryCard, LibraryLearner, LibraryModel, LibraryPredictor, LibraryRegressor, LibrarySettings,
-    LibrarySizes, LibraryTask, LibraryTensor, LibraryTensors, LoadedPredictor, Numbers,
-    library_estimator, library_models,
-};
+pub use estimators::library::{LibraryModel, LibraryRegressor, library_models};
 pub use estimators::linear::{LinearEstimator, LinearFit, LinearRegressor};
 pub use estimators::neighbours::{NeighbourRegressor, Neighbours};
 pub use estimators::network::{
-    CheckpointError, Checkpoints, EnsembleRegressor, Foreign, NetworkCard, NetworkEnsemble,
-    NetworkEstimator, NetworkRegressor, Preprocessing, SpacingNetwork, SpacingOutput,
+    EnsembleRegressor, NetworkEnsemble, NetworkEstimator, NetworkRegressor, SpacingNetwork,
+    SpacingOutput,
 };
 pub use estimators::pls::Pls;
-pub use estimators::plugin::{PluginCard, PluginRegressor};
-pub use estimators::projected::ProjectedRegressor;
+pub use estimators::plugin::PluginRegressor;
+pub use estimators::registry::{ALL, PRESETS, Preset, UnknownModel, find};
 pub use estimators::ridge::Ridge;
 pub use estimators::trees::{GradientBoosting, RandomForest, TreeRegressor};
 pub use features::choice::{FailedFeatures, FeatureChoice, FeatureTrial, OpenFeatures};
 pub use features::gratings::{FourierPlane, RadialSpectrum};
 pub use features::{
     Color, Extractor, FeatureError, FeatureKind, FeatureKinds, FeatureSpec, FeaturesByRecording,
-    FrameReduction, Marker, MarkerTracker, Pca, Polarity, RecordedFrames, Tracked,
+    FrameReduction, Marker, MarkerTracker, Pca, Polarity, Preprocessing, RecordedFrames, Tracked,
 };
 pub use file::ModelFileError;
-pub use model::{
-    ChannelCard, CloserFeatures, FitInput, Form, LabelBounds, Model, ModelCard, Provenance,
-    SampleCounts, Source, SplitCard,
-};
+pub use model::{CloserFeatures, FitInput, LabelBounds, Model};
 pub use models::{ChosenModel, Models};
-pub use registry::{ALL, PRESETS, Preset, UnknownModel, find};
 pub use settings::{ModelSettings, SettingError, SettingInfo, Suggestion};
 pub use split::{
     ColumnSplit, Fractions, Part, Split, SplitCounts, SplitError, SplitInput, SplitKind,
     SplitManifest, SplitSpec,
 };
+pub use training::card::{
+    AutoCard, AutoTrial, ChannelCard, Form, LibraryCard, ModelCard, NetworkCard, PluginCard,
+    Provenance, SampleCounts, Source, SplitCard, Untried,
+};
+pub use training::checkpoint::{CheckpointError, Checkpoints, Foreign};
 pub use training::choice::{ChannelChoice, Choice, ChosenBy};
 pub use training::file::error::FormatError;
-pub use training::fit::{Chosen, ModelEstimator, ModelFit, ModelRegressor};
+pub use training::fit::{Chosen, ModelEstimator, ModelFit};
+pub use training::fitted::ModelRegressor;
 pub use training::info::ModelInfo;
 pub use training::label_scaling::{LabelScaling, label_means};

@@ -4,7 +4,6 @@ mod bounds;
 mod card;
 mod closer;
 mod input;
-mod of_plugin;
 
 use taceva_core::{
     Channel, Channels, ErrorKind, Features, Input, InputInfo, ModelError, Progress, Regressor,
@@ -12,15 +11,14 @@ use taceva_core::{
 };
 
 pub use self::bounds::LabelBounds;
-pub use self::card::{ChannelCard, Form, ModelCard, Provenance, SampleCounts, Source, SplitCard};
 pub use self::closer::CloserFeatures;
 pub use self::input::FitInput;
-pub(crate) use self::of_plugin::plugin_from;
 use crate::features::choice::FeatureChoice;
 use crate::features::signals::{divided, spread};
 use crate::features::{Extractor, FeatureError, Pca};
 use crate::linalg::invalid;
-use crate::training::fit::ModelRegressor;
+use crate::training::card::{ChannelCard, ModelCard};
+use crate::training::fitted::ModelRegressor;
 
 /// A fitted model: from pixels, or from signals, to the channels, in their units.
 ///
@@ -87,11 +85,8 @@ impl Model {
             None => fit.regressor.clone(),
             Some(pca) => fit.regressor.clone().through(pca)?,
         };
-        let how = (
-            estimator.name(),
-            chosen.as_ref().map(|chosen| chosen.card.clone()),
-        );
-        let card = ModelCard::new(&input, &fit, how, (kept, spread));
+        let auto = chosen.as_ref().map(|chosen| chosen.card.clone());
+        let card = ModelCard::new(&input, &fit, estimator.name(), auto, kept, spread);
         Ok(Model { card, regressor })
     }
 
@@ -105,11 +100,6 @@ impl Model {
     pub fn with_features_chosen(mut self, how: FeatureChoice) -> Model {
         self.card.feature_choice = Some(how);
         self
-    }
-
-    /// Whether files of its format carry a seal, so that a change of them is noticed.
-    pub fn is_sealed(&self) -> bool {
-        crate::file::is_sealed(&self.card.format)
     }
 
     /// What it predicts.

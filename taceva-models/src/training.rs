@@ -1,10 +1,14 @@
 //! What every fit has in common: checked samples, scaled labels, settings that are tried, and what comes of it.
 
+pub(crate) mod card;
+pub(crate) mod checkpoint;
 pub(crate) mod choice;
 pub(crate) mod file;
 pub(crate) mod fit;
+pub(crate) mod fitted;
 pub(crate) mod info;
 pub(crate) mod label_scaling;
 pub(crate) mod output;
 pub(crate) mod problem;
+pub(crate) mod projected;
 pub(crate) mod trials;

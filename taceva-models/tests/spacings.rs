@@ -56,7 +56,7 @@ fn quick() -> NetworkEstimator {
 
 fn predicted(boards: &[f64], output: SpacingOutput) -> (Vec<f64>, Vec<f64>) {
     let (pictures, spacings) = gratings(boards, 24);
-    let fitted = quick().fit_spacings((&pictures, &spacings), output, &SilentProgress);
+    let fitted = quick().fit_spacings(&pictures, &spacings, output, &SilentProgress);
     // Phases between those of the training pictures.
     let (unseen, expected) = gratings(&BOARDS, 7);
     let found = fitted.expect("fits").predict(&unseen).expect("lengths");
@@ -96,7 +96,8 @@ fn any_number_of_threads_predicts_the_same() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         pool.build().expect("threads").install(|| {
             let fitted = network(&["epochs=2"]).fit_spacings(
-                (&pictures, &spacings),
+                &pictures,
+                &spacings,
                 SpacingOutput::Length,
                 &SilentProgress,
             );
@@ -110,11 +111,7 @@ fn any_number_of_threads_predicts_the_same() {
 fn pictures_without_spacings_and_pictures_of_another_size_are_refused() {
     let (pictures, spacings) = gratings(&BOARDS, 3);
     let fit = |spacings: &[Nanometre]| {
-        quick().fit_spacings(
-            (&pictures, spacings),
-            SpacingOutput::Classes,
-            &SilentProgress,
-        )
+        quick().fit_spacings(&pictures, spacings, SpacingOutput::Classes, &SilentProgress)
     };
     for few in [&spacings[..0], &spacings[1..]] {
         let said = fit(few).expect_err("refused").to_string();

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::training::Labels;
+use crate::labels::Labels;
 
 /// A measure of how far outputs are from labels, with the mean over samples and outputs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -7,7 +7,6 @@ mod engine;
 mod label_scale;
 mod processor;
 mod recipe;
-mod samples;
 mod state;
 
 pub use augmentation::{Augmentation, Jitter};
@@ -16,7 +15,6 @@ pub use checkpoint::{Checkpoint, Summary};
 pub use engine::{Batch, Engine, Moments, Snapshot};
 pub use label_scale::{LabelScale, LabelScaling};
 pub use recipe::Recipe;
-pub use samples::{Labels, Samples};
 pub use state::{Epoch, Step, Trained, TrainingState};
 
 use processor::Processor;
@@ -25,7 +23,9 @@ use rayon::prelude::*;
 use crate::architecture::Architecture;
 use crate::convolution::ConvolutionForm;
 use crate::error::{NetworkError, SampleSet};
+use crate::labels::Labels;
 use crate::network::Network;
+use crate::samples::Samples;
 use taceva_core::random::Draws;
 
 /// A training in progress.

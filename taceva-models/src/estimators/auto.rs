@@ -1,7 +1,6 @@
 //! The model that does best on samples left out, within a budget of work.
 
 mod candidates;
-mod card;
 mod cost;
 mod entrant;
 mod further;
@@ -11,18 +10,19 @@ mod validate;
 
 use taceva_core::{Features, ModelError, Progress, SignalInfo, TrainingSet};
 
-use self::candidates::{Candidate, candidates};
-use self::card::FOLDS;
-pub use self::card::{AutoCard, AutoTrial, Untried};
+use self::candidates::candidates;
 use self::cost::{NETWORK, Sizes};
 use self::race::{Made, Race};
 use self::validate::Folds;
 use crate::estimators::library::LibraryModel;
-use crate::estimators::network::{Checkpoints, NetworkEstimator};
+use crate::estimators::network::NetworkEstimator;
+use crate::estimators::registry::{ALL, DEFAULT};
 use crate::features::{FeatureError, FeatureSpec};
 use crate::linalg::invalid;
-use crate::registry::{ALL, DEFAULT};
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
+use crate::training::card::FOLDS;
+use crate::training::checkpoint::Checkpoints;
+use crate::training::file::error::FormatError;
 use crate::training::fit::{Chosen, ModelEstimator, ModelFit, estimator};
 use crate::training::info::ModelInfo;
 use crate::training::problem::Problem;
@@ -66,6 +66,8 @@ impl Auto {
         settings: &[BUDGET],
         features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(Auto::from_settings(settings)?)),
+        // A file names the model that was taken.
+        load: |_| Err(FormatError::Card),
     };
 
     /// The choice as `settings` ask for.
@@ -175,13 +177,12 @@ impl ModelEstimator for Auto {
             untried: Vec::new(),
         };
         let (taken, card) = race.run(candidates(ALL, &self.libraries, sizes))?;
-        let Candidate { info, .. } = taken.ok_or_else(|| invalid("no model could be tried"))?;
-        let estimator = self.candidate(info)?;
+        let estimator = self.candidate(taken.info)?;
         let mut estimator = estimator.map_err(|error| invalid(error.to_string()).because(error))?;
         if let Some(checkpoints) = &self.checkpoints {
             estimator.keep_checkpoints(checkpoints.clone());
         }
-        let is_closer = closer.is_some() && taken.is_some_and(|taken| taken.is_network());
+        let is_closer = closer.is_some() && taken.is_network();
         Ok(Some(Chosen {
             estimator,
             card,

@@ -22,6 +22,7 @@ impl Baseline {
         settings: &[],
         features: None,
         make: |settings| Ok(Box::new(Baseline::from_settings(settings)?)),
+        load: LinearRegressor::load,
     };
 
     /// The baseline; it knows no setting.

@@ -18,7 +18,8 @@ use crate::linalg::progress::{ReportedStage, interrupted};
 use crate::linalg::{Design, FeatureScale};
 use crate::settings::{ModelSettings, SettingError};
 use crate::training::choice::{Choice, errors};
-use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
+use crate::training::fit::{ModelEstimator, ModelFit, estimator};
+use crate::training::fitted::ModelRegressor;
 use crate::training::info::ModelInfo;
 use crate::training::problem::Problem;
 
@@ -49,6 +50,7 @@ impl LinearDiscriminant {
         settings: &[FeatureScale::SETTING],
         features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(LinearDiscriminant::from_settings(settings)?)),
+        load: ClassRegressor::load,
     };
 
     /// Linear discriminants as `settings` ask for.
@@ -127,7 +129,8 @@ impl ModelEstimator for LinearDiscriminant {
             .collect();
         drop(stage);
         let regressor = ClassRegressor::new(
-            (training.targets.channels.clone(), training.features.shape()),
+            training.targets.channels.clone(),
+            training.features.shape(),
             planes
                 .into_iter()
                 .collect::<Result<Vec<Planes>, ModelError>>()?,
@@ -138,7 +141,7 @@ impl ModelEstimator for LinearDiscriminant {
         };
         Ok(ModelFit {
             choice: Choice::nobodys(errors),
-            regressor: ModelRegressor::Classes(Box::new(regressor)),
+            regressor: ModelRegressor::new(regressor),
             refitted: false,
             scaling: problem.scaling,
         })

@@ -58,6 +58,7 @@ impl ElasticNet {
         settings: &[FeatureScale::SETTING, STRENGTH, MIX, SettingInfo::REFIT],
         features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(ElasticNet::from_settings(settings)?)),
+        load: LinearRegressor::load,
     };
 
     /// The elastic net as `settings` ask for.

@@ -5,7 +5,6 @@
 
 #[cfg(any(feature = "linfa", feature = "smartcore"))]
 mod adapter;
-mod card;
 mod estimator;
 mod fit;
 mod fitted;
@@ -28,14 +27,14 @@ mod tensor;
 
 use taceva_core::{ModelError, TrainingSet};
 
-pub use self::card::LibraryCard;
-pub use self::estimator::library_estimator;
+pub(crate) use self::estimator::library_estimator;
 pub use self::regressor::LibraryRegressor;
-pub use self::settings::LibrarySettings;
-pub use self::task::{LibraryPredictor, LibrarySizes, LibraryTask, LoadedPredictor};
-pub use self::tensor::{LibraryTensor, LibraryTensors, Numbers};
+pub(crate) use self::settings::LibrarySettings;
+pub(crate) use self::task::{LibraryPredictor, LibrarySizes, LibraryTask, LoadedPredictor};
+pub(crate) use self::tensor::LibraryTensors;
 use crate::features::FeatureSpec;
 use crate::settings::{ModelSettings, SettingError, SettingInfo};
+use crate::training::card::LibraryCard;
 use crate::training::fit::ModelEstimator;
 use crate::training::info::ModelInfo;
 
@@ -75,15 +74,15 @@ pub struct LibraryModel {
     /// Which release of the library fits, `linfa 0.8.1`.
     pub release: &'static str,
     /// Multiplications that one fit with default settings takes, for `auto`; `None` where it cannot be tried on parts of these sizes.
-    pub work: fn(LibrarySizes) -> Option<f64>,
+    pub(crate) work: fn(LibrarySizes) -> Option<f64>,
     /// The fitted parameters that a file keeps, for a model of these sizes.
     ///
     /// Errors: [`ModelError`] if a tensor is missing or a number is out of range; files may be damaged.
-    pub load: fn(&LibraryTensors, LibrarySizes) -> LoadedPredictor,
+    pub(crate) load: fn(&LibraryTensors<'_>, LibrarySizes) -> LoadedPredictor,
 }
 
 /// An estimator of a library with its settings, not fitted yet.
-pub trait LibraryLearner: Send + Sync {
+pub(crate) trait LibraryLearner: Send + Sync {
     /// Its entry in the registry.
     fn model(&self) -> &'static LibraryModel;
 
@@ -129,7 +128,7 @@ impl LibraryModel {
 
 impl ModelInfo {
     /// The entry of a model of another library, which sees gray pictures of 32 × 32 where nothing else is asked for.
-    pub const fn of_library(
+    pub(crate) const fn of_library(
         name: &'static str,
         about: &'static str,
         settings: &'static [SettingInfo],
@@ -141,6 +140,7 @@ impl ModelInfo {
             settings,
             features: Some(FeatureSpec::DEFAULT),
             make,
+            load: LibraryRegressor::load,
         }
     }
 }

@@ -12,7 +12,10 @@ use crate::linalg::Design;
 use crate::linalg::invalid;
 use crate::training::choice::Choice;
 use crate::training::file::error::FormatError;
-use crate::training::file::tensors::{Raw, Tensors};
+use crate::training::file::stored::Stored;
+use crate::training::file::tensors::Raw;
+use crate::training::fit::{ModelEstimator, ModelFit};
+use crate::training::fitted::{FittedModel, ModelRegressor};
 use crate::training::label_scaling::LabelScaling;
 use crate::training::output::{check_call, check_finite};
 use crate::training::problem::Problem;
@@ -107,7 +110,7 @@ impl LinearRegressor {
         mean: &[f64],
     ) -> Result<LinearRegressor, ModelError> {
         let shape = problem.training.features.shape();
-        LinearRegressor::of_design((problem, shape), design, weights, mean)
+        LinearRegressor::of_design(problem, shape, design, weights, mean)
     }
 
     /// The same of features that something else was made into: those of a kernel.
@@ -118,11 +121,12 @@ impl LinearRegressor {
         mean: &[f64],
     ) -> Result<LinearRegressor, ModelError> {
         let shape = FeatureShape::flat(design.width());
-        LinearRegressor::of_design((problem, shape), design, weights, mean)
+        LinearRegressor::of_design(problem, shape, design, weights, mean)
     }
 
     fn of_design(
-        (problem, shape): (&Problem<'_>, FeatureShape),
+        problem: &Problem<'_>,
+        shape: FeatureShape,
         design: &Design<'_>,
         weights: &Mat<f64>,
         mean: &[f64],
@@ -155,25 +159,15 @@ impl LinearRegressor {
         LinearRegressor::new(problem.training.targets.channels.clone(), shape, flat, bias)
     }
 
-    /// The tensors of a file.
-    pub(crate) fn tensors(&self) -> Vec<Raw> {
-        let (channels, features) = (self.channels.len(), self.shape.len());
-        vec![
-            Raw::doubles(BIAS, vec![channels], &self.bias),
-            Raw::doubles(WEIGHTS, vec![channels, features], &self.weights),
-        ]
-    }
-
     /// The model that a file holds.
-    pub(crate) fn from_tensors(
-        tensors: &Tensors<'_>,
-        channels: Channels,
-        shape: FeatureShape,
-    ) -> Result<LinearRegressor, FormatError> {
+    pub(crate) fn load(stored: &Stored<'_>) -> Result<ModelRegressor, FormatError> {
+        let (tensors, channels) = (&stored.tensors, stored.channels.clone());
+        let shape = stored.shape();
         tensors.only(&[BIAS, WEIGHTS])?;
         let bias = tensors.doubles(BIAS, &[channels.len()])?;
         let weights = tensors.doubles(WEIGHTS, &[channels.len(), shape.len()])?;
-        Ok(LinearRegressor::new(channels, shape, weights, bias)?)
+        let own = LinearRegressor::new(channels, shape, weights, bias)?;
+        Ok(ModelRegressor::new(own))
     }
 
     /// The weights of each channel's features.
@@ -187,30 +181,6 @@ impl LinearRegressor {
     /// What each channel is predicted as where every feature is 0.
     pub fn bias(&self) -> &[f64] {
         &self.bias
-    }
-
-    /// The regressor of pixels that equals `self` on the components of `pca`.
-    pub(crate) fn through(&self, pca: &Pca) -> Result<LinearRegressor, ModelError> {
-        let components = self.shape.len();
-        let mut weights = vec![0.0; self.channels.len() * pca.mean().len()];
-        let mut bias = self.bias.clone();
-        let rows = weights.chunks_exact_mut(pca.mean().len());
-        for ((row, bias), own) in rows
-            .zip(&mut bias)
-            .zip(self.weights.chunks_exact(components))
-        {
-            for (weight, component) in own.iter().zip(pca.components()) {
-                let places = row.iter_mut().zip(component);
-                places.for_each(|(place, value)| *place += weight * value);
-            }
-            let at_mean: f64 = row
-                .iter()
-                .zip(pca.mean())
-                .map(|(weight, mean)| weight * mean)
-                .sum();
-            *bias -= at_mean;
-        }
-        LinearRegressor::new(self.channels.clone(), pca.shape(), weights, bias)
     }
 
     /// Predicts one sample.
@@ -263,6 +233,61 @@ fn dot(weights: &[f64], values: &[f32]) -> f64 {
     let last = last_weights.iter().zip(last_values);
     let rest: f64 = last.map(|(weight, &value)| weight * f64::from(value)).sum();
     sums.iter().sum::<f64>() + rest
+}
+
+impl FittedModel for LinearRegressor {
+    fn tensors(&self) -> Vec<Raw> {
+        let (channels, features) = (self.channels.len(), self.shape.len());
+        vec![
+            Raw::doubles(BIAS, vec![channels], &self.bias),
+            Raw::doubles(WEIGHTS, vec![channels, features], &self.weights),
+        ]
+    }
+
+    fn reads_features(&self) -> bool {
+        self.weights.iter().any(|weight| weight.abs() > 0.0)
+    }
+
+    fn through(&self, pca: &Pca) -> Result<Option<ModelRegressor>, ModelError> {
+        let components = self.shape.len();
+        let mut weights = vec![0.0; self.channels.len() * pca.mean().len()];
+        let mut bias = self.bias.clone();
+        let rows = weights.chunks_exact_mut(pca.mean().len());
+        for ((row, bias), own) in rows
+            .zip(&mut bias)
+            .zip(self.weights.chunks_exact(components))
+        {
+            for (weight, component) in own.iter().zip(pca.components()) {
+                let places = row.iter_mut().zip(component);
+                places.for_each(|(place, value)| *place += weight * value);
+            }
+            let at_mean: f64 = row
+                .iter()
+                .zip(pca.mean())
+                .map(|(weight, mean)| weight * mean)
+                .sum();
+            *bias -= at_mean;
+        }
+        let own = LinearRegressor::new(self.channels.clone(), pca.shape(), weights, bias)?;
+        Ok(Some(ModelRegressor::new(own)))
+    }
+}
+
+impl<L: LinearEstimator> ModelEstimator for L {
+    fn fit_model(
+        &self,
+        training: &TrainingSet<'_>,
+        validation: Option<&TrainingSet<'_>>,
+        progress: &dyn Progress,
+    ) -> Result<ModelFit, ModelError> {
+        let fit = self.fit_linear(training, validation, progress)?;
+        Ok(ModelFit {
+            regressor: ModelRegressor::new(fit.regressor),
+            choice: fit.choice,
+            scaling: fit.scaling,
+            refitted: fit.refitted,
+        })
+    }
 }
 
 impl Regressor for LinearRegressor {

@@ -14,7 +14,8 @@ use crate::linalg::progress::interrupted;
 use crate::linalg::standard::Standard;
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 use crate::training::choice::Errors;
-use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
+use crate::training::fit::{ModelEstimator, ModelFit, estimator};
+use crate::training::fitted::ModelRegressor;
 use crate::training::info::ModelInfo;
 use crate::training::output::OutputScale;
 use crate::training::problem::Problem;
@@ -53,6 +54,7 @@ impl Neighbours {
         settings: &[FeatureScale::SETTING, COUNT, SettingInfo::REFIT],
         features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(Neighbours::from_settings(settings)?)),
+        load: NeighbourRegressor::load,
     };
 
     /// Nearest neighbours as `settings` ask for.
@@ -137,7 +139,8 @@ impl ModelEstimator for Neighbours {
         let features = trials.features.select(&rows);
         let labels = rows_of(&trials.labels, &rows);
         let regressor = NeighbourRegressor::new(
-            (training.targets.channels.clone(), training.features.shape()),
+            training.targets.channels.clone(),
+            training.features.shape(),
             standard.rows(&features),
             standard,
             &labels,
@@ -146,7 +149,7 @@ impl ModelEstimator for Neighbours {
         );
         let refitted = self.refit && trials.has_validation();
         Ok(ModelFit {
-            regressor: ModelRegressor::Neighbours(Box::new(regressor)),
+            regressor: ModelRegressor::new(regressor),
             choice,
             refitted,
             scaling: problem.scaling.clone(),

@@ -64,6 +64,7 @@ impl Pls {
         settings: &[FeatureScale::SETTING, COMPONENTS, MOST, SettingInfo::REFIT],
         features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(Pls::from_settings(settings)?)),
+        load: LinearRegressor::load,
     };
 
     /// Partial least squares as `settings` ask for.

@@ -60,6 +60,7 @@ impl Ridge {
         settings: &[FeatureScale::SETTING, STRENGTH, SettingInfo::REFIT],
         features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(Ridge::from_settings(settings)?)),
+        load: LinearRegressor::load,
     };
 
     /// Ridge regression as `settings` ask for.

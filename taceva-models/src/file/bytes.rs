@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use safetensors::tensor::TensorView;
 
-use super::seal::{digested, is_sealed, seal_over};
+use super::seal::{digested, seal_over};
 use crate::model::Model;
 use crate::models::Models;
 use crate::training::file::error::FormatError;
@@ -18,15 +18,10 @@ impl Model {
     pub fn to_bytes(&self) -> Result<Vec<u8>, FormatError> {
         let card = serde_json::to_string(&self.card)?;
         let tensors = self.regressor.tensors();
-        let card = match is_sealed(&self.card.format) {
-            true => {
-                let digested = tensors.iter().map(|tensor| {
-                    digested(&tensor.name, tensor.kind, (&tensor.shape, &tensor.bytes))
-                });
-                seal_over(&card, &digested.collect::<Vec<_>>())?
-            }
-            false => card,
-        };
+        let digested = tensors
+            .iter()
+            .map(|tensor| digested(&tensor.name, tensor.kind, &tensor.shape, &tensor.bytes));
+        let card = seal_over(&card, &digested.collect::<Vec<_>>())?;
         // One key only: the order of several would not be defined.
         let metadata = HashMap::from([(CARD.to_owned(), card)]);
         let views: Result<Vec<_>, _> = tensors

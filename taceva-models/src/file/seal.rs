@@ -9,7 +9,8 @@ use crate::training::file::error::FormatError;
 pub(super) fn digested(
     name: &str,
     kind: Dtype,
-    (shape, bytes): (&[usize], &[u8]),
+    shape: &[usize],
+    bytes: &[u8],
 ) -> (String, Vec<u8>) {
     let mut hasher = Sha256::new();
     hasher.update(format!("{kind:?} {shape:?} ").as_bytes());
@@ -32,30 +33,14 @@ fn attached(tensors: &[(String, Vec<u8>)]) -> Vec<(&str, &[u8])> {
 }
 
 /// Whether card and tensors are what they were when they were written.
-pub(super) fn check_seal(
-    card: &str,
-    tensors: &SafeTensors<'_>,
-    version: &str,
-) -> Result<(), FormatError> {
+pub(super) fn check_seal(card: &str, tensors: &SafeTensors<'_>) -> Result<(), FormatError> {
     let views = tensors.tensors();
     let digested: Vec<_> = views
         .iter()
-        .map(|(name, view)| digested(name, view.dtype(), (view.shape(), view.data())))
+        .map(|(name, view)| digested(name, view.dtype(), view.shape(), view.data()))
         .collect();
     let mut attached = attached(&digested);
     attached.sort_unstable();
-    let version = match is_sealed(version) {
-        true => taceva_files::seal::Version::Sealed,
-        false => taceva_files::seal::Version::BeforeSeals,
-    };
-    taceva_files::seal::json::check_with(card, &attached, version)?;
+    taceva_files::seal::json::check_with(card, &attached, taceva_files::seal::Version::Sealed)?;
     Ok(())
-}
-
-/// Whether files of this version are sealed: all since 1.1.
-pub(crate) fn is_sealed(version: &str) -> bool {
-    let minor = version
-        .split_once('.')
-        .and_then(|(_, minor)| minor.parse().ok());
-    minor.is_some_and(|minor: u32| minor >= 1)
 }

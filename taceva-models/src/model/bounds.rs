@@ -92,11 +92,8 @@ impl LabelBounds {
 }
 
 impl Model {
-    /// The bounds of its predictions; of a model file written before bounds were stored nothing is known.
+    /// The bounds of its predictions.
     pub fn label_bounds(&self) -> LabelBounds {
-        let Some(margin) = self.card.margin else {
-            return LabelBounds::unknown(self.card.channels.len());
-        };
         let channels = self.card.channels.iter();
         let bounds = channels.map(|channel| {
             let varies = !channel.constant_label;
@@ -104,7 +101,7 @@ impl Model {
                 channel.minimum,
                 channel.span,
                 varies,
-                margin,
+                self.card.margin,
             ))
         });
         LabelBounds(bounds.collect())

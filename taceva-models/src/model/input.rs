@@ -2,9 +2,9 @@
 
 use taceva_core::{InputInfo, TrainingSet};
 
-use super::card::Provenance;
 use crate::features::FeatureSpec;
 use crate::settings::ModelSettings;
+use crate::training::card::Provenance;
 use crate::training::fit::ModelEstimator;
 
 /// All that a model is fitted from.

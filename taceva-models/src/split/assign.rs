@@ -113,12 +113,12 @@ impl SplitSpec {
         let split = match &self.kind {
             SplitKind::Random => {
                 let names: Vec<usize> = (0..input.rows).collect();
-                by_cluster(&names, input, self.fractions, (seed, "samples"))
+                by_cluster(&names, input, self.fractions, seed, "samples")
             }
             SplitKind::Chronological => chronological(input, self.fractions),
             SplitKind::ByPoint => {
                 let points = input.points.ok_or(SplitError::NoPoints)?;
-                by_cluster(points, input, self.fractions, (seed, "points")).map(|mut split| {
+                by_cluster(points, input, self.fractions, seed, "points").map(|mut split| {
                     if points.iter().collect::<BTreeSet<_>>().len() == input.rows {
                         split.note =
                             Some("every sample is a point of its own: by-point is random".into());
@@ -210,7 +210,8 @@ fn by_cluster<N: Ord>(
     names: &[N],
     input: &SplitInput<'_>,
     fractions: Fractions,
-    (seed, what): (u64, &'static str),
+    seed: u64,
+    what: &'static str,
 ) -> Result<Split, SplitError> {
     let mut part_of: BTreeMap<&N, Part> = BTreeMap::new();
     let mut chance = SplitMix64::new(seed);
@@ -265,7 +266,7 @@ fn by_recording(
             sections: &[],
             ..input.clone()
         };
-        return by_cluster(recordings, &together, fractions, (seed, "recordings"));
+        return by_cluster(recordings, &together, fractions, seed, "recordings");
     }
     if let Some(name) = parts.keys().find(|name| !recordings.contains(name)) {
         let known = recordings
@@ -349,7 +350,7 @@ fn by_column(
             suggestion: Suggestion::of(name, input.columns.keys().copied()),
         })?;
     if split.parts.is_empty() {
-        return by_cluster(values, input, fractions, (seed, "values"));
+        return by_cluster(values, input, fractions, seed, "values");
     }
     if let Some(value) = split.parts.keys().find(|value| !values.contains(value)) {
         return Err(SplitError::NoValue {

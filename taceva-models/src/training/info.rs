@@ -2,6 +2,7 @@
 
 use crate::features::FeatureSpec;
 use crate::settings::{ModelSettings, SettingError, SettingInfo};
+use crate::training::file::stored::Load;
 use crate::training::fit::ModelEstimator;
 
 /// A model that people can choose: its name, what it is, and what can be set.
@@ -17,6 +18,8 @@ pub struct ModelInfo {
     /// frame need be decoded for it.
     pub features: Option<FeatureSpec>,
     pub(crate) make: fn(&ModelSettings) -> Result<Box<dyn ModelEstimator>, SettingError>,
+    /// Loads a fitted one.
+    pub(crate) load: Load,
 }
 
 impl ModelInfo {

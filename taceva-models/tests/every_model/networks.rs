@@ -1,7 +1,7 @@
 //! What networks promise beyond what all models do.
 
 use taceva_core::{ErrorKind, Frame, SilentProgress};
-use taceva_models::{Model, ModelEstimator, ModelRegressor, ModelSettings, find};
+use taceva_models::{Model, ModelEstimator, ModelSettings, NetworkRegressor, find};
 use taceva_needs::{Need, skip};
 
 use super::case::{case_of, predict, rms};
@@ -141,9 +141,7 @@ fn a_network_of_a_gpu_says_which_and_finds_the_blob_here() {
         };
         let rms = rms(&predict(&fit.regressor, &test.features), &test.labels);
         assert!(rms < 1.0, "{device}: {rms}");
-        let ModelRegressor::Network(network) = &fit.regressor else {
-            panic!("a network")
-        };
+        let network = fit.regressor.get::<NetworkRegressor>().expect("a network");
         let gpu = network.card().gpu.as_deref();
         assert!(gpu.is_some_and(|gpu| gpu.ends_with(&format!("({device})"))));
     }
@@ -152,9 +150,10 @@ fn a_network_of_a_gpu_says_which_and_finds_the_blob_here() {
 #[test]
 fn weights_have_the_names_of_torchvision() {
     let resnet = case_of("resnet10").model(&recording(24, 1), None);
-    let ModelRegressor::Network(network) = resnet.regressor() else {
-        panic!("a network")
-    };
+    let network = resnet
+        .regressor()
+        .get::<NetworkRegressor>()
+        .expect("a network");
     let tensors = network.tensors();
     let running = "layer2.0.downsample.1.running_var";
     assert!(tensors.iter().any(|tensor| tensor.name == running));
@@ -191,9 +190,10 @@ fn no_damaged_network_panics_or_opens_as_something_else() {
             damaged[below(within)] = u8::try_from(below(256)).expect("a byte");
         }
         if let Ok(opened) = Model::from_bytes(&damaged) {
-            let ModelRegressor::Network(network) = opened.regressor() else {
-                panic!("a network")
-            };
+            let network = opened
+                .regressor()
+                .get::<NetworkRegressor>()
+                .expect("a network");
             assert!(
                 network
                     .tensors()

@@ -1,7 +1,7 @@
 //! What comes back of a model that was written.
 
 use taceva_core::{FeatureShape, Features, FrameInfo, Unit};
-use taceva_models::{FeatureError, FeatureKind, FeatureSpec, Model, ModelRegressor, NetworkCard};
+use taceva_models::{FeatureError, FeatureKind, FeatureSpec, Model, NetworkCard, NetworkRegressor};
 use taceva_network::ConvolutionForm;
 
 use super::refused::with_card;
@@ -46,12 +46,10 @@ fn a_saved_model_comes_back_with_the_same_bits() {
 }
 
 #[test]
-fn a_network_predicts_in_the_form_that_its_card_says_and_an_older_one_in_the_direct_form() {
+fn a_network_predicts_in_the_form_that_its_card_says() {
     fn card(model: &Model) -> &NetworkCard {
-        match model.regressor() {
-            ModelRegressor::Network(network) => network.card(),
-            other => panic!("{other:?} is no network"),
-        }
+        let network = model.regressor().get::<NetworkRegressor>();
+        network.expect("a network").card()
     }
     // Large enough for tiles.
     let spec = FeatureSpec {
@@ -62,33 +60,17 @@ fn a_network_predicts_in_the_form_that_its_card_says_and_an_older_one_in_the_dir
     let (model, features) = fit("resnet10", &["epochs=1", "batch=20"], spec);
     let words = ["epochs=1", "batch=20", "convolutions=direct"];
     let (direct, _) = fit("resnet10", &words, spec);
-    // As it was written before there was another form.
-    let older = with_card(&model.to_bytes().expect("small"), |card| {
-        card["format"] = "1.1".into();
-        let network = card["network"].as_object_mut().expect("a network");
-        assert_eq!(network.remove("convolutions"), Some("winograd-4x4".into()));
+    assert_eq!(card(&model).convolutions, ConvolutionForm::Winograd);
+    assert_eq!(card(&direct).convolutions, ConvolutionForm::Direct);
+    let other = with_card(&model.to_bytes().expect("small"), |card| {
+        card["network"]["convolutions"] = "direct".into();
     });
-    let older = Model::from_bytes(&older).expect("an older file");
-    for (model, said, form) in [
-        (
-            &model,
-            Some(ConvolutionForm::Winograd),
-            ConvolutionForm::Winograd,
-        ),
-        (
-            &direct,
-            Some(ConvolutionForm::Direct),
-            ConvolutionForm::Direct,
-        ),
-        (&older, None, ConvolutionForm::Direct),
-    ] {
-        assert_eq!((card(model).convolutions, card(model).form()), (said, form));
-    }
+    let other = Model::from_bytes(&other).expect("another form");
     let predicted = |model: &Model| model.predict(&features).expect("finite");
     let bits =
         |model: &Model| -> Vec<u64> { predicted(model).into_iter().map(f64::to_bits).collect() };
     // The training is the same.
-    assert!(bits(&older) == bits(&direct));
+    assert!(bits(&other) == bits(&direct));
     assert!(bits(&model) != bits(&direct));
     for (one, other) in predicted(&model).into_iter().zip(predicted(&direct)) {
         assert!((one - other).abs() < 1e-4, "{one}, {other}");
@@ -150,7 +132,7 @@ fn weights_of_pixels_equal_weights_of_principal_components() {
 }
 
 #[test]
-fn a_model_of_statistics_says_so_and_one_of_pixels_says_what_it_always_said() {
+fn a_model_of_statistics_says_so_and_one_of_pixels_says_nothing() {
     let of_statistics = FeatureSpec {
         kinds: FeatureKind::Statistics.into(),
         ..SPEC
@@ -160,7 +142,6 @@ fn a_model_of_statistics_says_so_and_one_of_pixels_says_what_it_always_said() {
     assert_eq!(opened.card().features, of_statistics);
     let predictions = [&opened, &model].map(|model| model.predict(&features).expect("finite"));
     assert_eq!(predictions[0], predictions[1]);
-    // As older versions wrote it: their files open, and they open ours.
     let (pixels, _) = fit("ridge", &[], SPEC);
     let bytes = pixels.to_bytes().expect("small");
     let text = String::from_utf8_lossy(&bytes);
@@ -185,15 +166,4 @@ fn features_other_than_asked_for_are_refused() {
     let (model, _) = fit("ridge", &[], SPEC);
     let other = Features::new(FeatureShape::flat(20), vec![0.0; 20]).expect("whole");
     assert!(model.predict(&other).is_err());
-}
-
-#[test]
-fn support_vectors_of_before_are_read_and_predict_as_they_did() {
-    let (model, features) = fit("kernel-ridge", &[], SPEC);
-    let bytes = model.to_bytes().expect("small");
-    let old = with_card(&bytes, |card| card["model"] = "svr".into());
-    let read = Model::from_bytes(&old).expect("a kernel, whoever fitted it");
-    assert_eq!(read.card().model, "svr");
-    let predictions = |model: &Model| model.predict(&features).expect("its shape");
-    assert_eq!(predictions(&read), predictions(&model));
 }

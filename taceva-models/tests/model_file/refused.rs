@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use taceva_models::{FormatError, Model, ModelFileError, ModelRegressor};
+use taceva_models::{FormatError, LinearRegressor, Model, ModelFileError};
 
 use super::{SPEC, fit};
 
@@ -42,16 +42,13 @@ fn sealed(card: &str, bytes: &[u8]) -> String {
     taceva_files::seal::json::seal_with(card, &attached).expect("a card")
 }
 
-/// A model's bytes with its card rewritten, and a seal that holds where its version has one.
+/// A model's bytes with its card rewritten, and a seal that holds.
 pub(crate) fn with_card(bytes: &[u8], change: impl Fn(&mut serde_json::Value)) -> Vec<u8> {
     with_card_text(bytes, |card| {
         let mut card: serde_json::Value = serde_json::from_str(card).expect("a card");
         change(&mut card);
         card.as_object_mut().expect("an object").remove("seal");
-        match card["format"].as_str() {
-            Some("1.0") => card.to_string(),
-            _ => sealed(&card.to_string(), bytes),
-        }
+        sealed(&card.to_string(), bytes)
     })
 }
 
@@ -99,26 +96,47 @@ fn a_number_a_setting_or_a_seal_that_is_another_one_is_refused_by_its_key() {
         format!("{card}}}")
     });
     assert!(refused(&without).contains("the seal is gone"));
-    let older = with_card(&bytes, |card| card["format"] = "1.0".into());
-    assert!(
-        Model::from_bytes(&older).is_ok(),
-        "files of before seals are read"
-    );
 }
 
 #[test]
 fn newer_minor_versions_are_read_and_newer_major_ones_refused() {
     let bytes = fit("ridge", &[], SPEC).0.to_bytes().expect("small");
-    let minor = with_card(&bytes, |card| {
-        card["format"] = "1.7".into();
-        card["mood"] = "sunny".into();
-    });
-    assert!(Model::from_bytes(&minor).is_ok());
+    let of = |version: &str| {
+        with_card(&bytes, |card| {
+            card["format"] = version.into();
+            card["taceva"] = "0.3.0".into();
+            card["mood"] = "sunny".into();
+        })
+    };
+    assert!(Model::from_bytes(&of("1.7")).is_ok());
     for version in ["2.0", "0.9", "1", "one", ""] {
-        let other = with_card(&bytes, |card| card["format"] = version.into());
-        let error = Model::from_bytes(&other).expect_err(version);
+        let error = Model::from_bytes(&of(version)).expect_err(version);
         assert!(matches!(error, FormatError::Version { .. }), "{error}");
     }
+}
+
+#[test]
+fn files_of_earlier_formats_are_refused_with_the_command_that_makes_them_anew() {
+    let bytes = fit("ridge", &[], SPEC).0.to_bytes().expect("small");
+    let earlier = with_card(&bytes, |card| {
+        card["format"] = "1.2".into();
+        card["taceva"] = "0.1.0".into();
+    });
+    let error = Model::from_bytes(&earlier).expect_err("earlier");
+    assert_eq!(
+        error.to_string(),
+        "format 1.2 of TacEva 0.1.0 is no longer read: fit the model anew with `taceva fit RECORDING --model NAME --out FILE`"
+    );
+}
+
+#[test]
+fn a_model_that_is_not_registered_is_refused_by_its_name() {
+    let bytes = fit("ridge", &[], SPEC).0.to_bytes().expect("small");
+    let other = with_card(&bytes, |card| card["model"] = "rigde".into());
+    assert_eq!(
+        Model::from_bytes(&other).expect_err("unknown").to_string(),
+        "fitted by `rigde`, which this TacEva does not have"
+    );
 }
 
 #[test]
@@ -142,11 +160,11 @@ fn a_card_that_does_not_fit_its_tensors_is_refused() {
 
 #[test]
 fn numbers_that_are_not_finite_are_refused() {
-    let sealed = fit("ridge", &[], SPEC).0.to_bytes().expect("small");
-    // Where the seal is checked first, the number is never looked at.
-    let mut bytes = with_card(&sealed, |card| card["format"] = "1.0".into());
+    let mut bytes = fit("ridge", &[], SPEC).0.to_bytes().expect("small");
     let end = bytes.len();
     bytes[end - 8..].copy_from_slice(&f64::NAN.to_le_bytes());
+    // With a seal over the new number.
+    let bytes = with_card(&bytes, |_| {});
     let error = Model::from_bytes(&bytes).expect_err("refused");
     assert_eq!(error.to_string(), "a weight is not finite");
 }
@@ -185,9 +203,8 @@ fn damaged_files_never_panic_and_truncated_ones_are_never_models() {
         }
         // What still opens has finite numbers of the shape its card names.
         if let Ok(model) = Model::from_bytes(&damaged) {
-            let ModelRegressor::Linear(linear) = model.regressor() else {
-                panic!("a linear model became another")
-            };
+            let linear = model.regressor().get::<LinearRegressor>();
+            let linear = linear.expect("a linear model stays one");
             let weights = linear.weights();
             assert_eq!(
                 weights.len(),

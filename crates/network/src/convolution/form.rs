@@ -62,11 +62,6 @@ impl ConvolutionForm {
             ConvolutionForm::Winograd => "winograd-4x4",
         }
     }
-
-    /// The form of whatever does not say one: it is of a time when there was one only.
-    pub const fn unstated() -> ConvolutionForm {
-        ConvolutionForm::Direct
-    }
 }
 
 impl std::fmt::Display for ConvolutionForm {

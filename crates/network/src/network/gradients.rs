@@ -4,8 +4,8 @@ use super::{NamedTensor, Network};
 use crate::convolution::{ConvolutionForm, plain};
 use crate::error::{NetworkError, SampleSet};
 use crate::loss::Loss;
+use crate::samples::Samples;
 use crate::stage::Stage;
-use crate::training::Samples;
 use crate::update::Update;
 
 /// The loss of some samples, and how it changes with each parameter.

@@ -4,11 +4,12 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Moments, Recipe, Samples, Snapshot, Trainer, TrainingState};
+use super::{Moments, Recipe, Snapshot, Trainer, TrainingState};
 use crate::architecture::Architecture;
 use crate::convolution::ConvolutionForm;
 use crate::error::NetworkError;
 use crate::network::{NamedTensor, Network};
+use crate::samples::Samples;
 
 /// A training saved after any step: resumed, it ends with the same bits as one that was never interrupted.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,8 +30,7 @@ pub struct Summary {
     pub recipe: Recipe,
     /// How many samples it learns from.
     pub samples: usize,
-    /// The form of its convolutions on the processor, on which last digits depend; one that does not say it had the only form of its time.
-    #[serde(default = "ConvolutionForm::unstated")]
+    /// The form of its convolutions on the processor, on which last digits depend.
     pub convolutions: ConvolutionForm,
     /// How far it has come.
     pub state: TrainingState,

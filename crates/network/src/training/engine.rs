@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use super::Labels;
 use crate::error::NetworkError;
+use crate::labels::Labels;
 use crate::network::{NamedTensor, Network};
 
 /// What passes pictures through a network and changes its weights: the processor of this machine, or another device.

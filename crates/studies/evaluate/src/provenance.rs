@@ -100,11 +100,6 @@ impl Provenance {
         }
     }
 
-    /// What says that the file of `model` carries no seal, if it carries none.
-    pub fn unsealed_model(model: &Model) -> Option<String> {
-        (!model.is_sealed()).then(|| format!("model of format {}", model.card().format))
-    }
-
     /// Whether the model was fitted on some of the samples that were scored, so that its skill on others stays unknown.
     pub fn is_of_seen_samples(&self) -> bool {
         let is_test = |part: &str| part == DataPart::Test.name();

@@ -80,7 +80,7 @@ pub(super) fn candidates(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::registry::ALL;
+    use crate::estimators::registry::ALL;
 
     #[test]
     fn candidates_come_by_work_and_the_small_network_before_what_takes_a_tenth_of_it() {

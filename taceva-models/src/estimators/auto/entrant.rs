@@ -1,8 +1,8 @@
 //! A model that is tried.
 
 use super::candidates::Candidate;
-use super::card::AutoTrial;
 use super::standing::{Excess, mean};
+use crate::training::card::AutoTrial;
 use crate::training::fit::ModelEstimator;
 
 /// A model with what is known of it so far.

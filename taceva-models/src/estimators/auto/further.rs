@@ -3,11 +3,11 @@
 use taceva_core::ModelError;
 
 use super::candidates::Candidate;
-use super::card::{AutoCard, FOLDS};
 use super::entrant::Entrant;
 use super::race::{ALWAYS, Race};
 use super::standing::{BEYOND_CHANCE, CLEARLY};
 use crate::linalg::progress::interrupted;
+use crate::training::card::{AutoCard, FOLDS};
 
 /// The share of its squared error that a network is granted to keep after the rest of its training.
 const GRANTED: f64 = 0.5;
@@ -164,7 +164,7 @@ impl Race<'_> {
         taken
     }
 
-    pub(super) fn card(self, taken: Option<Candidate>) -> AutoCard {
+    pub(super) fn card(self, taken: Candidate) -> AutoCard {
         let tried = self.entrants.iter().chain(&self.network);
         AutoCard {
             budget_s: self.budget_s,
@@ -172,7 +172,7 @@ impl Race<'_> {
             by_group: self.folds.by_group,
             tried: tried.map(Entrant::trial).collect(),
             untried: self.untried,
-            taken: taken.map(|taken| taken.info.name.to_owned()),
+            taken: taken.info.name.to_owned(),
         }
     }
 }
@@ -185,10 +185,10 @@ fn is_ahead(network: &Entrant, best: &Entrant, standard_errors: f64) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::card::Untried;
     use super::*;
-    use crate::registry::find;
+    use crate::estimators::registry::find;
     use crate::settings::ModelSettings;
+    use crate::training::card::Untried;
 
     /// A model that takes `fold_s` a fold and has those losses on the units of the first.
     fn entrant(name: &str, fold_s: f64, losses: [f64; 4]) -> Entrant {

@@ -3,11 +3,12 @@
 use taceva_core::{ModelError, Progress, TrainingSet};
 
 use super::candidates::{Candidate, LOOK};
-use super::card::{AutoCard, Untried};
 use super::entrant::Entrant;
 use super::validate::Folds;
 use crate::features::FeatureError;
+use crate::linalg::invalid;
 use crate::linalg::progress::{ReportedStage, interrupted};
+use crate::training::card::{AutoCard, Untried};
 use crate::training::fit::ModelEstimator;
 use crate::training::info::ModelInfo;
 
@@ -39,7 +40,7 @@ impl Race<'_> {
     pub(super) fn run(
         mut self,
         candidates: Vec<Candidate>,
-    ) -> Result<(Option<Candidate>, AutoCard), ModelError> {
+    ) -> Result<(Candidate, AutoCard), ModelError> {
         let stage = ReportedStage::begin(self.progress, "models tried", candidates.len());
         for candidate in candidates {
             interrupted(self.progress)?;
@@ -55,6 +56,7 @@ impl Race<'_> {
             self.more_folds()?;
         }
         let taken = self.settle();
+        let taken = taken.ok_or_else(|| invalid("no model could be tried"))?;
         Ok((taken, self.card(taken)))
     }
 

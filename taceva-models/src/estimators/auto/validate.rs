@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use taceva_core::{ErrorKind, Features, ModelError, Progress, Regressor, Targets, TrainingSet};
 
-use super::card::FOLDS;
+use crate::training::card::FOLDS;
 use crate::training::fit::ModelEstimator;
 
 /// Groups that each fold must have for them to be the units that losses scatter by.

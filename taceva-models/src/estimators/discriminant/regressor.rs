@@ -4,8 +4,11 @@ use rayon::prelude::*;
 use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
 
 use crate::linalg::Design;
+use crate::training::card::{Form, KindCard};
 use crate::training::file::error::FormatError;
+use crate::training::file::stored::Stored;
 use crate::training::file::tensors::{Raw, Tensors};
+use crate::training::fitted::{FittedModel, ModelRegressor};
 use crate::training::output::{check_call, check_finite};
 
 /// The planes of one channel over raw features.
@@ -76,7 +79,8 @@ const WEIGHTS: &str = "classes.weights";
 
 impl ClassRegressor {
     pub(super) fn new(
-        (channels, shape): (Channels, FeatureShape),
+        channels: Channels,
+        shape: FeatureShape,
         planes: Vec<Planes>,
     ) -> ClassRegressor {
         ClassRegressor {
@@ -91,37 +95,13 @@ impl ClassRegressor {
         self.planes.iter().map(|planes| planes.values.len()).sum()
     }
 
-    /// Whether any channel is predicted from what is seen.
-    pub(crate) fn reads_features(&self) -> bool {
-        let mut weights = self.planes.iter().flat_map(|planes| &planes.weights);
-        weights.any(|weight| weight.abs() > 0.0)
-    }
-
-    /// The tensors of a file.
-    pub(crate) fn tensors(&self) -> Vec<Raw> {
-        let joined = |part: fn(&Planes) -> &Vec<f64>| -> Vec<f64> {
-            self.planes.iter().flat_map(part).copied().collect()
-        };
-        let counts: Vec<u32> = self
-            .planes
-            .iter()
-            .map(|planes| u32::try_from(planes.values.len()).expect("a few hundred"))
-            .collect();
-        let (classes, width) = (self.classes(), self.shape.len());
-        vec![
-            Raw::integers(COUNTS, vec![counts.len()], &counts),
-            Raw::doubles(OFFSETS, vec![classes], &joined(|planes| &planes.offsets)),
-            Raw::doubles(VALUES, vec![classes], &joined(|planes| &planes.values)),
-            Raw::doubles(
-                WEIGHTS,
-                vec![classes, width],
-                &joined(|planes| &planes.weights),
-            ),
-        ]
+    /// The model that a file holds.
+    pub(crate) fn load(stored: &Stored<'_>) -> Result<ModelRegressor, FormatError> {
+        stored.on_components(ClassRegressor::from_tensors)
     }
 
     /// The model that a file holds.
-    pub(crate) fn from_tensors(
+    fn from_tensors(
         tensors: &Tensors<'_>,
         channels: Channels,
         shape: FeatureShape,
@@ -147,7 +127,42 @@ impl ClassRegressor {
                 offsets: offsets[own].to_vec(),
             }
         });
-        Ok(ClassRegressor::new((channels, shape), planes.collect()))
+        Ok(ClassRegressor::new(channels, shape, planes.collect()))
+    }
+}
+
+impl FittedModel for ClassRegressor {
+    fn kind(&self) -> KindCard {
+        KindCard::from(Form::Classes {
+            classes: self.classes(),
+        })
+    }
+
+    fn tensors(&self) -> Vec<Raw> {
+        let joined = |part: fn(&Planes) -> &Vec<f64>| -> Vec<f64> {
+            self.planes.iter().flat_map(part).copied().collect()
+        };
+        let counts: Vec<u32> = self
+            .planes
+            .iter()
+            .map(|planes| u32::try_from(planes.values.len()).expect("a few hundred"))
+            .collect();
+        let (classes, width) = (self.classes(), self.shape.len());
+        vec![
+            Raw::integers(COUNTS, vec![counts.len()], &counts),
+            Raw::doubles(OFFSETS, vec![classes], &joined(|planes| &planes.offsets)),
+            Raw::doubles(VALUES, vec![classes], &joined(|planes| &planes.values)),
+            Raw::doubles(
+                WEIGHTS,
+                vec![classes, width],
+                &joined(|planes| &planes.weights),
+            ),
+        ]
+    }
+
+    fn reads_features(&self) -> bool {
+        let mut weights = self.planes.iter().flat_map(|planes| &planes.weights);
+        weights.any(|weight| weight.abs() > 0.0)
     }
 }
 

@@ -16,7 +16,8 @@ use crate::linalg::progress::interrupted;
 use crate::linalg::{Design, FeatureScale, Spectrum};
 use crate::settings::{ModelSettings, SettingError};
 use crate::training::choice::{ChannelChoice, Choice, ChosenBy, rmse};
-use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
+use crate::training::fit::{ModelEstimator, ModelFit, estimator};
+use crate::training::fitted::ModelRegressor;
 use crate::training::info::ModelInfo;
 use crate::training::problem::{Problem, Validation, centred, joined, stacked};
 
@@ -43,6 +44,7 @@ impl GaussianProcess {
         settings: Kernel::SETTINGS,
         features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(GaussianProcess::from_settings(settings)?)),
+        load: KernelRegressor::load,
     };
 
     /// A Gaussian process as `settings` ask for.
@@ -206,7 +208,7 @@ impl ModelEstimator for GaussianProcess {
         let known = Some(fit.uncertainty.reaching(&reaches));
         let regressor = KernelRegressor::new(shape, fit.mapped.map, fit.linear, known);
         Ok(ModelFit {
-            regressor: ModelRegressor::Kernel(Box::new(regressor)),
+            regressor: ModelRegressor::new(regressor),
             choice: Choice {
                 by: ChosenBy::Likelihood,
                 setting: Some("noise_ratio".to_owned()),

@@ -64,7 +64,8 @@ impl Nystrom {
     /// Of ready numbers, whose lengths were checked.
     pub(super) fn ready(
         standard: Standard,
-        (length, rate): (f64, f64),
+        length: f64,
+        rate: f64,
         rows: Vec<f32>,
         factor: Vec<f64>,
     ) -> Nystrom {

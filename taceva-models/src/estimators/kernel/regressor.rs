@@ -7,8 +7,11 @@ use super::nystrom::Nystrom;
 use super::uncertainty::Uncertainty;
 use crate::estimators::linear::LinearRegressor;
 use crate::linalg::standard::Standard;
+use crate::training::card::{Form, KindCard};
 use crate::training::file::error::FormatError;
+use crate::training::file::stored::Stored;
 use crate::training::file::tensors::{Raw, Tensors};
+use crate::training::fitted::{FittedModel, ModelRegressor};
 use crate::training::output::{check_call, check_finite};
 
 /// A fitted kernel method.
@@ -56,38 +59,6 @@ impl KernelRegressor {
         self.map.length
     }
 
-    /// Whether any channel is predicted from what is seen.
-    pub(crate) fn reads_features(&self) -> bool {
-        let mut weights = self.linear.weights().iter();
-        weights.any(|weight| weight.abs() > 0.0)
-    }
-
-    /// Whether [`deviations`](KernelRegressor::deviations) are known.
-    pub(crate) fn knows_deviations(&self) -> bool {
-        self.uncertainty.is_some()
-    }
-
-    /// The standard deviation of every prediction; `None` for a method that does not know it.
-    ///
-    /// # Shapes
-    /// `[samples, channels]`.
-    /// # Units
-    /// Those of the channels.
-    /// # Errors
-    /// [`ModelError`] if the features are of another shape.
-    pub fn deviations(&self, features: &Features) -> Result<Option<Vec<f64>>, ModelError> {
-        let mut into = vec![0.0; features.samples() * self.channels().len()];
-        check_call(self.channels(), self.shape, features, &into)?;
-        let Some(uncertainty) = &self.uncertainty else {
-            return Ok(None);
-        };
-        self.for_each(features, &mut into, |mapped, into| {
-            uncertainty.write(mapped, into);
-        });
-        check_finite(self.channels(), &into)?;
-        Ok(Some(into))
-    }
-
     fn for_each(
         &self,
         features: &Features,
@@ -105,25 +76,13 @@ impl KernelRegressor {
             });
     }
 
-    /// The tensors of a file.
-    pub(crate) fn tensors(&self) -> Vec<Raw> {
-        let (count, width) = (self.map.len(), self.shape.len());
-        let channels = self.channels().len();
-        let own = [
-            Raw::doubles(BIAS, vec![channels], self.linear.bias()),
-            Raw::doubles(CENTRE, vec![width], self.map.standard.centre()),
-            Raw::doubles(FACTOR, vec![width], self.map.standard.factor()),
-            Raw::singles(ROWS, vec![count, width], &self.map.rows),
-            Raw::doubles(RATE, vec![2], &[self.map.length, self.map.rate]),
-            Raw::doubles(TRIANGLE, vec![self.map.factor.len()], &self.map.factor),
-            Raw::doubles(WEIGHTS, vec![channels, count], self.linear.weights()),
-        ];
-        let known = self.uncertainty.iter().flat_map(Uncertainty::tensors);
-        own.into_iter().chain(known).collect()
+    /// The model that a file holds.
+    pub(crate) fn load(stored: &Stored<'_>) -> Result<ModelRegressor, FormatError> {
+        stored.on_components(KernelRegressor::from_tensors)
     }
 
     /// The model that a file holds.
-    pub(crate) fn from_tensors(
+    fn from_tensors(
         tensors: &Tensors<'_>,
         channels: Channels,
         shape: FeatureShape,
@@ -151,10 +110,58 @@ impl KernelRegressor {
         let known = channels.len();
         Ok(KernelRegressor {
             shape,
-            map: Nystrom::ready(standard, (numbers[0], numbers[1]), rows, factor),
+            map: Nystrom::ready(standard, numbers[0], numbers[1], rows, factor),
             linear: LinearRegressor::new(channels, FeatureShape::flat(count), weights, bias)?,
             uncertainty: Uncertainty::from_tensors(tensors, count, known)?,
         })
+    }
+}
+
+impl FittedModel for KernelRegressor {
+    fn kind(&self) -> KindCard {
+        KindCard::from(Form::Kernel {
+            landmarks: self.landmarks(),
+            length: self.length(),
+            deviations: self.knows_deviations(),
+        })
+    }
+
+    fn tensors(&self) -> Vec<Raw> {
+        let (count, width) = (self.map.len(), self.shape.len());
+        let channels = self.channels().len();
+        let own = [
+            Raw::doubles(BIAS, vec![channels], self.linear.bias()),
+            Raw::doubles(CENTRE, vec![width], self.map.standard.centre()),
+            Raw::doubles(FACTOR, vec![width], self.map.standard.factor()),
+            Raw::singles(ROWS, vec![count, width], &self.map.rows),
+            Raw::doubles(RATE, vec![2], &[self.map.length, self.map.rate]),
+            Raw::doubles(TRIANGLE, vec![self.map.factor.len()], &self.map.factor),
+            Raw::doubles(WEIGHTS, vec![channels, count], self.linear.weights()),
+        ];
+        let known = self.uncertainty.iter().flat_map(Uncertainty::tensors);
+        own.into_iter().chain(known).collect()
+    }
+
+    fn reads_features(&self) -> bool {
+        let mut weights = self.linear.weights().iter();
+        weights.any(|weight| weight.abs() > 0.0)
+    }
+
+    fn knows_deviations(&self) -> bool {
+        self.uncertainty.is_some()
+    }
+
+    fn deviations(&self, features: &Features) -> Result<Option<Vec<f64>>, ModelError> {
+        let mut into = vec![0.0; features.samples() * self.channels().len()];
+        check_call(self.channels(), self.shape, features, &into)?;
+        let Some(uncertainty) = &self.uncertainty else {
+            return Ok(None);
+        };
+        self.for_each(features, &mut into, |mapped, into| {
+            uncertainty.write(mapped, into);
+        });
+        check_finite(self.channels(), &into)?;
+        Ok(Some(into))
     }
 }
 

@@ -8,7 +8,8 @@ use crate::estimators::ridge::Ridge;
 use crate::features::FeatureSpec;
 use crate::linalg::progress::interrupted;
 use crate::settings::{ModelSettings, SettingError};
-use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
+use crate::training::fit::{ModelEstimator, ModelFit, estimator};
+use crate::training::fitted::ModelRegressor;
 use crate::training::info::ModelInfo;
 use crate::training::problem::Problem;
 
@@ -35,6 +36,7 @@ impl KernelRidge {
         settings: Kernel::SETTINGS,
         features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(KernelRidge::from_settings(settings)?)),
+        load: KernelRegressor::load,
     };
 
     /// Kernel ridge regression as `settings` ask for.
@@ -101,7 +103,7 @@ impl ModelEstimator for KernelRidge {
         let shape = training.features.shape();
         let regressor = KernelRegressor::new(shape, mapped.map, fit.regressor, None);
         Ok(ModelFit {
-            regressor: ModelRegressor::Kernel(Box::new(regressor)),
+            regressor: ModelRegressor::new(regressor),
             choice: fit.choice,
             scaling: fit.scaling,
             refitted: fit.refitted,

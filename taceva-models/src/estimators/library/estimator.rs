@@ -7,7 +7,8 @@ use taceva_core::{ErrorKind, ModelError, Progress, Regressor, TrainingSet};
 use super::fit::fit;
 use super::{LibraryLearner, LibraryRegressor};
 use crate::training::choice::Errors;
-use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
+use crate::training::fit::{ModelEstimator, ModelFit, estimator};
+use crate::training::fitted::ModelRegressor;
 use crate::training::output::OutputScale;
 use crate::training::problem::Problem;
 use crate::training::trials::{Round, Trials, rows_of};
@@ -98,14 +99,21 @@ impl ModelEstimator for LibraryEstimator {
             },
             false => OutputScale::of(&problem),
         };
-        let kind = (training.targets.channels.clone(), training.features.shape());
-        let regressor = LibraryRegressor::new(self.learner.model().card(), kind, scale, fitted);
+        let shape = training.features.shape();
+        let card = self.learner.model().card();
+        let regressor = LibraryRegressor::new(
+            card,
+            training.targets.channels.clone(),
+            shape,
+            scale,
+            fitted,
+        );
         // What cannot answer for what it learnt from is no model.
         let mut known = vec![0.0; features.samples() * channels];
         regressor.predict(&features, &mut known)?;
         let refitted = refit && trials.has_validation();
         Ok(ModelFit {
-            regressor: ModelRegressor::Library(Box::new(regressor)),
+            regressor: ModelRegressor::new(regressor),
             choice,
             refitted,
             scaling: problem.scaling.clone(),
@@ -126,7 +134,7 @@ fn as_given(training: &TrainingSet<'_>, held: Option<&TrainingSet<'_>>) -> Mat<f
 estimator!(LibraryEstimator, |own| own.learner.model().info.name);
 
 /// The estimator of `learner`, as the registry makes it.
-pub fn library_estimator(learner: impl LibraryLearner + 'static) -> Box<dyn ModelEstimator> {
+pub(crate) fn library_estimator(learner: impl LibraryLearner + 'static) -> Box<dyn ModelEstimator> {
     Box::new(LibraryEstimator {
         learner: Box::new(learner),
     })

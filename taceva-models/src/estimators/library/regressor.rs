@@ -6,13 +6,16 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
 
-use super::card::LibraryCard;
 use super::fitted::Fitted;
-use super::task::{LibraryPredictor, LibrarySizes, LoadedPredictor};
-use super::tensor::LibraryTensors;
+use super::task::{LibraryPredictor, LibrarySizes};
+use super::tensor::{LibraryTensors, prefixed};
+use super::{LibraryModel, library_models};
 use crate::linalg::standard::Standard;
+use crate::training::card::{Form, KindCard, LibraryCard};
 use crate::training::file::error::FormatError;
+use crate::training::file::stored::Stored;
 use crate::training::file::tensors::{Raw, Tensors};
+use crate::training::fitted::{FittedModel, ModelRegressor};
 use crate::training::output::{OutputScale, check_call, check_finite};
 
 /// A fitted model of another library.
@@ -38,7 +41,8 @@ const SPAN: &str = "library.span";
 impl LibraryRegressor {
     pub(super) fn new(
         card: LibraryCard,
-        (channels, shape): (Channels, FeatureShape),
+        channels: Channels,
+        shape: FeatureShape,
         scale: OutputScale,
         fitted: Fitted,
     ) -> LibraryRegressor {
@@ -65,42 +69,23 @@ impl LibraryRegressor {
         &self.card
     }
 
-    /// Whether any channel is predicted from what is seen.
-    pub(crate) fn reads_features(&self) -> bool {
-        self.predictor.is_some()
+    /// The model that a file holds, of a library that this build has.
+    pub(super) fn load(stored: &Stored<'_>) -> Result<ModelRegressor, FormatError> {
+        let card = stored.card.library.as_ref().ok_or(FormatError::Card)?;
+        let model = library_models().find(|model| model.info.name == stored.card.model);
+        let model = model.ok_or(FormatError::Card)?;
+        stored.on_components(|tensors, channels, shape| {
+            LibraryRegressor::from_tensors(tensors, channels, shape, model, card)
+        })
     }
 
-    /// The tensors of a file.
-    pub(crate) fn tensors(&self) -> Vec<Raw> {
-        let (width, channels) = (self.shape.len(), self.channels.len());
-        let places = |list: &[usize]| -> Vec<u32> {
-            let places = list.iter();
-            places
-                .map(|&place| u32::try_from(place).expect("fewer than a file holds"))
-                .collect()
-        };
-        let own = [
-            Raw::doubles(CENTRE, vec![width], self.standard.centre()),
-            Raw::doubles(FACTOR, vec![width], self.standard.factor()),
-            Raw::integers(KEPT, vec![self.kept.len()], &places(&self.kept)),
-            Raw::integers(LIVE, vec![self.live.len()], &places(&self.live)),
-            Raw::doubles(OFFSET, vec![channels], &self.scale.offset),
-            Raw::doubles(SPAN, vec![channels], &self.scale.span),
-        ];
-        let fitted = self.predictor.iter().flat_map(|fitted| fitted.tensors());
-        own.into_iter()
-            .chain(fitted.map(|tensor| tensor.raw()))
-            .collect()
-    }
-
-    /// The model that a file holds, whose parameters `load` reads.
-    pub(crate) fn from_tensors(
+    /// The model that a file holds, whose parameters `model` reads.
+    fn from_tensors(
         tensors: &Tensors<'_>,
-        (channels, shape): (Channels, FeatureShape),
-        (load, card): (
-            fn(&LibraryTensors, LibrarySizes) -> LoadedPredictor,
-            &LibraryCard,
-        ),
+        channels: Channels,
+        shape: FeatureShape,
+        model: &LibraryModel,
+        card: &LibraryCard,
     ) -> Result<LibraryRegressor, FormatError> {
         let (width, count) = (shape.len(), channels.len());
         let places = |name, below: usize| -> Result<Vec<usize>, FormatError> {
@@ -128,7 +113,7 @@ impl LibraryRegressor {
         };
         let predictor = match kept.is_empty() {
             true => None,
-            false => Some(load(&LibraryTensors::read(tensors), sizes)?.into()),
+            false => Some((model.load)(&LibraryTensors(tensors), sizes)?.into()),
         };
         Ok(LibraryRegressor {
             card: card.clone(),
@@ -162,6 +147,39 @@ impl LibraryRegressor {
     }
 }
 
+impl FittedModel for LibraryRegressor {
+    fn kind(&self) -> KindCard {
+        KindCard {
+            library: Some(self.card.clone()),
+            ..KindCard::from(Form::Library)
+        }
+    }
+
+    fn tensors(&self) -> Vec<Raw> {
+        let (width, channels) = (self.shape.len(), self.channels.len());
+        let places = |list: &[usize]| -> Vec<u32> {
+            let places = list.iter();
+            places
+                .map(|&place| u32::try_from(place).expect("fewer than a file holds"))
+                .collect()
+        };
+        let own = [
+            Raw::doubles(CENTRE, vec![width], self.standard.centre()),
+            Raw::doubles(FACTOR, vec![width], self.standard.factor()),
+            Raw::integers(KEPT, vec![self.kept.len()], &places(&self.kept)),
+            Raw::integers(LIVE, vec![self.live.len()], &places(&self.live)),
+            Raw::doubles(OFFSET, vec![channels], &self.scale.offset),
+            Raw::doubles(SPAN, vec![channels], &self.scale.span),
+        ];
+        let fitted = self.predictor.iter().flat_map(|fitted| fitted.tensors());
+        own.into_iter().chain(fitted.map(prefixed)).collect()
+    }
+
+    fn reads_features(&self) -> bool {
+        self.predictor.is_some()
+    }
+}
+
 impl Regressor for LibraryRegressor {
     fn channels(&self) -> &Channels {
         &self.channels
@@ -177,20 +195,6 @@ impl Regressor for LibraryRegressor {
             .zip(features.values().par_chunks(self.shape.len()))
             .try_for_each(|(into, sample)| self.write(sample, into))?;
         check_finite(&self.channels, into)
-    }
-}
-
-/// Models that a file keeps as the same bytes are the same.
-impl PartialEq for LibraryRegressor {
-    fn eq(&self, other: &LibraryRegressor) -> bool {
-        let (own, others) = (self.tensors(), other.tensors());
-        self.card == other.card
-            && self.channels == other.channels
-            && self.shape == other.shape
-            && own.len() == others.len()
-            && own.iter().zip(&others).all(|(own, other)| {
-                own.name == other.name && own.shape == other.shape && own.bytes == other.bytes
-            })
     }
 }
 

@@ -2,46 +2,46 @@
 
 use taceva_core::{ModelError, Progress};
 
-use super::tensor::LibraryTensor;
+use crate::training::file::tensors::Raw;
 
 /// Sizes that a model of a library is fitted on, or was.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct LibrarySizes {
+pub(crate) struct LibrarySizes {
     /// Training samples; 0 for a model that is read back.
-    pub samples: usize,
+    pub(crate) samples: usize,
     /// Features that vary over them.
-    pub features: usize,
+    pub(crate) features: usize,
     /// Channels whose labels vary over them.
-    pub targets: usize,
+    pub(crate) targets: usize,
 }
 
 /// What a library gets: features that all vary, labels that all vary, every number finite.
 #[derive(Clone, Copy)]
-pub struct LibraryTask<'a> {
+pub(crate) struct LibraryTask<'a> {
     /// How many samples, features and targets.
-    pub sizes: LibrarySizes,
+    pub(crate) sizes: LibrarySizes,
     /// `[samples, features]`, centred and scaled; each is exactly a single-precision number.
-    pub rows: &'a [f64],
+    pub(crate) rows: &'a [f64],
     /// `[samples, targets]`: labels scaled to 0..1 by the training part and centred; as they are where they are classes.
-    pub labels: &'a [f64],
+    pub(crate) labels: &'a [f64],
     /// `[targets]`: the value of the setting that is chosen, for each target; empty where there is none.
-    pub values: &'a [f64],
+    pub(crate) values: &'a [f64],
     /// Receives progress, and may cancel between calls of the library.
-    pub progress: &'a dyn Progress,
+    pub(crate) progress: &'a dyn Progress,
 }
 
 impl LibraryTask<'_> {
     /// The labels of one target, sample by sample.
-    pub fn target(&self, target: usize) -> Vec<f64> {
+    pub(crate) fn target(&self, target: usize) -> Vec<f64> {
         let labels = self.labels.iter().skip(target);
         labels.step_by(self.sizes.targets.max(1)).copied().collect()
     }
 }
 
 /// Fitted parameters of a library's estimator, and how they predict.
-pub trait LibraryPredictor: Send + Sync {
+pub(crate) trait LibraryPredictor: Send + Sync {
     /// What a file keeps of it; [`LibraryModel::load`](crate::LibraryModel::load) makes the same predictor of them, to the bit.
-    fn tensors(&self) -> Vec<LibraryTensor>;
+    fn tensors(&self) -> Vec<Raw>;
 
     /// Predicts one sample.
     ///
@@ -53,4 +53,4 @@ pub trait LibraryPredictor: Send + Sync {
 }
 
 /// A predictor that is read back, or why tensors are none.
-pub type LoadedPredictor = Result<Box<dyn LibraryPredictor>, ModelError>;
+pub(crate) type LoadedPredictor = Result<Box<dyn LibraryPredictor>, ModelError>;

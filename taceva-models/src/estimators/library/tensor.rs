@@ -1,6 +1,6 @@
-//! The fitted parameters of a library's model as tensors with names.
+//! The fitted parameters of a library's model, as tensors of a model file under a prefix.
 
-use safetensors::tensor::Dtype;
+use safetensors::tensor::{Dtype, TensorView};
 use taceva_core::{ErrorKind, ModelError};
 
 use crate::training::file::tensors::{Raw, Tensors};
@@ -8,165 +8,85 @@ use crate::training::file::tensors::{Raw, Tensors};
 /// Before the names of tensors that are a library's parameters.
 const PREFIX: &str = "library.model.";
 
-/// A tensor: its name, its shape and its numbers.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LibraryTensor {
-    /// The name, within the model.
-    pub name: String,
-    /// The length of each dimension.
-    pub shape: Vec<usize>,
-    /// As many numbers as the shape has places.
-    pub numbers: Numbers,
-}
-
-/// Numbers of one kind.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Numbers {
-    /// In double precision.
-    Doubles(Vec<f64>),
-    /// In single precision.
-    Singles(Vec<f32>),
-    /// Not negative.
-    Integers(Vec<u32>),
-}
-
-impl LibraryTensor {
-    /// A tensor of doubles.
-    pub fn doubles(name: &str, shape: Vec<usize>, values: Vec<f64>) -> LibraryTensor {
-        LibraryTensor {
-            name: name.to_owned(),
-            shape,
-            numbers: Numbers::Doubles(values),
-        }
-    }
-
-    /// A tensor of singles.
-    pub fn singles(name: &str, shape: Vec<usize>, values: Vec<f32>) -> LibraryTensor {
-        LibraryTensor {
-            name: name.to_owned(),
-            shape,
-            numbers: Numbers::Singles(values),
-        }
-    }
-
-    /// A tensor of integers.
-    pub fn integers(name: &str, shape: Vec<usize>, values: Vec<u32>) -> LibraryTensor {
-        LibraryTensor {
-            name: name.to_owned(),
-            shape,
-            numbers: Numbers::Integers(values),
-        }
-    }
-
-    pub(crate) fn raw(&self) -> Raw {
-        let (name, shape) = (format!("{PREFIX}{}", self.name), self.shape.clone());
-        match &self.numbers {
-            Numbers::Doubles(values) => Raw::doubles(&name, shape, values),
-            Numbers::Singles(values) => Raw::singles(&name, shape, values),
-            Numbers::Integers(values) => Raw::integers(&name, shape, values),
-        }
+/// `tensor` under the name that a file keeps.
+pub(super) fn prefixed(tensor: Raw) -> Raw {
+    Raw {
+        name: format!("{PREFIX}{}", tensor.name),
+        ..tensor
     }
 }
 
-/// The tensors that a file keeps of a library's model.
-#[derive(Clone, Debug, Default)]
-pub struct LibraryTensors(Vec<LibraryTensor>);
+/// The tensors that a file keeps of a library's model, asked for without the prefix.
+pub(crate) struct LibraryTensors<'a>(pub(super) &'a Tensors<'a>);
 
-impl LibraryTensors {
-    /// These tensors.
-    pub fn new(tensors: Vec<LibraryTensor>) -> LibraryTensors {
-        LibraryTensors(tensors)
-    }
-
-    pub(crate) fn read(tensors: &Tensors<'_>) -> LibraryTensors {
-        let own = tensors.0.tensors().into_iter();
-        let own = own.filter_map(|(name, view)| {
-            let name = name.strip_prefix(PREFIX)?.to_owned();
-            let data = view.data();
-            let numbers = match view.dtype() {
-                Dtype::F64 => Numbers::Doubles(
-                    (data.as_chunks::<8>().0.iter())
-                        .map(|bytes| f64::from_le_bytes(*bytes))
-                        .collect(),
-                ),
-                Dtype::F32 => Numbers::Singles(
-                    (data.as_chunks::<4>().0.iter())
-                        .map(|bytes| f32::from_le_bytes(*bytes))
-                        .collect(),
-                ),
-                Dtype::U32 => Numbers::Integers(
-                    (data.as_chunks::<4>().0.iter())
-                        .map(|bytes| u32::from_le_bytes(*bytes))
-                        .collect(),
-                ),
-                _ => return None,
-            };
-            let shape = view.shape().to_vec();
-            Some(LibraryTensor {
-                name,
-                shape,
-                numbers,
-            })
-        });
-        LibraryTensors(own.collect())
-    }
-
+impl<'a> LibraryTensors<'a> {
     /// The first length of the shape of `name`.
     ///
     /// # Errors
     /// [`ModelError`] of kind `Protocol` if there is no such tensor, or it is a number.
-    pub fn rows(&self, name: &str) -> Result<usize, ModelError> {
-        let shape = &self.tensor(name)?.shape;
-        shape.first().copied().ok_or_else(|| wrong(name, "rows"))
+    pub(crate) fn rows(&self, name: &str) -> Result<usize, ModelError> {
+        let rows = self.tensor(name)?.shape().first().copied();
+        rows.ok_or_else(|| wrong(name, "rows"))
     }
 
     /// The doubles of `name`, all finite.
     ///
     /// # Errors
     /// [`ModelError`] of kind `Protocol` if there is no such tensor, it has another shape, or a number is not finite.
-    pub fn doubles(&self, name: &str, shape: &[usize]) -> Result<Vec<f64>, ModelError> {
-        let tensor = self.tensor(name)?;
-        match &tensor.numbers {
-            Numbers::Doubles(values)
-                if tensor.shape == shape && values.iter().all(|value| value.is_finite()) =>
-            {
-                Ok(values.clone())
-            }
-            _ => Err(wrong(name, "finite doubles of the shape of the model")),
-        }
+    pub(crate) fn doubles(&self, name: &str, shape: &[usize]) -> Result<Vec<f64>, ModelError> {
+        let expected = "finite doubles of the shape of the model";
+        let bytes = self.bytes(name, Dtype::F64, shape, expected)?;
+        let numbers = bytes.as_chunks::<8>().0.iter();
+        let values: Vec<f64> = numbers.map(|bytes| f64::from_le_bytes(*bytes)).collect();
+        let is_finite = values.iter().all(|value| value.is_finite());
+        is_finite
+            .then_some(values)
+            .ok_or_else(|| wrong(name, expected))
     }
 
     /// The singles of `name`, all finite.
     ///
     /// # Errors
     /// [`ModelError`] of kind `Protocol` if there is no such tensor, it has another shape, or a number is not finite.
-    pub fn singles(&self, name: &str, shape: &[usize]) -> Result<Vec<f32>, ModelError> {
-        let tensor = self.tensor(name)?;
-        match &tensor.numbers {
-            Numbers::Singles(values)
-                if tensor.shape == shape && values.iter().all(|value| value.is_finite()) =>
-            {
-                Ok(values.clone())
-            }
-            _ => Err(wrong(name, "finite singles of the shape of the model")),
-        }
+    pub(crate) fn singles(&self, name: &str, shape: &[usize]) -> Result<Vec<f32>, ModelError> {
+        let expected = "finite singles of the shape of the model";
+        let bytes = self.bytes(name, Dtype::F32, shape, expected)?;
+        let numbers = bytes.as_chunks::<4>().0.iter();
+        let values: Vec<f32> = numbers.map(|bytes| f32::from_le_bytes(*bytes)).collect();
+        let is_finite = values.iter().all(|value| value.is_finite());
+        is_finite
+            .then_some(values)
+            .ok_or_else(|| wrong(name, expected))
     }
 
     /// The integers of `name`.
     ///
     /// # Errors
     /// [`ModelError`] of kind `Protocol` if there is no such tensor, or it has another shape.
-    pub fn integers(&self, name: &str, shape: &[usize]) -> Result<Vec<u32>, ModelError> {
+    pub(crate) fn integers(&self, name: &str, shape: &[usize]) -> Result<Vec<u32>, ModelError> {
+        let expected = "integers of the shape of the model";
+        let bytes = self.bytes(name, Dtype::U32, shape, expected)?;
+        let numbers = bytes.as_chunks::<4>().0.iter();
+        Ok(numbers.map(|bytes| u32::from_le_bytes(*bytes)).collect())
+    }
+
+    fn bytes(
+        &self,
+        name: &str,
+        kind: Dtype,
+        shape: &[usize],
+        expected: &str,
+    ) -> Result<&'a [u8], ModelError> {
         let tensor = self.tensor(name)?;
-        match &tensor.numbers {
-            Numbers::Integers(values) if tensor.shape == shape => Ok(values.clone()),
-            _ => Err(wrong(name, "integers of the shape of the model")),
+        match tensor.dtype() == kind && tensor.shape() == shape {
+            true => Ok(tensor.data()),
+            false => Err(wrong(name, expected)),
         }
     }
 
-    fn tensor(&self, name: &str) -> Result<&LibraryTensor, ModelError> {
-        let found = self.0.iter().find(|tensor| tensor.name == name);
-        found.ok_or_else(|| wrong(name, "a tensor of that name"))
+    fn tensor(&self, name: &str) -> Result<TensorView<'a>, ModelError> {
+        let tensor = self.0.0.tensor(&format!("{PREFIX}{name}"));
+        tensor.map_err(|_| wrong(name, "a tensor of that name"))
     }
 }
 

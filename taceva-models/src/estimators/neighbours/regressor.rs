@@ -6,8 +6,11 @@ use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
 
 use crate::linalg::distance::squared_distance;
 use crate::linalg::standard::Standard;
+use crate::training::card::{Form, KindCard};
 use crate::training::file::error::FormatError;
+use crate::training::file::stored::Stored;
 use crate::training::file::tensors::{Raw, Tensors};
+use crate::training::fitted::{FittedModel, ModelRegressor};
 use crate::training::output::{OutputScale, check_call, check_finite};
 
 /// Training samples, their labels, and how many of the nearest each channel is the mean of.
@@ -82,7 +85,8 @@ pub(super) fn weighted(near: &[Near], count: usize, label: impl Fn(usize) -> f64
 
 impl NeighbourRegressor {
     pub(super) fn new(
-        (channels, shape): (Channels, FeatureShape),
+        channels: Channels,
+        shape: FeatureShape,
         rows: Vec<f32>,
         standard: Standard,
         labels: &Mat<f64>,
@@ -106,32 +110,13 @@ impl NeighbourRegressor {
         self.labels.len() / self.channels.len()
     }
 
-    /// Whether any channel is predicted from what is seen.
-    pub(crate) fn reads_features(&self) -> bool {
-        self.labels.iter().any(|label| label.abs() > 0.0)
-    }
-
-    /// The tensors of a file.
-    pub(crate) fn tensors(&self) -> Vec<Raw> {
-        let (samples, width, channels) = (self.samples(), self.shape.len(), self.channels.len());
-        let counts: Vec<u32> = self
-            .counts
-            .iter()
-            .map(|&count| u32::try_from(count).expect("at most a thousand"))
-            .collect();
-        vec![
-            Raw::doubles(CENTRE, vec![width], self.standard.centre()),
-            Raw::integers(COUNTS, vec![channels], &counts),
-            Raw::doubles(FACTOR, vec![width], self.standard.factor()),
-            Raw::doubles(LABELS, vec![samples, channels], &self.labels),
-            Raw::doubles(OFFSET, vec![channels], &self.scale.offset),
-            Raw::singles(ROWS, vec![samples, width], &self.rows),
-            Raw::doubles(SPAN, vec![channels], &self.scale.span),
-        ]
+    /// The model that a file holds.
+    pub(crate) fn load(stored: &Stored<'_>) -> Result<ModelRegressor, FormatError> {
+        stored.on_components(NeighbourRegressor::from_tensors)
     }
 
     /// The model that a file holds.
-    pub(crate) fn from_tensors(
+    fn from_tensors(
         tensors: &Tensors<'_>,
         channels: Channels,
         shape: FeatureShape,
@@ -165,6 +150,36 @@ impl NeighbourRegressor {
         } else {
             Err(FormatError::Card)
         }
+    }
+}
+
+impl FittedModel for NeighbourRegressor {
+    fn kind(&self) -> KindCard {
+        KindCard::from(Form::Neighbours {
+            samples: self.samples(),
+        })
+    }
+
+    fn tensors(&self) -> Vec<Raw> {
+        let (samples, width, channels) = (self.samples(), self.shape.len(), self.channels.len());
+        let counts: Vec<u32> = self
+            .counts
+            .iter()
+            .map(|&count| u32::try_from(count).expect("at most a thousand"))
+            .collect();
+        vec![
+            Raw::doubles(CENTRE, vec![width], self.standard.centre()),
+            Raw::integers(COUNTS, vec![channels], &counts),
+            Raw::doubles(FACTOR, vec![width], self.standard.factor()),
+            Raw::doubles(LABELS, vec![samples, channels], &self.labels),
+            Raw::doubles(OFFSET, vec![channels], &self.scale.offset),
+            Raw::singles(ROWS, vec![samples, width], &self.rows),
+            Raw::doubles(SPAN, vec![channels], &self.scale.span),
+        ]
+    }
+
+    fn reads_features(&self) -> bool {
+        self.labels.iter().any(|label| label.abs() > 0.0)
     }
 }
 

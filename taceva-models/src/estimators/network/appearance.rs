@@ -3,7 +3,7 @@
 use taceva_core::FeatureShape;
 use taceva_network::Jitter;
 
-use super::Preprocessing;
+use crate::features::Preprocessing;
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 
 /// What of a picture is the signal.

@@ -6,12 +6,13 @@ use taceva_core::{ModelError, Progress, SignalInfo, TrainingSet};
 
 pub use self::regressor::EnsembleRegressor;
 use self::regressor::MEMBERS_MOST;
-use super::NetworkEstimator;
+use super::{NetworkEstimator, NetworkRegressor};
 use crate::features::FeatureError;
 use crate::linalg::invalid;
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 use crate::training::choice::{Choice, errors};
-use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
+use crate::training::fit::{ModelEstimator, ModelFit, estimator};
+use crate::training::fitted::ModelRegressor;
 use crate::training::info::ModelInfo;
 
 /// Small networks that are fitted to the same samples one after the other, each with a seed of its own, and whose predictions are averaged.
@@ -48,6 +49,7 @@ impl NetworkEnsemble {
         settings: &SETTINGS,
         features: NetworkEstimator::CNN.features,
         make: |settings| Ok(Box::new(NetworkEnsemble::from_settings(settings)?)),
+        load: EnsembleRegressor::load,
     };
 
     /// The networks as `settings` ask for.
@@ -88,10 +90,10 @@ impl ModelEstimator for NetworkEnsemble {
         let (mut networks, mut last) = (Vec::new(), None);
         for member in &self.members {
             let fit = member.fit_model(training, validation, progress)?;
-            let ModelRegressor::Network(network) = fit.regressor.clone() else {
-                return Err(invalid("a member of the ensemble is no network"));
-            };
-            networks.push(*network);
+            let network = fit.regressor.get::<NetworkRegressor>();
+            let network =
+                network.ok_or_else(|| invalid("a member of the ensemble is no network"))?;
+            networks.push(network.clone());
             last = Some(fit);
         }
         let last = last.ok_or_else(|| invalid("an ensemble without members"))?;
@@ -107,7 +109,7 @@ impl ModelEstimator for NetworkEnsemble {
                 by: last.choice.by,
                 ..Choice::nobodys(errors)
             },
-            regressor: ModelRegressor::Ensemble(Box::new(regressor)),
+            regressor: ModelRegressor::new(regressor),
             scaling: last.scaling,
             refitted: false,
         })

@@ -5,10 +5,11 @@ use taceva_network::GpuKind;
 use taceva_network::{Architecture, Augmentation, ConvolutionForm, Depth, Loss, Optimizer, Recipe};
 
 use super::appearance::Preparation;
-use super::regressor::picture;
-use super::{Checkpoints, Preprocessing};
+use super::regressor::{NetworkRegressor, picture};
+use crate::features::Preprocessing;
 use crate::features::{Color, FeatureError, FeatureKinds, FeatureSpec};
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
+use crate::training::checkpoint::Checkpoints;
 use crate::training::info::ModelInfo;
 
 /// A network to be fitted: AdamW, one cycle of the rate, Huber's loss on standardised labels, the epoch that does best on the
@@ -131,6 +132,7 @@ macro_rules! info {
             settings: SETTINGS,
             features: Some(FEATURES),
             make: |settings| Ok(Box::new(NetworkEstimator::from_settings($kind, settings)?)),
+            load: NetworkRegressor::load,
         }
     };
 }

@@ -4,12 +4,16 @@ use taceva_core::{ModelError, Progress, SignalInfo, TrainingSet};
 use taceva_network::Gpu;
 use taceva_network::{Isa, LabelScale, Labels, Network, Samples, Trained};
 
+use super::NO_PICTURE;
 use super::training::{Training, no_gpu, refused};
-use super::{Checkpoints, NetworkCard, NetworkEstimator, NetworkRegressor};
+use super::{NetworkEstimator, NetworkRegressor};
 use crate::features::FeatureError;
 use crate::linalg::invalid;
+use crate::training::card::NetworkCard;
+use crate::training::checkpoint::Checkpoints;
 use crate::training::choice::{ChannelChoice, Choice, ChosenBy, errors};
-use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, NO_PICTURE, estimator};
+use crate::training::fit::{ModelEstimator, ModelFit, estimator};
+use crate::training::fitted::ModelRegressor;
 use crate::training::problem::Problem;
 
 /// The labels of a part whose channel is among `varying`.
@@ -95,7 +99,7 @@ impl ModelEstimator for NetworkEstimator {
             preprocessing,
             scale,
             constant: constant.collect(),
-            convolutions: Some(self.convolutions),
+            convolutions: self.convolutions,
             instructions: Isa::detect().name().to_owned(),
             gpu: gpu
                 .filter(|_| !varying.is_empty())
@@ -122,7 +126,7 @@ impl ModelEstimator for NetworkEstimator {
                 setting: best.map(|_| "epoch".to_owned()),
                 channels: choices.collect(),
             },
-            regressor: ModelRegressor::Network(Box::new(regressor)),
+            regressor: ModelRegressor::new(regressor),
             scaling: problem.scaling,
             refitted: false,
         })

@@ -2,12 +2,21 @@
 
 use std::sync::Mutex;
 
+use safetensors::tensor::Dtype;
 use taceva_core::{Channels, ErrorKind, FeatureShape, Features, ModelError, Regressor};
 use taceva_network::{NamedTensor, Network, Picture, Predictor};
 
-use super::NetworkCard;
+use super::NO_PICTURE;
 use super::training::refused;
+use crate::features::Pca;
 use crate::linalg::invalid;
+use crate::training::card::KindCard;
+use crate::training::card::NetworkCard;
+use crate::training::file::error::FormatError;
+use crate::training::file::limits::FILE_MAX;
+use crate::training::file::stored::Stored;
+use crate::training::file::tensors::{Raw, Tensors};
+use crate::training::fitted::{FittedModel, ModelRegressor};
 
 /// A fitted network, from features to channels.
 #[derive(Debug)]
@@ -70,9 +79,32 @@ impl NetworkRegressor {
         self.network.tensors()
     }
 
-    /// Whether any channel is predicted from what is seen.
-    pub(crate) fn reads_features(&self) -> bool {
-        self.card.constant.iter().any(Option::is_none)
+    /// The model that a file holds.
+    pub(super) fn load(stored: &Stored<'_>) -> Result<ModelRegressor, FormatError> {
+        let network = stored.card.network.as_ref().ok_or(FormatError::Card)?;
+        let found = named_tensors(&stored.tensors)?;
+        let own = NetworkRegressor::of_tensors(stored, network, found)?;
+        Ok(ModelRegressor::new(own))
+    }
+
+    /// The network that `found` tensors of a file and its card describe.
+    pub(super) fn of_tensors(
+        stored: &Stored<'_>,
+        card: &NetworkCard,
+        found: Vec<NamedTensor>,
+    ) -> Result<NetworkRegressor, FormatError> {
+        let shape = stored.shape();
+        if card.architecture.input != picture(shape) || stored.card.features.pca.is_some() {
+            return Err(FormatError::Card);
+        }
+        // A card may lie: nothing is made that the file could not fill.
+        let parameters = card.architecture.parameters()?;
+        if parameters as u64 > FILE_MAX / size_of::<f32>() as u64 {
+            return Err(FormatError::Card);
+        }
+        let ready = Network::from_tensors(&card.architecture, found)?;
+        let channels = stored.channels.clone();
+        Ok(NetworkRegressor::new(channels, card.clone(), ready)?)
     }
 
     /// The outputs for pictures that were preprocessed.
@@ -83,7 +115,8 @@ impl NetworkRegressor {
                 .unwrap_or_else(std::sync::PoisonError::into_inner)
         };
         let taken = spare().pop();
-        let mut predictor = taken.unwrap_or_else(|| self.network.predictor_in(self.card.form()));
+        let mut predictor =
+            taken.unwrap_or_else(|| self.network.predictor_in(self.card.convolutions));
         let result = predictor.predict(pictures, into);
         spare().push(predictor);
         result.map_err(refused)
@@ -101,20 +134,58 @@ impl Clone for NetworkRegressor {
     }
 }
 
-impl PartialEq for NetworkRegressor {
-    fn eq(&self, other: &NetworkRegressor) -> bool {
-        self.channels == other.channels
-            && self.card == other.card
-            && self.tensors() == other.tensors()
-    }
-}
-
 /// Features as a network sees them.
 pub(super) const fn picture(shape: FeatureShape) -> Picture {
     Picture {
         height: shape.height,
         width: shape.width,
         channels: shape.depth,
+    }
+}
+
+/// All tensors of a file, which must be of single precision.
+pub(super) fn named_tensors(tensors: &Tensors<'_>) -> Result<Vec<NamedTensor>, FormatError> {
+    let found = tensors.0.tensors().into_iter().map(|(name, tensor)| {
+        if tensor.dtype() != Dtype::F32 {
+            return Err(FormatError::Type {
+                name,
+                found: format!("{:?}", tensor.dtype()),
+            });
+        }
+        let (numbers, _) = tensor.data().as_chunks::<4>();
+        Ok(NamedTensor {
+            name,
+            shape: tensor.shape().to_vec(),
+            values: numbers
+                .iter()
+                .map(|bytes| f32::from_le_bytes(*bytes))
+                .collect(),
+        })
+    });
+    found.collect()
+}
+
+impl FittedModel for NetworkRegressor {
+    fn kind(&self) -> KindCard {
+        KindCard {
+            network: Some(self.card.clone()),
+            ..KindCard::default()
+        }
+    }
+
+    fn tensors(&self) -> Vec<Raw> {
+        let tensors = self.network.tensors().into_iter();
+        tensors
+            .map(|tensor| Raw::singles(&tensor.name, tensor.shape, &tensor.values))
+            .collect()
+    }
+
+    fn reads_features(&self) -> bool {
+        self.card.constant.iter().any(Option::is_none)
+    }
+
+    fn through(&self, _: &Pca) -> Result<Option<ModelRegressor>, ModelError> {
+        Err(invalid(NO_PICTURE))
     }
 }
 

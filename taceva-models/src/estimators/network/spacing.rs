@@ -4,9 +4,9 @@ use taceva_core::{FeatureShape, Features, ModelError, Nanometre, Progress};
 use taceva_network::Gpu;
 use taceva_network::{LabelScale, Labels, Loss, Network, Recipe, Samples, Trained};
 
-use super::Preprocessing;
 use super::estimator::NetworkEstimator;
 use super::training::{Training, no_gpu, refused};
+use crate::features::Preprocessing;
 use crate::linalg::invalid;
 
 /// What the outputs of a network say of a spacing.
@@ -39,7 +39,8 @@ impl NetworkEstimator {
     /// [`ModelError`] if there are no pictures or not as many as spacings, or as [`Estimator::fit`](taceva_core::Estimator::fit).
     pub fn fit_spacings(
         &self,
-        (pictures, spacings): (&Features, &[Nanometre]),
+        pictures: &Features,
+        spacings: &[Nanometre],
         output: SpacingOutput,
         progress: &dyn Progress,
     ) -> Result<SpacingNetwork, ModelError> {

@@ -5,9 +5,9 @@ use taceva_core::{ErrorKind, ModelError, Progress};
 use taceva_network::{Architecture, NetworkError, Recipe, Samples, Trained, Trainer};
 use taceva_network::{Gpu, GpuError};
 
-use super::Checkpoints;
-use super::checkpoint::{Identity, Shelf};
 use crate::linalg::progress::{ReportedStage, interrupted};
+use crate::training::checkpoint::Checkpoints;
+use crate::training::checkpoint::{Identity, Shelf};
 
 /// What a training is made of.
 pub(super) struct Training<'a> {
@@ -49,9 +49,14 @@ impl<'a> Training<'a> {
 
     fn shelf(&self) -> Option<Shelf<'a>> {
         self.checkpoints.map(|checkpoints| {
-            let samples = (self.samples, self.validation);
             let kind = self.gpu.map(Gpu::kind);
-            let identity = Identity::new(self.architecture, self.recipe, samples, kind);
+            let identity = Identity::new(
+                self.architecture,
+                self.recipe,
+                self.samples,
+                self.validation,
+                kind,
+            );
             Shelf::new(checkpoints, identity)
         })
     }

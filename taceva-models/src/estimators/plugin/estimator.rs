@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use taceva_core::{Args, EstimatorFactory, FitRequest, ModelError, Progress, TrainingSet};
 
-use super::card::PluginCard;
 use super::regressor::PluginRegressor;
+use crate::training::card::PluginCard;
 use crate::training::choice::{Choice, errors};
-use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
+use crate::training::fit::{ModelEstimator, ModelFit, estimator};
+use crate::training::fitted::ModelRegressor;
 use crate::training::problem::Problem;
 
 /// An estimator of a plugin with its settings, not fitted yet.
@@ -31,9 +32,14 @@ impl ModelEstimator for PluginEstimator {
             &FitRequest::new(&self.settings, training, progress).with_validation(validation),
         )?;
         let bytes = fitted.save()?;
-        let kind = (training.targets.channels, training.features.shape());
         let card = PluginCard::of(&*self.factory)?;
-        let regressor = PluginRegressor::new(card, fitted, (bytes, kind))?;
+        let regressor = PluginRegressor::new(
+            card,
+            fitted,
+            bytes,
+            training.targets.channels,
+            training.features.shape(),
+        )?;
         let errors = match validation {
             Some(set) => errors(&regressor, set)?,
             None => vec![None; training.targets.channels.len()],
@@ -41,7 +47,7 @@ impl ModelEstimator for PluginEstimator {
         Ok(ModelFit {
             // What a plugin makes of the validation part, it does not say.
             choice: Choice::nobodys(errors),
-            regressor: ModelRegressor::Plugin(regressor),
+            regressor: ModelRegressor::new(regressor),
             scaling: problem.scaling,
             refitted: false,
         })

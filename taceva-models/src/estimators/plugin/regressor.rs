@@ -9,11 +9,19 @@ use taceva_core::{
     SavedRegressor,
 };
 
-use super::card::PluginCard;
+use crate::features::Pca;
+use crate::linalg::invalid;
+use crate::training::card::{KindCard, PluginCard};
+use crate::training::file::error::FormatError;
+use crate::training::file::stored::Stored;
 use crate::training::file::tensors::Raw;
+use crate::training::fitted::{FittedModel, ModelRegressor};
 
 /// The tensor of a file that holds its maker's bytes.
-pub(crate) const TENSOR: &str = "plugin";
+const TENSOR: &str = "plugin";
+
+/// The error of the model of a plugin on principal components.
+const OPAQUE: &str = "the model of a plugin reads pixels; it cannot be joined with principal components, and may find its own";
 
 /// A fitted model of a plugin: its maker answers, and its maker's bytes are kept.
 #[derive(Clone)]
@@ -27,7 +35,9 @@ impl PluginRegressor {
     pub(super) fn new(
         card: PluginCard,
         fitted: Box<dyn SavedRegressor>,
-        (bytes, (channels, shape)): (Vec<u8>, (&Channels, FeatureShape)),
+        bytes: Vec<u8>,
+        channels: &Channels,
+        shape: FeatureShape,
     ) -> Result<PluginRegressor, ModelError> {
         if fitted.channels() != channels || fitted.shape() != shape {
             let named = |channels: &Channels| {
@@ -50,31 +60,57 @@ impl PluginRegressor {
         })
     }
 
-    /// What `factory` makes of the bytes that a model file keeps.
+    /// The model that a file holds, loaded by `factory`.
     pub(crate) fn load(
         factory: &dyn EstimatorFactory,
         card: &PluginCard,
-        saved: &Saved<'_>,
-    ) -> Result<PluginRegressor, ModelError> {
+        stored: &Stored<'_>,
+    ) -> Result<ModelRegressor, FormatError> {
+        stored.tensors.only(&[TENSOR])?;
+        let tensor = stored.tensors.0.tensor(TENSOR);
+        let tensor = tensor.map_err(|_| FormatError::Missing { name: TENSOR })?;
+        let features = stored.card.features;
+        if tensor.dtype() != Dtype::U8 || features.pca.is_some() || stored.card.model != card.key {
+            return Err(FormatError::Card);
+        }
+        let saved = Saved::new(tensor.data(), &stored.channels, features.shape());
         factory.admit(card.build.as_deref())?;
-        let fitted = factory.load(saved)?;
-        let kind = (saved.channels, saved.shape);
-        PluginRegressor::new(card.clone(), fitted, (saved.bytes.to_vec(), kind))
+        let fitted = factory.load(&saved)?;
+        let bytes = saved.bytes.to_vec();
+        let own = PluginRegressor::new(card.clone(), fitted, bytes, saved.channels, saved.shape)?;
+        Ok(ModelRegressor::new(own))
     }
 
     /// Which plugin fitted it.
     pub fn card(&self) -> &PluginCard {
         &self.card
     }
+}
 
-    /// The tensor of a file: what its maker loads it from.
-    pub(crate) fn tensor(&self) -> Raw {
-        Raw {
+impl FittedModel for PluginRegressor {
+    fn kind(&self) -> KindCard {
+        KindCard {
+            plugin: Some(self.card.clone()),
+            ..KindCard::default()
+        }
+    }
+
+    /// What its maker loads it from.
+    fn tensors(&self) -> Vec<Raw> {
+        vec![Raw {
             name: TENSOR.to_owned(),
             kind: Dtype::U8,
             shape: vec![self.bytes.len()],
             bytes: self.bytes.to_vec(),
-        }
+        }]
+    }
+
+    fn reads_features(&self) -> bool {
+        true
+    }
+
+    fn through(&self, _: &Pca) -> Result<Option<ModelRegressor>, ModelError> {
+        Err(invalid(OPAQUE))
     }
 }
 
@@ -102,16 +138,6 @@ impl Regressor for PluginRegressor {
             );
             Err(ModelError::new(ErrorKind::DeviceFault, why))
         })
-    }
-}
-
-/// Models of one maker with the same bytes are the same.
-impl PartialEq for PluginRegressor {
-    fn eq(&self, other: &PluginRegressor) -> bool {
-        self.card == other.card
-            && self.bytes == other.bytes
-            && self.channels() == other.channels()
-            && self.shape() == other.shape()
     }
 }
 

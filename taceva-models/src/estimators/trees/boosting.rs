@@ -11,7 +11,8 @@ use super::regressor::{Member, TreeRegressor};
 use crate::features::FeatureSpec;
 use crate::linalg::progress::{ReportedStage, interrupted};
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
-use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
+use crate::training::fit::{ModelEstimator, ModelFit, estimator};
+use crate::training::fitted::ModelRegressor;
 use crate::training::info::ModelInfo;
 use crate::training::output::OutputScale;
 use crate::training::problem::{Problem, centred};
@@ -102,6 +103,7 @@ impl GradientBoosting {
         ],
         features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(GradientBoosting::from_settings(settings)?)),
+        load: TreeRegressor::load,
     };
 
     /// Gradient boosting as `settings` ask for.
@@ -245,9 +247,9 @@ impl ModelEstimator for GradientBoosting {
         let refitted = self.refit && trials.has_validation();
         let shape = training.features.shape();
         let regressor =
-            TreeRegressor::new((training.targets.channels.clone(), shape), scale, members);
+            TreeRegressor::new(training.targets.channels.clone(), shape, scale, members);
         Ok(ModelFit {
-            regressor: ModelRegressor::Trees(Box::new(regressor)),
+            regressor: ModelRegressor::new(regressor),
             choice,
             refitted,
             scaling: problem.scaling.clone(),

@@ -12,7 +12,8 @@ use crate::features::FeatureSpec;
 use crate::linalg::progress::{ReportedStage, interrupted};
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 use crate::training::choice::Choice;
-use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
+use crate::training::fit::{ModelEstimator, ModelFit, estimator};
+use crate::training::fitted::ModelRegressor;
 use crate::training::info::ModelInfo;
 use crate::training::output::OutputScale;
 use crate::training::problem::{Problem, centred};
@@ -74,6 +75,7 @@ impl RandomForest {
         settings: &[TREES, SHARE, DEPTH, LEAF, SEED, SettingInfo::REFIT],
         features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(RandomForest::from_settings(settings)?)),
+        load: TreeRegressor::load,
     };
 
     /// A random forest as `settings` ask for.
@@ -140,7 +142,8 @@ impl RandomForest {
     fn regressor(
         &self,
         problem: &Problem<'_>,
-        (trials, rows): (&Trials<'_>, &[usize]),
+        trials: &Trials<'_>,
+        rows: &[usize],
         progress: &dyn Progress,
     ) -> Result<TreeRegressor, ModelError> {
         let features = trials.features.select(rows);
@@ -148,8 +151,9 @@ impl RandomForest {
         let members = self.grown(&features, &labels, progress)?;
         let scale = OutputScale::of(problem).moved(&shift);
         let training = &problem.training;
-        let kind = (training.targets.channels.clone(), training.features.shape());
-        Ok(TreeRegressor::new(kind, scale, members))
+        let channels = training.targets.channels.clone();
+        let shape = training.features.shape();
+        Ok(TreeRegressor::new(channels, shape, scale, members))
     }
 }
 
@@ -184,16 +188,14 @@ impl ModelEstimator for RandomForest {
         let held = problem.validation(validation)?;
         let trials = Trials::new(&problem, held.as_ref(), false);
         let all = trials.learnt(self.refit);
-        let regressor = self.regressor(&problem, (&trials, &all), progress)?;
+        let regressor = self.regressor(&problem, &trials, &all, progress)?;
         let errors = match &held {
             None => vec![None; problem.channels()],
             Some(part) => {
                 let apart = match self.refit {
-                    true => Some(self.regressor(
-                        &problem,
-                        (&trials, &trials.learnt(false)),
-                        progress,
-                    )?),
+                    true => {
+                        Some(self.regressor(&problem, &trials, &trials.learnt(false), progress)?)
+                    }
                     false => None,
                 };
                 let scored = apart.as_ref().unwrap_or(&regressor);
@@ -205,7 +207,7 @@ impl ModelEstimator for RandomForest {
         let refitted = self.refit && trials.has_validation();
         Ok(ModelFit {
             choice: Choice::nobodys(errors),
-            regressor: ModelRegressor::Trees(Box::new(regressor)),
+            regressor: ModelRegressor::new(regressor),
             refitted,
             scaling: problem.scaling.clone(),
         })

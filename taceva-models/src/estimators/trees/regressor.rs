@@ -4,8 +4,11 @@ use rayon::prelude::*;
 use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
 
 use super::grow::Tree;
+use crate::training::card::{Form, KindCard};
 use crate::training::file::error::FormatError;
+use crate::training::file::stored::Stored;
 use crate::training::file::tensors::{Raw, Tensors};
+use crate::training::fitted::{FittedModel, ModelRegressor};
 use crate::training::output::{OutputScale, check_call, check_finite};
 
 /// Trees, each for one channel or for all.
@@ -43,7 +46,8 @@ const VALUES: &str = "trees.values";
 impl TreeRegressor {
     /// Trees whose values, centred and scaled labels, add up to the prediction.
     pub(super) fn new(
-        (channels, shape): (Channels, FeatureShape),
+        channels: Channels,
+        shape: FeatureShape,
         scale: OutputScale,
         trees: Vec<Member>,
     ) -> TreeRegressor {
@@ -58,11 +62,6 @@ impl TreeRegressor {
     /// How many trees there are.
     pub fn trees(&self) -> usize {
         self.trees.len()
-    }
-
-    /// Whether any tree has a split.
-    pub(crate) fn reads_features(&self) -> bool {
-        self.trees.iter().any(|member| member.tree.left[0] > 0)
     }
 
     fn write(&self, sample: &[f32], into: &mut [f64]) {
@@ -82,38 +81,13 @@ impl TreeRegressor {
         self.scale.unscale(into);
     }
 
-    /// The tensors of a file.
-    pub(crate) fn tensors(&self) -> Vec<Raw> {
-        let trees = || self.trees.iter().map(|member| &member.tree);
-        let short = |value: usize| u32::try_from(value).expect("fewer than 2^32");
-        let sizes: Vec<u32> = trees().map(|tree| short(tree.left.len())).collect();
-        let of = |member: &Member| member.channel.map_or(ALL, short);
-        let channels: Vec<u32> = self.trees.iter().map(of).collect();
-        let features: Vec<u32> = trees()
-            .flat_map(|tree| tree.feature.iter().copied())
-            .collect();
-        let left: Vec<u32> = trees().flat_map(|tree| tree.left.iter().copied()).collect();
-        let threshold: Vec<f32> = trees()
-            .flat_map(|tree| tree.threshold.iter().copied())
-            .collect();
-        let values: Vec<f64> = trees()
-            .flat_map(|tree| tree.values.iter().copied())
-            .collect();
-        let count = self.channels.len();
-        vec![
-            Raw::integers(CHANNEL, vec![channels.len()], &channels),
-            Raw::integers(FEATURE, vec![features.len()], &features),
-            Raw::integers(LEFT, vec![left.len()], &left),
-            Raw::doubles(OFFSET, vec![count], &self.scale.offset),
-            Raw::integers(SIZE, vec![sizes.len()], &sizes),
-            Raw::doubles(SPAN, vec![count], &self.scale.span),
-            Raw::singles(THRESHOLD, vec![threshold.len()], &threshold),
-            Raw::doubles(VALUES, vec![values.len()], &values),
-        ]
+    /// The model that a file holds.
+    pub(crate) fn load(stored: &Stored<'_>) -> Result<ModelRegressor, FormatError> {
+        stored.on_components(TreeRegressor::from_tensors)
     }
 
     /// The model that a file holds: every tree ends in leaves, and compares features that there are.
-    pub(crate) fn from_tensors(
+    fn from_tensors(
         tensors: &Tensors<'_>,
         channels: Channels,
         shape: FeatureShape,
@@ -154,7 +128,7 @@ impl TreeRegressor {
         if rest || !scale.is_valid(count) {
             return Err(FormatError::Card);
         }
-        Ok(TreeRegressor::new((channels, shape), scale, members))
+        Ok(TreeRegressor::new(channels, shape, scale, members))
     }
 }
 
@@ -169,6 +143,47 @@ fn is_sound(tree: &Tree, features: usize) -> bool {
     let finite = tree.threshold.iter().all(|value| value.is_finite())
         && tree.values.iter().all(|value| value.is_finite());
     nodes > 0 && leads_on && finite
+}
+
+impl FittedModel for TreeRegressor {
+    fn kind(&self) -> KindCard {
+        KindCard::from(Form::Trees {
+            trees: self.trees(),
+        })
+    }
+
+    fn tensors(&self) -> Vec<Raw> {
+        let trees = || self.trees.iter().map(|member| &member.tree);
+        let short = |value: usize| u32::try_from(value).expect("fewer than 2^32");
+        let sizes: Vec<u32> = trees().map(|tree| short(tree.left.len())).collect();
+        let of = |member: &Member| member.channel.map_or(ALL, short);
+        let channels: Vec<u32> = self.trees.iter().map(of).collect();
+        let features: Vec<u32> = trees()
+            .flat_map(|tree| tree.feature.iter().copied())
+            .collect();
+        let left: Vec<u32> = trees().flat_map(|tree| tree.left.iter().copied()).collect();
+        let threshold: Vec<f32> = trees()
+            .flat_map(|tree| tree.threshold.iter().copied())
+            .collect();
+        let values: Vec<f64> = trees()
+            .flat_map(|tree| tree.values.iter().copied())
+            .collect();
+        let count = self.channels.len();
+        vec![
+            Raw::integers(CHANNEL, vec![channels.len()], &channels),
+            Raw::integers(FEATURE, vec![features.len()], &features),
+            Raw::integers(LEFT, vec![left.len()], &left),
+            Raw::doubles(OFFSET, vec![count], &self.scale.offset),
+            Raw::integers(SIZE, vec![sizes.len()], &sizes),
+            Raw::doubles(SPAN, vec![count], &self.scale.span),
+            Raw::singles(THRESHOLD, vec![threshold.len()], &threshold),
+            Raw::doubles(VALUES, vec![values.len()], &values),
+        ]
+    }
+
+    fn reads_features(&self) -> bool {
+        self.trees.iter().any(|member| member.tree.left[0] > 0)
+    }
 }
 
 impl Regressor for TreeRegressor {

@@ -71,7 +71,7 @@ impl RadialSpectrum {
     }
 
     /// The spectrum of what `plane` has beyond the mean of `count` planes whose sum is `sum`: of a background that stays.
-    pub fn beyond(&self, plane: &FourierPlane, (sum, count): (&FourierPlane, f64)) -> Vec<f64> {
+    pub fn beyond(&self, plane: &FourierPlane, sum: &FourierPlane, count: f64) -> Vec<f64> {
         let waves = plane.waves.iter().zip(&sum.waves);
         self.spectrum(waves.map(|(wave, sum)| wave.minus(sum.scaled(1.0 / count)).power()))
     }
@@ -259,6 +259,6 @@ mod tests {
         let mut sum = FourierPlane::default();
         sum.add(&plane(&alone));
         sum.add(&plane(&alone));
-        assert_eq!(strongest(&spectra.beyond(&plane(&both), (&sum, 2.0))), 30);
+        assert_eq!(strongest(&spectra.beyond(&plane(&both), &sum, 2.0)), 30);
     }
 }

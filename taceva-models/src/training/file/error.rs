@@ -48,6 +48,22 @@ pub enum FormatError {
         /// The version of the file.
         found: String,
     },
+    /// A file of a format from before formats began at 1.0.
+    #[error(
+        "format {format} of TacEva {taceva} is no longer read: fit the model anew with `taceva fit RECORDING --model NAME --out FILE`", format = taceva_core::shown(format), taceva = taceva_core::shown(taceva)
+    )]
+    Earlier {
+        /// The version of the format.
+        format: String,
+        /// The version of TacEva that wrote it.
+        taceva: String,
+    },
+    /// A model that this TacEva does not have.
+    #[error("fitted by `{model}`, which this TacEva does not have", model = taceva_core::shown(model))]
+    NoModel {
+        /// The model.
+        model: String,
+    },
     /// A tensor that is not there.
     #[error("no tensor `{name}`")]
     Missing {

@@ -1,7 +1,7 @@
 //! What a model file is called by, and how large it may be.
 
 /// The version of the file format.
-pub(crate) const FORMAT: &str = "1.2";
+pub(crate) const FORMAT: &str = "1.0";
 
 /// The key of the card in the metadata.
 pub(crate) const CARD: &str = "taceva.model";

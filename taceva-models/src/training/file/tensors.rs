@@ -5,6 +5,7 @@ use safetensors::tensor::{Dtype, SafeTensors, TensorView};
 use crate::training::file::error::FormatError;
 
 /// A tensor as a file keeps it.
+#[derive(Debug, PartialEq)]
 pub(crate) struct Raw {
     pub(crate) name: String,
     pub(crate) kind: Dtype,

@@ -3,10 +3,10 @@
 use burn_cuda::Cuda;
 use cudarc::driver::result as driver;
 use cudarc::nvrtc;
+use taceva_core::contained;
 
 use super::Device;
 use crate::gpu::engine::begin;
-use crate::gpu::guard::contained_quietly;
 use crate::gpu::{GpuError, GpuKind};
 
 /// What is needed.
@@ -16,7 +16,7 @@ const LOOKED_FOR: &str =
 /// The first device.
 pub(crate) fn find() -> Result<Device, GpuError> {
     // A library that is not there makes cudarc panic, and it has no other way to ask.
-    let found = contained_quietly(|| {
+    let found = contained(|| {
         let name = driver::init()
             .and_then(|()| driver::device::get(0))
             .and_then(driver::device::get_name)

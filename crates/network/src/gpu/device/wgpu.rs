@@ -6,11 +6,11 @@ use std::task::{Context, Poll, Waker};
 
 use burn_wgpu::graphics::{AutoGraphicsApi, GraphicsApi};
 use burn_wgpu::{Wgpu, WgpuDevice};
+use taceva_core::contained;
 use wgpu::{Backend, Instance, InstanceDescriptor, PowerPreference, RequestAdapterOptions};
 
 use super::Device;
 use crate::gpu::engine::begin;
-use crate::gpu::guard::contained;
 use crate::gpu::{GpuError, GpuKind};
 
 /// The name of the device that burn uses, once it was initialised, which may be done only once in a process.

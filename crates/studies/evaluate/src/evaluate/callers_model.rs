@@ -190,7 +190,6 @@ impl GivenRows {
                 },
                 origin: Some("given".to_owned()),
             },
-            unsealed: Vec::new(),
             fit: FitFacts::default(),
             notes: notes(
                 self.learns,

@@ -187,14 +187,13 @@ impl<'a> Folds<'a> {
 fn together(dataset: &Dataset, models: Vec<(&str, Behind)>) -> Behind {
     let mut digests = String::new();
     let mut settings = models[0].1.model.settings.clone();
-    let (mut unsealed, mut notes) = (Vec::new(), Vec::new());
+    let mut notes = Vec::new();
     for (_, behind) in &models {
         digests.push_str(&behind.model.digest);
         settings.retain(|key, value| behind.model.settings.get(key) == Some(value));
     }
     let name = models[0].1.model.name.clone();
     for (left_out, behind) in models {
-        unsealed.extend(behind.unsealed);
         notes.extend(behind.notes.into_iter().map(|note| match note {
             Note::Chosen { choice, .. } => Note::Chosen {
                 fold: Some(left_out.to_owned()),
@@ -203,7 +202,6 @@ fn together(dataset: &Dataset, models: Vec<(&str, Behind)>) -> Behind {
             note => note,
         }));
     }
-    unsealed.dedup();
     Behind {
         model: ModelProvenance {
             name,
@@ -212,7 +210,6 @@ fn together(dataset: &Dataset, models: Vec<(&str, Behind)>) -> Behind {
             fitted_on: dataset.digest().to_string(),
             origin: None,
         },
-        unsealed,
         notes,
         fit: FitFacts::default(),
     }

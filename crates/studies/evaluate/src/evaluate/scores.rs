@@ -39,8 +39,6 @@ pub(super) fn metrics(
 /// What a result says of the model, or the models, behind it.
 pub struct Behind {
     pub(super) model: ModelProvenance,
-    /// Files of models without a seal.
-    pub(super) unsealed: Vec<String>,
     /// What a reader must know of it.
     pub(super) notes: Vec<Note>,
     /// The fit, where it was made for this result.
@@ -55,7 +53,6 @@ impl Behind {
     pub fn of(model: &Model) -> Result<Behind, EvaluateError> {
         Ok(Behind {
             model: ModelProvenance::of(model)?,
-            unsealed: Provenance::unsealed_model(model).into_iter().collect(),
             notes: choices(model).collect(),
             fit: FitFacts::default(),
         })
@@ -111,7 +108,6 @@ pub fn score(
         frames_decoded: predicted.frames_decoded,
         ..Provenance::of(dataset)
     };
-    provenance.unsealed.extend(behind.unsealed);
     let samples = Samples::of(dataset, &target.rows)?
         .with_predictions(&target.rows, (predicted, &target.rows));
     let rows = ScoredRows::Accumulated {

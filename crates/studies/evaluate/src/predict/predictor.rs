@@ -25,9 +25,7 @@ impl Predictor {
         Predictor {
             channels: model.channels().clone(),
             bounds: model.label_bounds(),
-            constants: cards
-                .filter_map(|card| Some((card.name.clone(), card.mean?)))
-                .collect(),
+            constants: cards.map(|card| (card.name.clone(), card.mean)).collect(),
             reads_frames: model.reads_frames(),
         }
     }

@@ -8,13 +8,13 @@ use rayon::prelude::*;
 use taceva_core::ModelError;
 
 use super::{RELEASE, columns, matrix};
-
 use crate::estimators::library::adapter::{Adapter, Number, Numbers, Unset, any};
-use crate::estimators::library::guard::{guarded, interrupted};
+use crate::estimators::library::guard::guarded;
 use crate::estimators::library::predictor::{Linear, Weighted};
 use crate::estimators::library::{
     LibraryModel, LibrarySettings, LibrarySizes, LibraryTask, LoadedPredictor,
 };
+use crate::linalg::progress::interrupted;
 use crate::settings::SettingInfo;
 use crate::training::info::ModelInfo;
 

@@ -7,14 +7,14 @@ use ndarray::Array1;
 use taceva_core::ModelError;
 
 use super::{RELEASE, labels, matrix};
-
 use crate::estimators::library::adapter::{Adapter, Numbers, any};
-use crate::estimators::library::guard::{guarded, interrupted};
+use crate::estimators::library::guard::guarded;
 use crate::estimators::library::predictor::{Linear, Weighted};
 use crate::estimators::library::span::Span;
 use crate::estimators::library::{
     LibraryModel, LibrarySettings, LibrarySizes, LibraryTask, LoadedPredictor,
 };
+use crate::linalg::progress::interrupted;
 use crate::training::info::ModelInfo;
 
 const NAME: &str = "linfa/linear";

@@ -8,13 +8,13 @@ use rayon::prelude::*;
 use taceva_core::{ErrorKind, ModelError, TrainingSet};
 
 use super::{RELEASE, records};
-
 use crate::estimators::library::adapter::{Adapter, Number, Numbers, Unset};
-use crate::estimators::library::guard::{guarded, interrupted};
+use crate::estimators::library::guard::guarded;
 use crate::estimators::library::predictor::{Classes, Planes};
 use crate::estimators::library::{
     LibraryModel, LibrarySettings, LibrarySizes, LibraryTask, LoadedPredictor,
 };
+use crate::linalg::progress::interrupted;
 use crate::settings::SettingInfo;
 use crate::training::info::ModelInfo;
 

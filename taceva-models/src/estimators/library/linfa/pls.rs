@@ -8,13 +8,13 @@ use rayon::prelude::*;
 use taceva_core::{ErrorKind, ModelError};
 
 use super::{RELEASE, matrix, records};
-
 use crate::estimators::library::adapter::{Adapter, Number, Numbers, Unset, any};
-use crate::estimators::library::guard::{guarded, interrupted};
+use crate::estimators::library::guard::guarded;
 use crate::estimators::library::predictor::{Linear, Weighted};
 use crate::estimators::library::{
     LibraryModel, LibrarySettings, LibrarySizes, LibraryTask, LoadedPredictor,
 };
+use crate::linalg::progress::interrupted;
 use crate::settings::SettingInfo;
 use crate::training::info::ModelInfo;
 
@@ -69,7 +69,8 @@ pub(super) static ADAPTER: Adapter = Adapter {
 /// The weights of a fitted model, a target after the other, with its bias: what it says of each feature alone.
 fn weights(
     fitted: &PlsRegression<f64>,
-    (features, targets): (usize, usize),
+    features: usize,
+    targets: usize,
 ) -> Result<Vec<Weighted>, ModelError> {
     let zero = guarded(NAME, || {
         Ok::<_, ModelError>(fitted.predict(Array2::zeros((1, features))).targets)
@@ -116,7 +117,7 @@ fn fit(_: &Numbers<'_>, task: &LibraryTask<'_>) -> LoadedPredictor {
             outcome = guarded(NAME, || {
                 PlsRegression::params(tried).scale(false).fit(&dataset)
             })
-            .and_then(|fitted| weights(&fitted, (features, targets)))
+            .and_then(|fitted| weights(&fitted, features, targets))
             .and_then(|linear| {
                 Linear::new(NAME, linear.clone())?;
                 Ok(linear)

@@ -7,14 +7,14 @@ use rayon::prelude::*;
 use taceva_core::ModelError;
 
 use super::{RELEASE, labels, records};
-
 use crate::estimators::library::adapter::{Adapter, Number, Numbers, Unset, any};
-use crate::estimators::library::guard::{guarded, interrupted};
+use crate::estimators::library::guard::guarded;
 use crate::estimators::library::predictor::{Machine, Support};
 use crate::estimators::library::support_vector::{LENGTH, TUBE};
 use crate::estimators::library::{
     LibraryModel, LibrarySettings, LibrarySizes, LibraryTask, LoadedPredictor,
 };
+use crate::linalg::progress::interrupted;
 use crate::settings::SettingInfo;
 use crate::training::info::ModelInfo;
 
@@ -101,6 +101,8 @@ fn fit(set: &Numbers<'_>, task: &LibraryTask<'_>) -> LoadedPredictor {
     };
     let targets = (0..task.sizes.targets).into_par_iter();
     let machines: Vec<Machine> = targets.map(one).collect::<Result<_, ModelError>>()?;
-    let rows = (task.rows, task.sizes.features);
-    Ok(Box::new(Support::new(NAME, rows, rate, &machines)?))
+    let features = task.sizes.features;
+    Ok(Box::new(Support::new(
+        NAME, task.rows, features, rate, &machines,
+    )?))
 }

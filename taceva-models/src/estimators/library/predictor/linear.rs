@@ -3,7 +3,8 @@
 use taceva_core::ModelError;
 
 use crate::estimators::library::guard::finite;
-use crate::estimators::library::{LibraryPredictor, LibrarySizes, LibraryTensor, LibraryTensors};
+use crate::estimators::library::{LibraryPredictor, LibrarySizes, LibraryTensors};
+use crate::training::file::tensors::Raw;
 
 /// For each target a bias and a weight a feature.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,7 +35,7 @@ impl Linear {
 
     /// That which a file keeps.
     pub(crate) fn load(
-        tensors: &LibraryTensors,
+        tensors: &LibraryTensors<'_>,
         sizes: LibrarySizes,
     ) -> Result<Box<dyn LibraryPredictor>, ModelError> {
         Ok(Box::new(Linear {
@@ -45,12 +46,12 @@ impl Linear {
 }
 
 impl LibraryPredictor for Linear {
-    fn tensors(&self) -> Vec<LibraryTensor> {
+    fn tensors(&self) -> Vec<Raw> {
         let targets = self.bias.len();
         let shape = vec![targets, self.weights.len() / targets.max(1)];
         vec![
-            LibraryTensor::doubles(BIAS, vec![targets], self.bias.clone()),
-            LibraryTensor::doubles(WEIGHTS, shape, self.weights.clone()),
+            Raw::doubles(BIAS, vec![targets], &self.bias),
+            Raw::doubles(WEIGHTS, shape, &self.weights),
         ]
     }
 

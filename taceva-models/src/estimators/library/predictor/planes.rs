@@ -4,9 +4,9 @@ use taceva_core::ModelError;
 
 use super::damaged;
 use super::linear::dot;
-
 use crate::estimators::library::guard::finite;
-use crate::estimators::library::{LibraryPredictor, LibrarySizes, LibraryTensor, LibraryTensors};
+use crate::estimators::library::{LibraryPredictor, LibrarySizes, LibraryTensors};
+use crate::training::file::tensors::Raw;
 
 /// The planes of all targets.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,7 +42,7 @@ impl Planes {
 
     /// Those which a file keeps.
     pub(crate) fn load(
-        tensors: &LibraryTensors,
+        tensors: &LibraryTensors<'_>,
         sizes: LibrarySizes,
     ) -> Result<Box<dyn LibraryPredictor>, ModelError> {
         let counts = tensors.integers(COUNTS, &[sizes.targets])?;
@@ -71,7 +71,7 @@ impl Planes {
 }
 
 impl LibraryPredictor for Planes {
-    fn tensors(&self) -> Vec<LibraryTensor> {
+    fn tensors(&self) -> Vec<Raw> {
         let joined = |of: fn(&Classes) -> &Vec<f64>| -> Vec<f64> {
             self.0.iter().flat_map(of).copied().collect()
         };
@@ -82,13 +82,13 @@ impl LibraryPredictor for Planes {
         let offsets = joined(|target| &target.offsets);
         let (classes, weights) = (offsets.len(), joined(|target| &target.weights));
         vec![
-            LibraryTensor::integers(COUNTS, vec![counts.len()], counts),
-            LibraryTensor::doubles(LABELS, vec![classes], joined(|target| &target.labels)),
-            LibraryTensor::doubles(OFFSETS, vec![classes], offsets),
-            LibraryTensor::doubles(
+            Raw::integers(COUNTS, vec![counts.len()], &counts),
+            Raw::doubles(LABELS, vec![classes], &joined(|target| &target.labels)),
+            Raw::doubles(OFFSETS, vec![classes], &offsets),
+            Raw::doubles(
                 WEIGHTS,
                 vec![classes, weights.len() / classes.max(1)],
-                weights,
+                &weights,
             ),
         ]
     }

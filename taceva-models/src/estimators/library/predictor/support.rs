@@ -3,9 +3,9 @@
 use taceva_core::ModelError;
 
 use super::damaged;
-
 use crate::estimators::library::guard::finite;
-use crate::estimators::library::{LibraryPredictor, LibrarySizes, LibraryTensor, LibraryTensors};
+use crate::estimators::library::{LibraryPredictor, LibrarySizes, LibraryTensors};
+use crate::training::file::tensors::Raw;
 
 /// Σ coefficient · exp(−rate ‖x − v‖²) + bias for each target, over the training samples that have a coefficient in any target.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,7 +42,8 @@ impl Support {
     )]
     pub(crate) fn new(
         name: &str,
-        (rows, features): (&[f64], usize),
+        rows: &[f64],
+        features: usize,
         rate: f64,
         machines: &[Machine],
     ) -> Result<Support, ModelError> {
@@ -70,7 +71,7 @@ impl Support {
 
     /// That which a file keeps.
     pub(crate) fn load(
-        tensors: &LibraryTensors,
+        tensors: &LibraryTensors<'_>,
         sizes: LibrarySizes,
     ) -> Result<Box<dyn LibraryPredictor>, ModelError> {
         let vectors = tensors.rows(VECTORS)?;
@@ -88,19 +89,15 @@ impl Support {
 }
 
 impl LibraryPredictor for Support {
-    fn tensors(&self) -> Vec<LibraryTensor> {
+    fn tensors(&self) -> Vec<Raw> {
         let targets = self.bias.len();
         let vectors = self.coefficients.len() / targets.max(1);
         let features = self.vectors.len() / vectors.max(1);
         vec![
-            LibraryTensor::doubles(BIAS, vec![targets], self.bias.clone()),
-            LibraryTensor::doubles(
-                COEFFICIENTS,
-                vec![vectors, targets],
-                self.coefficients.clone(),
-            ),
-            LibraryTensor::doubles(RATE, vec![1], vec![self.rate]),
-            LibraryTensor::singles(VECTORS, vec![vectors, features], self.vectors.clone()),
+            Raw::doubles(BIAS, vec![targets], &self.bias),
+            Raw::doubles(COEFFICIENTS, vec![vectors, targets], &self.coefficients),
+            Raw::doubles(RATE, vec![1], &[self.rate]),
+            Raw::singles(VECTORS, vec![vectors, features], &self.vectors),
         ]
     }
 

@@ -3,9 +3,9 @@
 use taceva_core::ModelError;
 
 use super::damaged;
-
 use crate::estimators::library::guard::finite;
-use crate::estimators::library::{LibraryPredictor, LibrarySizes, LibraryTensor, LibraryTensors};
+use crate::estimators::library::{LibraryPredictor, LibrarySizes, LibraryTensors};
+use crate::training::file::tensors::Raw;
 
 /// For each target base + factor · Σ leaf, over its trees.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,7 +70,7 @@ impl Trees {
 
     /// Those which a file keeps.
     pub(crate) fn load(
-        tensors: &LibraryTensors,
+        tensors: &LibraryTensors<'_>,
         sizes: LibrarySizes,
     ) -> Result<Box<dyn LibraryPredictor>, ModelError> {
         let counts = tensors.integers(COUNTS, &[sizes.targets])?;
@@ -141,7 +141,7 @@ pub(crate) fn small(count: usize) -> u32 {
 }
 
 impl LibraryPredictor for Trees {
-    fn tensors(&self) -> Vec<LibraryTensor> {
+    fn tensors(&self) -> Vec<Raw> {
         let targets = self.base.len();
         let sizes: Vec<u32> = self.trees.iter().map(|tree| small(tree.len())).collect();
         let nodes = || self.trees.iter().flatten();
@@ -149,12 +149,12 @@ impl LibraryPredictor for Trees {
         let places = nodes().flat_map(|node| [node.feature, node.low, node.high]);
         let total = nodes().count();
         vec![
-            LibraryTensor::doubles(BASE, vec![targets], self.base.clone()),
-            LibraryTensor::integers(COUNTS, vec![targets], self.counts.clone()),
-            LibraryTensor::doubles(FACTOR, vec![targets], self.factor.clone()),
-            LibraryTensor::doubles(NODES, vec![total, 2], numbers.collect()),
-            LibraryTensor::integers(PLACES, vec![total, 3], places.collect()),
-            LibraryTensor::integers(SIZES, vec![sizes.len()], sizes),
+            Raw::doubles(BASE, vec![targets], &self.base),
+            Raw::integers(COUNTS, vec![targets], &self.counts),
+            Raw::doubles(FACTOR, vec![targets], &self.factor),
+            Raw::doubles(NODES, vec![total, 2], &numbers.collect::<Vec<_>>()),
+            Raw::integers(PLACES, vec![total, 3], &places.collect::<Vec<_>>()),
+            Raw::integers(SIZES, vec![sizes.len()], &sizes),
         ]
     }
 

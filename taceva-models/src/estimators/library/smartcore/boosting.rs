@@ -6,13 +6,13 @@ use smartcore::xgboost::{XGRegressor, XGRegressorParameters};
 use taceva_core::{ErrorKind, ModelError};
 
 use super::{RELEASE, records};
-
 use crate::estimators::library::adapter::{Adapter, Number, Numbers, Unset, any};
-use crate::estimators::library::guard::{guarded, interrupted};
+use crate::estimators::library::guard::guarded;
 use crate::estimators::library::predictor::{Node, Tree, Trees};
 use crate::estimators::library::{
     LibraryModel, LibrarySettings, LibrarySizes, LibraryTask, LoadedPredictor,
 };
+use crate::linalg::progress::interrupted;
 use crate::settings::SettingInfo;
 use crate::training::info::ModelInfo;
 

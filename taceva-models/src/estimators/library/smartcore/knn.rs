@@ -5,15 +5,15 @@ use smartcore::metrics::distance::euclidian::Euclidian;
 use taceva_core::{ErrorKind, ModelError};
 
 use super::RELEASE;
-
 use crate::estimators::library::adapter::{Adapter, Number, Numbers, Unset, any};
 use crate::estimators::library::guard::guarded;
 use crate::estimators::library::predictor::damaged;
 use crate::estimators::library::{
-    LibraryModel, LibraryPredictor, LibrarySettings, LibrarySizes, LibraryTask, LibraryTensor,
-    LibraryTensors, LoadedPredictor,
+    LibraryModel, LibraryPredictor, LibrarySettings, LibrarySizes, LibraryTask, LibraryTensors,
+    LoadedPredictor,
 };
 use crate::settings::SettingInfo;
+use crate::training::file::tensors::Raw;
 use crate::training::info::ModelInfo;
 
 const NAME: &str = "smartcore/knn";
@@ -76,7 +76,8 @@ const ROWS: &str = "samples";
 
 impl Lookup {
     fn new(
-        (rows, features): (Vec<f32>, usize),
+        rows: Vec<f32>,
+        features: usize,
         labels: Vec<f64>,
         counts: Vec<u32>,
     ) -> Result<Lookup, ModelError> {
@@ -95,7 +96,7 @@ impl Lookup {
     }
 
     fn load(
-        tensors: &LibraryTensors,
+        tensors: &LibraryTensors<'_>,
         sizes: LibrarySizes,
     ) -> Result<Box<dyn LibraryPredictor>, ModelError> {
         let samples = tensors.rows(ROWS)?;
@@ -106,22 +107,18 @@ impl Lookup {
         }
         let rows = tensors.singles(ROWS, &[samples, sizes.features])?;
         let labels = tensors.doubles(LABELS, &[samples, sizes.targets])?;
-        Ok(Box::new(Lookup::new(
-            (rows, sizes.features),
-            labels,
-            counts,
-        )?))
+        Ok(Box::new(Lookup::new(rows, sizes.features, labels, counts)?))
     }
 }
 
 impl LibraryPredictor for Lookup {
-    fn tensors(&self) -> Vec<LibraryTensor> {
+    fn tensors(&self) -> Vec<Raw> {
         let targets = self.counts.len();
         let samples = self.labels.len() / targets.max(1);
         vec![
-            LibraryTensor::integers(COUNTS_TENSOR, vec![targets], self.counts.clone()),
-            LibraryTensor::doubles(LABELS, vec![samples, targets], self.labels.clone()),
-            LibraryTensor::singles(ROWS, vec![samples, self.features], self.rows.clone()),
+            Raw::integers(COUNTS_TENSOR, vec![targets], &self.counts),
+            Raw::doubles(LABELS, vec![samples, targets], &self.labels),
+            Raw::singles(ROWS, vec![samples, self.features], &self.rows),
         ]
     }
 
@@ -181,7 +178,8 @@ fn fit(_: &Numbers<'_>, task: &LibraryTask<'_>) -> LoadedPredictor {
     let most = task.sizes.samples.min(1000) as f64;
     let counts = task.values.iter().map(|value| value.min(most) as u32);
     Ok(Box::new(Lookup::new(
-        (rows, task.sizes.features),
+        rows,
+        task.sizes.features,
         task.labels.to_vec(),
         counts.collect(),
     )?))

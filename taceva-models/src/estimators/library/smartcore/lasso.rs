@@ -6,13 +6,13 @@ use smartcore::linear::lasso::{Lasso, LassoParameters};
 use taceva_core::ModelError;
 
 use super::{RELEASE, matrix};
-
 use crate::estimators::library::adapter::{Adapter, Number, Numbers, Unset, any};
-use crate::estimators::library::guard::{guarded, interrupted};
+use crate::estimators::library::guard::guarded;
 use crate::estimators::library::predictor::Linear;
 use crate::estimators::library::{
     LibraryModel, LibrarySettings, LibrarySizes, LibraryTask, LoadedPredictor,
 };
+use crate::linalg::progress::interrupted;
 use crate::settings::SettingInfo;
 use crate::training::info::ModelInfo;
 

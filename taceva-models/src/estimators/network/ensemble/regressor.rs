@@ -1,16 +1,23 @@
 //! Fitted networks whose predictions are averaged.
 
 use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
+use taceva_network::NamedTensor;
 
-use super::super::{NetworkCard, NetworkRegressor};
+use super::super::NO_PICTURE;
+use super::super::regressor::{NetworkRegressor, named_tensors};
+use crate::features::Pca;
 use crate::linalg::invalid;
+use crate::training::card::KindCard;
+use crate::training::file::error::FormatError;
+use crate::training::file::stored::Stored;
 use crate::training::file::tensors::Raw;
+use crate::training::fitted::{FittedModel, ModelRegressor};
 
 /// The most members of an ensemble.
 pub(super) const MEMBERS_MOST: usize = 16;
 
 /// Fitted networks, from features to channels: the mean of what each predicts.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct EnsembleRegressor {
     members: Vec<NetworkRegressor>,
 }
@@ -34,33 +41,63 @@ impl EnsembleRegressor {
         Ok(EnsembleRegressor { members })
     }
 
-    /// What a file says of each network.
-    pub fn cards(&self) -> Vec<NetworkCard> {
+    /// The networks that a file holds, the tensors of each under a name of its own.
+    pub(super) fn load(stored: &Stored<'_>) -> Result<ModelRegressor, FormatError> {
+        let mut found = named_tensors(&stored.tensors)?;
+        let mut members = Vec::new();
+        for (number, network) in stored.card.ensemble.iter().enumerate() {
+            let prefix = prefix(number);
+            let (own, others): (Vec<_>, Vec<_>) = found
+                .into_iter()
+                .partition(|tensor| tensor.name.starts_with(&prefix));
+            found = others;
+            let own = own.into_iter().map(|tensor| NamedTensor {
+                name: tensor.name[prefix.len()..].to_owned(),
+                ..tensor
+            });
+            let own = own.collect();
+            members.push(NetworkRegressor::of_tensors(stored, network, own)?);
+        }
+        match found.into_iter().next() {
+            Some(tensor) => Err(FormatError::Unexpected { name: tensor.name }),
+            None => Ok(ModelRegressor::new(EnsembleRegressor::new(members)?)),
+        }
+    }
+}
+
+/// How tensors of a member are called.
+fn prefix(member: usize) -> String {
+    format!("member{member}.")
+}
+
+impl FittedModel for EnsembleRegressor {
+    fn kind(&self) -> KindCard {
         let members = self.members.iter();
-        members.map(|member| member.card().clone()).collect()
+        KindCard {
+            ensemble: members.map(|member| member.card().clone()).collect(),
+            ..KindCard::default()
+        }
     }
 
-    /// How tensors of the member are called.
-    pub(crate) fn prefix(member: usize) -> String {
-        format!("member{member}.")
-    }
-
-    pub(crate) fn tensors(&self) -> Vec<Raw> {
+    fn tensors(&self) -> Vec<Raw> {
         let of = |(number, member): (usize, &NetworkRegressor)| {
-            let prefix = EnsembleRegressor::prefix(number);
-            let tensors = member.tensors().into_iter();
-            let named = tensors.map(move |tensor| {
-                let name = format!("{prefix}{}", tensor.name);
-                Raw::singles(&name, tensor.shape, &tensor.values)
+            let prefix = prefix(number);
+            let tensors = FittedModel::tensors(member).into_iter();
+            let named = tensors.map(move |tensor| Raw {
+                name: format!("{prefix}{}", tensor.name),
+                ..tensor
             });
             named.collect::<Vec<Raw>>()
         };
         self.members.iter().enumerate().flat_map(of).collect()
     }
 
-    /// Whether any channel is predicted from what is seen.
-    pub(crate) fn reads_features(&self) -> bool {
+    fn reads_features(&self) -> bool {
         self.members.iter().any(NetworkRegressor::reads_features)
+    }
+
+    fn through(&self, _: &Pca) -> Result<Option<ModelRegressor>, ModelError> {
+        Err(invalid(NO_PICTURE))
     }
 }
 

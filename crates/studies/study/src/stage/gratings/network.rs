@@ -28,7 +28,8 @@ pub(super) fn classify(
         }
         let spacings: Vec<Nanometre> = taught.iter().map(|&at| presses[at].1).collect();
         let network = classifier.estimator.fit_spacings(
-            (&pictures.select(&taught), &spacings),
+            &pictures.select(&taught),
+            &spacings,
             classifier.output,
             work.progress,
         )?;

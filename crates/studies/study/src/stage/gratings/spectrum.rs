@@ -79,7 +79,7 @@ impl<'a> Pictures<'a> {
         let spectra = |plane: &FourierPlane| {
             let backgrounds = backgrounds.iter();
             backgrounds
-                .map(|(sum, count)| self.spectra.beyond(plane, (sum, *count)))
+                .map(|(sum, count)| self.spectra.beyond(plane, sum, *count))
                 .collect()
         };
         self.dataset.map_frames(

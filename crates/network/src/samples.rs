@@ -2,6 +2,7 @@
 
 use crate::architecture::Architecture;
 use crate::error::{NetworkError, SampleSet};
+use crate::labels::Labels;
 use crate::loss::Loss;
 
 /// Pictures and their labels.
@@ -13,18 +14,9 @@ pub struct Samples<'a> {
     pub labels: Labels<'a>,
 }
 
-/// The labels of pictures.
-#[derive(Clone, Copy, Debug)]
-pub enum Labels<'a> {
-    /// `[samples, outputs]`, in any unit.
-    Values(&'a [f64]),
-    /// The class of each sample, below the number of outputs.
-    Classes(&'a [u32]),
-}
-
 impl Samples<'_> {
     /// How many there are.
-    pub(super) fn count(&self, architecture: &Architecture) -> usize {
+    pub(crate) fn count(&self, architecture: &Architecture) -> usize {
         self.pictures.len() / architecture.input.len()
     }
 

@@ -3,14 +3,15 @@
 use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
 
 use crate::features::Pca;
+use crate::training::card::KindCard;
 use crate::training::file::error::FormatError;
 use crate::training::file::tensors::{Raw, Tensors};
-use crate::training::fit::ModelRegressor;
+use crate::training::fitted::{FittedModel, ModelRegressor};
 use crate::training::output::check_call;
 
 /// Principal components, and what predicts from them.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ProjectedRegressor {
+#[derive(Debug)]
+pub(crate) struct ProjectedRegressor {
     pca: Pca,
     inner: ModelRegressor,
 }
@@ -22,28 +23,6 @@ const RATIO: &str = "pca.variance_ratio";
 impl ProjectedRegressor {
     pub(crate) fn new(pca: Pca, inner: ModelRegressor) -> ProjectedRegressor {
         ProjectedRegressor { pca, inner }
-    }
-
-    /// The regressor of components.
-    pub fn inner(&self) -> &ModelRegressor {
-        &self.inner
-    }
-
-    /// The standard deviation of every prediction, where the model knows it.
-    pub(crate) fn deviations(&self, features: &Features) -> Result<Option<Vec<f64>>, ModelError> {
-        self.inner.deviations(&self.pca.transform(features)?)
-    }
-
-    /// The tensors of a file.
-    pub(crate) fn tensors(&self) -> Vec<Raw> {
-        let (count, width) = (self.pca.variance_ratio().len(), self.pca.mean().len());
-        let components: Vec<f64> = self.pca.components().flatten().copied().collect();
-        let own = [
-            Raw::doubles(COMPONENTS, vec![count, width], &components),
-            Raw::doubles(MEAN, vec![width], self.pca.mean()),
-            Raw::doubles(RATIO, vec![count], self.pca.variance_ratio()),
-        ];
-        own.into_iter().chain(self.inner.tensors()).collect()
     }
 
     /// The components that a file holds.
@@ -59,6 +38,35 @@ impl ProjectedRegressor {
             tensors.doubles(COMPONENTS, &[count, width])?,
             tensors.doubles(RATIO, &[count])?,
         )?)
+    }
+}
+
+impl FittedModel for ProjectedRegressor {
+    fn kind(&self) -> KindCard {
+        self.inner.kind()
+    }
+
+    fn tensors(&self) -> Vec<Raw> {
+        let (count, width) = (self.pca.variance_ratio().len(), self.pca.mean().len());
+        let components: Vec<f64> = self.pca.components().flatten().copied().collect();
+        let own = [
+            Raw::doubles(COMPONENTS, vec![count, width], &components),
+            Raw::doubles(MEAN, vec![width], self.pca.mean()),
+            Raw::doubles(RATIO, vec![count], self.pca.variance_ratio()),
+        ];
+        own.into_iter().chain(self.inner.tensors()).collect()
+    }
+
+    fn reads_features(&self) -> bool {
+        self.inner.reads_features()
+    }
+
+    fn knows_deviations(&self) -> bool {
+        self.inner.knows_deviations()
+    }
+
+    fn deviations(&self, features: &Features) -> Result<Option<Vec<f64>>, ModelError> {
+        self.inner.deviations(&self.pca.transform(features)?)
     }
 }
 

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use taceva_network::{Architecture, ConvolutionForm, LabelScale};
 
-use super::Preprocessing;
+use crate::features::Preprocessing;
 
 /// What a model file says of a network.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -18,20 +18,11 @@ pub struct NetworkCard {
     /// The label of each channel that never changed in the training part, and is predicted as that; nothing for those
     /// that the outputs stand for, one after the other.
     pub constant: Vec<Option<f64>>,
-    /// The form in which convolutions are computed for predictions. A file that does not say one was written when there was one only, and
-    /// its model predicts in that one still.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub convolutions: Option<ConvolutionForm>,
+    /// The form in which convolutions are computed for predictions.
+    pub convolutions: ConvolutionForm,
     /// The instructions of the processor: on the same ones predictions have the same bits.
     pub instructions: String,
     /// The GPU that trained it, where the processor did not; trained there anew, it has other bits.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gpu: Option<String>,
-}
-
-impl NetworkCard {
-    /// The form in which it predicts.
-    pub fn form(&self) -> ConvolutionForm {
-        self.convolutions.unwrap_or(ConvolutionForm::unstated())
-    }
 }

@@ -5,7 +5,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 /// Into how many folds a training part is divided.
-pub(super) const FOLDS: usize = 5;
+pub(crate) const FOLDS: usize = 5;
 
 /// How a model was chosen among others.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -20,9 +20,8 @@ pub struct AutoCard {
     pub tried: Vec<AutoTrial>,
     /// The models that were not.
     pub untried: Vec<Untried>,
-    /// The model that was taken; in files of before it is the one of least error.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub taken: Option<String>,
+    /// The model that was taken.
+    pub taken: String,
 }
 
 /// A model that was tried.
@@ -34,8 +33,7 @@ pub struct AutoTrial {
     pub error: f64,
     /// The work of trying it, in the seconds of the budget.
     pub cost_s: f64,
-    /// How many folds it was tried on, the first ones; in files of before, on all.
-    #[serde(default = "all_folds")]
+    /// How many folds it was tried on, the first ones.
     pub folds: usize,
     /// The share of its training that was done, where it was not all.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -43,10 +41,6 @@ pub struct AutoTrial {
     /// Why it was not tried on more folds, or not taken, where that was decided before the end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub left: Option<String>,
-}
-
-const fn all_folds() -> usize {
-    FOLDS
 }
 
 /// A model that was not tried.
@@ -61,13 +55,10 @@ pub struct Untried {
 }
 
 impl AutoCard {
-    /// The trial of the model that was taken, the last one if there are several; in files of before, the one of least error.
+    /// The trial of the model that was taken, the last one if there are several.
     pub fn best(&self) -> Option<&AutoTrial> {
         let mut trials = self.tried.iter();
-        match &self.taken {
-            Some(taken) => trials.rfind(|trial| trial.model == *taken),
-            None => trials.reduce(|best, next| if next.error < best.error { next } else { best }),
-        }
+        trials.rfind(|trial| trial.model == self.taken)
     }
 }
 
@@ -153,7 +144,7 @@ mod tests {
                 cost_s: 90.0,
                 reason: "too dear".to_owned(),
             }],
-            taken: Some("ridge".to_owned()),
+            taken: "ridge".to_owned(),
         }
     }
 
@@ -164,18 +155,5 @@ mod tests {
             "auto took ridge; error relative to the deviation of labels, on how many of 5 folds of whole groups: ridge 0.250 on 5; knn 0.200 \
              on 1, 25 % of its training (why); baseline 1.010 on 5; trying took 3.0 s of work of 60 s; not tried: cnn (too dear)"
         );
-    }
-
-    #[test]
-    fn a_card_of_before_took_the_model_of_least_error_on_all_folds() {
-        let mut json = serde_json::to_value(card()).expect("a card");
-        json.as_object_mut().expect("an object").remove("taken");
-        for trial in json["tried"].as_array_mut().expect("trials") {
-            let trial = trial.as_object_mut().expect("an object");
-            trial.retain(|key, _| ["model", "error", "cost_s"].contains(&key.as_str()));
-        }
-        let card: AutoCard = serde_json::from_value(json).expect("reads");
-        let best = card.best().expect("tried");
-        assert_eq!((best.model.as_str(), best.folds), ("knn", 5));
     }
 }

@@ -7,7 +7,7 @@ use taceva_network::{Architecture, Isa, Labels, Recipe, Samples, Summary};
 
 /// What identifies a training: everything that its result depends on.
 #[derive(Clone, Debug, PartialEq)]
-pub(in crate::estimators::network) struct Identity {
+pub(crate) struct Identity {
     architecture: Architecture,
     recipe: Recipe,
     pub(super) of: Origin,
@@ -25,10 +25,11 @@ pub(super) struct Origin {
 }
 
 impl Identity {
-    pub(in crate::estimators::network) fn new(
+    pub(crate) fn new(
         architecture: &Architecture,
         recipe: &Recipe,
-        (training, validation): (Samples<'_>, Option<Samples<'_>>),
+        training: Samples<'_>,
+        validation: Option<Samples<'_>>,
         gpu: Option<GpuKind>,
     ) -> Identity {
         let mut digest = Sha256::new();

@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 use taceva_network::{Checkpoint, Trainer};
 
 pub use error::CheckpointError;
-pub(super) use identity::Identity;
+pub(crate) use identity::Identity;
 
 /// Where checkpoints of a training are kept, and how often they are written.
 ///
@@ -71,7 +71,7 @@ impl Checkpoints {
     }
 
     /// The checkpoint of the training that is `identity`, if it is there.
-    pub(super) fn take(&self, identity: &Identity) -> Result<Option<Checkpoint>, CheckpointError> {
+    pub(crate) fn take(&self, identity: &Identity) -> Result<Option<Checkpoint>, CheckpointError> {
         let refuse = |problem: String| CheckpointError::Damaged {
             path: self.path.clone(),
             problem,
@@ -112,14 +112,14 @@ impl Checkpoints {
 }
 
 /// The checkpoint of one training while it goes on.
-pub(super) struct Shelf<'a> {
+pub(crate) struct Shelf<'a> {
     checkpoints: &'a Checkpoints,
     identity: Identity,
     last: Instant,
 }
 
 impl<'a> Shelf<'a> {
-    pub(super) fn new(checkpoints: &'a Checkpoints, identity: Identity) -> Shelf<'a> {
+    pub(crate) fn new(checkpoints: &'a Checkpoints, identity: Identity) -> Shelf<'a> {
         Shelf {
             checkpoints,
             identity,
@@ -127,23 +127,23 @@ impl<'a> Shelf<'a> {
         }
     }
 
-    pub(super) fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         &self.checkpoints.path
     }
 
     /// The checkpoint of this training, if there is one.
-    pub(super) fn take(&self) -> Result<Option<Checkpoint>, CheckpointError> {
+    pub(crate) fn take(&self) -> Result<Option<Checkpoint>, CheckpointError> {
         self.checkpoints.take(&self.identity)
     }
 
-    pub(super) fn put(&mut self, trainer: &Trainer<'_>) -> Result<(), CheckpointError> {
+    pub(crate) fn put(&mut self, trainer: &Trainer<'_>) -> Result<(), CheckpointError> {
         self.checkpoints.put(&self.identity, trainer)?;
         self.last = Instant::now();
         Ok(())
     }
 
     /// Writes a checkpoint if the last one is old enough.
-    pub(super) fn put_if_due(&mut self, trainer: &Trainer<'_>) -> Result<(), CheckpointError> {
+    pub(crate) fn put_if_due(&mut self, trainer: &Trainer<'_>) -> Result<(), CheckpointError> {
         if self.last.elapsed() >= self.checkpoints.every {
             self.put(trainer)?;
         }

@@ -15,7 +15,7 @@ pub struct PluginCard {
 }
 
 impl PluginCard {
-    pub(super) fn of(factory: &dyn EstimatorFactory) -> Result<PluginCard, ModelError> {
+    pub(crate) fn of(factory: &dyn EstimatorFactory) -> Result<PluginCard, ModelError> {
         let key = factory.key().as_str();
         let (id, _) = key.rsplit_once('/').unwrap_or((key, ""));
         Ok(PluginCard {
