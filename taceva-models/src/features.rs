@@ -1,11 +1,8 @@
 //! From frames and signals to features.
 
 mod area;
-mod by_recording;
 mod cell_features;
 pub(crate) mod choice;
-#[cfg(test)]
-mod drawn;
 mod error;
 mod extractor;
 mod gradients;
@@ -15,19 +12,22 @@ mod markers;
 mod pca;
 mod pixels;
 mod preprocessing;
+mod recording_rules;
 mod reduction;
-mod seen;
 pub(crate) mod signals;
+mod source;
 mod spec;
 mod statistics;
+#[cfg(test)]
+mod test_pictures;
 
-pub use by_recording::{FeaturesByRecording, RecordedFrames};
 pub use error::FeatureError;
 pub use extractor::Extractor;
 pub use kinds::{FeatureKind, FeatureKinds};
 pub use markers::{Marker, MarkerTracker, Polarity, Tracked};
 pub use pca::Pca;
 pub use preprocessing::Preprocessing;
+pub use recording_rules::{FeaturesByRecording, RecordedFrames};
 pub use reduction::FrameReduction;
 pub use spec::{Color, FeatureSpec};
 pub(crate) use spec::{DIFFERENCE, SIZE};

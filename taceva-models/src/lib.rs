@@ -53,6 +53,6 @@ pub use training::checkpoint::{CheckpointError, Checkpoints, Foreign};
 pub use training::choice::{ChannelChoice, Choice, ChosenBy};
 pub use training::file::error::FormatError;
 pub use training::fit::{Chosen, ModelEstimator, ModelFit};
-pub use training::fitted::ModelRegressor;
 pub use training::info::ModelInfo;
 pub use training::label_scaling::{LabelScaling, label_means};
+pub use training::regressor::ModelRegressor;

@@ -2,7 +2,7 @@
 
 mod bounds;
 mod card;
-mod closer;
+mod finer_features;
 mod input;
 
 use taceva_core::{
@@ -11,14 +11,14 @@ use taceva_core::{
 };
 
 pub use self::bounds::LabelBounds;
-pub use self::closer::CloserFeatures;
+pub use self::finer_features::CloserFeatures;
 pub use self::input::FitInput;
 use crate::features::choice::FeatureChoice;
 use crate::features::signals::{divided, spread};
 use crate::features::{Extractor, FeatureError, Pca};
 use crate::linalg::invalid;
 use crate::training::card::{ChannelCard, ModelCard};
-use crate::training::fitted::ModelRegressor;
+use crate::training::regressor::ModelRegressor;
 
 /// A fitted model: from pixels, or from signals, to the channels, in their units.
 ///

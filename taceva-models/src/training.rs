@@ -3,12 +3,12 @@
 pub(crate) mod card;
 pub(crate) mod checkpoint;
 pub(crate) mod choice;
+pub(crate) mod components;
 pub(crate) mod file;
 pub(crate) mod fit;
-pub(crate) mod fitted;
 pub(crate) mod info;
 pub(crate) mod label_scaling;
 pub(crate) mod output;
 pub(crate) mod problem;
-pub(crate) mod projected;
+pub(crate) mod regressor;
 pub(crate) mod trials;

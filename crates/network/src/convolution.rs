@@ -7,20 +7,20 @@ mod form;
 mod forward;
 mod gathering;
 mod input_gradient;
-mod rooms;
 mod source;
 mod weight_gradient;
 mod weights;
 mod winograd;
+mod workspace;
 
 pub(crate) use ending::{Epilogue, Onto};
 pub use form::ConvolutionForm;
 pub(crate) use forward::Forward;
 pub(crate) use input_gradient::InputGradient;
-pub(crate) use rooms::{Rooms, TileRooms};
 pub(crate) use source::Source;
 pub(crate) use weight_gradient::WeightGradient;
 pub(crate) use weights::{ConvolutionWeights, plain};
+pub(crate) use workspace::{Rooms, TileRooms};
 
 use crate::picture::Picture;
 use crate::planes::Layout;

@@ -1,6 +1,8 @@
 //! Training on a GPU: the architectures, weights and recipes of this crate through burn.
 
 #[cfg(any(feature = "cuda", feature = "wgpu"))]
+mod autodiff;
+#[cfg(any(feature = "cuda", feature = "wgpu"))]
 mod convolution;
 mod device;
 #[cfg(all(test, any(feature = "cuda", feature = "wgpu")))]
@@ -21,8 +23,6 @@ mod passes;
 mod prediction;
 #[cfg(any(feature = "cuda", feature = "wgpu"))]
 mod products;
-#[cfg(any(feature = "cuda", feature = "wgpu"))]
-mod tracked;
 #[cfg(any(feature = "cuda", feature = "wgpu"))]
 mod training;
 #[cfg(any(feature = "cuda", feature = "wgpu"))]

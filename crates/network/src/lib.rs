@@ -12,7 +12,7 @@ mod loss;
 mod machine;
 mod max_pool;
 mod network;
-mod normed;
+mod normalised_convolution;
 mod optimizer;
 mod panel;
 mod picture;

@@ -14,7 +14,7 @@ use crate::convolution::ConvolutionForm;
 use crate::error::NetworkError;
 use crate::head::Head;
 use crate::machine::Machine;
-use crate::normed::{Back, Normed};
+use crate::normalised_convolution::{Back, Normed};
 use crate::planes::Planes;
 use crate::scratch::Scratch;
 use crate::stage::{Stage, StageSpace, Standing};

@@ -1,10 +1,10 @@
 //! A network ready to predict: running moments are folded into the weights, so that only convolutions are left.
 
-mod folded;
 mod layer;
+mod stages;
 
-use self::folded::Folded;
 use self::layer::{Layer, Pass};
+use self::stages::Folded;
 
 use crate::architecture::StagePlan;
 use crate::convolution::ConvolutionForm;

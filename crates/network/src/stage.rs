@@ -11,7 +11,7 @@ pub(crate) use stem::StemSpace;
 use crate::architecture::StagePlan;
 use crate::convolution::ConvolutionForm;
 use crate::machine::Machine;
-use crate::normed::{Back, Normed};
+use crate::normalised_convolution::{Back, Normed};
 use crate::planes::{Layout, Planes};
 use crate::scratch::Scratch;
 

@@ -3,9 +3,9 @@
 mod candidates;
 mod cost;
 mod entrant;
-mod further;
+mod excess;
 mod race;
-mod standing;
+mod settlement;
 mod validate;
 
 use taceva_core::{Features, ModelError, Progress, SignalInfo, TrainingSet};

@@ -19,9 +19,9 @@ use crate::linalg::{Design, FeatureScale};
 use crate::settings::{ModelSettings, SettingError};
 use crate::training::choice::{Choice, errors};
 use crate::training::fit::{ModelEstimator, ModelFit, estimator};
-use crate::training::fitted::ModelRegressor;
 use crate::training::info::ModelInfo;
 use crate::training::problem::Problem;
+use crate::training::regressor::ModelRegressor;
 
 /// Linear discriminants: a channel is predicted as one of the values that it takes in the training part, that whose mean picture is
 /// nearest once features are whitened by the scatter within values ([`Discriminant`]).

@@ -5,9 +5,9 @@
 
 #[cfg(any(feature = "linfa", feature = "smartcore"))]
 mod adapter;
+mod answers;
 mod estimator;
 mod fit;
-mod fitted;
 #[cfg(any(feature = "linfa", feature = "smartcore"))]
 mod guard;
 #[cfg(feature = "linfa")]

@@ -11,14 +11,14 @@ use crate::features::Pca;
 use crate::linalg::Design;
 use crate::linalg::invalid;
 use crate::training::choice::Choice;
+use crate::training::file::content::Stored;
 use crate::training::file::error::FormatError;
-use crate::training::file::stored::Stored;
 use crate::training::file::tensors::Raw;
 use crate::training::fit::{ModelEstimator, ModelFit};
-use crate::training::fitted::{FittedModel, ModelRegressor};
 use crate::training::label_scaling::LabelScaling;
 use crate::training::output::{check_call, check_finite};
 use crate::training::problem::Problem;
+use crate::training::regressor::{FittedModel, ModelRegressor};
 
 /// An estimator whose regressor is linear, and that can say what it chose.
 pub trait LinearEstimator: Estimator {

@@ -15,10 +15,10 @@ use crate::linalg::standard::Standard;
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 use crate::training::choice::Errors;
 use crate::training::fit::{ModelEstimator, ModelFit, estimator};
-use crate::training::fitted::ModelRegressor;
 use crate::training::info::ModelInfo;
 use crate::training::output::OutputScale;
 use crate::training::problem::Problem;
+use crate::training::regressor::ModelRegressor;
 use crate::training::trials::{Trials, rows_of};
 
 /// k nearest neighbours: the labels of the k training samples of least distance, each weighted by 1 / distance.

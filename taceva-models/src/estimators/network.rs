@@ -5,9 +5,9 @@ mod ensemble;
 mod estimator;
 mod fit;
 mod regressor;
-mod shortened;
 mod spacing;
 mod training;
+mod variants;
 
 pub use ensemble::{EnsembleRegressor, NetworkEnsemble};
 pub use estimator::NetworkEstimator;

@@ -244,8 +244,8 @@ fn part(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::features::drawn::noise;
     use crate::features::kinds::FeatureKinds;
+    use crate::features::test_pictures::noise;
     use taceva_core::PixelFormat;
 
     fn spec(width: u32, height: u32, color: Color) -> FeatureSpec {

@@ -126,7 +126,7 @@ fn step(number: f32) -> u16 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::features::drawn::noise;
+    use crate::features::test_pictures::noise;
     use crate::features::{Extractor, FeatureKind};
 
     const SIDE: u32 = 24;

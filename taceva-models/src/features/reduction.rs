@@ -97,7 +97,7 @@ mod tests {
     use taceva_core::PixelFormat;
 
     use super::*;
-    use crate::features::drawn::noise;
+    use crate::features::test_pictures::noise;
     use crate::features::{Extractor, FeatureSpec};
     use crate::settings::ModelSettings;
 

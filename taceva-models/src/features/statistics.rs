@@ -138,7 +138,7 @@ fn of_sorted(sorted: &[u32], full_scale: f64) -> [f64; NUMBERS] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::features::drawn::noise;
+    use crate::features::test_pictures::noise;
     use crate::features::{Extractor, FeatureKind};
     use taceva_core::PixelFormat;
     use taceva_core::random::SplitMix64;

@@ -10,11 +10,11 @@ use crate::estimators::plugin::PluginRegressor;
 use crate::model::{Model, channels_of};
 use crate::models::Models;
 use crate::training::card::{LibraryCard, ModelCard};
+use crate::training::file::content::Stored;
 use crate::training::file::error::FormatError;
 use crate::training::file::limits::{CARD, FORMAT};
-use crate::training::file::stored::Stored;
 use crate::training::file::tensors::Tensors;
-use crate::training::fitted::ModelRegressor;
+use crate::training::regressor::ModelRegressor;
 
 /// The release whose formats began at 1.0.
 const SINCE: [u32; 2] = [0, 2];

@@ -6,8 +6,8 @@ use crate::features::FeatureError;
 use crate::training::card::AutoCard;
 use crate::training::checkpoint::Checkpoints;
 use crate::training::choice::Choice;
-use crate::training::fitted::ModelRegressor;
 use crate::training::label_scaling::LabelScaling;
+use crate::training::regressor::ModelRegressor;
 
 /// Implements [`Estimator`] for a [`ModelEstimator`]: its name, and the regressor that it fits.
 macro_rules! estimator {

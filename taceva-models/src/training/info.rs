@@ -2,7 +2,7 @@
 
 use crate::features::FeatureSpec;
 use crate::settings::{ModelSettings, SettingError, SettingInfo};
-use crate::training::file::stored::Load;
+use crate::training::file::content::Load;
 use crate::training::fit::ModelEstimator;
 
 /// A model that people can choose: its name, what it is, and what can be set.

@@ -2,9 +2,9 @@
 
 mod border;
 mod correlation;
-mod divided;
 mod forward;
 mod input_gradient;
+mod single_picture;
 mod weight_gradient;
 
 pub(super) use forward::Forward;

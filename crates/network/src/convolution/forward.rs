@@ -2,10 +2,10 @@
 
 use super::ending::Epilogue;
 use super::form::ConvolutionForm;
-use super::rooms::TileRooms;
 use super::source::Source;
 use super::weights::ConvolutionWeights;
 use super::winograd;
+use super::workspace::TileRooms;
 use super::{Convolution, direct};
 use crate::machine::Machine;
 use crate::planes::{Layout, Planes};

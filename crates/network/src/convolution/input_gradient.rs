@@ -2,9 +2,9 @@
 
 use super::ending::Onto;
 use super::form::ConvolutionForm;
-use super::rooms::Rooms;
 use super::weights::ConvolutionWeights;
 use super::winograd;
+use super::workspace::Rooms;
 use super::{Convolution, direct};
 use crate::machine::Machine;
 use crate::planes::{Layout, Planes};

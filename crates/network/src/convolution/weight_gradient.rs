@@ -1,8 +1,8 @@
 //! The gradient of the weights, in the form that goes with its shape.
 
 use super::form::ConvolutionForm;
-use super::rooms::Rooms;
 use super::winograd;
+use super::workspace::Rooms;
 use super::{Convolution, direct};
 use crate::machine::Machine;
 use crate::planes::{Layout, Planes};

@@ -6,10 +6,10 @@
 //! # Reference
 //! A. Lavin, S. Gray, "Fast algorithms for convolutional neural networks", CVPR 2016.
 
-mod divided;
 mod forward;
 mod input_gradient;
 mod products;
+mod single_picture;
 mod sums;
 mod tiles;
 mod transform;

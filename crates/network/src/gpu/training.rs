@@ -5,10 +5,10 @@ use burn_autodiff::Autodiff;
 use burn_tensor::Tensor;
 use burn_tensor::backend::Backend;
 
+use crate::gpu::autodiff::convolved;
 use crate::gpu::normalisation::normalised;
 use crate::gpu::passes::{Head, Normed, Pass, Passes};
 use crate::gpu::products::Products;
-use crate::gpu::tracked::convolved;
 use crate::gpu::weights::{Layout, Weights, numbers, vector};
 use crate::{Network, Rule};
 

@@ -4,7 +4,7 @@ use crate::convolution::{ConvolutionForm, ConvolutionWeights, Epilogue, Forward,
 use crate::error::NetworkError;
 use crate::machine::Machine;
 use crate::max_pool;
-use crate::normed::Normed;
+use crate::normalised_convolution::Normed;
 use crate::panel::Aligned;
 use crate::planes::{Layout, Planes};
 use crate::scratch::Scratch;

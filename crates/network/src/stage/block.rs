@@ -4,7 +4,7 @@ use super::Standing;
 use crate::batch_norm::{Gate, Shortcut, apply};
 use crate::convolution::{Convolution, Onto};
 use crate::machine::Machine;
-use crate::normed::{Back, Normed, NormedSpace};
+use crate::normalised_convolution::{Back, Normed, NormedSpace};
 use crate::planes::{Layout, Planes};
 use crate::scratch::Scratch;
 

@@ -3,7 +3,7 @@
 use super::Standing;
 use crate::machine::Machine;
 use crate::max_pool::{self, Pooled};
-use crate::normed::{Back, Normed, NormedSpace};
+use crate::normalised_convolution::{Back, Normed, NormedSpace};
 use crate::planes::Planes;
 use crate::scratch::Scratch;
 

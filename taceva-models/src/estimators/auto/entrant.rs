@@ -1,7 +1,7 @@
 //! A model that is tried.
 
 use super::candidates::Candidate;
-use super::standing::{Excess, mean};
+use super::excess::{Excess, mean};
 use crate::training::card::AutoTrial;
 use crate::training::fit::ModelEstimator;
 

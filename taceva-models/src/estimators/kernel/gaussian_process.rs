@@ -17,9 +17,9 @@ use crate::linalg::{Design, FeatureScale, Spectrum};
 use crate::settings::{ModelSettings, SettingError};
 use crate::training::choice::{ChannelChoice, Choice, ChosenBy, rmse};
 use crate::training::fit::{ModelEstimator, ModelFit, estimator};
-use crate::training::fitted::ModelRegressor;
 use crate::training::info::ModelInfo;
 use crate::training::problem::{Problem, Validation, centred, joined, stacked};
+use crate::training::regressor::ModelRegressor;
 
 /// Gaussian process regression in Nyström's form, which also says how sure it is.
 ///

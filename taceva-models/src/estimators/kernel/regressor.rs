@@ -8,11 +8,11 @@ use super::uncertainty::Uncertainty;
 use crate::estimators::linear::LinearRegressor;
 use crate::linalg::standard::Standard;
 use crate::training::card::{Form, KindCard};
+use crate::training::file::content::Stored;
 use crate::training::file::error::FormatError;
-use crate::training::file::stored::Stored;
 use crate::training::file::tensors::{Raw, Tensors};
-use crate::training::fitted::{FittedModel, ModelRegressor};
 use crate::training::output::{check_call, check_finite};
+use crate::training::regressor::{FittedModel, ModelRegressor};
 
 /// A fitted kernel method.
 #[derive(Clone, Debug, PartialEq)]

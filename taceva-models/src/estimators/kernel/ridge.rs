@@ -9,9 +9,9 @@ use crate::features::FeatureSpec;
 use crate::linalg::progress::interrupted;
 use crate::settings::{ModelSettings, SettingError};
 use crate::training::fit::{ModelEstimator, ModelFit, estimator};
-use crate::training::fitted::ModelRegressor;
 use crate::training::info::ModelInfo;
 use crate::training::problem::Problem;
+use crate::training::regressor::ModelRegressor;
 
 use super::regressor::KernelRegressor;
 

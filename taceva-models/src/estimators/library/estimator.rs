@@ -8,9 +8,9 @@ use super::fit::fit;
 use super::{LibraryLearner, LibraryRegressor};
 use crate::training::choice::Errors;
 use crate::training::fit::{ModelEstimator, ModelFit, estimator};
-use crate::training::fitted::ModelRegressor;
 use crate::training::output::OutputScale;
 use crate::training::problem::Problem;
+use crate::training::regressor::ModelRegressor;
 use crate::training::trials::{Round, Trials, rows_of};
 
 /// An estimator of a library with its settings.

@@ -4,7 +4,7 @@ use faer::Mat;
 use taceva_core::{Features, ModelError, Progress};
 
 use super::LibraryLearner;
-use super::fitted::Fitted;
+use super::answers::Fitted;
 use super::task::{LibrarySizes, LibraryTask};
 use crate::linalg::progress::interrupted;
 use crate::linalg::standard::Standard;

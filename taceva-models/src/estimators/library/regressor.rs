@@ -6,17 +6,17 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
 
-use super::fitted::Fitted;
+use super::answers::Fitted;
 use super::task::{LibraryPredictor, LibrarySizes};
 use super::tensor::{LibraryTensors, prefixed};
 use super::{LibraryModel, library_models};
 use crate::linalg::standard::Standard;
 use crate::training::card::{Form, KindCard, LibraryCard};
+use crate::training::file::content::Stored;
 use crate::training::file::error::FormatError;
-use crate::training::file::stored::Stored;
 use crate::training::file::tensors::{Raw, Tensors};
-use crate::training::fitted::{FittedModel, ModelRegressor};
 use crate::training::output::{OutputScale, check_call, check_finite};
+use crate::training::regressor::{FittedModel, ModelRegressor};
 
 /// A fitted model of another library.
 #[derive(Clone)]

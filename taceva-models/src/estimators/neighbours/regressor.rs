@@ -7,11 +7,11 @@ use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
 use crate::linalg::distance::squared_distance;
 use crate::linalg::standard::Standard;
 use crate::training::card::{Form, KindCard};
+use crate::training::file::content::Stored;
 use crate::training::file::error::FormatError;
-use crate::training::file::stored::Stored;
 use crate::training::file::tensors::{Raw, Tensors};
-use crate::training::fitted::{FittedModel, ModelRegressor};
 use crate::training::output::{OutputScale, check_call, check_finite};
+use crate::training::regressor::{FittedModel, ModelRegressor};
 
 /// Training samples, their labels, and how many of the nearest each channel is the mean of.
 #[derive(Clone, Debug, PartialEq)]

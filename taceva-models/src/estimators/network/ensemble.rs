@@ -12,8 +12,8 @@ use crate::linalg::invalid;
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 use crate::training::choice::{Choice, errors};
 use crate::training::fit::{ModelEstimator, ModelFit, estimator};
-use crate::training::fitted::ModelRegressor;
 use crate::training::info::ModelInfo;
+use crate::training::regressor::ModelRegressor;
 
 /// Small networks that are fitted to the same samples one after the other, each with a seed of its own, and whose predictions are averaged.
 #[derive(Clone, Debug, PartialEq)]

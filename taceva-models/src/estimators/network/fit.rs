@@ -13,8 +13,8 @@ use crate::training::card::NetworkCard;
 use crate::training::checkpoint::Checkpoints;
 use crate::training::choice::{ChannelChoice, Choice, ChosenBy, errors};
 use crate::training::fit::{ModelEstimator, ModelFit, estimator};
-use crate::training::fitted::ModelRegressor;
 use crate::training::problem::Problem;
+use crate::training::regressor::ModelRegressor;
 
 /// The labels of a part whose channel is among `varying`.
 fn labels_of(set: &TrainingSet<'_>, varying: &[usize]) -> Vec<f64> {

@@ -12,11 +12,11 @@ use crate::features::Pca;
 use crate::linalg::invalid;
 use crate::training::card::KindCard;
 use crate::training::card::NetworkCard;
+use crate::training::file::content::Stored;
 use crate::training::file::error::FormatError;
 use crate::training::file::limits::FILE_MAX;
-use crate::training::file::stored::Stored;
 use crate::training::file::tensors::{Raw, Tensors};
-use crate::training::fitted::{FittedModel, ModelRegressor};
+use crate::training::regressor::{FittedModel, ModelRegressor};
 
 /// A fitted network, from features to channels.
 #[derive(Debug)]

@@ -8,8 +8,8 @@ use super::regressor::PluginRegressor;
 use crate::training::card::PluginCard;
 use crate::training::choice::{Choice, errors};
 use crate::training::fit::{ModelEstimator, ModelFit, estimator};
-use crate::training::fitted::ModelRegressor;
 use crate::training::problem::Problem;
+use crate::training::regressor::ModelRegressor;
 
 /// An estimator of a plugin with its settings, not fitted yet.
 pub(crate) struct PluginEstimator {

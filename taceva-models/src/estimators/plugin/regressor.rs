@@ -12,10 +12,10 @@ use taceva_core::{
 use crate::features::Pca;
 use crate::linalg::invalid;
 use crate::training::card::{KindCard, PluginCard};
+use crate::training::file::content::Stored;
 use crate::training::file::error::FormatError;
-use crate::training::file::stored::Stored;
 use crate::training::file::tensors::Raw;
-use crate::training::fitted::{FittedModel, ModelRegressor};
+use crate::training::regressor::{FittedModel, ModelRegressor};
 
 /// The tensor of a file that holds its maker's bytes.
 const TENSOR: &str = "plugin";

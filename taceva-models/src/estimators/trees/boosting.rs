@@ -12,10 +12,10 @@ use crate::features::FeatureSpec;
 use crate::linalg::progress::{ReportedStage, interrupted};
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 use crate::training::fit::{ModelEstimator, ModelFit, estimator};
-use crate::training::fitted::ModelRegressor;
 use crate::training::info::ModelInfo;
 use crate::training::output::OutputScale;
 use crate::training::problem::{Problem, centred};
+use crate::training::regressor::ModelRegressor;
 use crate::training::trials::{Trials, rows_of};
 
 /// Gradient boosting of squared errors: each tree is fitted to what those before it left, and a share of it is added.

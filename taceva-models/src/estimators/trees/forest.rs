@@ -13,10 +13,10 @@ use crate::linalg::progress::{ReportedStage, interrupted};
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 use crate::training::choice::Choice;
 use crate::training::fit::{ModelEstimator, ModelFit, estimator};
-use crate::training::fitted::ModelRegressor;
 use crate::training::info::ModelInfo;
 use crate::training::output::OutputScale;
 use crate::training::problem::{Problem, centred};
+use crate::training::regressor::ModelRegressor;
 use crate::training::trials::{Trials, rows_of};
 
 /// A random forest a channel: the mean of trees that each saw its own draw of the samples, and at each split its own draw of the features.

@@ -5,11 +5,11 @@ use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
 
 use super::grow::Tree;
 use crate::training::card::{Form, KindCard};
+use crate::training::file::content::Stored;
 use crate::training::file::error::FormatError;
-use crate::training::file::stored::Stored;
 use crate::training::file::tensors::{Raw, Tensors};
-use crate::training::fitted::{FittedModel, ModelRegressor};
 use crate::training::output::{OutputScale, check_call, check_finite};
+use crate::training::regressor::{FittedModel, ModelRegressor};
 
 /// Trees, each for one channel or for all.
 #[derive(Clone, Debug, PartialEq)]

@@ -122,7 +122,7 @@ fn window(position: usize, radius: usize, length: usize) -> (usize, usize) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::features::drawn::noise;
+    use crate::features::test_pictures::noise;
     use taceva_core::PixelFormat;
 
     #[test]

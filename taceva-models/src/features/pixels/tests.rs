@@ -2,7 +2,7 @@
 
 use taceva_core::{Frame, PixelFormat};
 
-use crate::features::drawn::noise;
+use crate::features::test_pictures::noise;
 use crate::features::{Color, Extractor, FeatureSpec};
 
 fn spec(width: u32, height: u32, color: Color) -> FeatureSpec {

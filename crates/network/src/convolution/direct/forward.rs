@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::border::{Reach, is_left_out, reaches};
 use super::correlation::{Correlation, Lie, Tap, are_weights_many};
-use super::divided::Divided;
+use super::single_picture::Divided;
 use crate::convolution::division::{Division, Outputs};
 use crate::convolution::ending::Epilogue;
 use crate::convolution::source::Source;

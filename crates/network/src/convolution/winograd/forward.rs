@@ -4,13 +4,13 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::divided::Divided;
 use super::products::Products;
+use super::single_picture::Divided;
 use super::weights::to_points;
 use crate::convolution::division::{Division, Outputs};
 use crate::convolution::ending::Epilogue;
-use crate::convolution::rooms::TileRooms;
 use crate::convolution::source::Source;
+use crate::convolution::workspace::TileRooms;
 use crate::machine::Machine;
 use crate::planes::{Layout, Planes};
 use crate::team;

@@ -4,7 +4,7 @@
 use super::products::Products;
 use super::weights::to_points;
 use crate::convolution::ending::{Finish, Onto};
-use crate::convolution::rooms::Rooms;
+use crate::convolution::workspace::Rooms;
 use crate::machine::Machine;
 use crate::planes::{Layout, Planes};
 

@@ -8,7 +8,7 @@ use super::tiles::Stretch;
 use super::{POINTS, Tiles, slab, transformed_len};
 use crate::constant::with_constant;
 use crate::convolution::ending::{Finish, Start};
-use crate::convolution::rooms::TileRooms;
+use crate::convolution::workspace::TileRooms;
 use crate::machine::Machine;
 use crate::panel::PANEL;
 use crate::planes::Layout;

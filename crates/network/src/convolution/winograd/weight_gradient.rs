@@ -11,7 +11,7 @@ use super::sums::{PIECE, Pieces};
 use super::tiles::Stretch;
 use super::weights;
 use super::{POINTS, Tiles, slab, transformed_len};
-use crate::convolution::rooms::Rooms;
+use crate::convolution::workspace::Rooms;
 use crate::machine::Machine;
 use crate::planes::{Layout, Planes};
 use crate::simd::{Job, Vector};

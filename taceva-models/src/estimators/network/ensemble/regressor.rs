@@ -8,10 +8,10 @@ use super::super::regressor::{NetworkRegressor, named_tensors};
 use crate::features::Pca;
 use crate::linalg::invalid;
 use crate::training::card::KindCard;
+use crate::training::file::content::Stored;
 use crate::training::file::error::FormatError;
-use crate::training::file::stored::Stored;
 use crate::training::file::tensors::Raw;
-use crate::training::fitted::{FittedModel, ModelRegressor};
+use crate::training::regressor::{FittedModel, ModelRegressor};
 
 /// The most members of an ensemble.
 pub(super) const MEMBERS_MOST: usize = 16;

@@ -1,7 +1,7 @@
 //! Grids that were drawn, and moved by known amounts.
 
 use super::*;
-use crate::features::drawn::{Gel, grid, noise};
+use crate::features::test_pictures::{Gel, grid, noise};
 use taceva_core::PixelFormat;
 
 const CLEAN: Gel = Gel {

@@ -8,8 +8,8 @@ use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
 
 use crate::features::Pca;
 use crate::training::card::KindCard;
+use crate::training::components::ProjectedRegressor;
 use crate::training::file::tensors::Raw;
-use crate::training::projected::ProjectedRegressor;
 
 /// A regressor that a model file keeps.
 pub(crate) trait FittedModel: Regressor + Any + fmt::Debug {

@@ -4,8 +4,8 @@ use taceva_core::ModelError;
 
 use super::candidates::Candidate;
 use super::entrant::Entrant;
+use super::excess::{BEYOND_CHANCE, CLEARLY};
 use super::race::{ALWAYS, Race};
-use super::standing::{BEYOND_CHANCE, CLEARLY};
 use crate::linalg::progress::interrupted;
 use crate::training::card::{AutoCard, FOLDS};
 

@@ -6,8 +6,8 @@ use crate::features::Pca;
 use crate::training::card::KindCard;
 use crate::training::file::error::FormatError;
 use crate::training::file::tensors::{Raw, Tensors};
-use crate::training::fitted::{FittedModel, ModelRegressor};
 use crate::training::output::check_call;
+use crate::training::regressor::{FittedModel, ModelRegressor};
 
 /// Principal components, and what predicts from them.
 #[derive(Debug)]

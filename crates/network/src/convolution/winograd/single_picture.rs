@@ -7,7 +7,7 @@ use super::{POINTS, TILE, Tiles, slab};
 use crate::convolution::division::{Division, Outputs};
 use crate::convolution::ending::{Finish, Start};
 use crate::convolution::gathering::Gathering;
-use crate::convolution::rooms::TileRooms;
+use crate::convolution::workspace::TileRooms;
 use crate::machine::Machine;
 use crate::panel::PANEL;
 use crate::planes::Layout;

@@ -5,8 +5,8 @@ use taceva_core::{Channels, FeatureShape};
 use super::error::FormatError;
 use super::tensors::Tensors;
 use crate::training::card::ModelCard;
-use crate::training::fitted::{FittedModel, ModelRegressor};
-use crate::training::projected::ProjectedRegressor;
+use crate::training::components::ProjectedRegressor;
+use crate::training::regressor::{FittedModel, ModelRegressor};
 
 /// A model file that is being read.
 pub(crate) struct Stored<'a> {
