@@ -9,7 +9,7 @@ use taceva_core::{Args, EstimatorFactory};
 use crate::estimators::auto::Auto;
 use crate::estimators::library::LibraryModel;
 use crate::estimators::plugin::PluginEstimator;
-use crate::estimators::registry::{ALL, PRESETS, Preset, UnknownModel, replaced};
+use crate::estimators::registry::{ALL, PRESETS, Preset, UnknownModel};
 use crate::features::FeatureSpec;
 use crate::settings::{ModelSettings, SettingError};
 use crate::training::fit::ModelEstimator;
@@ -66,7 +66,6 @@ impl Models {
     /// # Errors
     /// [`UnknownModel`] with the nearest name, or with the plugin that it would be of.
     pub fn find(&self, name: &str) -> Result<ChosenModel, UnknownModel> {
-        let name = replaced(name);
         if let Some(factory) = self.offered(name) {
             return Ok(ChosenModel::Offered(Arc::clone(factory)));
         }

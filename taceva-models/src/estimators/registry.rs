@@ -41,17 +41,6 @@ pub const ALL: &[ModelInfo] = &[
     Auto::INFO,
 ];
 
-/// Names of models that were built in, and the model of a library that each means now.
-const REPLACED: [(&str, &str); 1] = [("svr", "linfa/svr")];
-
-/// What `name` means now, where it was the name of a built-in model.
-pub(crate) fn replaced(name: &str) -> &str {
-    let mut known = REPLACED.iter();
-    known
-        .find(|(old, _)| *old == name)
-        .map_or(name, |(_, now)| now)
-}
-
 /// The model called `name`.
 ///
 /// ```
@@ -66,7 +55,6 @@ pub(crate) fn replaced(name: &str) -> &str {
 /// # Errors
 /// [`UnknownModel`] with the nearest name.
 pub fn find(name: &str) -> Result<&'static ModelInfo, UnknownModel> {
-    let name = replaced(name);
     ALL.iter()
         .find(|info| info.name == name)
         .ok_or_else(|| UnknownModel::new(name, ALL.iter().map(|info| info.name)))

@@ -62,14 +62,3 @@ fn releases_are_those_of_the_lock_file() {
         assert!(lock.contains(&entry), "{}", model.release);
     }
 }
-
-#[test]
-fn a_model_that_was_ours_and_is_a_librarys_now_is_found_by_its_old_name() {
-    let found = models().find("svr").expect("of linfa");
-    assert_eq!(found.name(), "linfa/svr");
-    let said = Models::builtin().find("svr").expect_err("absent");
-    assert_eq!(
-        said.to_string(),
-        "`linfa/svr`: this program was built without the feature `linfa`: build it with `--features linfa`"
-    );
-}
