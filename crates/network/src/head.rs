@@ -49,7 +49,7 @@ impl Head {
         clippy::cast_possible_truncation,
         reason = "means are summed in double precision and kept in single"
     )]
-    pub(crate) fn see(&self, (pictures, count): (&Planes, usize), into: &mut Vec<f32>) {
+    pub(crate) fn see(&self, pictures: &Planes, count: usize, into: &mut Vec<f32>) {
         let layout = pictures.layout();
         into.clear();
         for image in pictures.first(count).chunks_exact(layout.len()) {

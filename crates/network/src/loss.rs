@@ -31,7 +31,8 @@ impl Loss {
     /// If classes are measured by a distance, or numbers by cross entropy: [`Trainer`](crate::Trainer) refuses both before.
     pub fn measure(
         self,
-        (outputs, width): (&[f64], usize),
+        outputs: &[f64],
+        width: usize,
         truth: Labels<'_>,
         gradient: &mut Vec<f64>,
     ) -> f64 {

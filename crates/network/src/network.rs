@@ -205,7 +205,7 @@ impl Network {
             stage.forward(self.machine, &mut rest[0], (input, count), scratch);
         }
         let last = space.stages.last().expect("an architecture has stages");
-        self.head.see((last.output(), count), &mut space.features);
+        self.head.see(last.output(), count, &mut space.features);
         self.head.forward(&space.features, &mut space.outputs);
         &space.outputs
     }

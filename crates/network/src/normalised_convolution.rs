@@ -103,10 +103,11 @@ impl Normed {
         gradient: &mut Planes,
         back: &mut Back<'_>,
     ) -> Planes {
-        let (machine, raw) = (back.machine, (&space.raw, back.count));
+        let machine = back.machine;
         let sums = gradient_sums(
             machine,
-            raw,
+            &space.raw,
+            back.count,
             &space.moments,
             gate,
             gradient,
@@ -115,7 +116,7 @@ impl Normed {
         let mut into = back.scratch.take(space.gradient, back.count);
         input_gradient(
             machine,
-            raw,
+            (&space.raw, back.count),
             (&space.moments, &sums),
             gate,
             gradient,

@@ -164,7 +164,7 @@ impl Predictor {
         let input = halfway.as_ref().unwrap_or(&self.input);
         let seen = pass_all(heavy, Pass { input, ..pass }, scratch);
         let last = seen.as_ref().unwrap_or(input);
-        self.head.see((last, count), &mut self.features);
+        self.head.see(last, count, &mut self.features);
         for passed in seen.into_iter().chain(halfway) {
             scratch.put(passed);
         }

@@ -82,12 +82,13 @@ impl<'a> Trainer<'a> {
     ) -> Result<Trainer<'a>, NetworkError> {
         let moments = Moments::new();
         let snapshot = Snapshot { network, moments };
-        let start = (&snapshot, Trainer::CONVOLUTIONS);
-        Trainer::from_snapshot(start, recipe, training, validation)
+        let form = Trainer::CONVOLUTIONS;
+        Trainer::from_snapshot(&snapshot, form, recipe, training, validation)
     }
 
     fn from_snapshot(
-        (snapshot, form): (&Snapshot, ConvolutionForm),
+        snapshot: &Snapshot,
+        form: ConvolutionForm,
         recipe: &Recipe,
         training: Samples<'a>,
         validation: Option<Samples<'a>>,
@@ -339,7 +340,7 @@ impl<'a> Trainer<'a> {
         let loss = self
             .recipe
             .loss
-            .measure((&outputs, width), truth, &mut Vec::new());
+            .measure(&outputs, width, truth, &mut Vec::new());
         if loss.is_finite() {
             Ok(Some(loss))
         } else {

@@ -22,7 +22,8 @@ pub(crate) enum Shortcut<'a> {
 /// into = max(0, raw · scale + shift + shortcut), for the first `count` pictures.
 pub(crate) fn apply(
     machine: Machine,
-    (raw, count): (&Planes, usize),
+    raw: &Planes,
+    count: usize,
     moments: &Moments,
     shortcut: Shortcut<'_>,
     into: &mut Planes,

@@ -36,7 +36,8 @@ pub(crate) struct GradientSums {
 /// The sums over the gradients of the first `count` pictures; `sums` is room for those of each picture.
 pub(crate) fn gradient_sums(
     machine: Machine,
-    (raw, count): (&Planes, usize),
+    raw: &Planes,
+    count: usize,
     moments: &Moments,
     gate: Gate<'_>,
     gradient: &mut Planes,

@@ -72,13 +72,13 @@ impl<B: Products> DeviceEngine<B> {
             &self.device,
         );
         let course = Course::forward(&self.passes, &self.layout, &self.weights, pictures);
-        let outputs = (&course.outputs()[..], self.architecture.outputs);
+        let (outputs, width) = (course.outputs(), self.architecture.outputs);
         // The loss is formed here, of a few numbers and by the one formula that there is.
         let mut gradient = Vec::new();
         let loss = self
             .recipe
             .loss
-            .measure(outputs, batch.labels, &mut gradient);
+            .measure(&outputs, width, batch.labels, &mut gradient);
         if !loss.is_finite() {
             return Err(NetworkError::LossNotFinite { step: batch.step });
         }

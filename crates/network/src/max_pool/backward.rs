@@ -60,7 +60,8 @@ pub(crate) fn input_gradient(
     machine: Machine,
     raw: &mut Planes,
     pooled: Pooled<'_>,
-    (moments, sums): (&Moments, &GradientSums),
+    moments: &Moments,
+    sums: &GradientSums,
     gradient: &Planes,
 ) {
     let Pooled {

@@ -16,7 +16,8 @@ use crate::simd::{Job, Vector};
 /// `choices`: `[pictures, output pixels, channels]`.
 pub(crate) fn pool_normalised(
     machine: Machine,
-    (raw, count): (&Planes, usize),
+    raw: &Planes,
+    count: usize,
     moments: &Moments,
     into: &mut Planes,
     choices: &mut [u8],

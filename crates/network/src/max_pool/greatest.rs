@@ -89,7 +89,7 @@ mod tests {
                 let mut identity = Moments::zeros(picture.channels);
                 identity.scale.fill(1.0);
                 let mut choices = vec![0; output(picture).len()];
-                pool_normalised(machine, (&raw, 1), &identity, &mut expected, &mut choices);
+                pool_normalised(machine, &raw, 1, &identity, &mut expected, &mut choices);
 
                 let mut found = Planes::zeros(output(picture), 1, 1);
                 let (from, layout) = (raw.layout(), found.layout());

@@ -45,7 +45,7 @@ impl Network {
         }
         let mut gradient = Vec::new();
         let outputs = self.forward(&mut space, batch);
-        let loss = loss.measure((outputs, width), samples.labels, &mut gradient);
+        let loss = loss.measure(outputs, width, samples.labels, &mut gradient);
         let mut kept = Keep(vec![Vec::new(); self.slots()]);
         self.backward(&mut space, &gradient, &mut kept);
         let Keep(kept) = kept;

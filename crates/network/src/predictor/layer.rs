@@ -57,7 +57,8 @@ impl Layer {
     /// The convolution of `normed` from pictures of layout `input` into those with such a border.
     pub(super) fn new(
         normed: &Normed,
-        (input, border): (Layout, usize),
+        input: Layout,
+        border: usize,
         form: ConvolutionForm,
     ) -> Layer {
         let convolution = normed.convolution();

@@ -31,7 +31,7 @@ impl Folded {
         border: usize,
         form: ConvolutionForm,
     ) -> Folded {
-        let layer = |normed, input, border| Layer::new(normed, (input, border), form);
+        let layer = |normed, input, border| Layer::new(normed, input, border, form);
         match stage {
             Stage::Stem(normed) => {
                 let layer = layer(normed, input, 0);

@@ -114,7 +114,8 @@ impl BlockSpace {
         let nothing = Shortcut::Nothing;
         apply(
             machine,
-            (raw, count),
+            raw,
+            count,
             &self.first.moments,
             nothing,
             &mut middle,
@@ -148,7 +149,7 @@ impl BlockSpace {
             }
             _ => Shortcut::Identity(input),
         };
-        apply(machine, (&second.raw, count), &second.moments, past, output);
+        apply(machine, &second.raw, count, &second.moments, past, output);
     }
 
     /// The gradient of the output becomes, in place, that of the sum, and then, where the shortcut is the input itself,

@@ -43,10 +43,10 @@ impl PlainSpace {
     ) {
         let space = &mut self.normed;
         normed.forward(machine, space, input, scratch);
-        let raw = (&space.raw, input.1);
         apply(
             machine,
-            raw,
+            &space.raw,
+            input.1,
             &space.moments,
             Shortcut::Nothing,
             &mut self.output,

@@ -43,8 +43,14 @@ impl StemSpace {
     ) {
         let space = &mut self.normed;
         normed.forward(machine, space, input, scratch);
-        let (raw, choices) = ((&space.raw, input.1), &mut self.choices);
-        max_pool::pool_normalised(machine, raw, &space.moments, &mut self.output, choices);
+        max_pool::pool_normalised(
+            machine,
+            &space.raw,
+            input.1,
+            &space.moments,
+            &mut self.output,
+            &mut self.choices,
+        );
     }
 
     pub(super) fn backward(
@@ -64,7 +70,7 @@ impl StemSpace {
         let (moments, room) = (&space.moments, &mut space.sums);
         let raw = &mut space.raw;
         let sums = max_pool::gradient_sums(machine, raw, pooled, moments, &mut gradient, room);
-        max_pool::input_gradient(machine, raw, pooled, (moments, &sums), &gradient);
+        max_pool::input_gradient(machine, raw, pooled, moments, &sums, &gradient);
         back.scratch.put(gradient);
         normed.update_norm(&sums, back.update);
         normed.backward(space, input, &space.raw, None, back);

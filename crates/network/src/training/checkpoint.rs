@@ -115,8 +115,8 @@ impl<'a> Trainer<'a> {
             moments: moments?,
             network,
         };
-        let start = (&snapshot, summary.convolutions);
-        let mut trainer = Trainer::from_snapshot(start, recipe, training, validation)?;
+        let form = summary.convolutions;
+        let mut trainer = Trainer::from_snapshot(&snapshot, form, recipe, training, validation)?;
         let samples = trainer.summary().samples;
         if samples != summary.samples {
             return refuse(format!(

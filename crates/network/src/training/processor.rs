@@ -61,7 +61,7 @@ impl Engine for Processor {
         let width = self.network.architecture().outputs;
         let outputs = self.network.forward(&mut self.space, pictures.len());
         let mut gradient = Vec::new();
-        let loss = self.loss.measure((outputs, width), labels, &mut gradient);
+        let loss = self.loss.measure(outputs, width, labels, &mut gradient);
         if !loss.is_finite() {
             return Err(NetworkError::LossNotFinite { step });
         }

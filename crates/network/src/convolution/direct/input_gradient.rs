@@ -36,7 +36,7 @@ impl InputGradient {
         let classes = (0..stride).flat_map(|y| (0..stride).map(move |x| (y, x)));
         InputGradient {
             classes: classes
-                .flat_map(|first| Class::all_of(convolution, output, input, first))
+                .flat_map(|(y, x)| Class::all_of(convolution, output, input, y, x))
                 .filter(|class| class.pixels.len() > 0)
                 .collect(),
             convolution,
@@ -96,7 +96,8 @@ impl Class {
         convolution: Convolution,
         output: Layout,
         input: Layout,
-        (first_y, first_x): (usize, usize),
+        first_y: usize,
+        first_x: usize,
     ) -> Vec<Class> {
         let (stride, padding) = (convolution.stride, convolution.padding());
         // Input pixel `first + stride·i` meets kernel place `tap` in output pixel `i + shift`, where it meets it at all.

@@ -48,7 +48,7 @@ impl Forward {
     ) -> &'a [f32] {
         let room = &mut room[..self.transformed_len()];
         let inputs = self.products.input.picture.channels;
-        to_points(machine, (weights, inputs), false, room);
+        to_points(machine, weights, inputs, false, room);
         room
     }
 

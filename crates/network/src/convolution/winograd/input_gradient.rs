@@ -38,7 +38,7 @@ impl InputGradient {
     ) {
         let weights = &mut rooms.transformed[..self.transformed_len()];
         let outputs = self.products.input.picture.channels;
-        to_points(machine, (exchanged, outputs), true, weights);
+        to_points(machine, exchanged, outputs, true, weights);
         let read = (gradient.first(count), &*weights);
         let written = (into.first_mut(count), |_| (onto.start(), Finish::Keep));
         // Nobody looks at the gradients on the way.

@@ -80,7 +80,7 @@ impl WeightGradient {
                 pieces.add(machine, first == 0, sums);
             }
         });
-        weights::from_points(machine, (sums, channels[0]), into);
+        weights::from_points(machine, sums, channels[0], into);
     }
 }
 

@@ -18,7 +18,8 @@ const TAPS: usize = KERNEL * KERNEL;
 /// `weights`: `[panel, tap, input, PANEL]`; `into`: `[panel, point, input, PANEL]`, a panel of nothing after the inputs of each point.
 pub(super) fn to_points(
     machine: Machine,
-    (weights, inputs): (&[f32], usize),
+    weights: &[f32],
+    inputs: usize,
     turned: bool,
     into: &mut [f32],
 ) {
@@ -38,11 +39,7 @@ pub(super) fn to_points(
 ///
 /// # Shapes
 /// `transformed`: `[point, panel, input, PANEL]`, a panel of nothing after the inputs of each; `into`: `[panel, tap, input, PANEL]`.
-pub(super) fn from_points(
-    machine: Machine,
-    (transformed, inputs): (&[f32], usize),
-    into: &mut [f32],
-) {
+pub(super) fn from_points(machine: Machine, transformed: &[f32], inputs: usize, into: &mut [f32]) {
     let panels = into.len() / (TAPS * inputs * PANEL);
     let gradients = into.par_chunks_mut(TAPS * inputs * PANEL);
     gradients.enumerate().for_each(|(panel, into)| {

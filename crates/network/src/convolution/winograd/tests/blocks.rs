@@ -34,7 +34,7 @@ fn summed(case: &Case, machine: Machine, numbers: &Numbers, channels: usize) -> 
         };
         let mut room = Aligned::zeros(products.transformed_len());
         let inputs = read.layout().picture.channels;
-        to_points(machine, (weights, inputs), is_turned, &mut room);
+        to_points(machine, weights, inputs, is_turned, &mut room);
         let output = (written.first_mut(case.batch), |_| {
             (Start::Zero, Finish::Keep)
         });
