@@ -2,16 +2,15 @@
 
 mod error;
 mod kind;
-mod nearest;
 mod spec;
 mod value;
+
+use crate::suggestion::nearest;
 
 pub use error::ArgError;
 pub use kind::{ArgKind, Presence};
 pub use spec::ArgSpec;
 pub use value::ArgValue;
-
-pub(crate) use nearest::nearest;
 
 use std::collections::BTreeMap;
 use std::fmt;

@@ -33,6 +33,7 @@ mod skip_reason;
 mod specimen;
 mod stamp;
 mod stream;
+mod suggestion;
 mod unit;
 mod wrench;
 
@@ -80,6 +81,7 @@ pub use skip_reason::{SkipReason, Skipped};
 pub use specimen::Specimen;
 pub use stamp::{Clock, Stamp};
 pub use stream::{SampleSink, Select, SinkError, Tee};
+pub use suggestion::{nearest, suggestion};
 pub use unit::{SourceUnit, Unit, UnitError};
 pub use wrench::Wrench;
 

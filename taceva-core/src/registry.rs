@@ -24,9 +24,9 @@ use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::fmt;
 
-use crate::args::nearest;
 use crate::driver::Device;
 use crate::id::DriverKey;
+use crate::suggestion::nearest;
 
 /// The drivers of one kind, by key and always in the order of their keys. It is a value that callers pass on, never a global one.
 ///

@@ -5,6 +5,10 @@ mod driver;
 mod estimator;
 mod isolation;
 mod looking;
+#[cfg(target_os = "linux")]
+mod offer;
+#[cfg(target_os = "linux")]
+mod python;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;

@@ -15,7 +15,7 @@ use std::ops::Range;
 
 use serde::Deserialize;
 use taceva_abi::{ABI_MAJOR, ABI_MINOR};
-use taceva_core::{Descriptor, DriverKey};
+use taceva_core::{Descriptor, DriverKey, suggestion};
 use toml::Spanned;
 
 pub use self::error::ManifestError;
@@ -30,7 +30,7 @@ pub use self::provides::{EstimatorInfo, Provided};
 pub use self::usb_id::UsbId;
 use self::written::WrittenProvides;
 use crate::id::PluginId;
-use crate::shown::{shown, suggestion};
+use crate::shown::shown;
 
 /// The version of the format that is read here.
 const VERSION: u32 = 1;

@@ -1,7 +1,5 @@
 //! What a library offers and needs, as it says so itself: what a manifest is written from.
 
-#[cfg(target_os = "linux")]
-mod asked;
 mod edit;
 
 /// What a library says that a manifest says too. Nothing of it was checked by anybody but by whoever reads the manifest that is made of it.

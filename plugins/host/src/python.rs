@@ -1,7 +1,5 @@
 //! Plugins in Python: interpreters, what is asked of them, and the process that one becomes.
 
-#[cfg(target_os = "linux")]
-mod child;
 mod digest;
 mod error;
 mod interpreter;
@@ -14,5 +12,7 @@ pub use self::error::PythonError;
 pub(crate) use self::error::other_wire;
 pub use self::interpreter::Interpreter;
 pub(crate) use self::interpreter::Lying;
+#[cfg(target_os = "linux")]
+pub(crate) use self::open_to::closed_by;
 pub(crate) use self::own::{arguments, own};
 pub use self::own::{beside_this_program, run_within};

@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
-use taceva_core::shown;
+use taceva_core::{shown, suggestion};
 
 use taceva_abi::ABI_MAJOR;
 
@@ -19,7 +19,6 @@ use self::writable::Writable;
 use crate::id::PluginId;
 use crate::manifest::{self, LibraryFile, Manifest, PythonModule};
 use crate::python::Interpreter;
-use crate::shown::suggestion;
 use crate::wire_version::WIRE;
 
 /// The name of every manifest.

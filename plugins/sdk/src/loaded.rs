@@ -3,8 +3,10 @@
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
-use taceva_abi::{EstimatorFactory, Factory};
-use taceva_core::{Changer, Factory as CoreFactory, ForceTransducer, Lighting, Robot, Sensor};
+use taceva_abi::{EstimatorFactory as EstimatorTable, Factory};
+use taceva_core::{
+    Changer, EstimatorFactory, Factory as CoreFactory, ForceTransducer, Lighting, Robot, Sensor,
+};
 
 use crate::failure::Failure;
 
@@ -18,7 +20,7 @@ pub(crate) struct Loaded {
     pub(crate) forces: Drivers<dyn ForceTransducer>,
     pub(crate) lightings: Drivers<dyn Lighting>,
     pub(crate) changers: Drivers<dyn Changer>,
-    pub(crate) estimators: Vec<Box<dyn crate::EstimatorFactory>>,
+    pub(crate) estimators: Vec<Box<dyn EstimatorFactory>>,
     /// What the keys of the drivers have before their last `/`.
     pub(crate) prefixes: BTreeSet<String>,
     pub(crate) tables: Tables,
@@ -31,7 +33,7 @@ pub(crate) struct Tables {
     pub(crate) force: Option<Factory>,
     pub(crate) lighting: Option<Factory>,
     pub(crate) changer: Option<Factory>,
-    pub(crate) estimator: Option<EstimatorFactory>,
+    pub(crate) estimator: Option<EstimatorTable>,
 }
 
 /// A library holds one plugin, and loads it once.

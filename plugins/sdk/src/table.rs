@@ -5,12 +5,11 @@ mod toml;
 use std::fmt::{self, Write as _};
 
 use taceva_core::{
-    ArgKind, ArgSpec, ArgValue, Descriptor, Facts, Footprint, ForceFacts, Outline, Point, Presence,
-    RobotFacts, SensorFacts,
+    ArgKind, ArgSpec, ArgValue, Descriptor, EstimatorFactory, Facts, Footprint, ForceFacts,
+    Outline, Point, Presence, RobotFacts, SensorFacts,
 };
 
 use self::toml::{Number, Text, written};
-use crate::EstimatorFactory;
 
 /// What a manifest says below `[[provides]]`: TOML, with `[[args]]` where the manifest has `[[provides.args]]`.
 ///

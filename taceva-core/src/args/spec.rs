@@ -4,8 +4,8 @@ use std::fmt;
 
 use super::error::ArgError;
 use super::kind::{ArgKind, Presence};
-use super::nearest::nearest;
 use super::value::ArgValue;
+use crate::suggestion::nearest;
 use crate::unit::SourceUnit;
 
 /// The declaration of one argument of a driver.

@@ -3,7 +3,9 @@
 use std::fmt;
 use std::ops::Range;
 
-use crate::shown::{nearest, shown};
+use taceva_core::nearest;
+
+use crate::shown::shown;
 
 /// Text that is no manifest, or no `[[provides]]` table: where it stands, and what would be accepted.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -12,7 +12,9 @@ use serde::{Deserialize, Serialize};
 
 pub(crate) use self::covers::matches;
 pub use self::declared::DeclaredNeed;
-use crate::shown::{shown, suggestion};
+use taceva_core::suggestion;
+
+use crate::shown::shown;
 
 /// The words that needs begin with.
 const WORDS: [&str; 9] = [

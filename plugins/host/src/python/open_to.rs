@@ -8,7 +8,7 @@ const READ: u32 = 0o4;
 const GO_THROUGH: u32 = 0o1;
 
 /// What closes `path` to a user who owns nothing: the path itself, or a folder above it. What is not there closes nothing.
-pub(super) fn closed_by(path: &Path) -> Option<PathBuf> {
+pub(crate) fn closed_by(path: &Path) -> Option<PathBuf> {
     let real = std::fs::canonicalize(path).ok()?;
     let mode = |path: &Path| path.metadata().ok().map(|metadata| metadata.mode());
     let above = real.ancestors().skip(1).collect::<Vec<_>>();

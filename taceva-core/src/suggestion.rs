@@ -1,12 +1,14 @@
-//! The known word that a wrong one was probably meant to be.
+//! Suggestions for misspelt words: the nearest known word, by one distance for all messages.
 
 /// The candidate with the fewest edits from `wrong`, if these are at most a third of its letters; the first of equals.
 ///
 /// An edit inserts, removes or replaces a letter, or swaps two neighbours (optimal string alignment). Case does not count.
-pub(crate) fn nearest<'a>(
-    wrong: &str,
-    candidates: impl IntoIterator<Item = &'a str>,
-) -> Option<&'a str> {
+///
+/// ```
+/// assert_eq!(taceva_core::nearest("depht", ["depth", "width"]), Some("depth"));
+/// assert_eq!(taceva_core::nearest("colour", ["depth", "width"]), None);
+/// ```
+pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let wrong: Vec<char> = wrong.to_lowercase().chars().collect();
     if wrong.len() > LONGEST {
         return None;
@@ -21,6 +23,20 @@ pub(crate) fn nearest<'a>(
         .filter(|(edits, longer, _)| edits * 3 <= *longer)
         .min_by_key(|(edits, _, _)| *edits)
         .map(|(_, _, candidate)| candidate)
+}
+
+/// The question after the nearest of `accepted`, or the list of all of them.
+///
+/// ```
+/// use taceva_core::suggestion;
+/// assert_eq!(suggestion("depht", &["depth", "width"]), "did you mean `depth`?");
+/// assert_eq!(suggestion("colour", &["depth", "width"]), "expected one of `depth`, `width`");
+/// ```
+pub fn suggestion(wrong: &str, accepted: &[&str]) -> String {
+    match nearest(wrong, accepted.iter().copied()) {
+        Some(nearest) => format!("did you mean `{nearest}`?"),
+        None => format!("expected one of `{}`", accepted.join("`, `")),
+    }
 }
 
 /// Longest word that is compared, in letters: a longer one is no typing mistake, and the time to compare grows with the square.

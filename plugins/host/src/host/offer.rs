@@ -1,13 +1,13 @@
-//! A library is asked what it offers, in a process that reaches nothing.
+//! The offer of a library, asked for in a process that reaches nothing.
 
 use std::collections::BTreeMap;
 
 use taceva_core::{DriverError, DriverKey, ErrorKind};
 
-use super::Offer;
+use super::Children;
 use crate::child::{ChildSession, ChildSpec};
-use crate::host::Children;
 use crate::library::Image;
+use crate::offer::Offer;
 use crate::session::Session;
 
 impl Offer {

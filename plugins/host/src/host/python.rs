@@ -4,12 +4,9 @@ use std::path::Path;
 
 use rustix::process::geteuid;
 
-use super::error::PythonError;
-use super::interpreter::Interpreter;
-use super::open_to::closed_by;
-use super::own::arguments;
 use crate::child::{ChildSpec, ModuleToImport, NOBODY};
 use crate::manifest::PythonModule;
+use crate::python::{Interpreter, PythonError, arguments, closed_by};
 use crate::search::Plugin;
 
 impl Interpreter {
