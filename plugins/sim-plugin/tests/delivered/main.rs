@@ -6,6 +6,7 @@
 mod built;
 #[cfg(target_os = "linux")]
 mod check;
+mod manifest;
 #[cfg(target_os = "linux")]
 #[path = "../../../host/tests/support/runner.rs"]
 mod runner;
@@ -16,6 +17,10 @@ mod side_by_side;
 fn main() -> std::process::ExitCode {
     taceva_conformance::main_if_child();
     runner::run(&[
+        (
+            "the_manifest_says_what_the_drivers_say_of_themselves",
+            manifest::the_manifest_says_what_the_drivers_say_of_themselves,
+        ),
         (
             "every_device_of_the_bench_passes_every_check_of_plugins",
             check::every_device_of_the_bench_passes_every_check_of_plugins,
@@ -32,4 +37,6 @@ fn main() -> std::process::ExitCode {
 }
 
 #[cfg(not(target_os = "linux"))]
-fn main() {}
+fn main() {
+    manifest::the_manifest_says_what_the_drivers_say_of_themselves();
+}

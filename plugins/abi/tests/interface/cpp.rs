@@ -63,12 +63,12 @@ fn whatever_a_sensor_in_cpp_throws_is_a_status_with_a_message() {
 #[test]
 fn the_helpers_stay_small_enough_to_be_read_whole() {
     for header in [
-        include_str!("../include/taceva/device.hpp"),
-        include_str!("../include/taceva/sensor.hpp"),
-        include_str!("../include/taceva/force.hpp"),
-        include_str!("../include/taceva/robot.hpp"),
-        include_str!("../include/taceva/lighting.hpp"),
-        include_str!("../include/taceva/changer.hpp"),
+        include_str!("../../include/taceva/device.hpp"),
+        include_str!("../../include/taceva/sensor.hpp"),
+        include_str!("../../include/taceva/force.hpp"),
+        include_str!("../../include/taceva/robot.hpp"),
+        include_str!("../../include/taceva/lighting.hpp"),
+        include_str!("../../include/taceva/changer.hpp"),
     ] {
         assert!(header.lines().count() < 170);
     }

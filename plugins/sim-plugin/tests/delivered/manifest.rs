@@ -47,8 +47,7 @@ fn descriptors() -> Vec<Descriptor> {
     list
 }
 
-#[test]
-fn the_manifest_says_what_the_drivers_say_of_themselves() {
+pub(crate) fn the_manifest_says_what_the_drivers_say_of_themselves() {
     let mut expected = HEAD.replace("{version}", env!("CARGO_PKG_VERSION"));
     for descriptor in descriptors() {
         let table = provides_table(&descriptor).replace("\n[[args]]", "\n[[provides.args]]");
