@@ -2,7 +2,6 @@
 
 use taceva_core::shown;
 use taceva_dataset::{Dataset, Table};
-use taceva_evaluate::Subject;
 
 use pyo3::prelude::*;
 use pyo3::types::PyCapsule;
@@ -41,7 +40,10 @@ pub(crate) fn stream<'py>(py: Python<'py>, dataset: &Dataset) -> PyResult<Bound<
     let path = shown(dataset.path()).to_string();
     let metadata = [
         ("taceva.sensor", dataset.header().sensor.model.as_str()),
-        ("taceva.source", &Subject::of(dataset).source),
+        (
+            "taceva.source",
+            &taceva_evaluate::subject_of(dataset).source,
+        ),
         ("taceva.digest", &digest),
         ("taceva.path", &path),
     ];

@@ -8,7 +8,7 @@ use pyo3::types::{PyBytes, PyCapsule};
 use taceva_check::CheckRequest;
 use taceva_core::FrameInfo;
 use taceva_dataset::{Dataset, Pass};
-use taceva_evaluate::{Divided, Subject};
+use taceva_evaluate::{Divided, subject_of};
 use taceva_import::{ExportForm, ExportPlan};
 use taceva_models::Models;
 
@@ -84,7 +84,7 @@ impl Recording {
 
     /// `recorded`, `simulated` or `synthetic`.
     fn source(&self) -> String {
-        Subject::of(&self.dataset).source
+        subject_of(&self.dataset).source
     }
 
     /// Names and units.

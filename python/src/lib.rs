@@ -44,7 +44,7 @@ mod _taceva {
     #[pymodule_export]
     use super::record::{import_recording, record};
     #[pymodule_export]
-    use super::results::{check_seal, comparison, figure_pdf, figures, score_table};
+    use super::results::{comparison, figure_pdf, figures, read_result, score_table};
 
     /// What an error says of its place is `None` where nobody knows it.
     #[pymodule_init]

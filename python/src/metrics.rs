@@ -6,8 +6,9 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use taceva_core::{Batch, Channel, Channels, Column, Field, FieldSet, Unit};
-use taceva_evaluate::{EvaluationReport, with_skill};
+use taceva_evaluate::with_skill;
 use taceva_metrics::{Evaluator, MetricPlan, State, catalogue};
+use taceva_results::EvaluationReport;
 
 use crate::arrays::{Points, Table};
 use crate::errors::value_error;
@@ -225,7 +226,7 @@ impl Sums {
     fn compute(&self, py: Python<'_>) -> PyResult<String> {
         py.detach(|| {
             let evaluation = self.evaluator().score().map_err(value_error)?;
-            crate::results::sealed(&EvaluationReport::of_arrays(evaluation))
+            crate::results::sealed(&EvaluationReport::of_arrays(&evaluation))
         })
     }
 }

@@ -4,23 +4,77 @@ use std::collections::BTreeMap;
 
 use pyo3::prelude::*;
 use serde::Serialize;
-use taceva_files::seal::Version;
 use taceva_report::{CompareRequest, Layout, ScoreTable, Study, Table, compare};
+use taceva_results::{Interval, Score, Value};
 
 use crate::errors::value_error;
 
 /// `report` as the text of a results file: what the program writes with `--format json`.
 pub(crate) fn sealed(report: &impl Serialize) -> PyResult<String> {
-    let text = serde_json::to_string_pretty(report).map_err(value_error)?;
-    let sealed = taceva_files::seal::json::seal(&text).map_err(value_error)?;
+    let sealed = taceva_results::sealed(report).map_err(value_error)?;
     Ok(sealed + "\n")
 }
 
-/// Refuses a results file that was changed after it was written.
+/// Results of one evaluation as Python holds them.
+#[derive(IntoPyObject)]
+pub(crate) struct ReadResult {
+    source: String,
+    notes: Vec<String>,
+    skipped: Vec<(String, String)>,
+    scores: Vec<ReadScore>,
+}
+
+/// Score as the arguments of Python's `Score`.
+#[derive(IntoPyObject)]
+pub(crate) struct ReadScore {
+    metric: String,
+    channel: String,
+    value: Option<f64>,
+    unit: &'static str,
+    interval: Option<(f64, f64, String)>,
+    n: u64,
+    n_invalid: u64,
+    reason: Option<String>,
+    standing: Option<&'static str>,
+}
+
+impl From<Score> for ReadScore {
+    fn from(score: Score) -> ReadScore {
+        let interval = match score.interval {
+            Some(Interval::Ends { ends, method, .. }) => Some((ends[0], ends[1], method)),
+            Some(Interval::Absent(_)) | None => None,
+        };
+        ReadScore {
+            value: score.value.number(),
+            reason: match score.value {
+                Value::Undefined(reason) => Some(reason),
+                _ => None,
+            },
+            metric: score.metric,
+            channel: score.channel,
+            unit: score.unit.symbol(),
+            interval,
+            n: score.n,
+            n_invalid: score.n_invalid,
+            standing: score.standing.words(),
+        }
+    }
+}
+
+/// Reads the results file of one evaluation; one that was changed after it was sealed is refused.
 #[pyfunction]
-pub(crate) fn check_seal(text: &str) -> PyResult<()> {
-    let checked = taceva_files::seal::json::check(text, Version::BeforeSeals);
-    checked.map(drop).map_err(value_error)
+pub(crate) fn read_result(text: &str) -> PyResult<ReadResult> {
+    let mut reports = taceva_results::read(text).map_err(value_error)?;
+    let (Some(report), true) = (reports.pop(), reports.is_empty()) else {
+        return Err(value_error("expected the results of one evaluation"));
+    };
+    let skipped = report.skipped.into_iter();
+    Ok(ReadResult {
+        source: report.subject.source,
+        notes: report.provenance.notes,
+        skipped: skipped.map(|skip| (skip.what, skip.reason)).collect(),
+        scores: report.scores.into_iter().map(ReadScore::from).collect(),
+    })
 }
 
 /// A table of the scores of some results, `texts` of results files: `text`, `csv`, `md`, `tex` or `html`.

@@ -6,7 +6,6 @@ mod dataset;
 mod live;
 mod model;
 mod plugin;
-mod renamed;
 mod results;
 mod rig;
 mod shared;

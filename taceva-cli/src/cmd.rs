@@ -11,7 +11,6 @@ pub(crate) mod check;
 pub(crate) mod choose;
 pub(crate) mod compare;
 pub(crate) mod completions;
-mod context;
 pub(crate) mod devices;
 pub(crate) mod doctor;
 mod effort;
@@ -44,8 +43,8 @@ use taceva_models::{ModelSettings, Models};
 use crate::args::{Output, PartArg, ScoringArgs, SettingArgs, SplitArgs};
 use crate::{exit, output};
 
+pub(crate) use crate::context::Context;
 use attachments::Attachments;
-pub(crate) use context::Context;
 
 /// Arguments that parse but make no sense together.
 #[derive(Debug)]

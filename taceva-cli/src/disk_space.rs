@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::cmd::cache::amount::bytes;
+use crate::amount::bytes;
 
 /// Pictures of a run are packed without loss: a run is refused only where a fiftieth of their bytes would not fit.
 const PACKED: u64 = 50;

@@ -3,9 +3,11 @@
 //! Arguments in, renderings out. The work of each command is done in `taceva-study`, `taceva-evaluate` and `taceva-import`, which other programs can use. The
 //! program is [`main_if_child`] and then [`main_with`]; a program in another language that has the commands built in calls the latter alone.
 
+mod amount;
 mod args;
 mod av1_child;
 mod cmd;
+mod context;
 mod date;
 mod disk_space;
 mod exit;
@@ -86,7 +88,7 @@ fn run(command: &Command, context: &Context) -> anyhow::Result<u8> {
         Command::Merge(args) => cmd::merge::run(args, context),
         Command::Reseal(args) => cmd::reseal::run(args, context),
         Command::Compare(args) => cmd::compare::run(args, context),
-        Command::Choose(args) => cmd::choose::run(args, context),
+        Command::Choose(args) => cmd::choose::run(args),
         Command::Accept(args) => cmd::accept::run(args, context),
         Command::Catalogue(args) => cmd::catalogue::run(args, context),
         Command::Cache(args) => cmd::cache::run(args, context),

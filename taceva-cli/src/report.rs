@@ -23,8 +23,8 @@ pub(crate) mod triple;
 use std::io::{self, Write};
 
 use taceva_check::CheckReport;
-use taceva_evaluate::EvaluationReport;
 use taceva_report::Layout;
+use taceva_results::{EvaluationReport, RunReport};
 use taceva_study::bench::KernelBench;
 
 use crate::args::Format;
@@ -54,13 +54,7 @@ pub(crate) fn profiles(
     out: &mut dyn Write,
 ) -> io::Result<()> {
     if format == Format::Json {
-        return json::write_sealed(
-            &Profiles {
-                schema: taceva_report::RUN_SCHEMA,
-                studies: reports,
-            },
-            out,
-        );
+        return json::write_sealed(&RunReport::new(reports), out);
     }
     if format == Format::Text && reports.len() > 1 {
         return profile::write(reports, out);
@@ -72,13 +66,6 @@ pub(crate) fn profiles(
         evaluation(report, format, out)?;
     }
     Ok(())
-}
-
-/// Schema [`taceva_report::RUN_SCHEMA`].
-#[derive(serde::Serialize)]
-struct Profiles<'a> {
-    schema: &'static str,
-    studies: &'a [EvaluationReport],
 }
 
 /// Writes what was found in each recording, in the form asked for: one after the other, and as JSON a list where they are several.

@@ -53,12 +53,8 @@ fn evaluated(dataset: &Dataset, model: &str, split: &str, seed: u64) -> Evaluate
 }
 
 fn r2(evaluated: &Evaluated, channel: &str) -> f64 {
-    let score = evaluated
-        .report
-        .evaluation
-        .score("r2", channel)
-        .expect("scored");
-    score.value.scalar().expect("defined")
+    let score = evaluated.report.score("r2", channel).expect("scored");
+    score.value.number().expect("defined")
 }
 
 /// First quartile, median and third quartile of twenty values.

@@ -8,9 +8,8 @@ use taceva_evaluate::{EvaluateRequest, FitRequest, ModelChoice, Work, evaluate};
 use taceva_import::{ImportMap, ImportPlan};
 use taceva_models::ModelSettings;
 use taceva_report::catalogue::Sensor;
-use taceva_report::{
-    CompareRequest, Need, Report, Samples, Study, choose, compare, figures, report,
-};
+use taceva_report::{CompareRequest, Need, Report, Study, choose, compare, figures, report};
+use taceva_results::Samples;
 use taceva_tests::{recording, root};
 
 const WORK: Work<'_> = Work {
@@ -48,15 +47,11 @@ fn study(name: &str, model: &str, split: &str) -> Option<Study> {
     let written = evaluate(&dataset, &request, WORK)
         .expect("evaluated")
         .report;
-    let text = serde_json::to_string(&written).expect("JSON");
-    let text = taceva_files::seal::json::seal(&text).expect("an object");
+    let text = taceva_results::sealed(&written).expect("an object");
     let mut study = Study::read(&text).expect("what we write we read").remove(0);
     let mut table = Vec::new();
-    written
-        .samples
-        .expect("the samples of one call")
-        .write(&mut table, taceva_report::escape_csv)
-        .expect("memory");
+    let samples = written.samples.expect("the samples of one call");
+    samples.write(&mut table).expect("memory");
     let table = String::from_utf8(table).expect("a text");
     study.samples = Some(Samples::read(&table).expect("what we write we read"));
     Some(study)

@@ -33,8 +33,8 @@ fn r2(dataset: &Dataset, model: &str, words: &[&str]) -> f64 {
         sensor: None,
     };
     let evaluated = evaluate(dataset, &request, WORK).expect(model);
-    let score = evaluated.report.evaluation.score("r2", "Fz");
-    score.expect("scored").value.scalar().expect("defined")
+    let score = evaluated.report.score("r2", "Fz");
+    score.expect("scored").value.number().expect("defined")
 }
 
 #[test]

@@ -56,9 +56,9 @@ class Result:
     """
 
     def __init__(self, text: str) -> None:
-        _taceva.check_seal(text)
+        self._report = _taceva.read_result(text)
         self._text = text
-        self._report: dict[str, Any] = json.loads(text)
+        self._scores = [_score(found) for found in self._report["scores"]]
 
     @property
     def text(self) -> str:
@@ -68,39 +68,38 @@ class Result:
     @property
     def metrics(self) -> list[str]:
         """Names of the metrics that have scores."""
-        return list(self._report["metrics"])
+        return list(dict.fromkeys(score.metric for score in self._scores))
 
     @property
     def notes(self) -> list[str]:
         """What a reader of the scores must know."""
-        return list(self._report["provenance"].get("notes", []))
+        return list(self._report["notes"])
 
     @property
     def skipped(self) -> dict[str, str]:
         """What was left out, and why."""
-        return {line["what"]: line["reason"] for line in self._report["skipped"]}
+        return dict(self._report["skipped"])
 
     @property
     def source(self) -> str:
         """Where samples come from: ``recorded``, ``simulated``, ``synthetic``, or ``unknown`` of arrays."""
-        return str(self._report["subject"]["source"])
+        return str(self._report["source"])
 
     def __getitem__(self, key: tuple[str, str]) -> Score:
         metric, channel = key
-        scores = self._report["metrics"].get(metric)
-        if scores is None:
+        scores = {score.channel: score for score in self._scores if score.metric == metric}
+        if not scores:
             left_out = self.skipped.get(f"metric:{metric}")
             why = f"left out: {left_out}" if left_out else f"known are {', '.join(self.metrics)}"
             raise KeyError(f"no metric {metric!r}: {why}")
         found = scores.get(channel)
         if found is None:
             raise KeyError(f"no channel {channel!r} of {metric}: known are {', '.join(scores)}")
-        return _score(metric, channel, found)
+        return found
 
     def scores(self) -> list[Score]:
         """Every score, in the order of reports."""
-        metrics = self._report["metrics"].items()
-        return [_score(metric, channel, found) for metric, of in metrics for channel, found in of.items()]
+        return list(self._scores)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the JSON as a dictionary, a new one at each call."""
@@ -144,7 +143,7 @@ class Result:
         return "\n".join([*self._said(), _taceva.score_table([self._text], "text")])
 
     def __repr__(self) -> str:
-        return f"<taceva.Result of {len(self.scores())} scores, {self.source}>"
+        return f"<taceva.Result of {len(self._scores)} scores, {self.source}>"
 
     def _repr_html_(self) -> str:
         said = "".join(f"<p>{html.escape(line)}</p>" for line in self._said())
@@ -179,20 +178,6 @@ def _arrived(version: object, text: str = "") -> Result:
     return Result(text)
 
 
-def _score(metric: str, channel: str, found: dict[str, Any]) -> Score:
-    value = found.get("value")
-    ends = found.get("ci95")
-    interval = None
-    if isinstance(ends, list) and all(isinstance(end, int | float) for end in ends):
-        interval = Interval(float(ends[0]), float(ends[1]), str(found.get("method", "")))
-    return Score(
-        metric=metric,
-        channel=channel,
-        value=float(value) if isinstance(value, int | float) else None,
-        unit=str(found.get("unit", "1")),
-        interval=interval,
-        n=int(found.get("n", 0)),
-        n_invalid=int(found.get("n_invalid", 0)),
-        reason=found.get("undefined"),
-        standing=found.get("standing"),
-    )
+def _score(found: dict[str, Any]) -> Score:
+    interval = found.pop("interval")
+    return Score(interval=Interval(*interval) if interval else None, **found)

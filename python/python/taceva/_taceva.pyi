@@ -11,7 +11,6 @@ __all__ = [
     "Recording",
     "Sums",
     "Training",
-    "check_seal",
     "command",
     "comparison",
     "evaluate_named",
@@ -21,6 +20,7 @@ __all__ = [
     "import_recording",
     "plugin_log",
     "plugin_manifest",
+    "read_result",
     "record",
     "score_table",
     "score_tables",
@@ -111,7 +111,7 @@ def features(
     recording: Recording, settings: list[str], rows: list[int], jobs: int, bar: Any = None
 ) -> tuple[Any, str, list[int]]: ...
 def unit_of(channel: str) -> str | None: ...
-def check_seal(text: str) -> None: ...
+def read_result(text: str) -> dict[str, Any]: ...
 def score_table(texts: list[str], form: str) -> str: ...
 def figures(texts: list[str]) -> list[dict[str, str]]: ...
 def figure_pdf(texts: list[str], name: str) -> bytes: ...

@@ -6,7 +6,6 @@ use std::time::Duration;
 use clap::{ArgGroup, Args, Subcommand, ValueEnum};
 use taceva_evaluate::CachedStage;
 
-use super::renamed::FormerDryRun;
 use super::{ExplainArgs, Output};
 
 #[derive(Debug, Args)]
@@ -56,8 +55,6 @@ pub(crate) struct CachePrune {
     pub(crate) kind: Vec<StageArg>,
     #[command(flatten)]
     pub(crate) explain: ExplainArgs,
-    #[command(flatten)]
-    pub(crate) former: FormerDryRun,
 }
 
 #[derive(Debug, Args)]
@@ -79,7 +76,6 @@ pub(crate) enum StageArg {
     /// Predictions
     Predict,
     /// Predicted spacings of gratings
-    #[value(alias = "tell")]
     Classify,
 }
 

@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use clap::{ArgGroup, Args};
 
-use super::renamed::FormerTo;
 use super::{ExplainArgs, ListFormat, Output, SplitArgs};
 
 /// The map says, in TOML, which column is which channel, in which unit, and where the pictures are.
@@ -33,13 +32,11 @@ pub(crate) struct Import {
     #[arg(long, conflicts_with = "explain")]
     pub(crate) draft: bool,
     /// The dataset to write: a new folder
-    #[arg(long, value_name = "DATASET", required_unless_present_any = ["explain", "to", "draft", "extend", "presets", "print"])]
+    #[arg(long, value_name = "DATASET", required_unless_present_any = ["explain", "draft", "extend", "presets", "print"])]
     pub(crate) out: Option<PathBuf>,
     /// Add the rows to this dataset, imported before by a map of the same sensor; each row before keeps its part of every split
-    #[arg(long, value_name = "DATASET", conflicts_with_all = ["out", "to", "draft", "force"])]
+    #[arg(long, value_name = "DATASET", conflicts_with_all = ["out", "draft", "force"])]
     pub(crate) extend: Option<PathBuf>,
-    #[command(flatten)]
-    pub(crate) former: FormerTo,
     #[command(flatten)]
     pub(crate) explain: ExplainArgs,
     /// Replace a dataset that exists already

@@ -6,7 +6,6 @@ use clap::{Args, Subcommand, ValueEnum};
 use taceva_host::{Need, PluginId};
 use taceva_template::{Kind, Name};
 
-use super::renamed::FormerFolder;
 use super::{ListFormat, Output, SeedArgs};
 
 /// Where plugins are searched for, and which of them are trusted; options of every command.
@@ -119,8 +118,6 @@ pub(crate) struct PluginHeaders {
     /// The folder to write [default: include]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
-    #[command(flatten)]
-    pub(crate) former: FormerFolder,
 }
 
 /// Each check runs in a sandboxed process that reaches what `taceva plugin allow` lets the plugin reach; with `--trust ID`, in one that

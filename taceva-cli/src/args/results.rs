@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use clap::{ArgGroup, Args, Subcommand};
 
-use super::renamed::{FormerFrom, FormerWith};
 use super::{Output, PageArgs, SeedArgs};
 
 /// Results are JSON files of `evaluate` and `score`, folders of runs (or their results.json), or names of the catalogue. Where two of them
@@ -46,8 +45,6 @@ pub(crate) struct Choose {
     /// Choose among these results instead of the catalogue; may be repeated
     #[arg(long, value_name = "RESULT")]
     pub(crate) results: Vec<PathBuf>,
-    #[command(flatten)]
-    pub(crate) former: FormerFrom,
     #[command(flatten)]
     pub(crate) page: PageArgs,
     #[command(flatten)]
@@ -124,8 +121,6 @@ pub(crate) struct CatalogueSite {
     /// Results of this program to show apart from published ones; may be repeated
     #[arg(long, value_name = "RESULT")]
     pub(crate) results: Vec<PathBuf>,
-    #[command(flatten)]
-    pub(crate) former: FormerWith,
     /// Replace pages that exist already
     #[arg(long)]
     pub(crate) force: bool,

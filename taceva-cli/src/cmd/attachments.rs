@@ -2,8 +2,7 @@
 
 use std::path::Path;
 
-use taceva_evaluate::EvaluationReport;
-use taceva_report::escape_csv;
+use taceva_results::EvaluationReport;
 
 use super::Context;
 use crate::args::ScoringArgs;
@@ -42,7 +41,7 @@ impl<'a> Attachments<'a> {
             }
         }
         if let (Some(path), Some(samples)) = (self.samples, &report.samples) {
-            output::write(Some(path), |out| samples.write(out, escape_csv))?;
+            output::write(Some(path), |out| samples.write(out))?;
         }
         Ok(())
     }
@@ -52,7 +51,7 @@ impl<'a> Attachments<'a> {
 pub(super) fn note_samples(report: &mut EvaluationReport) -> anyhow::Result<()> {
     if let Some(samples) = &report.samples {
         let mut table = Vec::new();
-        samples.write(&mut table, escape_csv)?;
+        samples.write(&mut table)?;
         report.provenance.samples_table = Some(taceva_files::seal::digest_of_bytes(&table));
     }
     Ok(())

@@ -1,6 +1,5 @@
 //! The cache of a command; `taceva cache`.
 
-pub(crate) mod amount;
 mod list;
 mod prune;
 

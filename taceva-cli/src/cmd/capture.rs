@@ -69,7 +69,7 @@ pub(crate) fn run(args: &Capture, context: &Context) -> anyhow::Result<u8> {
     );
     status.clear();
     let Captured { state, header, .. } = done?;
-    summarise(&state, &header, (has_force, &args.path), context);
+    summarise(&state, &header, has_force, &args.path, context);
     let was_asked_for = args.lasts.is_some() || args.frames.is_some();
     Ok(match progress::is_stopped() && was_asked_for {
         true => exit::STOPPED,
@@ -113,7 +113,8 @@ const PULLED_N: f64 = -0.3;
 fn summarise(
     state: &CaptureState,
     header: &Header,
-    (has_force, path): (bool, &Path),
+    has_force: bool,
+    path: &Path,
     context: &Context,
 ) {
     let path = shown(path).to_string();

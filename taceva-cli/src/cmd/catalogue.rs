@@ -42,9 +42,8 @@ fn write(args: &Output, table: &taceva_report::Table) -> anyhow::Result<u8> {
 }
 
 fn site(args: &CatalogueSite, context: &Context) -> anyhow::Result<u8> {
-    let named = context.either(("--with", &args.former.with), ("--results", &args.results));
-    let ours = results::read_all(named)?;
-    let pages = catalogue::site(&catalogue::all(), &ours);
+    let ours = results::read_all(&args.results)?;
+    let pages = taceva_report::site(&catalogue::all(), &ours);
     fs::create_dir_all(&args.folder)
         .with_context(|| format!("cannot make {}", shown(&args.folder)))?;
     for page in &pages {

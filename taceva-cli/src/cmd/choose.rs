@@ -6,12 +6,11 @@ use taceva_core::shown;
 use anyhow::Context as _;
 use taceva_report::{Need, catalogue, choose, choose_results};
 
-use super::{Context, Usage, results};
+use super::{Usage, results};
 use crate::args::Choose;
 use crate::{exit, output};
 
-pub(crate) fn run(args: &Choose, context: &Context) -> anyhow::Result<u8> {
-    let named = context.either(("--from", &args.former.from), ("--results", &args.results));
+pub(crate) fn run(args: &Choose) -> anyhow::Result<u8> {
     for path in args.output.path.iter().chain(&args.page.path) {
         output::check_free(path, args.output.force)?;
     }
@@ -26,9 +25,9 @@ pub(crate) fn run(args: &Choose, context: &Context) -> anyhow::Result<u8> {
             Need::parse(&said).map_err(|error| Usage::error(error.to_string()))?
         }
     };
-    let choice = match named.is_empty() {
+    let choice = match args.results.is_empty() {
         true => choose(&catalogue::all(), &needs),
-        false => choose_results(&results::read_all(named)?, &needs),
+        false => choose_results(&results::read_all(&args.results)?, &needs),
     };
     results::write(&choice.table(), &args.output, || choice.json())?;
     if let Some(path) = &args.page.path {

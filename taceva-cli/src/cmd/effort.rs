@@ -7,7 +7,7 @@ use taceva_dataset::Dataset;
 use taceva_evaluate::{Cache, Effort};
 
 use super::Context;
-use super::cache::amount::bytes;
+use crate::amount::bytes;
 use crate::disk_space;
 use crate::progress::spoken;
 
@@ -24,7 +24,7 @@ pub(super) fn print(effort: &Effort, dataset: &Dataset, cache: Option<&Cache>, c
     let kept = cache.map_or(0, |_| effort.kept_bytes);
     let free = cache.and_then(|cache| disk_space::free(cache.path()));
     let folder = cache.map_or(Path::new("."), Cache::path);
-    for line in lines(effort.rows.len(), time, (kept, free), folder) {
+    for line in lines(effort.rows.len(), time, kept, free, folder) {
         context.say(format_args!("{line}"));
     }
 }
@@ -50,7 +50,8 @@ fn time_of(rows: &[usize], dataset: &Dataset, jobs: usize) -> Option<Duration> {
 fn lines(
     frames: usize,
     time: Option<Duration>,
-    (kept, free): (u64, Option<u64>),
+    kept: u64,
+    free: Option<u64>,
     folder: &Path,
 ) -> Vec<String> {
     let time = time.filter(|time| *time >= LONG).map(|time| {
@@ -84,12 +85,13 @@ mod tests {
     #[test]
     fn much_is_said_and_little_is_not() {
         let folder = Path::new("/cache");
-        let said = lines(9, Some(Duration::from_secs(4)), (1_000, Some(10)), folder);
+        let said = lines(9, Some(Duration::from_secs(4)), 1_000, Some(10), folder);
         assert_eq!(said, Vec::<String>::new());
         let said = lines(
             20_000,
             Some(Duration::from_secs(130)),
-            (80_000_000, Some(1_500_000_000)),
+            80_000_000,
+            Some(1_500_000_000),
             folder,
         );
         assert_eq!(
@@ -99,7 +101,7 @@ mod tests {
                 "disk: 80.0 MB of features to keep in /cache, 1.50 GB are free; --no-cache keeps none",
             ]
         );
-        let said = lines(9, None, (80_000_000, Some(10_000)), folder);
+        let said = lines(9, None, 80_000_000, Some(10_000), folder);
         assert!(
             said[0].contains("10.0 kB are free: they may not fit"),
             "{said:?}"

@@ -15,10 +15,7 @@ use crate::report::presets;
 use crate::{av1_child, exit, output};
 
 pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
-    if args.former.to.is_some() {
-        context.note_former_name("--to", "--out");
-    }
-    let target = args.out.as_deref().or(args.former.to.as_deref());
+    let target = args.out.as_deref();
     let target = target.or(args.extend.as_deref());
     if args.presets {
         output::write_as(args.format, None, |out| {

@@ -91,7 +91,7 @@ fn replace(path: &Path, before: &str, accepted: &str, is_header: bool) -> anyhow
 fn readable(path: &Path, text: &str) -> anyhow::Result<()> {
     match Study::read(text) {
         Ok(_) => Ok(()),
-        Err(taceva_report::ResultsError::Schema { .. }) => Ok(StateFile::read(path).map(drop)?),
+        Err(taceva_results::ResultsError::Schema { .. }) => Ok(StateFile::read(path).map(drop)?),
         Err(error) => Err(error.into()),
     }
 }

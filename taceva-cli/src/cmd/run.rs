@@ -9,9 +9,7 @@ use taceva_core::shown;
 use anyhow::Context as _;
 use taceva_acquire::{AIR_MM, PlannedScene, Workshop, rehearse_scene};
 use taceva_drivers::Drivers;
-use taceva_evaluate::EvaluationReport;
-use taceva_models::Models;
-use taceva_report::escape_csv;
+use taceva_results::EvaluationReport;
 use taceva_study::{Existing, RunFolder, RunSetup, check_models, run_scene};
 
 use super::attended::Attended;
@@ -184,7 +182,7 @@ fn write_files(
         }
         if let Some(samples) = &written.samples {
             let path = folder.report(number, &study.plan.name, "samples.csv");
-            output::write(Some(&path), |out| samples.write(out, escape_csv))?;
+            output::write(Some(&path), |out| samples.write(out))?;
         }
     }
     Ok(())

@@ -33,7 +33,7 @@ pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
     let scored = match (scored, in_parts && !attachments.is_any()) {
         (Some(scored), _) => Some(scored),
         (None, true) => by_shard(&request, args, context)?,
-        (None, false) => whole(request, (args, attachments.is_any()), context)?,
+        (None, false) => whole(request, args, attachments.is_any(), context)?,
     };
     let Some(mut scored) = scored else {
         return Ok(exit::DONE);
@@ -59,7 +59,8 @@ fn scores_alone(args: &Score, context: &Context) -> bool {
 /// Scores tables that fit the memory; `None` where only the plan is asked for.
 fn whole(
     request: ScoreRequest,
-    (args, with_samples): (&Score, bool),
+    args: &Score,
+    with_samples: bool,
     context: &Context,
 ) -> anyhow::Result<Option<Scored>> {
     let scoring = Scoring::read(request)?;

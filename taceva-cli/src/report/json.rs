@@ -11,7 +11,6 @@ pub(super) fn write(report: &impl Serialize, out: &mut dyn Write) -> io::Result<
 
 /// The same, with a seal that detects later changes.
 pub(super) fn write_sealed(report: &impl Serialize, out: &mut dyn Write) -> io::Result<()> {
-    let text = serde_json::to_string_pretty(report)?;
-    let sealed = taceva_files::seal::json::seal(&text).map_err(io::Error::other)?;
+    let sealed = taceva_results::sealed(report).map_err(io::Error::other)?;
     writeln!(out, "{sealed}")
 }

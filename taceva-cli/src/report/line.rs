@@ -1,7 +1,8 @@
 //! Scores and their variants in sequence: the rows of tables.
 
 use taceva_core::Unit;
-use taceva_metrics::{Better, Evaluation, Flag, Interval, Score, Standing, Value};
+use taceva_metrics::{Better, Standing};
+use taceva_results::{Interval, Score, Value};
 
 /// One number of a report, or the reason why there is none.
 pub(super) struct Line<'a> {
@@ -22,15 +23,16 @@ pub(super) struct Line<'a> {
 }
 
 /// Every score, each followed by its variants that are one number; maps and curves are for JSON.
-pub(super) fn lines(evaluation: &Evaluation) -> Vec<Line<'_>> {
+pub(super) fn lines(scores: &[Score]) -> Vec<Line<'_>> {
     let mut lines = Vec::new();
-    for (metric, channel, score) in evaluation.scores() {
+    for score in scores {
+        let channel = score.channel.as_str();
         lines.push(Line {
-            name: metric.id.to_owned(),
+            name: score.metric.clone(),
             channel,
             value: &score.value,
             unit: score.unit,
-            interval: Some(&score.interval),
+            interval: score.interval.as_ref(),
             score,
             is_headline: true,
         });
@@ -39,7 +41,7 @@ pub(super) fn lines(evaluation: &Evaluation) -> Vec<Line<'_>> {
             .iter()
             .filter(|variant| is_one(&variant.value));
         lines.extend(numbers.map(|variant| Line {
-            name: format!("{}.{}", metric.id, variant.name),
+            name: format!("{}.{}", score.metric, variant.name),
             channel,
             value: &variant.value,
             unit: variant.unit,
@@ -52,8 +54,8 @@ pub(super) fn lines(evaluation: &Evaluation) -> Vec<Line<'_>> {
 }
 
 /// The lines for people: reference constants are no scores, and are in JSON and CSV only.
-pub(super) fn read_lines(evaluation: &Evaluation) -> Vec<Line<'_>> {
-    let lines = lines(evaluation).into_iter();
+pub(super) fn read_lines(scores: &[Score]) -> Vec<Line<'_>> {
+    let lines = lines(scores).into_iter();
     lines.filter(|line| !line.is_reference()).collect()
 }
 
@@ -73,15 +75,16 @@ impl Line<'_> {
 }
 
 /// Flags of scores, a line for each flag of a metric: `uniformity Fz: one bin`, `skill Pz Fz: constant is the mean of truth`.
-pub(super) fn flags(evaluation: &Evaluation) -> Vec<String> {
-    let mut groups: Vec<(&str, &Flag, Vec<&str>)> = Vec::new();
-    for (metric, channel, score) in evaluation.scores() {
+pub(super) fn flags(scores: &[Score]) -> Vec<String> {
+    let mut groups: Vec<(&str, &str, Vec<&str>)> = Vec::new();
+    for score in scores {
         for flag in &score.flags {
-            let is_same =
-                |group: &&mut (&str, &Flag, Vec<&str>)| (group.0, group.1) == (metric.id, flag);
-            match groups.iter_mut().find(is_same) {
-                Some((_, _, channels)) => channels.push(channel),
-                None => groups.push((metric.id, flag, vec![channel])),
+            let found = groups
+                .iter_mut()
+                .find(|(metric, known, _)| *metric == score.metric && known == flag);
+            match found {
+                Some((_, _, channels)) => channels.push(&score.channel),
+                None => groups.push((&score.metric, flag, vec![&score.channel])),
             }
         }
     }
@@ -92,20 +95,20 @@ pub(super) fn flags(evaluation: &Evaluation) -> Vec<String> {
 }
 
 /// Which scores take no full part in verdicts: `no skill: Pz Fz`, `bounded: r_light Px Py`.
-pub(super) fn standings(evaluation: &Evaluation) -> Vec<String> {
+pub(super) fn standings(scores: &[Score]) -> Vec<String> {
     let mut said = Vec::new();
     for standing in Standing::ALL {
         let Some(words) = standing.words() else {
             continue;
         };
         let mut groups: Vec<(&str, Vec<&str>)> = Vec::new();
-        let of_it = evaluation
-            .scores()
-            .filter(|(_, _, score)| score.standing == standing && score.value.scalar().is_some());
-        for (metric, channel, _) in of_it {
+        let of_it = scores
+            .iter()
+            .filter(|score| score.standing == standing && score.value.number().is_some());
+        for score in of_it {
             match groups.last_mut() {
-                Some((id, channels)) if *id == metric.id => channels.push(channel),
-                _ => groups.push((metric.id, vec![channel])),
+                Some((id, channels)) if *id == score.metric => channels.push(&score.channel),
+                _ => groups.push((&score.metric, vec![&score.channel])),
             }
         }
         let groups: Vec<String> = groups
@@ -120,21 +123,21 @@ pub(super) fn standings(evaluation: &Evaluation) -> Vec<String> {
 }
 
 /// The maps, curves and matrices that only JSON holds, a line a metric: `r_spatial Px Py Fz: distance, depth`.
-pub(super) fn pictures(evaluation: &Evaluation) -> Vec<String> {
+pub(super) fn pictures(scores: &[Score]) -> Vec<String> {
     let mut pictures: Vec<(&str, Vec<&str>, String)> = Vec::new();
-    for (metric, channel, score) in evaluation.scores() {
+    for score in scores {
         let many = score
             .variants
             .iter()
             .filter(|variant| !is_one(&variant.value));
-        let names: Vec<&str> = many.map(|variant| variant.name.as_ref()).collect();
+        let names: Vec<&str> = many.map(|variant| variant.name.as_str()).collect();
         let names = names.join(", ");
         match pictures.last_mut() {
             _ if names.is_empty() => {}
-            Some((id, channels, same)) if *id == metric.id && *same == names => {
-                channels.push(channel);
+            Some((id, channels, same)) if *id == score.metric && *same == names => {
+                channels.push(&score.channel);
             }
-            _ => pictures.push((metric.id, vec![channel], names)),
+            _ => pictures.push((&score.metric, vec![&score.channel], names)),
         }
     }
     let line = |(id, channels, names): (&str, Vec<&str>, String)| {

@@ -8,12 +8,10 @@ use taceva_core::shown;
 
 use anyhow::Context as _;
 use taceva_dataset::Dataset;
-use taceva_evaluate::EvaluationReport;
-use taceva_report::{
-    Layout, Picture, Report, Samples, ScoreTable, Study, Triple, escape_csv, figures, picks,
-};
+use taceva_report::{Layout, Picture, Report, ScoreTable, Study, Triple, figures, picks};
+use taceva_results::EvaluationReport;
 
-use crate::cmd::Context;
+use crate::context::Context;
 use crate::output;
 
 use super::thumbnail::{MEDIA_TYPE, thumbnail};
@@ -46,7 +44,7 @@ impl Page {
     fn take_pictures(&mut self, at: usize, report: &EvaluationReport) -> anyhow::Result<()> {
         let samples = report.samples.as_ref();
         let Some(paths) = samples
-            .map(taceva_evaluate::Samples::recordings)
+            .map(taceva_results::Samples::recordings)
             .filter(|paths| !paths.is_empty())
         else {
             return Ok(());
@@ -139,13 +137,8 @@ impl Page {
 /// A finished evaluation as it is read from its JSON, with its samples.
 pub(crate) fn study(report: &EvaluationReport) -> anyhow::Result<Study> {
     // As it would be read from a file, so that a page shows what others read.
-    let text = taceva_files::seal::json::seal(&serde_json::to_string(report)?)?;
-    let mut studies = Study::read(&text)?;
+    let mut studies = Study::read(&taceva_results::sealed(report)?)?;
     let mut study = studies.pop().context("one evaluation is one study")?;
-    if let Some(samples) = &report.samples {
-        let mut table = Vec::new();
-        samples.write(&mut table, escape_csv)?;
-        study.samples = Some(Samples::read(&String::from_utf8(table)?)?);
-    }
+    study.samples.clone_from(&report.samples);
     Ok(study)
 }

@@ -12,7 +12,8 @@ use crate::args::ListFormat;
 pub(crate) fn write(
     plugin: &str,
     seed: u64,
-    (results, are_shown): (&[CheckResult], bool),
+    results: &[CheckResult],
+    are_shown: bool,
     format: ListFormat,
     out: &mut dyn Write,
 ) -> io::Result<()> {

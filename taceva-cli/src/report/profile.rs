@@ -3,9 +3,9 @@
 use std::io::{self, Write};
 
 use taceva_core::PressOutcome;
-use taceva_evaluate::EvaluationReport;
 use taceva_metrics::{Better, catalogue};
 use taceva_report::{Align, Column, Study, Table, escape_terminal, short_digests};
+use taceva_results::EvaluationReport;
 
 use super::line::{Line, lines, standings};
 use super::number::formatted;
@@ -76,12 +76,12 @@ pub(super) fn write(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Re
     ties(reports, out)?;
     for report in reports {
         let sensor = escape_terminal(&report.subject.sensor);
-        for standing in standings(&report.evaluation) {
+        for standing in standings(&report.scores) {
             writeln!(out, "standing   {sensor}: {standing}")?;
         }
     }
     for report in reports {
-        for skipped in report.evaluation.skipped() {
+        for skipped in &report.skipped {
             let sensor = escape_terminal(&report.subject.sensor);
             let what = escape_terminal(&skipped.what);
             writeln!(out, "skipped    {sensor}: {what}: {}", skipped.reason)?;
@@ -94,10 +94,10 @@ pub(super) fn write(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Re
 /// it is asked for only where shares are the same.
 fn ties(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Result<()> {
     let shares = |report: &EvaluationReport| -> Vec<(String, u64)> {
-        let lines = lines(&report.evaluation).into_iter();
+        let lines = lines(&report.scores).into_iter();
         lines
             .filter(|line| line.name == "sr")
-            .filter_map(|line| Some((line.channel.to_owned(), line.value.scalar()?.to_bits())))
+            .filter_map(|line| Some((line.channel.to_owned(), line.value.number()?.to_bits())))
             .collect()
     };
     let mut all: Vec<(String, u64)> = reports.iter().flat_map(shares).collect();
@@ -124,8 +124,8 @@ fn published(report: &EvaluationReport, lines: &[Line<'_>], rows: &[Row]) -> Vec
     };
     let alike = |row: &Row| {
         let line = lines.iter().find(|line| row_of(line) == *row)?;
-        let definition = (line.score.definition, line.unit);
-        let found = sensor.published_alike((&line.name, line.channel), definition)?;
+        let definition = &line.score.definition;
+        let found = sensor.published_alike(&line.name, line.channel, definition, line.unit)?;
         // With the published digits only.
         Some(found.value.to_string())
     };
@@ -156,7 +156,7 @@ fn columns(reports: &[EvaluationReport], published: &[Vec<String>]) -> Vec<Colum
 
 /// The scores themselves, of planes where there are any.
 fn headlines(report: &EvaluationReport) -> Vec<Line<'_>> {
-    let lines = lines(&report.evaluation);
+    let lines = lines(&report.scores);
     let has = |name: &str, channel: &str| {
         let mut lines = lines.iter();
         lines.any(|line| line.name == name && line.channel == channel)

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
-use taceva_evaluate::EvaluationReport;
 use taceva_report::{Align, Column, Table, escape_terminal};
+use taceva_results::EvaluationReport;
 
 use super::line::read_lines;
 use super::number::formatted;
@@ -48,7 +48,7 @@ fn side_by_side(report: &EvaluationReport) -> Table {
         .by_recording
         .iter()
         .map(|own| {
-            let lines = read_lines(&own.evaluation).into_iter();
+            let lines = read_lines(&own.scores).into_iter();
             let headlines = lines.filter(|line| line.is_headline);
             let values = headlines.map(|line| {
                 let value = formatted(&line).value;
@@ -58,7 +58,7 @@ fn side_by_side(report: &EvaluationReport) -> Table {
         })
         .collect();
     let mut last = String::new();
-    for line in read_lines(&report.evaluation) {
+    for line in read_lines(&report.scores) {
         let key = (line.name.clone(), line.channel.to_owned());
         let cells: Vec<String> = own
             .iter()

@@ -2,15 +2,14 @@
 
 use std::collections::BTreeSet;
 
-use taceva_evaluate::EvaluationReport;
-use taceva_metrics::Interval;
 use taceva_report::{
     Align, Cell, Column, Estimate, FormattedValue, Table, Words, escape_markdown, latex_symbol,
     short_digests,
 };
+use taceva_results::{EvaluationReport, Interval};
 
 use super::line::{Line, lines, read_lines, standings};
-use super::number::{formatted, no_interval, reason};
+use super::number::{formatted, no_interval};
 
 /// A row a score or variant, numbers in full.
 pub(super) fn every_number(report: &EvaluationReport) -> Table {
@@ -37,14 +36,14 @@ pub(super) fn every_number(report: &EvaluationReport) -> Table {
     let more = ["recording", "recording_digest"];
     let more = more.into_iter().filter(|_| is_several).map(Column::new);
     let mut table = Table::new("Scores", columns.chain(more));
-    let all = [(&report.evaluation, ["all", ""])].into_iter();
+    let all = [(&report.scores, ["all", ""])].into_iter();
     let each = report.by_recording.iter();
     let each = each.map(|own| {
         let named = [own.recording.as_str(), own.digest.as_str()];
-        (&own.evaluation, named)
+        (&own.scores, named)
     });
-    for (evaluation, named) in all.chain(each) {
-        for line in lines(evaluation) {
+    for (scores, named) in all.chain(each) {
+        for line in lines(scores) {
             let named = named.into_iter().filter(|_| is_several).map(Cell::text);
             let numbers = numbers(&line, &report.subject.source).into_iter();
             table.push(numbers.chain(named));
@@ -58,8 +57,8 @@ fn numbers(line: &Line<'_>, source: &str) -> [Cell; 15] {
         Cell::Number(value.map_or_else(String::new, |value| format!("{value:?}")))
     };
     let ends = line.interval.and_then(Interval::ends);
-    let why = match line.value.scalar() {
-        None => reason(line.value),
+    let why = match line.value.number() {
+        None => formatted(line).reason.unwrap_or_default(),
         Some(_) => line
             .interval
             .and_then(no_interval)
@@ -69,15 +68,15 @@ fn numbers(line: &Line<'_>, source: &str) -> [Cell; 15] {
     [
         Cell::text(line.name.as_str()),
         Cell::text(line.channel),
-        number(line.value.scalar()),
+        number(line.value.number()),
         Cell::text(line.unit.symbol()),
         number(ends.map(|ends| ends[0])),
         number(ends.map(|ends| ends[1])),
         Cell::text(method.unwrap_or_default()),
-        number(line.interval.and_then(Interval::freedom)),
+        number(line.interval.and_then(Interval::degrees_of_freedom)),
         Cell::Number(line.score.n.to_string()),
         Cell::Number(line.score.n_invalid.to_string()),
-        Cell::text(line.score.definition),
+        Cell::text(line.score.definition.as_str()),
         Cell::text(why),
         Cell::text(match line.is_reference() {
             true => "",
@@ -91,13 +90,13 @@ fn numbers(line: &Line<'_>, source: &str) -> [Cell; 15] {
 /// A row a metric, a column a channel, as papers print scores.
 pub(super) fn by_channel(report: &EvaluationReport) -> Table {
     let mut channels: Vec<&str> = Vec::new();
-    for (_, channel, _) in report.evaluation.scores() {
-        if !channels.contains(&channel) {
-            channels.push(channel);
+    for score in &report.scores {
+        if !channels.contains(&score.channel.as_str()) {
+            channels.push(&score.channel);
         }
     }
     let mut rows: Vec<(String, Vec<Option<Estimate>>)> = Vec::new();
-    for line in read_lines(&report.evaluation) {
+    for line in read_lines(&report.scores) {
         let at = rows.iter().position(|(name, _)| *name == line.name);
         let at = at.unwrap_or_else(|| {
             rows.push((line.name.clone(), vec![None; channels.len()]));
@@ -160,11 +159,12 @@ fn caption(report: &EvaluationReport) -> String {
 /// The same, with the name of the sensor written as `foreign` does.
 fn caption_with(report: &EvaluationReport, foreign: impl Fn(&str) -> String) -> String {
     let subject = &report.subject;
-    let scores = || report.evaluation.scores().map(|(_, _, score)| score);
-    let n = scores().map(|score| score.n).max().unwrap_or(0);
-    let methods: BTreeSet<String> = scores()
-        .filter_map(|score| score.interval.method())
-        .collect();
+    let n = report.scores.iter().map(|score| score.n).max().unwrap_or(0);
+    let intervals = report
+        .scores
+        .iter()
+        .filter_map(|score| score.interval.as_ref());
+    let methods: BTreeSet<&str> = intervals.filter_map(Interval::method).collect();
     let intervals = match methods.len() {
         0 => "No intervals".to_owned(),
         _ => format!(
@@ -189,7 +189,7 @@ fn caption_with(report: &EvaluationReport, foreign: impl Fn(&str) -> String) -> 
         "unknown" => "Scores of two tables".to_owned(),
         source => format!("{} ({source} samples)", foreign(&subject.sensor)),
     };
-    let standings: String = standings(&report.evaluation)
+    let standings: String = standings(&report.scores)
         .iter()
         .map(|standing| format!(" No full part in verdicts: {standing}."))
         .collect();

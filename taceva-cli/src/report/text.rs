@@ -1,11 +1,12 @@
 //! An evaluation as text: subject, scores, skipped metrics, and provenance.
 
+use std::collections::BTreeSet;
 use std::io::{self, Write};
 
 use taceva_core::{Limit, PressOutcome};
-use taceva_evaluate::EvaluationReport;
 use taceva_metrics::Better;
 use taceva_report::{Align, Column, Table, escape_terminal, short_digests};
+use taceva_results::{EvaluationReport, Interval};
 
 use super::line::{Line, flags, pictures, read_lines, standings};
 use super::number::formatted;
@@ -15,7 +16,7 @@ pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Resul
     heading(report, out)?;
     let mut last = String::new();
     let mut table = by_cell(["metric", "channel", "value", "unit", "95 % interval", "n"]);
-    for line in read_lines(&report.evaluation) {
+    for line in read_lines(&report.scores) {
         // A metric is named once, above its channels.
         let name = match last == line.name {
             true => String::new(),
@@ -77,10 +78,10 @@ pub(super) fn over_seeds(report: &EvaluationReport, out: &mut dyn Write) -> io::
     for score in &over.scores {
         let [low, high] = score.interval.map(number);
         table.push([
-            Better::named(score.metric),
+            Better::named(&score.metric),
             score.channel.clone(),
             number(score.mean),
-            unit(score.unit),
+            unit(score.unit.symbol()),
             format!("{low} … {high}"),
             number(score.standard_deviation),
         ]);
@@ -133,25 +134,25 @@ fn heading(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
 }
 
 fn footer(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
-    let methods: std::collections::BTreeSet<String> = report
-        .evaluation
-        .scores()
-        .filter_map(|(_, _, score)| score.interval.method())
-        .collect();
+    let intervals = report
+        .scores
+        .iter()
+        .filter_map(|score| score.interval.as_ref());
+    let methods: BTreeSet<&str> = intervals.filter_map(Interval::method).collect();
     writeln!(out)?;
     for method in methods {
         writeln!(out, "intervals  {method}")?;
     }
-    for flag in flags(&report.evaluation) {
+    for flag in flags(&report.scores) {
         writeln!(out, "flag       {flag}")?;
     }
-    for standing in standings(&report.evaluation) {
+    for standing in standings(&report.scores) {
         writeln!(out, "standing   {standing}")?;
     }
-    for picture in pictures(&report.evaluation) {
+    for picture in pictures(&report.scores) {
         writeln!(out, "in JSON    {picture}")?;
     }
-    for skipped in report.evaluation.skipped() {
+    for skipped in &report.skipped {
         writeln!(out, "skipped    {}: {}", skipped.what, skipped.reason)?;
     }
     for note in &report.provenance.notes {

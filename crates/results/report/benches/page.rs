@@ -1,10 +1,11 @@
 //! How long a page takes, from results and samples in memory.
 
-#[path = "../tests/support/mod.rs"]
+#[path = "../tests/report/support/mod.rs"]
 mod support;
 
 use divan::{Bencher, black_box};
-use taceva_report::{Report, Samples, report};
+use taceva_report::{Report, report};
+use taceva_results::Samples;
 
 fn main() {
     divan::main();

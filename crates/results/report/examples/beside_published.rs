@@ -251,22 +251,29 @@ mod tests {
 
     /// A result with one seed: the mean absolute error of Fz of the four sensors is what was published, times a factor each.
     fn result(seed: u64, factors: [f64; 4]) -> (String, String) {
+        result_of("ViTacTip", seed, factors)
+    }
+
+    /// The same, where the last sensor is called `last`.
+    fn result_of(last: &str, seed: u64, factors: [f64; 4]) -> (String, String) {
         let names = ["GelSight", "GelSightWM", "MagicTac", "ViTacTip"];
         let studies = names.iter().zip(factors).map(|(name, factor)| {
             let sensor = catalogue::find(name).expect("of the catalogue");
             let value = sensor.result("mae", "Fz").expect("published").value * factor;
+            let name = if *name == "ViTacTip" { last } else { name };
             format!(
-                r#"{{"subject": {{"sensor": "{name}"}}, "provenance": {{"seed": {seed}}},
+                r#"{{"schema": "taceva.evaluation/1.0", "subject": {{"sensor": "{name}"}}, "provenance": {{"seed": {seed}}},
                 "metrics": {{"mae": {{"Fz": {{"value": {value}, "unit": "N", "n": 640, "n_invalid": 0, "ci95": [{value}, {value}],
                 "method": "jackknife by point_id, G=80", "definition": "mae/1"}}}}}}}}"#
             )
         });
         let studies: Vec<String> = studies.collect();
         let text = format!(
-            r#"{{"schema": "taceva.run/1.1", "studies": [{}]}}"#,
+            r#"{{"schema": "taceva.run/1.0", "studies": [{}]}}"#,
             studies.join(", ")
         );
-        (format!("{seed}.json"), text)
+        let sealed = taceva_files::seal::json::seal(&text).expect("an object");
+        (format!("{seed}.json"), sealed)
     }
 
     #[test]
@@ -298,7 +305,7 @@ mod tests {
         let one = result(1, [1.0; 4]);
         let twice = tables(&[one.clone(), one.clone()]).expect_err("twice");
         assert_eq!(twice, "1.json: GelSight with seed 1 for the second time");
-        let lacking = (one.0, one.1.replace("ViTacTip", "another"));
+        let lacking = result_of("another", 1, [1.0; 4]);
         let lacking = tables(&[lacking, result(2, [1.0; 4])]).expect_err("another sensor");
         assert_eq!(lacking, "every seed needs results of the same sensors");
         assert!(tables(&[]).is_err());

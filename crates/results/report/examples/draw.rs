@@ -5,7 +5,8 @@ use std::error::Error;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use taceva_report::{Figure, ModelBench, Samples, Study, figures, model_bench};
+use taceva_report::{Figure, ModelBench, Study, figures, model_bench};
+use taceva_results::Samples;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args_os().skip(1).map(PathBuf::from);

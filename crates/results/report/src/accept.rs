@@ -12,7 +12,8 @@ use taceva_core::shown;
 use taceva_metrics::Standing;
 
 use crate::number::numeral;
-use crate::results::{Interval, Study};
+use crate::results::Study;
+use taceva_results::Interval;
 
 /// The version of limits that is written, and the only one that is read.
 const LIMITS_VERSION: u32 = 1;
@@ -251,8 +252,8 @@ mod tests {
 
     #[test]
     fn what_a_constant_reaches_is_judged_by_its_value_alone() {
-        let study = Study::read(
-            r#"{"schema": "taceva.evaluation/1.1", "subject": {"sensor": "x"}, "metrics": {
+        let study = crate::results::unsealed(
+            r#"{"schema": "taceva.evaluation/1.0", "subject": {"sensor": "x"}, "metrics": {
                 "tolerance": {"Px": {"value": 0.04, "unit": "1", "standing": "not above the constant",
                     "of_constant": {"value": 0.05, "unit": "1"}}},
                 "r2": {"Px": {"value": 0.1, "unit": "1", "ci95": [-0.25, 0.75]}}}}"#,

@@ -8,7 +8,6 @@ mod facts;
 mod list;
 mod published;
 mod read;
-mod site;
 mod study;
 
 pub use entry::{Kind, Sensor};
@@ -16,8 +15,6 @@ pub use facts::{Intrinsic, Limits};
 pub use list::{details, list};
 pub use published::{Missing, Published, Roughly, Source};
 pub use read::CatalogueError;
-pub use site::{SitePage, site};
-pub(crate) use study::PUBLISHED;
 
 /// The sensors and studies that come with the program, by name.
 ///

@@ -3,12 +3,12 @@
 mod comparability;
 mod estimate;
 mod overview;
-mod page;
 mod paired;
 mod remarks;
 mod render;
 mod ties;
 
+pub(crate) use overview::QUESTIONS;
 pub use overview::{Decision, OVERVIEW_LINES, OVERVIEW_WIDTH};
 pub use render::COMPARISON_SCHEMA;
 pub use ties::ties;
@@ -21,8 +21,9 @@ use taceva_metrics::{
     decide,
 };
 
-use crate::results::{Score, Study};
+use crate::results::Study;
 use remarks::Remarks;
+use taceva_results::Score;
 
 /// What to compare, and how.
 #[derive(Clone, Debug, Default)]
@@ -127,10 +128,10 @@ struct Pair<'a> {
 /// everything else by the intervals of both, on their own scales. The pairs and channels of one metric are one family of Holm's
 /// procedure: verdict, p value and interval of an answer come from that one decision.
 pub fn compare(studies: &[Study], request: &CompareRequest) -> Comparison {
-    let names = crate::figures::names(studies);
+    let names = crate::names::names(studies);
     let mut answers = Vec::new();
     for metric in metrics(studies, request) {
-        let mut pairs = pairs((studies, &names), &metric, request);
+        let mut pairs = pairs(studies, &names, &metric, request);
         decide_together(&mut pairs);
         answers.extend(pairs.into_iter().map(|pair| answer(pair, request)));
     }
@@ -189,7 +190,8 @@ fn metrics(studies: &[Study], request: &CompareRequest) -> Vec<String> {
 }
 
 fn pairs<'a>(
-    (studies, names): (&'a [Study], &[String]),
+    studies: &'a [Study],
+    names: &[String],
     metric: &str,
     request: &CompareRequest,
 ) -> Vec<Pair<'a>> {

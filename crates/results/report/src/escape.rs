@@ -73,36 +73,6 @@ pub fn markdown(text: &str) -> String {
     escaped
 }
 
-/// A cell of words in a CSV table: one that begins like a formula is begun with an apostrophe, as spreadsheets want it.
-///
-/// [`from_csv`] takes it away again, so that names keep their meaning for programs:
-///
-/// ```
-/// use taceva_report::{escape_csv, unescape_csv};
-/// assert_eq!(escape_csv("=1+1"), "'=1+1");
-/// assert_eq!(unescape_csv(&escape_csv("'=1+1")), "'=1+1");
-/// ```
-pub fn csv(text: &str) -> String {
-    match begins_like_a_formula(text) {
-        true => format!("'{text}"),
-        false => text.to_owned(),
-    }
-}
-
-/// The words of a cell that [`csv()`] has written.
-pub fn from_csv(cell: &str) -> &str {
-    match cell.strip_prefix('\'') {
-        Some(text) if begins_like_a_formula(text) => text,
-        _ => cell,
-    }
-}
-
-/// Whether a spreadsheet may take a text for a formula, or for one that was escaped; signs of full width are signs there too.
-fn begins_like_a_formula(text: &str) -> bool {
-    text.trim_start_matches('\'')
-        .starts_with(['=', '+', '-', '@', '\t', '\r', '\n', '＝', '＋', '－', '＠'])
-}
-
 /// Text for a terminal: by the one rule for foreign names, [`taceva_core::shown`].
 pub fn terminal(text: &str) -> String {
     taceva_core::shown(text).to_string()
@@ -118,25 +88,6 @@ mod tests {
             latex("a_b 5 % {x} \\ ~ ^ $ & #"),
             "a\\_b 5 \\% \\{x\\} \\textbackslash{} \\textasciitilde{} \\textasciicircum{} \\$ \\& \\#"
         );
-    }
-
-    #[test]
-    fn cells_that_begin_like_a_formula_are_words() {
-        let cells = ["=1+1", "+1", "-x", "@x", "plain"].map(csv);
-        assert_eq!(cells, ["'=1+1", "'+1", "'-x", "'@x", "plain"]);
-    }
-
-    #[test]
-    fn whatever_a_name_is_a_cell_gives_it_back() {
-        let odd = ["'", "''", "'=x", "''=x", "it's", "'\t"];
-        for text in naughty_strings::BLNS.iter().chain(&odd) {
-            let cell = csv(text);
-            assert_eq!(from_csv(&cell), *text);
-            assert!(
-                !cell.starts_with(['=', '+', '-', '@', '\t', '\r', '\n']),
-                "{text:?}"
-            );
-        }
     }
 
     #[test]

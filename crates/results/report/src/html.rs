@@ -1,16 +1,14 @@
 //! One-file pages: open from disk, need no network, and let nothing but their own style and script act.
 
+mod comparison;
 mod data_address;
 mod document;
 mod figures;
-mod fold;
 mod glance;
-mod glossary;
 mod left_out;
 mod methods;
 mod picks;
 mod pictures;
-mod pieces;
 mod place;
 mod provenance;
 mod published;
@@ -23,18 +21,16 @@ mod triple;
 
 pub(crate) use document::Document;
 pub(crate) use figures::{one as drawn, radars};
-pub(crate) use fold::{counted, fold};
-pub(crate) use glossary::{folded_glossary, glossary, metric_link, score_link};
 pub use picks::{Pick, picks};
 pub use pictures::Picture;
-pub(crate) use pieces::{filter, heads, right_heads, scroll, terms};
-pub(crate) use summary::{QUESTIONS, badge, lead};
+pub(crate) use summary::{badge, lead};
 pub use triple::Triple;
 pub(crate) use triple::cards as triples;
 
 use maud::{Markup, html};
 
 use crate::figures::figures as all_figures;
+use crate::markup::{counted, fold, folded_glossary};
 use crate::results::Study;
 use crate::scores::ScoreTable;
 

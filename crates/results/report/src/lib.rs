@@ -9,13 +9,14 @@ mod escape;
 mod figure;
 mod figures;
 mod html;
-mod json;
 mod light;
+mod markup;
+mod names;
 mod number;
 mod results;
-mod samples;
 mod scores;
 mod short_digests;
+mod site;
 mod spread;
 mod table;
 mod tables_page;
@@ -32,22 +33,18 @@ pub use compare::{
     Answer, COMPARISON_SCHEMA, CompareRequest, Comparison, Decision, OVERVIEW_LINES,
     OVERVIEW_WIDTH, compare, ties,
 };
-pub use escape::{
-    csv as escape_csv, from_csv as unescape_csv, latex as escape_latex,
-    markdown as escape_markdown, terminal as escape_terminal,
-};
+pub use escape::{latex as escape_latex, markdown as escape_markdown, terminal as escape_terminal};
 pub use figure::{DARK, Figure, LIGHT, SERIES, STYLE};
-pub use figures::{Race, RacePoint, figures, model_bench, names, race};
+pub use figures::{Race, RacePoint, figures, model_bench, race};
 pub use html::{Pick, Picture, Report, Triple, picks, report};
+pub use names::names;
 pub use number::{FormattedValue, spaced, with_interval};
 pub use results::{
-    BENCH_SCHEMA, BenchMachine, BenchRecording, ChannelError, EVALUATION_SCHEMA, Interval, Made,
-    ModelBench, ModelRow, OverSeeds, RUN_SCHEMA, ResultsError, Score, SeedScore, Skip, Study,
-    Value, Variant,
+    BENCH_SCHEMA, BenchMachine, BenchRecording, ChannelError, Made, ModelBench, ModelRow, Study,
 };
-pub use samples::{SampleChannel, Samples, SamplesError};
 pub use scores::{ScoreCell, ScoreRow, ScoreTable};
 pub use short_digests::short_digests;
+pub use site::{SitePage, site};
 pub use table::{
     Align, Cell, Column, Direction, Estimate, Layout, Row, Table, Words, latex_number, latex_symbol,
 };

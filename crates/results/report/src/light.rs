@@ -3,7 +3,8 @@
 use taceva_metrics::Flag;
 
 use crate::number::numeral;
-use crate::results::{Score, Study, Value};
+use crate::results::Study;
+use taceva_results::{Score, Value};
 
 /// The metric that says it.
 const METRIC: &str = "r_light";
@@ -118,12 +119,12 @@ mod tests {
         let rows: Vec<String> = (1..=scenes.len()).map(|at| format!("\"S{at}\"")).collect();
         let values: Vec<String> = scenes.iter().map(|row| format!("{row:?}")).collect();
         let text = format!(
-            r#"{{"schema": "taceva.evaluation/1.1", "subject": {{"sensor": "x"}}, "metrics": {{"r_light": {{"Fz": {{"value": 0.1, "unit": "1"{more},
+            r#"{{"schema": "taceva.evaluation/1.0", "subject": {{"sensor": "x"}}, "metrics": {{"r_light": {{"Fz": {{"value": 0.1, "unit": "1"{more},
                 "scenes": {{"rows": [{}], "columns": ["intensity_ratio", "error_ratio"], "values": [{}], "unit": "1"}}}}}}}}}}"#,
             rows.join(", "),
             values.join(", ")
         );
-        Study::read(&text).expect("a result").remove(0)
+        crate::results::unsealed(&text).expect("a result").remove(0)
     }
 
     fn said(study: Study) -> String {

@@ -2,7 +2,7 @@
 
 use taceva_core::Unit;
 
-use crate::results::{Interval, Score, Value};
+use taceva_results::{Interval, Score, Value};
 
 /// What is smaller is what rounding leaves of zero, in any of our units: a millionth of a nanometre, of a piconewton, of a microsecond.
 const ROUNDING: f64 = 1e-12;

@@ -1,31 +1,20 @@
-//! Results as they are read back from what `evaluate`, `score` and `run` write.
+//! Results as pages and tables need them.
 
-mod error;
-mod made;
 mod model_bench;
-mod over_seeds;
-mod read;
-mod score;
+mod provenance;
 mod standing;
 
-pub use error::ResultsError;
-pub use made::Made;
 pub use model_bench::{
     BENCH_SCHEMA, BenchMachine, BenchRecording, ChannelError, ModelBench, ModelRow,
 };
-pub use over_seeds::{OverSeeds, SeedScore};
-pub use score::{Interval, Score, Value, Variant};
 pub(crate) use standing::by_published_r2;
 
-use crate::samples::Samples;
+use taceva_results::{EvaluationReport, OverSeeds, ResultsError, Samples, Score, Skip};
 
-/// The schema of one evaluation. A minor version only adds keys, so every `taceva.evaluation/1.N` is read.
-/// Since 1.2 they are sealed.
-pub const EVALUATION_SCHEMA: &str = "taceva.evaluation/1.2";
-/// The schema of the evaluations of a scene, in versions as [`EVALUATION_SCHEMA`].
-pub const RUN_SCHEMA: &str = "taceva.run/1.3";
+/// Definition of numbers that were published without one.
+pub(crate) const PUBLISHED: &str = "published";
 
-/// The results of one sensor: what was evaluated, every score, what was left out, and where it all comes from.
+/// Results of one sensor: an [`EvaluationReport`], or published numbers, as a reader sees them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Study {
     /// The sensor model.
@@ -34,55 +23,78 @@ pub struct Study {
     pub serial: String,
     /// The id of the gel, or `unknown`.
     pub gel: String,
-    /// Where the samples come from: `recorded`, `simulated`, `synthetic`, `published`, `unknown` or `several`.
+    /// The origin of the samples: `recorded`, `simulated`, `synthetic`, `published`, `unknown` or `several`.
     pub source: String,
     /// Every score, in the order of reports.
     pub scores: Vec<Score>,
-    /// What was left out, and why.
+    /// Metrics that were skipped, with the reasons.
     pub skipped: Vec<Skip>,
-    /// From what, and how: names and texts, in the order they were written.
+    /// Provenance as names and texts, in the order of the file.
     pub provenance: Vec<(String, String)>,
-    /// Those entries of the provenance that the paragraph on methods needs one by one.
+    /// Entries of the provenance that the paragraph on methods reads one by one.
     pub made: Made,
-    /// What a reader should know.
+    /// Notes for a reader.
     pub notes: Vec<String>,
     /// The scores with other seeds of the training, where the model was fitted with several.
     pub over_seeds: Option<OverSeeds>,
-    /// The samples themselves, where they are at hand; figures that need them are left out otherwise.
+    /// The samples, where they are at hand; figures that need them are skipped otherwise.
     pub samples: Option<Samples>,
 }
 
-/// Something that was left out.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Skip {
-    /// What: `metric:r_light`.
-    pub what: String,
-    /// Why.
-    pub reason: String,
+/// Model, samples and presses behind a result.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Made {
+    /// The name of the model: `ridge`.
+    pub model: Option<String>,
+    /// The settings of the model, chosen ones included, by name.
+    pub settings: Vec<(String, String)>,
+    /// The number of samples of each part of the split, by its name: `train`, `validation`, `test`.
+    pub samples: Vec<(String, u64)>,
+    /// The number of presses of the recording, whatever their outcome; 0 where the result states none.
+    pub presses: u64,
+}
+
+impl From<EvaluationReport> for Study {
+    fn from(report: EvaluationReport) -> Study {
+        let provenance = provenance::entries(&report.provenance);
+        let presses = report.provenance.press_counts();
+        let samples = report.provenance.samples.into_iter();
+        let made = Made {
+            presses: presses.values().sum(),
+            samples: samples.map(|(part, count)| (part, count as u64)).collect(),
+            ..match report.provenance.model {
+                Some(model) => Made {
+                    model: Some(model.name),
+                    settings: model.settings.into_iter().collect(),
+                    ..Made::default()
+                },
+                None => Made::default(),
+            }
+        };
+        Study {
+            sensor: report.subject.sensor,
+            serial: report.subject.serial,
+            gel: report.subject.gel,
+            source: report.subject.source,
+            scores: report.scores,
+            skipped: report.skipped,
+            provenance,
+            made,
+            notes: report.provenance.notes,
+            over_seeds: report.over_seeds,
+            samples: report.samples,
+        }
+    }
 }
 
 impl Study {
-    /// The evaluations in `text`, of the schema `taceva.evaluation/1` or `taceva.run/1` in any minor version.
-    ///
-    /// ```
-    /// use taceva_report::Study;
-    /// let studies = Study::read(r#"{
-    ///     "schema": "taceva.evaluation/1.1",
-    ///     "subject": {"sensor": "TacTip", "serial": "unknown", "gel": "unknown", "source": "recorded"},
-    ///     "metrics": {"mae": {"Fz": {"value": 0.0361, "unit": "N", "n": 460, "n_invalid": 0,
-    ///                 "ci95": [0.034, 0.038], "method": "jackknife by point_id, G=32", "definition": "mae/1"}}},
-    ///     "skipped": [], "provenance": {"taceva": "0.1.0"}
-    /// }"#)?;
-    /// assert_eq!(studies[0].score("mae", "Fz").and_then(|score| score.value.number()), Some(0.0361));
-    /// let error = Study::read(r#"{"schema": "taceva.evaluation/9"}"#).unwrap_err();
-    /// assert_eq!(error.to_string(), "schema `taceva.evaluation/9`: expected `taceva.evaluation/1` or `taceva.run/1`");
-    /// # Ok::<(), taceva_report::ResultsError>(())
-    /// ```
+    /// The evaluations in `text`, the JSON of `evaluate`, `score` or `run`.
     ///
     /// # Errors
-    /// [`ResultsError`] if it is no JSON, of another schema, or has something else than expected in some place, which is named.
+    /// Those of [`taceva_results::read`].
     pub fn read(text: &str) -> Result<Vec<Study>, ResultsError> {
-        read::studies(text)
+        let reports = taceva_results::read(text)?;
+        Ok(reports.into_iter().map(Study::from).collect())
     }
 
     /// The score of one metric and channel or plane.
@@ -101,4 +113,11 @@ impl Study {
     pub fn is_simulated(&self) -> bool {
         matches!(self.source.as_str(), "simulated" | "synthetic")
     }
+}
+
+/// The studies in a result that is sealed here.
+#[cfg(test)]
+pub(crate) fn unsealed(text: &str) -> Result<Vec<Study>, ResultsError> {
+    let sealed = taceva_files::seal::json::seal(text).expect("an object");
+    Study::read(&sealed)
 }

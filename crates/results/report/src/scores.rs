@@ -9,7 +9,8 @@ use taceva_metrics::{Standing, catalogue};
 
 use crate::compare::{Answer, CompareRequest, compare};
 use crate::number::{FormattedValue, fixed};
-use crate::results::{Interval, Score, Study, Value};
+use crate::results::Study;
+use taceva_results::{Interval, Score, Value};
 
 /// The scores of studies side by side.
 #[derive(Clone, Debug)]
@@ -89,7 +90,7 @@ impl ScoreTable {
             mark_best(&mut rows, &answers);
         }
         ScoreTable {
-            names: crate::figures::names(studies),
+            names: crate::names::names(studies),
             sources: studies.iter().map(|study| study.source.clone()).collect(),
             spread: spread(studies, &rows),
             rows,
@@ -232,7 +233,7 @@ fn spread(studies: &[Study], rows: &[ScoreRow]) -> Option<String> {
     let errors: Vec<_> = errors
         .map(|row| (row.metric.as_str(), row.channel.as_str()))
         .collect();
-    crate::spread::note(studies, &crate::figures::names(studies), &errors)
+    crate::spread::note(studies, &crate::names::names(studies), &errors)
 }
 
 /// Marks the cell of each row that is shown to be better than all others that take part.

@@ -25,12 +25,13 @@ const ALIKE: f64 = 2.0;
 /// ` (their labels differ in spread: ViTacTip 0.047 N to GelSightWM 0.174 N)`, where scores of those studies that are at `which` are compared
 /// and the labels of one spread more than twice as far as those of another; else nothing.
 pub(crate) fn words(
-    (studies, names): (&[Study], &[String]),
+    studies: &[Study],
+    names: &[String],
     which: &[usize],
     metric: &str,
     channel: &str,
 ) -> String {
-    match range((studies, names), which, (metric, channel)) {
+    match range(studies, names, which, metric, channel) {
         Some((labels, range)) => format!(" (their {labels} differ in spread: {range})"),
         None => String::new(),
     }
@@ -40,7 +41,7 @@ pub(crate) fn words(
 pub(crate) fn note(studies: &[Study], names: &[String], scores: &[(&str, &str)]) -> Option<String> {
     let all: Vec<usize> = (0..studies.len()).collect();
     let differing = scores.iter().filter_map(|(metric, channel)| {
-        let (labels, range) = range((studies, names), &all, (metric, channel))?;
+        let (labels, range) = range(studies, names, &all, metric, channel)?;
         let of_part = labels
             .strip_prefix("labels")
             .filter(|part| !part.is_empty());
@@ -59,12 +60,14 @@ pub(crate) fn note(studies: &[Study], names: &[String], scores: &[(&str, &str)])
 /// `labels` and `ViTacTip 0.047 N to GelSightWM 0.174 N`, where those of one spread more than twice as far as those of another: the labels of the
 /// part of the protocol that the metric is made of, or, where samples of it are absent, `labels of calibration`.
 fn range(
-    of: (&[Study], &[String]),
+    studies: &[Study],
+    names: &[String],
     which: &[usize],
-    (metric, channel): (&str, &str),
+    metric: &str,
+    channel: &str,
 ) -> Option<(String, String)> {
     let (_, part) = OF_LABELS.iter().find(|(name, _)| *name == metric)?;
-    let of_part = |part| spreads(of, which, (part, channel));
+    let of_part = |part| spreads(studies, names, which, part, channel);
     let own = of_part(*part).filter(|own| own.len() == which.len());
     let (part_used, spreads) = match own {
         Some(own) => (*part, own),
@@ -89,14 +92,16 @@ fn range(
 
 /// Names, spreads of labels and units of those that have any.
 fn spreads<'a>(
-    (studies, names): (&[Study], &'a [String]),
+    studies: &[Study],
+    names: &'a [String],
     which: &[usize],
-    (part, channel): (&str, &str),
+    part: &str,
+    channel: &str,
 ) -> Option<Vec<(&'a String, f64, Unit)>> {
     let found = which.iter().filter_map(|at| {
         let study = studies.get(*at)?;
         let unit = study.score("mae", channel)?.unit;
-        Some((names.get(*at)?, spread(study, (part, channel))?, unit))
+        Some((names.get(*at)?, spread(study, part, channel)?, unit))
     });
     let found: Vec<_> = found.collect();
     (!found.is_empty()).then_some(found)
@@ -104,28 +109,28 @@ fn spreads<'a>(
 
 /// How far the labels of a channel lie about their mean in a part of the protocol, of a plane the mean of both axes: from the samples, and without
 /// them, of the calibration, the root mean square error over √(1 − R²), which planes do not have.
-fn spread(study: &Study, (part, channel): (&str, &str)) -> Option<f64> {
+fn spread(study: &Study, part: &str, channel: &str) -> Option<f64> {
     let axes = match channel {
         "Pxy" => ["Px", "Py"],
         "Fxy" => ["Fx", "Fy"],
-        _ => return of_channel(study, (part, channel)),
+        _ => return of_channel(study, part, channel),
     };
-    let [x, y] = axes.map(|axis| of_channel(study, (part, axis)));
+    let [x, y] = axes.map(|axis| of_channel(study, part, axis));
     Some(f64::midpoint(x?, y?))
 }
 
-fn of_channel(study: &Study, (part, channel): (&str, &str)) -> Option<f64> {
+fn of_channel(study: &Study, part: &str, channel: &str) -> Option<f64> {
     let number = |metric: &str| study.score(metric, channel)?.value.number();
     let of_scores = || {
         let spread = number("rmse")? / (1.0 - number("r2")?).sqrt();
         (spread.is_finite() && spread > 0.0).then_some(spread)
     };
-    let found = of_samples(study, (part, channel));
+    let found = of_samples(study, part, channel);
     found.or_else(|| of_scores().filter(|_| part == CALIBRATION))
 }
 
 /// The standard deviation of the labels of a channel over a part of the protocol.
-fn of_samples(study: &Study, (part, channel): (&str, &str)) -> Option<f64> {
+fn of_samples(study: &Study, part: &str, channel: &str) -> Option<f64> {
     let samples = study.samples.as_ref()?;
     let labels = samples.channel(channel)?;
     let rows = samples.of_protocol(part);
@@ -133,10 +138,8 @@ fn of_samples(study: &Study, (part, channel): (&str, &str)) -> Option<f64> {
     let mut truths: Vec<f64> = predicted.map(|[truth, _]| truth).collect();
     if truths.is_empty() {
         // Metrics of the truth alone ask for no prediction.
-        let known = rows
-            .iter()
-            .filter_map(|row| labels.truth.get(*row).copied());
-        truths = known.flatten().collect();
+        let known = rows.iter().filter_map(|row| labels.truth(*row));
+        truths = known.collect();
     }
     let count = truths.iter().fold(0.0, |count, _| count + 1.0);
     let mean = truths.iter().sum::<f64>() / count;
@@ -164,10 +167,10 @@ mod tests {
             of_channel("sr", 0.5, "1"),
         ];
         let text = format!(
-            r#"{{"schema": "taceva.evaluation/1.1", "subject": {{"sensor": "x"}}, "metrics": {{{}}}}}"#,
+            r#"{{"schema": "taceva.evaluation/1.0", "subject": {{"sensor": "x"}}, "metrics": {{{}}}}}"#,
             metrics.join(", ")
         );
-        Study::read(&text).expect("a result").remove(0)
+        crate::results::unsealed(&text).expect("a result").remove(0)
     }
 
     #[test]
@@ -175,7 +178,7 @@ mod tests {
         // 0.012 / √(1 − 0.91) = 0.04; 0.136 / √(1 − 0.36) = 0.17; 0.02 / √(1 − 0.84) = 0.05. Skill, about another constant, plays no part.
         let studies = [study(0.012, 0.91), study(0.136, 0.36), study(0.02, 0.84)];
         let names = ["a", "b", "c"].map(str::to_owned);
-        let said = |which: &[usize], metric: &str| words((&studies, &names), which, metric, "Fxy");
+        let said = |which: &[usize], metric: &str| words(&studies, &names, which, metric, "Fxy");
         let expected = " (their labels differ in spread: a 0.04 N to b 0.17 N)";
         assert_eq!(said(&[0, 1, 2], "mae"), expected);
         // Without samples nobody knows the labels of the repeated presses.
@@ -197,7 +200,7 @@ mod tests {
                 "id,protocol,Fx,Fx_predicted\na,calibration,{one},0\nb,calibration,{other},0\nc,load-unload,{first},\nd,load-unload,{second},\n"
             );
             let mut study = study(0.012, 0.91);
-            study.samples = Some(crate::Samples::read(&table).expect("a table"));
+            study.samples = Some(taceva_results::Samples::read(&table).expect("a table"));
             study
         };
         // Alike in the calibration, 0.1 N against 0.4 N in the cycles.
@@ -206,7 +209,7 @@ mod tests {
             with(["0", "0.2", "0", "0.8"]),
         ];
         let names = ["a", "b"].map(str::to_owned);
-        let said = |metric: &str| words((&studies, &names), &[0, 1], metric, "Fx");
+        let said = |metric: &str| words(&studies, &names, &[0, 1], metric, "Fx");
         assert_eq!(said("mae"), "");
         let cycles = " (their labels of load-unload differ in spread: a 0.1 N to b 0.4 N)";
         assert_eq!(said("hysteresis"), cycles);

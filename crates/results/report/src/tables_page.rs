@@ -3,7 +3,8 @@
 use maud::{Markup, html};
 
 use crate::figure::Figure;
-use crate::html::{Document, fold};
+use crate::html::Document;
+use crate::markup::fold;
 use crate::table::Table;
 
 /// A page of paragraphs, tables and figures.

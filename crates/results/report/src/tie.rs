@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 
 use taceva_metrics::Better;
 
-use crate::figures::listed;
+use crate::names::listed;
 use crate::number::{numeral, spaced};
-use crate::results::{Score, Study};
-use crate::samples::Samples;
+use crate::results::Study;
+use taceva_results::Samples;
+use taceva_results::Score;
 
 /// The metric of gratings, whose values are shares of few presses, so that they are often the same.
 pub(crate) const GRATINGS: &str = "sr";
@@ -186,14 +187,14 @@ mod tests {
     fn the_same_value_of_any_metric_is_a_tie_and_one_bit_more_is_none() {
         let of = |name: &str, value: f64| {
             let text = format!(
-                r#"{{"schema": "taceva.evaluation/1.1", "subject": {{"sensor": "{name}"}}, "metrics": {{"sensitivity": {{"Fz":
+                r#"{{"schema": "taceva.evaluation/1.0", "subject": {{"sensor": "{name}"}}, "metrics": {{"sensitivity": {{"Fz":
                    {{"value": {value:?}, "unit": "mm/N"}}}}}}}}"#
             );
-            Study::read(&text).expect("a result").remove(0)
+            crate::results::unsealed(&text).expect("a result").remove(0)
         };
         let tie_of = |values: [f64; 3]| {
             let studies = [of("a", values[0]), of("b", values[1]), of("c", values[2])];
-            let names = crate::figures::names(&studies);
+            let names = crate::names::names(&studies);
             tie(&studies, &names, "sensitivity", "Fz")
         };
         let tied = tie_of([2.5, 0.5, 2.5]).expect("a tie");

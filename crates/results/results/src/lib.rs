@@ -20,7 +20,7 @@ pub use provenance::{ModelProvenance, Provenance, RecordingProvenance};
 pub use report::{EvaluationReport, RecordingScores, Skip};
 pub use samples::{SampleChannel, Samples, SamplesError};
 pub use schema::{EVALUATION_SCHEMA, RUN_SCHEMA, RunReport, read, sealed};
-pub use score::{Score, Variant, scores};
+pub use score::{Score, Variant, by_metric, scores};
 pub use seeds::{OverSeeds, SeedScore};
 pub use subject::Subject;
 pub use value::Value;

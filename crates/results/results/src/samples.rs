@@ -254,19 +254,24 @@ impl Samples {
             parts.is_some_and(|parts| parts.split(' ').any(|own| own == part))
         };
         let rows = 0..self.rows;
-        match self.has_protocol() {
+        match self.has("protocol") {
             true => rows.filter(is_of).collect(),
             false => rows.collect(),
         }
     }
 
-    /// Whether the table names the part of the protocol of each sample.
-    pub fn has_protocol(&self) -> bool {
-        self.column("protocol").is_some()
+    /// Whether there is a column called `name`.
+    pub fn has(&self, name: &str) -> bool {
+        self.column(name).is_some()
     }
 }
 
-impl SampleChannel<'_> {
+impl<'a> SampleChannel<'a> {
+    /// The number of samples.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
     /// The reading of the reference instrument for a sample, in the unit of the channel.
     pub fn truth(&self, row: usize) -> Option<f64> {
         self.truth?.get(row)
@@ -283,8 +288,8 @@ impl SampleChannel<'_> {
     }
 
     /// Every known truth, in the order of samples.
-    pub fn truths(&self) -> impl Iterator<Item = f64> {
-        (0..self.rows).filter_map(|row| self.truth(row))
+    pub fn truths(self) -> impl Iterator<Item = f64> + 'a {
+        (0..self.rows).filter_map(move |row| self.truth(row))
     }
 
     /// Whether any sample has a prediction.

@@ -1,6 +1,6 @@
 //! Scores of a metric on a channel or plane.
 
-pub(crate) mod by_metric;
+pub mod by_metric;
 mod object;
 
 use taceva_core::Unit;
@@ -83,6 +83,27 @@ impl Score {
             bounded_share: score.bounded_share,
             of: score.of.clone(),
             variants: score.variants.iter().map(Variant::of).collect(),
+        }
+    }
+
+    /// A score of one number, without an interval and of unknown samples.
+    pub fn of_number(metric: &str, channel: &str, value: f64, unit: Unit) -> Score {
+        Score {
+            metric: metric.to_owned(),
+            channel: channel.to_owned(),
+            value: Value::Number(value),
+            unit,
+            n: 0,
+            n_invalid: 0,
+            interval: None,
+            definition: String::new(),
+            parameters: Vec::new(),
+            counts: Vec::new(),
+            flags: Vec::new(),
+            standing: Standing::Counts,
+            bounded_share: None,
+            of: Vec::new(),
+            variants: Vec::new(),
         }
     }
 

@@ -1,17 +1,13 @@
 //! The one way from scores to a report, with what it is about and where it comes from.
 
 use taceva_metrics::{Evaluation, Evaluator};
+use taceva_results::{EvaluationReport, OverSeeds, Provenance, RecordingScores, Samples, Subject};
 
 use crate::bounded_share::Bounded;
 use crate::error::EvaluateError;
 use crate::note::Note;
-use crate::over_seeds::OverSeeds;
-use crate::provenance::Provenance;
-use crate::report::{EvaluationReport, RecordingScores};
 use crate::row_ledger::Taken;
-use crate::samples::Samples;
 use crate::state_file::StateFile;
-use crate::subject::Subject;
 
 /// Rows that were scored.
 pub enum ScoredRows {
@@ -105,8 +101,8 @@ pub fn assess(
     };
     provenance.frames_decoded += context.fit.frames_decoded;
     provenance.notes.extend(sentences(&context.fit.notes));
-    let mut report = EvaluationReport::new(context.subject, evaluation, provenance)
-        .with_recordings(context.by_recording);
+    let mut report = EvaluationReport::new(context.subject, &evaluation, provenance);
+    report.by_recording = context.by_recording;
     report.over_seeds = context.over_seeds;
     report.samples = context.samples;
     Ok(Assessed { report, state })

@@ -50,21 +50,21 @@ pub use features::{FeatureTable, blank, extract, extractor, feature_table};
 pub use fit::{FitPlan, FitRequest, Fitted, Recipe, fit};
 pub use merge::merge;
 pub use note::{Coverage, Learning, Note};
-pub use over_seeds::{OverSeeds, SeedScore};
+pub use over_seeds::of as over_seeds;
 pub use plan::{Plan, Step};
 pub use predict::{
     Predicted, Predictor, Target, model_extractor, predict, predict_target, predicted_numbers,
     predicted_table, truth,
 };
-pub use provenance::{ModelProvenance, Provenance, choices};
-pub use recordings::{RecordingProvenance, reduced};
-pub use report::{EVALUATION_SCHEMA, EvaluationReport, RecordingScores, skipped};
+pub use provenance::{choices, model as model_provenance, of as provenance_of};
+pub use recordings::reduced;
+pub use report::skipped;
 pub use row_ledger::Taken;
 pub use rows::{DataPart, Divided, Need, require_samples, usable};
 pub use run_layout::{PLANS, RECORDINGS};
-pub use samples::Samples;
+pub use samples::{add_predictions, of as samples_of, protocol as protocol_words};
 pub use score::{ScoreRequest, ScoreTables, Scored, Scoring, Shard, ShardError, score_in_one_pass};
 pub use skill::{skill, with_skill};
 pub use state_file::{STATE_SCHEMA, StateFile};
-pub use subject::Subject;
+pub use subject::of as subject_of;
 pub use work::Work;

@@ -8,9 +8,9 @@ use taceva_metrics::Evaluator;
 use crate::assess::{Assessed, Context, FitFacts, ScoredRows, assess};
 use crate::error::EvaluateError;
 use crate::note::Note;
-use crate::report::EvaluationReport;
 use crate::row_ledger::{AllTaken, Taken};
 use crate::state_file::{ReadState, StateFile};
+use taceva_results::EvaluationReport;
 
 /// The scores of several states together, and the merged state.
 ///

@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use serde::{Deserialize, Serialize};
 use taceva_core::{Labels, shown};
 use taceva_dataset::Dataset;
 use taceva_models::Model;
+use taceva_results::RecordingProvenance;
 
 use crate::error::EvaluateError;
 use crate::note::Note;
@@ -14,17 +14,6 @@ use crate::row_ledger::Taken;
 
 /// The fewest recordings with scored samples by which intervals are formed; fewer clusters give no interval.
 pub(crate) const CLUSTERS_LEAST: usize = 5;
-
-/// A recording among those that a result is of.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct RecordingProvenance {
-    /// The name by which its samples and contact points are called.
-    pub name: String,
-    /// Its digest.
-    pub digest: String,
-    /// Samples in it, scored or not.
-    pub samples: usize,
-}
 
 /// The recordings that `dataset` was joined of; none of a single one.
 pub(crate) fn provenance(dataset: &Dataset) -> Vec<RecordingProvenance> {

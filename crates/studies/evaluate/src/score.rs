@@ -26,13 +26,12 @@ use crate::error::EvaluateError;
 use crate::facts;
 use crate::note::Note;
 use crate::plan::Plan;
-use crate::provenance::Provenance;
-use crate::report::EvaluationReport;
 use crate::row_ledger::Taken;
-use crate::samples::Samples;
+use crate::samples;
 use crate::skill::with_skill;
 use crate::state_file::StateFile;
-use crate::subject::Subject;
+use crate::subject;
+use taceva_results::{EvaluationReport, Provenance, Samples};
 
 use fields::Place;
 use row_pairs::PairedRows;
@@ -165,7 +164,7 @@ impl Scoring {
             let [truth, prediction] = columns;
             (channel.clone(), truth, prediction)
         });
-        Ok(Samples::of_pairs(ids, points, channels.collect()))
+        Ok(samples::of_pairs(ids, points, channels))
     }
 
     fn paired(&self) -> Result<PairedRows<'_>, EvaluateError> {
@@ -238,7 +237,7 @@ fn finished(
             frames_decoded: 0,
             notes,
         },
-        ..Context::new(Subject::of_file(sensor), provenance)
+        ..Context::new(subject::of_file(sensor), provenance)
     };
     let Assessed { report, state } = assess(rows, Bounded::default(), context)?;
     Ok(Scored {

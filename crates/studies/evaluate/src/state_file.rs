@@ -12,10 +12,10 @@ use taceva_metrics::{Evaluation, Evaluator, State};
 
 use crate::bounded_share::Bounded;
 use crate::error::EvaluateError;
-use crate::provenance::Provenance;
+use crate::provenance;
 use crate::row_ledger::Taken;
-use crate::subject::Subject;
 use plan::WrittenPlan;
+use taceva_results::{Provenance, Subject};
 
 /// The schema of a state file. A minor version only adds keys; since 1.1 a state is sealed and says which rows it took.
 pub const STATE_SCHEMA: &str = "taceva.state/1.1";
@@ -75,7 +75,7 @@ impl StateFile {
             plan: WrittenPlan::of(evaluator.plan()),
             provenance: provenance.clone(),
             bounded,
-            seen: provenance.is_of_seen_samples(),
+            seen: provenance::is_of_seen_samples(provenance),
             states: evaluator.states()?,
             taken: Vec::new(),
             history: Vec::new(),

@@ -9,9 +9,10 @@ use std::sync::{Mutex, PoisonError};
 
 use taceva_acquire::{AcquireError, PlannedScene, PlannedStudy, Workshop};
 use taceva_dataset::Dataset;
-use taceva_evaluate::{Cache, CachedStage, EvaluationReport, Key, StudyCache, Work};
+use taceva_evaluate::{Cache, CachedStage, Key, StudyCache, Work};
 use taceva_models::Models;
 use taceva_protocol::{Cancel, StopCause};
+use taceva_results::EvaluationReport;
 
 use crate::error::StudyError;
 use crate::models::check_models;

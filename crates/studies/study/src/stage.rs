@@ -12,16 +12,16 @@ use taceva_protocol::PhaseKind;
 
 use taceva_acquire::{PlannedScene, PlannedStudy};
 use taceva_evaluate::EvaluateError;
-use taceva_evaluate::EvaluationReport;
-use taceva_evaluate::OverSeeds;
-use taceva_evaluate::Samples;
-use taceva_evaluate::Subject;
 use taceva_evaluate::{Bounded, Context, Note, ScoredRows, calibration, choices, reduced};
 use taceva_evaluate::{CachedStage, Key};
 use taceva_evaluate::{DataPart, Divided, Need, usable};
 use taceva_evaluate::{FitPlan, FitRequest, Recipe};
-use taceva_evaluate::{ModelProvenance, Provenance};
 use taceva_evaluate::{Predicted, Predictor, Target, predicted_numbers, predicted_table};
+use taceva_evaluate::{
+    add_predictions, model_provenance, over_seeds as scores_over_seeds, protocol_words,
+    provenance_of, samples_of, subject_of,
+};
+use taceva_results::{EvaluationReport, Provenance};
 
 use crate::error::StudyError;
 use crate::models::{classifier, fit_request, model_file};
@@ -78,7 +78,7 @@ pub(crate) fn assess(
     }
     let over_seeds = (!others.is_empty()).then(|| {
         let evaluations: Vec<&Evaluation> = [&evaluation].into_iter().chain(&others).collect();
-        OverSeeds::of(&scene.seeds, &evaluations)
+        scores_over_seeds(&scene.seeds, &evaluations)
     });
     notes.extend(spacings.as_ref().map(|_| Note::Spacings(classifier.note())));
     notes.extend(phase_rows.shortfall());
@@ -108,27 +108,27 @@ pub(crate) fn assess(
     let provenance = Provenance {
         model: learnt
             .as_ref()
-            .map(|learnt| ModelProvenance::of(&learnt.model))
+            .map(|learnt| model_provenance(&learnt.model))
             .transpose()?,
         split: divided.map(|divided| divided.spec.to_string()),
         seed: Some(scene.scene.seed),
         samples: divided.map(Divided::counts).unwrap_or_default(),
         frames_decoded: frames_decoded.into_iter().flatten().sum(),
-        ..Provenance::of(dataset)
+        ..provenance_of(dataset)
     };
     let rows = dataset.all_rows();
-    let mut samples = Samples::of(dataset, &rows)?;
+    let mut samples = samples_of(dataset, &rows)?;
     if let Some(parts) = phase_rows.protocol() {
-        samples = samples.with_protocol(&rows, &parts);
+        samples.insert_protocol(protocol_words(&rows, &parts));
     }
     if let Some((predicted, of_rows)) = &predicted {
-        samples = samples.with_predictions(&rows, (predicted, of_rows));
+        add_predictions(&mut samples, &rows, predicted, of_rows);
     }
     let context = Context {
         notes,
         over_seeds,
         samples: Some(samples),
-        ..Context::new(Subject::of(dataset), provenance)
+        ..Context::new(subject_of(dataset), provenance)
     };
     let rows = ScoredRows::Finished(Box::new(evaluation));
     Ok(taceva_evaluate::assess(rows, beyond, context)?.report)

@@ -70,7 +70,7 @@ impl Group<'_> {
             let mut errors = result.validation.iter();
             let error = errors.find(|error| error.channel == channel)?;
             sum += error.rmse;
-            unit = Some(error.unit.as_str());
+            unit = Some(error.unit.symbol());
         }
         Some((sum / self.results.len() as f64, unit?))
     }
@@ -78,7 +78,8 @@ impl Group<'_> {
     /// The scores of each seed.
     pub(crate) fn values(&self, metric: &str, channel: &str) -> Vec<f64> {
         let results = self.results.iter();
-        let scores = results.filter_map(|(_, result)| result.score(metric, channel)?.value);
+        let scores =
+            results.filter_map(|(_, result)| result.score(metric, channel)?.value.number());
         scores.collect()
     }
 

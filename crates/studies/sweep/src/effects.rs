@@ -4,11 +4,12 @@ mod dimension;
 
 use std::collections::BTreeMap;
 
+use taceva_core::Unit;
 use taceva_metrics::Repeats;
 use taceva_report::{Cell, Column, Table};
 
 use crate::analysis::Loaded;
-use crate::chosen::{ends, number};
+use crate::choices::{ends, number};
 use crate::task_list::TaskList;
 use dimension::{Dimension, dimensions};
 
@@ -52,7 +53,7 @@ fn row(
 ) -> Option<Vec<Cell>> {
     let mut pairs: BTreeMap<String, [Option<f64>; 2]> = BTreeMap::new();
     // Errors in several units have no mean; a row is of the unit that the channel has everywhere.
-    let mut units: Vec<String> = Vec::new();
+    let mut units: Vec<Unit> = Vec::new();
     for one in loaded {
         let word = dimension.word(one.task);
         let side = match word {
@@ -64,9 +65,9 @@ fn row(
             continue;
         };
         if !units.contains(&score.unit) {
-            units.push(score.unit.clone());
+            units.push(score.unit);
         }
-        pairs.entry(dimension.beside(one.task)).or_default()[side] = score.value;
+        pairs.entry(dimension.beside(one.task)).or_default()[side] = score.value.number();
     }
     let differences: Vec<f64> = pairs
         .values()
@@ -91,6 +92,6 @@ fn row(
             |over| ends(mean, over.interval),
         )),
         Cell::Number(differences.len().to_string()),
-        Cell::text(unit.as_str()),
+        Cell::text(unit.symbol()),
     ])
 }

@@ -2,7 +2,7 @@
 
 mod model_entry;
 mod place;
-mod read;
+mod reader;
 mod tables;
 mod vary;
 

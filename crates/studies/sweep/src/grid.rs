@@ -2,7 +2,7 @@
 
 mod builds;
 mod checks;
-mod combined;
+mod combinations;
 mod recordings;
 mod shards;
 
@@ -15,7 +15,7 @@ use crate::error::SweepError;
 use crate::file::SweepFile;
 use crate::scene_recording::SceneRecording;
 use crate::task::Task;
-use combined::Common;
+use combinations::Common;
 
 pub(crate) use builds::build_of;
 pub(crate) use shards::PlannedTables;

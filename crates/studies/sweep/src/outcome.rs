@@ -3,13 +3,11 @@
 mod errors;
 mod shard;
 
-use taceva_core::{ErrorKind, shown};
+use taceva_core::ErrorKind;
 use taceva_dataset::{Digest, SensorFile};
-use taceva_evaluate::{
-    EvaluateError, EvaluateRequest, EvaluationReport, ModelChoice, Work, evaluate, fit,
-};
+use taceva_evaluate::{EvaluateError, EvaluateRequest, ModelChoice, Work, evaluate, fit};
 use taceva_models::{ChosenBy, Model, Models};
-use taceva_report::Study;
+use taceva_results::EvaluationReport;
 
 use crate::error::SweepError;
 use crate::folder::SweepFolder;
@@ -86,11 +84,8 @@ pub(crate) fn carry_out(task: &Task, common: Common<'_>, work: Work<'_>) -> Resu
     let mut evaluated = evaluate(&dataset, &asked(model), work)?;
     evaluated.report.provenance.frames_decoded += fitted.frames_decoded;
     let text = sealed(&evaluated.report)?;
-    let study = Study::read(&text);
-    let study = study.map_err(|error| unexpected(task, &error))?;
-    let study = study.first().ok_or_else(|| unexpected(task, &"no study"))?;
-    result = result.with_scores(study);
-    result.errors = errors(&evaluated.report).map_err(|error| unexpected(task, &error))?;
+    result = result.with_scores(&evaluated.report);
+    result.errors = errors(&evaluated.report);
     result.evaluation = Digest::of(text.as_bytes()).to_string();
     // The evaluation first: where the result is, everything is.
     let folder = common.folder;
@@ -108,24 +103,12 @@ pub(crate) fn is_stop(error: &SweepError) -> bool {
     kind == ErrorKind::Interrupted
 }
 
-fn unexpected(task: &Task, problem: &dyn std::fmt::Display) -> SweepError {
-    SweepError::Kept {
-        path: task.path.clone(),
-        problem: format!(
-            "its evaluation cannot be read back: {}",
-            shown(&problem.to_string())
-        ),
-    }
-}
-
 /// The evaluation as `taceva evaluate --format json` writes it.
 pub(crate) fn sealed(report: &EvaluationReport) -> Result<String, SweepError> {
-    let wrong = |problem: String| SweepError::Kept {
+    taceva_results::sealed(report).map_err(|error| SweepError::Kept {
         path: "evaluation".into(),
-        problem,
-    };
-    let text = serde_json::to_string_pretty(report).map_err(|error| wrong(error.to_string()))?;
-    taceva_files::seal::json::seal(&text).map_err(|error| wrong(error.to_string()))
+        problem: error.to_string(),
+    })
 }
 
 /// What settings were chosen by, and the error of each channel there.
@@ -141,7 +124,7 @@ fn validation(model: &Model) -> (String, Vec<ValidationError>) {
     let errors = channels.filter_map(|(channel, choice)| {
         Some(ValidationError {
             channel: channel.name.clone(),
-            unit: channel.unit.to_string(),
+            unit: channel.unit,
             rmse: choice.rmse?,
         })
     });

@@ -4,13 +4,13 @@ mod times;
 
 use taceva_report::{Cell, Column, PagePart, PageSection, Table, TablesPage};
 
-use crate::accepted;
 use crate::analysis::{self, Found, Loaded};
-use crate::chosen;
-use crate::collected::Collected;
-use crate::decided;
+use crate::choices;
+use crate::decisions;
 use crate::effects;
+use crate::tally::Collected;
 use crate::task_list::TaskList;
+use crate::units;
 
 pub(crate) use times::times;
 
@@ -18,11 +18,11 @@ pub(crate) use times::times;
 pub(crate) fn results(list: &TaskList, loaded: &[Loaded<'_>], collected: &Collected) -> String {
     let channels = analysis::channels(loaded);
     let groups = analysis::groups(loaded);
-    let choices = chosen::choices(&groups, &channels);
+    let choices = choices::choices(&groups, &channels);
     let mut sections = Vec::new();
     let mut section = |id, title, parts| sections.push(PageSection { id, title, parts });
     let partial = groups.iter().filter(|group| !group.is_whole).count();
-    let mut best = vec![PagePart::Table(chosen::table(&groups, &choices))];
+    let mut best = vec![PagePart::Table(choices::table(&groups, &choices))];
     if partial > 0 {
         best.push(PagePart::Words(format!(
             "{partial} of {} configurations lack a result for some seed and take no part in the choice.",
@@ -34,7 +34,7 @@ pub(crate) fn results(list: &TaskList, loaded: &[Loaded<'_>], collected: &Collec
         section(
             "units",
             "Units",
-            vec![PagePart::Table(accepted::table(&collected.units))],
+            vec![PagePart::Table(units::table(&collected.units))],
         );
     }
     let effects = effects::table(loaded, list, &channels);
@@ -43,7 +43,7 @@ pub(crate) fn results(list: &TaskList, loaded: &[Loaded<'_>], collected: &Collec
         "Effect of each setting",
         vec![PagePart::Table(effects)],
     );
-    let decided = decided::table(&groups, &choices);
+    let decided = decisions::table(&groups, &choices);
     let count = format!("{} pairs", decided.rows.len());
     section(
         "compared",

@@ -1,17 +1,18 @@
 //! What a task found: its scores and the errors behind them, in a sealed file.
 
-mod kept;
+mod file;
 
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
+use taceva_core::Unit;
 use taceva_metrics::ClusterSums;
-use taceva_report::{Interval, Study, Value};
+use taceva_results::{EvaluationReport, Score, Value, by_metric};
 
 use crate::key::TaskKey;
 
 /// The schema of a result.
-const SCHEMA: &str = "taceva.sweep-result/1.1";
+const SCHEMA: &str = "taceva.sweep-result/1.0";
 
 /// Of each channel: contact point, samples of it, and the sum of their absolute errors.
 pub(crate) type PointErrors = BTreeMap<String, Vec<(String, u64, f64)>>;
@@ -36,7 +37,8 @@ pub(crate) struct TaskResult {
     /// The root mean square error of each channel there.
     pub(crate) validation: Vec<ValidationError>,
     /// The scores on the test part.
-    pub(crate) scores: Vec<SweepScore>,
+    #[serde(rename = "metrics", with = "by_metric")]
+    pub(crate) scores: Vec<Score>,
     /// The errors on the test part, by contact point.
     pub(crate) errors: PointErrors,
     /// The digest of the file of its evaluation.
@@ -47,23 +49,8 @@ pub(crate) struct TaskResult {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct ValidationError {
     pub(crate) channel: String,
-    pub(crate) unit: String,
+    pub(crate) unit: Unit,
     pub(crate) rmse: f64,
-}
-
-/// One score on the test part.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct SweepScore {
-    pub(crate) metric: String,
-    pub(crate) channel: String,
-    pub(crate) unit: String,
-    pub(crate) better: String,
-    /// The value; absent where there is none, for the reason.
-    pub(crate) value: Option<f64>,
-    pub(crate) reason: Option<String>,
-    /// The interval of 95 % by contact point.
-    pub(crate) interval: Option<[f64; 2]>,
-    pub(crate) n: u64,
 }
 
 impl TaskResult {
@@ -85,38 +72,23 @@ impl TaskResult {
         }
     }
 
-    /// With what an evaluation says: numbers, and reasons where there is none; maps and curves stand in the evaluation alone.
-    pub(crate) fn with_scores(mut self, study: &Study) -> TaskResult {
-        self.source.clone_from(&study.source);
-        self.sensor.clone_from(&study.sensor);
-        self.serial.clone_from(&study.serial);
-        for score in &study.scores {
-            let (value, reason) = match &score.value {
-                Value::Number(value) => (Some(*value), None),
-                Value::Undefined(why) => (None, Some(format!("undefined: {why}"))),
-                Value::NotApplicable(why) => (None, Some(format!("not applicable: {why}"))),
-                Value::Map(_) | Value::Curve(_) | Value::Matrix(_) => continue,
-            };
-            let interval = match &score.interval {
-                Some(Interval::Ends { ends, .. }) => Some(*ends),
-                Some(Interval::Absent(_)) | None => None,
-            };
-            self.scores.push(SweepScore {
-                metric: score.metric.clone(),
-                channel: score.channel.clone(),
-                unit: score.unit.symbol().to_owned(),
-                better: score.better().name().to_owned(),
-                value,
-                reason,
-                interval,
-                n: score.n,
-            });
-        }
+    /// The result with the scores of `report` that are one number or none; maps and curves stand in the evaluation alone.
+    pub(crate) fn with_scores(mut self, report: &EvaluationReport) -> TaskResult {
+        self.source.clone_from(&report.subject.source);
+        self.sensor.clone_from(&report.subject.sensor);
+        self.serial.clone_from(&report.subject.serial);
+        let is_many =
+            |value: &Value| matches!(value, Value::Map(_) | Value::Curve(_) | Value::Matrix(_));
+        let scores = report.scores.iter().filter(|score| !is_many(&score.value));
+        self.scores.extend(scores.map(|score| Score {
+            variants: Vec::new(),
+            ..score.clone()
+        }));
         self
     }
 
     /// The score of a metric and channel.
-    pub(crate) fn score(&self, metric: &str, channel: &str) -> Option<&SweepScore> {
+    pub(crate) fn score(&self, metric: &str, channel: &str) -> Option<&Score> {
         let mut scores = self.scores.iter();
         scores.find(|score| score.metric == metric && score.channel == channel)
     }

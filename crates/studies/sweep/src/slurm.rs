@@ -5,9 +5,9 @@
 
 mod command;
 mod queue;
+mod record;
 mod script;
-mod submit;
-mod submitted;
+mod submission;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -20,8 +20,8 @@ use command::array_most;
 use script::Script;
 
 pub use queue::{JobState, queue_of};
-pub use submit::submit;
-pub use submitted::Submitted;
+pub use record::Submitted;
+pub use submission::submit;
 
 /// What is submitted.
 #[derive(Clone, Debug)]

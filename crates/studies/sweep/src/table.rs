@@ -5,12 +5,11 @@ mod rows;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use taceva_report::escape_csv;
+use taceva_results::{Score, escape_csv};
 use taceva_tables::{Cell, ParquetWriter, WrittenColumn, WrittenKind};
 
 use crate::analysis::{Found, Loaded};
 use crate::error::SweepError;
-use crate::result::SweepScore;
 use rows::{head, scored, without_scores};
 
 /// A table with typed columns; the same tasks and results give the same bytes.
@@ -77,16 +76,7 @@ impl TidyTable {
             [&result.source, &result.sensor, &result.serial],
         );
         for error in &result.validation {
-            let row = SweepScore {
-                metric: "rmse".to_owned(),
-                channel: error.channel.clone(),
-                unit: error.unit.clone(),
-                better: "lower".to_owned(),
-                value: Some(error.rmse),
-                reason: None,
-                interval: None,
-                n: 0,
-            };
+            let row = Score::of_number("rmse", &error.channel, error.rmse, error.unit);
             self.rows
                 .push(scored(head.clone(), "validation", &row, &result.chosen_by));
         }

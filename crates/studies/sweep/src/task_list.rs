@@ -1,7 +1,7 @@
 //! The tasks of a sweep as a file, so that a job elsewhere carries out what was planned here.
 
-mod kept;
-mod wanted;
+mod file;
+mod selection;
 
 use std::path::{Path, PathBuf};
 
@@ -13,7 +13,7 @@ use crate::file::SweepFile;
 use crate::grid::{Grid, PlannedTables, sensor_digest};
 use crate::task::Task;
 
-pub use wanted::Counts;
+pub use selection::Counts;
 
 /// The schema of the list.
 const SCHEMA: &str = "taceva.sweep-tasks/1.1";

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use taceva_dataset::Dataset;
-use taceva_evaluate::{EvaluateError, FitRequest, Subject};
+use taceva_evaluate::{EvaluateError, FitRequest, subject_of};
 use taceva_metrics::Isa;
 use taceva_models::{ModelSettings, Models};
 use taceva_report::{
@@ -116,7 +116,7 @@ fn race(
         train,
         test,
     } = trials;
-    let recording = recording(dataset, name, (split, train, test));
+    let recording = recording(dataset, name, split, train, test);
     let mut bench = ModelBench::new(machine(context), recording);
     bench.rows = rows.into_iter().map(row).collect();
     Ok(bench)
@@ -141,9 +141,11 @@ pub(super) fn machine(context: &Context) -> BenchMachine {
 pub(super) fn recording(
     dataset: &Dataset,
     name: &str,
-    (split, train, test): (String, usize, usize),
+    split: String,
+    train: usize,
+    test: usize,
 ) -> BenchRecording {
-    let subject = Subject::of(dataset);
+    let subject = subject_of(dataset);
     BenchRecording {
         name: name.to_owned(),
         sensor: subject.sensor,

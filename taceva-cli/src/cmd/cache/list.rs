@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use taceva_evaluate::{CacheEntry, cache_entries};
 use taceva_report::Table;
 
-use super::amount::{age, bytes};
+use crate::amount::{age, bytes};
 use crate::args::CacheList;
 use crate::cmd::results;
 use crate::{exit, output};

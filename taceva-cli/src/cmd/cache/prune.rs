@@ -5,16 +5,13 @@ use std::time::SystemTime;
 use anyhow::Context as _;
 use taceva_evaluate::{Pruning, cache_entries, pruned, remove_entry};
 
-use super::amount::bytes;
+use crate::amount::bytes;
 use crate::args::CachePrune;
 use crate::cmd::Context;
 use crate::{exit, output};
 
 pub(super) fn run(args: &CachePrune, context: &Context) -> anyhow::Result<u8> {
-    if args.former.dry_run {
-        context.note_former_name("--dry-run", "--explain");
-    }
-    let is_explained = args.explain.is_wanted || args.former.dry_run;
+    let is_explained = args.explain.is_wanted;
     let folder = super::folder_of(args.cache.path.clone())?;
     let read = || format!("cannot read {}", taceva_core::shown(&folder));
     let entries = cache_entries(&folder).with_context(read)?;

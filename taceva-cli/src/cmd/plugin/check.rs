@@ -54,7 +54,8 @@ pub(super) fn run(args: &PluginCheck, context: &Context) -> anyhow::Result<u8> {
         report::plugin_check::write(
             &args.id,
             args.seed.value,
-            (&results, is_watched),
+            &results,
+            is_watched,
             to.format,
             out,
         )

@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use taceva_core::shown;
 
 use anyhow::{Context as _, bail};
@@ -49,11 +49,7 @@ fn python_project(args: &PluginNew, context: &Context) -> anyhow::Result<u8> {
 }
 
 pub(super) fn headers(args: &PluginHeaders, context: &Context) -> anyhow::Result<u8> {
-    if args.former.folder.is_some() {
-        context.note_former_name("plugin headers DIR", "plugin headers --out DIR");
-    }
-    let folder = args.out.as_ref().or(args.former.folder.as_ref());
-    let folder = folder.map_or(Path::new(INCLUDE), PathBuf::as_path);
+    let folder = args.out.as_deref().unwrap_or(Path::new(INCLUDE));
     write_folder(folder, "include/", &taceva_template::headers())?;
     context.say(format_args!("{}: for `cc -I`", shown(folder)));
     Ok(exit::DONE)

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use taceva_core::shown;
 
 use anyhow::{Context as _, bail};
-use taceva_report::{Samples, Study, escape_terminal};
+use taceva_report::{Study, escape_terminal};
+use taceva_results::Samples;
 
 use super::{Found, RESULTS};
 

@@ -16,8 +16,10 @@ use crate::{exit, output};
 /// Submits the tasks at `wanted` that have no result yet.
 pub(super) fn submit(
     args: &SweepRun,
-    (folder, list): (&SweepFolder, &TaskList),
-    (wanted, spec): (&[usize], &SlurmSpec),
+    folder: &SweepFolder,
+    list: &TaskList,
+    wanted: &[usize],
+    spec: &SlurmSpec,
     context: &Context,
 ) -> anyhow::Result<u8> {
     let left = list.without_result(folder, wanted, args.retry_failed)?;

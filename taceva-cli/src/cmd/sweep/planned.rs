@@ -3,8 +3,8 @@
 use taceva_sweep::{Estimate, SweepFolder};
 
 use super::super::Context;
-use super::super::cache::amount::bytes;
 use super::scenes::SweepScene;
+use crate::amount::bytes;
 use crate::progress::spoken;
 use crate::{exit, output};
 
@@ -12,7 +12,8 @@ use crate::{exit, output};
 pub(super) fn print(
     estimate: &Estimate,
     skipped: usize,
-    (scenes, folder): (&[SweepScene], &SweepFolder),
+    scenes: &[SweepScene],
+    folder: &SweepFolder,
     context: &Context,
 ) -> anyhow::Result<u8> {
     let workers = u32::try_from(context.jobs.get()).unwrap_or(1);

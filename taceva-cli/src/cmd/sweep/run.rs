@@ -33,7 +33,7 @@ pub(super) fn run(args: &SweepRun, context: &Context) -> anyhow::Result<u8> {
     let mut wanted = list.matching(only.as_ref())?;
     if args.dry_run {
         let estimate = Estimate::of(&folder, &list, &wanted, args.retry_failed)?;
-        return planned::print(&estimate, skipped, (&scenes, &folder), context);
+        return planned::print(&estimate, skipped, &scenes, &folder, context);
     }
     folder.make()?;
     let acquisition = Acquisition {
@@ -50,7 +50,7 @@ pub(super) fn run(args: &SweepRun, context: &Context) -> anyhow::Result<u8> {
     match args.on {
         SweepEngine::Here => {}
         SweepEngine::Slurm => {
-            return jobs::submit(args, (&folder, &list), (&wanted, &file.slurm), context);
+            return jobs::submit(args, &folder, &list, &wanted, &file.slurm, context);
         }
         SweepEngine::List => {
             let left = list.without_result(&folder, &wanted, args.retry_failed)?;
@@ -61,10 +61,10 @@ pub(super) fn run(args: &SweepRun, context: &Context) -> anyhow::Result<u8> {
         cache: &args.cache,
         retry_failed: args.retry_failed,
     };
-    let ran = carried_out((&folder, &list), (&wanted, asked), &models, context)?;
+    let ran = carried_out(&folder, &list, &wanted, asked, &models, context)?;
     let collected = collect(&folder, &list, ran.scored > 0)?;
     print(&folder, &collected)?;
-    Ok(ended(&ran, (&folder, &list), all_pass(&collected), context))
+    Ok(ended(&ran, &folder, &list, all_pass(&collected), context))
 }
 
 /// Prints how the tasks at `left` are carried out by an engine that is none of ours.

@@ -37,7 +37,7 @@ pub(super) fn planned(
 ) -> anyhow::Result<Vec<SweepScene>> {
     let mut scenes: Vec<SweepScene> = Vec::with_capacity(file.scenes.len());
     for named in &file.scenes {
-        let scene = SweepScene::of(named, (file, folder), context)?;
+        let scene = SweepScene::of(named, file, folder, context)?;
         let other = scenes
             .iter()
             .find(|other| other.run.path() == scene.run.path());
@@ -63,7 +63,8 @@ pub(super) fn recordings(scenes: &[SweepScene]) -> Vec<SceneRecording> {
 impl SweepScene {
     fn of(
         named: &str,
-        (file, folder): (&SweepFile, &SweepFolder),
+        file: &SweepFile,
+        folder: &SweepFolder,
         context: &Context,
     ) -> anyhow::Result<SweepScene> {
         let wrong =

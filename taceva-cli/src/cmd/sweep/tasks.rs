@@ -17,8 +17,10 @@ pub(super) struct Asked<'a> {
 
 /// Carries out the tasks at `wanted` in this process.
 pub(super) fn carried_out(
-    (folder, list): (&SweepFolder, &TaskList),
-    (wanted, asked): (&[usize], Asked<'_>),
+    folder: &SweepFolder,
+    list: &TaskList,
+    wanted: &[usize],
+    asked: Asked<'_>,
     models: &Models,
     context: &Context,
 ) -> anyhow::Result<Ran> {
@@ -52,14 +54,15 @@ pub(super) fn run(args: &SweepTask, context: &Context) -> anyhow::Result<u8> {
         cache: &args.cache,
         retry_failed: args.retry_failed,
     };
-    let ran = carried_out((&folder, &list), (&args.at, asked), &models, context)?;
-    Ok(ended(&ran, (&folder, &list), true, context))
+    let ran = carried_out(&folder, &list, &args.at, asked, &models, context)?;
+    Ok(ended(&ran, &folder, &list, true, context))
 }
 
 /// Names what failed; the exit code.
 pub(super) fn ended(
     ran: &Ran,
-    (folder, list): (&SweepFolder, &TaskList),
+    folder: &SweepFolder,
+    list: &TaskList,
     is_passed: bool,
     context: &Context,
 ) -> u8 {

@@ -5,12 +5,13 @@ use serde_json::json;
 use taceva_metrics::Better;
 
 use super::{Finding, Limit};
-use crate::html::{Document, Triple, badge, glossary, terms, triples};
+use crate::html::{Document, Triple, badge, triples};
+use crate::markup::{glossary, terms};
 use crate::number::numeral;
 use crate::results::Study;
-use crate::samples::SampleChannel;
 use crate::short_digests::short_digests;
 use crate::table::{Cell, Column, Table};
+use taceva_results::SampleChannel;
 
 /// The schema of an acceptance as JSON. 1.1: each finding says which values are good.
 pub const ACCEPTANCE_SCHEMA: &str = "taceva.acceptance/1.1";
@@ -153,8 +154,8 @@ impl Acceptance<'_> {
 
 /// From the least to the greatest truth of each channel, where the samples are at hand: `Pz 0 … 1.2 mm`.
 fn ranges(study: &Study) -> String {
-    let range = |channel: &SampleChannel| {
-        let truth = channel.truth.iter().flatten().copied();
+    let range = |channel: SampleChannel<'_>| {
+        let truth = channel.truths();
         let [low, high] = crate::figure::extent(truth)?;
         let unit = crate::number::spaced(channel.unit());
         Some(format!(

@@ -5,8 +5,9 @@ use taceva_metrics::Better;
 use super::LIMITS_VERSION;
 use crate::escape::terminal;
 use crate::number::{FormattedValue, spaced};
-use crate::results::{Interval, Score, Study};
+use crate::results::Study;
 use crate::scores::ScoreTable;
+use taceva_results::{Interval, Score};
 
 /// How much worse than the value of the result a limit is, as a part of the value.
 const MARGIN: f64 = 0.2;
@@ -18,8 +19,9 @@ const DIGITS: i32 = 3;
 ///
 /// ```
 /// use taceva_report::{LimitsFile, Study, accept, limits_template};
-/// let study = Study::read(r#"{"schema": "taceva.evaluation/1", "subject": {"sensor": "TacTip"},
-///     "metrics": {"mae": {"Fz": {"value": 0.05, "unit": "N", "n": 46, "ci95": [0.04, 0.055]}}}}"#)?.remove(0);
+/// let result = r#"{"schema": "taceva.evaluation/1.0", "subject": {"sensor": "TacTip"},
+///     "metrics": {"mae": {"Fz": {"value": 0.05, "unit": "N", "n": 46, "ci95": [0.04, 0.055]}}}}"#;
+/// let study = Study::read(&taceva_files::seal::json::seal(result)?)?.remove(0);
 /// let limits = LimitsFile::read(&limits_template(&study))?;
 /// assert_eq!(limits.limits[0].most, Some(0.06));
 /// assert!(accept(&study, &limits)[0].is_kept);
@@ -151,8 +153,8 @@ mod tests {
 
     #[test]
     fn a_limit_is_worse_than_the_value_and_outside_the_interval() {
-        let study = Study::read(
-            r#"{"schema": "taceva.evaluation/1", "subject": {"sensor": "a\n[[limit]] \"b"}, "metrics": {
+        let study = crate::results::unsealed(
+            r#"{"schema": "taceva.evaluation/1.0", "subject": {"sensor": "a\n[[limit]] \"b"}, "metrics": {
                 "mae": {"Fz": {"value": 0.05, "unit": "N", "n": 46, "ci95": [0.01, 0.0912345]}},
                 "r2": {"Fz": {"value": 0.5, "unit": "1", "n": 46, "ci95": [0.25, 0.75]}},
                 "bias": {"Fz": {"value": -0.1, "unit": "N", "n": 46}},
@@ -178,8 +180,8 @@ mod tests {
 
     #[test]
     fn what_shows_no_skill_is_left_out_by_name_and_reason() {
-        let study = Study::read(
-            r#"{"schema": "taceva.evaluation/1.1", "subject": {"sensor": "x"}, "metrics": {
+        let study = crate::results::unsealed(
+            r#"{"schema": "taceva.evaluation/1.0", "subject": {"sensor": "x"}, "metrics": {
                 "mae": {"Fz": {"value": 0.05, "unit": "N", "n": 46}, "Pz": {"value": 0.05, "unit": "mm", "n": 46}},
                 "r2": {"Fz": {"value": 0.1, "unit": "1", "n": 46, "ci95": [-0.25, 0.75]},
                        "Pz": {"value": 0.9, "unit": "1", "n": 46, "ci95": [0.8, 0.95]}}}}"#,

@@ -31,8 +31,10 @@ impl Sensor {
     /// published is defined otherwise, or nothing was.
     pub fn published_alike(
         &self,
-        (metric, channel): (&str, &str),
-        (definition, unit): (&str, Unit),
+        metric: &str,
+        channel: &str,
+        definition: &str,
+        unit: Unit,
     ) -> Option<&Published> {
         let (_, words) = SAME.iter().find(|(ours, _)| *ours == definition)?;
         self.results.iter().find(|result| {
@@ -53,7 +55,7 @@ mod tests {
     fn a_published_value_of_another_definition_unit_or_channel_stands_beside_none_of_ours() {
         let gelsight = find("GelSight").expect("there");
         let of = |metric, channel, definition, unit| {
-            let found = gelsight.published_alike((metric, channel), (definition, unit));
+            let found = gelsight.published_alike(metric, channel, definition, unit);
             found.map(|published| published.value)
         };
         let mm = Unit::Millimetre;
@@ -74,7 +76,7 @@ mod tests {
         for result in &mut other.results {
             result.definition.push_str(", over gel and glass");
         }
-        let found = other.published_alike(("mae", "Pz"), ("mae/1", mm));
+        let found = other.published_alike("mae", "Pz", "mae/1", mm);
         assert_eq!(found, None);
     }
 

@@ -3,15 +3,12 @@
 use std::collections::BTreeMap;
 
 use taceva_core::Unit;
-use taceva_metrics::Standing;
 
 use super::definition;
 use super::entry::{Kind, Sensor};
 use super::published::Published;
-use crate::results::{Interval, Made, Score, Study, Value, by_published_r2};
-
-/// The definition of numbers that were published without one.
-pub(crate) const PUBLISHED: &str = "published";
+use crate::results::{Made, PUBLISHED, Study, by_published_r2};
+use taceva_results::{Interval, Score};
 
 impl Sensor {
     /// Results as a sensor that can be chosen: its numbers, and whether light is kept out as far as the results say. The limits of a
@@ -59,21 +56,9 @@ impl Sensor {
     /// Its published numbers as results that can be shown and compared beside others; their source is `published`, and none has an interval.
     pub fn as_study(&self) -> Study {
         let score = |metric: &str, channel: &str, value: f64, unit: Unit| Score {
-            metric: metric.to_owned(),
-            channel: channel.to_owned(),
-            value: Value::Number(value),
-            unit,
-            n: 0,
-            n_invalid: 0,
             interval: Some(Interval::Absent("published without one".to_owned())),
             definition: PUBLISHED.to_owned(),
-            parameters: Vec::new(),
-            counts: Vec::new(),
-            flags: Vec::new(),
-            standing: Standing::Counts,
-            bounded_share: None,
-            of: Vec::new(),
-            variants: Vec::new(),
+            ..Score::of_number(metric, channel, value, unit)
         };
         let is_score =
             |result: &&Published| definition::is_ours(&result.metric) && result.bound.is_none();

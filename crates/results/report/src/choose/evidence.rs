@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::{Choice, Need, Property, choose};
 use crate::catalogue::Sensor;
 use crate::compare::{Answer, CompareRequest, compare};
-use crate::figures::{listed, names};
+use crate::names::{listed, names};
 use crate::number::significant;
 use crate::results::Study;
 use crate::spread;

@@ -1,7 +1,7 @@
 //! Places of those that are ranked: equals share one.
 
 use super::{Candidate, Choice};
-use crate::figures::listed;
+use crate::names::listed;
 
 /// What the first places are called.
 const FIRST: &str = "first";

@@ -4,8 +4,8 @@ use maud::html;
 use serde_json::json;
 
 use super::{Candidate, Choice, Dropped, Step};
-use crate::figures::listed;
 use crate::html::Document;
+use crate::names::listed;
 use crate::number::{fixed, numeral};
 use crate::table::{Column, Direction, Table};
 

@@ -4,8 +4,9 @@ use std::collections::BTreeSet;
 
 use taceva_metrics::Sides;
 
-use crate::figures::listed;
-use crate::results::{Score, Study};
+use crate::names::listed;
+use crate::results::Study;
+use taceva_results::Score;
 
 /// Why two scores give no verdict, if one of them takes no part or is of light that hardly changed: `ViTacTip: no skill: …`.
 pub(super) fn barred(scores: Sides<&Score>, names: Sides<&str>) -> Option<String> {

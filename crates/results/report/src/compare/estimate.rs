@@ -2,7 +2,7 @@
 
 use taceva_metrics::{Estimate, Sides, StatedInterval};
 
-use crate::results::{Interval, Score};
+use taceva_results::{Interval, Score};
 
 /// The flag of a skill that is measured by another constant than that of the training part.
 const MEAN_OF_TRUTH: &str = "constant is the mean of truth";
@@ -68,16 +68,15 @@ mod tests {
     use taceva_metrics::Scale;
 
     use super::*;
-    use crate::results::Study;
 
     #[test]
     fn the_interval_that_is_stated_is_taken_as_it_is() {
         let read = |more: &str| {
             let text = format!(
-                r#"{{"schema": "taceva.evaluation/1.1", "subject": {{"sensor": "x"}}, "metrics": {{"mae": {{"Fz":
+                r#"{{"schema": "taceva.evaluation/1.0", "subject": {{"sensor": "x"}}, "metrics": {{"mae": {{"Fz":
                 {{"value": 0.5, "unit": "N", "n": 40, "ci95": [0.4, 0.6], "method": "jackknife by point_id, G=10"{more}}}}}}}}}"#
             );
-            let study = Study::read(&text).expect("a result").remove(0);
+            let study = crate::results::unsealed(&text).expect("a result").remove(0);
             estimate(&study.scores[0]).expect("an estimate")
         };
         let stated = |freedom, clusters| StatedInterval::new([0.4, 0.6], freedom, clusters);

@@ -3,8 +3,7 @@
 use taceva_metrics::Better;
 
 use super::{Answer, Comparison, Remarks};
-use crate::figures::listed;
-use crate::html::QUESTIONS;
+use crate::names::listed;
 use crate::number::{at_most, numeral, spaced};
 use crate::tie::best;
 
@@ -12,6 +11,21 @@ use crate::tie::best;
 pub const OVERVIEW_LINES: usize = 12;
 /// The most letters of a line of a terminal.
 pub const OVERVIEW_WIDTH: usize = 100;
+
+/// First questions of a reader: metric, channel and words.
+pub(crate) const QUESTIONS: [(&str, &str, &str); 11] = [
+    ("mae", "Pz", "Depth"),
+    ("mae", "Pxy", "Position in the plane"),
+    ("mae", "Fz", "Normal force"),
+    ("mae", "Fxy", "Shear force"),
+    ("sr", "line", "Fine lines"),
+    ("sr", "dot", "Fine dots"),
+    ("sensitivity", "Fz", "Sensitivity"),
+    ("uniformity", "Fz", "Uniformity of the surface"),
+    ("r_light", "Fz", "Force in changing light"),
+    ("repeatability", "Pz", "Repeated depth"),
+    ("hysteresis", "Fz", "Hysteresis"),
+];
 
 /// A question about one score, and its answer.
 #[derive(Clone, Debug, PartialEq)]

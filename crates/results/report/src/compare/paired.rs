@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 
 use taceva_metrics::{ClusterSums, ComparisonError, Difference, Sides, SignFlip};
 
-use crate::results::{Score, Study};
-use crate::samples::{SampleChannel, Samples};
+use crate::results::Study;
+use taceva_results::Score;
+use taceva_results::{SampleChannel, Samples};
 
 /// The difference of both mean absolute errors; `None` if the two do not predict the same samples of one recording.
 ///
@@ -73,7 +74,7 @@ impl<'a> Errors<'a> {
 }
 
 /// The rows that a score of `n` samples was made of: all with a prediction, or those of the calibration.
-fn scored(samples: &Samples, channel: &SampleChannel, n: u64) -> Option<Vec<usize>> {
+fn scored(samples: &Samples, channel: SampleChannel<'_>, n: u64) -> Option<Vec<usize>> {
     let paired = |rows: Vec<usize>| -> Vec<usize> {
         let mut rows = rows;
         rows.retain(|row| channel.pair(*row).is_some());

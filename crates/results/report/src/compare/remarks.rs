@@ -45,7 +45,7 @@ impl Remarks {
             channel: channel.to_owned(),
             tie: tie(studies, names, metric, channel),
             barred: barred.collect(),
-            spread: spread::words((studies, names), &counting, metric, channel),
+            spread: spread::words(studies, names, &counting, metric, channel),
         }
     }
 }

@@ -1,14 +1,14 @@
 //! What a tie leaves open: whom those that share the best value are not shown to be better than.
 
 use super::{Answer, CompareRequest, compare};
-use crate::figures::listed;
+use crate::names::listed;
 use crate::results::Study;
 use crate::tie::{GRATINGS, Tie, tie};
 
 /// The ties of `studies` in predicting the spacing of gratings, one line each: `sr line: tie: GelSight and TacTip both predict the spacing of gratings down to 0.25 mm to within
 /// 0.05 mm`.
 pub fn ties(studies: &[Study]) -> Vec<String> {
-    let names = crate::figures::names(studies);
+    let names = crate::names::names(studies);
     let mut channels: Vec<&str> = Vec::new();
     for score in studies.iter().flat_map(|study| study.of_metric(GRATINGS)) {
         if !channels.contains(&score.channel.as_str()) {
@@ -90,15 +90,15 @@ impl Tie {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::samples::Samples;
+    use taceva_results::Samples;
 
     /// A study whose success rate is `share`, `exact` without any error, with samples if there are any.
     fn study(name: &str, [share, exact]: [f64; 2], samples: &str) -> Study {
         let text = format!(
-            r#"{{"schema": "taceva.evaluation/1.1", "subject": {{"sensor": "{name}"}}, "metrics": {{"sr": {{"line":
+            r#"{{"schema": "taceva.evaluation/1.0", "subject": {{"sensor": "{name}"}}, "metrics": {{"sr": {{"line":
                {{"value": {share}, "unit": "1", "parameters": {{"tolerance_mm": 0.05}}, "exact": {{"value": {exact}, "unit": "1"}}}}}}}}}}"#
         );
-        let mut study = Study::read(&text).expect("a result").remove(0);
+        let mut study = crate::results::unsealed(&text).expect("a result").remove(0);
         study.samples = (!samples.is_empty()).then(|| {
             let head = "id,kind,spacing_mm,spacing_predicted_mm\n";
             Samples::read(&format!("{head}{samples}")).expect("samples")

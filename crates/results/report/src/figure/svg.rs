@@ -94,7 +94,7 @@ fn draw(mark: &Mark, alone: bool, out: &mut String) {
             ink,
             radius,
             opacity,
-        } => dots(points, (*ink, *radius, *opacity), alone, out),
+        } => dots(points, *ink, *radius, *opacity, alone, out),
         Mark::Label(label) => text(label, out),
     }
 }
@@ -112,7 +112,7 @@ fn path(points: &[[f64; 2]], stroke: Stroke, out: &mut String) {
     out.push_str("/>");
 }
 
-fn dots(points: &Points, (ink, radius, opacity): (Ink, f64, f64), alone: bool, out: &mut String) {
+fn dots(points: &Points, ink: Ink, radius: f64, opacity: f64, alone: bool, out: &mut String) {
     push(
         out,
         format_args!("<g{} fill-opacity=\"{opacity}\">", fill(ink)),

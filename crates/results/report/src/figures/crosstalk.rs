@@ -4,13 +4,14 @@ use taceva_metrics::Matrix;
 
 use crate::figure::{Anchor, Area, Canvas, Figure, Grid, Ink, Label, diverging, short};
 use crate::number::{fixed, minus, numeral};
-use crate::results::{Study, Value};
+use crate::results::Study;
+use taceva_results::Value;
 
 /// Names a matrix may have and still be read.
 const MOST: usize = 16;
 
 pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
-    let names = super::names(studies);
+    let names = crate::names::names(studies);
     let mut matrices = Vec::new();
     for (study, name) in studies.iter().zip(&names) {
         let variant = study
@@ -43,7 +44,7 @@ pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
         id: "crosstalk".to_owned(),
         title: "Crosstalk between channels".to_owned(),
         caption: "Change of the predicted channel (row) over the range of the true channel (column), both as parts of their ranges: 1 on the diagonal and 0 elsewhere would be a sensor without crosstalk. Colours end at ±1.".to_owned(),
-        description: format!("Matrices of crosstalk of {}.", super::listed(&names)),
+        description: format!("Matrices of crosstalk of {}.", crate::names::listed(&names)),
         canvas,
     })
 }

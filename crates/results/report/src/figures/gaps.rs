@@ -8,7 +8,7 @@ use crate::figure::{
 };
 use crate::number::{numeral, with_interval};
 use crate::results::Study;
-use crate::samples::Samples;
+use taceva_results::Samples;
 
 /// A point that was felt on two units.
 struct Gap {
@@ -17,7 +17,7 @@ struct Gap {
 }
 
 pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
-    let names = super::names(studies);
+    let names = crate::names::names(studies);
     let found: Vec<(usize, Vec<Gap>, [String; 2])> = studies
         .iter()
         .enumerate()
@@ -52,7 +52,7 @@ pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
         ),
         description: format!(
             "Maps of differences in height of {}.",
-            super::listed(&names)
+            crate::names::listed(&names)
         ),
         canvas,
     })
@@ -119,7 +119,7 @@ fn gaps(samples: &Samples) -> Option<(Vec<Gap>, [String; 2])> {
     let mut points: BTreeMap<&str, BTreeMap<&str, [f64; 3]>> = BTreeMap::new();
     let mut units: Vec<&str> = Vec::new();
     for row in samples.of_protocol("surface-map") {
-        let place = [x.truth[row], y.truth[row], height.truth[row]];
+        let place = [x.truth(row), y.truth(row), height.truth(row)];
         let ([Some(x), Some(y), Some(z)], Some(unit), Some(point)) = (
             place,
             samples.word("unit_id", row),

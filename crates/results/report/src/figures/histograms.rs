@@ -6,7 +6,7 @@ use crate::figure::{
 use crate::figure::{Ink, SERIES};
 use crate::number::numeral;
 use crate::results::Study;
-use crate::samples::SampleChannel;
+use taceva_results::SampleChannel;
 
 use super::SIX;
 
@@ -21,7 +21,7 @@ pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
     if channels.is_empty() {
         return None;
     }
-    let names = super::names(studies);
+    let names = crate::names::names(studies);
     let first = Area {
         left: 58.0,
         top: 54.0,
@@ -47,7 +47,7 @@ pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
         description: format!(
             "Histograms of the true {} of {}.",
             channels.join(", "),
-            super::listed(&names)
+            crate::names::listed(&names)
         ),
         canvas,
     })
@@ -60,7 +60,7 @@ fn panel(
     names: &[String],
     canvas: &mut Canvas,
 ) -> Option<()> {
-    let truths: Vec<(usize, Vec<f64>, &SampleChannel)> = studies
+    let truths: Vec<(usize, Vec<f64>, SampleChannel<'_>)> = studies
         .iter()
         .enumerate()
         .filter_map(|(at, study)| truths(study, channel).map(|(values, of)| (at, values, of)))
@@ -117,11 +117,11 @@ fn panel(
 }
 
 /// The labels of a channel that models are fitted and tested on.
-fn truths<'a>(study: &'a Study, name: &str) -> Option<(Vec<f64>, &'a SampleChannel)> {
+fn truths<'a>(study: &'a Study, name: &str) -> Option<(Vec<f64>, SampleChannel<'a>)> {
     let samples = study.samples.as_ref()?;
     let channel = samples.channel(name)?;
     let rows = samples.of_protocol("calibration");
-    let values: Vec<f64> = rows.iter().filter_map(|row| channel.truth[*row]).collect();
+    let values: Vec<f64> = rows.iter().filter_map(|row| channel.truth(*row)).collect();
     (!values.is_empty()).then_some((values, channel))
 }
 

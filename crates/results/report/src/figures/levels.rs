@@ -4,7 +4,8 @@ use taceva_core::Unit;
 use taceva_metrics::Curve;
 
 use crate::figure::{Figure, axis_label, directed};
-use crate::results::{Study, Value};
+use crate::results::Study;
+use taceva_results::Value;
 
 use super::SIX;
 use super::overlay::{Level, Line, Sheet, Ways, Words, draw as overlay};
@@ -28,12 +29,7 @@ pub(super) fn levels(curve: &Curve) -> Vec<Level> {
 }
 
 /// A sheet a channel of the curve called `variant` of `metric`, with the name of its y axis.
-pub(super) fn sheets(
-    studies: &[Study],
-    metric: &str,
-    (x, y): (&str, &str),
-    ways: Ways,
-) -> Vec<Sheet> {
+pub(super) fn sheets(studies: &[Study], metric: &str, x: &str, y: &str, ways: Ways) -> Vec<Sheet> {
     // A level has the bias itself, which is good near zero; the metric has the greatest of them.
     let directed_by = match metric {
         "bias_level" => "bias",
@@ -79,10 +75,10 @@ pub(super) fn bias(studies: &[Study]) -> Option<Figure> {
         ),
         description: format!(
             "Bias over the true value, by channel, of {}.",
-            super::listed(&super::names(studies))
+            crate::names::listed(&crate::names::names(studies))
         ),
     };
-    let mut sheets = sheets(studies, "bias_level", ("truth", "bias"), Ways::Straight);
+    let mut sheets = sheets(studies, "bias_level", "truth", "bias", Ways::Straight);
     let lines = sheets.iter_mut().flat_map(|sheet| &mut sheet.lines);
     for level in lines.flat_map(|line| &mut line.levels) {
         level.y = level.y.filter(|_| level.n >= FEWEST);
@@ -97,13 +93,14 @@ pub(super) fn tolerance(studies: &[Study]) -> Option<Figure> {
         caption: "Share of held-out samples whose error is at most the tolerance.".to_owned(),
         description: format!(
             "Share of errors within a tolerance, by channel, of {}.",
-            super::listed(&super::names(studies))
+            crate::names::listed(&crate::names::names(studies))
         ),
     };
     let sheets = sheets(
         studies,
         "tolerance",
-        ("tolerance", "share within"),
+        "tolerance",
+        "share within",
         Ways::LogarithmicX,
     );
     overlay(&sheets, studies, 3, words)

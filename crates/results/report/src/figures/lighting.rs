@@ -22,7 +22,7 @@ struct Sheet {
 }
 
 pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
-    let names = super::names(studies);
+    let names = crate::names::names(studies);
     let sheets: Vec<Sheet> = SIX
         .into_iter()
         .map(|channel| Sheet::of(studies, channel))
@@ -47,7 +47,7 @@ pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
     let mut canvas = grid.canvas([16.0, 86.0]);
     canvas.dot_legend([first.left, 16.0], &legend);
     for (position, sheet) in sheets.iter().enumerate() {
-        sheet.draw(grid.area(position), (&scenes, &legend), &mut canvas);
+        sheet.draw(grid.area(position), &scenes, &legend, &mut canvas);
     }
     Some(Figure {
         id: "lighting".to_owned(),
@@ -55,8 +55,8 @@ pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
         caption: caption(studies, &names, &others),
         description: format!(
             "Mean absolute error by lighting scene ({}) over that in unchanged light, of {}.",
-            super::listed(&scenes),
-            super::listed(&legend.into_iter().map(|(_, name)| name).collect::<Vec<_>>())
+            crate::names::listed(&scenes),
+            crate::names::listed(&legend.into_iter().map(|(_, name)| name).collect::<Vec<_>>())
         ),
         canvas,
     })
@@ -71,7 +71,7 @@ fn caption(studies: &[Study], names: &[String], others: &[usize]) -> String {
         true => String::new(),
         false => format!(
             " The results of {} hold no errors by scene and are not drawn.",
-            super::listed(&lit)
+            crate::names::listed(&lit)
         ),
     };
     format!(
@@ -113,12 +113,7 @@ impl Sheet {
         clippy::cast_precision_loss,
         reason = "a handful of scenes and sensors"
     )]
-    fn draw(
-        &self,
-        area: Area,
-        (scenes, legend): (&[String], &[(usize, String)]),
-        canvas: &mut Canvas,
-    ) {
+    fn draw(&self, area: Area, scenes: &[String], legend: &[(usize, String)], canvas: &mut Canvas) {
         let Some([low, high]) = extent(self.scenes().filter_map(drawn).chain([1.0])) else {
             return;
         };

@@ -7,7 +7,7 @@ use crate::figure::{
 };
 use crate::number::{numeral, with_interval};
 use crate::results::Study;
-use crate::samples::Samples;
+use taceva_results::Samples;
 
 /// Points whose loops are drawn.
 const MOST: usize = 12;
@@ -20,7 +20,7 @@ struct Loop {
 }
 
 pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
-    let names = super::names(studies);
+    let names = crate::names::names(studies);
     let found: Vec<(usize, BTreeMap<String, Loop>)> = studies
         .iter()
         .enumerate()
@@ -41,7 +41,7 @@ pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
     let mut words = Vec::new();
     for (position, (at, loops)) in found.iter().enumerate() {
         let area = grid.area(position);
-        panel(loops, (*at, &names[*at]), area, &mut canvas);
+        panel(loops, *at, &names[*at], area, &mut canvas);
         let score = studies[*at].of_metric("hysteresis").next();
         words.extend(score.map(|score| format!("{}: {}", names[*at], with_interval(score))));
     }
@@ -54,18 +54,13 @@ pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
         ),
         description: format!(
             "Load and unload curves of force over depth of {}.",
-            super::listed(&names)
+            crate::names::listed(&names)
         ),
         canvas,
     })
 }
 
-fn panel(
-    loops: &BTreeMap<String, Loop>,
-    (at, name): (usize, &str),
-    area: Area,
-    canvas: &mut Canvas,
-) {
+fn panel(loops: &BTreeMap<String, Loop>, at: usize, name: &str, area: Area, canvas: &mut Canvas) {
     let all = || {
         loops
             .values()
@@ -121,7 +116,7 @@ fn loops(samples: &Samples) -> BTreeMap<String, Loop> {
         return loops;
     };
     for row in samples.of_protocol("load-unload") {
-        let (Some(depth), Some(force)) = (depth.truth[row], force.truth[row]) else {
+        let (Some(depth), Some(force)) = (depth.truth(row), force.truth(row)) else {
             continue;
         };
         let Some(point) = samples.word("point_id", row) else {

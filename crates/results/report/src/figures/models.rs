@@ -53,7 +53,7 @@ fn draw(bench: &ModelBench, time: &str) -> Option<(Canvas, String)> {
             .filter(|dot| dot.is_on_front)
             .map(|dot| dot.row.model.clone())
             .collect();
-        fronts.push(format!("{channel}: {}", super::listed(&names)));
+        fronts.push(format!("{channel}: {}", crate::names::listed(&names)));
         panel(&dots, [channel, time], grid.area(position), &mut canvas);
     }
     Some((canvas, fronts.join("; ")))

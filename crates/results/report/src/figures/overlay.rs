@@ -61,7 +61,7 @@ pub(super) fn draw(
     if sheets.is_empty() {
         return None;
     }
-    let names = super::names(studies);
+    let names = crate::names::names(studies);
     let columns = columns.min(sheets.len()).max(1);
     let first = panel_size(columns);
     let grid = Grid::new(sheets.len(), columns, first, [66.0, 78.0]);

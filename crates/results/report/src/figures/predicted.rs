@@ -5,7 +5,7 @@ use crate::figure::{
 };
 use crate::number::numeral;
 use crate::results::Study;
-use crate::samples::{SampleChannel, Samples};
+use taceva_results::{SampleChannel, Samples};
 
 use super::SIX;
 use super::thin::{rule, thin};
@@ -14,7 +14,7 @@ use super::thin::{rule, thin};
 const MOST: usize = 400;
 
 pub(super) fn draw(studies: &[Study]) -> Vec<Option<Figure>> {
-    let names = super::names(studies);
+    let names = crate::names::names(studies);
     let figures = studies.iter().zip(&names).enumerate();
     figures
         .map(|(at, (study, name))| one(study, at, name))
@@ -24,7 +24,7 @@ pub(super) fn draw(studies: &[Study]) -> Vec<Option<Figure>> {
 fn one(study: &Study, at: usize, name: &str) -> Option<Figure> {
     let samples = study.samples.as_ref()?;
     let rows = samples.of_protocol("calibration");
-    let channels: Vec<&SampleChannel> = channels(samples)
+    let channels: Vec<SampleChannel<'_>> = channels(samples)
         .into_iter()
         .filter(|channel| rows.iter().any(|row| channel.pair(*row).is_some()))
         .collect();
@@ -42,7 +42,7 @@ fn one(study: &Study, at: usize, name: &str) -> Option<Figure> {
     let mut drawn = String::new();
     for (position, channel) in channels.iter().enumerate() {
         let area = grid.area(position);
-        let (all, shown) = panel((samples, &rows), channel, area, at, &mut canvas)?;
+        let (all, shown) = panel(samples, &rows, *channel, area, at, &mut canvas)?;
         if position == 0 {
             drawn = rule(shown, all);
         }
@@ -57,7 +57,7 @@ fn one(study: &Study, at: usize, name: &str) -> Option<Figure> {
             "Predicted over true values of {} for {}.",
             channels
                 .iter()
-                .map(|channel| channel.name.as_str())
+                .map(|channel| channel.name)
                 .collect::<Vec<_>>()
                 .join(", "),
             short(name, 60)
@@ -67,19 +67,20 @@ fn one(study: &Study, at: usize, name: &str) -> Option<Figure> {
 }
 
 /// The six channels where they are there, else the first nine of any name.
-fn channels(samples: &Samples) -> Vec<&SampleChannel> {
-    let six: Vec<&SampleChannel> = SIX
+fn channels(samples: &Samples) -> Vec<SampleChannel<'_>> {
+    let six: Vec<SampleChannel<'_>> = SIX
         .into_iter()
         .filter_map(|name| samples.channel(name))
         .collect();
-    let others = samples.channels().iter();
-    let others = others.filter(|channel| !SIX.contains(&channel.name.as_str()));
+    let others = samples.channels().into_iter();
+    let others = others.filter(|channel| !SIX.contains(&channel.name));
     six.into_iter().chain(others).take(9).collect()
 }
 
 fn panel(
-    (samples, rows): (&Samples, &[usize]),
-    channel: &SampleChannel,
+    samples: &Samples,
+    rows: &[usize],
+    channel: SampleChannel<'_>,
     area: Area,
     at: usize,
     canvas: &mut Canvas,
@@ -96,7 +97,7 @@ fn panel(
     };
     let label = |what: &str| {
         axis_label(
-            &format!("{what} {}", short(&channel.name, 16)),
+            &format!("{what} {}", short(channel.name, 16)),
             channel.unit(),
         )
     };

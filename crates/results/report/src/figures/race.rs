@@ -90,7 +90,7 @@ pub fn race(race: &Race) -> Figure {
         description: format!(
             "{}. On the Pareto front: {}.",
             race.caption,
-            super::listed(&front)
+            crate::names::listed(&front)
         ),
         canvas,
     }

@@ -4,10 +4,10 @@ use std::f64::consts::TAU;
 
 use taceva_metrics::{Better, Standing};
 
-use crate::catalogue::PUBLISHED;
 use crate::figure::{Anchor, Canvas, Figure, Ink, Label, Points, SERIES, Stroke, short};
 use crate::number::numeral;
-use crate::results::{Score, Study};
+use crate::results::{PUBLISHED, Study};
+use taceva_results::Score;
 
 /// An axis of a radar.
 struct Axis {
@@ -75,26 +75,19 @@ pub(super) fn draw(studies: &[Study]) -> Vec<Option<Figure>> {
         return Vec::new();
     }
     vec![
-        one(
-            studies,
-            &ACCURACY,
-            ("radar-accuracy", "Accuracy at a glance"),
-        ),
-        one(
-            studies,
-            &SENSOR,
-            ("radar-sensor", "The sensors at a glance"),
-        ),
+        one(studies, &ACCURACY, "radar-accuracy", "Accuracy at a glance"),
+        one(studies, &SENSOR, "radar-sensor", "The sensors at a glance"),
         one(
             studies,
             &ROBUSTNESS,
-            ("radar-robustness", "Robustness at a glance"),
+            "radar-robustness",
+            "Robustness at a glance",
         ),
     ]
 }
 
-fn one(studies: &[Study], axes: &[Axis], (id, title): (&str, &str)) -> Option<Figure> {
-    let names = super::names(studies);
+fn one(studies: &[Study], axes: &[Axis], id: &str, title: &str) -> Option<Figure> {
+    let names = crate::names::names(studies);
     let shares: Vec<Vec<Option<(f64, f64)>>> =
         axes.iter().map(|axis| axis.shares(studies)).collect();
     if shares.iter().all(|axis| axis.iter().all(Option::is_none)) {
@@ -110,7 +103,7 @@ fn one(studies: &[Study], axes: &[Axis], (id, title): (&str, &str)) -> Option<Fi
     web(axes, centre, &mut canvas);
     for &at in &drawn {
         let of_one: Vec<Option<(f64, f64)>> = shares.iter().map(|axis| axis[at]).collect();
-        outline(&of_one, (axes, centre), (at, &names[at]), &mut canvas);
+        outline(&of_one, axes, centre, at, &names[at], &mut canvas);
     }
     let barred: Vec<Barred> = axes.iter().flat_map(|axis| axis.barred(studies)).collect();
     let of_drawn = barred.iter().filter(|barred| drawn.contains(&barred.study));
@@ -154,7 +147,7 @@ fn one(studies: &[Study], axes: &[Axis], (id, title): (&str, &str)) -> Option<Fi
                 .map(|axis| axis.name)
                 .collect::<Vec<_>>()
                 .join(", "),
-            super::listed(&legend.into_iter().map(|(_, name)| name).collect::<Vec<_>>())
+            crate::names::listed(&legend.into_iter().map(|(_, name)| name).collect::<Vec<_>>())
         ),
         canvas,
     })
@@ -314,8 +307,10 @@ fn web(axes: &[Axis], centre: [f64; 2], canvas: &mut Canvas) {
 
 fn outline(
     shares: &[Option<(f64, f64)>],
-    (axes, centre): (&[Axis], [f64; 2]),
-    (at, name): (usize, &str),
+    axes: &[Axis],
+    centre: [f64; 2],
+    at: usize,
+    name: &str,
     canvas: &mut Canvas,
 ) {
     let count = shares.len();

@@ -5,7 +5,7 @@ use crate::figure::{
 };
 use crate::number::numeral;
 use crate::results::Study;
-use crate::samples::Samples;
+use taceva_results::Samples;
 
 use super::levels::sheets;
 use super::overlay::{Ways, Words, draw as overlay};
@@ -20,13 +20,14 @@ pub(super) fn curves(studies: &[Study]) -> Option<Figure> {
         caption: "Standard deviation of predictions of the same press at each step of depth, mean over points.".to_owned(),
         description: format!(
             "Repeatability over steps of depth, by channel, of {}.",
-            super::listed(&super::names(studies))
+            crate::names::listed(&crate::names::names(studies))
         ),
     };
     let sheets = sheets(
         studies,
         "repeatability",
-        ("step of depth (count)", "spread σ"),
+        "step of depth (count)",
+        "spread σ",
         Ways::Straight,
     );
     overlay(&sheets, studies, 3, words)
@@ -41,7 +42,7 @@ struct Cloud {
 }
 
 pub(super) fn volumes(studies: &[Study]) -> Option<Figure> {
-    let names = super::names(studies);
+    let names = crate::names::names(studies);
     let clouds: Vec<(usize, Vec<Cloud>)> = studies
         .iter()
         .enumerate()
@@ -61,7 +62,7 @@ pub(super) fn volumes(studies: &[Study]) -> Option<Figure> {
     let mut canvas = grid.canvas([16.0, 42.0]);
     for (position, (at, clouds)) in clouds.iter().enumerate() {
         let area = grid.area(position);
-        panel(clouds, (*at, &names[*at]), area, &mut canvas);
+        panel(clouds, *at, &names[*at], area, &mut canvas);
     }
     Some(Figure {
         id: "repeatability-volumes".to_owned(),
@@ -71,13 +72,13 @@ pub(super) fn volumes(studies: &[Study]) -> Option<Figure> {
         ),
         description: format!(
             "Ellipses of repeated predictions over the surface of {}.",
-            super::listed(&names)
+            crate::names::listed(&names)
         ),
         canvas,
     })
 }
 
-fn panel(clouds: &[Cloud], (at, name): (usize, &str), area: Area, canvas: &mut Canvas) {
+fn panel(clouds: &[Cloud], at: usize, name: &str, area: Area, canvas: &mut Canvas) {
     let reach = |axis: usize| {
         clouds.iter().flat_map(move |cloud| {
             [-1.0, 1.0].map(|side| cloud.mean[axis] + side * LARGER * cloud.spread[axis])
@@ -141,7 +142,7 @@ fn clouds(samples: &Samples) -> Vec<Cloud> {
     else {
         return Vec::new();
     };
-    if !samples.has_protocol() {
+    if !samples.has("protocol") {
         return Vec::new();
     }
     // By point and step of depth; later steps lie deeper.
@@ -153,7 +154,7 @@ fn clouds(samples: &Samples) -> Vec<Cloud> {
         };
         let place: Option<Vec<f64>> = channels
             .iter()
-            .map(|channel| channel.prediction[row])
+            .map(|channel| channel.prediction(row))
             .collect();
         if let Some(Ok(place)) = place.map(TryInto::try_into) {
             cells

@@ -3,7 +3,8 @@
 use taceva_core::Unit;
 
 use crate::figure::{Figure, directed};
-use crate::results::{Study, Value};
+use crate::results::Study;
+use taceva_results::Value;
 
 use super::levels::levels;
 use super::overlay::{Line, Sheet, Ways, Words, draw as overlay};
@@ -43,7 +44,7 @@ pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
                 .to_owned(),
         description: format!(
             "Success rate over tolerance for gratings of lines and dots of {}.",
-            super::listed(&super::names(studies))
+            crate::names::listed(&crate::names::names(studies))
         ),
     };
     overlay(&sheets, studies, 2, words)

@@ -2,12 +2,13 @@
 
 use crate::figure::{Figure, Grid, short};
 use crate::number::with_interval;
-use crate::results::{Study, Value};
+use crate::results::Study;
+use taceva_results::Value;
 
 use super::heat::{Heat, draw as heat};
 
 pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
-    let names = super::names(studies);
+    let names = crate::names::names(studies);
     let mut maps = Vec::new();
     for (study, name) in studies.iter().zip(&names) {
         let Some(score) = study.of_metric("sensitivity").next() else {

@@ -4,7 +4,8 @@ use taceva_core::Unit;
 use taceva_metrics::Curve;
 
 use crate::figure::{Figure, axis_label, directed};
-use crate::results::{Study, Value};
+use crate::results::Study;
+use taceva_results::Value;
 
 use super::SIX;
 use super::overlay::{Level, Line, Sheet, Ways, Words, draw as overlay};
@@ -56,7 +57,7 @@ fn one(studies: &[Study], over: &str) -> Option<Figure> {
         ),
         description: format!(
             "Mean absolute error over {over} of {}.",
-            super::listed(&super::names(studies))
+            crate::names::listed(&crate::names::names(studies))
         ),
     };
     overlay(&sheets, studies, 3, words)

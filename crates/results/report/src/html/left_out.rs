@@ -2,8 +2,8 @@
 
 use maud::{Markup, html};
 
-use super::pieces::{heads, scroll};
-use crate::figures::names;
+use crate::markup::{heads, scroll};
+use crate::names::names;
 use crate::results::Study;
 
 /// The rows of what was left out, and how many there are.

@@ -6,10 +6,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use maud::{Markup, html};
 
-use super::fold::counted;
-use super::pieces::{heads, scroll};
 use super::studied::{points, span, whole};
-use crate::figures::{listed, names};
+use crate::markup::counted;
+use crate::markup::{heads, scroll};
+use crate::names::{listed, names};
 use crate::results::Study;
 use crate::scores::ScoreTable;
 use crate::short_digests::short_digests;

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::results::Study;
-use crate::samples::{SampleChannel, Samples};
+use taceva_results::{SampleChannel, Samples};
 
 /// Samples of each kind a study.
 const EACH: usize = 4;
@@ -27,9 +27,9 @@ pub fn picks(study: &Study) -> Vec<Pick> {
     let Some(samples) = &study.samples else {
         return Vec::new();
     };
-    let channels: Vec<(&SampleChannel, f64)> = samples
+    let channels: Vec<(SampleChannel<'_>, f64)> = samples
         .channels()
-        .iter()
+        .into_iter()
         .filter_map(|channel| Some((channel, range(channel)?)))
         .collect();
     let error = |row: usize| {
@@ -89,8 +89,8 @@ fn apart<'a>(
 }
 
 /// From the least to the greatest truth of those that are predicted.
-fn range(channel: &SampleChannel) -> Option<f64> {
-    let pairs = (0..channel.truth.len()).filter_map(|row| channel.pair(row));
+fn range(channel: SampleChannel<'_>) -> Option<f64> {
+    let pairs = (0..channel.rows()).filter_map(|row| channel.pair(row));
     let [low, high] = crate::figure::extent(pairs.map(|[truth, _]| truth))?;
     (high > low).then_some(high - low)
 }

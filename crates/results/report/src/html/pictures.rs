@@ -7,12 +7,12 @@ use maud::{Markup, html};
 use super::Report;
 use super::data_address::address;
 use super::picks::{Pick, picks};
-use super::pieces::{filter, heads};
 use super::place::Place;
 use crate::figure::{middle_cut, short};
-use crate::figures::names;
+use crate::markup::{filter, heads};
+use crate::names::names;
 use crate::number::{numeral, spaced};
-use crate::samples::Samples;
+use taceva_results::Samples;
 
 /// The picture of a sample.
 #[derive(Clone, Debug)]
@@ -43,7 +43,7 @@ pub(super) fn section(report: &Report<'_>) -> Option<(usize, Markup)> {
         let place = Place::of(samples, &picks, at);
         cards.extend(picks.iter().map(|pick| {
             let picture = pictures.get(&(at, pick.id.as_str())).copied();
-            card(samples, pick, (at, &names[at]), (picture, place.as_ref()))
+            card(samples, pick, at, &names[at], picture, place.as_ref())
         }));
     }
     let sensors = names.iter().enumerate();
@@ -65,8 +65,10 @@ pub(super) fn section(report: &Report<'_>) -> Option<(usize, Markup)> {
 fn card(
     samples: &Samples,
     pick: &Pick,
-    (at, name): (usize, &str),
-    (picture, place): (Option<&Picture>, Option<&Place>),
+    at: usize,
+    name: &str,
+    picture: Option<&Picture>,
+    place: Option<&Place>,
 ) -> Markup {
     let kind = if pick.is_worst { "worst" } else { "best" };
     html! {

@@ -7,7 +7,7 @@ use super::picks::Pick;
 use crate::figure::{Anchor, Canvas, Figure, Ink, Label, Points, Stroke};
 use crate::figures::SIX;
 use crate::number::numeral;
-use crate::samples::Samples;
+use taceva_results::Samples;
 
 /// The side of the picture, in its own units.
 const SIZE: f64 = 160.0;
@@ -26,7 +26,7 @@ impl Place {
     pub(super) fn of(samples: &Samples, picks: &[Pick], study: usize) -> Option<Place> {
         let greatest = |names: [&str; 2]| {
             let channels = names.into_iter().filter_map(|name| samples.channel(name));
-            let truths = channels.flat_map(|channel| channel.truth.iter().flatten());
+            let truths = channels.flat_map(|channel| channel.truths());
             truths.fold(1e-9_f64, |most, value| most.max(value.abs()))
         };
         let plane = [SIX[0], SIX[1]].map(|name| samples.channel(name));

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use maud::{Markup, html};
 
-use super::pieces::terms;
-use crate::figures::names;
+use crate::markup::terms;
+use crate::names::names;
 use crate::results::Study;
 use crate::scores::ScoreTable;
 

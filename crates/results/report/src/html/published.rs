@@ -2,9 +2,9 @@
 
 use maud::{Markup, html};
 
-use super::glossary::metric_link;
-use super::pieces::{heads, right_heads, scroll};
 use crate::catalogue::find;
+use crate::markup::metric_link;
+use crate::markup::{heads, right_heads, scroll};
 use crate::number::{minus, spaced, with_interval};
 use crate::results::Study;
 
@@ -16,8 +16,8 @@ pub(super) fn section(studies: &[Study]) -> Option<(usize, Markup)> {
             continue;
         };
         for score in &study.scores {
-            let quantity = (&*score.metric, &*score.channel);
-            let alike = sensor.published_alike(quantity, (&score.definition, score.unit));
+            let (metric, channel) = (&score.metric, &score.channel);
+            let alike = sensor.published_alike(metric, channel, &score.definition, score.unit);
             let Some(published) = alike.filter(|_| score.value.number().is_some()) else {
                 continue;
             };

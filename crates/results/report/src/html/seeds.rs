@@ -3,11 +3,12 @@
 use maud::{Markup, html};
 use taceva_core::Unit;
 
-use super::glossary::metric_link;
-use super::pieces::{heads, right_heads, scroll};
-use crate::figures::names;
+use crate::markup::metric_link;
+use crate::markup::{heads, right_heads, scroll};
+use crate::names::names;
 use crate::number::{FormattedValue, minus, numeral};
-use crate::results::{OverSeeds, SeedScore, Study};
+use crate::results::Study;
+use taceva_results::{OverSeeds, SeedScore};
 
 /// How many scores there are, and a table a study; `None` where no model was fitted with several seeds.
 pub(super) fn section(studies: &[Study]) -> Option<(usize, Markup)> {

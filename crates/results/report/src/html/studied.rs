@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use super::fold::counted;
-use crate::figures::{listed, names};
+use crate::markup::counted;
+use crate::names::{listed, names};
 use crate::results::Study;
 
 /// How many sensors, presses and points, which channels, and by which model; plain text.
@@ -28,10 +28,10 @@ pub(super) fn studied(studies: &[Study]) -> String {
         .iter()
         .filter_map(|study| study.samples.as_ref())
         .flat_map(|samples| samples.channels())
-        .filter(|channel| channel.prediction.iter().any(Option::is_some))
+        .filter(|channel| channel.is_predicted())
     {
-        if !channels.contains(&channel.name) {
-            channels.push(channel.name.clone());
+        if !channels.iter().any(|known| known == channel.name) {
+            channels.push(channel.name.to_owned());
         }
     }
     let models = studies.iter().filter_map(|study| study.made.model.clone());

@@ -2,15 +2,16 @@
 
 use maud::{Markup, html};
 
-use super::glossary::score_link;
-use crate::compare::Answer;
-use crate::figures::{listed, names};
+use crate::compare::{Answer, QUESTIONS};
 use crate::light;
+use crate::markup::score_link;
+use crate::names::{listed, names};
 use crate::number::{minus, spaced};
-use crate::results::{Score, Study};
+use crate::results::Study;
 use crate::scores::{ScoreCell, ScoreRow, ScoreTable};
 use crate::spread;
 use crate::tie::{best, tie};
+use taceva_results::Score;
 
 /// The subtitle.
 pub(crate) fn lead(studies: &[Study]) -> Markup {
@@ -28,21 +29,6 @@ pub(crate) fn badge(studies: &[Study]) -> Markup {
         }
     }
 }
-
-/// What is asked of a report first, with how it is answered.
-pub(crate) const QUESTIONS: [(&str, &str, &str); 11] = [
-    ("mae", "Pz", "Depth"),
-    ("mae", "Pxy", "Position in the plane"),
-    ("mae", "Fz", "Normal force"),
-    ("mae", "Fxy", "Shear force"),
-    ("sr", "line", "Fine lines"),
-    ("sr", "dot", "Fine dots"),
-    ("sensitivity", "Fz", "Sensitivity"),
-    ("uniformity", "Fz", "Uniformity of the surface"),
-    ("r_light", "Fz", "Force in changing light"),
-    ("repeatability", "Pz", "Repeated depth"),
-    ("hysteresis", "Fz", "Hysteresis"),
-];
 
 pub(super) fn section(studies: &[Study], table: &ScoreTable) -> Markup {
     let asked = QUESTIONS
@@ -113,7 +99,7 @@ fn verdict(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Mark
         return Some(html! { "no verdict." (barred) });
     }
     let which: Vec<usize> = known.iter().map(|known| known.at).collect();
-    let spread = spread::words((studies, &table.names), &which, &row.metric, &row.channel);
+    let spread = spread::words(studies, &table.names, &which, &row.metric, &row.channel);
     if let Some(tie) = tie(studies, &table.names, &row.metric, &row.channel) {
         let answers = table.answers.iter();
         let answers = answers.filter(|of| of.metric == row.metric && of.channel == row.channel);
@@ -123,7 +109,7 @@ fn verdict(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Mark
     }
     let (at, _) = best(known.iter().map(|known| (known.at, known.value)), better)?;
     let best = known.iter().find(|known| known.at == at)?;
-    let rivals = rivals(at, &known, (table, row));
+    let rivals = rivals(at, &known, table, row);
     let that_takes_part = match barred.is_empty() {
         true => "",
         false => " that takes part",
@@ -173,7 +159,7 @@ fn barred(known: &[Known<'_>], table: &ScoreTable) -> String {
 }
 
 /// Those that the best is not shown to be better than.
-fn rivals(best: usize, known: &[Known<'_>], (table, row): (&ScoreTable, &ScoreRow)) -> String {
+fn rivals(best: usize, known: &[Known<'_>], table: &ScoreTable, row: &ScoreRow) -> String {
     let loses = |at: usize| {
         table.answers.iter().any(|answer| {
             let is_of_row = answer.metric == row.metric && answer.channel == row.channel;

@@ -3,8 +3,8 @@
 use maud::{Markup, html};
 use taceva_core::Unit;
 
-use super::glossary::metric_link;
-use super::pieces::{heads, right_heads, scroll};
+use crate::markup::metric_link;
+use crate::markup::{heads, right_heads, scroll};
 use crate::number::minus;
 use crate::scores::{ScoreCell, ScoreRow};
 

@@ -4,9 +4,9 @@ use maud::{Markup, html};
 use taceva_metrics::{Theme, catalogue};
 
 use super::figures::{is_radar, one as figure};
-use super::fold::{counted, fold};
 use super::tables::table;
 use crate::figure::Figure;
+use crate::markup::{counted, fold};
 use crate::scores::{ScoreRow, ScoreTable};
 
 /// Section of a page: a theme of the catalogue, or the labels alone.
@@ -72,14 +72,16 @@ pub(super) fn section(table: &ScoreTable, figures: &[Figure]) -> Markup {
             .partition(|drawn| section.has_figure(drawn));
         (rows_left, figures_left) = (others, others_drawn);
         folds.extend(one(
-            (section.id, section.title),
+            section.id,
+            section.title,
             &headlines.names,
             &rows,
             &drawn,
         ));
     }
     folds.extend(one(
-        ("other", "Other"),
+        "other",
+        "Other",
         &headlines.names,
         &rows_left,
         &figures_left,
@@ -117,7 +119,8 @@ impl Section {
 
 /// The fold of a theme; `None` where it has neither rows nor figures.
 fn one(
-    (id, title): (&str, &str),
+    id: &str,
+    title: &str,
     names: &[String],
     rows: &[&ScoreRow],
     figures: &[&Figure],

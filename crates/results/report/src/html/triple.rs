@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::data_address::address;
-use crate::figures::names;
+use crate::names::names;
 use crate::results::Study;
 
 /// Pictures of one sensor, encoded, all of the same size and in the same scale of brightness.

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use taceva_core::Unit;
 use taceva_core::shown;
 
-use super::ResultsError;
+use taceva_results::ResultsError;
 
 /// The schema of every benchmark as JSON; of this one the subject is `models`.
 pub const BENCH_SCHEMA: &str = "taceva.bench/1";
@@ -125,8 +125,11 @@ impl ModelBench {
         if (bench.schema.as_str(), bench.subject.as_str()) != (BENCH_SCHEMA, SUBJECT) {
             return Err(ResultsError::Place {
                 place: "schema and subject".to_owned(),
-                expected: "`taceva.bench/1` of `models`",
-                found: format!("`{}` of `{}`", shown(&bench.schema), shown(&bench.subject)),
+                problem: format!(
+                    "expected `taceva.bench/1` of `models`, found `{}` of `{}`",
+                    shown(&bench.schema),
+                    shown(&bench.subject)
+                ),
             });
         }
         for (at, row) in bench.rows.iter().enumerate() {
@@ -195,8 +198,7 @@ impl ModelRow {
             None => Ok(()),
             Some((name, number)) => Err(ResultsError::Place {
                 place: format!("rows[{at}].{}", shown(name)),
-                expected: "a number from 0",
-                found: number.to_string(),
+                problem: format!("expected a number from 0, found {number}"),
             }),
         }
     }

@@ -1,7 +1,7 @@
 //! Tables as CSV.
 
 use super::{Cell, Table};
-use crate::escape;
+use taceva_results::escape_csv;
 
 impl Table {
     /// As CSV, for programs and spreadsheets: words that begin like a formula are begun with an apostrophe.
@@ -13,11 +13,11 @@ impl Table {
                 .expect("a buffer takes whatever is written, and rows are equally long");
         };
         let (head, rows) = self.for_programs();
-        write(head.iter().map(|name| escape::csv(name)).collect());
+        write(head.iter().map(|name| escape_csv(name)).collect());
         for row in rows {
             let cell = |cell: &Cell| match cell {
                 Cell::Number(text) => text.clone(),
-                cell => escape::csv(&cell.plain()),
+                cell => escape_csv(&cell.plain()),
             };
             write(row.iter().map(cell).collect());
         }

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use super::{Cell, Column, Direction, Row, Table};
 use crate::escape;
-use crate::html::{metric_link, scroll};
+use crate::markup::{metric_link, scroll};
 
 /// Letters of a cell that is broken into lines on a page.
 const LONG: usize = 28;

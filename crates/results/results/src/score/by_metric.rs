@@ -6,7 +6,11 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 use super::Score;
 use crate::ordered::Ordered;
 
-pub(crate) fn serialize<S: Serializer>(scores: &[Score], serializer: S) -> Result<S::Ok, S::Error> {
+/// Writes scores as objects by metric and channel, for `#[serde(with = "…")]`.
+///
+/// # Errors
+/// Those of the serializer.
+pub fn serialize<S: Serializer>(scores: &[Score], serializer: S) -> Result<S::Ok, S::Error> {
     let mut metrics = serializer.serialize_map(None)?;
     for of_one in scores.chunk_by(|left, right| left.metric == right.metric) {
         metrics.serialize_entry(&of_one[0].metric, &ByChannel(of_one))?;
@@ -22,9 +26,11 @@ impl Serialize for ByChannel<'_> {
     }
 }
 
-pub(crate) fn deserialize<'de, D: Deserializer<'de>>(
-    deserializer: D,
-) -> Result<Vec<Score>, D::Error> {
+/// Reads what [`serialize`] writes.
+///
+/// # Errors
+/// Those of the deserializer.
+pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Score>, D::Error> {
     let metrics: Ordered<Ordered<Score>> = Ordered::deserialize(deserializer)?;
     let mut scores = Vec::new();
     for (metric, channels) in metrics.0 {

@@ -13,8 +13,8 @@ use crate::assess::FitFacts;
 use crate::error::EvaluateError;
 use crate::note::{Learning, Note};
 use crate::predict::{self, Predictor, Target};
-use crate::provenance::ModelProvenance;
 use crate::rows::{DataPart, Divided, Need, chosen_channels, require_samples, usable};
+use taceva_results::ModelProvenance;
 
 /// What is known of a model whose file and whose learning we have not seen.
 const UNKNOWN: &str = "unknown";

@@ -11,9 +11,9 @@ use crate::fit::{FitPlan, FitRequest, Recipe};
 use crate::note::Note;
 use crate::plan::Plan;
 use crate::predict::{self, Predicted, Target};
-use crate::provenance::ModelProvenance;
 use crate::rows::{DataPart, Divided};
 use crate::work::Work;
+use taceva_results::ModelProvenance;
 
 /// A division a recording: that is the test part, and the samples of all others are learnt from.
 pub(crate) struct Folds<'a> {

@@ -6,8 +6,8 @@ use taceva_dataset::Dataset;
 
 use crate::note::Note;
 use crate::predict::Target;
-use crate::provenance::ModelProvenance;
 use crate::rows::DataPart;
+use taceva_results::ModelProvenance;
 
 impl Target {
     /// Whether the model was fitted on the part.

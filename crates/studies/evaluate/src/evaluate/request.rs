@@ -4,9 +4,9 @@ use taceva_dataset::SensorFile;
 use taceva_models::{Model, SplitManifest};
 
 use crate::fit::FitRequest;
-use crate::report::EvaluationReport;
 use crate::rows::DataPart;
 use crate::state_file::StateFile;
+use taceva_results::EvaluationReport;
 
 /// What to evaluate.
 #[derive(Debug)]

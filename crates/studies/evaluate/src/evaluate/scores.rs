@@ -6,6 +6,7 @@ use taceva_core::{Channels, Field, FieldSet};
 use taceva_dataset::Dataset;
 use taceva_metrics::{MetricPlan, catalogue};
 use taceva_models::Model;
+use taceva_results::{ModelProvenance, Provenance, RecordingScores};
 
 use super::notes::few_points;
 use super::passes::Passes;
@@ -16,13 +17,12 @@ use crate::error::EvaluateError;
 use crate::facts;
 use crate::note::Note;
 use crate::predict::{Predicted, Target};
-use crate::provenance::{ModelProvenance, Provenance, choices};
+use crate::provenance::{self, choices};
 use crate::recordings::{self, Clusters};
-use crate::report::RecordingScores;
 use crate::rows::Divided;
-use crate::samples::Samples;
+use crate::samples;
 use crate::skill::with_skill;
-use crate::subject::Subject;
+use crate::subject;
 
 /// The metrics that are asked for, of what is known of `dataset`.
 pub(super) fn metrics(
@@ -52,7 +52,7 @@ impl Behind {
     /// [`EvaluateError::ModelFormat`] for a model that cannot be written down.
     pub fn of(model: &Model) -> Result<Behind, EvaluateError> {
         Ok(Behind {
-            model: ModelProvenance::of(model)?,
+            model: provenance::model(model)?,
             notes: choices(model).collect(),
             fit: FitFacts::default(),
         })
@@ -106,10 +106,10 @@ pub fn score(
         part: Some(target.part.name().to_owned()),
         samples: divided.map(Divided::counts).unwrap_or_default(),
         frames_decoded: predicted.frames_decoded,
-        ..Provenance::of(dataset)
+        ..provenance::of(dataset)
     };
-    let samples = Samples::of(dataset, &target.rows)?
-        .with_predictions(&target.rows, (predicted, &target.rows));
+    let mut samples = samples::of(dataset, &target.rows)?;
+    samples::add_predictions(&mut samples, &target.rows, predicted, &target.rows);
     let rows = ScoredRows::Accumulated {
         evaluator: Box::new(evaluator),
         taken: recordings::taken(dataset, &target.rows),
@@ -119,7 +119,7 @@ pub fn score(
         fit: behind.fit,
         by_recording,
         samples: Some(samples),
-        ..Context::new(Subject::of(dataset), provenance)
+        ..Context::new(subject::of(dataset), provenance)
     };
     let Assessed { report, state } = assess(rows, predicted.bounded(0..predicted.rows()), context)?;
     Ok(Evaluated {
@@ -143,15 +143,16 @@ fn by_recording(
         let bound = |row: usize| rows.partition_point(|own| *own < row);
         let own = bound(recording.rows().start)..bound(recording.rows().end);
         let evaluation = passes.of_recording(dataset, predicted, (rows, own.clone()), jobs)?;
-        scores.push(RecordingScores {
-            recording: recording.name().to_owned(),
-            digest: recording.dataset().digest().to_string(),
-            samples: own.len(),
-            evaluation: match target.is_seen() {
-                true => evaluation.of_seen_samples(),
-                false => evaluation,
-            },
-        });
+        let evaluation = match target.is_seen() {
+            true => evaluation.of_seen_samples(),
+            false => evaluation,
+        };
+        scores.push(RecordingScores::new(
+            recording.name().to_owned(),
+            recording.dataset().digest().to_string(),
+            own.len(),
+            &evaluation,
+        ));
     }
     Ok(scores)
 }

@@ -52,8 +52,8 @@ pub(crate) fn r2(evaluated: &Evaluated) -> f64 {
 }
 
 pub(crate) fn r2_of(evaluated: &Evaluated, channel: &str) -> f64 {
-    let score = evaluated.report.evaluation.score("r2", channel);
-    score.expect("scored").value.scalar().expect("defined")
+    let score = evaluated.report.score("r2", channel);
+    score.expect("scored").value.number().expect("defined")
 }
 
 #[test]

@@ -7,6 +7,7 @@ use taceva_core::{ErrorKind, Features, Input, Progress, Unit};
 use taceva_dataset::{Dataset, Pass};
 use taceva_metrics::ClusterSums;
 use taceva_models::Model;
+use taceva_results::Interval;
 
 use super::front;
 use super::paired::absolute_errors;
@@ -261,14 +262,14 @@ impl Raced {
             (&target, &predicted),
             work.jobs,
         )?;
-        let evaluation = &scored.report.evaluation;
+        let report = &scored.report;
         let errors = model.channels().iter().filter_map(|channel| {
-            let score = evaluation.score(METRIC, channel.name())?;
+            let score = report.score(METRIC, channel.name())?;
             Some(TrialError {
                 channel: channel.name().to_owned(),
                 unit: score.unit,
-                mae: score.value.scalar()?,
-                ci95: score.interval.ends(),
+                mae: score.value.number()?,
+                ci95: score.interval.as_ref().and_then(Interval::ends),
                 n: score.n,
                 beaten_by: Vec::new(),
             })

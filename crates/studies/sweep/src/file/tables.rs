@@ -8,7 +8,7 @@ use taceva_models::Suggestion;
 use super::place::FilePlace;
 use crate::error::SweepError;
 use crate::limits::MOST_TASKS;
-use crate::written::{WrittenScore, WrittenSweep};
+use crate::syntax::{WrittenScore, WrittenSweep};
 
 /// Two tables, scored in so many shards: a task each.
 #[derive(Clone, Debug, PartialEq, Eq)]

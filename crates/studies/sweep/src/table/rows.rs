@@ -4,7 +4,8 @@ use std::collections::BTreeSet;
 
 use taceva_tables::Cell;
 
-use crate::result::SweepScore;
+use taceva_results::{Interval, Score};
+
 use crate::task::Task;
 
 fn text(text: &str) -> Cell {
@@ -39,7 +40,7 @@ pub(super) fn without_scores(mut cells: Vec<Cell>, status: &str, reason: &str) -
     cells
 }
 
-pub(super) fn scored(mut cells: Vec<Cell>, part: &str, score: &SweepScore, by: &str) -> Vec<Cell> {
+pub(super) fn scored(mut cells: Vec<Cell>, part: &str, score: &Score, by: &str) -> Vec<Cell> {
     let number = |value: Option<f64>| value.map_or(Cell::Null, Cell::Number);
     cells.extend(
         [
@@ -47,19 +48,20 @@ pub(super) fn scored(mut cells: Vec<Cell>, part: &str, score: &SweepScore, by: &
             part,
             &score.metric,
             &score.channel,
-            &score.unit,
-            &score.better,
+            score.unit.symbol(),
+            score.better().name(),
         ]
         .map(text),
     );
-    cells.push(number(score.value));
-    cells.push(number(score.interval.map(|[low, _]| low)));
-    cells.push(number(score.interval.map(|[_, high]| high)));
+    cells.push(number(score.value.number()));
+    let ends = score.interval.as_ref().and_then(Interval::ends);
+    cells.push(number(ends.map(|[low, _]| low)));
+    cells.push(number(ends.map(|[_, high]| high)));
     cells.push(match score.n {
         0 => Cell::Null,
         n => Cell::Integer(i128::from(n)),
     });
     cells.push(text(by));
-    cells.push(text(score.reason.as_deref().unwrap_or_default()));
+    cells.push(text(&score.value.reason().unwrap_or_default()));
     cells
 }

@@ -4,13 +4,13 @@ use serde_json::Value;
 
 use super::*;
 use crate::accept::{LimitsFile, accept};
-use crate::samples::Samples;
 use crate::table::Row;
+use taceva_results::Samples;
 
 /// A simulated unit with two errors: one of 0.5 N between 0.375 N and 0.75 N, one of 0.25 mm without an interval.
 fn study() -> Study {
-    let studies = Study::read(
-        r#"{"schema": "taceva.evaluation/1.1",
+    let studies = crate::results::unsealed(
+        r#"{"schema": "taceva.evaluation/1.0",
             "subject": {"sensor": "drawn", "serial": "7", "gel": "B", "source": "simulated"},
             "metrics": {"mae": {
                 "Fz": {"value": 0.5, "unit": "N", "n": 80, "ci95": [0.375, 0.75], "method": "drawn"},

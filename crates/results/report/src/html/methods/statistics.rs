@@ -4,10 +4,11 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use taceva_metrics::{Standing, catalogue};
 
-use crate::figures::listed;
-use crate::html::fold::counted;
-use crate::results::{Score, Study};
+use crate::markup::counted;
+use crate::names::listed;
+use crate::results::Study;
 use crate::scores::ScoreTable;
+use taceva_results::Score;
 
 /// Intervals, tests and adjustment.
 pub(super) fn statistics(studies: &[Study], table: &ScoreTable) -> String {

@@ -1,0 +1,107 @@
+//! Comparisons as a page.
+
+use maud::{Markup, html};
+
+use super::{Document, lead, radars};
+use crate::compare::{Answer, Comparison};
+use crate::figures::figures;
+use crate::markup::{counted, fold, folded_glossary, score_link};
+use crate::names::listed;
+use crate::number::{numeral, spaced};
+use crate::results::Study;
+
+impl Comparison {
+    /// As a page: what is shown, every answer, and the sensors side by side.
+    pub fn page(&self, studies: &[Study]) -> String {
+        let mut document = Document::new("Comparison", lead(studies));
+        document.section("summary", "Decisions", self.decided());
+        document.section("answers", "Every pair", self.pairs());
+        if let Some(radars) = radars(&figures(studies)) {
+            document.section("figures", "Side by side", radars);
+        }
+        let named = self.answers.iter().map(|answer| answer.metric.as_str());
+        document.section("meanings", "What the metrics mean", folded_glossary(named));
+        document.finish()
+    }
+
+    /// The questions that are asked first, with their answers.
+    fn decided(&self) -> Markup {
+        html! {
+            p { (self.summary()) "." } "\n"
+            ul.verdicts {
+                @for decision in self.decisions() {
+                    @let of = score_link(&decision.metric, &decision.channel);
+                    li {
+                        @if decision.question.is_empty() { strong { (of) } } @else { strong { (decision.question) } " (" (of) ")" }
+                        ": " (decision.words)
+                    } "\n"
+                }
+            } "\n"
+        }
+    }
+
+    /// What is shown, score by score, and every answer, both folded.
+    fn pairs(&self) -> Markup {
+        let (won, table) = (self.won(), self.table().html_with_links());
+        let shown = html! { ul.verdicts { @for won in &won { (won.html(&self.names)) } } };
+        html! {
+            @if won.is_empty() {
+                p { "No difference is shown between " (listed(&self.names)) "." } "\n"
+            } @else {
+                (fold("shown-all", "All differences that are shown", &counted(won.len(), "line"), &shown))
+            }
+            (fold("answers-all", "Every answer", &counted(self.answers.len(), "answer"), &table))
+        }
+    }
+
+    /// What is shown, score by score: who is better, and than whom.
+    fn won(&self) -> Vec<Won<'_>> {
+        let mut all: Vec<Won<'_>> = Vec::new();
+        for answer in &self.answers {
+            let Some(winner) = answer.better() else {
+                continue;
+            };
+            let is_same = |won: &&mut Won<'_>| {
+                let of = won.answers[0];
+                won.winner == winner && of.metric == answer.metric && of.channel == answer.channel
+            };
+            match all.iter_mut().find(is_same) {
+                Some(won) => won.answers.push(answer),
+                None => all.push(Won {
+                    winner,
+                    answers: vec![answer],
+                }),
+            }
+        }
+        all
+    }
+}
+
+/// The answers by which one study is better than others, all of one metric and channel.
+struct Won<'a> {
+    winner: usize,
+    /// At least one.
+    answers: Vec<&'a Answer>,
+}
+
+impl Won<'_> {
+    /// `mae Fz: MagicTac is better than ViTacTip (0.092 and 0.17 N) and GelSight (0.092 and 0.3 N)`.
+    fn html(&self, names: &[String]) -> Markup {
+        let of = self.answers[0];
+        let than = |answer: &&Answer| {
+            let (loser, [own, other]) = match answer.sides.a == self.winner {
+                true => (answer.sides.b, [answer.scores.a, answer.scores.b]),
+                false => (answer.sides.a, [answer.scores.b, answer.scores.a]),
+            };
+            let scores = own.zip(other).map_or_else(String::new, |(own, other)| {
+                let unit = spaced(answer.unit);
+                format!(" ({} and {}{unit})", numeral(own), numeral(other))
+            });
+            format!("{}{scores}", names[loser])
+        };
+        let others: Vec<String> = self.answers.iter().map(than).collect();
+        html! {
+            li { (score_link(&of.metric, &of.channel)) ": " strong { (names[self.winner]) } " is better than " (listed(&others)) } "\n"
+        }
+    }
+}

@@ -1,0 +1,9 @@
+//! Pieces of pages: scrolling tables, folds, links of metrics and their glossary.
+
+mod fold;
+mod glossary;
+mod pieces;
+
+pub(crate) use fold::{counted, fold};
+pub(crate) use glossary::{folded_glossary, glossary, metric_link, score_link};
+pub(crate) use pieces::{filter, heads, right_heads, scroll, terms};

@@ -1,0 +1,70 @@
+//! Provenance as lines of a page: a name and a text each.
+
+use std::fmt::Display;
+
+use taceva_results::{ModelProvenance, Provenance};
+
+/// Every entry of `provenance` but the notes, in the order of the file; empty ones are skipped.
+pub(super) fn entries(provenance: &Provenance) -> Vec<(String, String)> {
+    let text = |text: &Option<String>| text.clone().unwrap_or_default();
+    let recordings = provenance.recordings.iter().map(|own| {
+        let (name, digest, samples) = (&own.name, &own.digest, own.samples);
+        format!("name {name}, digest {digest}, samples {samples}")
+    });
+    let presses = provenance.presses.iter();
+    let presses = presses.map(|(digest, counts)| format!("{digest} {}", pairs(counts)));
+    let all = [
+        ("taceva", provenance.taceva.clone()),
+        ("dataset", text(&provenance.dataset)),
+        ("recordings", joined(recordings)),
+        ("tables", pairs(&provenance.tables)),
+        (
+            "model",
+            provenance.model.as_ref().map_or_else(String::new, model),
+        ),
+        ("split", text(&provenance.split)),
+        (
+            "seed",
+            provenance
+                .seed
+                .map_or_else(String::new, |seed| seed.to_string()),
+        ),
+        ("part", text(&provenance.part)),
+        ("samples", pairs(&provenance.samples)),
+        ("presses", joined(presses)),
+        ("frames_decoded", provenance.frames_decoded.to_string()),
+        ("plugins", provenance.plugins.join(", ")),
+        ("samples_table", text(&provenance.samples_table)),
+        ("edits", provenance.edits.join(", ")),
+        ("unsealed", provenance.unsealed.join(", ")),
+    ];
+    let known = all.into_iter().filter(|(_, text)| !text.is_empty());
+    known.map(|(name, text)| (name.to_owned(), text)).collect()
+}
+
+fn model(model: &ModelProvenance) -> String {
+    let origin = model
+        .origin
+        .iter()
+        .map(|origin| format!(", origin {origin}"));
+    format!(
+        "name {}, settings {}, digest {}, fitted_on {}{}",
+        model.name,
+        pairs(&model.settings),
+        model.digest,
+        model.fitted_on,
+        origin.collect::<String>()
+    )
+}
+
+/// `train 40, test 10`
+fn pairs<'a, K: Display + 'a, V: Display + 'a>(
+    pairs: impl IntoIterator<Item = (&'a K, &'a V)>,
+) -> String {
+    let pairs = pairs.into_iter();
+    joined(pairs.map(|(name, value)| format!("{name} {value}")))
+}
+
+fn joined(texts: impl Iterator<Item = String>) -> String {
+    texts.collect::<Vec<_>>().join(", ")
+}

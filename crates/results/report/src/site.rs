@@ -1,0 +1,272 @@
+//! The catalogue as a static site: a list that filters and sorts, and one page for each sensor, whose file name does not change.
+
+use maud::{Markup, html};
+
+use crate::catalogue::{Kind, Published, Sensor};
+use crate::figures::figures;
+use crate::html::Document;
+use crate::markup::{filter, folded_glossary, heads, metric_link, right_heads, scroll, terms};
+use crate::number::numeral;
+use crate::results::Study;
+
+const TITLE: &str = "Catalogue of vision-based tactile sensors";
+
+/// A file of the site.
+#[derive(Clone, Debug)]
+pub struct SitePage {
+    /// Its name: `index.html`, `vitactip.html`.
+    pub file: String,
+    /// Its content, as HTML.
+    pub text: String,
+}
+
+/// The pages of the site: the list first. `ours` are results of this program, which stand apart.
+pub fn site(sensors: &[Sensor], ours: &[Study]) -> Vec<SitePage> {
+    let mut pages = vec![SitePage {
+        file: "index.html".to_owned(),
+        text: index(sensors, ours),
+    }];
+    pages.extend(sensors.iter().map(|sensor| SitePage {
+        file: format!("{}.html", sensor.slug()),
+        text: page(sensor),
+    }));
+    pages
+}
+
+fn index(sensors: &[Sensor], ours: &[Study]) -> String {
+    let lead = "What was published of them, each number with its source.";
+    let mut document = Document::new(TITLE, html! { p.lead { (lead) } });
+    let of_kind = |kind| sensors.iter().filter(move |entry| entry.kind == kind);
+    document.section("sensors", "Sensors", list(of_kind(Kind::Sensor)));
+    if of_kind(Kind::Study).next().is_some() {
+        let studies = html! {
+            p { "Evaluations, benchmarks and reviews of sensors, with what they report of ten properties." } "\n"
+            ul { @for entry in of_kind(Kind::Study) { (study(entry)) } }
+        };
+        document.section("studies", "Studies of sensors", studies);
+    }
+    let published = sensors.iter().filter(|sensor| !sensor.results.is_empty());
+    let published: Vec<Study> = published.map(Sensor::as_study).collect();
+    let side_by_side = radars(&published);
+    document.section("radars", "Side by side, as published", side_by_side);
+    if !ours.is_empty() {
+        let ours = html! {
+            p.badge { "These are results of this program, not published ones; what is simulated was not measured." } "\n"
+            (radars(ours))
+        };
+        document.section("ours", "Results of this program", ours);
+    }
+    document.finish()
+}
+
+/// Every sensor, with the filters of the list.
+fn list<'a>(sensors: impl Iterator<Item = &'a Sensor>) -> Markup {
+    let mechanisms = [
+        ("imm", "IMM: intensity"),
+        ("mdm", "MDM: markers"),
+        ("mfm", "MFM: fusion"),
+        ("magnetic", "magnetic taxels"),
+        ("capacitive", "capacitive taxels"),
+    ];
+    let errors = ["Pxy (mm)", "Pz (mm)", "Fxy (N)", "Fz (N)"];
+    let table = html! {
+        table.sorts {
+            thead {
+                tr {
+                    (heads(["sensor", "mechanism"]))
+                    (right_heads(errors.map(|error| format!("MAE {error} ↓"))))
+                    (right_heads(["rate (Hz)", "reported"]))
+                }
+            }
+            tbody { @for sensor in sensors { (row(sensor)) } }
+        }
+    };
+    html! {
+        fieldset {
+            legend { "Show" }
+            label { "containing " input type="search" data-filter="text"; }
+            (filter("mechanism", "any", mechanisms))
+            (filter("light", "any", [("opaque", "kept out")]))
+            (filter("numbers", "any", [("numbers", "published here")]))
+        } "\n"
+        (scroll("Sensors", &table))
+        p.note {
+            "A dash: no number of that metric and unit is known here. The page of a sensor has every number that is. IMM maps intensity, MDM displacements of markers, MFM fuses modalities; magnetic and capacitive sensors have taxels and no camera. "
+            "The last column counts which of ten properties the work itself reports."
+        }
+    }
+}
+
+fn radars(studies: &[Study]) -> Markup {
+    let none = "Fewer than two sensors have numbers that can stand side by side.";
+    crate::html::radars(&figures(studies)).unwrap_or_else(|| html! { p { (none) } })
+}
+
+fn row(sensor: &Sensor) -> Markup {
+    let mut tags: Vec<String> = sensor
+        .mechanism
+        .iter()
+        .map(|word| word.to_lowercase())
+        .collect();
+    if sensor.opaque == Some(true) {
+        tags.push("opaque".to_owned());
+    }
+    if !sensor.results.is_empty() {
+        tags.push("numbers".to_owned());
+    }
+    let mae = ["Pxy", "Pz", "Fxy", "Fz"]
+        .map(|channel| sensor.result("mae", channel).map(|result| result.value));
+    let number = |value: f64| (value.to_string(), numeral(value));
+    let numbers = mae.into_iter().chain([sensor.frame_rate_hz()]);
+    let count = properties_reported(sensor).to_string();
+    let count = (!sensor.reported.is_empty()).then(|| (count.clone(), count));
+    html! {
+        tr data-tags=(tags.join(" ")) {
+            th scope="row" { a href={ (sensor.slug()) ".html" } { (sensor.name) } } td { (sensor.mechanism.join(" + ")) }
+            @for cell in numbers.map(|value| value.map(number)).chain([count]) {
+                @if let Some((value, shown)) = cell { td.r data-v=(value) { (shown) } } @else { td.none data-v="" { "–" } }
+            }
+        } "\n"
+    }
+}
+
+/// Of how many properties the work itself says that it reports them.
+fn properties_reported(entry: &Sensor) -> usize {
+    let words = entry.reported.values();
+    words.filter(|word| *word == "yes").count()
+}
+
+fn study(entry: &Sensor) -> Markup {
+    html! {
+        li {
+            a href={ (entry.slug()) ".html" } { (entry.name) }
+            @if !entry.reported.is_empty() { ": " (properties_reported(entry)) " of 10" }
+        }
+    }
+}
+
+fn page(sensor: &Sensor) -> String {
+    let lead = html! {
+        p.lead { a href="index.html" { (TITLE) } }
+        @if sensor.kind == Kind::Study { p { "A study of sensors, and no sensor." } }
+    };
+    let mut document = Document::new(&sensor.name, lead);
+    document.section("properties", "Properties", properties(sensor));
+    if !sensor.results.is_empty() {
+        document.section("results", "Published results", results(sensor));
+    }
+    let named = sensor.results.iter().map(|result| result.metric.as_str());
+    let is_known = |id: &str| taceva_metrics::Better::of(id).is_some();
+    if named.clone().any(is_known) {
+        document.section("meanings", "What the metrics mean", folded_glossary(named));
+    }
+    if !sensor.reported.is_empty() {
+        let entries = sensor.reported.iter().filter(|(key, _)| *key != "source");
+        let entries = entries.map(|(key, word)| (key.replace('_', " "), word));
+        let reported = html! { dl { (terms(entries)) } };
+        document.section("reported", "What the work reports", reported);
+    }
+    let sources = html! {
+        ul {
+            @for source in &sensor.sources {
+                li {
+                    (source.id) ": " (source.text)
+                    @if let Some(link) = source.link.as_ref().filter(|link| link.starts_with("https://")) {
+                        " " a href=(link) rel="noreferrer" { (link) }
+                    }
+                }
+            }
+        }
+    };
+    document.section("sources", "Sources", sources);
+    document.finish()
+}
+
+fn properties(sensor: &Sensor) -> Markup {
+    let word = |value: Option<bool>| {
+        value
+            .map_or("unknown", |yes| if yes { "yes" } else { "no" })
+            .to_owned()
+    };
+    let mut entries = match sensor.kind {
+        Kind::Study => Vec::new(),
+        Kind::Sensor => vec![
+            ("mechanism".to_owned(), sensor.mechanism.join(" + ")),
+            (
+                "shape".to_owned(),
+                sensor.shape.clone().unwrap_or_else(|| "unknown".to_owned()),
+            ),
+            ("keeps light out".to_owned(), word(sensor.opaque)),
+            ("markers".to_owned(), word(sensor.markers)),
+        ],
+    };
+    if let Some(of) = &sensor.intrinsic {
+        entries.extend([
+            ("camera".to_owned(), format!("{} MP", of.camera_mp)),
+            ("thickness".to_owned(), format!("{} mm", of.thickness_mm)),
+            (
+                "field of view".to_owned(),
+                format!("{} mm²", of.field_of_view_mm2),
+            ),
+            ("frame rate".to_owned(), format!("{} Hz", of.frame_rate_hz)),
+        ]);
+    }
+    if let Some(of) = &sensor.limits {
+        entries.extend([
+            ("greatest depth".to_owned(), format!("{} mm", of.pz_max_mm)),
+            (
+                "greatest normal force".to_owned(),
+                format!("{} N", of.fz_max_n),
+            ),
+            (
+                "greatest distance from the centre".to_owned(),
+                format!("{} mm", of.radius_max_mm),
+            ),
+        ]);
+    }
+    for (theme, terms) in &sensor.applications {
+        if !terms.is_empty() {
+            entries.push((format!("used for: {theme}"), terms.join(", ")));
+        }
+    }
+    html! { dl { (terms(entries)) } }
+}
+
+fn results(sensor: &Sensor) -> Markup {
+    let row = |result: &Published| {
+        let unit = if result.unit == "1" { "" } else { &result.unit };
+        html! {
+            tr {
+                th scope="row" { (metric_link(&result.metric)) } td { (result.channel) }
+                td.r data-v=(result.value) { (result.shown()) } td { (unit) } td { (result.source) ", " (result.read_from) }
+                td.wrap { (result.definition) }
+                td.wrap { (result.conditions) @if let Some(note) = &result.note { "; " (note) } }
+            } "\n"
+        }
+    };
+    let table = html! {
+        table.sorts {
+            thead { tr { (heads(["metric", "channel"])) (right_heads(["value"])) (heads(["unit", "source", "definition", "conditions"])) } }
+            tbody { @for result in &sensor.results { (row(result)) } }
+        }
+    };
+    html! {
+        (scroll("Published results", &table))
+        @for missing in &sensor.missing { p.note { "No number of " (missing.metric) ": " (missing.reason) "." } }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_page_leads_back_to_the_list() {
+        let pages = site(&crate::catalogue::all(), &[]);
+        assert!(pages.len() > 12);
+        for page in &pages[1..] {
+            let link = format!("<a href=\"index.html\">{TITLE}</a>");
+            assert!(page.text.contains(&link), "{}", page.file);
+        }
+    }
+}

@@ -1,0 +1,334 @@
+//! What a comparison says of drawn scores: who is better, than whom, in which words, and in lines and rows that a reader keeps up with.
+
+use crate::support;
+use serde_json::{Value, json};
+use taceva_report::{CompareRequest, Comparison, OVERVIEW_LINES, Study, compare, figures};
+use taceva_results::Samples;
+
+/// A score with the standard error `error` over twenty clusters.
+fn score(value: f64, error: f64, unit: &str) -> Value {
+    json!({
+        "value": value, "unit": unit, "n": 80, "ci95": [value - 2.0 * error, value + 2.0 * error],
+        "standard_error": error, "clusters": 20, "method": "drawn", "definition": "drawn/1"
+    })
+}
+
+/// A study of `scores` by metric and channel; that its model has skill on `channels` is known.
+fn study(sensor: &str, scores: &[(&str, &str, Value)], channels: &[&str]) -> Study {
+    let mut metrics = json!({});
+    for (metric, channel, score) in scores {
+        metrics[metric][channel] = score.clone();
+    }
+    for channel in channels {
+        metrics["r2"][channel] = score(0.9, 0.01, "1");
+    }
+    let json = json!({
+        "schema": "taceva.evaluation/1.0",
+        "subject": {"sensor": sensor, "serial": "1", "gel": "1", "source": "simulated"},
+        "metrics": metrics
+    });
+    support::study(&json)
+}
+
+/// Studies of one error of Fz with skill, from the worst to the best, far apart.
+fn errors(values: &[(&str, f64)]) -> Vec<Study> {
+    let of = |&(sensor, value): &(&str, f64)| {
+        study(sensor, &[("mae", "Fz", score(value, 0.01, "N"))], &["Fz"])
+    };
+    values.iter().map(of).collect()
+}
+
+fn of_metric(studies: &[Study], metric: &str) -> Comparison {
+    let request = CompareRequest {
+        metrics: vec![metric.to_owned()],
+        ..CompareRequest::default()
+    };
+    compare(studies, &request)
+}
+
+#[test]
+fn the_best_of_three_is_said_to_be_better_than_both_others_wherever_it_stands() {
+    let values = [("Coarse", 0.75), ("Middle", 0.5), ("Fine", 0.25)];
+    for turn in 0..3 {
+        let mut values = values;
+        values.rotate_left(turn);
+        let comparison = of_metric(&errors(&values), "mae");
+        let decisions = comparison.decisions();
+        let fine = values.iter().position(|(sensor, _)| *sensor == "Fine");
+        assert_eq!((decisions.len(), decisions[0].winner), (1, fine));
+        assert_eq!(decisions[0].asked(), "Normal force (mae Fz ↓)");
+        assert_eq!(
+            decisions[0].words,
+            "Fine, 0.25 N, better than all 2 others (p < 0.001)"
+        );
+    }
+}
+
+#[test]
+fn a_winner_of_two_names_the_other_one() {
+    for values in [
+        [("Coarse", 0.75), ("Fine", 0.25)],
+        [("Fine", 0.25), ("Coarse", 0.75)],
+    ] {
+        let comparison = of_metric(&errors(&values), "mae");
+        assert_eq!(
+            comparison.decisions()[0].words,
+            "Fine, 0.25 N, better than Coarse (p < 0.001)"
+        );
+        assert_eq!(
+            comparison.summary(),
+            "1 pairs of scores: 1 differ, 0 are not shown to, 0 have no answer (5 %, by Holm over each metric)"
+        );
+        let overview = comparison.overview(None);
+        let line = "\nNormal force (mae Fz ↓): Fine, 0.25 N, better than Coarse (p < 0.001)\n";
+        assert!(overview.contains(line), "{overview}");
+    }
+}
+
+#[test]
+fn what_is_not_shown_to_differ_is_counted_as_such_and_has_no_winner() {
+    let comparison = of_metric(&errors(&[("one", 0.5), ("two", 0.501)]), "mae");
+    assert!(
+        comparison
+            .summary()
+            .starts_with("1 pairs of scores: 0 differ, 1 are not shown to, 0 have no answer")
+    );
+    let decision = &comparison.decisions()[0];
+    assert_eq!(decision.winner, None);
+    assert_eq!(
+        decision.words,
+        "no winner; the best value, one, 0.5 N, is not shown to be better"
+    );
+    let studies = errors(&[("one", 0.5), ("two", 0.501)]);
+    assert!(
+        comparison
+            .page(&studies)
+            .contains("No difference is shown between one and two.")
+    );
+}
+
+#[test]
+fn the_best_bias_is_the_nearest_to_zero_and_not_the_first() {
+    let of = |sensor, value| {
+        let score = score(value, 0.01, "N");
+        study(sensor, &[("bias", "Fz", score)], &["Fz"])
+    };
+    let studies = [of("far", -0.5), of("near", -0.125), of("farther", -0.75)];
+    let decision = &of_metric(&studies, "bias").decisions()[0];
+    assert_eq!(decision.winner, Some(1));
+    assert_eq!(
+        decision.words,
+        "near, −0.125 N, better than all 2 others (p < 0.001)"
+    );
+    assert_eq!(decision.asked(), "bias Fz →0");
+}
+
+#[test]
+fn the_finest_of_gratings_that_two_tell_equally_often_is_a_tie_whomever_else_they_beat() {
+    let of = |sensor, share| study(sensor, &[("sr", "line", score(share, 0.01, "1"))], &[]);
+    let studies = [of("one", 0.875), of("two", 0.875), of("coarse", 0.25)];
+    let decision = &of_metric(&studies, "sr").decisions()[0];
+    assert_eq!(decision.winner, None);
+    assert!(
+        decision.words.starts_with("tie: one and two both"),
+        "{}",
+        decision.words
+    );
+}
+
+#[test]
+fn unknown_skill_is_said_of_those_it_is_unknown_of_and_of_no_other() {
+    let known = study("known", &[("mae", "Fz", score(0.25, 0.01, "N"))], &["Fz"]);
+    let unknown = study("unknown", &[("mae", "Fz", score(0.75, 0.01, "N"))], &[]);
+    let words = |studies: &[Study]| {
+        let comparison = of_metric(studies, "mae");
+        comparison.answers[0].words(&comparison.names)
+    };
+    let said = words(&[known.clone(), unknown.clone()]);
+    assert!(said.ends_with("; skill unknown of unknown"), "{said}");
+    let other = Study {
+        sensor: "other".to_owned(),
+        ..known.clone()
+    };
+    let said = words(&[known, other]);
+    assert!(!said.contains("skill"), "{said}");
+}
+
+#[test]
+fn a_score_without_skill_has_no_answer_but_its_reason() {
+    let mut studies = errors(&[("one", 0.25), ("two", 0.75)]);
+    studies[1] = study("two", &[("mae", "Fz", score(0.75, 0.01, "N"))], &[]);
+    let without = json!({"value": 0.0, "unit": "1", "n": 80, "ci95": [-0.5, 0.5]});
+    let unskilled = study(
+        "none",
+        &[
+            ("mae", "Fz", score(0.125, 0.01, "N")),
+            ("r2", "Fz", without),
+        ],
+        &[],
+    );
+    studies.push(unskilled);
+    let comparison = of_metric(&studies, "mae");
+    let reasons: Vec<Option<&str>> = comparison
+        .answers
+        .iter()
+        .map(|answer| answer.reason.as_deref())
+        .collect();
+    let reason = "none: no skill: the model is not shown to do better than a constant";
+    assert_eq!(reasons, [None, Some(reason), Some(reason)]);
+    assert!(comparison.answers[0].difference.is_some());
+    let decision = &comparison.decisions()[0];
+    assert_eq!(decision.winner, Some(0));
+    assert_eq!(
+        decision.words,
+        "one, 0.25 N, better than two (p < 0.001); none: no skill"
+    );
+}
+
+#[test]
+fn scores_that_no_question_names_are_at_most_two_lines_less_than_a_screen() {
+    let metrics = [
+        "mae",
+        "rmse",
+        "bias",
+        "smape",
+        "smape_gated",
+        "r_spatial",
+        "r_light",
+        "repeatability",
+        "hysteresis",
+        "linearity",
+        "crosstalk",
+        "bias_level",
+        "tolerance",
+        "drift",
+    ];
+    let of = |sensor, value| {
+        let scores = metrics.map(|metric| (metric, "Fx", score(value, 0.01, "N")));
+        study(sensor, &scores, &["Fx"])
+    };
+    let comparison = compare(
+        &[of("one", 0.25), of("two", 0.75)],
+        &CompareRequest::default(),
+    );
+    assert!(comparison.answers.len() > OVERVIEW_LINES);
+    assert!(comparison.decisions().len() >= OVERVIEW_LINES - 2);
+    let overview = comparison.overview(None);
+    assert_eq!(overview.lines().count(), OVERVIEW_LINES);
+    assert!(overview.contains("\nmae Fx ↓: one, 0.25 N"), "{overview}");
+}
+
+#[test]
+fn long_names_are_cut_on_the_first_screen_and_wrapped_below_it() {
+    let long = "a sensor whose name alone is as long as half a line";
+    let longer = "another one whose name is rather longer than half a line";
+    let comparison = of_metric(&errors(&[(long, 0.25), (longer, 0.75)]), "mae");
+    let overview = comparison.overview(Some(100));
+    let cut = overview.lines().nth(1).expect("a line");
+    assert!(
+        cut.starts_with("Normal force (mae Fz ↓): a sensor") && cut.ends_with('…'),
+        "{cut}"
+    );
+    let text = comparison.text();
+    assert!(text.contains("\nmae Fz ↓, in N\n"), "{text}");
+    for line in overview.lines().chain(text.lines()) {
+        assert!(line.chars().count() <= 100, "{line}");
+    }
+    // Nothing is lost where lines are wrapped, and no line is broken that has room for the next word.
+    let joined = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let words = comparison.answers[0].words(&comparison.names);
+    assert!(joined.contains(&words), "{text}");
+    let lines: Vec<&str> = text.lines().collect();
+    for pair in lines
+        .windows(2)
+        .filter(|pair| pair[1].starts_with("      "))
+    {
+        let next = pair[1]
+            .split_whitespace()
+            .next()
+            .map_or(0, |word| word.chars().count());
+        assert!(pair[0].chars().count() + 1 + next > 100, "{pair:?}");
+    }
+}
+
+#[test]
+fn a_row_has_both_scores_their_difference_and_the_answer() {
+    let comparison = of_metric(&errors(&[("one", 0.25), ("two", 0.75)]), "mae");
+    let table = comparison.table();
+    assert_eq!(table.rows.len(), 1);
+    let row = table.rows[0].plain();
+    assert_eq!(row.len(), table.columns.len());
+    assert_eq!(
+        row[..7],
+        ["mae", "Fz", "one", "two", "0.25", "0.75", "−0.5"]
+    );
+    assert_eq!(row[8], "0.95");
+    assert_eq!(row[11], "N");
+    assert!(row[12].starts_with("one better by 0.5"), "{}", row[12]);
+}
+
+#[test]
+fn a_page_says_who_is_better_and_has_radars_only_if_some_are_drawn() {
+    let studies = errors(&[("one", 0.25), ("two", 0.75)]);
+    let page = of_metric(&studies, "mae").page(&studies);
+    assert!(page.contains("<strong>one</strong> is better than two (0.25 and 0.75 N)"));
+    let has_radars = |studies: &[Study]| {
+        let drawn = figures(studies);
+        drawn.iter().any(|figure| figure.id.starts_with("radar"))
+    };
+    assert!(has_radars(&studies) && page.contains("Side by side"));
+    let of = |sensor, value| study(sensor, &[("rmse", "Fz", score(value, 0.01, "N"))], &[]);
+    let studies = [of("one", 0.25), of("two", 0.75)];
+    let page = of_metric(&studies, "rmse").page(&studies);
+    assert!(!has_radars(&studies) && !page.contains("Side by side"));
+}
+
+/// A study with a table of samples, of which the first truth is `first` and every error about `error`.
+fn sampled(sensor: &str, first: f64, error: f64) -> Study {
+    let mut table = String::from("id,point_id,Fz,Fz_predicted\n");
+    let (mut sum, rows) = (0.0, 48);
+    for row in 0..rows {
+        let truth = if row == 0 { first } else { f64::from(row) };
+        let missed = error * (1.0 + f64::from(row % 5) / 8.0);
+        sum += missed;
+        table += &format!("s{row},p{},{truth},{}\n", row % 12, truth + missed);
+    }
+    let mut mae = score(sum / f64::from(rows), 0.01, "N");
+    mae["n"] = rows.into();
+    let mut study = study(sensor, &[("mae", "Fz", mae)], &["Fz"]);
+    study.samples = Some(Samples::read(&table).expect("samples"));
+    study
+}
+
+#[test]
+fn errors_are_compared_sample_by_sample_if_both_tables_are_of_the_same_samples_and_of_their_scores()
+{
+    let test = |a: Study, b: Study| {
+        let comparison = of_metric(&[a, b], "mae");
+        let difference = comparison.answers[0].difference.clone();
+        difference.expect("tested").test.to_string()
+    };
+    let same = test(sampled("a", 0.0, 0.25), sampled("b", 0.0, 0.5));
+    let other_truth = test(sampled("a", 0.0, 0.25), sampled("b", 0.5, 0.5));
+    assert!(same.contains("sign"), "{same}");
+    assert!(
+        other_truth.contains("by the intervals of both"),
+        "{other_truth}"
+    );
+    // Two sensors that press one plan have ids and commanded places in common.
+    let of = |name: &str, error, dataset: &str| {
+        let mut study = sampled(name, 0.0, error);
+        let entry = ("dataset".to_owned(), dataset.to_owned());
+        study.provenance.push(entry);
+        study
+    };
+    let same_plan = test(of("a", 0.25, "sha256:1"), of("b", 0.5, "sha256:2"));
+    assert_eq!(same_plan, other_truth);
+    let same_dataset = test(of("a", 0.25, "sha256:1"), of("b", 0.5, "sha256:1"));
+    assert_eq!(same_dataset, same);
+    // A table whose errors have another mean than the score belongs to something else.
+    let mut stranger = sampled("b", 0.0, 0.5);
+    stranger.samples = sampled("b", 0.0, 0.75).samples;
+    let strange = test(sampled("a", 0.0, 0.25), stranger);
+    assert_eq!(strange, other_truth);
+}

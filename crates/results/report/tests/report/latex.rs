@@ -1,0 +1,113 @@
+//! Every table for papers compiles: with `pdflatex` where it is installed, skipped with the reason printed elsewhere.
+
+use crate::paper::{assert_compiles, assert_fits_a_column};
+use crate::support::drawn;
+use taceva_core::Unit;
+use taceva_report::{
+    Acceptance, BenchMachine, BenchRecording, ChannelError, CompareRequest, Layout, LimitsFile,
+    ModelBench, ModelRow, Need, ScoreTable, Study, accept, catalogue, choose, compare,
+};
+
+/// A name of everything that LaTeX reads specially, and of what our own words hold.
+const NAME: &str =
+    "a_b & 50 % #1 {x} $y$ ^2 ~ \\end{document} <\"'> | ² ³ µm · × ± − – … ≤ ≥ → ε σ é ö";
+
+fn studies() -> [Study; 2] {
+    [drawn(NAME, 60, 1.0), drawn("other", 60, 1.5)]
+}
+
+#[test]
+fn scores_compile() {
+    let table = ScoreTable::of(&studies());
+    assert_compiles("scores", &table.for_papers(NAME).latex(Layout::Float));
+    assert_compiles(
+        "headlines",
+        &table.headlines().for_papers("Drawn").latex(Layout::Float),
+    );
+}
+
+#[test]
+fn the_main_scores_fit_a_column() {
+    let four = ["ViTacTip", "MagicTac", "GelSight", "GelSightWM"].map(|name| drawn(name, 60, 1.0));
+    let table = ScoreTable::of(&four)
+        .for_column("Drawn")
+        .latex(Layout::Column);
+    for part in [
+        "MAE $F_{xy}$ (N) $\\downarrow$",
+        "$R^2$ $P_{z}$ $\\uparrow$",
+        "\\columnwidth",
+    ] {
+        assert!(table.contains(part), "{part}: {table}");
+    }
+    assert_fits_a_column("main scores", &table);
+    let odd = ScoreTable::of(&studies())
+        .for_column(NAME)
+        .latex(Layout::Column);
+    assert_compiles("main scores of odd names", &odd);
+}
+
+#[test]
+fn comparisons_compile() {
+    let comparison = compare(&studies(), &CompareRequest::default());
+    assert!(comparison.answers.len() > 10);
+    // A page of paper has an end; the table of every answer goes over several.
+    let all = comparison.table();
+    for rows in all.rows.chunks(30) {
+        let mut part = all.clone();
+        part.rows = rows.to_vec();
+        assert_compiles("comparison", &part.latex(Layout::Float));
+    }
+}
+
+#[test]
+fn choices_and_the_catalogue_compile() {
+    let needs = Need::parse("accurate shear, ambient light, rate >= 50 Hz").expect("needs");
+    let choice = choose(&catalogue::all(), &needs);
+    assert_compiles("choice", &choice.table().latex(Layout::Float));
+    let all = catalogue::list(&catalogue::all());
+    assert_compiles("catalogue", &all.latex(Layout::Float));
+    let mut details = String::new();
+    for sensor in catalogue::all() {
+        details += &catalogue::details(&sensor).latex(Layout::Float);
+        details += "\\clearpage\n";
+    }
+    assert_compiles("every sensor of the catalogue", &details);
+}
+
+#[test]
+fn data_sheets_compile() {
+    let limits = LimitsFile::read(
+        "limits_version = 1\nname = \"line 50 %\"\n[[limit]]\nmetric = \"mae\"\nchannel = \"Fz\"\nunit = \"N\"\nmost = 0.00001\n",
+    )
+    .expect("limits");
+    let study = drawn(NAME, 60, 1.0);
+    let findings = accept(&study, &limits);
+    let acceptance = Acceptance {
+        name: &limits.name,
+        study: &study,
+        findings: &findings,
+        date: Some("2026-11-22"),
+        pictures: None,
+    };
+    assert_compiles("acceptance", &acceptance.table().latex(Layout::Float));
+}
+
+#[test]
+fn benchmarks_of_models_compile() {
+    let mut bench = ModelBench::new(BenchMachine::default(), BenchRecording::default());
+    bench.recording.source = "simulated".to_owned();
+    bench.rows.push(ModelRow {
+        model: NAME.to_owned(),
+        fit_s: 1e-7,
+        errors: vec![ChannelError {
+            channel: "Fz".to_owned(),
+            unit: Unit::Newton,
+            mae: 0.25,
+            ci95: Some([-0.05, 0.55]),
+            n: 40,
+            beaten_by: Vec::new(),
+        }],
+        ..ModelRow::default()
+    });
+    assert_compiles("models", &bench.table().latex(Layout::Float));
+}

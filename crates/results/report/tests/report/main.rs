@@ -1,0 +1,14 @@
+//! Every test of reports that needs more than one module.
+
+mod accept;
+mod browser;
+mod compare;
+mod golden;
+mod hostile;
+mod latex;
+mod paper;
+mod pdf;
+mod pdf_file;
+mod reports;
+mod support;
+mod verdicts;

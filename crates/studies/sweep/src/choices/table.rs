@@ -1,0 +1,102 @@
+//! The table of what was chosen for each question.
+
+use taceva_metrics::Repeats;
+use taceva_report::{Cell, Column, Table};
+
+use super::{Choice, ends, number};
+use crate::analysis::Group;
+
+/// The configurations that have results and report no error that could choose among them, each once.
+fn without_validation(groups: &[Group<'_>]) -> Vec<String> {
+    let mut silent: Vec<String> = Vec::new();
+    for group in groups {
+        let mut results = group.results.iter();
+        let is_silent = results.any(|(_, result)| result.validation.is_empty());
+        if is_silent && !silent.contains(&group.configuration) {
+            silent.push(group.configuration.clone());
+        }
+    }
+    silent
+}
+
+/// What a channel answers.
+fn question(channel: &str) -> &'static str {
+    match channel {
+        "Pz" => "depth",
+        "Px" | "Py" => "position in the plane",
+        "Fz" => "normal force",
+        "Fx" | "Fy" => "shear force",
+        _ => "",
+    }
+}
+
+/// A row a choice: what was chosen by which error, and what it scores where nothing was chosen.
+pub(crate) fn table(groups: &[Group<'_>], choices: &[Choice]) -> Table {
+    let columns = [
+        "recording",
+        "split",
+        "question",
+        "channel",
+        "chosen",
+        "among",
+        "validation RMSE",
+        "test MAE",
+        "95 % over contact points",
+        "95 % over seeds",
+        "seeds",
+        "unit",
+    ];
+    let mut table = Table::new("The best of each question", columns.map(Column::new));
+    for choice in choices {
+        let group = &groups[choice.chosen];
+        let values = group.values("mae", &choice.channel);
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        let over_seeds =
+            Repeats::of(&values).map(|repeats| repeats.within([0.0, f64::MAX]).interval);
+        let (first_seed, first) = match group.results.first() {
+            Some((seed, result)) => (*seed, result.score("mae", &choice.channel)),
+            None => (0, None),
+        };
+        let over_points = first.and_then(|score| {
+            let interval = score.interval.as_ref()?.ends()?;
+            Some(match group.results.len() {
+                1 => ends(score.value.number()?, interval),
+                _ => format!(
+                    "{} (seed {first_seed})",
+                    ends(score.value.number()?, interval)
+                ),
+            })
+        });
+        table.push([
+            Cell::text(group.dataset),
+            Cell::text(group.split.unwrap_or("as recorded")),
+            Cell::text(question(&choice.channel)),
+            Cell::text(choice.channel.as_str()),
+            Cell::text(group.configuration.as_str()),
+            Cell::Number((choice.others.len() + 1).to_string()),
+            number(choice.rmse),
+            if values.is_empty() {
+                Cell::text("none")
+            } else {
+                number(mean)
+            },
+            Cell::text(over_points.unwrap_or_else(|| "none: too few contact points".to_owned())),
+            Cell::text(over_seeds.map_or_else(
+                || "none: one seed".to_owned(),
+                |interval| ends(mean, interval),
+            )),
+            Cell::Number(values.len().to_string()),
+            Cell::text(choice.unit.as_str()),
+        ]);
+    }
+    table.note("Chosen by the least root mean square error on validation parts, or on what a model left out of its training part in turn, the mean over seeds; models that report neither take no part. Test parts took no part in any choice: the test error is that of what was chosen.");
+    let silent = without_validation(groups);
+    if !silent.is_empty() {
+        table.note(format!(
+            "No candidates, as they report no such error: {}.",
+            silent.join("; ")
+        ));
+    }
+    table.note("The interval over contact points says how far the score would move with other presses and the same training; the one over seeds how far with other divisions and random numbers, on the same recording. They are not to be added.");
+    table
+}

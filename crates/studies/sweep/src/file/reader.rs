@@ -1,0 +1,99 @@
+//! Reading the file of a sweep: what is written, checked key by key.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use taceva_dataset::{Digest, read_toml};
+use taceva_models::SplitSpec;
+
+use super::place::FilePlace;
+use super::vary::vary;
+use super::{ModelEntry, SweepFile, folder_of, tables};
+use crate::condition::Condition;
+use crate::error::SweepError;
+use crate::seeds::seeds;
+use crate::syntax::WrittenSweep;
+
+/// The version of the form that this program reads.
+const VERSION: u32 = 1;
+
+impl SweepFile {
+    /// Reads the file at `path`.
+    ///
+    /// # Errors
+    /// [`SweepError`] with the line and the nearest key where one is unknown, and for what cannot be meant.
+    pub fn read(path: &Path) -> Result<SweepFile, SweepError> {
+        let written: WrittenSweep = read_toml(path)?;
+        let text = fs::read_to_string(path).map_err(SweepError::io("read", path))?;
+        let place = FilePlace { path, text: &text };
+        if written.sweep_version != VERSION {
+            return Err(place.wrong(
+                "sweep_version",
+                format!(
+                    "version {} of the form; this program reads version {VERSION}",
+                    written.sweep_version
+                ),
+            ));
+        }
+        if written.score.is_some() {
+            tables::check_alone(&written, place)?;
+        }
+        let folder = folder_of(path);
+        let tables = written.score.as_ref();
+        let tables = tables.map(|score| tables::TablesEntry::of(score, folder, place));
+        let models = written.models.iter();
+        let models: Vec<ModelEntry> = models
+            .map(|value| ModelEntry::of(value, place))
+            .collect::<Result<_, _>>()?;
+        let vary = vary(written.vary, &models, place)?;
+        let seeds = match &written.seeds {
+            None => vec![0],
+            Some(written) => seeds(written).map_err(|problem| place.wrong("seeds", problem))?,
+        };
+        place.check_distinct("seeds", &seeds)?;
+        place.check_distinct("splits", &written.splits)?;
+        for split in &written.splits {
+            let known = split.parse::<SplitSpec>();
+            known.map_err(|error| place.wrong("splits", error.to_string()))?;
+        }
+        let (datasets, scenes) = (written.datasets.list(), written.scenes.list());
+        place.check_distinct("datasets", &datasets)?;
+        place.check_distinct("scenes", &scenes)?;
+        if tables.is_none() && datasets.is_empty() && scenes.is_empty() {
+            return Err(place.wrong(
+                if place.line_of("scenes").is_some() { "scenes" } else { "datasets" },
+                "an empty grid: neither `datasets` nor `scenes` has an entry; name at least one recording or scene".to_owned(),
+            ));
+        }
+        let splits = match written.splits.is_empty() {
+            true => vec![None],
+            false => written.splits.into_iter().map(Some).collect(),
+        };
+        let metrics = match written.metrics.is_empty() {
+            true => vec!["all".to_owned()],
+            false => written.metrics,
+        };
+        let skip = written.skip.r#where.list();
+        let skip = skip.iter().map(|text| {
+            Condition::parse(text).map_err(|error| place.wrong("where", error.to_string()))
+        });
+        let beside = |file: PathBuf| folder.join(file);
+        Ok(SweepFile {
+            path: path.to_owned(),
+            digest: Digest::of(text.as_bytes()),
+            name: written.name,
+            datasets,
+            scenes,
+            models,
+            seeds,
+            splits,
+            metrics,
+            sensor: written.sensor.map(beside),
+            limits: written.limits.map(beside),
+            vary,
+            skip: skip.collect::<Result<_, _>>()?,
+            tables: tables.transpose()?,
+            slurm: written.slurm.unwrap_or_default(),
+        })
+    }
+}

@@ -1,0 +1,102 @@
+//! Every combination of recordings, splits, seeds, settings and models.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use taceva_dataset::Digest;
+
+use super::Grid;
+use super::recordings::Recording;
+use crate::file::{ModelEntry, SweepFile};
+use crate::key::{KeyParts, TaskKey};
+use crate::task::Task;
+
+/// What tasks of recordings have in common.
+pub(super) struct Common<'a> {
+    pub(super) file: &'a SweepFile,
+    pub(super) sensor: Option<Digest>,
+    /// The build of the plugin behind each model that one offers.
+    pub(super) builds: BTreeMap<String, String>,
+}
+
+impl Common<'_> {
+    pub(super) fn combined(&self, recordings: &[Recording]) -> Grid {
+        let file = self.file;
+        let varied = varied(file);
+        let mut grid = Grid {
+            tasks: Vec::new(),
+            skipped: 0,
+            tables: None,
+        };
+        for recording in recordings {
+            for split in &file.splits {
+                for &seed in &file.seeds {
+                    for settings in &varied {
+                        for model in &file.models {
+                            let task =
+                                self.task(recording, model, settings, split.as_deref(), seed);
+                            match file.skip.iter().any(|condition| condition.holds(&task)) {
+                                true => grid.skipped += 1,
+                                false => grid.tasks.push(task),
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        // A model whose own setting stands in the place of one that varies comes once for each value; a result is made once.
+        let mut known = BTreeSet::new();
+        grid.tasks.retain(|task| known.insert(task.key.clone()));
+        grid
+    }
+
+    fn task(
+        &self,
+        recording: &Recording,
+        model: &ModelEntry,
+        varied: &BTreeMap<String, String>,
+        split: Option<&str>,
+        seed: u64,
+    ) -> Task {
+        let mut settings = varied.clone();
+        settings.extend(model.set.clone());
+        let plugin = self.builds.get(&model.name);
+        let key = TaskKey::of(KeyParts {
+            dataset: recording.digest,
+            model: &model.name,
+            settings: &settings,
+            split,
+            seed,
+            metrics: &self.file.metrics,
+            sensor: self.sensor,
+            plugin: plugin.map(String::as_str),
+        });
+        Task {
+            key,
+            dataset: recording.name.clone(),
+            path: recording.path.clone(),
+            digest: recording.digest.to_string(),
+            model: model.name.clone(),
+            settings,
+            split: split.map(str::to_owned),
+            seed,
+            plugin: plugin.cloned(),
+        }
+    }
+}
+
+/// Every combination of the settings that vary.
+fn varied(file: &SweepFile) -> Vec<BTreeMap<String, String>> {
+    let mut all = vec![BTreeMap::new()];
+    for (key, values) in &file.vary {
+        let with = |settings: &BTreeMap<String, String>| {
+            let settings = settings.clone();
+            values.iter().map(move |value| {
+                let mut settings = settings.clone();
+                settings.insert(key.clone(), value.clone());
+                settings
+            })
+        };
+        all = all.iter().flat_map(with).collect();
+    }
+    all
+}

@@ -1,0 +1,140 @@
+//! Results of a sweep in rows of a text: means by whatever varies.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use taceva_metrics::{Better, Repeats};
+use taceva_models::Suggestion;
+use taceva_report::{Cell, Column, Table};
+
+use crate::analysis::{self, Loaded};
+use crate::choices::{ends, number};
+use crate::condition::Condition;
+use crate::error::SweepError;
+use crate::folder::SweepFolder;
+use crate::task_list::TaskList;
+
+/// The mean of `metric` for each combination of the words in `by`, channel by channel.
+///
+/// # Errors
+/// [`SweepError::Condition`] for a word that no task has; [`SweepError`] if results cannot be read.
+pub fn show(
+    folder: &SweepFolder,
+    list: &TaskList,
+    by: &[String],
+    metric: &str,
+) -> Result<Table, SweepError> {
+    if list.is_of_tables() {
+        return Err(SweepError::Condition {
+            text: "show".to_owned(),
+            problem: "tasks are shards of two tables, which have no scores of their own: those of all rows are in score.json".to_owned(),
+        });
+    }
+    let settings: BTreeSet<&str> = list
+        .tasks
+        .iter()
+        .flat_map(|task| task.settings.keys().map(String::as_str))
+        .collect();
+    let known = || {
+        Condition::NAMES
+            .into_iter()
+            .skip(1)
+            .chain(settings.iter().copied())
+    };
+    for name in by {
+        if !known().any(|known| known == name) {
+            return Err(SweepError::Condition {
+                text: by.join(","),
+                problem: format!("no task has `{name}`: {}", Suggestion::of(name, known())),
+            });
+        }
+    }
+    if taceva_metrics::catalogue::find(metric).is_none() {
+        let names = taceva_metrics::catalogue::ALL
+            .iter()
+            .map(|metric| metric.id);
+        return Err(SweepError::Condition {
+            text: metric.to_owned(),
+            problem: format!("no such metric: {}", Suggestion::of(metric, names)),
+        });
+    }
+    let loaded = analysis::load(folder, list)?;
+    Ok(table(&loaded, by, metric))
+}
+
+/// What a mean is of.
+#[derive(Default)]
+struct Averaged {
+    values: Vec<f64>,
+    /// Where the samples come from: `recorded`, `simulated`, `synthetic`.
+    sources: BTreeSet<String>,
+}
+
+fn table(loaded: &[Loaded<'_>], by: &[String], metric: &str) -> Table {
+    let mut order: Vec<Vec<String>> = Vec::new();
+    // Values in different units are never averaged.
+    let mut values: BTreeMap<(Vec<String>, [String; 2]), Averaged> = BTreeMap::new();
+    let mut channels: Vec<[String; 2]> = Vec::new();
+    for one in loaded {
+        let words = by
+            .iter()
+            .map(|name| one.task.word(name).unwrap_or_default());
+        let words: Vec<String> = words.collect();
+        if !order.contains(&words) {
+            order.push(words.clone());
+        }
+        let Some(result) = one.result() else {
+            continue;
+        };
+        for score in result.scores.iter().filter(|score| score.metric == metric) {
+            let channel = [score.channel.clone(), score.unit.symbol().to_owned()];
+            if !channels.contains(&channel) {
+                channels.push(channel.clone());
+            }
+            let entry = values.entry((words.clone(), channel)).or_default();
+            entry.values.extend(score.value.number());
+            entry.sources.insert(result.source.clone());
+        }
+    }
+    let head = by.iter().map(|name| Column::new(name.as_str()));
+    let head = head.chain(
+        [
+            "channel",
+            "mean",
+            "95 % over tasks",
+            "tasks",
+            "unit",
+            "source",
+        ]
+        .map(Column::new),
+    );
+    let mut table = Table::new(Better::named(metric), head);
+    for words in &order {
+        for channel in &channels {
+            let Some(Averaged {
+                values: of,
+                sources,
+            }) = values.get(&(words.clone(), channel.clone()))
+            else {
+                continue;
+            };
+            let [channel, unit] = channel;
+            let mut cells: Vec<Cell> = words.iter().map(|word| Cell::text(word.as_str())).collect();
+            cells.push(Cell::text(channel.as_str()));
+            if of.is_empty() {
+                cells.extend(["none", ""].map(Cell::text));
+            } else {
+                let mean = of.iter().sum::<f64>() / of.len() as f64;
+                let interval = Repeats::of(of).map(|repeats| ends(mean, repeats.interval));
+                cells.push(number(mean));
+                cells.push(Cell::text(interval.unwrap_or_default()));
+            }
+            cells.push(Cell::Number(of.len().to_string()));
+            cells.push(Cell::text(unit.as_str()));
+            let sources: Vec<&str> = sources.iter().map(String::as_str).collect();
+            cells.push(Cell::text(sources.join(", ")));
+            table.push(cells);
+        }
+    }
+    table.note("Means over all tasks with the same words, on test parts; the interval describes their spread, whatever differs between them.");
+    table
+}

@@ -1,0 +1,66 @@
+//! Results as sealed files.
+
+use std::fs;
+
+use taceva_dataset::Digest;
+
+use super::{SCHEMA, TaskResult};
+use crate::error::SweepError;
+use crate::folder::SweepFolder;
+use crate::key::TaskKey;
+use crate::seal;
+
+impl TaskResult {
+    pub(crate) fn text(&self) -> Result<String, SweepError> {
+        seal::text(self).map_err(|problem| SweepError::Kept {
+            path: format!("results/{}.json", self.key).into(),
+            problem,
+        })
+    }
+
+    /// The result of `key` in `folder`; `None` if there is none.
+    pub(crate) fn read(
+        folder: &SweepFolder,
+        key: &TaskKey,
+    ) -> Result<Option<TaskResult>, SweepError> {
+        let path = folder.result(key);
+        let Some(text) = seal::read(&path)? else {
+            return Ok(None);
+        };
+        let wrong = |problem: String| SweepError::Kept {
+            path: path.clone(),
+            problem: format!("{problem}; remove the file, and the task is carried out again"),
+        };
+        let result: TaskResult = seal::value(&text).map_err(wrong)?;
+        if result.schema != SCHEMA {
+            return Err(wrong(format!(
+                "schema `{}`, expected `{SCHEMA}`",
+                result.schema
+            )));
+        }
+        if result.taceva != env!("CARGO_PKG_VERSION") {
+            return Err(wrong(format!(
+                "a result of TacEva {}, this is {}",
+                result.taceva,
+                env!("CARGO_PKG_VERSION")
+            )));
+        }
+        if &result.key != key {
+            return Err(wrong(format!("the result of the task {}", result.key)));
+        }
+        Ok(Some(result))
+    }
+
+    /// The evaluation of this result, held against what was written.
+    pub(crate) fn read_evaluation(&self, folder: &SweepFolder) -> Result<String, SweepError> {
+        let path = folder.evaluation(&self.key);
+        let text = fs::read_to_string(&path).map_err(SweepError::io("read", &path))?;
+        match Digest::of(text.as_bytes()).to_string() == self.evaluation {
+            true => Ok(text),
+            false => Err(SweepError::Kept {
+                path,
+                problem: "it is not what the task wrote; remove it and the file of the same name in `results`, and the task is carried out again".to_owned(),
+            }),
+        }
+    }
+}

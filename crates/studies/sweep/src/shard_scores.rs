@@ -1,0 +1,73 @@
+//! What is made of the shards of two tables: the scores of all rows, as one pass has them.
+
+use std::fs;
+use std::path::PathBuf;
+
+use taceva_core::shown;
+use taceva_dataset::Digest;
+
+use crate::error::SweepError;
+use crate::folder::SweepFolder;
+use crate::grid::PlannedTables;
+use crate::outcome::sealed;
+use crate::tally::Collected;
+use crate::task_list::TaskList;
+use crate::times;
+
+/// The file of the scores, with the bytes that `taceva score --format json` writes.
+const RESULT: &str = "score.json";
+
+/// Joins the shards in `folder` to the scores, where none is missing; there is no file of scores otherwise.
+///
+/// # Errors
+/// [`SweepError`] for a state that is not what was written, or of other tables, and if the folder cannot be written.
+pub(crate) fn join(
+    folder: &SweepFolder,
+    list: &TaskList,
+    planned: &PlannedTables,
+) -> Result<Collected, SweepError> {
+    let counts = list.counts(folder)?;
+    let mut collected = Collected {
+        scored: counts.scored,
+        failed: counts.failed,
+        missing: counts.left,
+        is_of_tables: true,
+        ..Collected::default()
+    };
+    let path = folder.path().join(RESULT);
+    folder.write(
+        &folder.path().join("times.csv"),
+        &times::csv(folder, &list.tasks)?,
+    )?;
+    if !collected.is_whole() {
+        // What was joined of other tasks is not the result of these.
+        return match fs::remove_file(&path) {
+            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                Err(SweepError::io("remove", &path)(error))
+            }
+            _ => Ok(collected),
+        };
+    }
+    let states: Vec<PathBuf> = list
+        .tasks
+        .iter()
+        .map(|task| folder.result(&task.key))
+        .collect();
+    let (report, state) = taceva_evaluate::merge(&states)?;
+    let [truth, prediction] = planned.digests().map(|digest| digest.to_string());
+    let tables = &report.provenance.tables;
+    let is_same = |role: &str, digest: &String| tables.get(role) == Some(digest);
+    if !is_same("truth", &truth) || !is_same("prediction", &prediction) || !state.is_whole() {
+        return Err(SweepError::Kept {
+            path: folder.path().join("results"),
+            problem: format!(
+                "its states are not all shards of {}; remove the folder, and they are made again",
+                shown(list.tasks.first().map_or("", |task| task.dataset.as_str()))
+            ),
+        });
+    }
+    let text = sealed(&report)? + "\n";
+    collected.digest = Digest::of(text.as_bytes()).to_string();
+    folder.write(&path, text.as_bytes())?;
+    Ok(collected)
+}

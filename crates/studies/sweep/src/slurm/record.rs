@@ -1,0 +1,87 @@
+//! The record of what was submitted, as a sealed file; and its end.
+
+use std::path::PathBuf;
+
+use serde::{Deserialize, Serialize};
+
+use super::command::run;
+use crate::error::SweepError;
+use crate::folder::SweepFolder;
+use crate::seal;
+
+/// The schema of the record.
+const SCHEMA: &str = "taceva.sweep-jobs/1.0";
+
+/// What was submitted.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Submitted {
+    /// The numbers of the arrays.
+    pub arrays: Vec<String>,
+    /// The number of the job that collects.
+    pub collect: Option<String>,
+}
+
+/// The record as it is written.
+#[derive(Serialize, Deserialize)]
+struct Record {
+    schema: String,
+    #[serde(flatten)]
+    submitted: Submitted,
+}
+
+impl Submitted {
+    pub(super) fn write(&self, folder: &SweepFolder) -> Result<(), SweepError> {
+        let path = path_in(folder);
+        let record = Record {
+            schema: SCHEMA.to_owned(),
+            submitted: self.clone(),
+        };
+        let text = seal::text(&record).map_err(|problem| SweepError::Kept {
+            path: path.clone(),
+            problem,
+        })?;
+        folder.write(&path, text.as_bytes())
+    }
+
+    /// What was submitted last; `None` if nothing was.
+    ///
+    /// # Errors
+    /// [`SweepError`] if the record cannot be read, or was changed after it was written: jobs of others would be cancelled by it.
+    pub fn read(folder: &SweepFolder) -> Result<Option<Submitted>, SweepError> {
+        let path = path_in(folder);
+        let Some(text) = seal::read(&path)? else {
+            return Ok(None);
+        };
+        let wrong = |problem: String| SweepError::Kept {
+            path: path.clone(),
+            problem: format!(
+                "{problem}; remove the file, and look with `squeue --me` for jobs that are left"
+            ),
+        };
+        let record: Record = seal::value(&text).map_err(wrong)?;
+        match record.schema == SCHEMA {
+            true => Ok(Some(record.submitted)),
+            false => Err(wrong(format!(
+                "schema `{}`, expected `{SCHEMA}`",
+                record.schema
+            ))),
+        }
+    }
+
+    pub(super) fn numbers(&self) -> Vec<String> {
+        self.arrays.iter().chain(&self.collect).cloned().collect()
+    }
+
+    /// Cancels all of it.
+    ///
+    /// # Errors
+    /// [`SweepError::Scheduler`] with the words of `scancel`.
+    pub fn cancel(&self) -> Result<(), SweepError> {
+        run("scancel", &self.numbers()).map(drop)
+    }
+}
+
+fn path_in(folder: &SweepFolder) -> PathBuf {
+    folder.slurm().join("jobs.json")
+}

@@ -1,0 +1,107 @@
+//! The list of tasks as a sealed file.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use taceva_dataset::{Digest, SensorFile};
+
+use super::{SCHEMA, TaskList};
+use crate::error::SweepError;
+use crate::folder::SweepFolder;
+use crate::seal;
+
+impl TaskList {
+    /// Writes the list into `folder`, under a name that only equal lists have, and as the last one; returns where.
+    ///
+    /// # Errors
+    /// [`SweepError::Io`].
+    pub fn write(&self, folder: &SweepFolder) -> Result<PathBuf, SweepError> {
+        let latest = latest(folder);
+        let unwritable = |problem: String| SweepError::Kept {
+            path: latest.clone(),
+            problem,
+        };
+        let text = seal::text(self).map_err(unwritable)?;
+        let digest = Digest::of(text.as_bytes()).as_bytes()[..8]
+            .iter()
+            .map(|byte| format!("{byte:02x}"))
+            .collect::<String>();
+        let lists = folder.path().join("tasks");
+        fs::create_dir_all(&lists).map_err(SweepError::io("make", &lists))?;
+        let own = lists.join(format!("{digest}.json"));
+        if !own.exists() {
+            folder.write(&own, text.as_bytes())?;
+        }
+        if !fs::read(&latest).is_ok_and(|last| last == text.as_bytes()) {
+            folder.write(&latest, text.as_bytes())?;
+        }
+        Ok(own)
+    }
+
+    /// The list at `path`.
+    ///
+    /// # Errors
+    /// [`SweepError::Kept`] if it is none, one of another version, or one that was changed after it was written.
+    pub fn read(path: &Path) -> Result<TaskList, SweepError> {
+        let wrong = |problem: String| SweepError::Kept {
+            path: path.to_owned(),
+            problem,
+        };
+        let text = fs::read_to_string(path).map_err(|error| {
+            wrong(format!(
+                "no list of tasks: {error}; is the folder of the sweep shared with this machine?"
+            ))
+        })?;
+        let again = |problem: String| wrong(format!("{problem}; start the sweep again"));
+        let head: Head = serde_json::from_str(&text).map_err(|error| again(error.to_string()))?;
+        if head.schema != SCHEMA || head.taceva != env!("CARGO_PKG_VERSION") {
+            return Err(again(format!(
+                "{} planned by TacEva {}, this is {} and reads {SCHEMA}",
+                head.schema,
+                head.taceva,
+                env!("CARGO_PKG_VERSION")
+            )));
+        }
+        seal::value(&text).map_err(again)
+    }
+
+    /// The last list that was written into `folder`.
+    ///
+    /// # Errors
+    /// As [`read`](TaskList::read).
+    pub fn latest(folder: &SweepFolder) -> Result<TaskList, SweepError> {
+        TaskList::read(&latest(folder))
+    }
+
+    /// What is known of the sensor, as it was when the sweep was planned.
+    ///
+    /// # Errors
+    /// [`SweepError::Changed`] if its file is another one now; [`SweepError`] if it cannot be read.
+    pub(crate) fn read_sensor(&self) -> Result<Option<SensorFile>, SweepError> {
+        let Some(path) = &self.sensor else {
+            return Ok(None);
+        };
+        let bytes = fs::read(path).map_err(SweepError::io("read", path))?;
+        if self
+            .sensor_digest
+            .is_some_and(|digest| digest != Digest::of(&bytes))
+        {
+            return Err(SweepError::Changed {
+                path: path.clone(),
+                problem: "it is another file than when the sweep was planned".to_owned(),
+            });
+        }
+        Ok(Some(SensorFile::read(path)?))
+    }
+}
+
+/// What is read before the rest, whose form depends on it.
+#[derive(serde::Deserialize)]
+struct Head {
+    schema: String,
+    taceva: String,
+}
+
+fn latest(folder: &SweepFolder) -> PathBuf {
+    folder.path().join("tasks.json")
+}

@@ -1,0 +1,68 @@
+//! What every command works with.
+
+use std::num::NonZeroUsize;
+
+use taceva_evaluate::{Cache, EvaluateError, Plan, Work};
+
+use crate::args::{Everywhere, PluginArgs};
+use crate::progress::TerminalProgress;
+use crate::stderr;
+
+/// The options of every command, resolved.
+pub(crate) struct Context {
+    pub(crate) progress: TerminalProgress,
+    pub(crate) jobs: NonZeroUsize,
+    pub(crate) plugins: PluginArgs,
+    pub(crate) verbose: bool,
+    pub(crate) quiet: bool,
+}
+
+impl Context {
+    pub(crate) fn new(everywhere: &Everywhere) -> Context {
+        let all_cores = || std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
+        let asked = everywhere
+            .jobs
+            .and_then(|jobs| NonZeroUsize::new(usize::from(jobs)));
+        Context {
+            progress: TerminalProgress::new(everywhere.quiet),
+            jobs: asked.unwrap_or_else(all_cores),
+            verbose: everywhere.verbose > 0,
+            quiet: everywhere.quiet,
+            plugins: everywhere.plugins.clone(),
+        }
+    }
+
+    /// The environment of a stage.
+    pub(crate) fn work<'a>(&'a self, cache: Option<&'a Cache>) -> Work<'a> {
+        Work {
+            jobs: self.jobs,
+            progress: &self.progress,
+            cache,
+        }
+    }
+
+    /// Prints a remark on standard error, unless `--quiet` is given.
+    pub(crate) fn say(&self, words: std::fmt::Arguments<'_>) {
+        if !self.quiet {
+            stderr::say(words);
+        }
+    }
+
+    /// Prints a remark if `-v` is given.
+    pub(crate) fn say_more(&self, words: std::fmt::Arguments<'_>) {
+        if self.verbose {
+            self.say(words);
+        }
+    }
+
+    /// Prints the plan of a command if `-v` is given.
+    pub(crate) fn print_plan(
+        &self,
+        plan: impl FnOnce() -> Result<Plan, EvaluateError>,
+    ) -> anyhow::Result<()> {
+        if self.verbose {
+            stderr::write(&plan()?.to_string());
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,41 @@
+//! The program `taceva`, run as a person would.
+//!
+//! Modules whose tests mostly wait, for emulated devices in real time or a cluster, stand below [`waiting`].
+
+mod bench_models;
+mod cache;
+mod cache_list;
+mod directions;
+mod exported;
+mod extended;
+mod features;
+mod foreign_forms;
+mod gratings;
+mod guide;
+mod journey;
+mod library_models;
+mod plan;
+mod plugin;
+mod plugin_check;
+mod plugin_journey;
+mod plugin_models;
+mod plugin_pack;
+mod presets;
+mod refusals;
+mod report;
+mod rig;
+mod run;
+mod schema;
+mod seals;
+mod several;
+mod shards;
+mod shared_work;
+mod skill;
+mod support;
+mod sweep;
+mod sweep_scenes;
+mod sweep_tables;
+mod taxels;
+mod uncertainty;
+mod waiting;
+mod words;

@@ -1,0 +1,76 @@
+//! What a scene would do is said before anything is done, and what it cannot do is refused with its line.
+
+use crate::support::Bench;
+
+const SCENE: &str = r#"scene_version = 1
+name = "one gel"
+robot = { driver = "sim/robot" }
+force = { driver = "sim/force-transducer" }
+sensor = { driver = "sim/gelsight" }
+"#;
+
+#[test]
+fn without_a_scene_the_built_in_one_is_planned_and_says_what_it_leaves_out() {
+    let out = Bench::new().ok("plan");
+    assert!(out.starts_with("scene quick, seed 11\n"), "{out}");
+    assert_eq!(out.matches("\nplan  study").count(), 4, "{out}");
+    let opaque = "r_light                          the gel is opaque";
+    assert_eq!(out.matches(opaque).count(), 2, "{out}");
+}
+
+#[test]
+fn a_plan_for_programs_names_every_press() {
+    let bench = Bench::new();
+    bench.write(
+        "s.toml",
+        &format!("{SCENE}metrics = {{ want = [\"sensitivity\"] }}\n"),
+    );
+    let plans = bench.json("plan s.toml --seed 3");
+    assert_eq!(
+        (&plans["schema"], &plans["seed"]),
+        (&"taceva.plans/1".into(), &3.into())
+    );
+    let study = &plans["studies"][0];
+    let presses = study["presses"].as_array().expect("a list");
+    assert_eq!(study["cost"]["presses"], presses.len());
+    assert_eq!(study["cost"]["frames"], 0, "nobody looks at a picture");
+    let other = bench.json("plan s.toml --seed 4");
+    assert_ne!(study["digest"], other["studies"][0]["digest"]);
+}
+
+#[test]
+fn what_cannot_be_done_is_refused_with_the_line_and_what_is_known() {
+    let bench = Bench::new();
+    let cases = [
+        (
+            SCENE.replace("sim/gelsight", "sim/gelsigth"),
+            "s.toml, line 5: `sim/gelsigth`: unknown driver of a sensor, did you mean `sim/gelsight`?",
+        ),
+        (
+            format!("{SCENE}limits = {{ Pz_max_mm = 2.0 }}\n"),
+            "s.toml, line 6: ",
+        ),
+        (
+            format!("{SCENE}[protocol.calibration]\npionts = 3\n"),
+            "s.toml, line 7: `pionts`: unknown key, did you mean `points`?",
+        ),
+        (
+            SCENE.replace("sim/gelsight", "sim/gelsight:unti=3"),
+            "s.toml, line 5: `sim/gelsight:unti=3`: ",
+        ),
+        (
+            SCENE.replace("driver = \"sim/gelsight\"", "dataset = \"nowhere\""),
+            "s.toml, line 5: ",
+        ),
+    ];
+    for (scene, message) in cases {
+        bench.write("s.toml", &scene);
+        bench.refused("plan s.toml", 3, message);
+    }
+    bench.refused(
+        "plan qick",
+        2,
+        "`qick`: no such scene, expected a file or one of quick, paper",
+    );
+    bench.refused("plan nowhere.toml", 3, "nowhere.toml: ");
+}

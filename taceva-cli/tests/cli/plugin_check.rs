@@ -1,0 +1,80 @@
+//! `taceva plugin check` on a plugin in C: a good one passes, a wrong one fails the check that is about it.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use crate::support::Bench;
+use taceva_needs::{Need, skip};
+
+/// A bench with the plugin in `plugins/fixture`, built with `macros`; `None`, with a word about it, where there is no compiler of C.
+fn with_plugin(macros: &[&str]) -> Option<Bench> {
+    let bench = Bench::new();
+    let plugins = Path::new(env!("CARGO_MANIFEST_DIR")).join("../plugins");
+    let source = plugins.join("host/tests/plugins/fixture.rs");
+    let source = fs::read_to_string(source).expect("there");
+    let manifest = source
+        .split("r#\"")
+        .nth(1)
+        .and_then(|rest| rest.split("\"#").next());
+    bench.write(
+        "plugins/fixture/plugin.toml",
+        manifest.expect("it holds the manifest"),
+    );
+    let built = Command::new("cc")
+        .args(["-std=c11", "-shared", "-fPIC", "-fvisibility=hidden", "-I"])
+        .arg(plugins.join("abi/include"))
+        .args(macros.iter().map(|name| format!("-D{name}")))
+        .arg(plugins.join("host/tests/fixture/plugin.c"))
+        .arg("-o")
+        .arg(bench.path("plugins/fixture/libfixture.so"))
+        .arg("-lm")
+        .status();
+    match built {
+        Ok(status) => assert!(status.success()),
+        Err(error) => {
+            skip(Need::CCompiler, format!("`cc`: {error}"));
+            return None;
+        }
+    }
+    Some(bench)
+}
+
+#[test]
+fn checks_are_reported_as_a_runner_of_tests_does() {
+    let Some(bench) = with_plugin(&[]) else {
+        return;
+    };
+    let check = "plugin check org.example.fixture --plugin-dir plugins --only library,force";
+    let checked = bench.json(&format!("{check} --seed 7"));
+    assert_eq!(checked["schema"], "taceva.plugin-check/1");
+    assert_eq!(
+        (&checked["seed"], &checked["failed"]),
+        (&7.into(), &0.into())
+    );
+    let results = checked["results"].as_array().expect("a list");
+    assert_eq!(results[0]["check"], "library/loads");
+    assert_eq!(results[0]["outcome"], "passed");
+    let out = bench.ok(check);
+    assert!(
+        out.contains("pass") && out.contains("force/interrupt-within-50-ms"),
+        "{out}"
+    );
+    assert!(out.trim_end().ends_with("(seed 0)"), "{out}");
+    let nothing = "plugin check org.example.fixture --plugin-dir plugins --only nothing";
+    assert_eq!(bench.run(nothing).code, 2);
+}
+
+#[test]
+fn a_failed_check_is_exit_code_1_and_says_why() {
+    let Some(bench) = with_plugin(&["FORCE=NAN"]) else {
+        return;
+    };
+    let ran = bench.run("plugin check org.example.fixture --plugin-dir plugins --only force/reads");
+    assert_eq!(ran.code, 1, "{}", ran.err);
+    assert!(
+        ran.out.contains("FAIL") && ran.out.contains("`Fz` is NaN"),
+        "{}",
+        ran.out
+    );
+}

@@ -1,0 +1,134 @@
+//! Comparisons of results, of runs and of the catalogue.
+
+use std::fs;
+
+use serde_json::Value;
+
+use super::json;
+use crate::support::Bench;
+
+#[test]
+fn predictions_of_the_same_samples_are_compared_one_by_one() {
+    let bench = Bench::new();
+    bench.record("data", 40);
+    for (model, name) in [("ridge", "a"), ("pls", "b")] {
+        let out = format!("--format json --out {name}.json --samples-out {name}.samples.csv");
+        bench.ok(&format!("evaluate data --model {model} --split random --part all {out} --html {name}.html --figures {name} -q"));
+        crate::schema::check(
+            "evaluation",
+            &json(&fs::read_to_string(bench.path(&format!("{name}.json"))).expect("there")),
+        );
+        assert!(bench.path(&format!("{name}/predicted-1.svg")).is_file());
+        assert!(
+            fs::read_to_string(bench.path(&format!("{name}.html")))
+                .expect("there")
+                .contains("data:image/jpeg;base64,")
+        );
+    }
+    let comparison = bench.json("compare a.json b.json --metrics mae --margin mae=1000000");
+    crate::schema::check("comparison", &comparison);
+    let answers = comparison["answers"].as_array().expect("a list");
+    let tests: Vec<&str> = answers
+        .iter()
+        .filter_map(|answer| answer["difference"]["test"].as_str())
+        .collect();
+    assert!(
+        tests
+            .iter()
+            .any(|test| test.starts_with("paired sign flip")),
+        "{comparison:#}"
+    );
+    assert!(answers.iter().any(|answer| {
+        answer["answer"]
+            .as_str()
+            .is_some_and(|words| words.starts_with("equivalent within"))
+    }));
+}
+
+/// One sensor, pressed a few times; what differs between two of them is the model.
+fn small(model: &str) -> String {
+    format!(
+        r#"scene_version = 1
+name = "small"
+seed = 7
+robot = {{ driver = "sim/robot" }}
+force = {{ driver = "sim/force-transducer" }}
+model = {{ name = "{model}" }}
+metrics = {{ want = ["mae", "r2"] }}
+protocol = {{ calibration = {{ points = 80, indentations = 1 }} }}
+[[study]]
+name = "dome"
+sensor = {{ driver = "sim/vitactip:reduction=16" }}
+"#
+    )
+}
+
+#[test]
+fn runs_are_compared_by_their_folders_and_what_is_missing_is_named() {
+    let bench = Bench::new();
+    for (model, folder) in [("ridge", "one"), ("pls", "two")] {
+        bench.write(&format!("{folder}.toml"), &small(model));
+        bench.ok(&format!("run {folder}.toml --out {folder} -q"));
+    }
+    let is_paired = |comparison: &Value| {
+        let answers = comparison["answers"].as_array().expect("a list");
+        let mut tests = answers
+            .iter()
+            .filter_map(|answer| answer["difference"]["test"].as_str());
+        tests.any(|test| test.starts_with("paired sign flip"))
+    };
+    let by_folder = bench.json("compare one two --metrics mae");
+    assert!(is_paired(&by_folder), "{by_folder:#}");
+    let by_file = bench.json("compare one/results.json two/reports/1-dome.json --metrics mae");
+    assert_eq!(by_file, by_folder);
+    fs::remove_file(bench.path("two/reports/1-dome.samples.csv")).expect("it was there");
+    let ran = bench.run("compare one two --metrics mae --all");
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let expected = "two/results.json: no samples of dome in two/reports/1-*.samples.csv: compared without pairs, by the intervals of both";
+    assert!(ran.err.contains(expected), "{}", ran.err);
+    assert!(!ran.out.contains("paired sign flip"), "{}", ran.out);
+    bench.refused(
+        "compare one two/figures",
+        2,
+        "two/figures: a folder without results.json; expected the folder of a run",
+    );
+}
+
+#[test]
+fn published_numbers_are_compared_and_chosen_from() {
+    let bench = Bench::new();
+    let compared = bench.json("compare ViTacTip GelSight MagicTac");
+    crate::schema::check("comparison", &compared);
+    let answers = compared["answers"].as_array().expect("a list");
+    let of_fz = |answer: &&Value| {
+        answer["metric"] == "mae" && answer["channel"] == "Fz" && answer["b"] == "GelSight"
+    };
+    let answer = answers.iter().find(of_fz).expect("one");
+    assert_eq!(answer["scores"], serde_json::json!([0.0164, 0.0361]));
+    assert_eq!(
+        answer["answer"],
+        "no answer: no interval: published without one"
+    );
+    bench.write(
+        "needs.toml",
+        "needs = [\"accurate shear\", \"ambient light\"]\n",
+    );
+    let choice = bench.json("choose --needs needs.toml");
+    crate::schema::check("choice", &choice);
+    assert_eq!(choice["ranked"][0]["name"], "GelSight");
+    bench.refused(
+        "choose --need beauty",
+        2,
+        "`beauty`: unknown need, expected one of shear",
+    );
+    bench.refused(
+        "compare ViTacTip Nobody",
+        2,
+        "`Nobody`: no such file, and no such name in the catalogue",
+    );
+    bench.refused(
+        "compare ViTacTip GelSight --margin mae=-1",
+        2,
+        "expected METRIC[.CHANNEL]=NUMBER",
+    );
+}

@@ -1,0 +1,51 @@
+//! What there is to measure with, before anything is measured.
+
+use crate::support::Bench;
+
+#[test]
+fn the_drivers_of_the_simulated_bench_are_linked_in_and_say_that_they_are_simulated() {
+    let devices = Bench::new().json("devices");
+    assert_eq!(devices["schema"], "taceva.devices/1");
+    let drivers = devices["drivers"].as_array().expect("a list");
+    let simulated: Vec<&str> = drivers
+        .iter()
+        .filter(|driver| driver["source"] == "simulated")
+        .filter_map(|driver| driver["key"].as_str())
+        .collect();
+    assert_eq!(
+        simulated,
+        [
+            "sim/gelsight",
+            "sim/gelsight-wm",
+            "sim/magictac",
+            "sim/vitactip",
+            "sim/robot",
+            "sim/force-transducer",
+            "sim/lighting",
+        ]
+    );
+}
+
+#[test]
+fn the_list_for_people_names_facts_and_arguments() {
+    let out = Bench::new().ok("devices");
+    let gelsight = out
+        .lines()
+        .skip_while(|line| !line.starts_with("sim/gelsight "));
+    let lines: Vec<&str> = gelsight.take(4).collect();
+    assert!(lines[0].contains("simulated"), "{out}");
+    assert!(lines[1].contains("opaque, markers, Pz up to 1 mm"), "{out}");
+    assert!(lines[2].trim().starts_with("rig "), "{out}");
+}
+
+#[test]
+fn the_doctor_says_what_was_looked_at_and_its_exit_code_follows() {
+    let bench = Bench::new();
+    let ran = bench.run("doctor --format json");
+    let found: serde_json::Value = serde_json::from_str(&ran.out).expect("JSON");
+    let findings = found["findings"].as_array().expect("a list");
+    assert_eq!(findings[0]["code"], "drivers");
+    let is_problem = findings.iter().any(|finding| finding["state"] == "problem");
+    assert_eq!(ran.code, i32::from(is_problem));
+    assert_eq!(bench.run("doctor").code, ran.code);
+}

@@ -1,0 +1,107 @@
+//! Runs that are killed or stopped go on to the same bytes.
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::{Child, Command, Stdio};
+
+use super::reduced::REDUCED;
+use super::{SMALL, dataset_of, reports, with_small};
+use crate::support::Bench;
+
+/// A run that was started and is ended from outside.
+struct Started {
+    child: Child,
+    journal: PathBuf,
+}
+
+impl Started {
+    fn new(bench: &Bench, folder: &str) -> Started {
+        let mut command = bench.command(&format!("run small.toml --out {folder} -q"));
+        let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn();
+        Started {
+            child: child.expect("starts"),
+            journal: bench.path(folder).join("recordings/1-small/journal"),
+        }
+    }
+
+    /// Waits until so many bytes are recorded.
+    fn reaches(&mut self, bytes: u64) {
+        loop {
+            let length = fs::metadata(&self.journal).map_or(0, |journal| journal.len());
+            if length >= bytes {
+                return;
+            }
+            let ended = self.child.try_wait().expect("asked");
+            assert!(ended.is_none(), "it ended with {length} bytes recorded");
+            std::thread::yield_now();
+        }
+    }
+}
+
+/// Kills a run each time so many bytes are recorded, goes on, and compares with a run that was not interrupted.
+fn survives(bench: &Bench, moments: &[u64]) {
+    bench.ok("run small.toml --out whole -q");
+    let whole = reports(&bench.path("whole"));
+    for bytes in moments {
+        let mut killed = Started::new(bench, "killed");
+        killed.reaches(*bytes);
+        killed.child.kill().expect("killed");
+        killed.child.wait().expect("ended");
+        bench.ok("run small.toml --out killed --resume -q");
+        let datasets = ["killed", "whole"].map(|run| dataset_of(&bench.path(run)));
+        assert_eq!(datasets[0], datasets[1], "killed at {bytes} bytes");
+        assert_eq!(reports(&bench.path("killed")), whole);
+        fs::remove_dir_all(bench.path("killed")).expect("removed");
+    }
+}
+
+#[test]
+fn whatever_ends_a_run_it_goes_on_to_the_same_bytes() {
+    // Between two presses at one place, in another light, on a board: wherever it happens to be.
+    survives(&with_small(), &[3_000, 20_000, 45_000]);
+}
+
+#[test]
+fn a_run_that_keeps_reduced_frames_goes_on_to_the_same_bytes() {
+    let bench = Bench::new();
+    bench.write("small.toml", &format!("{SMALL}{REDUCED}"));
+    survives(&bench, &[3_000, 45_000]);
+}
+
+#[test]
+fn a_gel_that_is_softened_by_use_is_brought_back_to_where_it_was() {
+    let bench = Bench::new();
+    let table = include_str!("../../../../plugins/sim/parameters/vitactip.toml")
+        .replace(
+            "conditioning_fraction = { value = 0.0",
+            "conditioning_fraction = { value = 0.4",
+        )
+        .replace(';', ";;");
+    assert!(table.contains("value = 0.4"));
+    let driver = "\"sim/vitactip:reduction=16\"";
+    let softened = format!("'''sim/vitactip:reduction=16;table={table}'''");
+    bench.write("small.toml", &SMALL.replace(driver, &softened));
+    survives(&bench, &[30_000, 45_000]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_signal_stops_a_run_between_motions_and_it_says_how_to_go_on() {
+    let bench = with_small();
+    let mut stopped = Started::new(&bench, "stopped");
+    stopped.reaches(10_000);
+    let id = stopped.child.id().to_string();
+    let sent = Command::new("kill").args(["-TERM", &id]).status();
+    assert!(sent.expect("there is a kill").success());
+    let ended = stopped.child.wait_with_output().expect("ended");
+    assert_eq!(ended.status.code(), Some(5));
+    let message = String::from_utf8(ended.stderr).expect("UTF-8");
+    assert!(message.contains("--resume --out stopped"), "{message}");
+    assert!(reports(&bench.path("stopped")).is_empty());
+    bench.ok("run small.toml --out stopped --resume -q");
+    bench.ok("run small.toml --out whole -q");
+    assert_eq!(
+        reports(&bench.path("stopped")),
+        reports(&bench.path("whole"))
+    );
+}

@@ -1,0 +1,54 @@
+//! Sweeps: the same table however it is made, and what is refused.
+
+mod again;
+mod changed;
+mod elsewhere;
+mod failed;
+mod one_node;
+mod page;
+mod refused;
+mod same_bytes;
+mod sealed;
+mod stopped;
+mod store;
+mod too_many;
+
+use std::fs;
+use std::path::Path;
+
+use crate::support::Bench;
+use crate::support::sweeps::SWEEP;
+use store::WEEK;
+
+/// A folder with two recordings and the file of a sweep over both.
+fn week() -> Bench {
+    let bench = Bench::new();
+    WEEK.put(&bench.path("."));
+    bench
+}
+
+/// Writes the file of a sweep of eight tasks, with what is `changed`.
+fn small(bench: &Bench, changed: &[(&str, &str)]) {
+    let mut text = SWEEP
+        .replace("\"1-3\"", "[1]")
+        .replace("[\"monday\", \"tuesday\"]", "[\"monday\"]");
+    for (old, new) in changed {
+        assert!(text.contains(old), "{old}");
+        text = text.replace(old, new);
+    }
+    bench.write("which.toml", &text);
+}
+
+fn text(bench: &Bench, name: &str) -> String {
+    fs::read_to_string(bench.path(name)).expect(name)
+}
+
+/// Files in `folder`, but for those that are being written.
+fn count(folder: &Path) -> usize {
+    fs::read_dir(folder).map_or(0, |entries| {
+        let names = entries.map(|entry| entry.expect("readable").file_name());
+        names
+            .filter(|name| !name.to_string_lossy().starts_with('.'))
+            .count()
+    })
+}

@@ -1,0 +1,61 @@
+//! Scenes in a sweep: acquired once, before any task, on the simulated bench alone.
+
+mod acquired;
+mod refused;
+mod stopped;
+
+use std::fs;
+use std::sync::LazyLock;
+
+use crate::support::Bench;
+use crate::support::snapshot::Snapshot;
+use crate::support::sweeps::{TINY, TINY_SWEEP as SWEEP};
+
+/// Where it is recorded.
+const RECORDING: &str = "which.sweep/scenes/tiny/recordings/1-tiny";
+
+/// The folder of the sweep, scored.
+static SCORED: LazyLock<Snapshot> = LazyLock::new(|| {
+    let bench = tiny();
+    bench.ok("sweep which.toml -q");
+    Snapshot::of(&bench.path("which.sweep"))
+});
+
+/// The scene and its sweep, not begun.
+fn tiny() -> Bench {
+    let bench = Bench::new();
+    bench.write("tiny.toml", TINY);
+    bench.write("which.toml", SWEEP);
+    bench
+}
+
+/// The same, acquired and scored.
+fn scored() -> Bench {
+    let bench = tiny();
+    SCORED.put(&bench.path("which.sweep"));
+    bench
+}
+
+/// What the sweep in `folder` has ended in.
+fn bytes(bench: &Bench, folder: &str) -> Vec<Vec<u8>> {
+    crate::support::sweeps::bytes(bench, folder)
+}
+
+/// What the sweep ends in, whatever happens to it.
+fn reference() -> Vec<Vec<u8>> {
+    bytes(&scored(), "which.sweep")
+}
+
+/// The claims that are held, or were.
+fn claims(bench: &Bench) -> usize {
+    let entries = fs::read_dir(bench.path("which.sweep/claims")).expect("claims");
+    let names = entries.map(|entry| entry.expect("readable").file_name());
+    names
+        .filter(|name| !name.to_string_lossy().starts_with('.'))
+        .count()
+}
+
+/// The header of the recording at `path`, which has the digest of all that was recorded.
+fn header(bench: &Bench, path: &str) -> String {
+    fs::read_to_string(bench.path(path).join("dataset.toml")).expect("a recording")
+}

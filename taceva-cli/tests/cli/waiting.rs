@@ -1,0 +1,9 @@
+//! Tests that mostly wait: for emulated devices in real time, sandboxes and a cluster.
+
+mod capture;
+mod page;
+mod plugin_allow;
+mod plugin_carousel;
+mod plugin_dmx;
+mod plugin_line;
+mod sweep_slurm;

@@ -1,0 +1,154 @@
+//! `taceva capture` on emulated devices, through their sockets.
+
+mod broken;
+
+use std::time::Duration;
+
+use crate::support::Bench;
+use crate::support::emulated::{Emulated, Running};
+use taceva_dataset::{Dataset, Source};
+
+/// How deep the gel is pressed at the points of a capture, in mm.
+const DEPTHS_MM: [f64; 8] = [0.3, 0.5, 0.4, 0.6, 0.35, 0.55, 0.45, 0.5];
+
+#[test]
+fn presses_become_points_that_models_are_fitted_and_evaluated_on() {
+    let emulated = Emulated::new();
+    let bench = Bench::new();
+    bench.write("hand.toml", &emulated.rig());
+    let running = Running::start(&bench, "capture presses --rig hand.toml --for 120s");
+    running.until_it_says("press; Ctrl-C");
+    let mut robot = emulated.robot();
+    let mut held_n = Vec::new();
+    for (number, depth_mm) in DEPTHS_MM.into_iter().enumerate() {
+        let place = f64::from(u8::try_from(number).expect("few")) * 0.8 - 2.8;
+        emulated.press(&mut robot, [place, 0.5 * place], depth_mm, || {
+            std::thread::sleep(Duration::from_millis(350));
+            held_n.push(emulated.bench.truth().force_n[2]);
+        });
+    }
+    running.interrupt();
+    let ran = running.ended();
+    // Before the end that was asked for.
+    assert_eq!(ran.code, 5, "{}", ran.err);
+    assert!(ran.err.contains("8 contacts"), "{}", ran.err);
+
+    let dataset = Dataset::open(&bench.path("presses")).expect("whole");
+    let header = dataset.header();
+    assert_eq!(header.source, Source::Simulated, "the rig file says so");
+    let names: Vec<&str> = header
+        .channels
+        .iter()
+        .map(|channel| channel.name())
+        .collect();
+    assert_eq!(names, ["Fx", "Fy", "Fz"], "and no Pz");
+    assert!(header.stream.expect("a stream").numbered);
+    let table = dataset.table();
+    let fz = table.channels().position("Fz").expect("measured");
+    for (number, held_n) in held_n.into_iter().enumerate() {
+        let point = format!("hand-{}", number + 1);
+        let rows = (0..table.rows()).filter(|&row| table.point_id()[row].as_ref() == Some(&point));
+        let greatest = rows
+            .filter_map(|row| table.truth(fz).get(row))
+            .fold(f64::NEG_INFINITY, f64::max);
+        // The transducer drifts and crosses over by some hundredths.
+        assert!(
+            (greatest - held_n).abs() < 0.15,
+            "{point}: {greatest} N, held at {held_n} N"
+        );
+    }
+    let checked = bench.run("check presses");
+    assert!(checked.out.contains("TAC008"), "{}", checked.out);
+    bench.ok("fit presses --model ridge --set size=8x6 --out m.taceva -q");
+    let scores = bench.json("evaluate presses --model ridge --set size=8x6");
+    assert_eq!(scores["provenance"]["model"]["name"], "ridge", "{scores}");
+}
+
+#[test]
+fn a_sensor_alone_is_recorded_as_its_files_came() {
+    let emulated = Emulated::new();
+    let bench = Bench::new();
+    let sensor = emulated.sensor();
+    bench.ok(&format!(
+        "capture alone --sensor {sensor} --frames 12 --name gel --serial 7 -q"
+    ));
+    let dataset = Dataset::open(&bench.path("alone")).expect("whole");
+    let header = dataset.header();
+    assert_eq!((header.table.rows, header.source), (12, Source::Recorded));
+    assert_eq!(
+        (header.sensor.model.as_str(), header.sensor.serial.as_str()),
+        ("gel", "7")
+    );
+    assert!(header.channels.is_empty());
+    let frames = header.frames.as_ref().expect("frames");
+    assert!(
+        frames.reference.is_some(),
+        "the first is of the untouched gel"
+    );
+    let pack = std::fs::read(bench.path("alone/frames/0000.pack")).expect("a pack");
+    assert!(pack.starts_with(b"\xff\xd8\xff"), "JPEG, as it was sent");
+    for row in 0..12 {
+        dataset.frame(row).expect("read").expect("a frame");
+    }
+    // Nobody writes over it.
+    bench.refused(
+        &format!("capture alone --sensor {sensor} --frames 1"),
+        3,
+        "alone",
+    );
+}
+
+#[test]
+fn simulated_and_recorded_sensors_are_captured_in_their_own_time() {
+    let bench = Bench::new();
+    bench.ok("capture drawn --sensor sim/gelsight:seed=3 --frames 5 -q");
+    let dataset = Dataset::open(&bench.path("drawn")).expect("whole");
+    assert_eq!(dataset.header().source, Source::Simulated);
+    assert_eq!(dataset.header().stream.expect("a stream").lost(), 0);
+    let emulated = Emulated::new();
+    bench.refused(
+        &format!(
+            "capture mixed --sensor sim/gelsight --force {}",
+            emulated.force()
+        ),
+        2,
+        "leave --force out",
+    );
+}
+
+#[test]
+fn without_an_end_ctrl_c_is_the_end() {
+    let emulated = Emulated::new();
+    let bench = Bench::new();
+    let words = format!("capture endless --sensor {}", emulated.sensor());
+    let running = Running::start(&bench, &words);
+    running.until_it_says("press; Ctrl-C");
+    std::thread::sleep(Duration::from_millis(300));
+    running.interrupt();
+    let ran = running.ended();
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let dataset = Dataset::open(&bench.path("endless")).expect("whole");
+    assert!(dataset.table().rows() > 3);
+}
+
+#[test]
+fn frames_that_nobody_took_in_time_are_counted_and_check_says_so() {
+    let emulated = Emulated::new();
+    let bench = Bench::new();
+    let words = format!("capture stopped --sensor {} --for 4s", emulated.sensor());
+    let running = Running::start(&bench, &words);
+    running.until_it_says("press; Ctrl-C");
+    // The process stands still for a second, as on a machine that does something else; the frames wait in the socket.
+    running.signal("STOP");
+    std::thread::sleep(Duration::from_secs(1));
+    running.signal("CONT");
+    let ran = running.ended();
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let dataset = Dataset::open(&bench.path("stopped")).expect("whole");
+    let stream = dataset.header().stream.expect("a stream");
+    assert!(stream.dropped > 0, "{stream:?}");
+    let said = format!("{} were lost", stream.lost());
+    assert!(ran.err.contains(&said), "{said} in {}", ran.err);
+    let checked = bench.run("check stopped");
+    assert!(checked.out.contains("TAC015"), "{}", checked.out);
+}

@@ -1,0 +1,21 @@
+//! Sweeps on a real Slurm: two virtual nodes on loopback, begun and ended by `tests/slurm`.
+
+mod cluster;
+mod nodes;
+mod power;
+mod submitted;
+
+use crate::support::{Bench, sweeps};
+
+/// What the cluster is asked for.
+const SLURM: &str = r#"[slurm]
+partition = "main"
+time = "00:10:00"
+memory = "200M"
+tasks_a_job = 3
+setup = ["export SET_UP=yes"]
+"#;
+
+fn week() -> Bench {
+    sweeps::week(SLURM)
+}
