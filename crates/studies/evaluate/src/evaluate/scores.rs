@@ -99,7 +99,7 @@ pub fn score(
     )?);
     notes.extend(behind.notes);
     notes.extend(passes.note(dataset));
-    let mut provenance = Provenance {
+    let provenance = Provenance {
         model: Some(behind.model),
         split: divided.map(|divided| divided.spec.to_string()),
         seed: divided.map(|divided| divided.seed),
