@@ -43,7 +43,7 @@ pub enum ExaminationError {
     /// The child refused to serve, or ended.
     Child {
         /// The end of the child.
-        error: ChildError,
+        error: Box<ChildError>,
         /// Needs that the user does not allow.
         withheld: Withheld,
         /// True if the withheld needs may be those that arguments name.
@@ -129,7 +129,7 @@ impl Examination<'_> {
         spec.log = Some(order.log);
         spec.patience.start = order.limit;
         let child = Child::start(spec).map_err(|error| ExaminationError::Child {
-            error,
+            error: Box::new(error),
             lacks_bound: grant.lacks_bound(),
             withheld: grant.withheld,
         })?;

@@ -221,7 +221,7 @@ fn finished(
     notes: Vec<Note>,
 ) -> Result<Scored, EvaluateError> {
     let same_bytes =
-        digests.get("truth").is_some() && digests.get("truth") == digests.get("prediction");
+        digests.contains_key("truth") && digests.get("truth") == digests.get("prediction");
     let provenance = Provenance {
         taceva: env!("CARGO_PKG_VERSION").to_owned(),
         tables: digests,

@@ -61,6 +61,9 @@ impl Taken {
 }
 
 /// Takes one text into the [`Taken`] that `context` is.
+///
+/// # Safety
+/// `context` is the pointer that `Taken::context` gave for the call under way, and nothing else reads it during the call.
 pub unsafe extern "C" fn take(context: *mut c_void, text: abi::Text) {
     // SAFETY: `context` is what `Taken::context` gave for the call that is under way, and nobody else looks at it meanwhile.
     let taken = unsafe { &mut *context.cast::<Taken>() };

@@ -102,7 +102,7 @@ fn panel(
         )
     };
     let axes = Axes {
-        title: short(&channel.name, 24),
+        title: short(channel.name, 24),
         x: label("true"),
         y: label("predicted"),
     };

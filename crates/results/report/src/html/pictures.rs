@@ -89,7 +89,7 @@ fn card(
                     @for channel in samples.channels().iter().take(9) {
                         @if let Some([truth, prediction]) = channel.pair(pick.row) {
                             tr {
-                                th scope="row" { (short(&channel.name, 16)) (spaced(channel.unit())) }
+                                th scope="row" { (short(channel.name, 16)) (spaced(channel.unit())) }
                                 td { (numeral(truth)) } td { (numeral(prediction)) } td { (numeral(truth - prediction)) }
                             }
                         }
