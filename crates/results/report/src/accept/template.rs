@@ -182,8 +182,8 @@ mod tests {
     fn what_shows_no_skill_is_left_out_by_name_and_reason() {
         let study = crate::results::unsealed(
             r#"{"schema": "taceva.evaluation/1.0", "subject": {"sensor": "x"}, "metrics": {
-                "mae": {"Fz": {"value": 0.05, "unit": "N", "n": 46}, "Pz": {"value": 0.05, "unit": "mm", "n": 46}},
-                "r2": {"Fz": {"value": 0.1, "unit": "1", "n": 46, "ci95": [-0.25, 0.75]},
+                "mae": {"Fz": {"value": 0.05, "unit": "N", "n": 46, "standing": "no skill"}, "Pz": {"value": 0.05, "unit": "mm", "n": 46}},
+                "r2": {"Fz": {"value": 0.1, "unit": "1", "n": 46, "ci95": [-0.25, 0.75], "standing": "no skill"},
                        "Pz": {"value": 0.9, "unit": "1", "n": 46, "ci95": [0.8, 0.95]}}}}"#,
         );
         let text = limits_template(&study.expect("a result").remove(0));

@@ -2,9 +2,11 @@
 
 #![allow(dead_code, reason = "the benchmark uses a part")]
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use serde_json::{Value, json};
+use taceva_metrics::{Standing, catalogue};
 use taceva_report::Study;
 use taceva_results::{ResultsError, Samples};
 
@@ -18,8 +20,53 @@ pub(crate) fn study(result: &Value) -> Study {
 
 /// The studies of a result, sealed before it is read.
 pub(crate) fn read(result: &Value) -> Result<Vec<Study>, ResultsError> {
+    let mut result = result.clone();
+    state_standings(&mut result["metrics"]);
     let sealed = taceva_files::seal::json::seal(&result.to_string()).expect("an object");
     Study::read(&sealed)
+}
+
+/// States the standing of each score by the R² of its channels and by its flags, as an evaluation does.
+fn state_standings(metrics: &mut Value) {
+    let of_r2 = |r2: &Value| {
+        let low = r2["ci95"].as_array().and_then(|ends| ends[0].as_f64());
+        Standing::of_value(low, r2["value"].as_f64())
+    };
+    let skills: BTreeMap<String, Standing> = match metrics["r2"].as_object() {
+        Some(r2) => r2
+            .iter()
+            .map(|(channel, r2)| (channel.clone(), of_r2(r2)))
+            .collect(),
+        None => BTreeMap::new(),
+    };
+    let skill_of = |channel: &str| {
+        skills
+            .get(channel)
+            .copied()
+            .unwrap_or(Standing::SkillUnknown)
+    };
+    for (metric, channels) in metrics.as_object_mut().into_iter().flatten() {
+        let Some(metric) = catalogue::find(metric) else {
+            continue;
+        };
+        for (channel, score) in channels.as_object_mut().into_iter().flatten() {
+            let of = score["of"].as_array().cloned().unwrap_or_default();
+            let of: Vec<&str> = match of.is_empty() {
+                true => vec![channel],
+                false => of.iter().filter_map(Value::as_str).collect(),
+            };
+            let is_low = score["flags"] == json!(["low stimulus"]);
+            let by_flag = if is_low {
+                Standing::LowStimulus
+            } else {
+                Standing::Counts
+            };
+            let standing = Standing::of_channels(metric, of, skill_of).max(by_flag);
+            if let (Some(words), true) = (standing.words(), score.get("standing").is_none()) {
+                score["standing"] = words.into();
+            }
+        }
+    }
 }
 
 /// A drawn study called `sensor` in every field that names something, with `rows` samples of the calibration and some of every other part.
