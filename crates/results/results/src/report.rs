@@ -6,10 +6,14 @@ use taceva_metrics::Evaluation;
 
 use crate::provenance::Provenance;
 use crate::samples::Samples;
-use crate::schema::EVALUATION_SCHEMA;
 use crate::score::{Score, by_metric, scores};
 use crate::seeds::OverSeeds;
 use crate::subject::Subject;
+
+/// Schema of one evaluation.
+///
+/// Unreleased versions wrote `taceva.evaluation/1` and 1.1 to 1.4; the schema after this one is 1.5.
+pub const EVALUATION_SCHEMA: &str = "taceva.evaluation/1.0";
 
 /// Scores of one sensor with their subject and provenance.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

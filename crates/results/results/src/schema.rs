@@ -8,12 +8,8 @@ use taceva_core::shown;
 use taceva_files::seal::Version;
 
 use crate::error::ResultsError;
-use crate::report::EvaluationReport;
+use crate::report::{EVALUATION_SCHEMA, EvaluationReport};
 
-/// Schema of one evaluation.
-///
-/// Unreleased versions wrote `taceva.evaluation/1` and 1.1 to 1.4; the schema after this one is 1.5.
-pub const EVALUATION_SCHEMA: &str = "taceva.evaluation/1.0";
 /// Schema of the evaluations of a scene, in versions as [`EVALUATION_SCHEMA`].
 pub const RUN_SCHEMA: &str = "taceva.run/1.0";
 
