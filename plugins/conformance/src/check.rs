@@ -238,7 +238,7 @@ fn made(examination: &Examination<'_>, probe: &Probe, limit: Duration) -> CheckO
         }) => (error, withheld, lacks_bound),
     };
     let call = call.lock().unwrap_or_else(PoisonError::into_inner);
-    let outcome = ended(hung_in(error, &call));
+    let outcome = ended(hung_in(*error, &call));
     // A plugin may take what it may not reach for what is not there, which would be no failure.
     match &outcome {
         // What its arguments name is not allowed, so the name of a machine was not looked up for it either: one cause, whatever it is
