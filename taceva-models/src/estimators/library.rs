@@ -27,6 +27,7 @@ mod tensor;
 
 use taceva_core::{ModelError, TrainingSet};
 
+#[cfg(any(feature = "linfa", feature = "smartcore"))]
 pub(crate) use self::estimator::library_estimator;
 pub use self::regressor::LibraryRegressor;
 pub(crate) use self::settings::LibrarySettings;
