@@ -7,19 +7,47 @@ use taceva_tests::structure::{
 };
 
 /// Most lines of product code, and of all `.rs` files.
-const MOST_LINES: (usize, usize) = (184_000, 346_000);
+const MOST_LINES: (usize, usize) = (181_500, 345_600);
 
 /// Most parameters that are tuples.
-const MOST_TUPLES: usize = 250;
+const MOST_TUPLES: usize = 115;
 
 /// Most files that are named by participles.
-const MOST_PARTICIPLES: usize = 160;
+const MOST_PARTICIPLES: usize = 42;
 
 /// Most stops of one value between entry and end, and most returns to a file that it left.
 const MOST_STOPS: (usize, usize) = (12, 3);
 
 /// Most doc comments of each package that begin with a clause, in per cent; other packages have none.
-const MOST_CLAUSES: &[(&str, f64)] = &[];
+const MOST_CLAUSES: &[(&str, f64)] = &[
+    ("taceva-abi", 8.0),
+    ("taceva-acquire", 28.7),
+    ("taceva-arrays", 21.9),
+    ("taceva-check", 18.6),
+    ("taceva-cli", 11.7),
+    ("taceva-conformance", 31.1),
+    ("taceva-core", 20.9),
+    ("taceva-dataset", 24.7),
+    ("taceva-drivers", 28.9),
+    ("taceva-evaluate", 26.6),
+    ("taceva-host", 31.8),
+    ("taceva-import", 28.4),
+    ("taceva-live", 27.2),
+    ("taceva-metrics", 19.8),
+    ("taceva-models", 23.9),
+    ("taceva-network", 21.8),
+    ("taceva-plugin", 20.9),
+    ("taceva-protocol", 26.8),
+    ("taceva-python", 18.1),
+    ("taceva-report", 23.7),
+    ("taceva-results", 3.8),
+    ("taceva-sim", 24.9),
+    ("taceva-study", 25.4),
+    ("taceva-sweep", 29.4),
+    ("taceva-tables", 23.1),
+    ("taceva-template", 15.5),
+    ("taceva-video", 30.2),
+];
 
 /// Knots of top-level modules that remain, by package, each with its number of modules.
 const KNOTS: &[(&str, usize)] = &[];
@@ -51,7 +79,7 @@ fn lines_do_not_grow() {
     let all: usize = lines.values().map(|of| of.all).sum();
     assert!(product > 100_000, "{product} lines: the reader is broken");
     assert!(
-        (product, all) <= MOST_LINES && all <= MOST_LINES.1,
+        product <= MOST_LINES.0 && all <= MOST_LINES.1,
         "{product} lines of product code, {all} in all"
     );
 }

@@ -18,17 +18,17 @@ pub const COPIES: &[Copies] = &[
     Copies {
         concept: "suggestion of a similar name",
         words: &["strsim::", "fn levenshtein"],
-        most: 7,
+        most: 5,
     },
     Copies {
         concept: "guard against panics",
         words: &["catch_unwind("],
-        most: 11,
+        most: 8,
     },
     Copies {
         concept: "FNV hash",
         words: &["0xcbf2_9ce4_8422_2325"],
-        most: 2,
+        most: 3,
     },
     Copies {
         concept: "struct Finding",
@@ -38,12 +38,12 @@ pub const COPIES: &[Copies] = &[
     Copies {
         concept: "struct Report",
         words: &["struct Report ", "struct Report<"],
-        most: 2,
+        most: 3,
     },
     Copies {
         concept: "struct SeedScore",
         words: &["struct SeedScore "],
-        most: 2,
+        most: 1,
     },
 ];
 

@@ -25,32 +25,32 @@ pub const EXAMPLES: &[Example] = &[
             "SignalToRepeatability",
             "SIGNAL_TO_REPEATABILITY",
         ],
-        most: 99,
+        most: 2,
     },
     Example {
         kind: "model",
         words: &["elastic_net", "ElasticNet"],
-        most: 99,
+        most: 5,
     },
     Example {
         kind: "check",
         words: &["stuck_taxel", "StuckTaxel"],
-        most: 99,
+        most: 1,
     },
     Example {
         kind: "preset",
         words: &["ycb-slide"],
-        most: 99,
+        most: 1,
     },
     Example {
         kind: "driver",
         words: &["netft", "NetFt"],
-        most: 99,
+        most: 9,
     },
     Example {
         kind: "kind of device",
         words: &["changer", "Changer", "CHANGER", "bring"],
-        most: 199,
+        most: 68,
     },
 ];
 
