@@ -6,11 +6,22 @@ use std::process::ExitCode;
 /// A test by name.
 pub(crate) type Test = (&'static str, fn());
 
-/// Runs the tests whose names hold the first argument that is no option, one after another.
+/// Runs the chosen tests one after another: those whose names hold one of the arguments, if there is one, but for those behind `--skip`.
 #[expect(clippy::print_stdout, reason = "a test program says what it did")]
 pub(crate) fn run(tests: &[Test]) -> ExitCode {
-    let filter = std::env::args().skip(1).find(|word| !word.starts_with('-'));
-    let chosen = |name: &str| filter.as_deref().is_none_or(|filter| name.contains(filter));
+    let (mut filters, mut skipped) = (Vec::new(), Vec::new());
+    let mut arguments = std::env::args().skip(1);
+    while let Some(word) = arguments.next() {
+        match word.as_str() {
+            "--skip" => skipped.extend(arguments.next()),
+            "--test-threads" => drop(arguments.next()),
+            option if option.starts_with('-') => {}
+            _ => filters.push(word),
+        }
+    }
+    let holds = |name: &str, words: &[String]| words.iter().any(|word| name.contains(word));
+    let chosen =
+        |name: &str| (filters.is_empty() || holds(name, &filters)) && !holds(name, &skipped);
     let mut failed = Vec::new();
     let mut passed = 0;
     for (name, test) in tests.iter().filter(|(name, _)| chosen(name)) {
