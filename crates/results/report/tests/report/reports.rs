@@ -93,7 +93,7 @@ fn mixed_units_stand_in_rows_of_their_own() {
     newton["metrics"]["mae"]["Pz"]["unit"] = "N".into();
     let studies: Vec<Study> = [metre, newton]
         .iter()
-        .flat_map(|json| support::read(&json).expect("a result"))
+        .flat_map(|json| support::read(json).expect("a result"))
         .collect();
     let table = ScoreTable::of(&studies);
     let rows = table
