@@ -5,7 +5,7 @@ use taceva_core::{Changer, Deadline, ErrorKind, Factory, Facts};
 use super::bench::{Bench, Test, Unmet, answered, broken, expect, refused, run};
 use super::{Report, Trial};
 
-/// Tries a changer, which moves: see the [module](super).
+/// Tries a changer, which moves.
 pub fn changer(factory: &dyn Factory<dyn Changer>, trial: &Trial) -> Report {
     run(factory, trial, TESTS)
 }

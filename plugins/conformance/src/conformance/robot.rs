@@ -14,7 +14,7 @@ use super::bench::{Bench, Test, Unmet, broken, expect, in_order, refused, run};
 use super::{Report, Trial};
 use taceva_core::contained;
 
-/// Tries a robot, which moves: see the [module](super).
+/// Tries a robot, which moves.
 pub fn robot(factory: &dyn Factory<dyn Robot>, trial: &Trial) -> Report {
     run(factory, trial, TESTS)
 }

@@ -41,7 +41,7 @@ impl RunFolder {
     /// Whether every study of `scene` is recorded there, to its end; nothing is changed.
     ///
     /// # Errors
-    /// [`StudyError::Dataset`] for a recording that is not what was written.
+    /// [`StudyError::Evaluate`] for a recording that differs from what was written.
     pub fn is_acquired(&self, scene: &PlannedScene) -> Result<bool, StudyError> {
         for (number, study) in scene.studies.iter().enumerate() {
             match Dataset::open(&self.recording(number, &study.plan.name)) {
