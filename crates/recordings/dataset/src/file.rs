@@ -75,7 +75,7 @@ pub fn check_relative(written: &str) -> Result<(), &'static str> {
     Ok(())
 }
 
-/// Writes a new file and returns once its bytes are on the disk. Its name is not, until [`make_names_durable`].
+/// Writes a new file and returns once its bytes are on the disk. Its name is not, until `make_names_durable`.
 pub fn write_durable(path: &Path, bytes: &[u8]) -> Result<(), DatasetError> {
     let mut file = File::create(path).map_err(DatasetError::io("create", path))?;
     file.write_all(bytes)
