@@ -1,23 +1,23 @@
 //! Drivers by name.
 
 mod builtin;
+#[cfg(feature = "inventory")]
+mod builtin_drivers;
 mod descriptor;
+mod device_facts;
+mod discovery;
 mod error;
 mod factory;
-mod facts;
-mod found;
-#[cfg(feature = "inventory")]
-mod linked;
 mod rig;
 
 pub use builtin::Builtin;
 pub use descriptor::{Descriptor, DescriptorError, DescriptorSpec, DriverSource};
-pub use error::RegistryError;
-pub use factory::Factory;
-pub use facts::{
+pub use device_facts::{
     ChangerFacts, Facts, ForceFacts, LightingFacts, RobotFacts, SensorFacts, Workspace,
 };
-pub use found::{Access, Found};
+pub use discovery::{Access, Found};
+pub use error::RegistryError;
+pub use factory::Factory;
 pub use rig::Rig;
 
 use std::collections::BTreeMap;

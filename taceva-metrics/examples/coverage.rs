@@ -2,13 +2,13 @@
 
 #![expect(clippy::print_stdout, reason = "an example shows its result")]
 
-#[path = "../tests/metrics/support/simulated.rs"]
-mod simulated;
+#[path = "../tests/metrics/support/simulation.rs"]
+mod simulation;
 
 use std::ops::Range;
 use std::thread;
 
-use simulated::{CORRELATION, Coverage, Design, Each, METRICS, Method, coverage, expected};
+use simulation::{CORRELATION, Coverage, Design, Each, METRICS, Method, coverage, expected};
 use taceva_metrics::BootstrapEnds;
 
 /// Locations and presses at each, from few to many.

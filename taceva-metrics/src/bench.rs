@@ -19,7 +19,7 @@
 
 mod bandwidth;
 mod case;
-mod compensated;
+mod compensation;
 mod digits;
 mod kernel;
 mod numbers;

@@ -4,6 +4,7 @@ mod bias;
 mod direction;
 mod entry_points;
 mod mae;
+mod mae_euclid;
 mod r2;
 mod repeatability;
 mod rmse;
@@ -18,7 +19,6 @@ mod unknown_metric;
 pub use unknown_metric::UnknownMetric;
 
 use crate::evaluate::metric::Metric;
-use crate::families::accuracy::MAE_EUCLID;
 use crate::families::bias_level::BIAS_LEVEL;
 use crate::families::crosstalk::CROSSTALK;
 use crate::families::detection::MINIMUM_DETECTABLE_FORCE;
@@ -41,7 +41,7 @@ pub static ALL: [&Metric; 24] = [
     &skill::SKILL,
     &smape::SMAPE,
     &smape_gated::SMAPE_GATED,
-    &MAE_EUCLID,
+    &mae_euclid::MAE_EUCLID,
     &SR,
     &sensitivity::SENSITIVITY,
     &uniformity::UNIFORMITY,

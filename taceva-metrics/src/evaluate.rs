@@ -16,8 +16,8 @@ pub(crate) mod plan;
 pub(crate) mod rows;
 pub(crate) mod sample_clusters;
 pub(crate) mod settings;
-pub(crate) mod standing;
 pub(crate) mod state;
+pub(crate) mod verdicts;
 
 pub use evaluation::Evaluation;
 pub use evaluator::Evaluator;

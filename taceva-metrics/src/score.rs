@@ -3,7 +3,6 @@
 mod bootstrap_ends;
 pub(crate) mod curve;
 pub(crate) mod direction;
-pub(crate) mod facts;
 pub(crate) mod flag;
 mod interval;
 pub(crate) mod least;
@@ -11,14 +10,16 @@ pub(crate) mod map;
 pub(crate) mod matrix;
 pub(crate) mod range;
 mod scale;
+pub(crate) mod sensor_facts;
 pub(crate) mod standing;
 pub(crate) mod theme;
 pub(crate) mod value;
+pub(crate) mod verdict_rule;
 
 pub use bootstrap_ends::BootstrapEnds;
-pub use facts::{Fact, SensorFacts};
 pub use interval::{ClusteredBy, Interval};
 pub use scale::Scale;
+pub use sensor_facts::{Fact, SensorFacts};
 
 use std::borrow::Cow;
 

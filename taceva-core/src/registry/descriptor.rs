@@ -7,7 +7,7 @@ pub use source::DriverSource;
 use std::collections::BTreeSet;
 use std::fmt;
 
-use super::facts::{ChangerFacts, Facts, ForceFacts, RobotFacts, SensorFacts};
+use super::device_facts::{ChangerFacts, Facts, ForceFacts, RobotFacts, SensorFacts};
 use crate::args::{ArgError, ArgSpec, Args};
 use crate::driver::DriverKind;
 use crate::id::DriverKey;

@@ -2,7 +2,7 @@
 
 use taceva_core::Isa;
 
-use super::compensated::{Kahan, Neumaier, Plain, Single, pairwise};
+use super::compensation::{Kahan, Neumaier, Plain, Single, pairwise};
 use super::textbook::{in_halves, length, mean_error, number, one_pass, two_pass, welford};
 use crate::catalogue;
 use crate::exact::Machine;

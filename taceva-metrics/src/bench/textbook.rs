@@ -1,6 +1,6 @@
 //! The scores as libraries form them: rounded at every step.
 
-use super::compensated::{RunningSum, pairwise};
+use super::compensation::{RunningSum, pairwise};
 use super::kernel::Scores;
 use crate::pair::Paired;
 

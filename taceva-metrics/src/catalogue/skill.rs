@@ -2,7 +2,6 @@
 
 use crate::evaluate::family::{Details, Output};
 use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
-use crate::evaluate::standing::VerdictRule;
 use crate::exact::Dyadic;
 use crate::exact::single::exactly;
 use crate::exact::streams::{Stream, Streams};
@@ -14,6 +13,7 @@ use crate::score::flag::Flag;
 use crate::score::range::Range;
 use crate::score::theme::Theme;
 use crate::score::value::{Finished, UndefinedReason, Value};
+use crate::score::verdict_rule::VerdictRule;
 
 pub(crate) static SKILL: Metric = Metric {
     id: "skill",

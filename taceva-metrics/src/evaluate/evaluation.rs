@@ -11,7 +11,7 @@ use taceva_core::Skipped;
 
 use crate::evaluate::entry::Entry;
 use crate::evaluate::metric::Metric;
-use crate::evaluate::standing;
+use crate::evaluate::verdicts;
 use crate::score::Score;
 use crate::score::standing::Standing;
 
@@ -34,7 +34,7 @@ pub struct Evaluation {
 
 impl Evaluation {
     pub(crate) fn new(mut entries: Vec<Entry>, skipped: Vec<Skipped>) -> Evaluation {
-        standing::set_standings(&mut entries);
+        verdicts::set_standings(&mut entries);
         Evaluation { entries, skipped }
     }
 
@@ -58,7 +58,7 @@ impl Evaluation {
     pub fn with_bounded_shares(mut self, shares: &BTreeMap<String, f64>) -> Evaluation {
         for entry in &mut self.entries {
             if entry.metric.reads_predictions() {
-                let channels = standing::channels(&entry.channel, &entry.score);
+                let channels = verdicts::channels(&entry.channel, &entry.score);
                 let known = channels.iter().filter_map(|name| shares.get(name).copied());
                 entry.score.bounded_share = known.reduce(f64::max);
             }

@@ -6,12 +6,12 @@ use std::fmt;
 use taceva_core::{Field, FieldSet, Needs, Unit};
 
 use crate::evaluate::family::FamilyKind;
-use crate::evaluate::standing::VerdictRule;
 use crate::score::Parameter;
 use crate::score::direction::Better;
-use crate::score::facts::Fact;
 use crate::score::range::Range;
+use crate::score::sensor_facts::Fact;
 use crate::score::theme::Theme;
+use crate::score::verdict_rule::VerdictRule;
 
 /// A measure of a sensor or of its predictions: one number per channel or plane, with its definition.
 ///

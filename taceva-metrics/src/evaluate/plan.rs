@@ -12,7 +12,7 @@ use crate::evaluate::metric::Metric;
 use crate::evaluate::settings::Settings;
 use crate::pair::is_valid;
 use crate::score::ClusteredBy;
-use crate::score::facts::SensorFacts;
+use crate::score::sensor_facts::SensorFacts;
 use crate::stats::IntervalMethod;
 
 /// What an evaluation of given channels and fields will compute.

@@ -20,7 +20,7 @@ use crate::exact::sorted_map::SortedMap;
 use crate::families::accuracy::outputs;
 use crate::pair::Paired;
 use crate::score::curve::Curve;
-use crate::score::facts;
+use crate::score::sensor_facts;
 use crate::score::value::Value;
 use crate::score::{Count, Parameter, Variant};
 use sums::{BINS, Reach, SpatialSums};
@@ -47,7 +47,7 @@ impl Spatial {
         let position = |name| channels.position(name);
         Some(Spatial {
             settings: *plan.settings(),
-            footprint: facts::written(&footprint),
+            footprint: sensor_facts::written(&footprint),
             reach: Reach::of(&footprint)?,
             place: [position("Px")?, position("Py")?, position("Pz")?],
             channels: channels.len(),
@@ -135,7 +135,7 @@ impl Family for Spatial {
         let mut details = Details {
             parameters: vec![
                 parameter("bins", f64::from(BINS)),
-                parameter("n_min", facts::as_f64(self.settings.n_min)),
+                parameter("n_min", sensor_facts::as_f64(self.settings.n_min)),
                 parameter("ddof", f64::from(self.settings.ddof)),
                 parameter("window", f64::from(self.settings.smoothing_window)),
             ],

@@ -16,9 +16,9 @@ use crate::evaluate::settings::Settings;
 use crate::exact::merge::keyed;
 use crate::exact::record::Record;
 use crate::pair::is_valid;
-use crate::score::facts;
 use crate::score::flag::Flag;
 use crate::score::map::Map;
+use crate::score::sensor_facts;
 use crate::score::value::{InapplicableReason, UndefinedReason, Value};
 use crate::score::{Count, Parameter, Variant};
 use sums::{NORMAL_ONLY, Place, Press, SurfaceSums};
@@ -126,7 +126,10 @@ impl Family for Surface {
         ]);
         if let Some(grid) = &self.grid {
             parameters.insert("bins".to_owned(), grid.bins().to_string());
-            parameters.insert("footprint".to_owned(), facts::written(&grid.footprint()));
+            parameters.insert(
+                "footprint".to_owned(),
+                sensor_facts::written(&grid.footprint()),
+            );
         }
         parameters
     }
@@ -225,7 +228,7 @@ impl Family for Surface {
         let parameter = |name, value| Parameter { name, value };
         details.parameters.extend([
             parameter("bins", f64::from(grid.bins())),
-            parameter("n_min", facts::as_f64(self.settings.n_min)),
+            parameter("n_min", sensor_facts::as_f64(self.settings.n_min)),
             parameter("ddof", f64::from(self.settings.ddof)),
         ]);
         if formula(metric).is_some_and(|formula| formula.has_map) {

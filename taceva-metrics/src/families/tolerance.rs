@@ -5,7 +5,6 @@ use taceva_core::{Batch, Field, FieldSet, Needs, Unit};
 use crate::evaluate::family::{Details, FamilyKind, Numbers, Output, erased};
 use crate::evaluate::metric::{Metric, ScoreUnit};
 use crate::evaluate::plan::MetricPlan;
-use crate::evaluate::standing::{OF_CONSTANT, VerdictRule};
 use crate::exact::Dyadic;
 use crate::exact::level::{from_millionths, millionths, step};
 use crate::exact::merge::Merge;
@@ -17,6 +16,7 @@ use crate::score::direction::Better;
 use crate::score::range::Range;
 use crate::score::theme::Theme;
 use crate::score::value::{Finished, InapplicableReason, UndefinedReason, Value};
+use crate::score::verdict_rule::{OF_CONSTANT, VerdictRule};
 use crate::score::{Parameter, Variant};
 
 /// Tolerances in thousandths of the unit's [`step`]: 0.01 to 2 mm or N, 0.1 to 20 degrees or N mm.

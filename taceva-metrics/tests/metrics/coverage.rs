@@ -1,7 +1,7 @@
 //! Intervals by contact point hold the expected score as often as they say; intervals by sample do not. On simulated
 //! presses; `examples/coverage.rs` does the same at length.
 
-use crate::support::simulated::{Design, METRICS, Method, coverage};
+use crate::support::simulation::{Design, METRICS, Method, coverage};
 use taceva_metrics::BootstrapEnds;
 
 /// As in a calibration: four presses at each of 400 locations.

@@ -10,4 +10,4 @@ pub(crate) mod press;
 #[cfg(feature = "serde")]
 pub(crate) mod program;
 pub(crate) mod rows;
-pub(crate) mod simulated;
+pub(crate) mod simulation;

@@ -8,7 +8,7 @@ use super::MetricPlan;
 use crate::evaluate::metric::Metric;
 use crate::evaluate::settings::Settings;
 use crate::score::ClusteredBy;
-use crate::score::facts::SensorFacts;
+use crate::score::sensor_facts::SensorFacts;
 use crate::stats::IntervalMethod;
 
 impl MetricPlan {

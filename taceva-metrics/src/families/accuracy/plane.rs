@@ -4,8 +4,6 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Channels, SkipReason, Unit};
 
-use super::mae_euclid::mae_euclid;
-
 use crate::evaluate::family::{Family, FamilyKind, Numbers, Output, erased};
 use crate::evaluate::metric::Metric;
 use crate::evaluate::plan::MetricPlan;
@@ -14,6 +12,7 @@ use crate::exact::record::Record;
 use crate::families::accuracy::plane_sums::PlaneSums;
 use crate::families::row_columns::Gathered;
 use crate::pair::{Paired, is_valid};
+use crate::score::value::{Finished, UndefinedReason};
 
 /// Two channels that are the axes of a plane.
 #[derive(Clone, Debug)]
@@ -56,8 +55,11 @@ pub(crate) fn planes(channels: &Channels) -> Vec<PlaneAxes> {
     spanned.collect()
 }
 
+/// Formula of a metric that is finished from the distances in a plane.
+pub(crate) struct PlaneFormula(pub(crate) fn(&PlaneSums) -> Finished);
+
 /// Family of distances in planes of two channels.
-pub(crate) static KIND: FamilyKind = FamilyKind {
+pub(crate) static PLANE: FamilyKind = FamilyKind {
     clusters_of_plan: true,
     obstacle: Plane::obstacle,
     ..FamilyKind::new("taceva.plane/1", |plan| {
@@ -189,8 +191,9 @@ impl Family for Plane {
         sums.n_invalid()
     }
 
-    fn numbers(&self, _metric: &Metric, _output: &Output, sums: &PlaneSums) -> Numbers {
-        Numbers::of(mae_euclid(sums))
+    fn numbers(&self, metric: &Metric, _output: &Output, sums: &PlaneSums) -> Numbers {
+        let formula = metric.formula.get::<PlaneFormula>();
+        Numbers::of(formula.map_or(Err(UndefinedReason::Empty), |formula| (formula.0)(sums)))
     }
 }
 

@@ -5,13 +5,13 @@ use taceva_core::{Field, FieldSet, Nanometre, Needs, Unit};
 use super::histogram::Histogram;
 use crate::evaluate::family::{Details, Numbers};
 use crate::evaluate::metric::{Metric, ScoreUnit};
-use crate::evaluate::standing::{OF_CONSTANT, VerdictRule};
 use crate::families::resolution::KIND;
 use crate::score::curve::Curve;
 use crate::score::direction::Better;
 use crate::score::range::Range;
 use crate::score::theme::Theme;
 use crate::score::value::{UndefinedReason, Value};
+use crate::score::verdict_rule::{OF_CONSTANT, VerdictRule};
 use crate::score::{Parameter, Variant};
 use crate::stats::wilson;
 

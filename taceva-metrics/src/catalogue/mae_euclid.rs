@@ -1,9 +1,9 @@
 //! Mean Euclidean error in a plane.
 
-use crate::evaluate::metric::{Metric, ScoreUnit};
+use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
 use crate::exact::Dyadic;
 use crate::families::accuracy::pairs::PAIR_NEEDS;
-use crate::families::accuracy::plane::KIND;
+use crate::families::accuracy::plane::{PLANE, PlaneFormula};
 use crate::families::accuracy::plane_sums::PlaneSums;
 use crate::score::direction::Better;
 use crate::score::range::Range;
@@ -23,11 +23,12 @@ pub(crate) static MAE_EUCLID: Metric = Metric {
     documentation: "How far the predicted point is from the true one on average; 1.57 times the mean absolute error of an \
                     axis if errors are Gaussian. Not the paper's xy value, which is the mean of the two axes' scores.",
     needs: PAIR_NEEDS,
-    ..Metric::of(&KIND)
+    formula: Formula(&PlaneFormula(mae_euclid)),
+    ..Metric::of(&PLANE)
 };
 
 /// RN(Se / n), e the distance of each sample.
-pub(super) fn mae_euclid(sums: &PlaneSums) -> Finished {
+fn mae_euclid(sums: &PlaneSums) -> Finished {
     if sums.n() == 0 {
         return Err(UndefinedReason::Empty);
     }

@@ -11,23 +11,8 @@ use crate::evaluate::metric::Metric;
 use crate::score::flag::Flag;
 use crate::score::standing::Standing;
 use crate::score::value::UndefinedReason;
+use crate::score::verdict_rule::{OF_CONSTANT, VerdictRule};
 use crate::score::{Interval, Score};
-
-/// The variant of a share that says what the best constant prediction would reach.
-pub(crate) const OF_CONSTANT: &str = "of_constant";
-
-/// What decides whether scores of a metric take part in verdicts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum VerdictRule {
-    /// The skill of its channels.
-    Channels,
-    /// The score itself: it is the skill.
-    Skill,
-    /// The share of a constant prediction alone.
-    Share,
-    /// The skill of its channels and the share of a constant prediction.
-    ShareBesideConstant,
-}
 
 impl Standing {
     /// The standing of a score of `metric` that is made of `channels`, whose skill is what `skill_of` says of each.
