@@ -26,7 +26,7 @@ fn a_header_says_from_what_frames_were_reduced_also_of_a_recording_that_was_gone
     recorder.append(&sample(2)).expect("recorded");
     recorder.append_reference(&frame(9)).expect("recorded");
     let header = recorder.close().expect("closed");
-    assert_eq!(header.format.to_string(), "1.10");
+    assert_eq!(header.format.to_string(), "1.0");
     let dataset = Dataset::open(&path).expect("opens");
     let frames = dataset.header().frames.as_ref().expect("frames");
     assert_eq!(frames.reduced, Some(ReducedFrames::area_averages(CAMERA)));
