@@ -30,16 +30,10 @@ const KNOWN: &[(&str, &str, usize, &str)] = &[
         "what no font draws is drawn as lines, and lines carry text",
     ),
     (
-        "taceva-plugin",
-        "loaded",
-        7,
-        "tables of C functions and the values behind their handles name one another",
-    ),
-    (
-        "taceva-plugin",
-        "entry",
-        3,
-        "the exported constant names the entry, which reads what was exported",
+        "taceva-models",
+        "estimators/library",
+        14,
+        "the module of library models lists the adapters, which implement its trait",
     ),
 ];
 

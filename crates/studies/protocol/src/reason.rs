@@ -240,7 +240,7 @@ mod tests {
     fn every_reason_that_a_stream_may_have_is_among_all() {
         let source = concat!(
             env!("CARGO_MANIFEST_DIR"),
-            "/../../../taceva-core/src/skip.rs"
+            "/../../../taceva-core/src/skip_reason.rs"
         );
         let source = std::fs::read_to_string(source).expect("the crate beside this one");
         let (_, list) = source
