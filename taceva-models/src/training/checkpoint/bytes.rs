@@ -21,7 +21,13 @@ const FORMAT: &str = "3";
 /// Four times the largest model: its weights now and at their best, and two moments of each.
 pub(super) const FILE_MAX: u64 = 1 << 30;
 
-/// What the metadata hold.
+/// Format of a checkpoint, which decides how the rest is read.
+#[derive(Deserialize)]
+struct Format {
+    format: String,
+}
+
+/// Metadata of a checkpoint.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Card {
@@ -76,13 +82,14 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Origin, Checkpoint), String> {
     let (_, header) = SafeTensors::read_metadata(bytes).map_err(container)?;
     let text = header.metadata().as_ref().and_then(|keys| keys.get(KEY));
     let text = text.ok_or_else(|| format!("the metadata lack `{KEY}`"))?;
-    let card: Card = serde_json::from_str(text).map_err(|error| error.to_string())?;
-    if card.format != FORMAT {
+    let Format { format } = serde_json::from_str(text).map_err(|error| error.to_string())?;
+    if format != FORMAT {
         return Err(format!(
             "format {}, expected {FORMAT}: of a training by another version of this program, whose results differ in last digits",
-            taceva_core::shown(&card.format)
+            taceva_core::shown(&format)
         ));
     }
+    let card: Card = serde_json::from_str(text).map_err(|error| error.to_string())?;
     let found = SafeTensors::deserialize(bytes).map_err(container)?;
     let mut tensors: Vec<NamedTensor> = Vec::new();
     for (name, tensor) in found.tensors() {
