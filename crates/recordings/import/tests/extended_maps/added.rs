@@ -123,7 +123,7 @@ fn the_same_map_adds_rows_and_the_header_says_once_how_they_were_read() {
     assert_eq!(header.columns[0].placeholder, Some(-2.0));
     assert_eq!(
         (header.table.rows, header.format.to_string()),
-        (6, "1.9".to_owned())
+        (6, "1.0".to_owned())
     );
 }
 
