@@ -23,8 +23,7 @@ fn said(output: &Output) -> String {
 fn laid_out(cache: &Path) {
     for (layout, kind, number, bytes) in [
         ("2", "fit", 1, 1000),
-        // Of an earlier version.
-        ("1", "fit", 2, 500),
+        ("2", "fit", 2, 500),
         ("2", "features", 3, 250),
     ] {
         let folder = cache.join(layout).join(kind);

@@ -100,9 +100,9 @@ fn results_that_were_changed_are_refused_by_metric_and_channel() {
         ));
     }
     bench.ok("compare a.json b.json -q");
-    edit(&bench, "a.json", "\"clusters\": ", "\"clustors\": ");
+    edit(&bench, "a.json", "\"clusters\": 10", "\"clusters\": 11");
     bench.refused("compare a.json b.json", 3, "a.json: `metrics.");
-    bench.ok("reseal a.json --reason spelling -q");
+    bench.ok("reseal a.json --reason recount -q");
     bench.ok("compare a.json b.json -q");
     let text = std::fs::read_to_string(bench.path("b.json")).expect("there");
     let (body, _) = text.rsplit_once(",\n  \"seal\"").expect("sealed");
