@@ -32,11 +32,23 @@ const REPLACED_BUT_IN: &[(&str, &str, &[&str])] = &[
     // What comparisons stand on.
     ("ground", "samples, group", &["taceva-report"]),
     // Whoever judges a simulated run, and who judges published numbers.
-    ("judge", "check, set", &["taceva-protocol", "taceva-report"]),
+    (
+        "judge",
+        "check, set",
+        &["taceva-report", "taceva-simulation"],
+    ),
     // What a child printed, and what a program did.
-    ("printed", "formatted", &["taceva-host", "taceva-tests"]),
+    (
+        "printed",
+        "formatted",
+        &["taceva-conformance", "taceva-host", "taceva-tests"],
+    ),
     // A log is told something.
-    ("tell", "predict, print", &["taceva-host"]),
+    (
+        "tell",
+        "predict, print",
+        &["taceva-conformance", "taceva-host"],
+    ),
 ];
 
 /// The same for words that only some crates must not have, with these crates. A device may fall silent; what shows nothing says what it is.

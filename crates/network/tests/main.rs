@@ -1,6 +1,7 @@
 //! Promises of networks: layers, convolutions, trainings, predictions, engines.
 
 mod common;
+#[path = "common/draws.rs"]
 mod draws;
 mod engines;
 mod forms;

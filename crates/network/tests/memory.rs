@@ -2,6 +2,7 @@
 
 #![cfg(target_os = "linux")]
 
+#[path = "common/draws.rs"]
 mod draws;
 
 use draws::{doubles, filled, singles};

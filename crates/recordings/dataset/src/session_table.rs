@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::{DatasetError, Place};
 
 /// The beginning of a session, a row of the table. Lengths are in mm and forces in N, in the frame of the sensor.
+#[doc(hidden)]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Session {
     /// The boot of the machine whose clock stamps the samples of the session; empty where the machine does not say.
@@ -48,6 +49,7 @@ pub struct Session {
 }
 
 /// The table of sessions beside a recording.
+#[doc(hidden)]
 #[derive(Debug)]
 pub struct SessionTable {
     path: PathBuf,
@@ -105,6 +107,7 @@ impl SessionTable {
 }
 
 /// The sessions on a real rig in which a recording was made.
+#[doc(hidden)]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RecordedSessions {
     /// How many boots of the machine stamped its samples: each has a clock that begins anew.

@@ -5,6 +5,7 @@ use std::fs;
 use taceva_dataset::Digest;
 
 use crate::analysis::{self, Found, Loaded};
+use crate::collected_counts::Collected;
 use crate::error::SweepError;
 use crate::failure::Failure;
 use crate::folder::{SweepFolder, beside};
@@ -12,7 +13,6 @@ use crate::page;
 use crate::result::TaskResult;
 use crate::shard_scores;
 use crate::table::TidyTable;
-use crate::tally::Collected;
 use crate::task_list::TaskList;
 use crate::times;
 use crate::units;

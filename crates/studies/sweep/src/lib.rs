@@ -2,6 +2,7 @@
 
 mod analysis;
 mod choices;
+mod collected_counts;
 mod collection;
 mod condition;
 mod decisions;
@@ -31,12 +32,12 @@ mod slurm;
 mod slurm_spec;
 mod syntax;
 mod table;
-mod tally;
 mod task;
 mod task_list;
 mod times;
 mod units;
 
+pub use collected_counts::Collected;
 pub use collection::collect;
 pub use condition::Condition;
 pub use error::SweepError;
@@ -54,7 +55,6 @@ pub use scene_time::SceneTime;
 pub use shell::shell_word;
 pub use slurm::{JobState, Submission, Submitted, queue_of, scripts, submit};
 pub use slurm_spec::SlurmSpec;
-pub use tally::Collected;
 pub use task::Task;
 pub use task_list::{Counts, TaskList};
 pub use units::Unit;

@@ -6,9 +6,9 @@ use taceva_report::{Cell, Column, PagePart, PageSection, Table, TablesPage};
 
 use crate::analysis::{self, Found, Loaded};
 use crate::choices;
+use crate::collected_counts::Collected;
 use crate::decisions;
 use crate::effects;
-use crate::tally::Collected;
 use crate::task_list::TaskList;
 use crate::units;
 

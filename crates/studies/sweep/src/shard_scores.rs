@@ -6,11 +6,11 @@ use std::path::PathBuf;
 use taceva_core::shown;
 use taceva_dataset::Digest;
 
+use crate::collected_counts::Collected;
 use crate::error::SweepError;
 use crate::folder::SweepFolder;
 use crate::grid::PlannedTables;
 use crate::outcome::sealed;
-use crate::tally::Collected;
 use crate::task_list::TaskList;
 use crate::times;
 
