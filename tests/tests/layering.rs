@@ -134,11 +134,10 @@ fn lints_are_never_switched_off_and_unsafe_code_stands_where_the_architecture_sa
                 line.trim_start().starts_with("#[allow(") || line.starts_with("#![allow(")
             });
             // A file that several test programs share is used in part by each: nothing that each could expect.
-            let folder_of_file = source.parent();
-            let is_shared = folder_of_file
+            let is_shared = source
+                .parent()
                 .and_then(Path::parent)
-                .is_some_and(|above| above.ends_with("tests"))
-                || folder_of_file.is_some_and(|folder| folder.ends_with("support"));
+                .is_some_and(|above| above.ends_with("tests"));
             assert!(
                 !allows || is_shared,
                 "{}: use #[expect] with a reason",
