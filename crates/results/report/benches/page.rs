@@ -1,6 +1,6 @@
 //! How long a page takes, from results and samples in memory.
 
-#[path = "../tests/report/support/mod.rs"]
+#[path = "../tests/support/mod.rs"]
 mod support;
 
 use divan::{Bencher, black_box};

@@ -10,5 +10,6 @@ mod paper;
 mod pdf;
 mod pdf_file;
 mod reports;
+#[path = "../support/mod.rs"]
 mod support;
 mod verdicts;
