@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use serde::Serialize;
-use taceva_conformance::{CheckOutcome, CheckResult};
+use taceva_conformance::{CheckResult, Outcome};
 
 use super::json;
 use crate::args::ListFormat;
@@ -17,16 +17,16 @@ pub(crate) fn write(
     format: ListFormat,
     out: &mut dyn Write,
 ) -> io::Result<()> {
-    let count = |wanted: fn(&CheckOutcome) -> bool| {
+    let count = |wanted: fn(&Outcome) -> bool| {
         results
             .iter()
             .filter(|result| wanted(&result.outcome))
             .count()
     };
     let (passed, failed, skipped) = (
-        count(|outcome| *outcome == CheckOutcome::Passed),
-        count(|outcome| matches!(outcome, CheckOutcome::Failed(_))),
-        count(|outcome| matches!(outcome, CheckOutcome::Skipped(_))),
+        count(|outcome| *outcome == Outcome::Passed),
+        count(|outcome| matches!(outcome, Outcome::Failed(_))),
+        count(|outcome| matches!(outcome, Outcome::Skipped(_))),
     );
     if format == ListFormat::Json {
         let written = Written {
@@ -53,9 +53,9 @@ pub(crate) fn write(
 pub(crate) fn line(result: &CheckResult, out: &mut dyn Write) -> io::Result<()> {
     let subject = result.subject.as_deref().unwrap_or("");
     let (word, why) = match &result.outcome {
-        CheckOutcome::Passed => ("pass", ""),
-        CheckOutcome::Failed(why) => ("FAIL", why.as_str()),
-        CheckOutcome::Skipped(why) => ("skip", why.as_str()),
+        Outcome::Passed => ("pass", ""),
+        Outcome::Failed(why) => ("FAIL", why.as_str()),
+        Outcome::Skipped(why) => ("skip", why.as_str()),
     };
     let (check, took) = (result.check, result.took_s);
     writeln!(out, "{word}  {took:6.2}s  {check:<42} {subject}")?;

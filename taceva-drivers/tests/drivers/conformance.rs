@@ -19,7 +19,7 @@ fn the_replay_keeps_the_contract_in_virtual_time() {
     let report = replay(";rate=30");
     assert!(report.passed(), "{report}");
     let skipped: Vec<_> = report
-        .checks
+        .promises
         .iter()
         .filter(|check| matches!(check.outcome, Outcome::Skipped(_)))
         .map(|check| check.name)
@@ -27,9 +27,9 @@ fn the_replay_keeps_the_contract_in_virtual_time() {
     assert_eq!(
         skipped,
         [
-            "gives the frames it declares",
-            "gives the same frames to the same arguments",
-            "sets the light it declares, and no other",
+            "sensor/gives-the-frames-it-says",
+            "sensor/same-frames-of-a-simulation",
+            "sensor/sets-the-light",
         ],
         "{report}"
     );
@@ -48,7 +48,7 @@ fn a_recording_that_is_too_short_to_be_tried_is_skipped_and_not_failed() {
     let factory = ReplayFactory::new().expect("no contradiction");
     let report = conformance::sensor(&factory, &Trial::with_arguments(arguments));
     assert!(report.passed(), "{report}");
-    let captured = report.outcome("captures frames in the order of their stamps");
+    let captured = report.outcome("sensor/stamps-in-order");
     assert_eq!(
         captured,
         Some(&Outcome::Skipped(
@@ -61,7 +61,7 @@ fn a_recording_that_is_too_short_to_be_tried_is_skipped_and_not_failed() {
 fn a_driver_that_does_not_open_fails_every_check_that_needs_it_open() {
     let factory = ReplayFactory::new().expect("no contradiction");
     let refused = conformance::sensor(&factory, &Trial::with_arguments("foldr=x"));
-    assert_eq!(refused.failures(), ["takes the arguments of the trial"]);
+    assert_eq!(refused.failures(), ["driver/takes-its-arguments"]);
     let absent = conformance::sensor(&factory, &Trial::with_arguments("folder=nowhere"));
     assert!(absent.failures().len() >= 6, "{absent}");
     assert!(absent.to_string().contains("(not found)"), "{absent}");
@@ -78,7 +78,7 @@ fn a_device_of_each_kind_without_a_flaw_passes_every_check() {
     ];
     for report in reports {
         let all = report
-            .checks
+            .promises
             .iter()
             .all(|check| check.outcome == Outcome::Passed);
         assert!(all, "{report}");
@@ -92,7 +92,7 @@ fn each_flaw_fails_its_check(suite: fn(Flaw) -> Report, flaws: &[(Flaw, &str)]) 
         assert!(report.failures().contains(check), "{flaw:?}: {report}");
     }
     let sound = suite(Flaw::Nothing);
-    for check in sound.checks.iter().skip(1) {
+    for check in sound.promises.iter().skip(1) {
         let covered = flaws.iter().any(|(_, name)| *name == check.name);
         assert!(covered, "no flaw fails `{}`", check.name);
     }
@@ -103,70 +103,44 @@ fn each_check_of_a_sensor_can_fail() {
     each_flaw_fails_its_check(
         |flaw| conformance::sensor(&ToyFactory::sensor(flaw), &Trial::default()),
         &[
-            (Flaw::OtherFrame, "gives the frames it declares"),
-            (
-                Flaw::StampsStandStill,
-                "captures frames in the order of their stamps",
-            ),
-            (Flaw::Panics, "captures frames in the order of their stamps"),
-            (
-                Flaw::TakesAnyBuffer,
-                "refuses a buffer of another size or format, and goes on",
-            ),
-            (Flaw::IsSlow, "answers a deadline that has passed at once"),
-            (Flaw::StopsForGood, "starts and stops in any order"),
-            (
-                Flaw::StopsOnce,
-                "gives back what it held when it is dropped",
-            ),
-            (
-                Flaw::DiffersEachTime,
-                "gives the same frames to the same arguments",
-            ),
-            (Flaw::HidesLight, "sets the light it declares, and no other"),
-            (
-                Flaw::DeclaresNoLight,
-                "sets the light it declares, and no other",
-            ),
-            (
-                Flaw::TakesAnyScene,
-                "sets the light it declares, and no other",
-            ),
+            (Flaw::OtherFrame, "sensor/gives-the-frames-it-says"),
+            (Flaw::StampsStandStill, "sensor/stamps-in-order"),
+            (Flaw::Panics, "sensor/stamps-in-order"),
+            (Flaw::TakesAnyBuffer, "sensor/refuses-other-buffers"),
+            (Flaw::IsSlow, "sensor/passed-deadline"),
+            (Flaw::StopsForGood, "sensor/starts-and-stops-in-any-order"),
+            (Flaw::StopsOnce, "sensor/dropped-in-any-state"),
+            (Flaw::DiffersEachTime, "sensor/same-frames-of-a-simulation"),
+            (Flaw::HidesLight, "sensor/sets-the-light"),
+            (Flaw::DeclaresNoLight, "sensor/sets-the-light"),
+            (Flaw::TakesAnyScene, "sensor/sets-the-light"),
+            (Flaw::IsSlow, "sensor/keeps-deadlines"),
+            (Flaw::IsFaultyBeforeStart, "sensor/capture-before-start"),
+            (Flaw::DiesOfInterrupt, "sensor/interrupt-within-50-ms"),
         ],
     );
 }
 
 #[test]
 fn each_check_of_a_force_transducer_can_fail() {
-    const RANGE: &str = "gives finite numbers within its range, and 0 where it measures nothing";
+    const RANGE: &str = "force/measures-what-it-says";
     each_flaw_fails_its_check(
         |flaw| conformance::force(&ToyFactory::force(flaw), &Trial::default()),
         &[
-            (Flaw::OtherAxes, "measures the components it declares"),
-            (
-                Flaw::StampsStandStill,
-                "gives readings in the order of their stamps",
-            ),
+            (Flaw::OtherAxes, "force/measures-what-it-says"),
+            (Flaw::StampsStandStill, "force/stamps-in-order"),
             (Flaw::Overflows, RANGE),
             (Flaw::FillsUnmeasured, RANGE),
-            (Flaw::IsSlow, "answers a deadline that has passed at once"),
-            (Flaw::StopsForGood, "starts and stops in any order"),
-            (
-                Flaw::StopsOnce,
-                "gives back what it held when it is dropped",
-            ),
-            (
-                Flaw::DiffersEachTime,
-                "gives the same readings to the same arguments",
-            ),
-            (
-                Flaw::CannotTare,
-                "calls the load zero if it declares that it can",
-            ),
-            (
-                Flaw::RepeatsNumber,
-                "numbers its readings if it declares that it does",
-            ),
+            (Flaw::IsSlow, "force/passed-deadline"),
+            (Flaw::StopsForGood, "force/starts-and-stops-in-any-order"),
+            (Flaw::StopsOnce, "force/dropped-in-any-state"),
+            (Flaw::DiffersEachTime, "force/same-readings-of-a-simulation"),
+            (Flaw::CannotTare, "force/tares"),
+            (Flaw::RepeatsNumber, "force/numbers-its-readings"),
+            (Flaw::IsSlow, "force/keeps-deadlines"),
+            (Flaw::IsFaultyBeforeStart, "force/read-before-start"),
+            (Flaw::DiesOfInterrupt, "force/interrupt-within-50-ms"),
+            (Flaw::OpensToFail, "force/reads"),
         ],
     );
 }
@@ -176,38 +150,21 @@ fn each_check_of_a_robot_can_fail() {
     each_flaw_fails_its_check(
         |flaw| conformance::robot(&ToyFactory::robot(flaw), &Trial::default()),
         &[
-            (
-                Flaw::Creeps,
-                "stands in its workspace, and stays while nobody moves it",
-            ),
-            (Flaw::Overshoots, "arrives where it is sent, and comes back"),
-            (
-                Flaw::TakesNaN,
-                "refuses a pose that is not finite, and stays",
-            ),
-            (
-                Flaw::LeavesWorkspace,
-                "refuses a pose outside its workspace, and stays",
-            ),
+            (Flaw::Creeps, "robot/says-its-pose"),
+            (Flaw::Overshoots, "robot/moves-and-arrives"),
+            (Flaw::TakesNaN, "robot/refuses-targets-that-are-none"),
+            (Flaw::LeavesWorkspace, "robot/refuses-what-lies-outside"),
             (
                 Flaw::TakesAnySpeed,
-                "refuses a speed above its greatest, and stays",
+                "robot/refuses-speeds-above-its-greatest",
             ),
-            (
-                Flaw::IgnoresDeadline,
-                "gives up a motion it has no time for, and stands",
-            ),
-            (Flaw::ForgetsHalt, "latches a halt until it is cleared"),
-            (Flaw::IgnoresHandle, "stops at a halt from another thread"),
-            (Flaw::Panics, "stops at a halt from another thread"),
-            (
-                Flaw::HandleDies,
-                "leaves a halt handle that outlives it harmless",
-            ),
-            (
-                Flaw::TakesAnyGuard,
-                "guards its motion if it declares that it can",
-            ),
+            (Flaw::IgnoresDeadline, "robot/timeout-stops-it"),
+            (Flaw::ForgetsHalt, "robot/halts-twice-and-latches"),
+            (Flaw::IgnoresHandle, "robot/halt-within-50-ms"),
+            (Flaw::Panics, "robot/halt-within-50-ms"),
+            (Flaw::HandleDies, "robot/halt-from-all-sides"),
+            (Flaw::TakesAnyGuard, "robot/guards-that-are-none"),
+            (Flaw::StopsOnce, "robot/dropped-in-any-state"),
         ],
     );
 }
@@ -217,9 +174,10 @@ fn each_check_of_a_lighting_can_fail() {
     each_flaw_fails_its_check(
         |flaw| conformance::lighting(&ToyFactory::lighting(flaw), &Trial::default()),
         &[
-            (Flaw::HidesLight, "has the scenes it declares"),
-            (Flaw::TakesAnyScene, "sets each of its scenes, and no other"),
-            (Flaw::IsSlow, "answers a deadline that has passed at once"),
+            (Flaw::HidesLight, "lighting/has-the-scenes-it-says"),
+            (Flaw::TakesAnyScene, "lighting/refuses-other-scenes"),
+            (Flaw::IsSlow, "lighting/passed-deadline"),
+            (Flaw::OpensToFail, "lighting/sets-each-scene"),
         ],
     );
 }
@@ -229,13 +187,11 @@ fn each_check_of_a_changer_can_fail() {
     each_flaw_fails_its_check(
         |flaw| conformance::changer(&ToyFactory::changer(flaw), &Trial::default()),
         &[
-            (Flaw::HidesLight, "holds what it declares"),
-            (
-                Flaw::BringsAnother,
-                "brings each thing that it holds, and says so",
-            ),
-            (Flaw::TakesAnyScene, "refuses what it does not hold"),
-            (Flaw::IsSlow, "answers a deadline that has passed at once"),
+            (Flaw::HidesLight, "changer/holds-what-it-says"),
+            (Flaw::BringsAnother, "changer/brings-each-thing"),
+            (Flaw::TakesAnyScene, "changer/refuses-other-names"),
+            (Flaw::IsSlow, "changer/passed-deadline"),
+            (Flaw::DiesOfInterrupt, "changer/interrupt-within-50-ms"),
         ],
     );
 }

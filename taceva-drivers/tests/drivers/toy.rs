@@ -7,9 +7,9 @@ use std::time::Duration;
 use taceva_core::{
     Args, Axes, Changer, ChangerFacts, Deadline, Descriptor, DescriptorSpec, Device, DriverError,
     DriverKey, DriverSource, ErrorKind, Factory, Facts, ForceFacts, ForceTransducer, FrameInfo,
-    FrameMut, Guard, GuardedMotion, GuardedStop, Halt, Hertz, Lighting, LightingFacts, Millimetre,
-    Newton, PixelFormat, Point, Pose, Rig, Robot, RobotFacts, Sensor, SensorFacts, Speed, Stamp,
-    Tare, Workspace, Wrench, check_pose,
+    FrameMut, Guard, GuardedMotion, GuardedStop, Halt, Hertz, Interrupt, Lighting, LightingFacts,
+    Millimetre, Newton, PixelFormat, Point, Pose, Rig, Robot, RobotFacts, Sensor, SensorFacts,
+    Speed, Stamp, Tare, Workspace, Wrench, check_pose,
 };
 
 pub(crate) const KEY: DriverKey = DriverKey::fixed("test/toy");
@@ -45,6 +45,9 @@ pub(crate) enum Flaw {
     IgnoresHandle,
     HandleDies,
     TakesAnyGuard,
+    IsFaultyBeforeStart,
+    DiesOfInterrupt,
+    OpensToFail,
 }
 
 /// Opens a toy of any kind.
@@ -140,6 +143,8 @@ struct Toy {
     number: u64,
     readings: f64,
     stopped: bool,
+    started: bool,
+    interrupted: Arc<AtomicBool>,
     pose: Pose,
     halted: Arc<AtomicBool>,
     scenes: Vec<String>,
@@ -164,6 +169,8 @@ macro_rules! opens {
                     number: 0,
                     readings: 0.0,
                     stopped: false,
+                    started: false,
+                    interrupted: Arc::default(),
                     pose: Pose::default(),
                     halted: if outlives { Arc::clone(&self.halted_for_good) } else { Arc::default() },
                     scenes: scenes(),
@@ -197,14 +204,39 @@ impl Toy {
         if self.flaw == Flaw::IsSlow && deadline.has_passed() {
             std::thread::sleep(Duration::from_millis(600));
         }
-        if self.stopped && self.flaw == Flaw::StopsForGood {
+        let is_gone = match self.flaw {
+            Flaw::StopsForGood => self.stopped,
+            Flaw::DiesOfInterrupt => self.interrupted.load(Ordering::Acquire),
+            Flaw::OpensToFail => true,
+            _ => false,
+        };
+        if is_gone {
             return Err(error(ErrorKind::Disconnected, doing));
+        }
+        if !self.started && self.flaw == Flaw::IsFaultyBeforeStart {
+            return Err(error(ErrorKind::DeviceFault, doing));
         }
         Ok(())
     }
 }
 
+/// Interrupts a toy, which never waits: only one with a flaw notices.
+struct Bell(Arc<AtomicBool>);
+
+impl Interrupt for Bell {
+    fn interrupt(&self) {
+        self.0.store(true, Ordering::Release);
+    }
+}
+
 impl Sensor for Toy {
+    fn start(&mut self, _: Deadline) -> Result<(), DriverError> {
+        self.started = true;
+        Ok(())
+    }
+    fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
+        Some(Arc::new(Bell(Arc::clone(&self.interrupted))))
+    }
     fn frame_info(&self) -> FrameInfo {
         let width = FRAME.width + u32::from(self.flaw == Flaw::OtherFrame);
         FrameInfo { width, ..FRAME }
@@ -246,6 +278,9 @@ impl Lighting for Toy {
 }
 
 impl Changer for Toy {
+    fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
+        Some(Arc::new(Bell(Arc::clone(&self.interrupted))))
+    }
     fn holds(&self) -> &[String] {
         Lighting::scenes(self)
     }
@@ -259,6 +294,13 @@ impl Changer for Toy {
 }
 
 impl ForceTransducer for Toy {
+    fn start(&mut self, _: Deadline) -> Result<(), DriverError> {
+        self.started = true;
+        Ok(())
+    }
+    fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
+        Some(Arc::new(Bell(Arc::clone(&self.interrupted))))
+    }
     fn axes(&self) -> Axes {
         match self.flaw {
             Flaw::OtherAxes => Axes::NORMAL,

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use taceva_conformance::{CheckOutcome, CheckRequest, CheckResult, check};
+use taceva_conformance::{CheckRequest, CheckResult, Outcome, check};
 use taceva_host::{Children, PluginConfig, PluginHost, Plugins, SearchPath};
 
 use crate::fixture::{Fixture, cpp};
@@ -36,10 +36,10 @@ fn a_good_plugin_passes_every_check() {
     };
     let results = checked(&fixture, &[]);
     let failed: Vec<&CheckResult> = (results.iter())
-        .filter(|result| matches!(result.outcome, CheckOutcome::Failed(_)))
+        .filter(|result| matches!(result.outcome, Outcome::Failed(_)))
         .collect();
     assert!(failed.is_empty(), "{failed:#?}");
-    let skipped = |result: &&CheckResult| matches!(result.outcome, CheckOutcome::Skipped(_));
+    let skipped = |result: &&CheckResult| matches!(result.outcome, Outcome::Skipped(_));
     let skipped: Vec<&str> = results
         .iter()
         .filter(skipped)
@@ -85,7 +85,7 @@ fn finds(macros: &[&str], check: &str, words: &str) {
     let results = checked(&fixture, &[check]);
     let found = results
         .iter()
-        .any(|result| matches!(&result.outcome, CheckOutcome::Failed(why) if why.contains(words)));
+        .any(|result| matches!(&result.outcome, Outcome::Failed(why) if why.contains(words)));
     assert!(found, "{macros:?}: {results:#?}");
 }
 
@@ -153,7 +153,7 @@ fn what_a_library_says_that_it_needs_stands_in_its_manifest() {
     let needs = format!("{abi}\nneeds = [\"listen:5025\", \"hid\"]");
     let fixture = fixture.with_manifest(abi, &needs);
     let results = checked(&fixture, &["library/needs"]);
-    assert_eq!(results[0].outcome, CheckOutcome::Passed, "{results:#?}");
+    assert_eq!(results[0].outcome, Outcome::Passed, "{results:#?}");
 }
 
 fn readings_with_one_number_are_found_frozen() {
@@ -170,8 +170,8 @@ fn readings_with_one_number_are_found_frozen() {
         let fixture = fixture.with_manifest("tare = true", "tare = true\nnumbered = true");
         let results = checked(&fixture, &["force/numbers"]);
         match (&results[0].outcome, words) {
-            (CheckOutcome::Passed, None) => {}
-            (CheckOutcome::Failed(why), Some(words)) if why.contains(words) => {}
+            (Outcome::Passed, None) => {}
+            (Outcome::Failed(why), Some(words)) if why.contains(words) => {}
             (outcome, _) => panic!("{macros:?}: {outcome:?}"),
         }
     }
@@ -193,7 +193,7 @@ fn a_device_of_each_kind_in_cpp_keeps_every_promise() {
         made += 1;
         // How long a wait takes that is ended within 50 ms depends on what else the machine does.
         let is_timed = result.check.ends_with("within-50-ms");
-        if let CheckOutcome::Failed(why) = result.outcome
+        if let Outcome::Failed(why) = result.outcome
             && !is_timed
         {
             failed.push(format!("{} of {:?}: {why}", result.check, result.subject));

@@ -1,6 +1,6 @@
 //! The simulated bench under `taceva plugin check`.
 
-use taceva_conformance::{CheckOutcome, CheckRequest};
+use taceva_conformance::{CheckRequest, Outcome};
 use tempfile::TempDir;
 
 use crate::built::{Delivery, host, lay_bench};
@@ -14,7 +14,7 @@ pub(crate) fn every_device_of_the_bench_passes_every_check_of_plugins() {
     let mut failed = Vec::new();
     taceva_conformance::check(&host, plugin, &CheckRequest::default(), &mut |result| {
         made += 1;
-        if let CheckOutcome::Failed(why) = &result.outcome {
+        if let Outcome::Failed(why) = &result.outcome {
             failed.push(format!("{} of {:?}: {why}", result.check, result.subject));
         }
     })

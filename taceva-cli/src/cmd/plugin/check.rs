@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-use taceva_conformance::{CheckOutcome, CheckRequest};
+use taceva_conformance::{CheckRequest, Outcome};
 use taceva_core::DriverKey;
 use taceva_drivers::Selector;
 
@@ -60,7 +60,7 @@ pub(super) fn run(args: &PluginCheck, context: &Context) -> anyhow::Result<u8> {
             out,
         )
     })?;
-    let failed = |outcome: &CheckOutcome| matches!(outcome, CheckOutcome::Failed(_));
+    let failed = |outcome: &Outcome| matches!(outcome, Outcome::Failed(_));
     Ok(if results.iter().any(|result| failed(&result.outcome)) {
         exit::CHECK_FAILED
     } else {

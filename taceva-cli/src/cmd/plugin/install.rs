@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use anyhow::{Context as _, bail};
-use taceva_conformance::{CheckOutcome, CheckRequest};
+use taceva_conformance::{CheckRequest, Outcome};
 use taceva_core::shown;
 use taceva_host::{Place, Plugin, PluginHost, Plugins, SearchPath};
 
@@ -131,7 +131,7 @@ fn check(host: &PluginHost, plugin: &Plugin) -> anyhow::Result<()> {
     };
     let mut failed = None;
     taceva_conformance::check(host, plugin, &request, &mut |result| {
-        if let CheckOutcome::Failed(why) = result.outcome {
+        if let Outcome::Failed(why) = result.outcome {
             failed.get_or_insert(format!("{}: {}: {why}", plugin.id(), result.check));
         }
     })?;

@@ -9,7 +9,8 @@ use taceva_core::ErrorKind;
 
 use super::checks;
 use super::probe::Probe;
-use super::subject::{Ending, Subject};
+use super::subject::Subject;
+use crate::promise::Unmet;
 use taceva_host::Manifest;
 use taceva_host::Session;
 use taceva_host::bare::Source;
@@ -32,18 +33,18 @@ pub(crate) fn run(
     read.map_err(|error| (ErrorKind::Internal, error.to_string()))?;
     let probe: Probe =
         serde_json::from_slice(&bytes).map_err(|error| (ErrorKind::Abi, error.to_string()))?;
-    let check = checks().find(|check| check.name == probe.check);
+    let check = checks().into_iter().find(|check| check.name == probe.check);
     let check = check.ok_or_else(|| (ErrorKind::Abi, format!("no check `{}`", probe.check)))?;
     let made = catch_unwind(AssertUnwindSafe(|| {
         let _under_way = under_way::begin("end the check");
         let subject = Subject::new(source, manifest, probe)?;
-        (check.run)(&subject)?;
+        check.test.run(&subject)?;
         Ok(subject.session)
     }));
     match made {
         Ok(Ok(session)) => Ok(Arc::new(session)),
-        Ok(Err(Ending::Broken(why))) => Err((ErrorKind::DeviceFault, why)),
-        Ok(Err(Ending::Skipped(why))) => Err((ErrorKind::Unsupported, format!("{SKIPPED}{why}"))),
+        Ok(Err(Unmet::Broken(why))) => Err((ErrorKind::DeviceFault, why)),
+        Ok(Err(Unmet::Skipped(why))) => Err((ErrorKind::Unsupported, format!("{SKIPPED}{why}"))),
         Err(_) => Err((ErrorKind::Internal, "the check itself panicked".to_owned())),
     }
 }

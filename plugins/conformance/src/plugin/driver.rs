@@ -11,8 +11,9 @@ use std::thread;
 use taceva_abi as abi;
 use taceva_core::{ArgKind, ArgValue, Args, DriverKind, ErrorKind};
 
-use super::subject::{Draw, Ending, Subject, bare, ensure, expect_failure, writable_memory};
-use super::{Check, Of};
+use super::subject::{Draw, Subject, bare, writable_memory};
+use super::{Check, Of, Test};
+use crate::promise::{Unmet, broken, expect, refused, skipped};
 use taceva_host::Session;
 use taceva_host::bare::Opened;
 use taceva_host::bare::{ArgList, Taken, take};
@@ -35,11 +36,11 @@ pub(super) const CHECKS: &[Check] = &[
     check("driver/memory-of-10000-openings", memory),
 ];
 
-const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Ending>) -> Check {
+const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Unmet>) -> Check {
     Check {
         name,
         of: Of::Driver,
-        run,
+        test: Test::Table(run),
     }
 }
 
@@ -64,33 +65,33 @@ impl Device {
     }
 }
 
-fn opened(subject: &Subject) -> Result<Device, Ending> {
+fn opened(subject: &Subject) -> Result<Device, Unmet> {
     match subject.descriptor()?.kind() {
         DriverKind::Sensor => Ok(Device::Sensor(subject.open()?)),
         DriverKind::Robot => Ok(Device::Robot(subject.open()?)),
         DriverKind::Force => Ok(Device::Force(subject.open()?)),
         DriverKind::Lighting => Ok(Device::Lighting(subject.open()?)),
         DriverKind::Changer => Ok(Device::Changer(subject.open()?)),
-        kind => Err(Ending::Skipped(format!(
+        kind => Err(Unmet::Skipped(format!(
             "devices of the kind {kind} are not known here"
         ))),
     }
 }
 
-fn factory(subject: &Subject) -> Result<abi::Factory, Ending> {
+fn factory(subject: &Subject) -> Result<abi::Factory, Unmet> {
     let factory = subject.entry()?.factory;
-    factory.ok_or_else(|| Ending::Broken("it has no factory".to_owned()))
+    factory.ok_or_else(|| broken("it has no factory"))
 }
 
-fn describes_twice(subject: &Subject) -> Result<(), Ending> {
+fn describes_twice(subject: &Subject) -> Result<(), Unmet> {
     let [once, again] = [subject.said()?, subject.said()?];
-    ensure(once == again, || {
+    expect(once == again, || {
         "it describes itself otherwise the second time".to_owned()
     })
 }
 
 /// With every argument at its limits it describes itself, or says that they contradict each other.
-fn describes_every_argument(subject: &Subject) -> Result<(), Ending> {
+fn describes_every_argument(subject: &Subject) -> Result<(), Unmet> {
     let key = subject.key()?;
     for spec in subject.entry()?.arguments() {
         let values: Vec<ArgValue> = match &spec.kind {
@@ -116,11 +117,11 @@ fn describes_every_argument(subject: &Subject) -> Result<(), Ending> {
                 .filter_map(|other| Some((other.key.clone(), given.get(&other.key)?.to_string())));
             let pairs = others.chain([(spec.key.clone(), value.clone())]);
             let args = Args::from_pairs(subject.entry()?.arguments(), pairs)
-                .map_err(|error| Ending::Broken(error.to_string()))?;
+                .map_err(|error| Unmet::Broken(error.to_string()))?;
             match subject.session.describe(key, &args) {
                 Err(error) if error.kind() != ErrorKind::InvalidArgument => {
                     let why = format!("with `{}={value}`: {error}", spec.key);
-                    return Err(Ending::Broken(why));
+                    return Err(Unmet::Broken(why));
                 }
                 _ => {}
             }
@@ -129,11 +130,11 @@ fn describes_every_argument(subject: &Subject) -> Result<(), Ending> {
     Ok(())
 }
 
-fn describe_of_none(subject: &Subject) -> Result<(), Ending> {
+fn describe_of_none(subject: &Subject) -> Result<(), Unmet> {
     let factory = factory(subject)?;
     let describe = factory
         .describe
-        .ok_or_else(|| Ending::Broken("`describe` is NULL".to_owned()))?;
+        .ok_or_else(|| broken("`describe` is NULL"))?;
     let list = ArgList::new(&Args::default(), &[]);
     let args = list.args();
     for number in [factory.drivers, factory.drivers + 1, u32::MAX] {
@@ -147,7 +148,7 @@ fn describe_of_none(subject: &Subject) -> Result<(), Ending> {
             ErrorKind::InvalidArgument,
             ErrorKind::OutOfRange,
         ];
-        expect_failure(&format!("describing driver {number}"), said, &kinds)?;
+        refused(&format!("describing driver {number}"), said, &kinds)?;
     }
     Ok(())
 }
@@ -157,9 +158,9 @@ fn raw_open(
     number: u32,
     args: &abi::Args,
     error: *mut abi::Error,
-) -> Result<(abi::Status, abi::Device), Ending> {
+) -> Result<(abi::Status, abi::Device), Unmet> {
     let open = factory(subject)?.open;
-    let open = open.ok_or_else(|| Ending::Broken("`open` is NULL".to_owned()))?;
+    let open = open.ok_or_else(|| broken("`open` is NULL"))?;
     let rig = taceva_host::bare::RigHandle::open(&subject.library)?;
     let mut device = abi::Device {
         handle: std::ptr::null_mut(),
@@ -185,20 +186,20 @@ fn raw_open(
     Ok((status, device))
 }
 
-fn open_of_none(subject: &Subject) -> Result<(), Ending> {
+fn open_of_none(subject: &Subject) -> Result<(), Unmet> {
     let list = subject.list()?;
     let drivers = factory(subject)?.drivers;
     for number in [drivers, drivers + 1, u32::MAX] {
         let mut error = abi::Error::new();
         let (status, _) = raw_open(subject, number, &list.args(), &raw mut error)?;
-        ensure(!status.is_ok(), || {
+        expect(!status.is_ok(), || {
             format!("driver {number} opened, which it does not have")
         })?;
     }
     Ok(())
 }
 
-fn opens_again(subject: &Subject) -> Result<(), Ending> {
+fn opens_again(subject: &Subject) -> Result<(), Unmet> {
     for _ in 0..subject.openings(10) {
         drop(opened(subject)?);
     }
@@ -206,7 +207,7 @@ fn opens_again(subject: &Subject) -> Result<(), Ending> {
 }
 
 /// A second device of the same arguments opens too, or says that the first holds it.
-fn opens_beside(subject: &Subject) -> Result<(), Ending> {
+fn opens_beside(subject: &Subject) -> Result<(), Unmet> {
     let first = opened(subject)?;
     let list = subject.list()?;
     let mut error = abi::Error::new();
@@ -217,14 +218,14 @@ fn opens_beside(subject: &Subject) -> Result<(), Ending> {
         &raw mut error,
     )?;
     drop(first);
-    ensure(status.is_ok() || status == abi::Status::BUSY, || {
+    expect(status.is_ok() || status == abi::Status::BUSY, || {
         format!("a second one gave status {}, expected 0 or BUSY", status.0)
     })?;
     opened(subject).map(drop)
 }
 
 /// Arguments that nobody declared are refused or passed over, whatever they are.
-fn rubbish_arguments(subject: &Subject) -> Result<(), Ending> {
+fn rubbish_arguments(subject: &Subject) -> Result<(), Unmet> {
     let mut draw = Draw::new(subject.probe.seed);
     for round in 0..subject.openings(64) {
         let bytes = [draw.bytes(1 + round), draw.bytes(round)];
@@ -254,7 +255,7 @@ fn rubbish_arguments(subject: &Subject) -> Result<(), Ending> {
 }
 
 /// An error that has less room than today's is written no further than it says.
-fn keeps_to_error(subject: &Subject) -> Result<(), Ending> {
+fn keeps_to_error(subject: &Subject) -> Result<(), Unmet> {
     const ROOM: usize = 24;
     const CANARY: i8 = 0x5a;
     let mut error = abi::Error::new();
@@ -264,11 +265,11 @@ fn keeps_to_error(subject: &Subject) -> Result<(), Ending> {
     let list = subject.list()?;
     let drivers = factory(subject)?.drivers;
     let (status, _) = raw_open(subject, drivers, &list.args(), &raw mut error)?;
-    ensure(!status.is_ok(), || {
+    expect(!status.is_ok(), || {
         "a driver that it does not have opened".to_owned()
     })?;
     let written = error.message[ROOM..].iter().any(|byte| *byte != CANARY);
-    ensure(!written, || {
+    expect(!written, || {
         format!("a message went beyond the {ROOM} bytes that its `taceva_error` had")
     })?;
     // A host of minor 0 has no room for a fault.
@@ -277,24 +278,24 @@ fn keeps_to_error(subject: &Subject) -> Result<(), Ending> {
     error.size = u32::try_from(offset_of!(abi::Error, fault)).expect("small");
     error.fault = NONE;
     raw_open(subject, drivers, &list.args(), &raw mut error)?;
-    ensure(error.fault == NONE, || {
+    expect(error.fault == NONE, || {
         "a fault was written to a `taceva_error` that ends before it".to_owned()
     })
 }
 
-fn unknown_extension(subject: &Subject) -> Result<(), Ending> {
+fn unknown_extension(subject: &Subject) -> Result<(), Unmet> {
     let device = opened(subject)?;
     for id in ["", "taceva.nothing/1", "taceva.force.tare/99"] {
         let found = device.handle().extension_is_there(id);
-        ensure(!found, || format!("a table for the extension {id:?}"))?;
+        expect(!found, || format!("a table for the extension {id:?}"))?;
     }
     Ok(())
 }
 
-fn interrupt_of_nothing(subject: &Subject) -> Result<(), Ending> {
+fn interrupt_of_nothing(subject: &Subject) -> Result<(), Unmet> {
     let device = opened(subject)?;
     let Some(interrupt) = device.handle().interrupt() else {
-        return Err(Ending::Skipped("it cannot be interrupted".to_owned()));
+        return Err(skipped("it cannot be interrupted"));
     };
     for _ in 0..100 {
         interrupt.interrupt();
@@ -304,10 +305,10 @@ fn interrupt_of_nothing(subject: &Subject) -> Result<(), Ending> {
     Ok(())
 }
 
-fn interrupts(subject: &Subject) -> Result<(), Ending> {
+fn interrupts(subject: &Subject) -> Result<(), Unmet> {
     let device = opened(subject)?;
     let Some(interrupt) = device.handle().interrupt() else {
-        return Err(Ending::Skipped("it cannot be interrupted".to_owned()));
+        return Err(skipped("it cannot be interrupted"));
     };
     let interrupt = &interrupt;
     thread::scope(|scope| {
@@ -324,20 +325,20 @@ fn interrupts(subject: &Subject) -> Result<(), Ending> {
 }
 
 /// A handle is no thread's own: opened in one, used and closed in another.
-fn other_thread(subject: &Subject) -> Result<(), Ending> {
+fn other_thread(subject: &Subject) -> Result<(), Unmet> {
     let device = opened(subject)?;
     let closed = thread::scope(|scope| scope.spawn(move || drop(device)).join());
-    ensure(closed.is_ok(), || {
+    expect(closed.is_ok(), || {
         "closing it in another thread panicked".to_owned()
     })
 }
 
-fn discovers(subject: &Subject) -> Result<(), Ending> {
+fn discovers(subject: &Subject) -> Result<(), Unmet> {
     let found = subject.session.discover(subject.key()?)?;
     for device in &found {
         let read = subject.descriptor()?.args(&device.arguments);
         read.map_err(|error| {
-            Ending::Broken(format!(
+            Unmet::Broken(format!(
                 "it found `{}`, which it would not open: {error}",
                 device.arguments
             ))
@@ -347,10 +348,10 @@ fn discovers(subject: &Subject) -> Result<(), Ending> {
 }
 
 /// After the first 100, ten thousand openings add less than 1 MiB to the memory that may be written.
-fn memory(subject: &Subject) -> Result<(), Ending> {
+fn memory(subject: &Subject) -> Result<(), Unmet> {
     if subject.is_real() {
         let why = "a real device is not opened 10000 times";
-        return Err(Ending::Skipped(why.to_owned()));
+        return Err(Unmet::Skipped(why.to_owned()));
     }
     for _ in 0..100 {
         drop(opened(subject)?);
@@ -360,7 +361,7 @@ fn memory(subject: &Subject) -> Result<(), Ending> {
         drop(opened(subject)?);
     }
     let grown = writable_memory()?.saturating_sub(before);
-    ensure(grown < 1 << 20, || {
+    expect(grown < 1 << 20, || {
         format!(
             "9900 openings left {} KiB behind, expected less than 1024",
             grown >> 10

@@ -7,9 +7,10 @@
 
 use taceva_abi as abi;
 
-use super::subject::{Ending, Subject, ensure};
+use super::subject::Subject;
 use super::surroundings::Surroundings;
-use super::{Check, Of};
+use super::{Check, Of, Test};
+use crate::promise::{Unmet, broken, expect, skipped};
 use taceva_host::Library;
 use taceva_host::bare::RigHandle;
 
@@ -30,61 +31,61 @@ pub(super) const CHECKS: &[Check] = &[
     check(QUIET, quiet),
 ];
 
-const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Ending>) -> Check {
+const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Unmet>) -> Check {
     Check {
         name,
         of: Of::Plugin,
-        run,
+        test: Test::Table(run),
     }
 }
 
-fn load(subject: &Subject) -> Result<std::sync::Arc<Library>, Ending> {
+fn load(subject: &Subject) -> Result<std::sync::Arc<Library>, Unmet> {
     let manifest = Some(&subject.manifest);
     let loaded = subject.source.load(manifest, Box::new(|_, _, _| {}));
-    loaded.map_err(|error| Ending::Broken(error.problem().to_string()))
+    loaded.map_err(|error| Unmet::Broken(error.problem().to_string()))
 }
 
 /// A second copy of the library has its own statics, and works as the first does.
-fn loads_twice(subject: &Subject) -> Result<(), Ending> {
+fn loads_twice(subject: &Subject) -> Result<(), Unmet> {
     let second = load(subject)?;
-    ensure(second.id() == subject.library.id(), || {
+    expect(second.id() == subject.library.id(), || {
         "another id".to_owned()
     })
 }
 
 /// `deinit` may be called once everything is closed, and the library may be begun again.
-fn ends(subject: &Subject) -> Result<(), Ending> {
+fn ends(subject: &Subject) -> Result<(), Unmet> {
     drop(load(subject)?);
     drop(load(subject)?);
     Ok(())
 }
 
 /// What it says it needs stands in its manifest, which alone counts.
-fn needs(subject: &Subject) -> Result<(), Ending> {
+fn needs(subject: &Subject) -> Result<(), Unmet> {
     let offer = subject.library.offer();
-    let offer = offer.map_err(|problem| Ending::Broken(problem.to_string()))?;
+    let offer = offer.map_err(|problem| Unmet::Broken(problem.to_string()))?;
     if offer.needs.is_empty() {
         let why = "it does not say what it needs";
-        return Err(Ending::Skipped(why.to_owned()));
+        return Err(Unmet::Skipped(why.to_owned()));
     }
     let written = &subject.manifest.needs;
     let is_missing = |need: &&String| !written.iter().any(|written| written.to_string() == **need);
     match offer.needs.iter().find(is_missing) {
         None => Ok(()),
-        Some(need) => Err(Ending::Broken(format!(
+        Some(need) => Err(Unmet::Broken(format!(
             "it needs {need:?}, and its manifest does not say so; `taceva plugin manifest --write` writes it there"
         ))),
     }
 }
 
-fn factory(subject: &Subject, id: abi::Text) -> Result<usize, Ending> {
+fn factory(subject: &Subject, id: abi::Text) -> Result<usize, Unmet> {
     let factory = subject.library.plugin().factory;
-    let factory = factory.ok_or_else(|| Ending::Broken("`factory` is NULL".to_owned()))?;
+    let factory = factory.ok_or_else(|| broken("`factory` is NULL"))?;
     // SAFETY: [any], after `init`, with a text that outlives the call.
     Ok(unsafe { factory(id) }.addr())
 }
 
-fn unknown_factory(subject: &Subject) -> Result<(), Ending> {
+fn unknown_factory(subject: &Subject) -> Result<(), Unmet> {
     let long = "taceva.sensor/1".repeat(500);
     for id in [
         "",
@@ -94,7 +95,7 @@ fn unknown_factory(subject: &Subject) -> Result<(), Ending> {
         &long,
     ] {
         let found = factory(subject, abi::Text::from(id))?;
-        ensure(found == 0, || {
+        expect(found == 0, || {
             format!("a factory for {:?}", &id[..id.len().min(40)])
         })?;
     }
@@ -102,12 +103,12 @@ fn unknown_factory(subject: &Subject) -> Result<(), Ending> {
         data: std::ptr::null(),
         length: 0,
     };
-    ensure(factory(subject, nothing)? == 0, || {
+    expect(factory(subject, nothing)? == 0, || {
         "a factory for no text".to_owned()
     })
 }
 
-fn stable_factories(subject: &Subject) -> Result<(), Ending> {
+fn stable_factories(subject: &Subject) -> Result<(), Unmet> {
     for id in [
         abi::SENSOR_FACTORY,
         abi::ROBOT_FACTORY,
@@ -117,12 +118,12 @@ fn stable_factories(subject: &Subject) -> Result<(), Ending> {
     ] {
         let once = factory(subject, abi::Text::from(id))?;
         let again = factory(subject, abi::Text::from(id))?;
-        ensure(once == again, || format!("`{id}` moves from call to call"))?;
+        expect(once == again, || format!("`{id}` moves from call to call"))?;
     }
     Ok(())
 }
 
-fn rigs(subject: &Subject) -> Result<(), Ending> {
+fn rigs(subject: &Subject) -> Result<(), Unmet> {
     let together: Vec<_> = (0..32)
         .map(|_| RigHandle::open(&subject.library))
         .collect::<Result<_, _>>()?;
@@ -133,35 +134,35 @@ fn rigs(subject: &Subject) -> Result<(), Ending> {
     Ok(())
 }
 
-fn unknown_rig_extension(subject: &Subject) -> Result<(), Ending> {
+fn unknown_rig_extension(subject: &Subject) -> Result<(), Unmet> {
     let Some(extension) = subject.library.plugin().rig_extension else {
-        return Err(Ending::Skipped("its rigs have no extensions".to_owned()));
+        return Err(skipped("its rigs have no extensions"));
     };
     let rig = RigHandle::open(&subject.library)?;
     // SAFETY: [owner] of an open rig, with a text that outlives the call.
     let found = unsafe { extension(rig.raw(), abi::Text::from("taceva.nothing/1")) };
-    ensure(found.is_null(), || {
+    expect(found.is_null(), || {
         "a table for an extension that nobody knows".to_owned()
     })
 }
 
 /// Loading and opening change neither the folder that the process works in nor its environment.
-fn keeps_surroundings(subject: &Subject) -> Result<(), Ending> {
+fn keeps_surroundings(subject: &Subject) -> Result<(), Unmet> {
     drop(RigHandle::open(&subject.library)?);
     let (before, now) = (&subject.before, Surroundings::now());
     let is_kept = before.folder == now.folder && before.variables == now.variables;
-    ensure(is_kept, || {
+    expect(is_kept, || {
         "the working directory or the environment is another than before".to_owned()
     })
 }
 
-fn keeps_signals(subject: &Subject) -> Result<(), Ending> {
+fn keeps_signals(subject: &Subject) -> Result<(), Unmet> {
     drop(RigHandle::open(&subject.library)?);
     let now = Surroundings::now().handlers;
     let mut pairs = subject.before.handlers.iter().zip(&now);
     match pairs.position(|(before, now)| before != now) {
         None => Ok(()),
-        Some(place) => Err(Ending::Broken(format!(
+        Some(place) => Err(Unmet::Broken(format!(
             "signal {} has another handler than before",
             place + 1
         ))),
@@ -169,7 +170,7 @@ fn keeps_signals(subject: &Subject) -> Result<(), Ending> {
 }
 
 /// What it prints would stand in the middle of a result; the host looks at what came out of the process.
-fn quiet(subject: &Subject) -> Result<(), Ending> {
+fn quiet(subject: &Subject) -> Result<(), Unmet> {
     drop(load(subject)?);
     drop(RigHandle::open(&subject.library)?);
     Ok(())

@@ -1,4 +1,4 @@
-//! Checks of robots by their bare table: motions that no host asks for.
+//! Promises of a robot's table: motions that no host asks for.
 
 #![expect(
     unsafe_code,
@@ -6,15 +6,33 @@
 )]
 
 use taceva_abi as abi;
-use taceva_core::{DriverError, ErrorKind, SiPose};
+use taceva_core::{DriverError, DriverKind, ErrorKind, SiPose};
+use taceva_host::Session;
 
-use super::{facts, here, open};
-use crate::check::subject::{Ending, SOON, Subject, ensure, expect_failure, timed};
+use super::subject::{PATIENT, SOON, Subject, timed};
+use super::{Check, Of, Test};
+use crate::promise::{Unmet, expect, refused, skipped};
 use taceva_host::bare::Opened;
 
-pub(super) type Bare = Opened<abi::RobotCalls>;
+pub(super) const CHECKS: &[Check] = &[
+    check("robot/refuses-targets-that-are-none", no_targets),
+    check("robot/refuses-speeds-that-are-none", no_speeds),
+    check("robot/refuses-what-lies-outside", outside),
+    check("robot/wait-without-a-motion", wait_without),
+    check("robot/dropped-in-motion", dropped_in_motion),
+];
 
-pub(super) fn bare_move(robot: &Bare, target: abi::Pose, speed: f64) -> Result<u64, DriverError> {
+const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Unmet>) -> Check {
+    Check {
+        name,
+        of: Of::Kind(DriverKind::Robot),
+        test: Test::Table(run),
+    }
+}
+
+type Bare = Opened<abi::RobotCalls>;
+
+fn bare_move(robot: &Bare, target: abi::Pose, speed: f64) -> Result<u64, DriverError> {
     let move_to = robot.handle.needs(robot.calls.move_to, "move_to")?;
     let motion = abi::Motion {
         size: u32::try_from(size_of::<abi::Motion>()).expect("a small struct"),
@@ -30,12 +48,13 @@ pub(super) fn bare_move(robot: &Bare, target: abi::Pose, speed: f64) -> Result<u
     Ok(token)
 }
 
-pub(super) fn bare_pose(subject: &Subject) -> Result<abi::Pose, Ending> {
-    let mut robot = open(subject)?;
+fn bare_pose(subject: &Subject) -> Result<abi::Pose, Unmet> {
+    let session = &subject.session;
+    let mut robot = subject.opened(session.robot(subject.key()?, &subject.args()?))?;
     let SiPose {
         position_m: [x, y, z],
         quaternion: [qw, qx, qy, qz],
-    } = here(&mut *robot)?.into();
+    } = robot.pose(PATIENT)?.0.into();
     Ok(abi::Pose {
         x,
         y,
@@ -47,7 +66,7 @@ pub(super) fn bare_pose(subject: &Subject) -> Result<abi::Pose, Ending> {
     })
 }
 
-pub(super) fn no_targets(subject: &Subject) -> Result<(), Ending> {
+fn no_targets(subject: &Subject) -> Result<(), Unmet> {
     let pose = bare_pose(subject)?;
     let robot: Bare = subject.open()?;
     let none = f64::NAN;
@@ -68,7 +87,7 @@ pub(super) fn no_targets(subject: &Subject) -> Result<(), Ending> {
     ];
     for target in targets {
         let answer = bare_move(&robot, target, 0.001);
-        expect_failure(
+        refused(
             "a target that is none",
             answer,
             &[ErrorKind::InvalidArgument],
@@ -77,20 +96,21 @@ pub(super) fn no_targets(subject: &Subject) -> Result<(), Ending> {
     Ok(())
 }
 
-pub(super) fn no_speeds(subject: &Subject) -> Result<(), Ending> {
+fn no_speeds(subject: &Subject) -> Result<(), Unmet> {
     let pose = bare_pose(subject)?;
     let robot: Bare = subject.open()?;
     for speed in [0.0, -0.001, f64::NAN, f64::INFINITY] {
         let answer = bare_move(&robot, pose, speed);
         let kinds = [ErrorKind::InvalidArgument, ErrorKind::OutOfRange];
-        expect_failure(&format!("a speed of {speed} m/s"), answer, &kinds)?;
+        refused(&format!("a speed of {speed} m/s"), answer, &kinds)?;
     }
     Ok(())
 }
 
-pub(super) fn outside(subject: &Subject) -> Result<(), Ending> {
-    let Some(workspace) = facts(subject)?.workspace else {
-        return Err(Ending::Skipped("it declares no workspace".to_owned()));
+fn outside(subject: &Subject) -> Result<(), Unmet> {
+    let said = subject.said()?;
+    let Some(workspace) = said.robot().and_then(|facts| facts.workspace) else {
+        return Err(skipped("it declares no workspace"));
     };
     let pose = bare_pose(subject)?;
     let robot: Bare = subject.open()?;
@@ -101,7 +121,7 @@ pub(super) fn outside(subject: &Subject) -> Result<(), Ending> {
             ..pose
         };
         let answer = bare_move(&robot, target, 0.001);
-        expect_failure(
+        refused(
             &format!("a target at x = {x_mm} mm"),
             answer,
             &[ErrorKind::OutOfRange],
@@ -110,7 +130,7 @@ pub(super) fn outside(subject: &Subject) -> Result<(), Ending> {
     Ok(())
 }
 
-pub(super) fn wait_without(subject: &Subject) -> Result<(), Ending> {
+fn wait_without(subject: &Subject) -> Result<(), Unmet> {
     let robot: Bare = subject.open()?;
     let wait = robot.handle.needs(robot.calls.wait, "wait")?;
     let mut stamp = abi::Stamp::default();
@@ -121,9 +141,19 @@ pub(super) fn wait_without(subject: &Subject) -> Result<(), Ending> {
                 unsafe { wait(raw, token, &raw mut stamp, 100_000_000, error) }
             })
         });
-        ensure(took < SOON + SOON, || {
+        expect(took < SOON + SOON, || {
             format!("waiting for no motion took {took:?}")
         })?;
     }
     Ok(())
+}
+
+fn dropped_in_motion(subject: &Subject) -> Result<(), Unmet> {
+    subject.may_move()?;
+    let pose = bare_pose(subject)?;
+    let robot: Bare = subject.open()?;
+    let z = pose.z - 1e-4;
+    bare_move(&robot, abi::Pose { z, ..pose }, 0.001)?;
+    drop(robot);
+    bare_pose(subject).map(drop)
 }

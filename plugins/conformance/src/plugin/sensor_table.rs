@@ -11,8 +11,9 @@ use std::time::Duration;
 use taceva_abi as abi;
 use taceva_core::{Deadline, DriverError, DriverKind, ErrorKind};
 
-use super::subject::{Ending, PATIENT, Subject, ensure, expect_failure};
-use super::{Check, Of};
+use super::subject::{PATIENT, Subject};
+use super::{Check, Of, Test};
+use crate::promise::{Unmet, broken, expect, refused, skipped};
 use taceva_host::bare::Opened;
 use taceva_host::bare::timeout;
 
@@ -26,11 +27,11 @@ pub(super) const CHECKS: &[Check] = &[
     check("sensor/release-after-stop", late_release),
 ];
 
-const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Ending>) -> Check {
+const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Unmet>) -> Check {
     Check {
         name,
         of: Of::Kind(DriverKind::Sensor),
-        run,
+        test: Test::Table(run),
     }
 }
 
@@ -53,12 +54,11 @@ impl Drop for Lent {
 }
 
 impl Bare {
-    fn started(subject: &Subject) -> Result<Bare, Ending> {
+    fn started(subject: &Subject) -> Result<Bare, Unmet> {
         let said = subject.said()?;
         let info = said.sensor().and_then(|facts| facts.frame);
         let length = info.and_then(|info| info.byte_len());
-        let length = length
-            .ok_or_else(|| Ending::Broken("it does not say how large its frames are".to_owned()))?;
+        let length = length.ok_or_else(|| broken("it does not say how large its frames are"))?;
         let opened: Opened<abi::SensorCalls> = subject.open()?;
         if let Some(start) = opened.calls.start {
             opened.handle.call("start the sensor", |raw, error| {
@@ -101,26 +101,26 @@ impl Bare {
     }
 
     /// A frame in the plugin's own memory.
-    fn lend(&self) -> Result<Lent, Ending> {
+    fn lend(&self) -> Result<Lent, Unmet> {
         if self.opened.calls.max_lent == 0 {
-            return Err(Ending::Skipped("it never lends".to_owned()));
+            return Err(skipped("it never lends"));
         }
         let lent = self.capture(&mut [], PATIENT)?;
-        ensure(lent.0.release.is_some() && !lent.0.data.is_null(), || {
+        expect(lent.0.release.is_some() && !lent.0.data.is_null(), || {
             "without a buffer it gave a frame that is not lent".to_owned()
         })?;
         Ok(lent)
     }
 }
 
-fn counts(subject: &Subject) -> Result<(), Ending> {
+fn counts(subject: &Subject) -> Result<(), Unmet> {
     let sensor = Bare::started(subject)?;
     let mut pixels = vec![0; sensor.length];
     let mut last = None;
     for _ in 0..10 {
         let frame = sensor.capture(&mut pixels, PATIENT)?;
         let sequence = frame.0.sequence;
-        ensure(last.is_none_or(|last| sequence > last), || {
+        expect(last.is_none_or(|last| sequence > last), || {
             format!("frame {sequence} after frame {last:?}")
         })?;
         last = Some(sequence);
@@ -131,23 +131,23 @@ fn counts(subject: &Subject) -> Result<(), Ending> {
 const CANARY: u8 = 0x5a;
 
 /// A buffer that is too short is refused, or the frame is lent; nothing beyond it is written.
-fn keeps_to_buffer(subject: &Subject) -> Result<(), Ending> {
+fn keeps_to_buffer(subject: &Subject) -> Result<(), Unmet> {
     let sensor = Bare::started(subject)?;
     for room in [1, sensor.length / 2, sensor.length - 1] {
         let mut pixels = vec![CANARY; sensor.length + 64];
         let captured = sensor.capture(&mut pixels[..room.max(1)], PATIENT);
         let beyond = pixels[room.max(1)..].iter().any(|byte| *byte != CANARY);
-        ensure(!beyond, || {
+        expect(!beyond, || {
             format!("it wrote beyond a buffer of {room} bytes")
         })?;
         match captured {
-            Ok(frame) => ensure(frame.0.release.is_some(), || {
+            Ok(frame) => expect(frame.0.release.is_some(), || {
                 format!(
                     "it says that a frame of {} bytes is in {room}",
                     sensor.length
                 )
             })?,
-            Err(error) => expect_failure::<(), _>(
+            Err(error) => refused::<(), _>(
                 "a buffer that is too short",
                 Err(error),
                 &[
@@ -162,16 +162,16 @@ fn keeps_to_buffer(subject: &Subject) -> Result<(), Ending> {
     let length = sensor.length;
     sensor.capture(&mut pixels[..length], PATIENT)?;
     let beyond = pixels[length..].iter().any(|byte| *byte != CANARY);
-    ensure(!beyond, || "it wrote beyond a buffer that fits".to_owned())
+    expect(!beyond, || "it wrote beyond a buffer that fits".to_owned())
 }
 
-fn no_buffer(subject: &Subject) -> Result<(), Ending> {
+fn no_buffer(subject: &Subject) -> Result<(), Unmet> {
     let sensor = Bare::started(subject)?;
     match sensor.capture(&mut [], PATIENT) {
-        Ok(frame) => ensure(frame.0.release.is_some() && !frame.0.data.is_null(), || {
+        Ok(frame) => expect(frame.0.release.is_some() && !frame.0.data.is_null(), || {
             "a frame without a buffer that is not lent".to_owned()
         }),
-        Err(error) => expect_failure::<(), _>(
+        Err(error) => refused::<(), _>(
             "no buffer",
             Err(error),
             &[
@@ -184,7 +184,7 @@ fn no_buffer(subject: &Subject) -> Result<(), Ending> {
 }
 
 /// `release` sets itself to NULL, so that nobody gives a frame back twice.
-fn releases(subject: &Subject) -> Result<(), Ending> {
+fn releases(subject: &Subject) -> Result<(), Unmet> {
     let sensor = Bare::started(subject)?;
     for _ in 0..100 {
         let mut lent = sensor.lend()?;
@@ -193,7 +193,7 @@ fn releases(subject: &Subject) -> Result<(), Ending> {
             unsafe { release(&raw mut lent.0) };
         }
         let is_done = lent.0.release.take().is_none();
-        ensure(is_done, || {
+        expect(is_done, || {
             "`release` did not set itself to NULL".to_owned()
         })?;
     }
@@ -206,7 +206,7 @@ struct Elsewhere(Lent);
 // SAFETY: the interface allows `release` from any thread, and a lent frame belongs to whoever holds it.
 unsafe impl Send for Elsewhere {}
 
-fn releases_elsewhere(subject: &Subject) -> Result<(), Ending> {
+fn releases_elsewhere(subject: &Subject) -> Result<(), Unmet> {
     let sensor = Bare::started(subject)?;
     for _ in 0..20 {
         let lent = Elsewhere(sensor.lend()?);
@@ -217,7 +217,7 @@ fn releases_elsewhere(subject: &Subject) -> Result<(), Ending> {
             });
             elsewhere.join()
         });
-        ensure(given_back.is_ok(), || {
+        expect(given_back.is_ok(), || {
             "giving a frame back panicked".to_owned()
         })?;
     }
@@ -225,7 +225,7 @@ fn releases_elsewhere(subject: &Subject) -> Result<(), Ending> {
 }
 
 /// Frames that are out at once lie apart; one more is refused or waits, and after they are back all goes on.
-fn lends_many(subject: &Subject) -> Result<(), Ending> {
+fn lends_many(subject: &Subject) -> Result<(), Unmet> {
     let sensor = Bare::started(subject)?;
     let most = usize::try_from(sensor.opened.calls.max_lent)
         .unwrap_or(0)
@@ -235,7 +235,7 @@ fn lends_many(subject: &Subject) -> Result<(), Ending> {
         out.push(sensor.lend()?);
     }
     if out.is_empty() {
-        return Err(Ending::Skipped("it never lends".to_owned()));
+        return Err(skipped("it never lends"));
     }
     let within = Deadline::after(Duration::from_millis(100));
     drop(sensor.capture(&mut [], within));
@@ -244,7 +244,7 @@ fn lends_many(subject: &Subject) -> Result<(), Ending> {
     Ok(())
 }
 
-fn late_release(subject: &Subject) -> Result<(), Ending> {
+fn late_release(subject: &Subject) -> Result<(), Unmet> {
     let sensor = Bare::started(subject)?;
     let lent = sensor.lend()?;
     if let Some(stop) = sensor.opened.calls.stop {

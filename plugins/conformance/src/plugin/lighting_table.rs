@@ -8,21 +8,18 @@
 use taceva_abi as abi;
 use taceva_core::{DriverKind, ErrorKind, Facts};
 
-use super::subject::{Draw, Ending, PATIENT, SOON, Subject, ensure, expect_failure, timed};
-use super::{Check, Of};
+use super::subject::{Draw, PATIENT, Subject};
+use super::{Check, Of, Test};
+use crate::promise::{Unmet, broken, refused};
 use taceva_host::bare::timeout;
 
-pub(super) const CHECKS: &[Check] = &[
-    check("lighting/sets-each-scene", sets_each),
-    check("lighting/refuses-other-scenes", refuses_others),
-    check("lighting/passed-deadline", passed_deadline),
-];
+pub(super) const CHECKS: &[Check] = &[check("lighting/refuses-other-scenes", refuses_others)];
 
-const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Ending>) -> Check {
+const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Unmet>) -> Check {
     Check {
         name,
         of: Of::Kind(DriverKind::Lighting),
-        run,
+        test: Test::Table(run),
     }
 }
 
@@ -36,24 +33,14 @@ fn set(lamp: &Lamp, scene: abi::Text, within: u64) -> Result<(), taceva_core::Dr
     })
 }
 
-fn scenes(subject: &Subject) -> Result<Vec<String>, Ending> {
+fn scenes(subject: &Subject) -> Result<Vec<String>, Unmet> {
     match subject.said()?.facts() {
         Facts::Lighting(facts) => Ok(facts.scenes.clone()),
-        _ => Err(Ending::Broken("it says it is no lighting".to_owned())),
+        _ => Err(broken("it says it is no lighting")),
     }
 }
 
-fn sets_each(subject: &Subject) -> Result<(), Ending> {
-    let lamp = subject.open()?;
-    for _ in 0..2 {
-        for scene in scenes(subject)? {
-            set(&lamp, abi::Text::from(&scene), timeout(PATIENT))?;
-        }
-    }
-    Ok(())
-}
-
-fn refuses_others(subject: &Subject) -> Result<(), Ending> {
+fn refuses_others(subject: &Subject) -> Result<(), Unmet> {
     let lamp = subject.open()?;
     let rubbish = Draw::new(subject.probe.seed).bytes(40);
     let rubbish = abi::Text {
@@ -70,7 +57,7 @@ fn refuses_others(subject: &Subject) -> Result<(), Ending> {
         rubbish,
     ] {
         let answer = set(&lamp, scene, timeout(PATIENT));
-        expect_failure(
+        refused(
             "a scene that it does not have",
             answer,
             &[ErrorKind::InvalidArgument],
@@ -78,27 +65,12 @@ fn refuses_others(subject: &Subject) -> Result<(), Ending> {
     }
     if !scenes(subject)?.iter().any(|scene| scene == shorter) {
         let answer = set(&lamp, abi::Text::from(shorter), timeout(PATIENT));
-        expect_failure(
+        refused(
             "the beginning of a scene",
             answer,
             &[ErrorKind::InvalidArgument],
         )?;
     }
     set(&lamp, abi::Text::from(&first), timeout(PATIENT))?;
-    Ok(())
-}
-
-fn passed_deadline(subject: &Subject) -> Result<(), Ending> {
-    let lamp = subject.open()?;
-    for scene in scenes(subject)? {
-        let (answer, took) = timed(|| set(&lamp, abi::Text::from(&scene), 0));
-        ensure(took < SOON, || {
-            format!("no time was given, and it took {took:?}")
-        })?;
-        match answer {
-            Err(error) if error.kind() != ErrorKind::Timeout => return Err(error.into()),
-            _ => {}
-        }
-    }
     Ok(())
 }

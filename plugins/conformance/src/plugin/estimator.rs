@@ -7,8 +7,9 @@ use taceva_core::{
     SavedRegressor, SilentProgress, Targets, TrainingSet,
 };
 
-use super::subject::{Draw, Ending, Subject, ensure, expect_failure, writable_memory};
-use super::{Check, Of};
+use super::subject::{Draw, Subject, writable_memory};
+use super::{Check, Of, Test};
+use crate::promise::{Unmet, expect, refused};
 use taceva_host::{FitRequest, Session};
 
 pub(super) const CHECKS: &[Check] = &[
@@ -22,11 +23,11 @@ pub(super) const CHECKS: &[Check] = &[
     check("estimator/memory-of-1000-models", memory),
 ];
 
-const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Ending>) -> Check {
+const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Unmet>) -> Check {
     Check {
         name,
         of: Of::Estimator,
-        run,
+        test: Test::Table(run),
     }
 }
 
@@ -40,7 +41,7 @@ struct Samples {
 }
 
 /// Samples whose targets are sums of their features.
-fn samples(seed: u64) -> Result<Samples, Ending> {
+fn samples(seed: u64) -> Result<Samples, Unmet> {
     let mut draw = Draw::new(seed);
     let mut values = Vec::new();
     let mut features = Vec::new();
@@ -57,7 +58,7 @@ fn samples(seed: u64) -> Result<Samples, Ending> {
     Ok(Samples {
         features: Features::new(FeatureShape::flat(LENGTH), features)?,
         channels: Channels::new([Channel::FZ, Channel::PZ])
-            .map_err(|error| Ending::Broken(error.to_string()))?,
+            .map_err(|error| Unmet::Broken(error.to_string()))?,
         values,
     })
 }
@@ -90,17 +91,17 @@ fn predicted(model: &dyn SavedRegressor, samples: &Samples) -> Result<Vec<u64>, 
     Ok(into.into_iter().map(f64::to_bits).collect())
 }
 
-fn fits(subject: &Subject) -> Result<(), Ending> {
+fn fits(subject: &Subject) -> Result<(), Unmet> {
     let samples = samples(subject.probe.seed)?;
     predicted(&*fit(subject, &samples, &SilentProgress)?, &samples)?;
     Ok(())
 }
 
-fn same_twice(subject: &Subject) -> Result<(), Ending> {
+fn same_twice(subject: &Subject) -> Result<(), Unmet> {
     let samples = samples(subject.probe.seed)?;
     let one = predicted(&*fit(subject, &samples, &SilentProgress)?, &samples)?;
     let other = predicted(&*fit(subject, &samples, &SilentProgress)?, &samples)?;
-    ensure(one == other, || {
+    expect(one == other, || {
         "two fits on the same samples predict otherwise".to_owned()
     })
 }
@@ -117,26 +118,26 @@ fn load(
     subject.session.load(key, &saved)
 }
 
-fn keeps(subject: &Subject) -> Result<(), Ending> {
+fn keeps(subject: &Subject) -> Result<(), Unmet> {
     let samples = samples(subject.probe.seed)?;
     let model = fit(subject, &samples, &SilentProgress)?;
     let before = predicted(&*model, &samples)?;
     let bytes = model.save()?;
-    ensure(bytes == model.save()?, || {
+    expect(bytes == model.save()?, || {
         "it saves otherwise the second time".to_owned()
     })?;
     drop(model);
     let again = load(subject, &samples, &bytes)?;
-    ensure(predicted(&*again, &samples)? == before, || {
+    expect(predicted(&*again, &samples)? == before, || {
         "loaded again it predicts otherwise".to_owned()
     })?;
-    ensure(again.save()? == bytes, || {
+    expect(again.save()? == bytes, || {
         "loaded again it saves otherwise".to_owned()
     })
 }
 
 /// Bytes that are no model are refused; those that differ from one in a few bits are, or predict something.
-fn hostile(subject: &Subject) -> Result<(), Ending> {
+fn hostile(subject: &Subject) -> Result<(), Unmet> {
     let samples = samples(subject.probe.seed)?;
     let bytes = fit(subject, &samples, &SilentProgress)?.save()?;
     let mut draw = Draw::new(subject.probe.seed);
@@ -147,11 +148,11 @@ fn hostile(subject: &Subject) -> Result<(), Ending> {
             ErrorKind::InvalidArgument,
             ErrorKind::OutOfRange,
         ];
-        expect_failure(&format!("{length} bytes of rubbish"), answer, &kinds)?;
+        refused(&format!("{length} bytes of rubbish"), answer, &kinds)?;
     }
     for cut in 0..bytes.len().min(200) {
         let answer = load(subject, &samples, &bytes[..cut]);
-        ensure(answer.is_err(), || {
+        expect(answer.is_err(), || {
             format!("the first {cut} bytes of a model were taken for one")
         })?;
     }
@@ -182,7 +183,7 @@ impl Progress for Cancelled {
 }
 
 /// A fit that is cancelled ends, and says so unless it was done before it asked.
-fn cancels(subject: &Subject) -> Result<(), Ending> {
+fn cancels(subject: &Subject) -> Result<(), Unmet> {
     let samples = samples(subject.probe.seed)?;
     match fit(subject, &samples, &Cancelled) {
         Err(error) if error.kind() != ErrorKind::Interrupted => Err(error.into()),
@@ -190,14 +191,14 @@ fn cancels(subject: &Subject) -> Result<(), Ending> {
     }
 }
 
-fn nothing(subject: &Subject) -> Result<(), Ending> {
+fn nothing(subject: &Subject) -> Result<(), Unmet> {
     let samples = samples(subject.probe.seed)?;
     let model = fit(subject, &samples, &SilentProgress)?;
     let none = Features::new(samples.features.shape(), Vec::new())?;
     Ok(model.predict(&none, &mut [])?)
 }
 
-fn threads(subject: &Subject) -> Result<(), Ending> {
+fn threads(subject: &Subject) -> Result<(), Unmet> {
     let samples = samples(subject.probe.seed)?;
     let model = fit(subject, &samples, &SilentProgress)?;
     let expected = predicted(&*model, &samples)?;
@@ -214,12 +215,12 @@ fn threads(subject: &Subject) -> Result<(), Ending> {
             .into_iter()
             .all(|thread| thread.join().unwrap_or(false))
     });
-    ensure(same, || {
+    expect(same, || {
         "four threads got other predictions than one".to_owned()
     })
 }
 
-fn memory(subject: &Subject) -> Result<(), Ending> {
+fn memory(subject: &Subject) -> Result<(), Unmet> {
     let samples = samples(subject.probe.seed)?;
     let bytes = fit(subject, &samples, &SilentProgress)?.save()?;
     let round = || load(subject, &samples, &bytes).map(drop);
@@ -227,7 +228,7 @@ fn memory(subject: &Subject) -> Result<(), Ending> {
     let before = writable_memory()?;
     (0..900).try_for_each(|_| round())?;
     let grown = writable_memory()?.saturating_sub(before);
-    ensure(grown < 1 << 20, || {
+    expect(grown < 1 << 20, || {
         format!(
             "900 models left {} KiB behind, expected less than 1024",
             grown >> 10

@@ -1,20 +1,17 @@
-//! Whether a plugin keeps its promises: many small checks, each in a confined process of its own with a time limit.
+//! Promises of a plugin, each checked in a confined process of its own with a time limit.
 //!
 //! A check runs beside the plugin, in the child, and calls the functions of its tables as a host would, and as no host should. Whatever it
 //! does to its process, the others go on. A plugin that its user trusts is checked as it runs: in a process that nothing is kept from.
 
-mod changer;
+mod changer_table;
 mod driver;
 mod estimator;
-mod force;
-mod lending;
 mod library;
-mod lighting;
+mod lighting_table;
 mod probe;
-mod robot;
+mod robot_table;
 mod run;
-mod sensor;
-mod streaming;
+mod sensor_table;
 mod subject;
 mod surroundings;
 
@@ -24,28 +21,34 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use serde::Serialize;
-use taceva_core::{DriverError, DriverKey, DriverKind, ErrorKind};
+use taceva_core::{
+    Changer, DriverError, DriverKey, DriverKind, ErrorKind, ForceTransducer, Lighting, Robot,
+    Sensor,
+};
+use taceva_host::bare::CALL;
+use taceva_host::{
+    ChildError, Examination, ExaminationError, ExaminationOrder, Fate, InProcess, Linked, Log,
+    ModuleToImport, NOT_ALLOWED, Plugin, PluginHost, Provided, Session,
+};
 
 use self::probe::Probe;
 use self::run::run;
-use self::subject::{Ending, Subject};
-use taceva_host::bare::CALL;
-use taceva_host::{
-    ChildError, Examination, ExaminationError, ExaminationOrder, Fate, Linked, Log, ModuleToImport,
-    NOT_ALLOWED, Plugin, PluginHost, Provided,
-};
+use self::subject::Subject;
+use crate::promise::{Promise, Unmet};
+use crate::report::Outcome;
+use crate::trial::{NO_DEVICE, Tried};
+use crate::{changer, force, lighting, robot, sensor};
 
-/// One thing that a plugin promises.
+/// One promise of a plugin.
 #[derive(Clone, Copy)]
 pub struct Check {
     /// Its name: the group, and what holds.
     pub name: &'static str,
-    /// What it is about.
     pub(crate) of: Of,
-    pub(crate) run: fn(&Subject) -> Result<(), Ending>,
+    pub(crate) test: Test,
 }
 
-/// What a check is about.
+/// The subject of a check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Of {
     /// The library as a whole.
@@ -58,6 +61,90 @@ pub(crate) enum Of {
     Estimator,
 }
 
+/// The test of a check: of a bare table, or of a device as every driver of its kind is tested.
+#[derive(Clone, Copy)]
+pub(crate) enum Test {
+    Table(fn(&Subject) -> Result<(), Unmet>),
+    Sensor(DeviceTest<dyn Sensor>),
+    Robot(DeviceTest<dyn Robot>),
+    Force(DeviceTest<dyn ForceTransducer>),
+    Lighting(DeviceTest<dyn Lighting>),
+    Changer(DeviceTest<dyn Changer>),
+}
+
+type DeviceTest<D> = fn(&Tried<'_, D>) -> Result<(), Unmet>;
+
+impl Test {
+    fn run(self, subject: &Subject) -> Result<(), Unmet> {
+        match self {
+            Test::Table(test) => test(subject),
+            Test::Sensor(test) => subject.tries(InProcess::sensor, test),
+            Test::Robot(test) => subject.tries(InProcess::robot, test),
+            Test::Force(test) => subject.tries(InProcess::force, test),
+            Test::Lighting(test) => subject.tries(InProcess::lighting, test),
+            Test::Changer(test) => subject.tries(InProcess::changer, test),
+        }
+    }
+}
+
+impl std::fmt::Debug for Check {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name)
+    }
+}
+
+/// Every check, group by group.
+pub fn checks() -> Vec<Check> {
+    [
+        library::CHECKS.to_vec(),
+        driver::CHECKS.to_vec(),
+        of_kind(
+            DriverKind::Sensor,
+            sensor::PROMISES,
+            Test::Sensor,
+            sensor_table::CHECKS,
+        ),
+        of_kind(
+            DriverKind::Robot,
+            robot::PROMISES,
+            Test::Robot,
+            robot_table::CHECKS,
+        ),
+        of_kind(DriverKind::Force, force::PROMISES, Test::Force, &[]),
+        of_kind(
+            DriverKind::Lighting,
+            lighting::PROMISES,
+            Test::Lighting,
+            lighting_table::CHECKS,
+        ),
+        of_kind(
+            DriverKind::Changer,
+            changer::PROMISES,
+            Test::Changer,
+            changer_table::CHECKS,
+        ),
+        estimator::CHECKS.to_vec(),
+    ]
+    .concat()
+}
+
+/// The promises of a kind, and those of its table, which take the place of others of the same name: there the host would answer for the plugin.
+fn of_kind<D: ?Sized>(
+    kind: DriverKind,
+    promises: &'static [Promise<D>],
+    test: fn(DeviceTest<D>) -> Test,
+    table: &'static [Check],
+) -> Vec<Check> {
+    let is_of_table = |name: &str| table.iter().any(|check| check.name == name);
+    let of_devices = promises.iter().filter(|(name, _)| !is_of_table(name));
+    let of_devices = of_devices.map(|(name, promise)| Check {
+        name,
+        of: Of::Kind(kind),
+        test: test(*promise),
+    });
+    of_devices.chain(table.iter().copied()).collect()
+}
+
 /// Serves as the child of a host and ends, if this process was started as one; such a child makes checks too.
 ///
 /// A program that checks plugins calls this in the place of [`taceva_host::main_if_child`].
@@ -68,29 +155,6 @@ pub fn main_if_child() {
 /// The same as [`taceva_host::serve_as_child`], and makes checks of the module.
 pub fn serve_as_child(import: impl FnOnce(&ModuleToImport) -> Result<Linked, String>) -> i32 {
     taceva_host::serve_as_child(import, Some(run))
-}
-
-impl std::fmt::Debug for Check {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.name)
-    }
-}
-
-/// Every check, group by group.
-pub fn checks() -> impl Iterator<Item = &'static Check> {
-    [
-        library::CHECKS,
-        driver::CHECKS,
-        sensor::CHECKS,
-        lending::CHECKS,
-        robot::CHECKS,
-        force::CHECKS,
-        lighting::CHECKS,
-        changer::CHECKS,
-        estimator::CHECKS,
-    ]
-    .into_iter()
-    .flatten()
 }
 
 /// How a plugin is checked.
@@ -123,18 +187,6 @@ impl Default for CheckRequest {
 /// In the message of a device that did not open.
 const NOT_OPENED: &str = ": cannot open the device: ";
 
-/// How a check ended.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[serde(tag = "outcome", content = "why", rename_all = "lowercase")]
-pub enum CheckOutcome {
-    /// The promise holds.
-    Passed,
-    /// It does not, for this reason.
-    Failed(String),
-    /// It could not be looked at, for this reason.
-    Skipped(String),
-}
-
 /// A check that was made.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CheckResult {
@@ -145,7 +197,7 @@ pub struct CheckResult {
     pub subject: Option<String>,
     /// How it ended.
     #[serde(flatten)]
-    pub outcome: CheckOutcome,
+    pub outcome: Outcome,
     /// How long it took, in seconds.
     pub took_s: f64,
 }
@@ -162,14 +214,14 @@ pub fn check(
 ) -> Result<(), DriverError> {
     // One that cannot be run at all breaks no promise: its user hears why, once.
     let examination = host.examination(plugin)?;
-    let is_wanted = |check: &&Check| {
+    let is_wanted = |check: &Check| {
         let mut only = request.only.iter();
         request.only.is_empty() || only.any(|begin| check.name.starts_with(begin))
     };
     // Of each driver, why a check failed or could not be made, and which one was the first: a cause is told once.
     let mut causes: BTreeMap<(Option<String>, String), &'static str> = BTreeMap::new();
-    for check in checks().filter(is_wanted) {
-        for key in subjects(check, plugin) {
+    for check in checks().into_iter().filter(is_wanted) {
+        for key in subjects(&check, plugin) {
             let probe = Probe {
                 check: check.name.to_owned(),
                 driver: key.map(ToString::to_string).unwrap_or_default(),
@@ -183,15 +235,15 @@ pub fn check(
             let begun = Instant::now();
             let mut outcome = made(&examination, &probe, request.limit);
             let cause = match &outcome {
-                CheckOutcome::Failed(why) => Some((why.clone(), "failed")),
-                CheckOutcome::Skipped(why) => Some((why.clone(), "was skipped")),
-                CheckOutcome::Passed => None,
+                Outcome::Failed(why) => Some((why.clone(), "failed")),
+                Outcome::Skipped(why) => Some((why.clone(), "was skipped")),
+                Outcome::Passed => None,
             };
             if let Some((why, how)) = cause {
                 match causes.entry((key.map(ToString::to_string), why)) {
                     Entry::Occupied(first) => {
                         let why = format!("for the reason why `{}` {how}", first.get());
-                        outcome = CheckOutcome::Skipped(why);
+                        outcome = Outcome::Skipped(why);
                     }
                     Entry::Vacant(first) => {
                         first.insert(check.name);
@@ -210,7 +262,7 @@ pub fn check(
 }
 
 /// One check, in a child.
-fn made(examination: &Examination<'_>, probe: &Probe, limit: Duration) -> CheckOutcome {
+fn made(examination: &Examination<'_>, probe: &Probe, limit: Duration) -> Outcome {
     let call = Arc::new(Mutex::new(String::new()));
     let order = ExaminationOrder {
         driver: &probe.driver,
@@ -227,10 +279,10 @@ fn made(examination: &Examination<'_>, probe: &Probe, limit: Duration) -> CheckO
     });
     let (error, withheld, lacks_bound) = match printed {
         Ok(printed) if probe.check == library::QUIET && !printed.is_empty() => {
-            return CheckOutcome::Failed(format!("it printed {printed:?}"));
+            return Outcome::Failed(format!("it printed {printed:?}"));
         }
-        Ok(_) => return CheckOutcome::Passed,
-        Err(ExaminationError::Unready(why)) => return CheckOutcome::Failed(why),
+        Ok(_) => return Outcome::Passed,
+        Err(ExaminationError::Unready(why)) => return Outcome::Failed(why),
         Err(ExaminationError::Child {
             error,
             withheld,
@@ -243,16 +295,16 @@ fn made(examination: &Examination<'_>, probe: &Probe, limit: Duration) -> CheckO
     match &outcome {
         // What its arguments name is not allowed, so the name of a machine was not looked up for it either: one cause, whatever it is
         // that the plugin noticed.
-        CheckOutcome::Failed(why) | CheckOutcome::Skipped(why)
-            if lacks_bound && (why.starts_with(subject::NO_DEVICE) || why.contains(NOT_OPENED)) =>
+        Outcome::Failed(why) | Outcome::Skipped(why)
+            if lacks_bound && (why.starts_with(NO_DEVICE) || why.contains(NOT_OPENED)) =>
         {
-            CheckOutcome::Failed(format!("{NOT_ALLOWED}; {withheld}"))
+            Outcome::Failed(format!("{NOT_ALLOWED}; {withheld}"))
         }
-        CheckOutcome::Failed(why) | CheckOutcome::Skipped(why) => {
+        Outcome::Failed(why) | Outcome::Skipped(why) => {
             let explained = withheld.explain(why);
-            explained.map_or(outcome, CheckOutcome::Failed)
+            explained.map_or(outcome, Outcome::Failed)
         }
-        CheckOutcome::Passed => outcome,
+        Outcome::Passed => outcome,
     }
 }
 
@@ -285,23 +337,23 @@ fn hung_in(error: ChildError, call: &str) -> ChildError {
     }
 }
 
-fn ended(error: ChildError) -> CheckOutcome {
+fn ended(error: ChildError) -> Outcome {
     match error {
         ChildError::Refused {
             kind: ErrorKind::Unsupported,
             why,
             ..
         } if why.starts_with(run::SKIPPED) => {
-            CheckOutcome::Skipped(why[run::SKIPPED.len()..].to_owned())
+            Outcome::Skipped(why[run::SKIPPED.len()..].to_owned())
         }
-        ChildError::Refused { why, .. } => CheckOutcome::Failed(why),
+        ChildError::Refused { why, .. } => Outcome::Failed(why),
         ChildError::Gone { fate, printed, .. } if printed.is_empty() => {
-            CheckOutcome::Failed(format!("the process ended: {fate}"))
+            Outcome::Failed(format!("the process ended: {fate}"))
         }
         ChildError::Gone { fate, printed, .. } => {
-            CheckOutcome::Failed(format!("the process ended: {fate}; it printed {printed:?}"))
+            Outcome::Failed(format!("the process ended: {fate}; it printed {printed:?}"))
         }
-        other => CheckOutcome::Failed(other.to_string()),
+        other => Outcome::Failed(other.to_string()),
     }
 }
 
@@ -327,8 +379,8 @@ mod tests {
 
     #[test]
     fn there_are_at_least_48_checks_and_no_two_of_one_name() {
-        let names: BTreeSet<&str> = checks().map(|check| check.name).collect();
-        assert_eq!(names.len(), checks().count());
+        let names: BTreeSet<&str> = checks().iter().map(|check| check.name).collect();
+        assert_eq!(names.len(), checks().len());
         assert!(names.len() >= 48, "{}", names.len());
     }
 }

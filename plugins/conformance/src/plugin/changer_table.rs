@@ -1,0 +1,82 @@
+//! Promises of a changer's table: names that no host passes on.
+
+#![expect(
+    unsafe_code,
+    reason = "the functions of the device are called as no host does"
+)]
+
+use taceva_abi as abi;
+use taceva_core::{DriverError, DriverKind, ErrorKind};
+
+use super::subject::{Draw, PATIENT, Subject};
+use super::{Check, Of, Test};
+use crate::promise::{Unmet, refused, skipped};
+use taceva_host::Session;
+use taceva_host::bare::{Taken, take, timeout};
+
+pub(super) const CHECKS: &[Check] = &[
+    check("changer/refuses-other-names", refuses_others),
+    check("changer/nobody-takes-the-name", nobody_takes),
+];
+
+const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Unmet>) -> Check {
+    Check {
+        name,
+        of: Of::Kind(DriverKind::Changer),
+        test: Test::Table(run),
+    }
+}
+
+/// The names of what the changer holds; skipped if its arguments have it hold nothing.
+fn holds(subject: &Subject) -> Result<Vec<String>, Unmet> {
+    let session = &subject.session;
+    let changer = subject.opened(session.changer(subject.key()?, &subject.args()?))?;
+    match changer.holds().to_vec() {
+        holds if holds.is_empty() => Err(skipped("with these arguments it holds nothing")),
+        holds => Ok(holds),
+    }
+}
+
+type Bare = taceva_host::bare::Opened<abi::ChangerCalls>;
+
+/// Past the host, which knows what it holds and refuses the rest.
+fn bare_bring(changer: &Bare, name: abi::Text, take: abi::TakeText) -> Result<(), DriverError> {
+    let bring = changer.handle.needs(changer.calls.bring, "bring")?;
+    let mut taken = Taken::default();
+    let context = taken.context();
+    changer.handle.call("bring it into place", |raw, error| {
+        // SAFETY: [owner & open], with a text, a context and an error that outlive the call.
+        unsafe { bring(raw, name, timeout(PATIENT), take, context, error) }
+    })
+}
+
+fn refuses_others(subject: &Subject) -> Result<(), Unmet> {
+    let holds = holds(subject)?;
+    let changer: Bare = subject.open()?;
+    let rubbish = Draw::new(subject.probe.seed).bytes(40);
+    let rubbish = abi::Text {
+        data: rubbish.as_ptr().cast(),
+        length: rubbish.len(),
+    };
+    let longer = format!("{}x", holds[0]);
+    for name in [
+        abi::Text::from("no such thing"),
+        abi::Text::from(&longer),
+        abi::Text::EMPTY,
+        rubbish,
+    ] {
+        let answer = bare_bring(&changer, name, Some(take));
+        let kinds = [ErrorKind::InvalidArgument];
+        refused("a name that it does not hold", answer, &kinds)?;
+    }
+    Ok(())
+}
+
+fn nobody_takes(subject: &Subject) -> Result<(), Unmet> {
+    subject.may_move()?;
+    let holds = holds(subject)?;
+    let changer: Bare = subject.open()?;
+    let answer = bare_bring(&changer, abi::Text::from(&holds[0]), None);
+    let kinds = [ErrorKind::InvalidArgument];
+    refused("nobody who takes the name", answer, &kinds)
+}

@@ -1,0 +1,266 @@
+//! What a check looks at: a loaded plugin, and one of its drivers.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use taceva_abi as abi;
+use taceva_core::{
+    Args, Deadline, Descriptor, DescriptorError, Device, DriverError, DriverKey, DriverSource,
+    Factory, Rig,
+};
+use taceva_host::bare::{ArgList, Entry, Opened, RigHandle, Source, Table, call, open};
+use taceva_host::{Failure, InProcess, Library, Manifest, Provided, Session};
+
+use super::probe::Probe;
+use super::surroundings::Surroundings;
+use crate::promise::{Kinded, Unmet, broken, skipped};
+use crate::trial::{NO_DEVICE, Trial, Tried, unopened};
+
+/// The time that a call gets which should succeed.
+pub(super) const PATIENT: Deadline = Deadline::after(Duration::from_secs(5));
+/// Within which an interrupt and a halt act.
+pub(super) const AT_ONCE: Duration = Duration::from_millis(50);
+/// Within which whatever should return at once does, on a busy machine.
+pub(super) const SOON: Duration = Duration::from_millis(500);
+
+/// How often one check opens a real device.
+const REAL_OPENINGS: usize = 3;
+
+/// A loaded plugin, and one of its drivers or estimators.
+pub(crate) struct Subject {
+    pub(super) probe: Probe,
+    pub(super) library: Arc<Library>,
+    pub(super) source: Source,
+    pub(super) manifest: Manifest,
+    pub(super) session: InProcess,
+    /// As it was before the plugin was loaded.
+    pub(super) before: Surroundings,
+    key: Option<DriverKey>,
+}
+
+impl Subject {
+    pub(super) fn new(source: Source, manifest: &Manifest, probe: Probe) -> Result<Subject, Unmet> {
+        let failed = |error: &dyn std::fmt::Display| broken(error.to_string());
+        let before = Surroundings::now();
+        let library = source
+            .load(Some(manifest), Box::new(|_, _, _| {}))
+            .map_err(|error| failed(&error.problem()))?;
+        let session = InProcess::open(&library)?;
+        let key = match probe.driver.as_str() {
+            "" => None,
+            driver => Some(driver.parse().map_err(|error| failed(&error))?),
+        };
+        Ok(Subject {
+            probe,
+            library,
+            source,
+            manifest: manifest.clone(),
+            session,
+            before,
+            key,
+        })
+    }
+
+    /// The key of the driver or estimator.
+    pub(super) fn key(&self) -> Result<&DriverKey, Unmet> {
+        let none = || broken("this check is of a driver");
+        self.key.as_ref().ok_or_else(none)
+    }
+
+    pub(super) fn entry(&self) -> Result<&Entry, Unmet> {
+        let key = self.key()?;
+        let entry = self.library.any(key);
+        entry.ok_or_else(|| Unmet::Broken(format!("`{key}` is not there")))
+    }
+
+    /// What the manifest says of the driver.
+    pub(super) fn descriptor(&self) -> Result<&Descriptor, Unmet> {
+        match &self.entry()?.provided {
+            Provided::Driver { descriptor, .. } => Ok(descriptor),
+            _ => Err(broken("it is no driver")),
+        }
+    }
+
+    /// The arguments to open it with: those that were given, or what it declares.
+    pub(super) fn args(&self) -> Result<Args, Unmet> {
+        let args = Args::parse(self.entry()?.arguments(), &self.probe.arguments);
+        args.map_err(|error| {
+            let key = &self.probe.driver;
+            Unmet::Skipped(format!("{error}: give it with `--with {key}:…`"))
+        })
+    }
+
+    pub(super) fn list(&self) -> Result<ArgList, Unmet> {
+        Ok(ArgList::new(&self.args()?, self.entry()?.arguments()))
+    }
+
+    /// What the library says of the driver with its arguments.
+    pub(super) fn said(&self) -> Result<Descriptor, Unmet> {
+        Ok(self.session.describe(self.key()?, &self.args()?)?)
+    }
+
+    /// The device with its bare table, in a rig of its own.
+    pub(super) fn open<T: Table>(&self) -> Result<Opened<T>, Unmet> {
+        let rig = RigHandle::open(&self.library)?;
+        self.opened(open(&rig, self.entry()?, &self.list()?))
+    }
+
+    /// A device that opened, or why it did not.
+    pub(super) fn opened<T>(&self, opened: Result<T, DriverError>) -> Result<T, Unmet> {
+        opened.map_err(|error| self.not_opened(error))
+    }
+
+    /// Why a device did not open: one that exists, and is not here, keeps no promise and breaks none.
+    fn not_opened(&self, error: DriverError) -> Unmet {
+        match unopened(error, self.is_real()) {
+            Unmet::Skipped(why) => Unmet::Skipped(self.with_place(&why)),
+            broken => broken,
+        }
+    }
+
+    /// Whether its devices are made of matter, and wear.
+    pub(super) fn is_real(&self) -> bool {
+        let descriptor = self.descriptor();
+        descriptor.is_ok_and(|descriptor| descriptor.source() == DriverSource::Real)
+    }
+
+    /// How often a device is opened that `simulated` times would be if it were none: a real one takes seconds and wears.
+    pub(super) fn openings(&self, simulated: usize) -> usize {
+        if self.is_real() {
+            simulated.min(REAL_OPENINGS)
+        } else {
+            simulated
+        }
+    }
+
+    /// Tries a promise of the devices `D`, each opened by `open` in a rig of its own.
+    pub(super) fn tries<D: Device + ?Sized>(
+        &self,
+        open: OpenIn<D>,
+        test: fn(&Tried<'_, D>) -> Result<(), Unmet>,
+    ) -> Result<(), Unmet> {
+        // What is missing is said in words of the command.
+        self.args()?;
+        let driver = InLibrary {
+            library: &self.library,
+            session: &self.session,
+            descriptor: self.descriptor()?,
+            open,
+        };
+        let trial = Trial {
+            deadline: PATIENT,
+            at_once: SOON,
+            acts_within: AT_ONCE,
+            moves: self.probe.moves || driver.descriptor.source() == DriverSource::Simulated,
+            ..Trial::with_arguments(&*self.probe.arguments)
+        };
+        let tried = Tried::new(&driver, &trial).and_then(|tried| test(&tried));
+        match tried {
+            Err(Unmet::Skipped(why)) if why.starts_with(NO_DEVICE) => {
+                Err(Unmet::Skipped(self.with_place(&why)))
+            }
+            tried => tried,
+        }
+    }
+
+    /// Skips a promise that moves a device, unless it is a simulation or the user allowed it.
+    pub(super) fn may_move(&self) -> Result<(), Unmet> {
+        if self.probe.moves || self.descriptor()?.source() == DriverSource::Simulated {
+            return Ok(());
+        }
+        Err(skipped("it would move a real device; `--move` allows it"))
+    }
+
+    /// `why`, and the argument of the command that names a device.
+    fn with_place(&self, why: &str) -> String {
+        let key = &self.probe.driver;
+        format!("{why}; `--with {key}:…` says where one is")
+    }
+}
+
+/// Opens a device of a session.
+pub(super) type OpenIn<D> = fn(&InProcess, &DriverKey, &Args) -> Result<Box<D>, DriverError>;
+
+/// A driver of the library that is checked.
+struct InLibrary<'a, D: ?Sized> {
+    library: &'a Arc<Library>,
+    session: &'a InProcess,
+    descriptor: &'a Descriptor,
+    open: OpenIn<D>,
+}
+
+impl<D: Device + ?Sized> Factory<D> for InLibrary<'_, D> {
+    fn descriptor(&self) -> &Descriptor {
+        self.descriptor
+    }
+
+    fn describe(&self, args: &Args) -> Result<Descriptor, DescriptorError> {
+        // What the library says of itself is for another check; without it the manifest speaks.
+        let said = self.session.describe(self.descriptor.key(), args);
+        Ok(said.unwrap_or_else(|_| self.descriptor.clone()))
+    }
+
+    fn open(&self, args: &Args, _: &mut Rig) -> Result<Box<D>, DriverError> {
+        let session = InProcess::open(self.library)?;
+        (self.open)(&session, self.descriptor.key(), args)
+    }
+}
+
+/// Calls a function of a bare table; the failure is what the plugin says.
+pub(super) fn bare(run: impl FnOnce(*mut abi::Error) -> abi::Status) -> Result<(), Failure> {
+    call(|error| run(std::ptr::from_mut(error)))
+}
+
+/// How long `run` takes.
+pub(super) fn timed<T>(run: impl FnOnce() -> T) -> (T, Duration) {
+    let begun = Instant::now();
+    let result = run();
+    (result, begun.elapsed())
+}
+
+/// A number drawn from a seed: xorshift64*, enough for rubbish.
+pub(super) struct Draw(u64);
+
+impl Draw {
+    pub(super) fn new(seed: u64) -> Draw {
+        Draw(seed ^ 0x9e37_79b9_7f4a_7c15)
+    }
+
+    pub(super) fn next(&mut self) -> u64 {
+        let mut state = self.0 | 1;
+        state ^= state >> 12;
+        state ^= state << 25;
+        state ^= state >> 27;
+        self.0 = state;
+        state.wrapping_mul(0x2545_f491_4f6c_dd1d)
+    }
+
+    pub(super) fn bytes(&mut self, length: usize) -> Vec<u8> {
+        (0..length).map(|_| self.next().to_le_bytes()[7]).collect()
+    }
+}
+
+/// Memory of this process that may be written, in bytes: what a leak adds to.
+pub(super) fn writable_memory() -> Result<u64, Unmet> {
+    let maps = std::fs::read_to_string("/proc/self/maps")
+        .map_err(|error| Unmet::Skipped(format!("/proc/self/maps: {error}")))?;
+    let length = |line: &str| -> Option<u64> {
+        let (range, rest) = line.split_once(' ')?;
+        let (from, to) = range.split_once('-')?;
+        let [from, to] = [from, to].map(|digits| u64::from_str_radix(digits, 16).ok());
+        rest.starts_with("rw").then_some(to? - from?)
+    };
+    Ok(maps.lines().filter_map(length).sum())
+}
+
+impl From<Failure> for Unmet {
+    fn from(failure: Failure) -> Unmet {
+        Unmet::Broken(failure.message())
+    }
+}
+
+impl Kinded for Failure {
+    fn of_kind(&self) -> taceva_core::ErrorKind {
+        self.kind()
+    }
+}

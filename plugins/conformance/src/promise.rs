@@ -1,0 +1,118 @@
+//! A promise of a driver, and the helpers that say how one was broken.
+
+use std::fmt;
+
+use taceva_core::{DriverError, ErrorKind, ModelError, Stamp};
+
+use crate::trial::Tried;
+
+/// One promise of the devices `D`: its name, `kind/words`, and its test.
+pub(crate) type Promise<D> = (&'static str, fn(&Tried<'_, D>) -> Result<(), Unmet>);
+
+/// Reason why a promise was not shown to hold.
+#[derive(Debug)]
+pub(crate) enum Unmet {
+    /// The driver broke it.
+    Broken(String),
+    /// It could not be tried, or says nothing about this driver.
+    Skipped(String),
+}
+
+impl From<DriverError> for Unmet {
+    fn from(error: DriverError) -> Unmet {
+        Unmet::Broken(format!("{error} ({})", error.kind()))
+    }
+}
+
+impl From<ModelError> for Unmet {
+    fn from(error: ModelError) -> Unmet {
+        Unmet::Broken(error.to_string())
+    }
+}
+
+/// A broken promise.
+pub(crate) fn broken(why: impl Into<String>) -> Unmet {
+    Unmet::Broken(why.into())
+}
+
+/// A promise that was not tried.
+pub(crate) fn skipped(why: impl Into<String>) -> Unmet {
+    Unmet::Skipped(why.into())
+}
+
+/// Breaks the promise with `why` unless `holds`.
+pub(crate) fn expect(holds: bool, why: impl FnOnce() -> String) -> Result<(), Unmet> {
+    if holds { Ok(()) } else { Err(broken(why())) }
+}
+
+/// An error with a kind.
+pub(crate) trait Kinded: fmt::Display {
+    /// Its kind.
+    fn of_kind(&self) -> ErrorKind;
+}
+
+impl Kinded for DriverError {
+    fn of_kind(&self) -> ErrorKind {
+        self.kind()
+    }
+}
+
+impl Kinded for ModelError {
+    fn of_kind(&self) -> ErrorKind {
+        self.kind()
+    }
+}
+
+/// Breaks the promise unless `result` is an error of one of `kinds`.
+pub(crate) fn refused<T, E: Kinded>(
+    doing: &str,
+    result: Result<T, E>,
+    kinds: &[ErrorKind],
+) -> Result<(), Unmet> {
+    let found = match result {
+        Err(error) if kinds.contains(&error.of_kind()) => return Ok(()),
+        Err(error) => format!("gave `{}` ({error})", error.of_kind()),
+        Ok(_) => "succeeded".to_owned(),
+    };
+    let expected: Vec<String> = kinds.iter().map(|kind| format!("`{kind}`")).collect();
+    let expected = expected.join(" or ");
+    Err(broken(format!("{doing} {found}, expected {expected}")))
+}
+
+/// Breaks the promise unless `result` is a success or an error of kind `otherwise`.
+pub(crate) fn answered<T>(
+    doing: &str,
+    result: Result<T, DriverError>,
+    otherwise: ErrorKind,
+) -> Result<(), Unmet> {
+    match result {
+        Ok(_) => Ok(()),
+        error => refused(doing, error, &[otherwise]),
+    }
+}
+
+/// Breaks the promise unless times are finite, increase, and nothing arrived before it was true.
+pub(crate) fn in_order(stamps: &[Stamp]) -> Result<(), Unmet> {
+    for Stamp {
+        valid_s,
+        received_s,
+        ..
+    } in stamps
+    {
+        expect(
+            valid_s.is_finite() && received_s.is_none_or(f64::is_finite),
+            || format!("a stamp of {valid_s} s, received at {received_s:?}"),
+        )?;
+        expect(
+            received_s.is_none_or(|received| received >= *valid_s),
+            || format!("received at {received_s:?} before it was true at {valid_s} s"),
+        )?;
+    }
+    for pair in stamps.windows(2) {
+        let (before, after) = (pair[0].valid_s, pair[1].valid_s);
+        expect(before < after, || {
+            format!("a stamp of {after} s after one of {before} s")
+        })?;
+    }
+    Ok(())
+}

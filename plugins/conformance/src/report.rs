@@ -1,0 +1,75 @@
+//! Outcomes of a suite.
+
+use std::fmt;
+
+use serde::Serialize;
+use taceva_core::DriverKey;
+
+/// The promises of a suite, in their order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// The driver that was tried.
+    pub driver: DriverKey,
+    /// The outcome of each promise.
+    pub promises: Vec<Tested>,
+}
+
+/// One promise that was tested.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tested {
+    /// Its name: the kind, and what holds.
+    pub name: &'static str,
+    /// Its outcome.
+    pub outcome: Outcome,
+}
+
+/// Outcome of a promise.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[serde(tag = "outcome", content = "why", rename_all = "lowercase")]
+pub enum Outcome {
+    /// The promise holds.
+    Passed,
+    /// The promise is broken, for this reason.
+    Failed(String),
+    /// The promise was not tried or does not apply, for this reason.
+    Skipped(String),
+}
+
+impl Report {
+    /// Whether no promise is broken and at least one holds.
+    pub fn passed(&self) -> bool {
+        let some = |wanted: fn(&Outcome) -> bool| {
+            let mut outcomes = self.promises.iter().map(|tested| &tested.outcome);
+            outcomes.any(wanted)
+        };
+        some(|outcome| *outcome == Outcome::Passed)
+            && !some(|outcome| matches!(outcome, Outcome::Failed(_)))
+    }
+
+    /// The outcome of the promise called `name`.
+    pub fn outcome(&self, name: &str) -> Option<&Outcome> {
+        let tested = self.promises.iter().find(|tested| tested.name == name);
+        tested.map(|tested| &tested.outcome)
+    }
+
+    /// The names of the promises that are broken.
+    pub fn failures(&self) -> Vec<&'static str> {
+        let failed = |tested: &&Tested| matches!(tested.outcome, Outcome::Failed(_));
+        let failed = self.promises.iter().filter(failed);
+        failed.map(|tested| tested.name).collect()
+    }
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}", self.driver)?;
+        for Tested { name, outcome } in &self.promises {
+            match outcome {
+                Outcome::Passed => writeln!(f, "  holds    {name}")?,
+                Outcome::Failed(why) => writeln!(f, "  broken   {name}: {why}")?,
+                Outcome::Skipped(why) => writeln!(f, "  skipped  {name}: {why}")?,
+            }
+        }
+        Ok(())
+    }
+}

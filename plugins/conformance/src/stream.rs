@@ -1,0 +1,241 @@
+//! Promises of every device that is started and then gives one item after another: frames of a sensor, readings of a transducer.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use taceva_core::{
+    Deadline, DriverError, ErrorKind, ForceTransducer, FrameMut, Interrupt, Sensor, Stamp,
+};
+
+use crate::promise::{Unmet, answered, expect, in_order, refused, skipped};
+use crate::trial::{Alarm, Tried, was_within};
+
+/// A device that gives one item after another.
+pub(crate) trait Stream {
+    /// The name of an item.
+    const ITEM: &'static str;
+    /// How many items a promise looks at.
+    const COUNT: usize;
+
+    fn begin(&mut self, deadline: Deadline) -> Result<(), DriverError>;
+
+    fn end(&mut self) -> Result<(), DriverError>;
+
+    /// Waits for the next item and returns its stamp.
+    fn next(&mut self, deadline: Deadline) -> Result<Stamp, DriverError>;
+
+    fn interrupter(&self) -> Option<Arc<dyn Interrupt>>;
+}
+
+impl Stream for dyn Sensor {
+    const ITEM: &'static str = "frame";
+    const COUNT: usize = 10;
+
+    fn begin(&mut self, deadline: Deadline) -> Result<(), DriverError> {
+        self.start(deadline)
+    }
+
+    fn end(&mut self) -> Result<(), DriverError> {
+        self.stop()
+    }
+
+    fn next(&mut self, deadline: Deadline) -> Result<Stamp, DriverError> {
+        Ok(capture(self, deadline)?.0)
+    }
+
+    fn interrupter(&self) -> Option<Arc<dyn Interrupt>> {
+        self.interrupt_handle()
+    }
+}
+
+impl Stream for dyn ForceTransducer {
+    const ITEM: &'static str = "reading";
+    const COUNT: usize = 20;
+
+    fn begin(&mut self, deadline: Deadline) -> Result<(), DriverError> {
+        self.start(deadline)
+    }
+
+    fn end(&mut self) -> Result<(), DriverError> {
+        self.stop()
+    }
+
+    fn next(&mut self, deadline: Deadline) -> Result<Stamp, DriverError> {
+        Ok(self.read(deadline)?.1)
+    }
+
+    fn interrupter(&self) -> Option<Arc<dyn Interrupt>> {
+        self.interrupt_handle()
+    }
+}
+
+/// The next frame of a sensor, with its stamp.
+pub(crate) fn capture(
+    sensor: &mut dyn Sensor,
+    deadline: Deadline,
+) -> Result<(Stamp, Vec<u8>), DriverError> {
+    let info = sensor.frame_info();
+    let mut pixels = vec![0; info.byte_len().unwrap_or_default()];
+    let frame = FrameMut::new(info, &mut pixels).expect("the buffer was made for the frame");
+    let stamp = sensor.capture(frame, deadline)?;
+    Ok((stamp, pixels))
+}
+
+/// The device, started.
+pub(crate) fn started<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<Box<D>, Unmet> {
+    let mut device = tried.open()?;
+    device.begin(tried.trial.deadline)?;
+    Ok(device)
+}
+
+fn next<D: Stream + ?Sized>(tried: &Tried<'_, D>, device: &mut D) -> Result<Stamp, Unmet> {
+    tried.reading(device.next(tried.trial.deadline))
+}
+
+/// [`Stream::COUNT`] items come, and the device stops.
+pub(crate) fn gives<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unmet> {
+    let mut device = started(tried)?;
+    for _ in 0..D::COUNT {
+        next(tried, &mut *device)?;
+    }
+    Ok(device.end()?)
+}
+
+pub(crate) fn stamps<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unmet> {
+    let mut device = started(tried)?;
+    let stamps = (0..D::COUNT).map(|_| next(tried, &mut *device));
+    in_order(&stamps.collect::<Result<Vec<_>, _>>()?)
+}
+
+/// An item before the start comes or is refused; either way the device goes on.
+pub(crate) fn before_start<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unmet> {
+    let mut device = tried.open()?;
+    let doing = format!("a {} before the start", D::ITEM);
+    let early = device.next(tried.trial.deadline);
+    answered(&doing, early, ErrorKind::InvalidArgument)?;
+    device.begin(tried.trial.deadline)?;
+    next(tried, &mut *device)?;
+    Ok(())
+}
+
+pub(crate) fn any_order<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unmet> {
+    let mut device = tried.open()?;
+    device.end()?;
+    let mut stamps = Vec::new();
+    for _ in 0..3 {
+        device.begin(tried.trial.deadline)?;
+        device.begin(tried.trial.deadline)?;
+        stamps.push(next(tried, &mut *device)?);
+        device.end()?;
+        device.end()?;
+        let doing = format!("a {} while stopped", D::ITEM);
+        match tried.at_once(&doing, || device.next(Deadline::PASSED))? {
+            Ok(stamp) => stamps.push(stamp),
+            error => refused(
+                &doing,
+                error,
+                &[ErrorKind::InvalidArgument, ErrorKind::Timeout],
+            )?,
+        }
+    }
+    in_order(&stamps)
+}
+
+/// A device that is dropped gives back what it held, in whichever state it was.
+pub(crate) fn dropped<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unmet> {
+    drop(tried.open()?);
+    drop(started(tried)?);
+    let mut device = started(tried)?;
+    let _ = device.next(Deadline::PASSED);
+    drop(device);
+    let mut device = started(tried)?;
+    device.end()?;
+    drop(device);
+    next(tried, &mut *started(tried)?)?;
+    Ok(())
+}
+
+/// Without time a wait ends at once, and the device goes on afterwards.
+pub(crate) fn passed_deadline<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unmet> {
+    keeps(tried, 5, Duration::ZERO)
+}
+
+/// With little time a wait ends soon after.
+pub(crate) fn keeps_deadlines<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unmet> {
+    keeps(tried, 10, Duration::from_millis(5))
+}
+
+fn keeps<D: Stream + ?Sized>(
+    tried: &Tried<'_, D>,
+    rounds: usize,
+    given: Duration,
+) -> Result<(), Unmet> {
+    let mut device = started(tried)?;
+    let doing = format!("a {} in {given:?}", D::ITEM);
+    for _ in 0..rounds {
+        let within = match given {
+            Duration::ZERO => Deadline::PASSED,
+            given => Deadline::after(given),
+        };
+        let waited = tried.in_time(&doing, given, || device.next(within))?;
+        answered(&doing, waited, ErrorKind::Timeout)?;
+    }
+    next(tried, &mut *device)?;
+    Ok(())
+}
+
+/// An interrupt from another thread ends a wait in time, and the device goes on afterwards.
+pub(crate) fn interrupt<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unmet> {
+    let mut device = started(tried)?;
+    let alarm = Alarm::set(device.interrupter())?;
+    let long = Deadline::after(Duration::from_secs(3));
+    let mut begun = Instant::now();
+    loop {
+        let waited = device.next(long);
+        let ended = Instant::now();
+        match waited {
+            // It came by itself. Whether the interrupt met this call or none, the next must work.
+            Ok(_) if alarm.rang().is_none() => begun = ended,
+            Ok(_) => break,
+            Err(error) if error.kind() == ErrorKind::Interrupted => {
+                let at = alarm.wait()?.max(begun);
+                let late = ended.saturating_duration_since(at);
+                was_within("the wait after an interrupt", late, tried.trial.acts_within)?;
+                break;
+            }
+            Err(error) => return tried.reading(Err(error)),
+        }
+    }
+    next(tried, &mut *device)?;
+    Ok(())
+}
+
+/// The same items come for the same arguments, from a simulation.
+pub(crate) fn repeats<D: Stream + ?Sized, T: PartialEq>(
+    tried: &Tried<'_, D>,
+    item: fn(&mut D, Deadline) -> Result<T, DriverError>,
+) -> Result<(), Unmet> {
+    tried.is_simulated()?;
+    let items = || -> Result<Vec<T>, Unmet> {
+        let mut device = started(tried)?;
+        let deadline = tried.trial.deadline;
+        let items = (0..D::COUNT).map(|_| tried.reading(item(&mut device, deadline)));
+        items.collect()
+    };
+    let (first, second) = (items()?, items()?);
+    expect(first == second, || "two runs differ".to_owned())
+}
+
+/// True for an ability that is there, false for one that is neither there nor declared.
+pub(crate) fn as_declared(ability: &str, declared: bool, has: bool) -> Result<(), Unmet> {
+    match (has, declared) {
+        (true, true) => Ok(()),
+        (false, false) => Err(skipped(format!("it does not {ability}"))),
+        (false, true) => Err(crate::promise::broken(format!(
+            "it cannot {ability}, yet declares it"
+        ))),
+        (true, false) => Err(crate::promise::broken(format!(
+            "it can {ability}, yet does not declare it"
+        ))),
+    }
+}

@@ -1,0 +1,215 @@
+//! A trial of a driver: how it is made, and the device that is opened again and again.
+
+use std::sync::{Arc, mpsc};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use taceva_core::{
+    Args, Deadline, Descriptor, DescriptorError, DriverError, DriverSource, ErrorKind, Factory,
+    Interrupt, Millimetre, Rig, contained,
+};
+
+use crate::promise::{Promise, Unmet, broken, expect, skipped};
+use crate::report::{Outcome, Report, Tested};
+
+/// How a driver is tried.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trial {
+    /// The arguments it is opened with, as they stand behind the colon of a selector.
+    pub arguments: String,
+    /// The deadline of calls that should succeed, in the time of the device.
+    pub deadline: Deadline,
+    /// How long a call that should return at once may take on the clock of the machine.
+    pub at_once: Duration,
+    /// How long an interrupt and a halt may take to act.
+    pub acts_within: Duration,
+    /// How far a robot is moved away from the gel.
+    pub travel: Millimetre,
+    /// False skips what would move a robot or a changer.
+    pub moves: bool,
+}
+
+impl Trial {
+    /// A trial with `arguments`: a second for what should succeed, half a second for what should return at once, 0.5 mm of travel.
+    pub fn with_arguments(arguments: impl Into<String>) -> Trial {
+        Trial {
+            arguments: arguments.into(),
+            deadline: Deadline::after(Duration::from_secs(1)),
+            at_once: Duration::from_millis(500),
+            acts_within: Duration::from_millis(500),
+            travel: Millimetre(0.5),
+            moves: true,
+        }
+    }
+}
+
+impl Default for Trial {
+    fn default() -> Trial {
+        Trial::with_arguments("")
+    }
+}
+
+/// A driver under trial.
+pub(crate) struct Tried<'a, D: ?Sized> {
+    factory: &'a dyn Factory<D>,
+    args: Args,
+    /// The driver's description of itself with these arguments.
+    pub(crate) descriptor: Descriptor,
+    pub(crate) trial: &'a Trial,
+}
+
+/// Tries every promise; a panic of the driver breaks that promise alone.
+pub(crate) fn report<D: ?Sized>(
+    factory: &dyn Factory<D>,
+    trial: &Trial,
+    promises: &[Promise<D>],
+) -> Report {
+    const PREPARED: &str = "driver/takes-its-arguments";
+    let caught = |tested: Result<Result<(), Unmet>, String>| match tested {
+        Ok(Ok(())) => Outcome::Passed,
+        Ok(Err(Unmet::Broken(why))) => Outcome::Failed(why),
+        Ok(Err(Unmet::Skipped(why))) => Outcome::Skipped(why),
+        Err(panic) => Outcome::Failed(format!("panicked: {panic}")),
+    };
+    let mut report = Report {
+        driver: factory.descriptor().key().clone(),
+        promises: Vec::new(),
+    };
+    let prepared = contained(|| Tried::new(factory, trial));
+    let (tried, outcome) = match prepared {
+        Ok(Ok(tried)) => (Some(tried), Outcome::Passed),
+        Ok(Err(unmet)) => (None, caught(Ok(Err(unmet)))),
+        Err(panic) => (None, caught(Err(panic))),
+    };
+    let name = PREPARED;
+    report.promises.push(Tested { name, outcome });
+    if let Some(tried) = tried {
+        for (name, test) in promises {
+            let outcome = caught(contained(|| test(&tried)));
+            report.promises.push(Tested { name, outcome });
+        }
+    }
+    report
+}
+
+impl<'a, D: ?Sized> Tried<'a, D> {
+    /// The driver of `factory`, described with the arguments of `trial`.
+    pub(crate) fn new(factory: &'a dyn Factory<D>, trial: &'a Trial) -> Result<Self, Unmet> {
+        let of_trial = factory.descriptor();
+        let args = of_trial.args(&trial.arguments);
+        let args = args.map_err(|error| broken(error.to_string()))?;
+        let descriptor = factory.describe(&args);
+        let descriptor = descriptor.map_err(|error: DescriptorError| broken(error.to_string()))?;
+        expect(descriptor.key() == of_trial.key(), || {
+            format!("describes itself as `{}`", descriptor.key())
+        })?;
+        Ok(Tried {
+            factory,
+            args,
+            descriptor,
+            trial,
+        })
+    }
+
+    /// The device, opened in a rig of its own.
+    pub(crate) fn open(&self) -> Result<Box<D>, Unmet> {
+        let is_real = self.descriptor.source() == DriverSource::Real;
+        let opened = self.factory.open(&self.args, &mut Rig::new());
+        opened.map_err(|error| unopened(error, is_real))
+    }
+
+    /// A reading that should be there; a recording may have ended.
+    pub(crate) fn reading<T>(&self, read: Result<T, DriverError>) -> Result<T, Unmet> {
+        let is_recording = self.descriptor.source() == DriverSource::Recorded;
+        read.map_err(|error| match error.kind() {
+            ErrorKind::EndOfStream if is_recording => skipped("the recording ended too early"),
+            _ => error.into(),
+        })
+    }
+
+    /// Skips a promise about simulations for any other driver.
+    pub(crate) fn is_simulated(&self) -> Result<(), Unmet> {
+        match self.descriptor.source() {
+            DriverSource::Simulated => Ok(()),
+            source => Err(skipped(format!("its readings are {source}"))),
+        }
+    }
+
+    /// Skips a promise that moves a device, unless the trial allows it.
+    pub(crate) fn may_move(&self) -> Result<(), Unmet> {
+        if self.trial.moves {
+            return Ok(());
+        }
+        Err(skipped("it would move a real device; `--move` allows it"))
+    }
+
+    /// The result of `call`, if it returns at once.
+    pub(crate) fn at_once<T>(&self, doing: &str, call: impl FnOnce() -> T) -> Result<T, Unmet> {
+        self.in_time(doing, Duration::ZERO, call)
+    }
+
+    /// The result of `call`, if it returns at most at once after `given`.
+    pub(crate) fn in_time<T>(
+        &self,
+        doing: &str,
+        given: Duration,
+        call: impl FnOnce() -> T,
+    ) -> Result<T, Unmet> {
+        let begun = Instant::now();
+        let result = call();
+        was_within(doing, begun.elapsed(), given + self.trial.at_once)?;
+        Ok(result)
+    }
+}
+
+/// Beginning of the reason for which a promise was skipped that needs a device.
+pub(crate) const NO_DEVICE: &str = "no device is there";
+
+/// Reason why a device did not open: a real one that is absent keeps no promise and breaks none.
+pub(crate) fn unopened(error: DriverError, is_real: bool) -> Unmet {
+    match error.kind() {
+        ErrorKind::NotFound | ErrorKind::Disconnected if is_real => {
+            skipped(format!("{NO_DEVICE}: {error}"))
+        }
+        _ => error.into(),
+    }
+}
+
+/// Breaks the promise if `took` exceeds `most`.
+pub(crate) fn was_within(doing: &str, took: Duration, most: Duration) -> Result<(), Unmet> {
+    expect(took <= most, || {
+        format!("{doing} took {took:?}, expected at most {most:?}")
+    })
+}
+
+/// An interrupt from another thread, 20 ms after this is made.
+pub(crate) struct Alarm {
+    rung: mpsc::Receiver<Instant>,
+}
+
+impl Alarm {
+    /// Sets the alarm.
+    pub(crate) fn set(interrupt: Option<Arc<dyn Interrupt>>) -> Result<Alarm, Unmet> {
+        let interrupt = interrupt.ok_or_else(|| skipped("it cannot be interrupted"))?;
+        let (sender, rung) = mpsc::channel();
+        thread::spawn(move || {
+            thread::sleep(Duration::from_millis(20));
+            let now = Instant::now();
+            interrupt.interrupt();
+            // Nobody waits any more if the promise is broken already.
+            let _ = sender.send(now);
+        });
+        Ok(Alarm { rung })
+    }
+
+    /// The moment of the interrupt, once that has returned.
+    pub(crate) fn rang(&self) -> Option<Instant> {
+        self.rung.try_recv().ok()
+    }
+
+    /// The moment of the interrupt, waited for.
+    pub(crate) fn wait(&self) -> Result<Instant, Unmet> {
+        let rung = self.rung.recv_timeout(Duration::from_secs(10));
+        rung.map_err(|_| broken("the interrupt itself did not return"))
+    }
+}
