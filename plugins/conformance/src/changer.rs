@@ -4,9 +4,9 @@ use std::time::Instant;
 
 use taceva_core::{Changer, Deadline, ErrorKind, Factory, Facts};
 
-use crate::promise::{Promise, Unmet, answered, broken, expect, refused, skipped};
+use crate::promise::{Unmet, answered, broken, expect, refused, skipped};
 use crate::report::Report;
-use crate::trial::{Alarm, Trial, Tried, report, was_within};
+use crate::trial::{Alarm, Promise, Trial, Tried, report, was_within};
 
 /// Tries a changer, which moves: it brings what it holds.
 pub fn changer(factory: &dyn Factory<dyn Changer>, trial: &Trial) -> Report {

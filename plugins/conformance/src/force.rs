@@ -2,10 +2,10 @@
 
 use taceva_core::{Axis, Factory, ForceFacts, ForceTransducer, Wrench, check_wrench};
 
-use crate::promise::{Promise, Unmet, broken, expect};
+use crate::promise::{Unmet, broken, expect};
 use crate::report::Report;
 use crate::stream::{self, Stream, as_declared, started};
-use crate::trial::{Trial, Tried, report};
+use crate::trial::{Promise, Trial, Tried, report};
 
 /// Tries a force transducer.
 pub fn force(factory: &dyn Factory<dyn ForceTransducer>, trial: &Trial) -> Report {

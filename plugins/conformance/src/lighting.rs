@@ -2,9 +2,9 @@
 
 use taceva_core::{Deadline, ErrorKind, Factory, Facts, Lighting};
 
-use crate::promise::{Promise, Unmet, answered, broken, expect, refused};
+use crate::promise::{Unmet, answered, broken, expect, refused};
 use crate::report::Report;
-use crate::trial::{Trial, Tried, report};
+use crate::trial::{Promise, Trial, Tried, report};
 
 /// Tries a lighting.
 pub fn lighting(factory: &dyn Factory<dyn Lighting>, trial: &Trial) -> Report {

@@ -34,9 +34,9 @@ use taceva_host::{
 use self::probe::Probe;
 use self::run::run;
 use self::subject::Subject;
-use crate::promise::{Promise, Unmet};
+use crate::promise::Unmet;
 use crate::report::Outcome;
-use crate::trial::{NO_DEVICE, Tried};
+use crate::trial::{NO_DEVICE, Promise, Tried};
 use crate::{changer, force, lighting, robot, sensor};
 
 /// One promise of a plugin.

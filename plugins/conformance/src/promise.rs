@@ -1,13 +1,8 @@
-//! A promise of a driver, and the helpers that say how one was broken.
+//! Broken promises, and the helpers that say how a promise was broken.
 
 use std::fmt;
 
 use taceva_core::{DriverError, ErrorKind, ModelError, Stamp};
-
-use crate::trial::Tried;
-
-/// One promise of the devices `D`: its name, `kind/words`, and its test.
-pub(crate) type Promise<D> = (&'static str, fn(&Tried<'_, D>) -> Result<(), Unmet>);
 
 /// Reason why a promise was not shown to hold.
 #[derive(Debug)]

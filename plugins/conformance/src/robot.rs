@@ -10,10 +10,10 @@ use taceva_core::{
     Speed, contained,
 };
 
-use crate::promise::{Promise, Unmet, broken, expect, in_order, refused, skipped};
+use crate::promise::{Unmet, broken, expect, in_order, refused, skipped};
 use crate::report::Report;
 use crate::stream::as_declared;
-use crate::trial::{Trial, Tried, report, was_within};
+use crate::trial::{Promise, Trial, Tried, report, was_within};
 
 /// Tries a robot, which moves.
 pub fn robot(factory: &dyn Factory<dyn Robot>, trial: &Trial) -> Report {

@@ -3,10 +3,10 @@
 use taceva_core::{ErrorKind, Factory, FrameInfo, FrameMut, PixelFormat, Sensor};
 
 use crate::lighting::{has_scenes, refuses_stranger, sets_scenes};
-use crate::promise::{Promise, Unmet, broken, expect, refused, skipped};
+use crate::promise::{Unmet, broken, expect, refused, skipped};
 use crate::report::Report;
 use crate::stream::{self, capture, started};
-use crate::trial::{Trial, Tried, report};
+use crate::trial::{Promise, Trial, Tried, report};
 
 /// Tries a sensor.
 pub fn sensor(factory: &dyn Factory<dyn Sensor>, trial: &Trial) -> Report {

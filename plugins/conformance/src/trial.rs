@@ -9,7 +9,7 @@ use taceva_core::{
     Interrupt, Millimetre, Rig, contained,
 };
 
-use crate::promise::{Promise, Unmet, broken, expect, skipped};
+use crate::promise::{Unmet, broken, expect, skipped};
 use crate::report::{Outcome, Report, Tested};
 
 /// How a driver is tried.
@@ -48,6 +48,9 @@ impl Default for Trial {
         Trial::with_arguments("")
     }
 }
+
+/// One promise of the devices `D`: its name, `kind/words`, and its test.
+pub(crate) type Promise<D> = (&'static str, fn(&Tried<'_, D>) -> Result<(), Unmet>);
 
 /// A driver under trial.
 pub(crate) struct Tried<'a, D: ?Sized> {

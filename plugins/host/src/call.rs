@@ -1,14 +1,14 @@
 //! Calls of functions of a library: statuses become errors, messages are kept, texts and tables are checked and copied.
 
 mod arguments;
+pub mod pending_call;
 mod table;
-mod taken;
-pub mod under_way;
+mod text_list;
 
 pub use self::arguments::ArgList;
 pub use self::table::Table;
 pub(crate) use self::table::table;
-pub use self::taken::{Taken, take};
+pub use self::text_list::{Taken, take};
 
 use std::fmt;
 

@@ -5,19 +5,19 @@
     reason = "models are fitted and asked through the plugin's functions"
 )]
 
-mod lent;
 mod listener;
 mod model;
+mod training_set;
 
 use std::sync::Arc;
 
 use taceva_abi as abi;
 use taceva_core::{DriverKey, ErrorKind, ModelError};
 
-use self::lent::Lent;
 use self::listener::{Listener, STEPS, progress};
 use self::model::Model;
-use crate::call::{ArgList, Failure, call, under_way};
+use self::training_set::Lent;
+use crate::call::{ArgList, Failure, call, pending_call};
 use crate::library::{Entry, Library};
 use crate::session::{FitRequest, Saved, SavedRegressor};
 
@@ -50,7 +50,7 @@ pub(crate) fn fit(
     let mut regressor = EMPTY;
     request.progress.begin(&format!("fit {key}"), Some(STEPS));
     let training_set = training.set();
-    let _under_way = under_way::begin("fit");
+    let _under_way = pending_call::begin("fit");
     let done = call(|error| {
         let context = std::ptr::from_mut(&mut listener).cast();
         let training = &raw const training_set;
@@ -73,7 +73,7 @@ pub(crate) fn fit(
     done.map_err(failed)?;
     let shape = request.training.features.shape();
     let channels = request.training.targets.channels.clone();
-    let model = Model::new(library, (key, regressor), (channels, shape)).map_err(failed)?;
+    let model = Model::new(library, key, regressor, channels, shape).map_err(failed)?;
     Ok(Box::new(model))
 }
 
@@ -88,7 +88,7 @@ pub(crate) fn load(
     let load = entry.estimators.and_then(|factory| factory.load);
     let load = load.ok_or_else(|| failed(lacks("load")))?;
     let mut regressor = EMPTY;
-    let _under_way = under_way::begin("load");
+    let _under_way = pending_call::begin("load");
     call(|error| {
         let (bytes, length) = (saved.bytes.as_ptr(), saved.bytes.len() as u64);
         // SAFETY: [any], with bytes, a place for the model and an error that outlive the call.
@@ -96,7 +96,7 @@ pub(crate) fn load(
     })
     .map_err(failed)?;
     let (channels, shape) = (saved.channels.clone(), saved.shape);
-    let model = Model::new(library, (key, regressor), (channels, shape)).map_err(failed)?;
+    let model = Model::new(library, key, regressor, channels, shape).map_err(failed)?;
     Ok(Box::new(model))
 }
 

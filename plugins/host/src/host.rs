@@ -1,10 +1,10 @@
 //! The plugins of a program, and the drivers that they are.
 
 pub(crate) mod code;
+mod discovery;
 mod driver;
 mod estimator;
 mod isolation;
-mod looking;
 #[cfg(target_os = "linux")]
 mod offer;
 #[cfg(target_os = "linux")]
@@ -30,9 +30,9 @@ use crate::manifest::{EstimatorInfo, Need, Profile, Provided, Sha256Digest};
 use crate::search::{NotFound, Plugin, Plugins};
 use crate::session::Session;
 
+use self::discovery::Looker;
 pub use self::driver::PluginDriver;
 pub use self::isolation::Keeping;
-use self::looking::Looker;
 
 /// Takes what plugins log: whose line it is, how much it matters, what it is about, and what it says.
 pub type PluginLog = Arc<dyn Fn(&PluginId, Level, &str, &str) + Send + Sync>;

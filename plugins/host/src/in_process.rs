@@ -99,10 +99,7 @@ impl Session for InProcess {
         };
         let texts = texts.map_err(|failure| failure.of(driver, DOING))?;
         if let Some(text) = texts.iter().find(|text| text.contains(char::is_control)) {
-            let why = format!(
-                "{:?} is no arguments of a device",
-                crate::shown::shown(text)
-            );
+            let why = format!("{:?} is no arguments of a device", crate::text::shown(text));
             return Err(Failure::new(ErrorKind::Protocol, why).of(driver, DOING));
         }
         let title = match &entry.provided {

@@ -19,10 +19,10 @@ mod manifest;
 mod offer;
 mod package;
 mod python;
-mod sealing;
+mod sealed_file;
 mod search;
 mod session;
-mod shown;
+mod text;
 mod usb;
 mod wire_version;
 
@@ -63,7 +63,7 @@ pub use wire_version::WIRE;
 /// Loaded libraries and their bare tables, for a program that examines a plugin.
 #[cfg(target_os = "linux")]
 pub mod bare {
-    pub use crate::call::under_way::{self, UnderWay};
+    pub use crate::call::pending_call::{self, UnderWay};
     pub use crate::call::{ArgList, Table, Taken, call, take, timeout};
     pub use crate::child::CALL;
     pub use crate::device::{Handle, Opened, Owned, RigHandle, open};

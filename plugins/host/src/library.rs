@@ -10,7 +10,7 @@ mod entry;
 mod error;
 mod host;
 mod image;
-mod mapped;
+mod memory_map;
 mod offer;
 mod source;
 
@@ -34,7 +34,7 @@ pub use self::error::{LoadError, LoadProblem};
 pub use self::host::{Level, Log};
 pub use self::image::Image;
 pub(crate) use self::image::LENGTH_MAX;
-use self::mapped::Mapped;
+use self::memory_map::Mapped;
 pub use self::source::Linked;
 pub use self::source::Source;
 use crate::call::{call, table};
@@ -216,7 +216,7 @@ fn open(image: &Image) -> Result<*const abi::Plugin, LoadProblem> {
         // The loader names the file by its number, which tells nobody anything.
         let words = std::error::Error::source(&error).map(ToString::to_string);
         let words = words.unwrap_or_else(|| error.to_string());
-        crate::shown::shown(&words.replace(&name, "the library"))
+        crate::text::shown(&words.replace(&name, "the library"))
     };
     LOADED.fetch_add(1, Ordering::Relaxed);
     // SAFETY: its constructors are foreign code; whoever calls has decided that they may run in this process.
@@ -243,7 +243,7 @@ fn refused(library: &File, message: String) -> LoadProblem {
     match run_path.filter(|path| path.contains("$ORIGIN") || path.contains("${ORIGIN}")) {
         Some(run_path) => LoadProblem::BesideItself {
             message,
-            run_path: crate::shown::shown(&run_path),
+            run_path: crate::text::shown(&run_path),
         },
         None => LoadProblem::Loader(message),
     }
@@ -309,7 +309,7 @@ fn identity(
             return Err(LoadProblem::Differs {
                 what: what.to_owned(),
                 manifest: format!("`{expected}`"),
-                library: format!("`{}`", crate::shown::shown(said)),
+                library: format!("`{}`", crate::text::shown(said)),
             });
         }
     }

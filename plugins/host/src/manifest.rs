@@ -7,8 +7,8 @@ mod library;
 mod need;
 mod program;
 mod provides;
+mod provides_table;
 mod usb_id;
-mod written;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -27,10 +27,10 @@ pub use self::need::{DeclaredNeed, Need, NeedError};
 use self::program::WrittenProgram;
 pub use self::program::{Profile, PythonModule};
 pub use self::provides::{EstimatorInfo, Provided};
+use self::provides_table::WrittenProvides;
 pub use self::usb_id::UsbId;
-use self::written::WrittenProvides;
 use crate::id::PluginId;
-use crate::shown::shown;
+use crate::text::shown;
 
 /// The version of the format that is read here.
 const VERSION: u32 = 1;

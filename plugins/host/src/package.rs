@@ -39,7 +39,7 @@ pub enum PackageError {
     #[error("the archive: {0}")]
     Archive(io::Error),
     /// A part of the archive is not what belongs in it.
-    #[error("`{}` in the archive: {problem}", crate::shown::shown(.name))]
+    #[error("`{}` in the archive: {problem}", crate::text::shown(.name))]
     Entry {
         /// Its name.
         name: String,

@@ -4,7 +4,7 @@ mod digest;
 mod error;
 mod interpreter;
 mod open_to;
-mod own;
+mod own_interpreter;
 mod run;
 
 pub(crate) use self::digest::digest;
@@ -14,5 +14,5 @@ pub use self::interpreter::Interpreter;
 pub(crate) use self::interpreter::Lying;
 #[cfg(target_os = "linux")]
 pub(crate) use self::open_to::closed_by;
-pub(crate) use self::own::{arguments, own};
-pub use self::own::{beside_this_program, run_within};
+pub(crate) use self::own_interpreter::{arguments, own};
+pub use self::own_interpreter::{beside_this_program, run_within};

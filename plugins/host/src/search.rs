@@ -3,7 +3,7 @@
 mod environment;
 mod place;
 mod rejection;
-mod writable;
+mod write_access;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
@@ -15,7 +15,7 @@ use taceva_abi::ABI_MAJOR;
 
 pub use self::place::{Place, SearchPath, user_config_file};
 pub use self::rejection::{Reason, ReasonKind, Rejection};
-use self::writable::Writable;
+use self::write_access::Writable;
 use crate::id::PluginId;
 use crate::manifest::{self, LibraryFile, Manifest, PythonModule};
 use crate::python::Interpreter;

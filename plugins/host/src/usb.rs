@@ -36,7 +36,7 @@ impl UsbDevice {
             },
             product: device
                 .product_string()
-                .map(|name| crate::shown::shown(name.trim())),
+                .map(|name| crate::text::shown(name.trim())),
         }
     }
 }

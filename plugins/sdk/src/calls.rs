@@ -14,11 +14,11 @@ use std::ffi::c_void;
 use taceva_abi::{DeviceCalls, Error, Status, Text};
 use taceva_core::Facts;
 
+use crate::driver_lists::{Drivers, Loaded};
 use crate::failure::Failure;
 use crate::guard::{caught, guard};
-use crate::loaded::{Drivers, Loaded};
+use crate::handles::{self, Handle};
 use crate::memory;
-use crate::open::{self, Handle};
 
 /// A kind of device: what is behind its handles, and the calls on them.
 pub(crate) trait Kind: 'static {
@@ -51,13 +51,13 @@ const fn device_calls<T, O: Any + Send>(
 }
 
 unsafe extern "C" fn close(handle: *mut c_void) {
-    open::close(handle);
+    handles::close(handle);
 }
 
 unsafe extern "C" fn interrupt<O: Any + Send>(handle: *mut c_void) {
     // A call without an answer: there is nobody to report a failure to.
     drop(caught(|| {
-        if let Ok(handle) = open::find::<Handle<O>>(handle) {
+        if let Ok(handle) = handles::find::<Handle<O>>(handle) {
             handle
                 .interrupt
                 .iter()
@@ -76,7 +76,7 @@ unsafe fn call<O: Any + Send>(
     work: impl FnOnce(&mut O) -> Result<(), Failure>,
 ) -> Status {
     // SAFETY: promised by the caller.
-    unsafe { guard(error, || open::find::<Handle<O>>(handle)?.call(work)) }
+    unsafe { guard(error, || handles::find::<Handle<O>>(handle)?.call(work)) }
 }
 
 /// The table `calls` where `id` is the name of it and the device `has` that ability; NULL where not.
@@ -86,7 +86,8 @@ unsafe fn call<O: Any + Send>(
 unsafe fn extended<O: Any + Send, T>(
     handle: *mut c_void,
     id: Text,
-    (name, calls): (&str, &'static T),
+    name: &str,
+    calls: &'static T,
     has: impl FnOnce(&mut O) -> bool,
 ) -> *const c_void {
     let has = || {
@@ -94,7 +95,7 @@ unsafe fn extended<O: Any + Send, T>(
         if unsafe { memory::text("id", id) }? != name {
             return Ok(false);
         }
-        open::find::<Handle<O>>(handle)?.call(|device| Ok(has(device)))
+        handles::find::<Handle<O>>(handle)?.call(|device| Ok(has(device)))
     };
     match caught(has) {
         Ok(Ok(true)) => std::ptr::from_ref(calls).cast(),

@@ -17,10 +17,10 @@ use taceva_core::{
 
 use crate::calls::Kind;
 use crate::driver::{Driver, Made};
+use crate::driver_lists::{Loaded, Tables, keep, loaded};
 use crate::export::Export;
 use crate::failure::Failure;
 use crate::guard::{caught, guard};
-use crate::loaded::{Loaded, Tables, keep, loaded};
 use crate::{estimator, factory, host, memory};
 
 pub(crate) unsafe extern "C" fn init<E: Export>(host: *const Host, error: *mut Error) -> Status {

@@ -1,6 +1,6 @@
 //! Estimators that a plugin provides.
 
-mod kept;
+mod model_bytes;
 mod progress;
 mod table;
 

@@ -10,11 +10,11 @@ use taceva_abi::{
 use taceva_core::{ArgSpec, Args, Factory, Presence, Rig};
 
 use crate::calls::Kind;
+use crate::driver_lists::loaded;
 use crate::failure::Failure;
 use crate::guard::guard;
-use crate::loaded::loaded;
+use crate::handles;
 use crate::memory;
-use crate::open;
 use crate::rig::with_rig;
 use crate::table::provides_table;
 
@@ -121,7 +121,7 @@ unsafe extern "C" fn open<D: Kind + ?Sized>(
             with_rig(rig, |rig| factory.open(&args, rig))?
         };
         *place = Device {
-            handle: open::keep(D::handle(opened?, factory.descriptor().facts())),
+            handle: handles::keep(D::handle(opened?, factory.descriptor().facts())),
             calls: std::ptr::from_ref(D::CALLS).cast(),
         };
         Ok(())

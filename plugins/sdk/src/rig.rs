@@ -11,10 +11,10 @@ use taceva_abi::ext::{BENCH, BenchCalls, Specimen as AbiSpecimen};
 use taceva_abi::{Error, Rig as AbiRig, Status, TakeText, Text};
 use taceva_core::{ErrorKind, GratingKind, Nanometre, Rig, SimulatedBench, Specimen};
 
+use crate::driver_lists::loaded;
 use crate::failure::Failure;
 use crate::guard::{caught, guard};
-use crate::loaded::loaded;
-use crate::{memory, open as opened};
+use crate::{handles, memory};
 
 type Shared = Mutex<Rig>;
 
@@ -22,7 +22,7 @@ pub(crate) unsafe extern "C" fn open(rig: *mut *mut AbiRig, error: *mut Error) -
     let work = || {
         // SAFETY: the host's place for the rig.
         let place = unsafe { memory::place("rig", rig) }?;
-        *place = opened::keep(Shared::new(Rig::new())).cast();
+        *place = handles::keep(Shared::new(Rig::new())).cast();
         Ok(())
     };
     // SAFETY: the host's own promise for `error`.
@@ -30,7 +30,7 @@ pub(crate) unsafe extern "C" fn open(rig: *mut *mut AbiRig, error: *mut Error) -
 }
 
 pub(crate) unsafe extern "C" fn close(rig: *mut AbiRig) {
-    opened::close(rig.cast());
+    handles::close(rig.cast());
 }
 
 pub(crate) unsafe extern "C" fn extension(_: *mut AbiRig, id: Text) -> *const c_void {
@@ -47,7 +47,7 @@ pub(crate) fn with_rig<R>(
     rig: *const AbiRig,
     work: impl FnOnce(&mut Rig) -> R,
 ) -> Result<R, Failure> {
-    let shared = opened::find::<Shared>(rig.cast())?;
+    let shared = handles::find::<Shared>(rig.cast())?;
     // A driver that panicked left the rig as it was: what is shared is put there whole.
     let mut rig = shared.lock().unwrap_or_else(PoisonError::into_inner);
     Ok(work(&mut rig))

@@ -14,7 +14,7 @@ use crate::promise::Unmet;
 use taceva_host::Manifest;
 use taceva_host::Session;
 use taceva_host::bare::Source;
-use taceva_host::bare::under_way;
+use taceva_host::bare::pending_call;
 
 /// How the answer of a check begins that could not be made.
 pub(super) const SKIPPED: &str = "skipped: ";
@@ -36,7 +36,7 @@ pub(crate) fn run(
     let check = checks().into_iter().find(|check| check.name == probe.check);
     let check = check.ok_or_else(|| (ErrorKind::Abi, format!("no check `{}`", probe.check)))?;
     let made = catch_unwind(AssertUnwindSafe(|| {
-        let _under_way = under_way::begin("end the check");
+        let _under_way = pending_call::begin("end the check");
         let subject = Subject::new(source, manifest, probe)?;
         check.test.run(&subject)?;
         Ok(subject.session)

@@ -12,7 +12,7 @@ use super::watch::Watch;
 use super::wire::variants;
 use crate::library::{Level, Log};
 use crate::log::Limited;
-use crate::shown::shown;
+use crate::text::shown;
 
 /// What comes by that socket.
 #[derive(Debug, PartialEq)]

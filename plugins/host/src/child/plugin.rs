@@ -15,11 +15,11 @@ use super::quarantine::Quarantine;
 use super::sandbox::{Isolation, seal};
 use super::spec::ChildSpec;
 use super::wire::{Wire, decode, variants};
-use crate::call::under_way;
+use crate::call::pending_call;
 use crate::in_process::InProcess;
 use crate::library::{Image, Level, Linked, Source};
 use crate::manifest::{Manifest, Sha256Digest};
-use crate::sealing::seal_all;
+use crate::sealed_file::seal_all;
 use crate::session::Session;
 
 /// What a child is to serve.
@@ -201,7 +201,7 @@ fn load(
             let library = files.next().ok_or_else(|| broken("no library"))?;
             let digest = Sha256Digest::from_hex(&digest).ok_or_else(|| broken("no digest"))?;
             if files.len() > 0 {
-                under_way::watch(super::log::tell_call);
+                pending_call::watch(super::log::tell_call);
             }
             let image = Image::from_sealed(library.into(), digest, path);
             (Source::Image(image), manifest)
@@ -219,9 +219,9 @@ fn load(
             };
             // What comes behind is an order to examine it.
             if files.len() > 0 {
-                under_way::watch(super::log::tell_call);
+                pending_call::watch(super::log::tell_call);
             }
-            let importing = under_way::begin("import its module");
+            let importing = pending_call::begin("import its module");
             let linked = import(&module).map_err(|why| (ErrorKind::InvalidArgument, why))?;
             // A check of it is made in the same state in which it is used; a library is loaded by some of them again.
             drop(importing);

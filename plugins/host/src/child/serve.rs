@@ -9,8 +9,8 @@ use taceva_core::{Args, DriverError, DriverKey, DriverKind, ErrorKind};
 
 use self::device::Opening;
 use super::arguments::arguments;
-use super::guarded::guarded;
 use super::socket::{LinkError, Socket};
+use super::thread::guarded;
 use super::wire::{Failure, OpenedDevice, Order, OrderAnswer};
 use super::{bench, model};
 use crate::session::Session;

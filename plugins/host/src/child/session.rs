@@ -207,11 +207,16 @@ impl Session for ChildSession {
             .flatten()
             .map(SharedMemory::file)
             .collect();
-        let kind = (
-            request.training.targets.channels.clone(),
-            request.training.features.shape(),
-        );
-        self.make(estimator, order, &memories, kind, request.progress)
+        let channels = request.training.targets.channels.clone();
+        let shape = request.training.features.shape();
+        self.make(
+            estimator,
+            order,
+            &memories,
+            channels,
+            shape,
+            request.progress,
+        )
     }
 
     fn load(
@@ -222,14 +227,21 @@ impl Session for ChildSession {
         let mut memory = array::memory(Some(saved.bytes.len()))
             .map_err(|failure| of_failure(estimator, &failure))?;
         memory.bytes_mut()[..saved.bytes.len()].copy_from_slice(saved.bytes);
-        let kind = (saved.channels.clone(), saved.shape);
+        let channels = saved.channels.clone();
         let order = ModelOrder::Load {
             estimator: estimator.clone(),
-            channels: kind.0.clone(),
-            shape: kind.1,
+            channels: channels.clone(),
+            shape: saved.shape,
             length: saved.bytes.len() as u64,
         };
-        self.make(estimator, order, &[memory.file()], kind, &SilentProgress)
+        self.make(
+            estimator,
+            order,
+            &[memory.file()],
+            channels,
+            saved.shape,
+            &SilentProgress,
+        )
     }
 }
 
@@ -240,7 +252,8 @@ impl ChildSession {
         estimator: &DriverKey,
         order: ModelOrder,
         memories: &[BorrowedFd<'_>],
-        kind: (Channels, FeatureShape),
+        channels: Channels,
+        shape: FeatureShape,
         progress: &dyn Progress,
     ) -> Result<Box<dyn SavedRegressor>, ModelError> {
         let no_socket = |error: rustix::io::Errno| {
@@ -255,7 +268,14 @@ impl ChildSession {
         match answer {
             Ok(OrderAnswer::Making {}) => {
                 let child = Arc::clone(&self.child);
-                let made = ModelProxy::when_made(child, estimator.clone(), talk, kind, progress)?;
+                let made = ModelProxy::when_made(
+                    child,
+                    estimator.clone(),
+                    talk,
+                    channels,
+                    shape,
+                    progress,
+                )?;
                 Ok(Box::new(made))
             }
             Ok(OrderAnswer::Failed { failure }) => Err(of_failure(estimator, &failure)),

@@ -13,7 +13,7 @@ use taceva_abi as abi;
 use taceva_core::{DriverError, DriverKey, DriverKind, ErrorKind, Facts, Interrupt};
 
 use super::rig::RigHandle;
-use crate::call::{ArgList, Failure, Table, call, table, under_way};
+use crate::call::{ArgList, Failure, Table, call, pending_call, table};
 use crate::library::Entry;
 
 /// An open device, shared by its owner and by whoever may interrupt or halt it.
@@ -82,7 +82,7 @@ pub fn open<T: Table>(
         calls: std::ptr::null(),
     };
     let args = list.args();
-    let _under_way = under_way::begin(DOING);
+    let _under_way = pending_call::begin(DOING);
     // SAFETY: [any], with arguments, a rig of the same plugin, a place for the device and an error that outlive the call.
     call(|error| unsafe {
         open(
@@ -142,7 +142,7 @@ impl Handle {
             let why = "the plugin has panicked in this device before, which is dead since then";
             return Err(Failure::new(ErrorKind::Panicked, why).of(&self.driver, doing));
         }
-        let _under_way = under_way::begin(doing);
+        let _under_way = pending_call::begin(doing);
         call(|error| run(self.raw, error)).map_err(|failure| {
             if failure.kind() == ErrorKind::Panicked {
                 self.is_dead.store(true, Ordering::Release);
@@ -216,7 +216,8 @@ impl Owned {
     /// A function of the table `id` of an ability that the device has, as `says` puts it.
     pub(crate) fn ability<T: Table, F>(
         &self,
-        (id, doing): (&'static str, &'static str),
+        id: &'static str,
+        doing: &'static str,
         says: &str,
         function: impl FnOnce(T) -> Option<F>,
     ) -> Result<F, DriverError> {
@@ -250,7 +251,7 @@ impl Drop for Owned {
             .write()
             .unwrap_or_else(PoisonError::into_inner);
         if let Some(close) = self.0.calls.close.filter(|_| *is_open) {
-            let _under_way = under_way::begin("close the device");
+            let _under_way = pending_call::begin("close the device");
             // SAFETY: [owner & open], the last call: `is_open` is true once, and whoever interrupts is kept out by the lock.
             unsafe { close(self.0.raw) };
         }

@@ -90,7 +90,7 @@ impl PluginDevice for PluginRobot {
             let move_guarded = |table: GuardedMotionCalls| table.move_guarded;
             Some(GuardedAbility {
                 halt: Arc::clone(&halt),
-                move_guarded: handle.ability((GUARDED_MOTION, OPENING), stops, move_guarded)?,
+                move_guarded: handle.ability(GUARDED_MOTION, OPENING, stops, move_guarded)?,
             })
         } else {
             None

@@ -84,7 +84,7 @@ impl PluginDevice for PluginSensor {
             None
         } else {
             let set = |table: SensorLightingCalls| table.set;
-            let set = handle.ability((SENSOR_LIGHTING, OPENING), "it names scenes", set)?;
+            let set = handle.ability(SENSOR_LIGHTING, OPENING, "it names scenes", set)?;
             Some(LightingAbility::new(
                 handle.share(),
                 set,

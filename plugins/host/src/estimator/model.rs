@@ -12,7 +12,7 @@ use taceva_abi as abi;
 use taceva_core::{Channels, DriverKey, ErrorKind, FeatureShape, Features, ModelError, Regressor};
 
 use super::{lacks, model_error};
-use crate::call::{Failure, call, table, under_way};
+use crate::call::{Failure, call, pending_call, table};
 use crate::library::Library;
 use crate::session::SavedRegressor;
 
@@ -38,8 +38,10 @@ unsafe impl Sync for Model {}
 impl Model {
     pub(super) fn new(
         library: &Arc<Library>,
-        (key, regressor): (&DriverKey, abi::Regressor),
-        (channels, shape): (Channels, FeatureShape),
+        key: &DriverKey,
+        regressor: abi::Regressor,
+        channels: Channels,
+        shape: FeatureShape,
     ) -> Result<Model, Failure> {
         // SAFETY: after a success the interface promises this table.
         let calls = unsafe { table::<abi::RegressorCalls>(regressor.calls.cast()) }?;
@@ -103,7 +105,7 @@ impl Regressor for Model {
         let predict = predict.ok_or_else(|| self.failed(DOING, lacks("predict")))?;
         // What a plugin leaves out is no prediction.
         into.fill(f64::NAN);
-        let _under_way = under_way::begin(DOING);
+        let _under_way = pending_call::begin(DOING);
         call(|error| {
             let values = features.values();
             // SAFETY: [any & open], with features and a place of the lengths that are said, and an error that outlive the call.
@@ -138,7 +140,7 @@ impl SavedRegressor for Model {
         let save = self.calls.save;
         let save = save.ok_or_else(|| self.failed(DOING, lacks("save")))?;
         let mut length = 0_u64;
-        let _under_way = under_way::begin(DOING);
+        let _under_way = pending_call::begin(DOING);
         // SAFETY: [any & open]; without a place nothing is written but the length.
         let asked = call(|error| unsafe {
             save(self.handle, std::ptr::null_mut(), &raw mut length, error)

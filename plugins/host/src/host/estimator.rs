@@ -89,7 +89,7 @@ impl EstimatorFactory for PluginEstimator {
             return Ok(());
         }
         let fitted_by =
-            crate::shown::shown(fitted_by.unwrap_or("a program that it was linked into"));
+            crate::text::shown(fitted_by.unwrap_or("a program that it was linked into"));
         let key = &self.info.key;
         let library = self.plugin.library();
         if library.is_some_and(|library| library.sha256.is_some()) {

@@ -132,7 +132,7 @@ pub(super) fn entries(
             let place = Place::Driver(kind);
             // As it holds for whatever arguments.
             let args: *const abi::Args = std::ptr::null();
-            let (provided, text) = described(library, (place, number), |taken, error| {
+            let (provided, text) = described(library, place, number, |taken, error| {
                 // SAFETY: [any], without arguments, with a context and an error that outlive the call.
                 unsafe { describe(number, args, Some(take), taken, error) }
             })?;
@@ -154,7 +154,7 @@ pub(super) fn entries(
         };
         for number in 0..count(factory.estimators)? {
             let place = Place::Estimator;
-            let (provided, text) = described(library, (place, number), |taken, error| {
+            let (provided, text) = described(library, place, number, |taken, error| {
                 // SAFETY: [any], with a context and an error that outlive the call.
                 unsafe { describe(number, Some(take), taken, error) }
             })?;
@@ -185,7 +185,8 @@ fn count(drivers: u32) -> Result<u32, LoadProblem> {
 
 fn described(
     library: &Library,
-    (place, number): (Place, u32),
+    place: Place,
+    number: u32,
     describe: impl FnOnce(*mut std::ffi::c_void, &mut abi::Error) -> abi::Status,
 ) -> Result<(Provided, String), LoadProblem> {
     let mut taken = Taken::default();

@@ -8,7 +8,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use rustix::time::{ClockId, clock_gettime};
 use taceva_abi as abi;
 
-use crate::shown::shown;
+use crate::text::shown;
 
 /// How much a line of a plugin's log matters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

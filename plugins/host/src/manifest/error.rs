@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use taceva_core::nearest;
 
-use crate::shown::shown;
+use crate::text::shown;
 
 /// Text that is no manifest, or no `[[provides]]` table: where it stands, and what would be accepted.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -7,8 +7,8 @@ use taceva_core::{
 use toml::Spanned;
 
 use super::Refused;
-use super::written::{Kind, Shape, WrittenFootprint, WrittenProvides};
-use crate::shown::shown;
+use super::provides_table::{Kind, Shape, WrittenFootprint, WrittenProvides};
+use crate::text::shown;
 
 impl WrittenProvides {
     /// The facts of a device of its kind.

@@ -1,7 +1,7 @@
 //! What a plugin needs beyond computing: nothing of it is given in a child process unless its manifest says so and the user agrees.
 
-mod covers;
-mod declared;
+mod coverage;
+mod declaration;
 #[cfg(test)]
 mod tests;
 
@@ -10,11 +10,11 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-pub(crate) use self::covers::matches;
-pub use self::declared::DeclaredNeed;
+pub(crate) use self::coverage::matches;
+pub use self::declaration::DeclaredNeed;
 use taceva_core::suggestion;
 
-use crate::shown::shown;
+use crate::text::shown;
 
 /// The words that needs begin with.
 const WORDS: [&str; 9] = [

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use toml::Spanned;
 
 use super::Refused;
-use crate::shown::shown;
+use crate::text::shown;
 
 /// No plugin has more modules imported for it beforehand.
 const PRELOAD_MAX: usize = 64;

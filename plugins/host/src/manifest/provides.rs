@@ -7,10 +7,10 @@ use toml::Spanned;
 
 use super::Refused;
 use super::argument::WrittenArgument;
+use super::provides_table::{Kind, Source, WrittenLimits, WrittenProvides};
 use super::usb_id::UsbId;
-use super::written::{Kind, Source, WrittenLimits, WrittenProvides};
 use crate::id::PluginId;
-use crate::shown::shown;
+use crate::text::shown;
 
 /// One driver or estimator of a plugin, as far as it is known before any code of it runs.
 #[derive(Clone, Debug, PartialEq)]

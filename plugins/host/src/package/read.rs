@@ -68,7 +68,7 @@ pub fn unpack(archive: impl Read, folder: &Path) -> Result<(), PackageError> {
             (DIGESTS, Some(promised)) => {
                 promised.digests = digests(&text(&name, &mut entry, length)?)?;
             }
-            (_, Some(promised)) => promised.take(&name, &mut entry, (length, folder))?,
+            (_, Some(promised)) => promised.take(&name, &mut entry, length, folder)?,
             (_, None) => {}
         }
     }
@@ -135,7 +135,8 @@ impl Promised {
         &mut self,
         name: &str,
         entry: &mut impl Read,
-        (length, folder): (u64, &Path),
+        length: u64,
+        folder: &Path,
     ) -> Result<(), PackageError> {
         let own = self.manifest.library(&platform());
         let is_own = own.is_some_and(|own| own.path == name);

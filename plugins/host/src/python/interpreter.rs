@@ -59,7 +59,7 @@ impl Interpreter {
         let Some((_, said)) = printed.split_once(BEGIN) else {
             return Err(silent(format!(
                 "it printed `{}`",
-                crate::shown::shown(&printed)
+                crate::text::shown(&printed)
             )));
         };
         let said: Said =

@@ -62,7 +62,7 @@ pub(super) fn output(program: &Path, arguments: &[&str]) -> Result<String, Pytho
     let last = complained.trim().lines().last().unwrap_or_default();
     Err(silent(format!(
         "it ended with {status}: {}",
-        crate::shown::shown(last)
+        crate::text::shown(last)
     )))
 }
 

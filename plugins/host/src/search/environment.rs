@@ -51,7 +51,7 @@ impl Searching {
     }
 
     fn entry_point(&mut self, interpreter: &Interpreter, lying: &Lying) {
-        let plain = crate::shown::shown;
+        let plain = crate::text::shown;
         let (id, module) = (plain(&lying.id), plain(&lying.module));
         let refused = |why: String| {
             Reason::Python(format!(

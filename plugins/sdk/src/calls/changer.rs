@@ -10,10 +10,10 @@ use taceva_core::{Changer, Facts};
 
 use super::{Kind, call, device_calls};
 use crate::convert::deadline;
+use crate::driver_lists::{Drivers, Loaded};
 use crate::failure::Failure;
-use crate::loaded::{Drivers, Loaded};
+use crate::handles::Handle;
 use crate::memory;
-use crate::open::Handle;
 
 type Opened = Box<dyn Changer>;
 

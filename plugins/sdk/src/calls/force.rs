@@ -10,10 +10,10 @@ use taceva_core::{ErrorKind, Facts, ForceTransducer};
 
 use super::{Kind, call, device_calls, extended};
 use crate::convert::{self, deadline};
+use crate::driver_lists::{Drivers, Loaded};
 use crate::failure::Failure;
-use crate::loaded::{Drivers, Loaded};
+use crate::handles::Handle;
 use crate::memory;
-use crate::open::Handle;
 
 /// A transducer, and whether it said that it numbers its readings.
 pub(crate) struct Opened {
@@ -62,12 +62,12 @@ unsafe extern "C" fn extension(handle: *mut c_void, id: Text) -> *const c_void {
     let tares = |opened: &mut Opened| opened.force.tare().is_some();
     let numbers = |opened: &mut Opened| opened.is_numbered;
     // SAFETY: the host lends the text for the call.
-    let tare = unsafe { extended(handle, id, (TARE, &TARE_CALLS), tares) };
+    let tare = unsafe { extended(handle, id, TARE, &TARE_CALLS, tares) };
     if !tare.is_null() {
         return tare;
     }
     // SAFETY: as above.
-    unsafe { extended(handle, id, (NUMBERED, &NUMBERED_CALLS), numbers) }
+    unsafe { extended(handle, id, NUMBERED, &NUMBERED_CALLS, numbers) }
 }
 
 unsafe extern "C" fn start(handle: *mut c_void, timeout_ns: u64, error: *mut Error) -> Status {

@@ -10,9 +10,9 @@ use taceva_core::{Facts, Lighting};
 
 use super::{Kind, call, device_calls};
 use crate::convert::deadline;
-use crate::loaded::{Drivers, Loaded};
+use crate::driver_lists::{Drivers, Loaded};
+use crate::handles::Handle;
 use crate::memory;
-use crate::open::Handle;
 
 type Opened = Box<dyn Lighting>;
 

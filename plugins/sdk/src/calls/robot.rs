@@ -15,11 +15,11 @@ use taceva_core::{
 
 use super::{Kind, call, device_calls, extended};
 use crate::convert::{self, deadline};
+use crate::driver_lists::{Drivers, Loaded};
 use crate::failure::Failure;
 use crate::guard::guard;
-use crate::loaded::{Drivers, Loaded};
+use crate::handles::{self, Handle};
 use crate::memory;
-use crate::open::{self, Handle};
 
 /// A robot, and the motion that was accepted and not begun.
 pub(crate) struct Opened {
@@ -95,13 +95,13 @@ static EXPIRING: ExpiringMotionCalls = ExpiringMotionCalls {
 unsafe extern "C" fn extension(handle: *mut c_void, id: Text) -> *const c_void {
     let has = |opened: &mut Opened| opened.robot.guarded_motion().is_some();
     // SAFETY: the host lends the text for the call.
-    let guarded = unsafe { extended(handle, id, (GUARDED_MOTION, &GUARDED), has) };
+    let guarded = unsafe { extended(handle, id, GUARDED_MOTION, &GUARDED, has) };
     if !guarded.is_null() {
         return guarded;
     }
     let expires = |opened: &mut Opened| opened.robot.expiring_motion().is_some();
     // SAFETY: as above.
-    unsafe { extended(handle, id, (EXPIRING_MOTION, &EXPIRING), expires) }
+    unsafe { extended(handle, id, EXPIRING_MOTION, &EXPIRING, expires) }
 }
 
 unsafe extern "C" fn pose(
@@ -175,7 +175,7 @@ unsafe extern "C" fn wait(
 /// Round the queue: whatever call the robot is in.
 unsafe extern "C" fn halt(handle: *mut c_void, error: *mut Error) -> Status {
     let work = || {
-        let handle = open::find::<Handle<Opened>>(handle)?;
+        let handle = handles::find::<Handle<Opened>>(handle)?;
         match &handle.halt {
             Some(halt) => Ok(halt.halt()?),
             None => Err(Failure::new(ErrorKind::Internal, "a robot without a halt")),

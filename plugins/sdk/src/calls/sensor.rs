@@ -10,10 +10,10 @@ use taceva_core::{ErrorKind, Facts, FrameMut, PixelFormat, Sensor};
 
 use super::{Kind, call, device_calls, extended};
 use crate::convert::{self, deadline};
+use crate::driver_lists::{Drivers, Loaded};
 use crate::failure::Failure;
-use crate::loaded::{Drivers, Loaded};
+use crate::handles::Handle;
 use crate::memory;
-use crate::open::Handle;
 
 /// A sensor, and how many frames it gave.
 pub(crate) struct Opened {
@@ -56,7 +56,7 @@ static LIGHTING: SensorLightingCalls = SensorLightingCalls {
 unsafe extern "C" fn extension(handle: *mut c_void, id: Text) -> *const c_void {
     let has = |opened: &mut Opened| opened.sensor.lighting().is_some();
     // SAFETY: the host lends the text for the call.
-    unsafe { extended(handle, id, (SENSOR_LIGHTING, &LIGHTING), has) }
+    unsafe { extended(handle, id, SENSOR_LIGHTING, &LIGHTING, has) }
 }
 
 unsafe extern "C" fn start(handle: *mut c_void, timeout_ns: u64, error: *mut Error) -> Status {

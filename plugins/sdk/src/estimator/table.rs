@@ -14,11 +14,11 @@ use taceva_core::{
 };
 
 use super::progress::ReportedProgress;
-use super::{EstimatorFactory, FitRequest, kept};
+use super::{EstimatorFactory, FitRequest, model_bytes};
+use crate::driver_lists::loaded;
 use crate::failure::Failure;
 use crate::guard::guard;
-use crate::loaded::loaded;
-use crate::open;
+use crate::handles;
 use crate::table::estimator_table;
 use crate::{factory, memory};
 
@@ -129,7 +129,10 @@ unsafe extern "C" fn load(
             (place, memory::list("bytes", bytes, whole(length)?)?)
         };
         let estimator = estimator(number)?;
-        *place = opened(kept::read(bytes, |saved| Ok(estimator.load(saved)?))?);
+        *place = opened(model_bytes::read(
+            bytes,
+            |saved| Ok(estimator.load(saved)?),
+        )?);
         Ok(())
     };
     // SAFETY: the host's own promise for `error`.
@@ -138,13 +141,13 @@ unsafe extern "C" fn load(
 
 fn opened(regressor: Kept) -> AbiRegressor {
     AbiRegressor {
-        handle: open::keep(regressor),
+        handle: handles::keep(regressor),
         calls: &raw const CALLS,
     }
 }
 
 unsafe extern "C" fn close(handle: *mut c_void) {
-    open::close(handle);
+    handles::close(handle);
 }
 
 unsafe extern "C" fn predict(
@@ -157,7 +160,7 @@ unsafe extern "C" fn predict(
     error: *mut Error,
 ) -> Status {
     let work = || {
-        let regressor: Arc<Kept> = open::find(handle)?;
+        let regressor: Arc<Kept> = handles::find(handle)?;
         let (samples, shape) = (whole(samples)?, regressor.shape());
         let channels = regressor.channels().len();
         // What the model says of itself may come from a stranger's file; the lengths are the host's.
@@ -191,11 +194,11 @@ unsafe extern "C" fn save(
     error: *mut Error,
 ) -> Status {
     let work = || {
-        let regressor: Arc<Kept> = open::find(handle)?;
+        let regressor: Arc<Kept> = handles::find(handle)?;
         // SAFETY: the host's place for the length.
         let length = unsafe { memory::place("length", length) }?;
         let room = if into.is_null() { 0 } else { whole(*length)? };
-        let bytes = kept::write(&**regressor)?;
+        let bytes = model_bytes::write(&**regressor)?;
         *length = bytes.len() as u64;
         if room < bytes.len() {
             let message = format!("{room} bytes of room, expected {}", bytes.len());
@@ -251,7 +254,7 @@ impl Set {
         let mut list = Vec::with_capacity(columns);
         for name in names {
             // SAFETY: as above.
-            list.push(kept::channel(unsafe {
+            list.push(model_bytes::channel(unsafe {
                 memory::text("channel_names", *name)
             }?)?);
         }

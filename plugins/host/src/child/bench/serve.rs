@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use taceva_core::{DriverError, SimulatedBench};
 
-use crate::child::guarded::{guarded, start};
 use crate::child::socket::Socket;
+use crate::child::thread::{guarded, start};
 use crate::child::wire::{BenchAnswer, BenchCall, Failure};
 
 /// Answers calls to `bench` until the host closes its end.

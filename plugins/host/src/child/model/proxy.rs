@@ -41,7 +41,8 @@ impl ModelProxy {
         child: Arc<Child>,
         estimator: DriverKey,
         talk: Socket,
-        (channels, shape): (Channels, FeatureShape),
+        channels: Channels,
+        shape: FeatureShape,
         progress: &dyn Progress,
     ) -> Result<ModelProxy, ModelError> {
         let mut talk = talk;

@@ -8,9 +8,9 @@ use taceva_core::{Args, ErrorKind, Features, ModelError, Progress};
 
 use crate::child::arguments::arguments;
 use crate::child::array::{OwnedSet, get, put};
-use crate::child::guarded::{guarded, start};
 use crate::child::memory::SharedMemory;
 use crate::child::socket::{LinkError, Socket, send_now, try_receive};
+use crate::child::thread::{guarded, start};
 use crate::child::wire::{Failure, ModelAnswer, ModelCall, ModelEvent, ModelOrder, ModelWord};
 use crate::session::{FitRequest, Saved, SavedRegressor, Session};
 

@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use taceva_core::{DriverError, ErrorKind, Halt, Interrupt};
 
-use crate::child::guarded::{guarded, start};
 use crate::child::kind::{Kind, Server};
 use crate::child::socket::Socket;
+use crate::child::thread::{guarded, start};
 use crate::child::wire::{Answer, Call, Failure, OpenedDevice, Urgent};
 
 /// The sockets of a device that is being opened.
