@@ -25,7 +25,7 @@ mod fnv;
 mod sequence;
 
 pub use draws::Draws;
-pub use fnv::fnv_1a;
+pub use fnv::{FNV_OFFSET, fnv_1a, fnv_1a_after};
 pub use sequence::SplitMix64;
 
 /// What one step adds to the state of SplitMix64: 2⁶⁴ over the golden ratio, odd.

@@ -9,7 +9,6 @@ mod ends;
 mod error;
 mod estimate;
 mod exponential;
-pub(crate) mod fnv;
 mod holm;
 pub(crate) mod jackknife;
 mod logarithm;

@@ -1,4 +1,12 @@
-/// FNV-1a hash of `bytes`, 64 bits (Fowler, Noll and Vo): a key for a generator, not fit for cryptography.
+/// FNV-1a hash of no byte.
+///
+/// ```
+/// use taceva_core::random::{FNV_OFFSET, fnv_1a};
+/// assert_eq!(fnv_1a(b""), FNV_OFFSET);
+/// ```
+pub const FNV_OFFSET: u64 = 0xcbf2_9ce4_8422_2325;
+
+/// FNV-1a hash of `bytes`, 64 bits (Fowler, Noll and Vo): published values, the same in every version; not fit for cryptography.
 ///
 /// ```
 /// use taceva_core::random::fnv_1a;
@@ -6,7 +14,18 @@
 /// ```
 #[must_use]
 pub fn fnv_1a(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+    fnv_1a_after(FNV_OFFSET, bytes)
+}
+
+/// FNV-1a hash of `bytes` behind those whose hash is `hash`.
+///
+/// ```
+/// use taceva_core::random::{fnv_1a, fnv_1a_after};
+/// assert_eq!(fnv_1a_after(fnv_1a(b"foo"), b"bar"), fnv_1a(b"foobar"));
+/// ```
+#[must_use]
+pub fn fnv_1a_after(hash: u64, bytes: &[u8]) -> u64 {
+    bytes.iter().fold(hash, |hash, byte| {
         (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)
     })
 }

@@ -2,7 +2,7 @@
 
 use taceva_core::{Batch, Column, Labels};
 
-use crate::stats::fnv::{FNV_OFFSET, fnv1a64_from};
+use taceva_core::random::{FNV_OFFSET, fnv_1a_after};
 
 /// Names the rows of `batch` by their values of every channel. Rows of equal values have one name, so that names, and all that is made of
 /// them, depend on the set of rows alone.
@@ -21,7 +21,7 @@ pub(crate) fn rows_as_clusters(batch: &Batch) -> Labels {
 
 fn with_value(hash: u64, column: &Column, row: usize) -> u64 {
     match column.get(row) {
-        Some(value) => fnv1a64_from(hash, &value.to_bits().to_le_bytes()),
-        None => fnv1a64_from(hash, b"absent"),
+        Some(value) => fnv_1a_after(hash, &value.to_bits().to_le_bytes()),
+        None => fnv_1a_after(hash, b"absent"),
     }
 }

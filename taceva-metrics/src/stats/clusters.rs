@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::fnv::fnv1a64;
 use super::row_groups::{Grouped, HASHED_CLUSTERS, bucket};
 use crate::exact::merge::Merge;
+use taceva_core::random::fnv_1a;
 
 /// Distinct locations up to which each is a cluster of its own.
 pub const NAMED_CLUSTERS: usize = 64;
@@ -32,7 +32,7 @@ const WHOLE: &str = "all";
 pub enum Clusters<T> {
     /// One summary per location, by its name.
     Named(BTreeMap<String, T>),
-    /// [`HASHED_CLUSTERS`] summaries; a location's is `mix(seed ^ fnv1a64(name)) mod 32` with [`taceva_core::random::mix`].
+    /// [`HASHED_CLUSTERS`] summaries; a location's is `mix(seed ^ fnv_1a(name)) mod 32` with [`taceva_core::random::mix`].
     Hashed(Vec<T>),
     /// One summary of everything: some sample named no location.
     Pooled(T),
@@ -53,7 +53,7 @@ impl<T> Clusters<T> {
                 let cells = cells.iter();
                 Some(
                     cells
-                        .map(|(name, cell)| (fnv1a64(name.as_bytes()), cell))
+                        .map(|(name, cell)| (fnv_1a(name.as_bytes()), cell))
                         .collect(),
                 )
             }

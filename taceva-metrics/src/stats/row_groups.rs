@@ -6,7 +6,7 @@ use std::cell::OnceCell;
 use taceva_core::Labels;
 use taceva_core::random::mix;
 
-use super::fnv::fnv1a64;
+use taceva_core::random::fnv_1a;
 
 /// Number of clusters to which more locations than [`NAMED_CLUSTERS`](crate::NAMED_CLUSTERS) are assigned by hash.
 pub const HASHED_CLUSTERS: usize = 32;
@@ -61,7 +61,7 @@ impl<'a> Grouped<'a> {
 /// Which of the clusters that are assigned by hash a name falls into.
 pub(super) fn bucket(seed: u64, name: &str) -> usize {
     let clusters = u64::try_from(HASHED_CLUSTERS).expect("32 fits");
-    let bucket = mix(seed ^ fnv1a64(name.as_bytes())) % clusters;
+    let bucket = mix(seed ^ fnv_1a(name.as_bytes())) % clusters;
     usize::try_from(bucket).expect("below 32")
 }
 

@@ -8,7 +8,7 @@ use crate::exact::sorted_map::SortedMap;
 use crate::geometry::{GrowingHull, Hull};
 use crate::pair::is_valid;
 use crate::score::value::{Finished, UndefinedReason};
-use crate::stats::fnv::fnv1a64;
+use taceva_core::random::fnv_1a;
 
 /// Every time at which there was a frame, and the hull of the places of contact.
 ///
@@ -29,7 +29,7 @@ impl IntrinsicSums {
     /// Adds a frame: its time in s, and the digest of its bytes.
     pub(super) fn add_time(&mut self, time_s: f64, digest: Option<&str>) {
         if is_valid(time_s) {
-            let digest = digest.map(|digest| fnv1a64(digest.as_bytes()));
+            let digest = digest.map(|digest| fnv_1a(digest.as_bytes()));
             self.frames.insert((Ordered::new(time_s), digest), ());
             self.timed += 1;
         } else {

@@ -1,5 +1,6 @@
 //! A font in a file: the used glyphs alone, their widths, and the letters that they stand for, so that text can be searched and copied.
 
+use taceva_core::random::{FNV_OFFSET, fnv_1a_after};
 use pdf_writer::types::{CidFontType, FontFlags, SystemInfo, UnicodeCmap};
 use pdf_writer::{Filter, Finish, Name, Pdf, Rect, Ref, Str};
 
@@ -88,8 +89,8 @@ pub(super) fn write(pdf: &mut Pdf, first: Ref, at: i32, used: &Used) {
 /// Six capitals that name this subset of a font: a digest (FNV-1a) of its glyphs.
 fn tag(used: &Used) -> String {
     let glyphs = used.glyphs.remapped_gids();
-    let mut digest = glyphs.fold(0xcbf2_9ce4_8422_2325_u64, |digest, glyph| {
-        (digest ^ u64::from(glyph)).wrapping_mul(0x0100_0000_01b3)
+    let mut digest = glyphs.fold(FNV_OFFSET, |digest, glyph| {
+        fnv_1a_after(digest, &glyph.to_be_bytes())
     });
     let letters = (0..6).map(|_| {
         let letter = u8::try_from(digest % 26).unwrap_or(0);
