@@ -1,8 +1,8 @@
 //! A font in a file: the used glyphs alone, their widths, and the letters that they stand for, so that text can be searched and copied.
 
-use taceva_core::random::{FNV_OFFSET, fnv_1a_after};
 use pdf_writer::types::{CidFontType, FontFlags, SystemInfo, UnicodeCmap};
 use pdf_writer::{Filter, Finish, Name, Pdf, Rect, Ref, Str};
+use taceva_core::random::{FNV_OFFSET, fnv_1a_after};
 
 use super::compressed;
 use super::content::number;
