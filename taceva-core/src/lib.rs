@@ -64,7 +64,7 @@ pub use model::{
 pub use nanometre::{Nanometre, NanometreError};
 pub use needs::Needs;
 pub use outcome::{Limit, PressOutcome};
-pub use panic::contained;
+pub use panic::{caught, contained};
 pub use phase::Phase;
 pub use printable::{Shown, is_obeyed, shown, shown_lines};
 pub use progress::{Progress, SilentProgress};

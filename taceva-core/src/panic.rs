@@ -9,7 +9,7 @@ thread_local! {
     static DEPTH: Cell<usize> = const { Cell::new(0) };
 }
 
-/// What `run` gives, or the message of its panic. Nothing is printed for a panic in here; elsewhere the hook of the program still runs.
+/// The value of `run`, or the message of its panic. Nothing is printed for a panic in here; elsewhere the hook of the program still runs.
 pub fn contained<T>(run: impl FnOnce() -> T) -> Result<T, String> {
     static HOOK: Once = Once::new();
     HOOK.call_once(|| {
@@ -21,14 +21,23 @@ pub fn contained<T>(run: impl FnOnce() -> T) -> Result<T, String> {
         }));
     });
     DEPTH.set(DEPTH.get() + 1);
-    let outcome = panic::catch_unwind(AssertUnwindSafe(run));
+    let outcome = caught(run);
     DEPTH.set(DEPTH.get() - 1);
-    outcome.map_err(|payload| match payload.downcast::<String>() {
-        Ok(message) => *message,
-        Err(payload) => match payload.downcast_ref::<&str>() {
-            Some(message) => (*message).to_owned(),
-            None => "a panic without a message".to_owned(),
-        },
+    outcome
+}
+
+/// The value of `run`, or the message of its panic, which the hook of the program has printed.
+pub fn caught<T>(run: impl FnOnce() -> T) -> Result<T, String> {
+    panic::catch_unwind(AssertUnwindSafe(run)).map_err(|payload| {
+        let message = match payload.downcast_ref::<&str>() {
+            Some(message) => Some((*message).to_owned()),
+            None => payload.downcast_ref::<String>().cloned(),
+        };
+        message.unwrap_or_else(|| {
+            // Dropping a payload of another type may panic again.
+            std::mem::forget(payload);
+            "a panic without a message".to_owned()
+        })
     })
 }
 
@@ -48,5 +57,27 @@ mod tests {
             Err("short".to_owned())
         );
         assert_eq!(contained(|| 5), Ok(5));
+        assert_eq!(caught(|| 5), Ok(5));
+    }
+
+    /// A payload whose drop panics again.
+    struct Bomb;
+
+    impl Drop for Bomb {
+        fn drop(&mut self) {
+            panic!("dropped");
+        }
+    }
+
+    #[test]
+    fn a_payload_that_panics_when_dropped_is_not_dropped() {
+        let caught = contained(|| -> u8 { panic::panic_any(Bomb) });
+        assert_eq!(caught, Err("a panic without a message".to_owned()));
+    }
+
+    #[test]
+    fn one_thread_does_not_silence_another() {
+        let depth = contained(|| std::thread::spawn(|| DEPTH.get()).join().expect("no panic"));
+        assert_eq!(depth, Ok(0));
     }
 }

@@ -96,7 +96,7 @@ pub fn select<'a>(
             (None, None) => {
                 return Err(UnknownMetric {
                     name: name.to_owned(),
-                    nearest: nearest(name),
+                    nearest: taceva_core::nearest(name, self::names()),
                 });
             }
         }
@@ -109,29 +109,6 @@ pub fn select<'a>(
 pub fn names() -> impl Iterator<Item = &'static str> {
     let groups = GROUPS.into_iter().map(|(group, _)| group);
     ALL.into_iter().map(|metric| metric.id).chain(groups)
-}
-
-/// The known name nearest to `name`, if at most a third of its letters differ.
-fn nearest(name: &str) -> Option<&'static str> {
-    let nearest = names().min_by_key(|known| edit_distance(name, known))?;
-    let near = edit_distance(name, nearest) <= (nearest.len() / 3).max(1);
-    near.then_some(nearest)
-}
-
-/// Letters to insert, remove or replace between two words (Levenshtein).
-fn edit_distance(left: &str, right: &str) -> usize {
-    let right: Vec<char> = right.chars().collect();
-    let mut row: Vec<usize> = (0..=right.len()).collect();
-    for (above, letter) in left.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = above + 1;
-        for (position, other) in right.iter().enumerate() {
-            let replaced = diagonal + usize::from(letter != *other);
-            diagonal = row[position + 1];
-            row[position + 1] = replaced.min(row[position] + 1).min(diagonal + 1);
-        }
-    }
-    row[right.len()]
 }
 
 #[cfg(test)]

@@ -11,4 +11,4 @@ pub mod toml_text;
 
 pub use digest::digest_of_bytes;
 pub use error::SealError;
-pub use history::{Edit, Opened, Version};
+pub use history::{Edit, Opened};

@@ -2,9 +2,7 @@
 
 #![expect(unsafe_code, reason = "the caller's memory for the message is written")]
 
-use std::any::Any;
 use std::mem::offset_of;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use taceva_abi::{Error, FaultNumber, MESSAGE_SIZE, Status};
 use taceva_core::ErrorKind;
@@ -35,25 +33,12 @@ pub(crate) unsafe fn guard(
 /// What `work` gives, or its panic as a failure.
 pub(crate) fn caught<T>(work: impl FnOnce() -> T) -> Result<T, Failure> {
     // What a panic leaves half done is a handle's, and the handle is dead from then on.
-    catch_unwind(AssertUnwindSafe(work)).map_err(|payload| {
-        let message = format!("the plugin panicked: {}", words(&*payload));
-        // Dropping a payload of the author's own could panic again; words cannot.
-        if !payload.is::<&str>() && !payload.is::<String>() {
-            std::mem::forget(payload);
-        }
-        Failure::new(ErrorKind::Panicked, message)
+    taceva_core::caught(work).map_err(|message| {
+        Failure::new(
+            ErrorKind::Panicked,
+            format!("the plugin panicked: {message}"),
+        )
     })
-}
-
-fn words(payload: &(dyn Any + Send)) -> &str {
-    match (
-        payload.downcast_ref::<&str>(),
-        payload.downcast_ref::<String>(),
-    ) {
-        (Some(words), _) => words,
-        (_, Some(words)) => words,
-        _ => "without words",
-    }
 }
 
 /// Leaves `message` in the caller's error, cut between two characters where it does not fit.
@@ -108,7 +93,7 @@ mod tests {
         let panics: [(fn(), &str); 3] = [
             (|| panic!("plain"), "plain"),
             (|| panic!("{} of {}", 1, 2), "1 of 2"),
-            (|| std::panic::panic_any(()), "without words"),
+            (|| std::panic::panic_any(()), "without a message"),
         ];
         for (panics, expected) in panics {
             // SAFETY: the error is ours.

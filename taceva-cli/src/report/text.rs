@@ -161,10 +161,6 @@ fn footer(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     for edit in &report.provenance.edits {
         writeln!(out, "edited     {}", escape_terminal(edit))?;
     }
-    for file in &report.provenance.unsealed {
-        let file = escape_terminal(file);
-        writeln!(out, "unsealed   {file}: a change of it cannot be noticed")?;
-    }
     if let Some(presses) = presses(report) {
         writeln!(out, "presses    {presses}")?;
     }

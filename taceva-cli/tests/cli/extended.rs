@@ -59,7 +59,6 @@ fn rows_join_a_dataset_whose_table_is_then_that_of_one_import() {
         panic!("{:?}", extended.header().extended);
     };
     assert_eq!((addition.rows, addition.from.as_str()), (42, "second"));
-    assert!(extended.header().seal.is_sealed);
     assert!(
         crate::support::leftovers(
             &bench.path("data"),

@@ -41,6 +41,6 @@ pub(super) fn check_seal(card: &str, tensors: &SafeTensors<'_>) -> Result<(), Fo
         .collect();
     let mut attached = attached(&digested);
     attached.sort_unstable();
-    taceva_files::seal::json::check_with(card, &attached, taceva_files::seal::Version::Sealed)?;
+    taceva_files::seal::json::check_with(card, &attached)?;
     Ok(())
 }

@@ -10,18 +10,11 @@ pub struct Suggestion {
 }
 
 impl Suggestion {
-    /// Least Jaro–Winkler similarity at which a typing mistake is more likely than another meaning.
-    const NEAR: f64 = 0.75;
-
     /// What `word` may have been meant to be.
     pub fn of<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Suggestion {
         let known: Vec<String> = known.into_iter().map(str::to_owned).collect();
-        let similarity = |candidate: &&String| strsim::jaro_winkler(word, candidate);
-        let nearest = known
-            .iter()
-            .max_by(|a, b| similarity(a).total_cmp(&similarity(b)))
-            .filter(|best| similarity(best) >= Suggestion::NEAR)
-            .cloned();
+        let nearest = taceva_core::nearest(word, known.iter().map(String::as_str));
+        let nearest = nearest.map(str::to_owned);
         Suggestion { nearest, known }
     }
 

@@ -17,18 +17,18 @@ pub struct Copies {
 pub const COPIES: &[Copies] = &[
     Copies {
         concept: "suggestion of a similar name",
-        words: &["strsim::", "fn levenshtein"],
-        most: 5,
+        words: &["strsim::", "fn edits("],
+        most: 1,
     },
     Copies {
         concept: "guard against panics",
         words: &["catch_unwind("],
-        most: 8,
+        most: 1,
     },
     Copies {
         concept: "FNV hash",
         words: &["0xcbf2_9ce4_8422_2325"],
-        most: 3,
+        most: 1,
     },
     Copies {
         concept: "struct Finding",

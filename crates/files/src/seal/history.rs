@@ -33,20 +33,9 @@ fn short(digest: &str) -> &str {
     digest.get(..15).unwrap_or(digest)
 }
 
-/// Presence of a seal in files of a version.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Version {
-    /// They have a seal.
-    Sealed,
-    /// They were written before there were seals; one that has a seal is checked all the same.
-    BeforeSeals,
-}
-
-/// A file whose seal holds, or that is older than seals.
+/// A file whose seal holds.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Opened {
-    /// Set if the file had a seal.
-    pub is_sealed: bool,
     /// The digest of what it says, `sha256:…`.
     pub digest: String,
     /// The edits that were accepted, oldest first.

@@ -5,7 +5,7 @@ use sha2::{Digest as _, Sha256};
 use crate::seal::canonical::Canonical;
 use crate::seal::digest::text_of;
 use crate::seal::error::SealError;
-use crate::seal::history::{Edit, Opened, Version};
+use crate::seal::history::{Edit, Opened};
 use crate::seal::keys::{self, Keys};
 
 /// The last key.
@@ -36,32 +36,26 @@ pub fn seal_with(text: &str, attached: &[(&str, &[u8])]) -> Result<String, SealE
 /// Checks that `text` says what it said when it was sealed, whatever its spaces and the order of its keys.
 ///
 /// # Errors
-/// [`SealError`]: changed, with the key where it is known; the seal gone that a file of this version has; a seal alone.
-pub fn check(text: &str, version: Version) -> Result<Opened, SealError> {
-    check_with(text, &[], version)
+/// [`SealError`]: changed, with the key where it is known; no seal; a seal alone.
+pub fn check(text: &str) -> Result<Opened, SealError> {
+    check_with(text, &[])
 }
 
 /// As [`check`], of a file that was sealed with the same bytes beside it.
 ///
 /// # Errors
 /// As [`check`].
-pub fn check_with(
-    text: &str,
-    attached: &[(&str, &[u8])],
-    version: Version,
-) -> Result<Opened, SealError> {
+pub fn check_with(text: &str, attached: &[(&str, &[u8])]) -> Result<Opened, SealError> {
     let parsed = Parsed::of(text, attached)?;
     let opened = Opened {
-        is_sealed: parsed.seal.is_some(),
         digest: parsed.digest.clone(),
         history: parsed.history.clone(),
     };
-    match (&parsed.seal, version) {
-        (None, Version::BeforeSeals) => Ok(opened),
-        (None, Version::Sealed) => Err(SealError::Gone),
-        (Some(_), _) if parsed.is_alone => Err(SealError::Alone),
-        (Some((digest, _)), _) if *digest == parsed.digest => Ok(opened),
-        (Some((_, line)), _) => Err(SealError::Changed {
+    match &parsed.seal {
+        None => Err(SealError::Gone),
+        Some(_) if parsed.is_alone => Err(SealError::Alone),
+        Some((digest, _)) if *digest == parsed.digest => Ok(opened),
+        Some((_, line)) => Err(SealError::Changed {
             key: keys::first_change(&keys::from_line(line), &parsed.keys()),
         }),
     }
@@ -225,43 +219,31 @@ mod tests {
         let compact: serde_json::Value = serde_json::from_str(TEXT).expect("JSON");
         for text in [TEXT.to_owned(), compact.to_string()] {
             let sealed = seal(&text).expect("an object");
-            assert!(check(&sealed, Version::Sealed).expect("holds").is_sealed);
+            assert!(check(&sealed).is_ok());
             let changed = sealed.replace("0.5", "0.25");
-            let error = check(&changed, Version::Sealed)
-                .expect_err("changed")
-                .to_string();
+            let error = check(&changed).expect_err("changed").to_string();
             assert!(error.starts_with("`metrics.mae.Fz` was changed"), "{error}");
             let value: serde_json::Value = serde_json::from_str(&sealed).expect("JSON");
             let rewritten = serde_json::to_string_pretty(&value).expect("JSON");
-            assert!(
-                check(&rewritten, Version::Sealed).is_ok(),
-                "only the form is another"
-            );
+            assert!(check(&rewritten).is_ok(), "only the form is another");
         }
     }
 
     #[test]
     fn a_seal_that_is_gone_alone_or_unreadable_is_refused() {
-        assert!(matches!(check(TEXT, Version::Sealed), Err(SealError::Gone)));
-        assert!(!check(TEXT, Version::BeforeSeals).expect("older").is_sealed);
+        assert!(matches!(check(TEXT), Err(SealError::Gone)));
         let sealed = seal(TEXT).expect("an object");
         let at = sealed.find("\"seal\"").expect("a seal");
         let alone = format!("{{{}", &sealed[at..]);
-        assert!(matches!(
-            check(&alone, Version::BeforeSeals),
-            Err(SealError::Alone)
-        ));
+        assert!(matches!(check(&alone), Err(SealError::Alone)));
         let torn = sealed.replace("\"digest\"", "\"dogest\"");
-        assert!(matches!(
-            check(&torn, Version::Sealed),
-            Err(SealError::Unreadable { .. })
-        ));
+        assert!(matches!(check(&torn), Err(SealError::Unreadable { .. })));
     }
 
     #[test]
     fn what_is_attached_is_under_the_seal() {
         let sealed = seal_with("{\"card\":1}", &[("weights", b"abc")]).expect("an object");
-        let check = |bytes: &[u8]| check_with(&sealed, &[("weights", bytes)], Version::Sealed);
+        let check = |bytes: &[u8]| check_with(&sealed, &[("weights", bytes)]);
         assert!(check(b"abc").is_ok());
         let error = check(b"abd").expect_err("changed").to_string();
         assert!(error.starts_with("`weights` was changed"), "{error}");
@@ -277,15 +259,12 @@ mod tests {
             "again",
         );
         let third = third.expect("accepted");
-        let history = check(&third, Version::Sealed).expect("holds").history;
+        let history = check(&third).expect("holds").history;
         let reasons: Vec<&str> = history.iter().map(|edit| edit.reason.as_str()).collect();
         assert_eq!(reasons, ["typed wrongly", "again"]);
         assert_ne!(history[0].from, history[0].to);
         let changed = third.replace("typed wrongly", "typed rightly");
-        assert!(
-            check(&changed, Version::Sealed).is_err(),
-            "the history is sealed too"
-        );
+        assert!(check(&changed).is_err(), "the history is sealed too");
         let untouched = reseal(&third, "2026-11-24", "for nothing").expect("holds");
         assert_eq!(untouched, third);
     }

@@ -3,7 +3,7 @@
 use crate::seal::canonical::Canonical;
 use crate::seal::digest::{PREFIX, digest_of_bytes};
 use crate::seal::error::SealError;
-use crate::seal::history::{Edit, Opened, Version};
+use crate::seal::history::{Edit, Opened};
 use crate::seal::keys::{self, Keys};
 
 /// The line with which the seal begins.
@@ -30,17 +30,10 @@ pub fn seal(body: &str) -> Result<String, SealError> {
 /// Checks that `text` is what it was when it was sealed, to the byte.
 ///
 /// # Errors
-/// [`SealError`]: changed, with the key where it is known; the seal gone that a file of this version has; a seal alone.
-pub fn check(text: &str, version: Version) -> Result<Opened, SealError> {
+/// [`SealError`]: changed, with the key where it is known; no seal; a seal alone.
+pub fn check(text: &str) -> Result<Opened, SealError> {
     let Some((body, seal)) = split(text) else {
-        return match version {
-            Version::Sealed => Err(SealError::Gone),
-            Version::BeforeSeals => Ok(Opened {
-                is_sealed: false,
-                digest: digest_of_bytes(text.as_bytes()),
-                history: history_of(text)?,
-            }),
-        };
+        return Err(SealError::Gone);
     };
     let seal = Written::parse(seal)?;
     if body.trim().is_empty() {
@@ -55,7 +48,6 @@ pub fn check(text: &str, version: Version) -> Result<Opened, SealError> {
         return Err(SealError::Changed { key });
     }
     Ok(Opened {
-        is_sealed: true,
         digest,
         history: history_of(body)?,
     })
@@ -166,14 +158,14 @@ mod tests {
     #[test]
     fn an_edit_is_noticed_and_its_key_named() {
         let sealed = seal(BODY).expect("TOML");
-        assert!(check(&sealed, Version::Sealed).expect("holds").is_sealed);
+        assert!(check(&sealed).is_ok());
         for (from, to, key) in [
             ("5.0", "4.0", "`footprint.radius_mm`"),
             ("synthetic", "recorded", "`source`"),
             ("\"Fz\"", "\"Fx\"", "`channels[0].name`"),
             ("# measured", "# guessed", "the file"),
         ] {
-            let error = check(&sealed.replace(from, to), Version::Sealed).expect_err(to);
+            let error = check(&sealed.replace(from, to)).expect_err(to);
             let error = error.to_string();
             assert!(error.starts_with(&format!("{key} was changed")), "{error}");
         }
@@ -182,23 +174,13 @@ mod tests {
     #[test]
     fn a_seal_that_is_gone_alone_or_unreadable_is_refused() {
         let sealed = seal(BODY).expect("TOML");
-        assert!(matches!(check(BODY, Version::Sealed), Err(SealError::Gone)));
-        assert!(!check(BODY, Version::BeforeSeals).expect("older").is_sealed);
+        assert!(matches!(check(BODY), Err(SealError::Gone)));
         let (_, alone) = split(&sealed).expect("sealed");
-        assert!(matches!(
-            check(alone, Version::BeforeSeals),
-            Err(SealError::Alone)
-        ));
+        assert!(matches!(check(alone), Err(SealError::Alone)));
         let torn = sealed.replace("digest =", "dogest =");
-        assert!(matches!(
-            check(&torn, Version::Sealed),
-            Err(SealError::Unreadable { .. })
-        ));
+        assert!(matches!(check(&torn), Err(SealError::Unreadable { .. })));
         let more = format!("{sealed}more = 1\n");
-        assert!(matches!(
-            check(&more, Version::Sealed),
-            Err(SealError::Unreadable { .. })
-        ));
+        assert!(matches!(check(&more), Err(SealError::Unreadable { .. })));
     }
 
     #[test]
@@ -210,10 +192,7 @@ mod tests {
                 let mut bytes = sealed.clone().into_bytes();
                 bytes[at] ^= 1 << bit;
                 if let Ok(text) = String::from_utf8(bytes) {
-                    assert!(
-                        check(&text, Version::Sealed).is_err(),
-                        "byte {at}, bit {bit}"
-                    );
+                    assert!(check(&text).is_err(), "byte {at}, bit {bit}");
                 }
             }
         }
@@ -223,7 +202,7 @@ mod tests {
     fn an_accepted_edit_is_listed_and_sealed() {
         let edited = seal(BODY).expect("TOML").replace("5.0", "4.0");
         let accepted = reseal(&edited, "2026-11-22", "measured \"again\"").expect("accepted");
-        let opened = check(&accepted, Version::Sealed).expect("holds");
+        let opened = check(&accepted).expect("holds");
         assert_eq!(opened.history.len(), 1);
         assert_eq!(opened.history[0].reason, "measured \"again\"");
         assert!(accepted.contains("# measured"));
@@ -232,6 +211,6 @@ mod tests {
             accepted
         );
         let forged = accepted.replace("again", "never");
-        assert!(check(&forged, Version::Sealed).is_err());
+        assert!(check(&forged).is_err());
     }
 }

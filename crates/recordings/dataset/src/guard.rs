@@ -1,37 +1,8 @@
-//! Catches panics of third-party decoders and returns them as errors; nothing is printed.
+//! Panics of decoders of other projects, as errors.
 
-use std::cell::Cell;
-use std::panic::{self, AssertUnwindSafe};
-use std::sync::Once;
-
-thread_local! {
-    static GUARDED: Cell<bool> = const { Cell::new(false) };
-}
-
-/// Runs `decode`; if it panics, the panic's message is the error.
-///
-/// The process-wide panic hook is wrapped once: it prints nothing on a thread that is inside a guard and is otherwise the
-/// hook that was there before.
+/// The value of `decode`; if it panics, the error says so with the panic's message, and nothing is printed.
 pub fn guarded<T>(decode: impl FnOnce() -> T) -> Result<T, String> {
-    static QUIET: Once = Once::new();
-    QUIET.call_once(|| {
-        let loud = panic::take_hook();
-        panic::set_hook(Box::new(move |info| {
-            if !GUARDED.get() {
-                loud(info);
-            }
-        }));
-    });
-    let outer = GUARDED.replace(true);
-    let result = panic::catch_unwind(AssertUnwindSafe(decode));
-    GUARDED.set(outer);
-    result.map_err(|payload| {
-        let message = payload
-            .downcast_ref::<&str>()
-            .copied()
-            .or_else(|| payload.downcast_ref::<String>().map(String::as_str));
-        format!("the decoder panicked: {}", message.unwrap_or("no message"))
-    })
+    taceva_core::contained(decode).map_err(|message| format!("the decoder panicked: {message}"))
 }
 
 #[cfg(test)]
@@ -46,15 +17,5 @@ mod tests {
             Err("the decoder panicked: index 7 out of range".to_owned())
         );
         assert_eq!(guarded(|| 5), Ok(5));
-    }
-
-    #[test]
-    fn the_guard_of_one_thread_does_not_silence_another() {
-        let is_hidden = guarded(|| {
-            std::thread::spawn(|| GUARDED.get())
-                .join()
-                .expect("no panic")
-        });
-        assert_eq!(is_hidden, Ok(false));
     }
 }

@@ -31,7 +31,6 @@ use crate::limits;
 use crate::signals::{SignalsInfo, WrittenSignals};
 use crate::toml_file::{parse_toml, toml_error, utf8};
 use crate::version::Version;
-use taceva_files::seal::Version::Sealed;
 use taceva_files::seal::{Edit, Opened, toml_text};
 
 pub use class_mapping::MappedClass;
@@ -72,7 +71,7 @@ struct ChannelInfo {
 /// # }
 /// let header = recorder.close()?;
 /// assert_eq!((header.sensor.model.as_str(), header.table.rows), ("my gel", 2));
-/// assert!(header.seal.is_sealed);
+/// assert!(header.seal.digest.starts_with("sha256:"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -191,7 +190,7 @@ impl Header {
         }
         // A text that is no TOML is refused with its line.
         parse_toml::<toml::Table>(path, &text)?;
-        let checked = toml_text::check(&text, Sealed);
+        let checked = toml_text::check(&text);
         let seal = checked.map_err(|source| DatasetError::Seal {
             path: path.to_owned(),
             source,

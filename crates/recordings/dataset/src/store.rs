@@ -92,8 +92,8 @@ pub fn write_table_and_header(
         },
     };
     let text = written.to_toml();
-    written.seal = taceva_files::seal::toml_text::check(&text, taceva_files::seal::Version::Sealed)
-        .map_err(|source| DatasetError::Seal {
+    written.seal =
+        taceva_files::seal::toml_text::check(&text).map_err(|source| DatasetError::Seal {
             path: header.to_owned(),
             source,
         })?;

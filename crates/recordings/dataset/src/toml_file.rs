@@ -7,7 +7,8 @@ use serde::de::DeserializeOwned;
 use crate::error::{DatasetError, Place};
 use crate::file::read_capped;
 use crate::limits;
-use crate::text::{nearest, shown};
+use crate::text::shown;
+use taceva_core::nearest;
 
 /// The TOML file at `path` as a `T`.
 ///

@@ -13,7 +13,8 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use taceva_dataset::internal::{all_cores, limits, nearest, read_capped, shown};
+use taceva_core::nearest;
+use taceva_dataset::internal::{all_cores, limits, read_capped, shown};
 use taceva_dataset::{DatasetError, Digest, Place};
 
 use number::parse_number;

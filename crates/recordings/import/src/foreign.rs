@@ -27,7 +27,8 @@ use taceva_arrays::ArrayFormat;
 use crate::csv_table::CsvTable;
 use crate::frame_names::FrameNames;
 use crate::source_folder::SourceFolder;
-use taceva_dataset::internal::{listed, nearest, shown};
+use taceva_core::nearest;
+use taceva_dataset::internal::{listed, shown};
 use taceva_dataset::{DatasetError, Place};
 
 pub(crate) use arrays::{ArrayPictures, stated};

@@ -58,15 +58,8 @@ pub fn hint(name: &str) -> String {
 /// assert_eq!(taceva_report::catalogue::nearest("banana"), None);
 /// ```
 pub fn nearest(name: &str) -> Option<String> {
-    let wanted = name.to_lowercase();
-    let likeness = |entry: &Sensor| strsim::jaro_winkler(&wanted, &entry.name.to_lowercase());
-    let known = all()
-        .into_iter()
-        .map(|entry| (likeness(&entry), entry.name));
-    let alike = known.filter(|(likeness, _)| *likeness > 0.8);
-    alike
-        .max_by(|left, right| left.0.total_cmp(&right.0))
-        .map(|(_, name)| name)
+    let names: Vec<String> = all().into_iter().map(|entry| entry.name).collect();
+    taceva_core::nearest(name, names.iter().map(String::as_str)).map(str::to_owned)
 }
 
 #[cfg(test)]

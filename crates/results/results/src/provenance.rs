@@ -50,9 +50,6 @@ pub struct Provenance {
     /// Accepted edits by hand of its inputs: file, date, reason and digests.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub edits: Vec<String>,
-    /// Inputs without a seal, whose changes could not be noticed.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub unsealed: Vec<String>,
     /// Notes for a reader.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
@@ -110,16 +107,10 @@ impl Provenance {
                 self.notes.push(note.clone());
             }
         }
-        for (own, other) in [
-            (&mut self.edits, &other.edits),
-            (&mut self.unsealed, &other.unsealed),
-        ] {
-            let new: Vec<String> = other
-                .iter()
-                .filter(|line| !own.contains(line))
-                .cloned()
-                .collect();
-            own.extend(new);
+        for edit in &other.edits {
+            if !self.edits.contains(edit) {
+                self.edits.push(edit.clone());
+            }
         }
         for plugin in &other.plugins {
             if !self.plugins.contains(plugin) {

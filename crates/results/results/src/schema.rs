@@ -5,7 +5,6 @@ use std::borrow::Cow;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use taceva_core::shown;
-use taceva_files::seal::Version;
 
 use crate::error::ResultsError;
 use crate::report::{EVALUATION_SCHEMA, EvaluationReport};
@@ -68,7 +67,7 @@ pub fn read(text: &str) -> Result<Vec<EvaluationReport>, ResultsError> {
             });
         }
     };
-    let seal = taceva_files::seal::json::check(text, Version::Sealed)?;
+    let seal = taceva_files::seal::json::check(text)?;
     let mut reports = match is_run {
         true => place_named::<RunReport<'_>>(text)?.studies.into_owned(),
         false => vec![place_named(text)?],

@@ -39,12 +39,6 @@ fn add_recording(provenance: &mut Provenance, dataset: &Dataset, folder: &str) {
     provenance
         .edits
         .extend(edits.map(|edit| format!("{folder}dataset.toml, {edit}")));
-    if !header.seal.is_sealed {
-        let format = header.format;
-        provenance
-            .unsealed
-            .push(format!("{folder}dataset.toml of format {format}"));
-    }
 }
 
 /// Whether the model was fitted on some of the samples that were scored, so that its skill on others stays unknown.

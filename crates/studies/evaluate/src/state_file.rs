@@ -7,7 +7,8 @@ use std::io::{self, Read, Write};
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use taceva_files::seal::{Edit, Version};
+use taceva_core::shown;
+use taceva_files::seal::Edit;
 use taceva_metrics::{Evaluation, Evaluator, State};
 
 use crate::bounded_share::Bounded;
@@ -17,14 +18,8 @@ use crate::row_ledger::Taken;
 use plan::WrittenPlan;
 use taceva_results::{Provenance, Subject};
 
-/// The schema of a state file. A minor version only adds keys; since 1.1 a state is sealed and says which rows it took.
-pub const STATE_SCHEMA: &str = "taceva.state/1.1";
-
-/// The schema of states of some of several shards of an input, which say how many rows it has.
-const SHARD_SCHEMA: &str = "taceva.state/1.2";
-
-/// The schema of states of before seals, which are read and marked.
-const UNSEALED_SCHEMA: &str = "taceva.state/1";
+/// The schema of a state file.
+pub const STATE_SCHEMA: &str = "taceva.state/1.0";
 
 /// The largest state file that is read: far above what 64 clusters of every family take.
 const LARGEST: u64 = 1 << 30;
@@ -99,15 +94,7 @@ impl StateFile {
 
     /// The same, having taken these rows.
     pub(crate) fn with_taken(self, taken: Vec<Taken>) -> StateFile {
-        let schema = match taken.iter().any(Taken::is_of_shard) {
-            true => SHARD_SCHEMA,
-            false => STATE_SCHEMA,
-        };
-        StateFile {
-            schema: schema.to_owned(),
-            taken,
-            ..self
-        }
+        StateFile { taken, ..self }
     }
 
     /// The same; if `is_seen`, of a model that was fitted on some of the samples.
@@ -139,23 +126,17 @@ impl StateFile {
         let text = read_capped(path).map_err(|error| wrong(error.to_string()))?;
         let head: Head = serde_json::from_str(&text)
             .map_err(|error| wrong(format!("no state of an evaluation: {error}")))?;
-        let version = match head.schema.as_str() {
-            STATE_SCHEMA | SHARD_SCHEMA => Version::Sealed,
-            UNSEALED_SCHEMA => Version::BeforeSeals,
-            schema => {
-                return Err(wrong(format!(
-                    "its schema is `{schema}`, expected `{STATE_SCHEMA}`"
-                )));
-            }
-        };
-        let opened = taceva_files::seal::json::check(&text, version)
-            .map_err(|error| wrong(error.to_string()))?;
+        if head.schema != STATE_SCHEMA {
+            return Err(wrong(format!(
+                "its schema is `{}`, expected `{STATE_SCHEMA}`; run the command that wrote it again with this version",
+                shown(&head.schema)
+            )));
+        }
+        let opened =
+            taceva_files::seal::json::check(&text).map_err(|error| wrong(error.to_string()))?;
         let mut file: StateFile =
             serde_json::from_str(&text).map_err(|error| wrong(error.to_string()))?;
         let name = path.file_name().unwrap_or_default().to_string_lossy();
-        if !opened.is_sealed {
-            file.provenance.unsealed.push(format!("state {name}"));
-        }
         let edits = file
             .history
             .drain(..)

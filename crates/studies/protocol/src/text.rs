@@ -4,12 +4,10 @@ mod error;
 mod setting;
 
 use serde::de::DeserializeOwned;
-use taceva_core::shown;
+use taceva_core::{nearest, shown};
 
 pub use error::{SceneError, SceneProblem};
 pub use setting::Setting;
-
-use error::nearest;
 
 /// The largest text that is read as a scene, in bytes.
 pub const GREATEST_SCENE: usize = 1 << 20;
@@ -75,7 +73,7 @@ impl Text {
         let problem = SceneProblem::UnknownName {
             what,
             name: shown(name).to_string(),
-            nearest: nearest(name, known.iter().copied()),
+            nearest: nearest(name, known.iter().copied()).map(str::to_owned),
             known: known.join(", "),
         };
         self.error(at, problem)
@@ -93,7 +91,7 @@ fn explained(message: &str) -> SceneProblem {
     match quoted.as_slice() {
         [wrong, known @ ..] if message.starts_with("unknown field") => SceneProblem::UnknownKey {
             key: shown(wrong).to_string(),
-            nearest: nearest(wrong, known.iter().copied()),
+            nearest: nearest(wrong, known.iter().copied()).map(str::to_owned),
             known: known.join(", "),
         },
         [missing] if message.starts_with("missing field") => {

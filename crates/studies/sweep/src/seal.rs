@@ -5,7 +5,6 @@ use std::path::Path;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use taceva_files::seal::Version;
 
 use crate::error::SweepError;
 
@@ -26,6 +25,6 @@ pub(crate) fn text(value: &impl Serialize) -> Result<String, String> {
 
 /// What `text` says, if it is what was sealed; what is wrong with it otherwise.
 pub(crate) fn value<T: DeserializeOwned>(text: &str) -> Result<T, String> {
-    taceva_files::seal::json::check(text, Version::Sealed).map_err(|error| error.to_string())?;
+    taceva_files::seal::json::check(text).map_err(|error| error.to_string())?;
     serde_json::from_str(text).map_err(|error| error.to_string())
 }

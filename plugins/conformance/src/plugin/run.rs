@@ -2,10 +2,9 @@
 
 use std::fs::File;
 use std::io::{Read, Seek};
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
-use taceva_core::ErrorKind;
+use taceva_core::{ErrorKind, caught};
 
 use super::checks;
 use super::probe::Probe;
@@ -35,12 +34,12 @@ pub(crate) fn run(
         serde_json::from_slice(&bytes).map_err(|error| (ErrorKind::Abi, error.to_string()))?;
     let check = checks().into_iter().find(|check| check.name == probe.check);
     let check = check.ok_or_else(|| (ErrorKind::Abi, format!("no check `{}`", probe.check)))?;
-    let made = catch_unwind(AssertUnwindSafe(|| {
+    let made = caught(|| {
         let _under_way = pending_call::begin("end the check");
         let subject = Subject::new(source, manifest, probe)?;
         check.test.run(&subject)?;
         Ok(subject.session)
-    }));
+    });
     match made {
         Ok(Ok(session)) => Ok(Arc::new(session)),
         Ok(Err(Unmet::Broken(why))) => Err((ErrorKind::DeviceFault, why)),

@@ -3,9 +3,8 @@
 #![expect(unsafe_code, reason = "a function that the library calls")]
 
 use std::ffi::c_void;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use taceva_core::Progress;
+use taceva_core::{Progress, caught};
 
 /// Steps of a fit, as whoever listens counts them.
 pub(super) const STEPS: u64 = 1_000;
@@ -30,11 +29,11 @@ pub(super) unsafe extern "C" fn progress(context: *mut c_void, done: f64) -> i32
     listener.reported = reported.max(reached);
     let progress = listener.progress;
     // A panic of the listener must not unwind into the library: it ends the fit.
-    let cancelled = catch_unwind(AssertUnwindSafe(|| {
+    let cancelled = caught(|| {
         if reached > reported {
             progress.advance(reached - reported);
         }
         progress.is_cancelled()
-    }));
+    });
     i32::from(cancelled.unwrap_or(true))
 }

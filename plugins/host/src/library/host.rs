@@ -3,10 +3,10 @@
 #![expect(unsafe_code, reason = "functions that a plugin calls")]
 
 use std::ffi::c_void;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use rustix::time::{ClockId, clock_gettime};
 use taceva_abi as abi;
+use taceva_core::caught;
 
 use crate::text::shown;
 
@@ -69,9 +69,7 @@ unsafe extern "C" fn write(
     // SAFETY: `context` is the log that `table` leaked, as this function and it are only handed over together.
     let log = unsafe { &*context.cast::<Log>() };
     // A panic must not unwind into the library; only this line of the log is lost then.
-    let _ = catch_unwind(AssertUnwindSafe(|| {
-        log(level, &read(target), &read(message))
-    }));
+    let _ = caught(|| log(level, &read(target), &read(message)));
 }
 
 unsafe extern "C" fn now(_: *mut c_void) -> u64 {

@@ -11,8 +11,6 @@ use super::section::{Entry, Origin, Row, Section};
 
 /// Longest text that is looked at: a parameter table is some thousand bytes.
 const LENGTH_MAX: usize = 1 << 20;
-/// A word this similar (Jaro and Winkler, 0 to 1) is offered instead of an unknown one.
-const SIMILARITY_MIN: f64 = 0.75;
 
 /// A table that is being read.
 pub(super) struct Document<'t> {
@@ -208,11 +206,7 @@ impl<'t> Document<'t> {
         let Some(unknown) = unknown else {
             return Ok(());
         };
-        let nearest = known
-            .map(|known| (strsim::jaro_winkler(known, unknown.get_ref()), known))
-            .filter(|(similarity, _)| *similarity >= SIMILARITY_MIN)
-            .max_by(|(left, _), (right, _)| left.total_cmp(right))
-            .map(|(_, known)| known.to_owned());
+        let nearest = taceva_core::nearest(unknown.get_ref(), known).map(str::to_owned);
         let separator = if within.is_empty() { "" } else { "." };
         let kind = ParameterErrorKind::Unknown {
             what,

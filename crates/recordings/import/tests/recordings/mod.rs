@@ -7,6 +7,7 @@ mod expected;
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
 
 use expected::differences;
 use taceva_core::SilentProgress;
@@ -123,12 +124,14 @@ fn arrays_of_zarr() {
     all_as_expected(&["zarr-v2", "zarr-v3"]);
 }
 
+/// What ffmpeg says of itself, where it is installed.
+fn ffmpeg() -> std::io::Result<Output> {
+    Command::new("ffmpeg").arg("-version").output()
+}
+
 #[test]
 fn clips_that_ffmpeg_decodes() {
-    match std::process::Command::new("ffmpeg")
-        .arg("-version")
-        .output()
-    {
+    match ffmpeg() {
         Ok(_) => all_as_expected(&["mkv-ffv1", "mp4-h264-444", "mp4-mpeg4"]),
         Err(error) => skip(Need::Ffmpeg, error),
     }

@@ -36,7 +36,6 @@ pub(super) fn entries(provenance: &Provenance) -> Vec<(String, String)> {
         ("plugins", provenance.plugins.join(", ")),
         ("samples_table", text(&provenance.samples_table)),
         ("edits", provenance.edits.join(", ")),
-        ("unsealed", provenance.unsealed.join(", ")),
     ];
     let known = all.into_iter().filter(|(_, text)| !text.is_empty());
     known.map(|(name, text)| (name.to_owned(), text)).collect()

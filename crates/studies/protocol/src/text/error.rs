@@ -313,13 +313,3 @@ fn found_where(what: &str, name: &str) -> &'static str {
         ""
     }
 }
-
-/// The known name nearest to `name`, if at most a third of its letters differ.
-pub(crate) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
-    known
-        .into_iter()
-        .map(|known| (strsim::osa_distance(name, known), known))
-        .filter(|(distance, known)| *distance <= (known.len() / 3).max(1))
-        .min()
-        .map(|(_, known)| known.to_owned())
-}

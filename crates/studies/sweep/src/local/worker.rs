@@ -1,10 +1,9 @@
 //! One worker: claims a task, carries it out, and says what came of it.
 
-use std::any::Any;
 use std::num::NonZeroUsize;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Duration;
 
+use taceva_core::caught;
 use taceva_dataset::SensorFile;
 use taceva_evaluate::{Claim, Watch, Work};
 
@@ -99,7 +98,7 @@ impl Runner<'_> {
             progress: &log,
             cache: self.cache,
         };
-        let done = catch_unwind(AssertUnwindSafe(|| carry_out(task, common, work)));
+        let done = caught(|| carry_out(task, common, work));
         let reason = match done {
             Ok(Ok(())) => {
                 log.say("scored");
@@ -118,10 +117,7 @@ impl Runner<'_> {
                 return Outcome::Failed(error.to_string());
             }
             Ok(Err(error)) => task.without_folders(&error.to_string(), self.folder),
-            Err(panic) => format!(
-                "an internal error, which is a bug of TacEva: {}",
-                words_of(&*panic)
-            ),
+            Err(panic) => format!("an internal error, which is a bug of TacEva: {panic}"),
         };
         log.say(&format!("failed: {reason}"));
         timer.keep(self.folder, &task.key);
@@ -135,10 +131,4 @@ impl Runner<'_> {
             Err(error) => Outcome::Failed(format!("{}; {error}", failure.reason)),
         }
     }
-}
-
-fn words_of(panic: &(dyn Any + Send)) -> String {
-    let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
-    text.or_else(|| panic.downcast_ref::<String>().cloned())
-        .unwrap_or_else(|| "no message".to_owned())
 }
