@@ -3,7 +3,7 @@
 //! Only permissions are read. A device that may be opened can still be held by another program, and opening a serial port to
 //! find out would reset what hangs on it.
 
-mod finding;
+mod diagnosis;
 mod machine;
 #[cfg(feature = "plugin")]
 mod plugins;
@@ -12,7 +12,7 @@ mod ports;
 mod usb;
 mod user;
 
-pub use finding::{Finding, State};
+pub use diagnosis::{Diagnosis, State};
 pub use machine::Machine;
 #[cfg(feature = "plugin")]
 pub use plugins::examine_plugins;
@@ -22,7 +22,7 @@ use crate::devices::{Devices, devices};
 use crate::drivers::Drivers;
 
 /// Looks at the drivers of the program and at `machine`; findings come in a fixed order.
-pub fn examine(drivers: &Drivers, machine: &Machine) -> Vec<Finding> {
+pub fn examine(drivers: &Drivers, machine: &Machine) -> Vec<Diagnosis> {
     let listed = devices(drivers);
     let keys: Vec<&str> = listed
         .drivers
@@ -32,7 +32,7 @@ pub fn examine(drivers: &Drivers, machine: &Machine) -> Vec<Finding> {
     let mut findings = of_drivers(&listed, &keys);
     let user = machine.user();
     if user.is_none() {
-        findings.push(Finding {
+        findings.push(Diagnosis {
             code: "user-unknown",
             state: State::Problem,
             subject: "permissions".to_owned(),
@@ -47,15 +47,15 @@ pub fn examine(drivers: &Drivers, machine: &Machine) -> Vec<Finding> {
     findings
 }
 
-fn of_drivers(listed: &Devices, keys: &[&str]) -> Vec<Finding> {
-    let mut findings = vec![Finding {
+fn of_drivers(listed: &Devices, keys: &[&str]) -> Vec<Diagnosis> {
+    let mut findings = vec![Diagnosis {
         code: "drivers",
         state: State::Good,
         subject: "drivers".to_owned(),
         detail: keys.join(", "),
         remedy: None,
     }];
-    findings.extend(listed.failed.iter().map(|error| Finding {
+    findings.extend(listed.failed.iter().map(|error| Diagnosis {
         code: "driver-failed",
         state: State::Problem,
         subject: error.driver().to_string(),

@@ -1,7 +1,7 @@
 //! `taceva doctor`.
 
 use taceva_drivers::Drivers;
-use taceva_drivers::doctor::{Finding, Machine, State, examine, examine_plugins};
+use taceva_drivers::doctor::{Diagnosis, Machine, State, examine, examine_plugins};
 use taceva_host::PluginHost;
 
 use super::Context;
@@ -31,12 +31,12 @@ pub(crate) fn run(args: &Output<ListFormat>, context: &Context) -> anyhow::Resul
 }
 
 /// The plugins that need what their user does not allow.
-fn permissions(host: &PluginHost) -> Vec<Finding> {
+fn permissions(host: &PluginHost) -> Vec<Diagnosis> {
     let findings = host.plugins().iter().filter_map(|plugin| {
         let remedy = report::plugin::remedy(host, plugin)?;
         let needs = host.withheld(plugin);
         let needs: Vec<String> = needs.needs().iter().map(ToString::to_string).collect();
-        Some(Finding {
+        Some(Diagnosis {
             code: "plugin-needs",
             state: State::Problem,
             subject: plugin.id().to_string(),

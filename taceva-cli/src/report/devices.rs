@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use serde::Serialize;
-use taceva_drivers::doctor::{Finding, State};
+use taceva_drivers::doctor::{Diagnosis, State};
 use taceva_drivers::{Devices, ListedArgument, ListedDevice, ListedDriver};
 
 use super::json;
@@ -19,7 +19,7 @@ pub(crate) fn list(devices: &Devices, format: ListFormat, out: &mut dyn Write) -
 
 /// Writes the findings of `doctor`.
 pub(crate) fn findings(
-    findings: &[Finding],
+    findings: &[Diagnosis],
     format: ListFormat,
     out: &mut dyn Write,
 ) -> io::Result<()> {
@@ -87,7 +87,7 @@ impl WrittenDevices<'_> {
 #[derive(Serialize)]
 struct WrittenFindings<'a> {
     schema: &'static str,
-    findings: &'a [Finding],
+    findings: &'a [Diagnosis],
 }
 
 fn text(devices: &Devices, out: &mut dyn Write) -> io::Result<()> {

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use taceva_host::{Keeping, PluginHost};
 
-use super::{Finding, State};
+use super::{Diagnosis, State};
 
 /// How each plugin of `host` would run, by id: found out by confining a process that loads nothing. No code of a plugin runs.
-pub fn examine_plugins(host: &Arc<PluginHost>) -> Vec<Finding> {
+pub fn examine_plugins(host: &Arc<PluginHost>) -> Vec<Diagnosis> {
     let findings = host.plugins().iter().map(|plugin| {
         let id = plugin.id();
         let keeping = host.keeping(plugin);
@@ -18,14 +18,14 @@ pub fn examine_plugins(host: &Arc<PluginHost>) -> Vec<Finding> {
                 (State::Problem, Some(remedy))
             }
         };
-        let finding = Finding {
+        let finding = Diagnosis {
             code: "plugin-isolation",
             state,
             subject: id.to_string(),
             detail: format!("runs {keeping}"),
             remedy,
         };
-        let quarantined = host.quarantined(plugin).map(|reason| Finding {
+        let quarantined = host.quarantined(plugin).map(|reason| Diagnosis {
             code: "plugin-quarantined",
             state: State::Problem,
             subject: id.to_string(),

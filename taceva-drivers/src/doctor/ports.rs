@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use super::finding::{Finding, State};
+use super::diagnosis::{Diagnosis, State};
 use super::machine::Machine;
 use super::port_driver::{PortClass, drivers_of};
 use super::user::User;
@@ -53,10 +53,10 @@ pub(super) fn examine(
     user: Option<&User>,
     kind: &PortKind,
     keys: &[&str],
-) -> Vec<Finding> {
+) -> Vec<Diagnosis> {
     let [good, denied, absent] = kind.codes;
     let names = machine.names("dev").into_iter();
-    let findings: Vec<Finding> = names
+    let findings: Vec<Diagnosis> = names
         .filter(|name| kind.matches(name))
         .map(|name| {
             let path = format!("/dev/{name}");
@@ -64,7 +64,7 @@ pub(super) fn examine(
             let remedy = user
                 .zip(metadata)
                 .and_then(|(user, metadata)| user.remedy(&path, &metadata));
-            Finding {
+            Diagnosis {
                 code: if remedy.is_none() { good } else { denied },
                 state: if remedy.is_none() {
                     State::Good
@@ -80,7 +80,7 @@ pub(super) fn examine(
     if !findings.is_empty() {
         return findings;
     }
-    vec![Finding {
+    vec![Diagnosis {
         code: absent,
         state: State::Absent,
         subject: format!("/dev/{}*", kind.prefixes.join("*, /dev/")),

@@ -2,7 +2,7 @@
 
 use nusb::{DeviceInfo, MaybeFuture as _};
 
-use super::finding::{Finding, State};
+use super::diagnosis::{Diagnosis, State};
 use super::machine::Machine;
 use crate::name_order;
 use crate::text::shown;
@@ -108,7 +108,7 @@ pub(super) fn plugged_in() -> Result<Vec<UsbDevice>, String> {
     Ok(devices)
 }
 
-pub(super) fn examine(machine: &Machine) -> Vec<Finding> {
+pub(super) fn examine(machine: &Machine) -> Vec<Diagnosis> {
     let devices = match &machine.usb {
         Ok(devices) => devices,
         Err(why) => return vec![unknown(why)],
@@ -127,8 +127,8 @@ pub(super) fn examine(machine: &Machine) -> Vec<Finding> {
 }
 
 /// A system without USB, such as a container, or one that does not list it.
-fn unknown(why: &str) -> Finding {
-    Finding {
+fn unknown(why: &str) -> Diagnosis {
+    Diagnosis {
         code: "usb-unknown",
         state: State::Absent,
         subject: "USB".to_owned(),
@@ -138,7 +138,7 @@ fn unknown(why: &str) -> Finding {
 }
 
 impl Known {
-    fn finding(&self, device: &UsbDevice, has_file: bool) -> Finding {
+    fn finding(&self, device: &UsbDevice, has_file: bool) -> Diagnosis {
         let serial = device.serial.as_ref().map_or_else(String::new, |serial| {
             format!(", serial number {}", shown(serial))
         });
@@ -146,7 +146,7 @@ impl Known {
             true => ("usb", State::Good),
             false => ("usb-without-driver", State::Problem),
         };
-        Finding {
+        Diagnosis {
             code,
             state,
             subject: format!("USB {}", shown(&device.port)),

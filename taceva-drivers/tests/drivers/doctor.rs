@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use taceva_drivers::Drivers;
-use taceva_drivers::doctor::{Finding, Machine, State, UsbDevice, examine};
+use taceva_drivers::doctor::{Diagnosis, Machine, State, UsbDevice, examine};
 use tempfile::TempDir;
 
 /// A machine of files, each with its text.
@@ -18,12 +18,12 @@ fn machine(files: &[(&str, &str)]) -> TempDir {
     root
 }
 
-fn findings(root: &Path) -> Vec<Finding> {
+fn findings(root: &Path) -> Vec<Diagnosis> {
     let drivers = Drivers::builtin().expect("no contradiction");
     examine(&drivers, &Machine::at(root))
 }
 
-fn codes(findings: &[Finding]) -> Vec<&str> {
+fn codes(findings: &[Diagnosis]) -> Vec<&str> {
     findings.iter().map(|finding| finding.code).collect()
 }
 
@@ -99,7 +99,7 @@ fn a_camera_that_is_not_permitted_says_which_group_to_join() {
         false => "DIGIT: DIGIT\\u{1b}[2J",
     };
     assert_eq!(found[1].detail, expected);
-    let remedy = |finding: &Finding| finding.remedy.clone().unwrap_or_default();
+    let remedy = |finding: &Diagnosis| finding.remedy.clone().unwrap_or_default();
     assert!(
         remedy(&found[1]).starts_with("join the group `video`"),
         "{}",

@@ -15,7 +15,7 @@ use super::firmware::Firmware;
 use super::frame::Reply;
 use super::observe::{ANSWER, Observer, error_now};
 use super::options::XarmOptions;
-use super::report::{Report, pose_of};
+use super::report::{ArmReport, pose_of};
 use super::stop::{Keeper, Place, Stop};
 use crate::link::monotonic;
 use crate::link::watch::{LOOK, ReportedPose};
@@ -138,7 +138,7 @@ impl Arm {
 }
 
 /// The pose of a report, if it is one.
-fn reported_pose(report: &Report) -> Result<Pose, DriverError> {
+fn reported_pose(report: &ArmReport) -> Result<Pose, DriverError> {
     let pose = pose_of(report.pose);
     check_pose(&pose).map_err(|error| failed(ErrorKind::DeviceFault, LOOK, error))?;
     Ok(pose)

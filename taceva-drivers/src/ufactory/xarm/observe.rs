@@ -11,7 +11,7 @@ use super::error::failed;
 use super::exchange::{Exchange, ExchangeError};
 use super::fault::XarmFault;
 use super::frame::Reply;
-use super::report::{Report, ReportKind, State, pose_of};
+use super::report::{ArmReport, ReportKind, State, pose_of};
 use super::watch::Watch;
 use crate::link::{LinkError, Mailbox, monotonic};
 
@@ -78,7 +78,7 @@ impl Observer {
     }
 
     /// Where reports of poses are left, if the arm sends any.
-    pub(super) fn reports(&self) -> Option<Arc<Mailbox<Report>>> {
+    pub(super) fn reports(&self) -> Option<Arc<Mailbox<ArmReport>>> {
         self.poses.as_ref().map(Watch::mailbox)
     }
 

@@ -16,7 +16,7 @@ pub(super) enum ReportKind {
 
 /// What a report says.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Report {
+pub(super) struct ArmReport {
     pub(super) state: State,
     /// How motions are taken; 0 for positions one after the other.
     pub(super) mode: u8,
@@ -115,7 +115,7 @@ impl Reports {
     ///
     /// # Errors
     /// [`ReportError`], from then on for ever: the link must be closed.
-    pub(super) fn next(&mut self) -> Result<Option<Report>, ReportError> {
+    pub(super) fn next(&mut self) -> Result<Option<ArmReport>, ReportError> {
         let Some(head) = self.waiting.first_chunk() else {
             return Ok(None);
         };
@@ -135,12 +135,12 @@ impl Reports {
         Ok(Some(report))
     }
 
-    fn read(&self, report: &[u8]) -> Result<Report, ReportError> {
+    fn read(&self, report: &[u8]) -> Result<ArmReport, ReportError> {
         let (state, mode) = (report[STATE] & 0x0f, report[STATE] >> 4);
         if state > 9 || mode > 11 {
             return Err(ReportError::State { state, mode });
         }
-        Ok(Report {
+        Ok(ArmReport {
             state: State(state),
             mode,
             queued: u16::from_be_bytes([report[QUEUED], report[QUEUED + 1]]),
@@ -211,7 +211,7 @@ mod tests {
         bytes
     }
 
-    fn all(reports: &mut Reports) -> Vec<Report> {
+    fn all(reports: &mut Reports) -> Vec<ArmReport> {
         std::iter::from_fn(|| reports.next().expect("good reports")).collect()
     }
 

@@ -8,14 +8,14 @@ use std::time::Duration;
 
 use taceva_core::ErrorKind;
 
-use super::report::{Report, ReportKind, Reports};
+use super::report::{ArmReport, ReportKind, Reports};
 use crate::link::mailbox::{Ending, NoNews};
 use crate::link::{LinkError, Mailbox, Seen, connect, monotonic};
 
 /// The reports of one port.
 #[derive(Debug)]
 pub(super) struct Watch {
-    reports: Arc<Mailbox<Report>>,
+    reports: Arc<Mailbox<ArmReport>>,
     stream: TcpStream,
     reader: Option<JoinHandle<()>>,
 }
@@ -43,12 +43,12 @@ impl Watch {
     }
 
     /// Where the reports are left.
-    pub(super) fn mailbox(&self) -> Arc<Mailbox<Report>> {
+    pub(super) fn mailbox(&self) -> Arc<Mailbox<ArmReport>> {
         Arc::clone(&self.reports)
     }
 
     /// The newest report, if one has come and others still may.
-    pub(super) fn newest(&self) -> Option<Seen<Report>> {
+    pub(super) fn newest(&self) -> Option<Seen<ArmReport>> {
         self.reports.newest()
     }
 
@@ -56,7 +56,7 @@ impl Watch {
     ///
     /// # Errors
     /// [`NoNews`]: none came, or none will.
-    pub(super) fn next(&self, after: u64, patience: Duration) -> Result<Seen<Report>, NoNews> {
+    pub(super) fn next(&self, after: u64, patience: Duration) -> Result<Seen<ArmReport>, NoNews> {
         self.reports.next(after, patience)
     }
 }
@@ -76,7 +76,7 @@ fn read(
     mut stream: TcpStream,
     address: SocketAddr,
     kind: ReportKind,
-    posting: &Mailbox<Report>,
+    posting: &Mailbox<ArmReport>,
 ) -> Ending {
     let mut reports = Reports::new(kind);
     let mut bytes = [0; 4096];

@@ -1,10 +1,10 @@
-//! A finding: one thing that was checked.
+//! A diagnosis: one thing that was checked.
 
 use serde::Serialize;
 
 /// What is there, or missing, or in the way.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Finding {
+pub struct Diagnosis {
     /// A name that stays the same from version to version.
     pub code: &'static str,
     /// Whether it can be used.
