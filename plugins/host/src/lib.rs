@@ -19,7 +19,7 @@ mod manifest;
 mod offer;
 mod package;
 mod python;
-mod sealed_file;
+mod sealed_memory;
 mod search;
 mod session;
 mod text;

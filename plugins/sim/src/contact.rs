@@ -4,13 +4,13 @@
 //! and in compression; tangential forces are those of the ball on the gel, along its displacement.
 
 mod board;
-mod dome;
-mod flat;
+mod dome_law;
 mod friction;
 mod indentation;
-mod law;
+mod layer_law;
 mod relaxation;
 mod solid;
+mod stand;
 mod wear;
 
 pub(crate) use board::SIDE_MM as BOARD_SIDE_MM;

@@ -13,7 +13,7 @@ use zune_core::colorspace::ColorSpace;
 use zune_core::options::DecoderOptions;
 use zune_jpeg::JpegDecoder;
 
-use crate::guard::guarded;
+use crate::decoder_panic::guarded;
 use crate::jpeg::check_whole;
 use crate::limits;
 

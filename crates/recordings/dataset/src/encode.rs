@@ -4,7 +4,7 @@ mod png;
 
 use taceva_core::Frame;
 
-use crate::guard::guarded;
+use crate::decoder_panic::guarded;
 
 /// The PNG file of `frame`.
 pub fn encode_png(frame: &Frame) -> Result<Vec<u8>, String> {

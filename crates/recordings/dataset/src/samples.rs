@@ -8,7 +8,7 @@ use std::fs::File;
 
 use taceva_core::Channels;
 
-use crate::guard::guarded;
+use crate::decoder_panic::guarded;
 use crate::table::Table;
 use read::read;
 use rows::assemble;

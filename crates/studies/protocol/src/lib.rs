@@ -30,7 +30,7 @@ pub use rig_file::{
 };
 pub use run::{
     Answer, Cancel, ChangedTouch, Controls, Devices, Enabling, Event, Left, Mode, MotionStage,
-    Observation, Operator, PressLog, PressRecord, Question, ReferenceTouch, RunError, RunGuard,
+    Observation, Operator, Oversight, PressLog, PressRecord, Question, ReferenceTouch, RunError,
     RunReport, RunSpec, SessionRecord, SessionSpec, SharedSupervisor, SpecimenChanger, Spot,
     StopCause, Supervisor, TapError, TapHeard, TapListener, Tapped, Timekeeper, TouchFault, Trip,
     raise, run, run_guarded, tap, wrench_between,

@@ -15,7 +15,6 @@ mod devices;
 mod enabling_wait;
 mod error;
 mod event;
-mod guard;
 mod halt_reason;
 mod indent;
 mod load_limit;
@@ -23,6 +22,7 @@ mod log;
 mod motion;
 mod observe;
 mod operator;
+mod oversight;
 mod press;
 mod reading;
 mod reference_touch;
@@ -48,10 +48,10 @@ pub use clearance::raise;
 pub use devices::{Devices, SpecimenChanger};
 pub use error::{Left, RunError, StopCause};
 pub use event::Event;
-pub use guard::RunGuard;
 pub use halt_reason::Trip;
 pub use log::{PressLog, PressRecord};
 pub use operator::{Answer, ChangedTouch, Operator, Question, Spot};
+pub use oversight::Oversight;
 pub use reference_touch::{ReferenceTouch, SessionRecord, SessionSpec, TouchFault};
 pub use supervisor::{Enabling, MotionStage, Observation, SharedSupervisor, Supervisor};
 pub use tap::{TapError, TapHeard, TapListener, Tapped, tap};
@@ -141,7 +141,7 @@ pub fn run_guarded<'a>(
     devices: Devices<'a>,
     log: &mut dyn PressLog,
     controls: Controls<'a>,
-    guard: RunGuard<'a>,
+    guard: Oversight<'a>,
 ) -> Result<RunReport, RunError> {
     run_under(spec, devices, log, controls, Some(guard))
 }
@@ -151,7 +151,7 @@ fn run_under<'a>(
     devices: Devices<'a>,
     log: &mut dyn PressLog,
     controls: Controls<'a>,
-    guard: Option<RunGuard<'a>>,
+    guard: Option<Oversight<'a>>,
 ) -> Result<RunReport, RunError> {
     let stopped = |cause| RunError {
         press: None,

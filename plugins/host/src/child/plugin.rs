@@ -19,7 +19,7 @@ use crate::call::pending_call;
 use crate::in_process::InProcess;
 use crate::library::{Image, Level, Linked, Source};
 use crate::manifest::{Manifest, Sha256Digest};
-use crate::sealed_file::seal_all;
+use crate::sealed_memory::seal_all;
 use crate::session::Session;
 
 /// What a child is to serve.

@@ -11,7 +11,7 @@ use sha2::{Digest, Sha256};
 use super::elf;
 use super::error::{LoadError, LoadProblem};
 use crate::manifest::{LibraryFile, Sha256Digest};
-use crate::sealed_file::seal_all;
+use crate::sealed_memory::seal_all;
 
 /// No library is longer, in bytes.
 pub(crate) const LENGTH_MAX: u64 = 1 << 30;

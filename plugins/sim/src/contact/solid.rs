@@ -1,10 +1,10 @@
 //! A body, and what is asked of it.
 
 use super::board;
-use super::dome::DomeLaw;
-use super::flat::LayerLaw;
+use super::dome_law::DomeLaw;
 use super::indentation::Indentation;
-use super::law::{Answer, Stand, dot};
+use super::layer_law::LayerLaw;
+use super::stand::{Answer, Stand, dot};
 use super::{Contact, Friction, Relaxation};
 use crate::parameters::{Body, Parameters};
 

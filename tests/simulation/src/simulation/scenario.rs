@@ -19,8 +19,8 @@ use super::record::{judge_log, missing};
 use super::world::Sabotage;
 use super::world_handle::{Killed, Shared};
 use taceva_protocol::{
-    Cancel, ContentId, Controls, Devices, Enabling, Event, Left, Mode, Plan, RigInfo, RunError,
-    RunGuard, RunSpec, Scene, SceneError, Setting, SharedSupervisor, SourceInfo, StopCause,
+    Cancel, ContentId, Controls, Devices, Enabling, Event, Left, Mode, Oversight, Plan, RigInfo,
+    RunError, RunSpec, Scene, SceneError, Setting, SharedSupervisor, SourceInfo, StopCause,
     Supervisor, Trip, plan, run, run_guarded,
 };
 
@@ -245,7 +245,7 @@ fn process(
         };
         match guard {
             Some(guard) => {
-                let guard = RunGuard::new(guard).with_patience_s(PATIENCE_S);
+                let guard = Oversight::new(guard).with_patience_s(PATIENCE_S);
                 run_guarded(&spec, devices, &mut log, controls, guard)
             }
             None => run(&spec, devices, &mut log, controls),

@@ -12,9 +12,9 @@ use parquet::file::reader::{FileReader, RowGroupReader, SerializedFileReader};
 use taceva_core::Signals;
 
 use super::{GROUP_VALUES, SignalsInfo};
+use crate::decoder_panic::guarded;
 use crate::digest::Digest;
 use crate::error::DatasetError;
-use crate::guard::guarded;
 
 /// Row groups that are kept: 64 MiB at most.
 const GROUPS: usize = 16;

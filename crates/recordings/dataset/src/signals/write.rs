@@ -14,9 +14,9 @@ use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 
 use super::{SignalsInfo, SignalsSpec, rows_of_group};
+use crate::decoder_panic::guarded;
 use crate::digest::{Digest, PartsDigest};
 use crate::error::DatasetError;
-use crate::guard::guarded;
 
 /// A file of signals while it is written.
 #[doc(hidden)]

@@ -10,7 +10,7 @@ use taceva_core::{
 };
 use taceva_drivers::{Drivers, OnBench, OpenError, Selector};
 use taceva_protocol::{
-    Cancel, Controls, Devices, Event, Plan, PressLog, ReferenceTouch, RigFile, RunError, RunGuard,
+    Cancel, Controls, Devices, Event, Oversight, Plan, PressLog, ReferenceTouch, RigFile, RunError,
     RunReport, RunSpec, SessionSpec, Setting, SharedSupervisor, StopCause, raise, run, run_guarded,
 };
 
@@ -258,7 +258,7 @@ impl OpenRig {
             let Some(supervisor) = guard else {
                 return run(spec, devices, log, controls);
             };
-            let guard = RunGuard::new(supervisor);
+            let guard = Oversight::new(supervisor);
             let guard = match session.clone() {
                 Some(session) => guard.with_session(session),
                 None => guard,

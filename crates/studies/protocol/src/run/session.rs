@@ -7,7 +7,7 @@ use super::camera::Camera;
 use super::devices::{Devices, SpecimenChanger};
 use super::error::{Left, RunError, StopCause};
 use super::event::Event;
-use super::guard::RunGuard;
+use super::guard::Oversight;
 use super::log::{PressLog, PressRecord};
 use super::operator::{Operator, Question};
 use super::reference_touch::SessionSpec;
@@ -51,7 +51,7 @@ impl<'a> Run<'a> {
         spec: &RunSpec<'a>,
         devices: Devices<'a>,
         controls: Controls<'a>,
-        guard: Option<RunGuard<'a>>,
+        guard: Option<Oversight<'a>>,
     ) -> Step<Run<'a>> {
         let plan = spec.plan;
         if !plan.units.iter().any(|unit| unit == spec.unit) {
@@ -74,13 +74,13 @@ impl<'a> Run<'a> {
             (false, _) => None,
         };
         let is_guarded = guard.is_some();
-        let RunGuard {
+        let Oversight {
             supervisor,
             session,
             patience_s,
         } = guard.unwrap_or_else(|| {
             let supervisor = Supervisor::new(limits, devices.robot.halt_handle());
-            RunGuard::new(SharedSupervisor::new(supervisor))
+            Oversight::new(SharedSupervisor::new(supervisor))
         });
         let tip = Tip {
             is_guarded,

@@ -14,7 +14,7 @@ use std::time::Duration;
 use taceva_core::{Degree, ForceTransducer, Frame, Millimetre, Robot, SinkError, Speed};
 
 use super::error::{RunError, StopCause};
-use super::guard::RunGuard;
+use super::guard::Oversight;
 use super::log::{PressLog, PressRecord};
 use super::reference_touch::{ReferenceTouch, SessionRecord, SessionSpec};
 use super::session::Run;
@@ -85,7 +85,7 @@ pub fn tap<'a>(
         &spec,
         devices,
         controls,
-        Some(RunGuard::new(supervisor).with_session(session)),
+        Some(Oversight::new(supervisor).with_session(session)),
     );
     let mut run = begun.map_err(stopped)?;
     let tapped = run.tap(listener);

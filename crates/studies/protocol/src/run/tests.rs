@@ -153,7 +153,7 @@ fn a_press_before_which_a_thread_halted_for_silence_is_made_again_and_the_run_go
         devices,
         &mut Nowhere,
         controls,
-        RunGuard::new(supervisor.clone()),
+        Oversight::new(supervisor.clone()),
     );
     let report = made.expect("silence ends no run");
     assert_eq!((report.made, report.redone, halted), (3, 1, 1));

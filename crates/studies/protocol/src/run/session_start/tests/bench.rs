@@ -14,8 +14,8 @@ use crate::press::Motion;
 use crate::rig_file::{RigFile, SignedAxes};
 use crate::run::rig::plan;
 use crate::run::{
-    Answer, Cancel, Controls, Devices, Mode, Observation, Operator, PressLog, PressRecord,
-    Question, ReferenceTouch, RunError, RunGuard, RunSpec, SessionRecord, SessionSpec,
+    Answer, Cancel, Controls, Devices, Mode, Observation, Operator, Oversight, PressLog,
+    PressRecord, Question, ReferenceTouch, RunError, RunSpec, SessionRecord, SessionSpec,
     SharedSupervisor, Supervisor, TapListener, Tapped, Timekeeper, run_guarded, tap,
 };
 
@@ -382,7 +382,7 @@ pub(super) fn begun(bench: &Bench, session: Session<'_>) -> (Result<(), RunError
         devices,
         &mut log,
         controls,
-        RunGuard::new(supervisor).with_session(session),
+        Oversight::new(supervisor).with_session(session),
     );
     (done.map(drop), log, person)
 }

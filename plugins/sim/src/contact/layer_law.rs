@@ -1,7 +1,7 @@
 //! A ball on a flat bonded gel.
 
 use super::board;
-use super::law::Answer;
+use super::stand::Answer;
 use crate::elastic::layer;
 use crate::parameters::Layer;
 

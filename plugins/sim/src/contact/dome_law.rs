@@ -5,7 +5,7 @@
 //! makes the rim look softer.
 
 use super::indentation::Indentation;
-use super::law::{Answer, Stand, dot};
+use super::stand::{Answer, Stand, dot};
 use crate::elastic::hertz;
 use crate::parameters::Dome;
 
