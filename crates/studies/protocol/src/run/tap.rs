@@ -14,8 +14,8 @@ use std::time::Duration;
 use taceva_core::{Degree, ForceTransducer, Frame, Millimetre, Robot, SinkError, Speed};
 
 use super::error::{RunError, StopCause};
-use super::guard::Oversight;
 use super::log::{PressLog, PressRecord};
+use super::oversight::Oversight;
 use super::reference_touch::{ReferenceTouch, SessionRecord, SessionSpec};
 use super::session::Run;
 use super::supervisor::{MotionStage, SharedSupervisor};
