@@ -135,14 +135,6 @@ mod tests {
     }
 
     #[test]
-    fn distances_between_words_are_levenshtein_s() {
-        let distances = [("kitten", "sitting", 3), ("", "mae", 3), ("r2", "r2", 0)];
-        for (left, right, expected) in distances {
-            assert_eq!(edit_distance(left, right), expected);
-        }
-    }
-
-    #[test]
     fn a_name_near_none_lists_them_all() {
         let error = select(["hysteresis_area"]).expect_err("unknown");
         assert_eq!(error.nearest, None);
