@@ -136,7 +136,7 @@ mod tests {
 
     #[test]
     fn a_name_near_none_lists_them_all() {
-        let error = select(["hysteresis_area"]).expect_err("unknown");
+        let error = select(["colour"]).expect_err("unknown");
         assert_eq!(error.nearest, None);
         assert!(error.to_string().contains("mae, rmse, bias"), "{error}");
     }

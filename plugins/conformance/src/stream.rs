@@ -178,7 +178,12 @@ fn keeps<D: Stream + ?Sized>(
             given => Deadline::after(given),
         };
         let waited = tried.in_time(&doing, given, || device.next(within))?;
-        answered(&doing, waited, ErrorKind::Timeout)?;
+        match waited {
+            Err(error) if error.kind() == ErrorKind::EndOfStream => {
+                return tried.reading(Err(error));
+            }
+            waited => answered(&doing, waited, ErrorKind::Timeout)?,
+        }
     }
     next(tried, &mut *device)?;
     Ok(())

@@ -201,7 +201,12 @@ impl Toy {
 
     fn ready(&self, doing: &'static str, deadline: Deadline) -> Result<(), DriverError> {
         assert!(self.flaw != Flaw::Panics, "the toy is broken");
-        if self.flaw == Flaw::IsSlow && deadline.has_passed() {
+        let is_late = match self.flaw {
+            Flaw::IsSlow => deadline.has_passed(),
+            Flaw::IgnoresDeadline => true,
+            _ => false,
+        };
+        if is_late {
             std::thread::sleep(Duration::from_millis(600));
         }
         let is_gone = match self.flaw {

@@ -87,7 +87,7 @@ fn an_empty_stream_has_no_value_of_any_kind() {
     let channels = ["Px", "Py", "Pz", "Fx", "Fy", "Fz", "surface_z"];
     for metric in catalogue::ALL
         .iter()
-        .skip(12)
+        .skip_while(|metric| metric.id != "r_light")
         .filter(|metric| metric.id != "intrinsic")
     {
         let evaluation = evaluate(metric.id, &channels, &[]);
