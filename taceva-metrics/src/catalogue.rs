@@ -5,6 +5,7 @@ mod direction;
 mod entry_points;
 mod mae;
 mod mae_euclid;
+mod noise_equivalent_force;
 mod r2;
 mod repeatability;
 mod rmse;
@@ -15,13 +16,13 @@ mod smape;
 mod smape_gated;
 mod uniformity;
 mod unknown_metric;
+mod zero_error;
 
 pub use unknown_metric::UnknownMetric;
 
 use crate::evaluate::metric::Metric;
 use crate::families::bias_level::BIAS_LEVEL;
 use crate::families::crosstalk::CROSSTALK;
-use crate::families::detection::MINIMUM_DETECTABLE_FORCE;
 use crate::families::drift::DRIFT;
 use crate::families::hysteresis::HYSTERESIS;
 use crate::families::inter_sensor::INTER_SENSOR;
@@ -33,7 +34,7 @@ use crate::families::spatial::R_SPATIAL;
 use crate::families::tolerance::TOLERANCE;
 
 /// Every metric, in the order of reports.
-pub static ALL: [&Metric; 24] = [
+pub static ALL: [&Metric; 25] = [
     &mae::MAE,
     &rmse::RMSE,
     &bias::BIAS,
@@ -51,7 +52,8 @@ pub static ALL: [&Metric; 24] = [
     &HYSTERESIS,
     &INTER_SENSOR,
     &INTRINSIC,
-    &MINIMUM_DETECTABLE_FORCE,
+    &noise_equivalent_force::NOISE_EQUIVALENT_FORCE,
+    &zero_error::ZERO_ERROR,
     &signal_to_repeatability::SIGNAL_TO_REPEATABILITY,
     &LINEARITY,
     &CROSSTALK,
@@ -111,8 +113,15 @@ pub fn names() -> impl Iterator<Item = &'static str> {
     ALL.into_iter().map(|metric| metric.id).chain(groups)
 }
 
+/// Names of metrics that were replaced, each with the one that says what it measures.
+const RENAMED: [(&str, &str); 1] = [("minimum_detectable_force", "noise_equivalent_force")];
+
 /// The known name nearest to `name`, if at most a third of its letters differ.
 fn nearest(name: &str) -> Option<&'static str> {
+    let renamed = RENAMED.into_iter().find(|(old, _)| *old == name);
+    if let Some((_, new)) = renamed {
+        return Some(new);
+    }
     let nearest = names().min_by_key(|known| edit_distance(name, known))?;
     let near = edit_distance(name, nearest) <= (nearest.len() / 3).max(1);
     near.then_some(nearest)
@@ -163,6 +172,12 @@ mod tests {
         for (left, right, expected) in distances {
             assert_eq!(edit_distance(left, right), expected);
         }
+    }
+
+    #[test]
+    fn a_name_that_was_replaced_leads_to_the_new_one() {
+        let error = select(["minimum_detectable_force"]).expect_err("renamed");
+        assert_eq!(error.nearest, Some("noise_equivalent_force"));
     }
 
     #[test]
