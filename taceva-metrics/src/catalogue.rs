@@ -68,6 +68,9 @@ pub static GROUPS: [(&str, &[&Metric]); 2] = [
     ("all", &ALL),
 ];
 
+/// Names of metrics that were replaced, each with the one that says what it measures.
+const RENAMED: [(&str, &str); 1] = [("minimum_detectable_force", "noise_equivalent_force")];
+
 /// The metric called `id`.
 pub fn find(id: &str) -> Option<&'static Metric> {
     ALL.into_iter().find(|metric| metric.id == id)
@@ -91,6 +94,12 @@ pub fn select<'a>(
 ) -> Result<Vec<&'static Metric>, UnknownMetric> {
     let mut wanted = Vec::new();
     for name in names {
+        if let Some((_, new)) = RENAMED.into_iter().find(|(old, _)| *old == name) {
+            return Err(UnknownMetric {
+                name: name.to_owned(),
+                nearest: Some(new),
+            });
+        }
         let group = GROUPS.into_iter().find(|(group, _)| *group == name);
         match (find(name), group) {
             (Some(metric), _) => wanted.push(metric.id),
@@ -113,15 +122,8 @@ pub fn names() -> impl Iterator<Item = &'static str> {
     ALL.into_iter().map(|metric| metric.id).chain(groups)
 }
 
-/// Names of metrics that were replaced, each with the one that says what it measures.
-const RENAMED: [(&str, &str); 1] = [("minimum_detectable_force", "noise_equivalent_force")];
-
 /// The known name nearest to `name`, if at most a third of its letters differ.
 fn nearest(name: &str) -> Option<&'static str> {
-    let renamed = RENAMED.into_iter().find(|(old, _)| *old == name);
-    if let Some((_, new)) = renamed {
-        return Some(new);
-    }
     let nearest = names().min_by_key(|known| edit_distance(name, known))?;
     let near = edit_distance(name, nearest) <= (nearest.len() / 3).max(1);
     near.then_some(nearest)
@@ -175,15 +177,15 @@ mod tests {
     }
 
     #[test]
-    fn a_name_that_was_replaced_leads_to_the_new_one() {
-        let error = select(["minimum_detectable_force"]).expect_err("renamed");
-        assert_eq!(error.nearest, Some("noise_equivalent_force"));
-    }
-
-    #[test]
     fn a_name_near_none_lists_them_all() {
         let error = select(["hysteresis_area"]).expect_err("unknown");
         assert_eq!(error.nearest, None);
         assert!(error.to_string().contains("mae, rmse, bias"), "{error}");
+    }
+
+    #[test]
+    fn a_name_that_was_replaced_leads_to_the_new_one() {
+        let error = select(["minimum_detectable_force"]).expect_err("renamed");
+        assert_eq!(error.nearest, Some("noise_equivalent_force"));
     }
 }
