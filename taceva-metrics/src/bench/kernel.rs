@@ -128,7 +128,7 @@ impl Kernel {
         }
     }
 
-    /// Whether the order of rows cannot change a bit, by the way that it sums: a few shuffles that agree show nothing.
+    /// Tells kernels that sum so that the order of rows cannot change a bit. A few shuffles that agree show nothing.
     pub fn is_order_free(self) -> bool {
         self.is_exact()
     }

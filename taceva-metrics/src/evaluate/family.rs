@@ -226,7 +226,7 @@ pub(crate) struct Details {
 /// The intervals of a value and of variants by name, and variants that clusters give another value.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Intervals {
-    /// That of the value; `None` where the jackknife of the score serves.
+    /// Interval of the value; `None` where the jackknife of the score serves.
     pub(crate) value: Option<Interval>,
     pub(crate) variants: Vec<(String, Interval)>,
     /// Values of variants that are known better where it is known which samples belong together.

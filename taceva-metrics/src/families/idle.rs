@@ -18,7 +18,7 @@ pub(crate) const GATE_N: f64 = 0.02;
 /// Samples without contact below which nothing is said of them.
 pub(crate) const LEAST_SAMPLES: u64 = 10;
 
-/// What scores of predictions without contact need.
+/// Needs of scores of predictions without contact.
 pub(crate) const IDLE_NEEDS: Needs =
     Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction))
         .with_channels(&["Fz"])
@@ -56,7 +56,7 @@ impl Idle {
     }
 }
 
-/// Why there is too little for a score, if so.
+/// Refuses too few samples for a score.
 pub(crate) fn enough(predictions: &Moments) -> Result<(), UndefinedReason> {
     match predictions.n {
         0 => Err(UndefinedReason::NoIdleSamples),

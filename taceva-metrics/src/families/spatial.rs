@@ -132,7 +132,7 @@ impl Family for Spatial {
         robustness::robustness(sums, &self.settings, output.unit)
     }
 
-    /// Of the excess alone, by the variance between contact points and within them.
+    /// Interval of the excess, by the variance between contact points and within them.
     fn intervals(
         &self,
         _metric: &Metric,

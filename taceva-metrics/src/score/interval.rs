@@ -123,7 +123,7 @@ pub enum Interval {
         freedom: f64,
         /// Number of clusters with samples.
         clusters: usize,
-        /// What varies from cluster to cluster.
+        /// Kind of the clusters.
         by: ClusteredBy,
     },
     /// As if all samples were independent: what the interval of a share would be at best.

@@ -27,7 +27,7 @@ pub enum Standing {
     Bounded,
     /// It takes no part: what it is formed from hardly changed, the light of some scene or the labels of repeated presses.
     LowStimulus,
-    /// It takes no part: what it differs by is no more than chance gives, by the interval of the variant that verdicts go by.
+    /// Excluded: the interval of the variant that verdicts go by holds what chance gives.
     NotAboveNoiseFloor,
     /// It takes no part: a share of good answers whose interval does not lie above the share that the constant of the skill score reaches,
     /// though the model may be nearer in the mean square.

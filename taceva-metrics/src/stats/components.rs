@@ -44,7 +44,7 @@ pub(crate) struct Excess {
     pub(crate) value: f64,
     /// Both ends of its interval of 95 %.
     pub(crate) ends: [f64; 2],
-    /// How far the variance of the means lies above chance, as a standard normal number.
+    /// Distance of the variance of the means from chance, as a standard normal number.
     above: f64,
     /// The mean of the means of the bins.
     pub(crate) mean: f64,
@@ -101,12 +101,6 @@ impl ClusteredBins {
     /// of Mathematical Statistics 13 (1942).
     pub(crate) fn excess(&self) -> Result<Excess, UndefinedReason> {
         let bins = number(count(self.bins.len()));
-        if self.bins.len() < 2 {
-            return Err(UndefinedReason::TooFewBins {
-                have: count(self.bins.len()),
-                least: 2,
-            });
-        }
         let totals: Vec<(f64, f64)> = self
             .bins
             .iter()
@@ -116,13 +110,19 @@ impl ClusteredBins {
                 (n, sum / n)
             })
             .collect();
+        let noise = self.noise(&totals)?;
+        if self.bins.len() < 2 {
+            return Err(UndefinedReason::TooFewBins {
+                have: count(self.bins.len()),
+                least: 2,
+            });
+        }
         let mean = totals.iter().map(|(_, mean)| mean).sum::<f64>() / bins;
         let squares: f64 = totals
             .iter()
             .map(|(_, of_bin)| (of_bin - mean) * (of_bin - mean))
             .sum();
         let variance = squares / (bins - 1.0);
-        let noise = self.noise(&totals)?;
         if !(variance.is_finite() && noise.variance.is_finite()) {
             return Err(UndefinedReason::Overflow);
         }
@@ -253,7 +253,7 @@ impl ClusteredBins {
         })
     }
 
-    /// What clusters that take part in several bins move the means of two different bins by together: the mean covariance of two of them.
+    /// Mean covariance of the means of two bins, from clusters that take part in both.
     fn shared(&self, totals: &[(f64, f64)], of_cluster: f64) -> f64 {
         let clusters = self.bins.iter().flatten().map(|part| part.cluster + 1);
         let clusters = clusters.max().unwrap_or_default();
@@ -298,11 +298,11 @@ impl ClusteredBins {
     }
 }
 
-/// What chance gives the variance of the means of bins.
+/// Variance that chance gives the means of bins.
 #[derive(Clone, Copy, Debug)]
 struct Noise {
     variance: f64,
-    /// How many bins there are.
+    /// Number of bins.
     bins: f64,
     /// Sum of the variances of their means, and of the squares of these with what heavy tails add.
     sum: f64,
@@ -377,7 +377,7 @@ impl Excess {
     }
 }
 
-/// How far a ratio of two variances lies above 1, as a standard normal number.
+/// Distance of a ratio of two variances from 1, as a standard normal number.
 fn paulson(ratio: f64, above: f64, below: f64) -> f64 {
     let root = cube_root(ratio);
     let (a, b) = (2.0 / (9.0 * above), 2.0 / (9.0 * below));

@@ -9,7 +9,7 @@ const RISK: f64 = 0.05;
 /// δ(ν): how many standard deviations, themselves estimated with `freedom` degrees of freedom, a value must lie above zero so that a threshold which
 /// zero exceeds in 5 % of cases is missed in 5 %.
 ///
-/// It is the noncentrality at which P(t′ ≤ t) = 5 % for the t that Student's distribution exceeds in 5 %; 3.29 where the deviation is known.
+/// The noncentrality at which P(t′ ≤ t) = 5 % for the t that Student's distribution exceeds in 5 %; 3.29 where the deviation is known.
 ///
 /// # Reference
 /// Currie, Pure and Applied Chemistry 67 (1995), 3.7.2; ISO 11843-2, 5.1.

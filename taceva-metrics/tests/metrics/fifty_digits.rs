@@ -8,7 +8,7 @@ use serde_json::Value;
 use taceva_metrics::bench::{Case, Kind, Order};
 use taceva_metrics::{Channel, Evaluator};
 
-/// How many units in the last place a score lies from the true value rounded once.
+/// Units in the last place between a score and the true value rounded once.
 fn apart(found: f64, truth: f64) -> u64 {
     found.to_bits().abs_diff(truth.to_bits())
 }

@@ -137,7 +137,7 @@ impl TaxelFacts {
     }
 }
 
-/// Where the digest of a series begins, and what it is multiplied by (FNV-1a of 64 bits).
+/// Offset and factor of FNV-1a with 64 bits.
 const SERIES_START: u64 = 0xcbf2_9ce4_8422_2325;
 const SERIES_FACTOR: u64 = 0x0000_0100_0000_01b3;
 

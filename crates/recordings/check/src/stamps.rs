@@ -87,7 +87,7 @@ impl Stream {
     }
 }
 
-/// Whether the recording was made press by press: its pictures are single ones, however fast they follow one another.
+/// Tells a recording made press by press, whose pictures are single ones.
 pub(super) fn is_of_presses(evidence: &Evidence<'_>) -> bool {
     let header = evidence.header;
     header.stream.is_none() && header.presses.values().any(|count| *count > 0)

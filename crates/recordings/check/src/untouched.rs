@@ -12,7 +12,7 @@ const BESIDE: usize = 1000;
 const LEAST: usize = 8;
 const SHARE: usize = 20;
 /// Pictures belong to the group up to so many times the distance within which its core lies.
-const REACH: f64 = 2.0;
+const REACH: f64 = 2.5;
 /// More than this share of all pictures are no group: pictures say nothing about contact there.
 const MOST: f64 = 0.75;
 /// The group comes and goes at least so often: one held contact is no rest.

@@ -16,7 +16,7 @@ pub(super) static CHECK: Check = Check {
 
 /// Different values below which ends say nothing.
 const VALUES: usize = 10;
-/// How far from an end a label that was rounded to binary32 lies.
+/// Distance from an end of a label that was rounded to binary32.
 const ROUNDING: f64 = 1e-6;
 /// One channel alone may end there by chance of its levels; so many do not.
 const CHANNELS: usize = 2;

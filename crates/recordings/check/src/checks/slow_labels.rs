@@ -146,7 +146,7 @@ impl Stretches {
         self.times[row].unwrap_or_default()
     }
 
-    /// How long ago a label was read at most, s: half of a stretch where the nearest reading is taken, all of it where the one before is.
+    /// Greatest age of a label, s: half of a stretch for `nearest`, all of it for `before`.
     fn oldest_s(&self, pick: Option<&str>) -> f64 {
         let spans = self.all.iter().map(|stretch| {
             let (first, last) = (stretch[0], stretch[stretch.len() - 1]);
@@ -159,7 +159,7 @@ impl Stretches {
         }
     }
 
-    /// What a straight line between the middles of stretches differs from the labels by: the mean and the greatest.
+    /// Mean and greatest difference between the labels and a straight line from stretch to stretch.
     fn interpolated(&self, table: &Table, position: usize) -> Option<(f64, f64)> {
         let column = table.truth(position);
         let middle = |stretch: &[usize]| {

@@ -38,7 +38,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         .collect()
 }
 
-/// What the zero of one channel does.
+/// Finds a step or a drift of the zero of one channel.
 fn of_channel(
     evidence: &Evidence<'_>,
     rows: &[usize],
@@ -155,7 +155,7 @@ impl Step {
 /// The straight line through the values.
 #[derive(Clone, Copy, Debug)]
 struct Drift {
-    /// What it rises by from the first time to the last.
+    /// Rise from the first time to the last.
     change: f64,
     error: f64,
     residual: f64,

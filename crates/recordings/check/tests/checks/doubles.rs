@@ -5,7 +5,7 @@ use taceva_check::CheckReport;
 use super::lab::{PICTURES, SENSOR, imported, pictures};
 use super::streams::{message, says_nothing};
 
-/// What is said of a table whose channels are read from these columns.
+/// Checks a table whose channels are read from these columns.
 fn labelled(table: &str, columns: &str, only: &str) -> CheckReport {
     let rows = table.lines().count() - 1;
     let files = [

@@ -7,7 +7,7 @@ use taceva_core::SilentProgress;
 use taceva_dataset::Dataset;
 use taceva_import::{ImportMap, ImportPlan};
 
-/// What is known of every sensor of these tests: nothing.
+/// Facts of every sensor of these tests: unknown.
 pub(super) const SENSOR: &str =
     "[sensor]\nmodel = \"m\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = \"unknown\"\n";
 
@@ -42,7 +42,7 @@ pub(super) fn pictures(presses: &[f64]) -> Vec<u8> {
     bytes
 }
 
-/// What the checks of these codes say of a folder of these files, imported by this map.
+/// Imports a folder of these files by this map, and makes the checks of these codes.
 pub(super) fn imported(files: &[(&str, Vec<u8>)], map: &str, only: &[&str]) -> CheckReport {
     let folder = tempfile::tempdir().expect("a folder");
     for (name, bytes) in files {

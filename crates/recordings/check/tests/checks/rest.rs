@@ -32,7 +32,7 @@ fn picture(number: u32, force: f64, fault: &dyn Fn(u32, u32, f64) -> f64) -> Fra
     Frame::new(info, bytes.collect()).expect("whole")
 }
 
-/// What is said of presses of which every fourth touches nothing, after a reference that was taken before `fault`.
+/// Checks presses of which every fourth touches nothing, with a reference from before `fault`.
 fn after(fault: &dyn Fn(u32, u32, f64) -> f64) -> CheckReport {
     let mut recording = Recording::sound();
     recording.reference = Some(picture(0, 0.0, &|_, _, light| light));

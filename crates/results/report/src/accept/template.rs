@@ -117,7 +117,7 @@ fn limit(score: &Score) -> Option<String> {
     ))
 }
 
-/// Whether it is a share of 1 that is explained, such as R² and skill.
+/// Tells a share of 1 that is explained, such as R² and skill.
 fn is_below_one(score: &Score) -> bool {
     let metric = taceva_metrics::catalogue::find(&score.metric);
     metric.is_some_and(|metric| metric.range == Range::BelowOne)

@@ -262,7 +262,7 @@ impl Comparison {
 }
 
 impl Answer {
-    /// Whether both scores are closer to each other than the margin.
+    /// Tells scores that are closer to each other than the margin.
     fn is_equivalent(&self) -> bool {
         matches!(self.verdict, Verdict::Equivalent { .. })
     }
@@ -281,7 +281,7 @@ impl Answer {
         }
     }
 
-    /// Whether a difference is shown that is not within the margin.
+    /// Tells a difference that is shown and not within the margin.
     pub(super) fn is_shown(&self) -> bool {
         matches!(self.verdict, Verdict::Differs { .. })
     }
