@@ -5,6 +5,7 @@ mod direction;
 mod entry_points;
 mod mae;
 mod mae_euclid;
+mod noise_equivalent_force;
 mod r2;
 mod repeatability;
 mod rmse;
@@ -15,13 +16,13 @@ mod smape;
 mod smape_gated;
 mod uniformity;
 mod unknown_metric;
+mod zero_error;
 
 pub use unknown_metric::UnknownMetric;
 
 use crate::evaluate::metric::Metric;
 use crate::families::bias_level::BIAS_LEVEL;
 use crate::families::crosstalk::CROSSTALK;
-use crate::families::detection::MINIMUM_DETECTABLE_FORCE;
 use crate::families::drift::DRIFT;
 use crate::families::hysteresis::HYSTERESIS;
 use crate::families::inter_sensor::INTER_SENSOR;
@@ -33,7 +34,7 @@ use crate::families::spatial::R_SPATIAL;
 use crate::families::tolerance::TOLERANCE;
 
 /// Every metric, in the order of reports.
-pub static ALL: [&Metric; 24] = [
+pub static ALL: [&Metric; 25] = [
     &mae::MAE,
     &rmse::RMSE,
     &bias::BIAS,
@@ -51,7 +52,8 @@ pub static ALL: [&Metric; 24] = [
     &HYSTERESIS,
     &INTER_SENSOR,
     &INTRINSIC,
-    &MINIMUM_DETECTABLE_FORCE,
+    &noise_equivalent_force::NOISE_EQUIVALENT_FORCE,
+    &zero_error::ZERO_ERROR,
     &signal_to_repeatability::SIGNAL_TO_REPEATABILITY,
     &LINEARITY,
     &CROSSTALK,
@@ -65,6 +67,9 @@ pub static GROUPS: [(&str, &[&Metric]); 2] = [
     ("accuracy", &[&mae::MAE, &r2::R2, &smape::SMAPE]),
     ("all", &ALL),
 ];
+
+/// Names of metrics that were replaced, each with the one that says what it measures.
+const RENAMED: [(&str, &str); 1] = [("minimum_detectable_force", "noise_equivalent_force")];
 
 /// The metric called `id`.
 pub fn find(id: &str) -> Option<&'static Metric> {
@@ -89,6 +94,12 @@ pub fn select<'a>(
 ) -> Result<Vec<&'static Metric>, UnknownMetric> {
     let mut wanted = Vec::new();
     for name in names {
+        if let Some((_, new)) = RENAMED.into_iter().find(|(old, _)| *old == name) {
+            return Err(UnknownMetric {
+                name: name.to_owned(),
+                nearest: Some(new),
+            });
+        }
         let group = GROUPS.into_iter().find(|(group, _)| *group == name);
         match (find(name), group) {
             (Some(metric), _) => wanted.push(metric.id),
@@ -139,5 +150,11 @@ mod tests {
         let error = select(["colour"]).expect_err("unknown");
         assert_eq!(error.nearest, None);
         assert!(error.to_string().contains("mae, rmse, bias"), "{error}");
+    }
+
+    #[test]
+    fn a_name_that_was_replaced_leads_to_the_new_one() {
+        let error = select(["minimum_detectable_force"]).expect_err("renamed");
+        assert_eq!(error.nearest, Some("noise_equivalent_force"));
     }
 }

@@ -14,7 +14,7 @@ robot = { driver = "sim/robot" }
 force = { driver = "sim/force-transducer" }
 model = { name = "ridge", set = { size = "8x8" } }
 sensor = { driver = "sim/vitactip:reduction=16" }
-metrics = { want = ["mae", "r2", "smape", "crosstalk", "bias_level", "uniformity", "intrinsic", "minimum_detectable_force"] }
+metrics = { want = ["mae", "r2", "smape", "crosstalk", "bias_level", "uniformity", "intrinsic", "noise_equivalent_force"] }
 protocol = { calibration = { points = 12, indentations = 2 }, surface = { points = 6 }, idle = { frames = 6 } }
 "#;
 

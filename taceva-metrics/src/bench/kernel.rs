@@ -3,6 +3,7 @@
 use taceva_core::Isa;
 
 use super::compensation::{Kahan, Neumaier, Plain, Single, pairwise};
+use super::reference;
 use super::textbook::{in_halves, length, mean_error, number, one_pass, two_pass, welford};
 use crate::catalogue;
 use crate::exact::Machine;
@@ -87,7 +88,7 @@ impl Kernel {
         }
     }
 
-    /// Whether nothing is rounded before the end.
+    /// Whether sums are not rounded before the end.
     pub fn is_exact(self) -> bool {
         matches!(self, Kernel::Exact(_))
     }
@@ -127,11 +128,14 @@ impl Kernel {
         }
     }
 
-    /// The true scores: every row added to the superaccumulators on its own, every quotient rounded once.
+    /// Tells kernels that sum so that the order of rows cannot change a bit. A few shuffles that agree show nothing.
+    pub fn is_order_free(self) -> bool {
+        self.is_exact()
+    }
+
+    /// The true scores of the definitions: sums in whole numbers by code of their own, so that no kernel is measured by itself.
     pub fn truth(pairs: Paired<&[f64]>) -> Scores {
-        let mut sums = PairSums::new(spec(THREE_SCORES));
-        pairs.blocks(1).for_each(|row| sums.update(row));
-        Scores::of(&sums)
+        reference::scores(pairs)
     }
 }
 

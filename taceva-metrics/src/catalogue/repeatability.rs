@@ -27,9 +27,11 @@ pub(crate) static REPEATABILITY: Metric = Metric {
     reference: "TacEva, equation (9); ISO 5725",
     documentation: "How far predictions scatter when the same point is pressed to the same depth again: the standard deviation \
                     (over n − 1) of each cell of point and depth step with two repeats or more, averaged over cells. \
-                    `population` divides by n; `pooled` is s_r, the root of the mean variance weighted by n − 1; `limit` is \
+                    `population` divides by n; `pooled` is s_r, the root of the mean variance weighted by n − 1, and verdicts go by \
+                    it: the average of standard deviations is the smaller the fewer repeats there are. `limit` is \
                     2.8 s_r, which two repeats exceed once in twenty times; `curve` is the mean at each depth step.",
     needs: REPEAT_NEEDS,
+    decided_by: Some("pooled"),
     constants: limit_factor,
     formula: Formula(&RepeatFormula {
         finish: repeatability,

@@ -17,7 +17,7 @@ pub(crate) static RMSE: Metric = Metric {
     better: Better::Lower,
     unit: ScoreUnit::OfChannel,
     range: Range::Positive,
-    definition: "rmse/1",
+    definition: "rmse/2",
     reference: "square root of the mean squared error",
     documentation: "Like the mean absolute error, but large errors weigh more; 1.25 times as large if errors are Gaussian.",
     needs: PAIR_NEEDS,
@@ -30,7 +30,7 @@ pub(crate) static RMSE: Metric = Metric {
     ..Metric::of(&PAIRS)
 };
 
-/// RN(√RN(Sdd / n)).
+/// RN(√(Sdd / n)): the root of the exact quotient, rounded once, beyond the range of its square too.
 fn rmse(sums: &PairSums) -> Finished {
-    Ok(sums.mean_squared_error().sqrt())
+    Ok(sums.root_mean_square(Stream::Squared))
 }

@@ -1,4 +1,4 @@
-//! How far the gel yields per newton.
+//! A softer gel yields more, which is no merit by itself: the score describes. How far the gel yields per newton.
 
 use taceva_core::{Field, FieldSet, Needs, Unit};
 
@@ -17,12 +17,12 @@ pub(crate) static SENSITIVITY: Metric = Metric {
     title: "sensitivity",
     symbol: Some("$S$"),
     theme: Theme::Surface,
-    better: Better::Higher,
+    better: Better::Described,
     unit: ScoreUnit::Fixed(Unit::MillimetrePerNewton),
     range: Range::Any,
     definition: "sensitivity/1",
     reference: "TacEva, equation (5)",
-    documentation: "How far the gel yields per newton of normal force: the mean of indentation over force of all samples in \
+    documentation: "A softer gel yields more, which is no merit by itself: the score describes. How far the gel yields per newton of normal force: the mean of indentation over force of all samples in \
                     contact, those with shear too. slope is the line through the origin, which does not explode as the force \
                     nears the gate; normal_only leaves out what has shear; map is the mean in each cell of the footprint.",
     needs: Needs::new(FieldSet::EMPTY.with(Field::Truth))
@@ -32,6 +32,7 @@ pub(crate) static SENSITIVITY: Metric = Metric {
         of: &["Pz", "Fz"],
         count: |sums| sums.compliance.n,
         finish: |sums, _| sensitivity(sums),
+        of_clusters: None,
         has_map: true,
     }),
     ..Metric::of(&SURFACE)

@@ -19,9 +19,10 @@ pub(crate) static SIGNAL_TO_REPEATABILITY: Metric = Metric {
     better: Better::Higher,
     unit: ScoreUnit::One,
     range: Range::Positive,
-    definition: "signal_to_repeatability/1",
-    reference: "standard deviation of the cells' means over the pooled repeatability standard deviation s_r of ISO 5725",
-    documentation: "How many times larger the differences between presses are than those between repeats of one press. A \
+    definition: "signal_to_repeatability/2",
+    reference: "standard deviation of the cells' means, less what s_r gives them, over the pooled repeatability standard deviation s_r of ISO 5725",
+    documentation: "How many times larger the differences between presses are than those between repeats of one press, less \
+                    what these give the means of so many repeats: sensors that were pressed twice and ten times score alike. A \
                     sensor whose predictions never change repeats perfectly and has no signal: its value is 0. Undefined where \
                     repeats do not differ at all although presses do. Where labels differ less from press to press than predictions of one press \
                     do, the score is flagged `low stimulus` and takes part in no verdict: what predictions differ by is no signal.",
@@ -35,10 +36,10 @@ pub(crate) static SIGNAL_TO_REPEATABILITY: Metric = Metric {
     ..Metric::of(&REPEATS)
 };
 
-/// RN(s_m / s_r), s_m the standard deviation of the cells' means; 0 where the means do not differ.
+/// s / s_r with s² = s_m² − s_r² mean(1 / n_c), s_m the standard deviation of the cells' means; 0 where the means differ by no more than repeats give them.
 fn signal_to_repeatability(spreads: &SpreadSums) -> Numbers {
     let ratio = || -> Finished {
-        let (signal, noise) = (spreads.deviation_of_means()?, spreads.pooled()?);
+        let (signal, noise) = (spreads.signal()?, spreads.pooled()?);
         match (signal > 0.0, noise > 0.0) {
             (false, _) => Ok(0.0),
             (true, false) => Err(UndefinedReason::EqualRepeats),

@@ -2,10 +2,11 @@
 
 use taceva_core::{Field, FieldSet, Needs, Unit};
 
-use crate::evaluate::family::Numbers;
+use crate::evaluate::family::{Intervals, Numbers};
 use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
 use crate::evaluate::settings::Settings;
 use crate::exact::Dyadic;
+use crate::families::clustered_excess::{self, WithEnds};
 use crate::families::surface::sums::{NORMAL_ONLY, SurfaceSums, contact};
 use crate::families::surface::{SURFACE, SurfaceFormula};
 use crate::score::direction::Better;
@@ -13,6 +14,7 @@ use crate::score::range::Range;
 use crate::score::sensor_facts::Fact;
 use crate::score::theme::Theme;
 use crate::score::value::{Finished, UndefinedReason};
+use crate::stats::components::ClusteredBins;
 use crate::stats::spread::{Bin, Spread};
 
 pub(crate) static UNIFORMITY: Metric = Metric {
@@ -24,24 +26,31 @@ pub(crate) static UNIFORMITY: Metric = Metric {
     variants: &[("mean", Better::Described), ("deviation", Better::Lower)],
     unit: ScoreUnit::One,
     range: Range::Ratio,
-    definition: "uniformity/1",
+    definition: "uniformity/2",
     reference: "TacEva, equation (6)",
     documentation: "How alike the gel yields everywhere: 1 / (1 + σ/|μ|) of the mean sensitivities of the cells of the \
                     footprint; 1 is the same everywhere. Few samples per cell look like a surface that is not uniform: debiased \
-                    takes that part away, n_min_5 leaves out cells with fewer than five samples. normal_only leaves out what \
+                    takes that part away, and verdicts go by it: a surface that is not shown to differ from place to place \
+                    takes part in none. n_min_5 leaves out cells with fewer than five samples. normal_only leaves out what \
                     has shear; mean and deviation are μ and σ.",
     needs: Needs::new(FieldSet::EMPTY.with(Field::Truth))
         .with_channels(&["Px", "Py", "Pz", "Fz"])
         .with_least_samples(1),
     facts: &[Fact::Footprint],
+    decided_by: Some(DEBIASED),
+    chance: Some(1.0),
     formula: Formula(&SurfaceFormula {
         of: &["Px", "Py", "Pz", "Fz"],
         count: SurfaceSums::binned,
         finish: uniformity,
+        of_clusters: Some(of_clusters),
         has_map: false,
     }),
     ..Metric::of(&SURFACE)
 };
+
+/// The variant that verdicts go by.
+const DEBIASED: &str = "debiased";
 
 /// Samples per cell from which on a cell counts for the variant `n_min_5`, beside the paper's least of one.
 const WELL_SAMPLED: u64 = 5;
@@ -61,7 +70,7 @@ fn uniformity(sums: &SurfaceSums, settings: &Settings) -> Numbers {
     let all = Spread::of(&bins, n_min);
     let debiased = all.mean().and_then(|mean| ratio(mean, all.excess()?));
     Numbers::of(plain(&all))
-        .with("debiased", Unit::One, Range::RatioWithEnds, debiased)
+        .with(DEBIASED, Unit::One, Range::RatioWithEnds, debiased)
         .with(
             "n_min_5",
             Unit::One,
@@ -81,6 +90,30 @@ fn uniformity(sums: &SurfaceSums, settings: &Settings) -> Numbers {
             Range::Positive,
             all.deviation(ddof),
         )
+}
+
+/// The debiased uniformity and its interval, where it is known which samples belong to one contact point.
+fn of_clusters(clusters: &[&SurfaceSums], settings: &Settings) -> Intervals {
+    let cells = clusters.iter().map(|sums| {
+        let cells = sums.cells.iter();
+        cells
+            .filter(|(_, [all, _])| all.n > 0)
+            .map(|(cell, [all, _])| (*cell, all))
+    });
+    let excess = ClusteredBins::of(cells, settings.n_min).and_then(|bins| bins.excess());
+    let with_samples = clusters.iter().filter(|sums| !sums.cells.is_empty());
+    clustered_excess::of_mean(
+        DEBIASED,
+        excess.map(|excess| vec![excess]),
+        with_samples.count(),
+        |excess| {
+            let [low, high] = excess.ends;
+            Ok(WithEnds {
+                value: ratio(excess.mean, excess.value)?,
+                ends: [ratio(excess.mean, high)?, ratio(excess.mean, low)?],
+            })
+        },
+    )
 }
 
 fn on_surface(sums: &SurfaceSums) -> Result<(), UndefinedReason> {

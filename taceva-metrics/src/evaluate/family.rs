@@ -223,21 +223,32 @@ pub(crate) struct Details {
     pub(crate) flags: Vec<Flag>,
 }
 
-/// The intervals of a value and of variants by name.
+/// The intervals of a value and of variants by name, and variants that clusters give another value.
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Intervals {
-    pub(crate) value: Interval,
+    /// Interval of the value; `None` where the jackknife of the score serves.
+    pub(crate) value: Option<Interval>,
     pub(crate) variants: Vec<(String, Interval)>,
+    /// Values of variants that are known better where it is known which samples belong together.
+    pub(crate) values: Vec<(String, Finished)>,
 }
 
 impl Intervals {
     /// The interval of the variant called `name`, or of the value itself; the last one of a name counts.
     pub(crate) fn of(&self, name: Option<&str>) -> Option<Interval> {
         let Some(name) = name else {
-            return Some(self.value);
+            return self.value;
         };
         let mut variants = self.variants.iter().rev();
         let found = variants.find(|(known, _)| known == name);
         found.map(|(_, interval)| *interval)
+    }
+
+    /// The value that clusters give the variant called `name`.
+    pub(crate) fn value_of(&self, name: &str) -> Option<Finished> {
+        let mut values = self.values.iter();
+        let found = values.find(|(known, _)| known == name);
+        found.map(|(_, value)| *value)
     }
 }
 

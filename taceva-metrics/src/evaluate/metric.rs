@@ -54,8 +54,12 @@ pub struct Metric {
     pub(crate) constants: fn(Unit) -> Vec<Parameter>,
     /// Whether predictions enter as the model gives them, beyond its bounds too.
     pub(crate) reads_unbounded: bool,
+    /// The variant by which verdicts go, where the value itself depends on noise or on how often presses were repeated.
+    pub decided_by: Option<&'static str>,
     /// What decides whether its scores take part in verdicts.
     pub(crate) verdict: VerdictRule,
+    /// The number of the deciding variant that chance alone would give: its interval must not hold it.
+    pub(crate) chance: Option<f64>,
     /// The family whose sums it is finished from.
     pub(crate) family: &'static FamilyKind,
     /// How it is finished, if its family has several metrics.
@@ -81,7 +85,9 @@ impl Metric {
             facts: &[],
             constants: |_| Vec::new(),
             reads_unbounded: false,
+            decided_by: None,
             verdict: VerdictRule::Channels,
+            chance: None,
             family,
             formula: Formula(&()),
         }

@@ -98,6 +98,21 @@ fn of_score(
         .max(bounded)
         .max(stimulus)
         .max(beside_constant(metric, score))
+        .max(beside_chance(metric, score))
+}
+
+/// A spread takes part where the interval of its deciding variant leaves out what chance alone would give.
+fn beside_chance(metric: &Metric, score: &Score) -> Standing {
+    let (Some(chance), Some(name)) = (metric.chance, metric.decided_by) else {
+        return Standing::Counts;
+    };
+    let interval = score.variant(name).and_then(|variant| variant.interval);
+    let ends = interval.and_then(|interval| interval.ends());
+    match ends {
+        Some([low, high]) if low > chance || high < chance => Standing::Counts,
+        _ if score.value.scalar().is_none() => Standing::Counts,
+        _ => Standing::NotAboveNoiseFloor,
+    }
 }
 
 /// A share within a tolerance takes no part where the constant of the skill reaches as much; where that is not known, skill alone decides.

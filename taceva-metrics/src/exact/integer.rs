@@ -93,6 +93,48 @@ impl Natural {
         (Natural::from_limbs(limbs), lost)
     }
 
+    /// The whole part of `self / divisor`, and whether nothing is left; one bit after the other, for numbers of a few thousand bits.
+    pub(super) fn divided_by(&self, divisor: &Natural) -> (Natural, bool) {
+        let Some(most) = self.bits().checked_sub(divisor.bits()) else {
+            return (Natural::default(), self.is_zero());
+        };
+        let mut rest = self.clone();
+        let mut limbs = vec![0_u64; most / 64 + 1];
+        for place in (0..=most).rev() {
+            let part = divisor.shifted_up(place);
+            if rest >= part {
+                rest = rest.minus(&part);
+                limbs[place / 64] |= 1 << (place % 64);
+            }
+        }
+        (Natural::from_limbs(limbs), rest.is_zero())
+    }
+
+    /// The whole part of √self, and whether nothing is left: the digits of the root one after the other, as by hand.
+    pub(super) fn root(&self) -> (Natural, bool) {
+        let mut root = Natural::default();
+        for place in (0..self.bits().div_ceil(2)).rev() {
+            let more = root.plus(&Natural::from(1).shifted_up(place));
+            if more.times(&more) <= *self {
+                root = more;
+            }
+        }
+        let is_square = root.times(&root) == *self;
+        (root, is_square)
+    }
+
+    /// The leading 64 bits at most, whether one below is set, and the power of two of the last.
+    pub(super) fn leading_bits(&self) -> (u64, bool, i32) {
+        let places = self.bits().saturating_sub(64);
+        let (leading, lost) = self.shifted_down(places);
+        let power = i32::try_from(places).expect("sums have fewer than 2^31 bits");
+        (
+            leading.limbs.first().copied().unwrap_or_default(),
+            lost,
+            power,
+        )
+    }
+
     /// The leading 63 or 64 bits of `self / divisor`, whether that is less than all of it, and the power of two of the last.
     ///
     /// Neither may be zero. This is one step of long division in base 2⁶⁴: the divisor's highest bit is brought to the top

@@ -67,6 +67,40 @@ impl Dyadic {
         )
     }
 
+    /// The binary64 nearest to √(self / divisor), rounded once, also where the quotient is beyond its range; 0 of what is below 0.
+    ///
+    /// A root of about 70 bits is found in whole numbers: the integer part of √(a 2ᵏ / b) has enough of them that only what is left decides.
+    ///
+    /// # Panics
+    /// If `divisor` is zero.
+    pub(crate) fn root_over(&self, divisor: &Dyadic) -> f64 {
+        assert!(!divisor.is_zero(), "a quotient needs a divisor");
+        if self.is_zero() || self.negative != divisor.negative {
+            return 0.0;
+        }
+        // The quotient to 128 bits or so, and whether that is all of it; then its root to 62 bits or so.
+        let bits =
+            |natural: &Natural| i64::try_from(natural.bits()).expect("bits that fit in memory");
+        let up = (128 - (bits(&self.magnitude) - bits(&divisor.magnitude))).max(0);
+        let exponent = i64::from(self.exponent) - i64::from(divisor.exponent);
+        // An even power of two comes out of the root whole.
+        let up = up + (exponent - up).rem_euclid(2);
+        let places = usize::try_from(up).expect("not below 0");
+        let (quotient, is_exact) = self
+            .magnitude
+            .shifted_up(places)
+            .divided_by(&divisor.magnitude);
+        let (root, is_square) = quotient.root();
+        let half = i32::try_from((exponent - up) / 2).expect("sums have fewer than 2^31 bits");
+        let (leading, lost, power) = root.leading_bits();
+        round(
+            false,
+            leading,
+            lost || !is_square || !is_exact,
+            half + power,
+        )
+    }
+
     /// The same value with its last place at `exponent`, which is not above its own.
     fn magnitude_at(&self, exponent: i32) -> Natural {
         let places = usize::try_from(self.exponent - exponent).expect("the lower exponent of two");
@@ -181,6 +215,37 @@ mod tests {
                 );
             }
         }
+    }
+
+    #[test]
+    fn a_root_is_the_nearest_number_and_keeps_its_digits_at_both_ends_of_the_range() {
+        for value in [
+            2.0,
+            3.0,
+            0.1,
+            1e300,
+            1e-300,
+            4.0,
+            2.25,
+            f64::MAX,
+            f64::from_bits(1),
+        ] {
+            let root = exact(value).root_over(&Dyadic::from(1));
+            assert_eq!(root.to_bits(), value.sqrt().to_bits(), "{value:e}");
+            // Of the square of a value, whose square may be beyond the range, the root is the value.
+            let square = &exact(value) * &exact(value);
+            assert_eq!(
+                square.root_over(&Dyadic::from(1)).to_bits(),
+                value.to_bits()
+            );
+        }
+        // √(1/3) has no finite expansion: both neighbours enclose it.
+        let root = Dyadic::from(1).root_over(&Dyadic::from(3));
+        let (below, above) = (root.next_down(), root.next_up());
+        let third = |of: f64| &(&exact(of) * &exact(of)) * &Dyadic::from(3);
+        assert!((&third(below) - &Dyadic::from(1)).is_negative());
+        assert!(!(&third(above) - &Dyadic::from(1)).is_negative());
+        assert_eq!(Dyadic::from(0).root_over(&Dyadic::from(3)).to_bits(), 0);
     }
 
     #[test]

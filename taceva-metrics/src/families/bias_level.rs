@@ -102,8 +102,10 @@ impl LevelErrors {
 
 /// max |RN(Sd / n)| over the levels with enough samples.
 fn greatest_bias(sums: &LevelSums) -> Finished {
-    if sums.n == 0 {
-        return Err(UndefinedReason::Empty);
+    match (sums.n, sums.n_invalid) {
+        (0, 0) => return Err(UndefinedReason::Empty),
+        (0, _) => return Err(UndefinedReason::NoMillionths),
+        _ => {}
     }
     let enough = sums
         .levels

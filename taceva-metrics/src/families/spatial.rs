@@ -9,7 +9,9 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Nanometre, Unit};
 
-use crate::evaluate::family::{Details, Family, FamilyKind, Numbers, Output, each_row, erased};
+use crate::evaluate::family::{
+    Details, Family, FamilyKind, Intervals, Numbers, Output, each_row, erased,
+};
 use crate::evaluate::metric::Metric;
 use crate::evaluate::plan::MetricPlan;
 use crate::evaluate::settings::Settings;
@@ -128,6 +130,19 @@ impl Family for Spatial {
 
     fn numbers(&self, _metric: &Metric, output: &Output, sums: &SpatialSums) -> Numbers {
         robustness::robustness(sums, &self.settings, output.unit)
+    }
+
+    /// Interval of the excess, by the variance between contact points and within them.
+    fn intervals(
+        &self,
+        _metric: &Metric,
+        output: &Output,
+        clusters: &[&Vec<SpatialSums>],
+    ) -> Option<Intervals> {
+        let parts = output.parts.iter();
+        let parts = parts.map(|&part| clusters.iter().map(|sums| &sums[part]).collect());
+        let parts: Vec<Vec<&SpatialSums>> = parts.collect();
+        Some(robustness::of_clusters(&parts, &self.settings))
     }
 
     fn details(&self, _metric: &Metric, output: &Output, parts: &[&SpatialSums]) -> Details {

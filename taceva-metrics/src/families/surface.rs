@@ -9,7 +9,9 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Unit};
 
-use crate::evaluate::family::{Details, Family, FamilyKind, Numbers, Output, each_row, erased};
+use crate::evaluate::family::{
+    Details, Family, FamilyKind, Intervals, Numbers, Output, each_row, erased,
+};
 use crate::evaluate::metric::Metric;
 use crate::evaluate::plan::MetricPlan;
 use crate::evaluate::settings::Settings;
@@ -35,6 +37,8 @@ pub(crate) struct SurfaceFormula {
     pub(crate) count: fn(&SurfaceSums) -> u64,
     /// The numbers.
     pub(crate) finish: fn(&SurfaceSums, &Settings) -> Numbers,
+    /// Variants that clusters give another value, and their intervals.
+    pub(crate) of_clusters: Option<fn(&[&SurfaceSums], &Settings) -> Intervals>,
     /// Whether the score holds the mean of each cell.
     pub(crate) has_map: bool,
 }
@@ -194,6 +198,18 @@ impl Family for Surface {
                 .retain(|variant| variant.name != NORMAL_ONLY);
         }
         numbers
+    }
+
+    fn intervals(
+        &self,
+        metric: &Metric,
+        _output: &Output,
+        clusters: &[&Vec<SurfaceSums>],
+    ) -> Option<Intervals> {
+        let of_clusters = formula(metric)?.of_clusters?;
+        let sums = clusters.iter().filter_map(|parts| parts.first());
+        let sums: Vec<&SurfaceSums> = sums.collect();
+        Some(of_clusters(&sums, &self.settings))
     }
 
     fn details(&self, metric: &Metric, _output: &Output, parts: &[&SurfaceSums]) -> Details {

@@ -143,8 +143,10 @@ impl OfConstant {
 impl ErrorCounts {
     /// RN of the share of errors within the tolerance at `position`.
     fn share(&self, position: usize) -> Finished {
-        if self.n == 0 {
-            return Err(UndefinedReason::Empty);
+        match (self.n, self.n_invalid) {
+            (0, 0) => return Err(UndefinedReason::Empty),
+            (0, _) => return Err(UndefinedReason::NoMillionths),
+            _ => {}
         }
         let within: u64 = self.classes[..=position].iter().sum();
         Ok(Dyadic::from(within).over(&Dyadic::from(self.n)))

@@ -111,6 +111,21 @@ pub enum Interval {
         /// What varies from cluster to cluster.
         by: ClusteredBy,
     },
+    /// From the variance between clusters and within them, of a spread beyond chance.
+    Components {
+        /// Lower end.
+        low: f64,
+        /// Upper end.
+        high: f64,
+        /// Half the width over t, on the score's own scale.
+        standard_error: f64,
+        /// Degrees of freedom: one less than there are clusters.
+        freedom: f64,
+        /// Number of clusters with samples.
+        clusters: usize,
+        /// Kind of the clusters.
+        by: ClusteredBy,
+    },
     /// As if all samples were independent: what the interval of a share would be at best.
     Wilson {
         /// Lower end.
@@ -127,7 +142,8 @@ impl Interval {
     pub(crate) fn clustered_by(mut self, clusters: ClusteredBy) -> Interval {
         if let Interval::Jackknife { by, .. }
         | Interval::Bootstrap { by, .. }
-        | Interval::Delta { by, .. } = &mut self
+        | Interval::Delta { by, .. }
+        | Interval::Components { by, .. } = &mut self
         {
             *by = clusters;
         }
@@ -140,6 +156,7 @@ impl Interval {
             Interval::Jackknife { low, high, .. }
             | Interval::Bootstrap { low, high, .. }
             | Interval::Delta { low, high, .. }
+            | Interval::Components { low, high, .. }
             | Interval::Wilson { low, high } => Some([low, high]),
             Interval::Undefined(_) => None,
         }
@@ -151,7 +168,8 @@ impl Interval {
         match *self {
             Interval::Jackknife { standard_error, .. }
             | Interval::Bootstrap { standard_error, .. }
-            | Interval::Delta { standard_error, .. } => Some(standard_error),
+            | Interval::Delta { standard_error, .. }
+            | Interval::Components { standard_error, .. } => Some(standard_error),
             Interval::Wilson { .. } | Interval::Undefined(_) => None,
         }
     }
@@ -162,7 +180,8 @@ impl Interval {
         match *self {
             Interval::Jackknife { freedom, .. }
             | Interval::Bootstrap { freedom, .. }
-            | Interval::Delta { freedom, .. } => Some(freedom),
+            | Interval::Delta { freedom, .. }
+            | Interval::Components { freedom, .. } => Some(freedom),
             Interval::Wilson { .. } | Interval::Undefined(_) => None,
         }
     }
@@ -173,6 +192,7 @@ impl Interval {
             Interval::Jackknife { scale, .. }
             | Interval::Bootstrap { scale, .. }
             | Interval::Delta { scale, .. } => Some(scale),
+            Interval::Components { .. } => Some(Scale::Own),
             Interval::Wilson { .. } | Interval::Undefined(_) => None,
         }
     }
@@ -182,7 +202,8 @@ impl Interval {
         match *self {
             Interval::Jackknife { clusters, .. }
             | Interval::Bootstrap { clusters, .. }
-            | Interval::Delta { clusters, .. } => Some(clusters),
+            | Interval::Delta { clusters, .. }
+            | Interval::Components { clusters, .. } => Some(clusters),
             Interval::Wilson { .. } | Interval::Undefined(_) => None,
         }
     }
@@ -204,6 +225,9 @@ impl Interval {
                 by,
                 ..
             } => Some(format!("delta method{}, G={clusters}{scale}", by.words())),
+            Interval::Components { clusters, by, .. } => {
+                Some(format!("variance components{}, G={clusters}", by.words()))
+            }
             Interval::Wilson { .. } => Some("Wilson, samples taken as independent".to_owned()),
             Interval::Bootstrap {
                 ends,

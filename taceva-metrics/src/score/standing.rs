@@ -27,6 +27,8 @@ pub enum Standing {
     Bounded,
     /// It takes no part: what it is formed from hardly changed, the light of some scene or the labels of repeated presses.
     LowStimulus,
+    /// Excluded: the interval of the variant that verdicts go by holds what chance gives.
+    NotAboveNoiseFloor,
     /// It takes no part: a share of good answers whose interval does not lie above the share that the constant of the skill score reaches,
     /// though the model may be nearer in the mean square.
     NotAboveConstant,
@@ -38,11 +40,12 @@ pub enum Standing {
 
 impl Standing {
     /// Every standing, the best first.
-    pub const ALL: [Standing; 7] = [
+    pub const ALL: [Standing; 8] = [
         Standing::Counts,
         Standing::SkillUnknown,
         Standing::Bounded,
         Standing::LowStimulus,
+        Standing::NotAboveNoiseFloor,
         Standing::NotAboveConstant,
         Standing::NoInterval,
         Standing::NoSkill,
@@ -66,6 +69,7 @@ impl Standing {
             Standing::SkillUnknown => Some("skill unknown"),
             Standing::Bounded => Some("bounded"),
             Standing::LowStimulus => Some("low stimulus"),
+            Standing::NotAboveNoiseFloor => Some("not above its noise floor"),
             Standing::NotAboveConstant => Some("not above the constant"),
             Standing::NoInterval => Some("skill not known: no interval"),
             Standing::NoSkill => Some("no skill"),
@@ -87,6 +91,9 @@ impl Standing {
             }
             Standing::LowStimulus => Some(
                 "low stimulus: what it is formed from, the light of some scene or the labels of repeated presses, hardly changed",
+            ),
+            Standing::NotAboveNoiseFloor => Some(
+                "not above its noise floor: the differences between places are not shown to be more than chance gives so many samples",
             ),
             Standing::NotAboveConstant => Some(
                 "not above the constant: its interval does not lie above the share that the constant of the skill, the mean of the labels that the model was fitted on, reaches",

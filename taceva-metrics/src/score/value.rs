@@ -152,6 +152,8 @@ pub enum UndefinedReason {
     ZeroBaseline,
     /// Neither light nor error changed.
     NoChange,
+    /// No value is a number that is told to a millionth of its unit: each is too large, or none.
+    NoMillionths,
     /// The value is beyond the range of a binary64.
     Overflow,
     /// Too few clusters for an interval.
@@ -216,6 +218,9 @@ impl fmt::Display for UndefinedReason {
             UndefinedReason::ZeroIntensity => f.write_str("the reference scene is black"),
             UndefinedReason::ZeroBaseline => f.write_str("the reference scene has no error"),
             UndefinedReason::NoChange => f.write_str("neither light nor error changed"),
+            UndefinedReason::NoMillionths => {
+                f.write_str("no value is a number that is told to a millionth of its unit")
+            }
             UndefinedReason::Overflow => f.write_str("beyond the range of binary64"),
             UndefinedReason::TooFewClusters { have } => {
                 let least = crate::score::least::LEAST_CLUSTERS;

@@ -46,6 +46,11 @@ pub(super) fn upper(t: f64, freedom: f64) -> f64 {
     }
 }
 
+/// P(|T| < t).
+pub(super) fn within(t: f64, freedom: f64) -> f64 {
+    Split::at(t.abs(), freedom).within
+}
+
 /// How the distribution is divided by ±t.
 struct Split {
     /// P(|T| < t).
@@ -118,7 +123,7 @@ fn density(t: f64, freedom: f64) -> f64 {
 ///
 /// With w = z − 1/4 it is √w (1 + 1/64 w⁻² − 19/8192 w⁻⁴ + 631/2¹⁹ w⁻⁶ − 174317/2²⁷ w⁻⁸ + …), whose next term is below 2⁻⁵⁸
 /// from z = 32 on; smaller arguments are raised by z / (z + 1/2) = the quotient of the ratios at z and z + 1.
-fn gamma_ratio(z: f64) -> f64 {
+pub(super) fn gamma_ratio(z: f64) -> f64 {
     const COEFFICIENTS: [f64; 5] = [
         1.0,
         1.0 / 64.0,
@@ -139,7 +144,7 @@ fn gamma_ratio(z: f64) -> f64 {
 
 /// base^exponent for a base in 0..=1 and an exponent from 0 on: squares for the whole bits of the exponent, square roots for
 /// the others.
-fn power(base: f64, exponent: f64) -> f64 {
+pub(super) fn power(base: f64, exponent: f64) -> f64 {
     let mut whole = exponent.floor();
     let mut rest = exponent - whole;
     let mut result = 1.0;

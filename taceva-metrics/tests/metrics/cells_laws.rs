@@ -8,13 +8,14 @@ use taceva_core::{
 };
 use taceva_metrics::{Evaluator, MetricError, MetricPlan, SensorFacts, State, catalogue};
 
-const METRICS: [&str; 11] = [
+const METRICS: [&str; 12] = [
     "repeatability",
     "signal_to_repeatability",
     "hysteresis",
     "inter_sensor",
     "intrinsic",
-    "minimum_detectable_force",
+    "noise_equivalent_force",
+    "zero_error",
     "linearity",
     "crosstalk",
     "bias_level",

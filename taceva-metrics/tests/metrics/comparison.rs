@@ -258,7 +258,7 @@ fn what_cannot_be_compared_says_why() {
     );
     assert_eq!(
         said(score("mae"), score("rmse")),
-        "no answer: A is `mae/1 in N` and B is `rmse/1 in N`, expected one meaning"
+        "no answer: A is `mae/1 in N` and B is `rmse/2 in N`, expected one meaning"
     );
     let few = evaluate(&rows[..4]);
     assert_eq!(

@@ -109,8 +109,12 @@ fn canonical(
         "sst" => Some(sums.total_sum_of_squares()),
         "rmse_sq" => {
             let squared = sums.mean_squared_error();
+            // The root of the exact quotient is within a unit of that of the rounded one, and may lie in the range where the square does not.
             let root = score("rmse").unwrap_or(f64::INFINITY);
-            assert_eq!(root.to_bits(), squared.sqrt().to_bits(), "rmse");
+            if squared.is_normal() {
+                let apart = root.to_bits().abs_diff(squared.sqrt().to_bits());
+                assert!(apart <= 1, "rmse: {root:e} of {squared:e}");
+            }
             Some(squared)
         }
         "sum_abs" => sum(Stream::Absolute),

@@ -19,6 +19,8 @@ mod family_laws;
 #[cfg(feature = "serde")]
 mod family_values;
 #[cfg(feature = "bench")]
+mod fifty_digits;
+#[cfg(feature = "bench")]
 mod golden;
 mod holm;
 mod ideal;
@@ -39,6 +41,7 @@ mod structured;
 #[cfg(feature = "serde")]
 mod structured_cells;
 mod support;
+mod unbiased;
 mod undefined_cells;
 #[cfg(feature = "serde")]
 mod undefined_values;

@@ -94,7 +94,7 @@ fn an_empty_stream_has_no_value_of_any_kind() {
         assert!(evaluation.scores().count() > 0, "{}", metric.id);
         for (_, label, score) in evaluation.scores() {
             let expected = match metric.id {
-                "minimum_detectable_force" => "no sample is without contact",
+                "noise_equivalent_force" | "zero_error" => "no sample is without contact",
                 _ => "empty",
             };
             let undefined = !matches!(score.value, Value::NotApplicable(_));

@@ -1,6 +1,7 @@
 //! Every check: one file each, a pure function of the [`Evidence`](crate::Evidence) with a stable code.
 
 pub(crate) mod blank;
+mod changed_rest;
 mod channel_order;
 mod clipped_taxel;
 mod clock_jumps;
@@ -10,28 +11,35 @@ mod dead_zone;
 mod doubled_frames;
 mod dropped_frames;
 mod duplicate_frames;
+mod equal_channels;
+mod equal_taxels;
+mod implausible_depth;
 mod label_lag;
 mod label_outliers;
 pub(crate) mod leakage;
 mod lossy_frames;
 mod lost_frames;
 mod missing_labels;
+mod normalised_labels;
 mod omissions;
 mod placeholder;
 mod pressed_reference;
 mod pressed_rest;
+mod repeated_stamps;
 mod saturation;
 mod sensor_facts;
+mod slow_labels;
 mod stuck_channel;
 mod stuck_taxel;
 mod timing;
 mod units;
 mod unmentioned_columns;
+mod zero_shift;
 
 use crate::finding::Check;
 
 /// Every check, in the order of its code.
-pub static ALL: [&Check; 27] = [
+pub static ALL: [&Check; 35] = [
     &units::CHECK,
     &duplicate_frames::CHECK,
     &channel_order::CHECK,
@@ -59,4 +67,12 @@ pub static ALL: [&Check; 27] = [
     &blank::CHECK,
     &lossy_frames::CHECK,
     &dead_zone::CHECK,
+    &changed_rest::CHECK,
+    &zero_shift::CHECK,
+    &repeated_stamps::CHECK,
+    &slow_labels::CHECK,
+    &equal_channels::CHECK,
+    &equal_taxels::CHECK,
+    &normalised_labels::CHECK,
+    &implausible_depth::CHECK,
 ];

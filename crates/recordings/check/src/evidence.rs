@@ -5,6 +5,7 @@ use taceva_dataset::{Header, Table};
 use taceva_models::Split;
 
 use crate::signal_facts::SignalFacts;
+use crate::tiles::Tiles;
 use taceva_dataset::RecordedSessions;
 
 /// A recording as checks see it.
@@ -59,6 +60,8 @@ pub struct FrameFacts {
     pub is_flat: bool,
     /// Mean absolute difference from the frame without contact, where there is one of the same size.
     pub distance: Option<f64>,
+    /// Mean light of tiles an eighth of the width wide.
+    pub tiles: Tiles,
 }
 
 impl FrameFacts {
@@ -114,6 +117,7 @@ fn facts_of_bytes(frame: &Frame, reference: Option<&Frame>) -> FrameFacts {
             levels.count() == 1
         }),
         distance,
+        tiles: Tiles::of(frame),
     }
 }
 
@@ -152,6 +156,7 @@ fn facts_of_samples(frame: &Frame, reference: Option<&Frame>, format: PixelForma
         zero: share(zero, count),
         is_flat,
         distance,
+        tiles: Tiles::of(frame),
     }
 }
 

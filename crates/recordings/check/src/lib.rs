@@ -6,9 +6,12 @@ mod finding;
 mod run;
 mod signal_facts;
 mod stamps;
+mod tiles;
+mod untouched;
 
 pub use checks::ALL;
 pub use evidence::{Evidence, FrameFacts};
 pub use finding::{Check, CheckReport, Finding, Severity};
 pub use run::{CheckRequest, check, check_plan};
 pub use signal_facts::{SignalFacts, TaxelFacts};
+pub use tiles::Tiles;

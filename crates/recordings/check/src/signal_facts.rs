@@ -42,6 +42,8 @@ pub struct TaxelFacts {
     pub greatest: (f32, u64),
     /// The greatest but one, and how often that is.
     pub below_greatest: Option<(f32, u64)>,
+    /// A digest of all its numbers in their order: those of equal taxels are equal.
+    pub series: u64,
 }
 
 impl SignalFacts {
@@ -109,10 +111,12 @@ impl TaxelFacts {
             above_least: None,
             greatest: (value, 1),
             below_greatest: None,
+            series: next_in_series(SERIES_START, value),
         }
     }
 
     fn add(&mut self, value: f32) {
+        self.series = next_in_series(self.series, value);
         extend(
             value,
             &mut self.least,
@@ -131,6 +135,20 @@ impl TaxelFacts {
     pub fn is_stuck(&self) -> bool {
         self.above_least.is_none()
     }
+}
+
+/// Offset and factor of FNV-1a with 64 bits.
+const SERIES_START: u64 = 0xcbf2_9ce4_8422_2325;
+const SERIES_FACTOR: u64 = 0x0000_0100_0000_01b3;
+
+/// The digest of a series with one number more; both zeros are one.
+fn next_in_series(series: u64, value: f32) -> u64 {
+    let value = if value.abs() <= 0.0 { 0.0 } else { value };
+    let mut series = series;
+    for byte in value.to_bits().to_le_bytes() {
+        series = (series ^ u64::from(byte)).wrapping_mul(SERIES_FACTOR);
+    }
+    series
 }
 
 /// Counts `value` where it is at the end or next to it; `beyond` tells which of two is nearer to the end.

@@ -30,13 +30,19 @@ pub(super) struct Stream {
 }
 
 impl Stream {
-    /// The stream that a recording is; `None` of single pictures, of few, and without times.
+    /// The stream that a recording is; `None` of single pictures, of single presses, of few, and without times.
     pub(super) fn of(evidence: &Evidence<'_>) -> Option<Stream> {
+        if is_of_presses(evidence) {
+            return None;
+        }
         let table = evidence.table;
         let times = table.t_s();
+        // Every row of a board is a press of its own, whatever its point is called.
+        let is_press = |row: usize| table.kind()[row].is_some();
         let steps: Vec<Step> = by_clock(table, 0..table.rows())
             .into_iter()
             .filter(|(from, to)| table.point_id()[*from] == table.point_id()[*to])
+            .filter(|(from, to)| !is_press(*from) && !is_press(*to))
             .filter_map(|(from, to)| {
                 let seconds = times[to]? - times[from]?;
                 Some(Step { from, to, seconds })
@@ -81,6 +87,12 @@ impl Stream {
     }
 }
 
+/// Tells a recording made press by press, whose pictures are single ones.
+pub(super) fn is_of_presses(evidence: &Evidence<'_>) -> bool {
+    let header = evidence.header;
+    header.stream.is_none() && header.presses.values().any(|count| *count > 0)
+}
+
 /// Each of `rows` but the first of its clock, behind the one of the same clock before it: every unit of a sensor has its own, and so has every table.
 pub(super) fn by_clock(table: &Table, rows: impl Iterator<Item = usize>) -> Vec<(usize, usize)> {
     let (units, tables) = (table.unit_id(), table.source_table());
@@ -95,4 +107,21 @@ pub(super) fn by_clock(table: &Table, rows: impl Iterator<Item = usize>) -> Vec<
 #[expect(clippy::cast_precision_loss, reason = "rows are far below 2^53")]
 pub(super) fn share(part: usize, whole: usize) -> f64 {
     part as f64 / whole.max(1) as f64
+}
+
+/// The rows whose time is that of the row before them of the same clock, where they are more than one in ten: stamps of whole seconds, or of a clock
+/// that stood still.
+pub(super) fn repeated(table: &Table) -> Option<Vec<usize>> {
+    const SHARE: usize = 10;
+    let times = table.t_s();
+    let timed: Vec<usize> = (0..table.rows())
+        .filter(|row| times[*row].is_some())
+        .collect();
+    let count = timed.len();
+    let rows: Vec<usize> = by_clock(table, timed.into_iter())
+        .into_iter()
+        .filter(|(before, row)| times[*before] == times[*row])
+        .map(|(_, row)| row)
+        .collect();
+    (rows.len() * SHARE > count).then_some(rows)
 }

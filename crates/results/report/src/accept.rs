@@ -175,6 +175,9 @@ fn hold(study: &Study, limit: &Limit) -> Finding {
         finding.reason = Some("there is no such score".to_owned());
         return finding;
     };
+    // A limit without a variant is one on what verdicts go by.
+    let decided_by = score.decided_by().map(|decides| decides.name.as_str());
+    let variant = variant.or(decided_by);
     finding.n = score.n;
     finding.standing = score.standing_of(variant);
     let (value, unit, interval) = match variant {

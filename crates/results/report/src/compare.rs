@@ -58,6 +58,8 @@ pub struct Answer {
     pub channel: String,
     /// Whether lower or higher scores are better.
     pub direction: Better,
+    /// The variant of the metric that was compared; `None` where it is the value itself.
+    pub decided_by: Option<String>,
     /// The unit of both scores.
     pub unit: Unit,
     /// Both scores, where they are numbers.
@@ -127,8 +129,13 @@ struct Pair<'a> {
 /// The mean absolute error is compared sample by sample where both studies predict the same samples (the sign-flip test, by contact point);
 /// everything else by the intervals of both, on their own scales. The pairs and channels of one metric are one family of Holm's
 /// procedure: verdict, p value and interval of an answer come from that one decision.
+///
+/// Where a metric names a variant by which verdicts go (`excess` of `r_spatial`, `debiased` of `uniformity`, `pooled` of `repeatability`), that is
+/// what is compared, and its values stand in the answers.
 pub fn compare(studies: &[Study], request: &CompareRequest) -> Comparison {
     let names = crate::names::names(studies);
+    let deciding: Vec<Study> = studies.iter().map(Study::deciding).collect();
+    let studies = deciding.as_slice();
     let mut answers = Vec::new();
     for metric in metrics(studies, request) {
         let mut pairs = pairs(studies, &names, &metric, request);
@@ -277,6 +284,11 @@ fn answer(pair: Pair<'_>, request: &CompareRequest) -> Answer {
         metric: metric.clone(),
         channel: channel.clone(),
         direction: question.better,
+        decided_by: pair
+            .scores
+            .a
+            .decided_by()
+            .map(|variant| variant.name.clone()),
         unit: question.unit,
         scores: Sides {
             a: pair.scores.a.value.number(),

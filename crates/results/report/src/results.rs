@@ -103,6 +103,14 @@ impl Study {
         scores.find(|score| score.metric == metric && score.channel == channel)
     }
 
+    /// The study as verdicts see it: each score has the value and the interval of the variant that decides.
+    pub(crate) fn deciding(&self) -> Study {
+        Study {
+            scores: self.scores.iter().map(Score::deciding).collect(),
+            ..self.clone()
+        }
+    }
+
     /// The scores of one metric.
     pub fn of_metric<'a>(&'a self, metric: &'a str) -> impl Iterator<Item = &'a Score> {
         let scores = self.scores.iter();

@@ -15,7 +15,7 @@ const OF_LABELS: [(&str, &str); 9] = [
     ("r_spatial", "spatial"),
     ("repeatability", "repeatability"),
     // Nothing is pressed there: what noise a model makes of that follows what it has learnt from.
-    ("minimum_detectable_force", CALIBRATION),
+    ("noise_equivalent_force", CALIBRATION),
     ("hysteresis", "load-unload"),
 ];
 const CALIBRATION: &str = "calibration";

@@ -55,12 +55,13 @@ pub(crate) fn tie(studies: &[Study], names: &[String], metric: &str, channel: &s
     let rivals = named.filter_map(|(at, (study, name))| {
         let score = study.score(metric, channel)?;
         let takes_part = score.standing.takes_part();
+        let decides = score.decided_by().map_or(&score.value, |of| &of.value);
         Some(Rival {
             at,
             study,
             name,
             score,
-            value: score.value.number().filter(|_| takes_part)?,
+            value: decides.number().filter(|_| takes_part)?,
         })
     });
     let rivals: Vec<Rival<'_>> = rivals.collect();
@@ -187,23 +188,23 @@ mod tests {
     fn the_same_value_of_any_metric_is_a_tie_and_one_bit_more_is_none() {
         let of = |name: &str, value: f64| {
             let text = format!(
-                r#"{{"schema": "taceva.evaluation/1.0", "subject": {{"sensor": "{name}"}}, "metrics": {{"sensitivity": {{"Fz":
-                   {{"value": {value:?}, "unit": "mm/N"}}}}}}}}"#
+                r#"{{"schema": "taceva.evaluation/1.0", "subject": {{"sensor": "{name}"}}, "metrics": {{"linearity": {{"Fz":
+                   {{"value": {value:?}, "unit": "N"}}}}}}}}"#
             );
             crate::results::unsealed(&text).expect("a result").remove(0)
         };
         let tie_of = |values: [f64; 3]| {
             let studies = [of("a", values[0]), of("b", values[1]), of("c", values[2])];
             let names = crate::names::names(&studies);
-            tie(&studies, &names, "sensitivity", "Fz")
+            tie(&studies, &names, "linearity", "Fz")
         };
-        let tied = tie_of([2.5, 0.5, 2.5]).expect("a tie");
-        let words = "tie: a and c have the same value, 2.5 mm/N";
+        let tied = tie_of([0.5, 2.5, 0.5]).expect("a tie");
+        let words = "tie: a and c have the same value, 0.5 N";
         assert_eq!(
             (tied.who.as_slice(), tied.words.as_str()),
             ([0, 2].as_slice(), words)
         );
-        assert_eq!(tie_of([2.5, 0.5, 2.500_000_000_000_001]), None);
-        assert_eq!(tie_of([2.5, 0.5, 0.5]), None);
+        assert_eq!(tie_of([0.5, 2.5, 0.500_000_000_000_000_1]), None);
+        assert_eq!(tie_of([2.5, 0.5, 2.5]), None);
     }
 }

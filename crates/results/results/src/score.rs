@@ -112,6 +112,28 @@ impl Score {
         self.variants.iter().find(|variant| variant.name == name)
     }
 
+    /// The variant that verdicts go by, where the value itself depends on noise or on how often presses were repeated; `None` where the value
+    /// decides, and of results that do not hold the variant.
+    pub fn decided_by(&self) -> Option<&Variant> {
+        let name = catalogue::find(&self.metric)?.decided_by?;
+        let variant = self.variant(name)?;
+        variant.value.number().map(|_| variant)
+    }
+
+    /// The score that verdicts go by: value, unit and interval are those of the deciding variant, where there is one.
+    #[must_use]
+    pub fn deciding(&self) -> Score {
+        match self.decided_by() {
+            Some(variant) => Score {
+                value: variant.value.clone(),
+                unit: variant.unit,
+                interval: variant.interval.clone(),
+                ..self.clone()
+            },
+            None => self.clone(),
+        }
+    }
+
     /// The part in verdicts of the score or of its variant called `variant`: reference constants always count.
     pub fn standing_of(&self, variant: Option<&str>) -> Standing {
         match variant {

@@ -178,7 +178,8 @@ impl Accumulator {
         let mut variants = Vec::new();
         if !matches!(value, Value::NotApplicable(_)) {
             variants.extend(numbers.variants.iter().map(|number| {
-                let value = number.value.into();
+                let known = own.as_ref().and_then(|own| own.value_of(&number.name));
+                let value = known.unwrap_or(number.value).into();
                 Variant {
                     interval: Some(interval(&value, Some(&number.name))),
                     name: number.name.clone(),

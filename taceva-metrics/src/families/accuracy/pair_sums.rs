@@ -150,6 +150,14 @@ impl PairSums {
         self.over_n(&self.sum(stream).to_dyadic(), 1)
     }
 
+    /// RN(√(sum / n)) of one stream, rounded once; 0 for no pair.
+    pub(crate) fn root_mean_square(&self, stream: Stream) -> f64 {
+        match self.n() {
+            0 => 0.0,
+            n => self.sum(stream).to_dyadic().root_over(&Dyadic::from(n)),
+        }
+    }
+
     /// n Syy − Sy², exactly; zero if and only if all truths are equal.
     pub(crate) fn scaled_spread(&self) -> Dyadic {
         self.scaled_variance(Stream::Truth, Stream::TruthSquared)

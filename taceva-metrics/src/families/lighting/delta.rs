@@ -21,8 +21,8 @@ pub(super) fn intervals(
     reference: &str,
 ) -> Intervals {
     let undefined = |reason| Intervals {
-        value: Interval::Undefined(reason),
-        variants: Vec::new(),
+        value: Some(Interval::Undefined(reason)),
+        ..Intervals::default()
     };
     let changes = match changes(total, reference) {
         Ok(changes) => changes,
@@ -46,12 +46,24 @@ pub(super) fn intervals(
         }
     }
     let [plain, plus] = terms;
+    // Where every error grew both are one quantity, and have one interval.
+    let values = |terms: &[Result<Term, UndefinedReason>]| -> Vec<Option<u64>> {
+        let values = terms.iter().map(|term| term.as_ref().ok());
+        values
+            .map(|term| term.map(|term| term.value.to_bits()))
+            .collect()
+    };
+    let is_one = values(&plain) == values(&plus);
     let plain = mean_interval(plain.into_iter(), baseline, Range::Ratio);
-    let plus = mean_interval(plus.into_iter(), baseline, Range::RatioWithEnds);
+    let plus = match is_one {
+        true => plain,
+        false => mean_interval(plus.into_iter(), baseline, Range::RatioWithEnds),
+    };
     variants.push(("plus".to_owned(), plus));
     Intervals {
-        value: plain,
+        value: Some(plain),
         variants,
+        ..Intervals::default()
     }
 }
 

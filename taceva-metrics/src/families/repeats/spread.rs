@@ -134,8 +134,20 @@ impl SpreadSums {
         mean(&variances, freedom).map(f64::sqrt)
     }
 
+    /// √max(0, s_m² − s_r² mean(1 / n_c)): how far cells differ beyond what the scatter of their repeats gives their means.
+    pub(crate) fn signal(&self) -> Finished {
+        let (means, repeats) = (self.deviation_of_means()?, self.pooled()?);
+        let shares: ExactSum = self
+            .spreads
+            .iter()
+            .map(|spread| 1.0 / (whole(spread.freedom) + 1.0))
+            .collect();
+        let by_chance = repeats * repeats * mean(&shares, self.count())?;
+        Ok((means * means - by_chance).max(0.0).sqrt())
+    }
+
     /// RN of the standard deviation (over cells − 1) of the cells' rounded means.
-    pub(crate) fn deviation_of_means(&self) -> Finished {
+    fn deviation_of_means(&self) -> Finished {
         self.defined()?;
         let means: Moments = self.spreads.iter().map(|spread| spread.mean).collect();
         let too_few = UndefinedReason::TooFewCells {

@@ -3,16 +3,19 @@
 use taceva_core::{Field, FieldSet, Needs, Unit};
 
 use super::sums::SpatialSums;
-use crate::evaluate::family::{Numbers, midpoint};
+use crate::evaluate::family::{Intervals, Numbers, midpoint};
 use crate::evaluate::metric::{Metric, ScoreUnit};
 use crate::evaluate::settings::Settings;
 use crate::exact::moments::Moments;
+use crate::exact::sorted_map::SortedMap;
+use crate::families::clustered_excess::{self, WithEnds};
 use crate::families::spatial::KIND;
 use crate::score::direction::Better;
 use crate::score::range::Range;
 use crate::score::sensor_facts::Fact;
 use crate::score::theme::Theme;
 use crate::score::value::{Finished, UndefinedReason};
+use crate::stats::components::{ClusteredBins, Excess};
 use crate::stats::spread::{Bin, Spread};
 
 pub(crate) static R_SPATIAL: Metric = Metric {
@@ -24,20 +27,26 @@ pub(crate) static R_SPATIAL: Metric = Metric {
     variants: &[("noise_floor", Better::Described)],
     unit: ScoreUnit::OfChannel,
     range: Range::Positive,
-    definition: "r_spatial/1",
+    definition: "r_spatial/2",
     reference: "TacEva, equation (7)",
     documentation: "How much the mean absolute error differs between places: the standard deviation of the means of a hundred \
                     bins of distance from the axis, and of depth, and the mean of both. Bins with few samples differ by chance: \
-                    noise_floor says how much, excess is what remains, n_min_5 leaves out bins with fewer than five. smooth \
-                    is finished from the rolling mean that plots show; within is the other reading of the paper, the mean \
+                    noise_floor says how much; excess is what remains where samples of one contact point are alike, and verdicts \
+                    go by it: a score whose excess is not shown to be above 0 takes part in none. n_min_5 leaves out bins with \
+                    fewer than five samples. smooth is finished from the rolling mean that plots show; within is the other reading of the paper, the mean \
                     of the deviations within the bins.",
     needs: Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction))
         .with_channels(&["Px", "Py", "Pz"])
         .with_least_samples(1),
     facts: &[Fact::Footprint, Fact::DepthMax],
     reads_unbounded: true,
+    decided_by: Some(EXCESS),
+    chance: Some(0.0),
     ..Metric::of(&KIND)
 };
+
+/// The variant that verdicts go by.
+pub(super) const EXCESS: &str = "excess";
 
 /// Samples per bin from which on a bin counts for the variant `n_min_5`, beside the paper's least of one.
 const WELL_SAMPLED: u64 = 5;
@@ -86,7 +95,7 @@ pub(super) fn robustness(sums: &SpatialSums, settings: &Settings, unit: Unit) ->
             both(&paper, &Spread::noise_floor),
         )
         .with(
-            "excess",
+            EXCESS,
             unit,
             Range::NotNegative,
             both(&paper, &Spread::excess),
@@ -98,6 +107,34 @@ pub(super) fn robustness(sums: &SpatialSums, settings: &Settings, unit: Unit) ->
             Range::Positive,
             both(&spread(WELL_SAMPLED), &deviation),
         )
+}
+
+/// The excess of one channel, or the mean of two, and its interval, where it is known which samples belong to one contact point.
+pub(super) fn of_clusters(channels: &[Vec<&SpatialSums>], settings: &Settings) -> Intervals {
+    type Axis = fn(&SpatialSums) -> &SortedMap<u8, Moments>;
+    let axes: [Axis; 2] = [|sums| &sums.distance, |sums| &sums.depth];
+    let excess = |clusters: &Vec<&SpatialSums>, axis: Axis| {
+        let of_cluster = clusters.iter().map(|sums| {
+            let bins = axis(sums).iter();
+            bins.map(|(bin, moments)| (*bin, moments))
+        });
+        ClusteredBins::of(of_cluster, settings.n_min)?.excess()
+    };
+    let all: Result<Vec<Excess>, UndefinedReason> = channels
+        .iter()
+        .flat_map(|clusters| axes.map(|axis| excess(clusters, axis)))
+        .collect();
+    let clusters = channels.iter().map(|clusters| {
+        let with_samples = clusters.iter().filter(|sums| sums.n > 0);
+        with_samples.count()
+    });
+    let clusters = clusters.min().unwrap_or_default();
+    clustered_excess::of_mean(EXCESS, all, clusters, |excess| {
+        Ok(WithEnds {
+            value: excess.value,
+            ends: excess.ends,
+        })
+    })
 }
 
 /// The centred rolling means of the bins that have samples, each RN of an exact mean; the window is cut off at the ends.

@@ -3,7 +3,7 @@
 use super::*;
 
 #[test]
-fn the_least_force_detected_comes_from_samples_without_contact() {
+fn the_noise_equivalent_force_and_the_error_at_zero_come_from_samples_without_contact() {
     // Ten predictions of ±0.01 N: variance 10⁻⁴ × 10 / 9.
     let idle = |count: u32| {
         let samples =
@@ -11,16 +11,35 @@ fn the_least_force_detected_comes_from_samples_without_contact() {
         let touched = pair(&[0.02], &[5.0]);
         samples.chain([touched]).collect::<Vec<_>>()
     };
-    let evaluation = evaluate("minimum_detectable_force", &["Fz"], &idle(10));
+    let evaluation = evaluate("noise_equivalent_force", &["Fz"], &idle(10));
+    let score = evaluation
+        .score("noise_equivalent_force", "Fz")
+        .expect("scored");
+    let deviation = (1e-3_f64 / 9.0).sqrt();
+    // The noncentrality of 9 degrees of freedom, and a baseline of ten pictures.
     close(
-        scalar(&evaluation, "minimum_detectable_force", "Fz"),
-        3.29 * (1e-3_f64 / 9.0).sqrt(),
+        scalar(&evaluation, "noise_equivalent_force", "Fz"),
+        3.575_384_834_044_819 * 1.1_f64.sqrt() * deviation,
     );
-    let few = evaluate("minimum_detectable_force", &["Fz"], &idle(9));
+    let variant = |name: &str| score.variant(name).and_then(|of| of.value.scalar());
+    close(
+        variant("known_deviation").expect("a number"),
+        3.29 * deviation,
+    );
+    close(
+        variant("critical").expect("a number"),
+        1.833_112_932_653_633_6 * 1.1_f64.sqrt() * deviation,
+    );
+    let few = evaluate("noise_equivalent_force", &["Fz"], &idle(9));
     assert_eq!(
-        said(&few, "minimum_detectable_force", "Fz"),
+        said(&few, "noise_equivalent_force", "Fz"),
         "fewer than 10 samples"
     );
+    let shifted: Vec<Sample> = (0..12)
+        .map(|row| pair(&[0.001], &[if row % 2 == 0 { 0.045 } else { 0.025 }]))
+        .collect();
+    let evaluation = evaluate("zero_error", &["Fz"], &shifted);
+    close(scalar(&evaluation, "zero_error", "Fz"), 0.035);
 }
 
 #[test]

@@ -57,6 +57,7 @@ fn end_of(facts: &SignalFacts, position: usize) -> Option<(f32, u64)> {
         above_least,
         greatest,
         below_greatest,
+        ..
     } = facts.taxels[position];
     let is_clipped = |(_, count): (f32, u64), (_, next): (f32, u64)| {
         count >= LEAST && count * SHARE >= facts.samples && count > TIMES * next

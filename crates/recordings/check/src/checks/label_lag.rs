@@ -6,6 +6,7 @@ use taceva_core::Field;
 
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};
+use crate::stamps::{is_of_presses, repeated};
 
 pub(super) static CHECK: Check = Check {
     code: "TAC019",
@@ -28,6 +29,9 @@ const SHARE: usize = 4;
 const CLEAR: f64 = 0.6;
 const BETTER: f64 = 1.5;
 
+/// A lag is at most this share of the time that a recording takes.
+const OF_RECORDING: f64 = 0.1;
+
 /// A series varies if its variance is above this share of the square of its mean.
 const VARIES: f64 = 1e-20;
 
@@ -36,6 +40,10 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let Some(load) = evidence.load() else {
         return Vec::new();
     };
+    // Where rows share their times nobody knows how far apart they are, and between single presses there is no lag.
+    if repeated(table).is_some() || is_of_presses(evidence) {
+        return Vec::new();
+    }
     // Another unit of the sensor, or another table, is another clock: what follows it in the recording does not follow it in time.
     let mut streams: BTreeMap<(Option<&str>, Option<&str>), Vec<Instant>> = BTreeMap::new();
     for (row, facts) in evidence.frames.iter().enumerate() {
@@ -149,12 +157,18 @@ impl Lag {
             )
             .abs()
         };
+        let spans = streams
+            .iter()
+            .filter_map(|stream| Some(stream.last()?.0 - stream.first()?.0));
+        let longest = OF_RECORDING * spans.sum::<f64>();
         // As far as three quarters of the samples have a partner.
         let furthest = (1..=FURTHEST).take_while(|shift| {
+            #[expect(clippy::cast_precision_loss, reason = "at most 60 steps")]
+            let is_near = *shift as f64 * step <= longest;
             let partners = streams
                 .iter()
                 .map(|stream| stream.len().saturating_sub(*shift));
-            (count - partners.sum::<usize>()) * SHARE <= count
+            is_near && (count - partners.sum::<usize>()) * SHARE <= count
         });
         let furthest = i64::try_from(furthest.count()).ok()?;
         // Of lags that are as good the nearest.

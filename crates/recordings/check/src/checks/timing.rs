@@ -3,7 +3,7 @@
 use super::dropped_frames::{Missing, missing};
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};
-use crate::stamps::{by_clock, share};
+use crate::stamps::{by_clock, is_of_presses, share};
 
 pub(super) static CHECK: Check = Check {
     code: "TAC008",
@@ -38,7 +38,11 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         .into_iter()
         .filter_map(|(before, row)| Some((row, times[row]? - times[before]?)))
         .collect();
-    let mut found = vec![rate(&steps, missing(evidence).as_ref())];
+    let mut found = Vec::new();
+    // Between presses there is no rate, and nothing to say of one.
+    if !is_of_presses(evidence) {
+        found.push(rate(&steps, missing(evidence).as_ref()));
+    }
     let rows_of = |is_so: fn(f64) -> bool| -> Vec<usize> {
         let steps = steps.iter().filter(|(_, seconds)| is_so(*seconds));
         steps.map(|(row, _)| *row).collect()

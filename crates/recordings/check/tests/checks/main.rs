@@ -1,12 +1,17 @@
 //! Every check: a recording that triggers it, and one that must not.
 
+mod doubles;
 mod forces;
+mod joins;
+mod lab;
 mod lag;
+mod rest;
 mod stamps;
 mod streams;
 #[path = "../../../../studies/evaluate/tests/evaluations/taxel_drawing.rs"]
 mod taxel_drawing;
 mod taxels;
+mod zeros;
 
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -397,7 +402,9 @@ fn checks_that_need_frames_are_skipped_by_name_where_there_are_none() {
             "check:TAC006",
             "check:TAC020",
             "check:TAC019",
-            "check:TAC027"
+            "check:TAC027",
+            "check:TAC034",
+            "check:TAC035"
         ]
     );
     assert_eq!(report.frames_decoded, 0);

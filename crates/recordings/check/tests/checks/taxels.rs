@@ -24,7 +24,7 @@ fn found(change: impl Fn(u32, Vec<f32>) -> Vec<f32>) -> Vec<(&'static str, Strin
     let dataset = record_changed(&folder.path().join("data"), 400, change);
     let findings = checked(&dataset, &[]).findings.into_iter();
     let of_taxels =
-        findings.filter(|finding| ["TAC016", "TAC017", "TAC018"].contains(&finding.code));
+        findings.filter(|finding| ["TAC016", "TAC017", "TAC018", "TAC039"].contains(&finding.code));
     of_taxels
         .map(|finding| (finding.code, finding.message))
         .collect()
@@ -93,4 +93,19 @@ fn rows_without_contact_that_are_pressed_are_named() {
         message.contains("samples of larger Fz are closer to the mean of `rest`"),
         "{message}"
     );
+}
+
+#[test]
+fn two_taxels_that_are_equal_in_every_row_are_named_and_two_that_differ_once_are_not() {
+    let equal = found(|_, mut values| {
+        values[7] = values[4];
+        values
+    });
+    let message = "2 taxels are equal to another one in all 400 rows, such as `taxel_1_0_y` and `taxel_2_0_y`";
+    assert_eq!(equal, [("TAC039", message.to_owned())]);
+    let once = found(|row, mut values| {
+        values[7] = values[4] + if row == 9 { 0.5 } else { 0.0 };
+        values
+    });
+    assert_eq!(once, []);
 }

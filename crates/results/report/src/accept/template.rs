@@ -1,6 +1,6 @@
 //! Limits to begin with: those that a result itself keeps, each with the value of the result beside it.
 
-use taceva_metrics::Better;
+use taceva_metrics::{Better, Range};
 
 use super::LIMITS_VERSION;
 use crate::escape::terminal;
@@ -37,11 +37,12 @@ pub fn limits_template(study: &Study) -> String {
     let (kept, barred): (Vec<&Score>, Vec<&Score>) = scores
         .into_iter()
         .partition(|score| score.standing.takes_part());
-    let limits: String = kept.into_iter().filter_map(limit).collect();
+    let kept = kept.into_iter().map(Score::deciding);
+    let limits: String = kept.filter_map(|score| limit(&score)).collect();
     let name = toml::Value::String(format!("limits made from a result of {}", study.sensor));
     let mut out = format!(
         "# Limits made from a result of {}, serial {}, samples {}.\n\
-         # Each is {:.0} % worse than the value of the result, or the worse end of its interval where that is further: change what you need, leave out the rest,\n\
+         # Each is {:.0} % worse than the value of the result (of R² and skill: so much more is left unexplained), or the worse end of its interval where that is further: change what you need, leave out the rest,\n\
          # then: taceva accept RESULT.json --limits THIS.toml\n\
          # `most` must not be exceeded, `least` must be reached; with `whole_interval = true` by the whole interval, not by the value alone.\n\
          limits_version = {LIMITS_VERSION}\nname = {name}\n",
@@ -91,6 +92,11 @@ fn limit(score: &Score) -> Option<String> {
     let room = value.abs() * MARGIN;
     let bounds = match score.better() {
         Better::Lower => format!("most = {:?}\n", upwards((value + room).max(high))),
+        // What is left unexplained grows by the margin, and not what is explained.
+        Better::Higher if is_below_one(score) => {
+            let room = (1.0 - value).abs() * MARGIN;
+            format!("least = {:?}\n", -upwards(-(value - room).min(low)))
+        }
         Better::Higher => format!("least = {:?}\n", -upwards(-(value - room).min(low))),
         Better::NearZero => {
             let reach = upwards((value.abs() + room).max(high.abs()).max(low.abs()));
@@ -109,6 +115,12 @@ fn limit(score: &Score) -> Option<String> {
         text(&score.channel),
         text(score.unit.symbol()),
     ))
+}
+
+/// Tells a share of 1 that is explained, such as R² and skill.
+fn is_below_one(score: &Score) -> bool {
+    let metric = taceva_metrics::catalogue::find(&score.metric);
+    metric.is_some_and(|metric| metric.range == Range::BelowOne)
 }
 
 /// A text that stays on its line of a comment.
@@ -174,6 +186,30 @@ mod tests {
                 ("mae", None, Some(0.0913)),
                 ("bias", Some(-0.12), Some(0.12)),
                 ("r2", Some(0.25), None)
+            ]
+        );
+    }
+
+    #[test]
+    fn a_limit_on_r2_lets_a_fifth_more_be_unexplained_and_not_three_times_as_much() {
+        let study = crate::results::unsealed(
+            r#"{"schema": "taceva.evaluation/1.0", "subject": {"sensor": "x"}, "metrics": {
+                "r2": {"Fz": {"value": 0.909, "unit": "1", "n": 46}}, "skill": {"Pz": {"value": -0.5, "unit": "1", "n": 46}},
+                "tolerance": {"Fz": {"value": 0.5, "unit": "1", "n": 46}}}}"#,
+        );
+        let text = limits_template(&study.expect("a result").remove(0));
+        let limits = LimitsFile::read(&text).expect("limits").limits;
+        let least: Vec<_> = limits
+            .iter()
+            .map(|limit| (limit.metric.as_str(), limit.least))
+            .collect();
+        // 1 − 1.2 × 0.091, and 1 − 1.2 × 1.5; a share within a tolerance is itself a fifth less.
+        assert_eq!(
+            least,
+            [
+                ("r2", Some(0.89)),
+                ("skill", Some(-0.8)),
+                ("tolerance", Some(0.4))
             ]
         );
     }

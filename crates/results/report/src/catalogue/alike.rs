@@ -20,7 +20,7 @@ const SAME: [(&str, &str); 6] = [
     ),
     ("sensitivity/1", "indentation over normal force"),
     (
-        "uniformity/1",
+        "uniformity/2",
         "1 / (1 + deviation / |mean|) over bins of the surface",
     ),
     ("hysteresis/1", "area between loading and unloading"),

@@ -3,7 +3,6 @@
 use taceva_metrics::Better;
 
 use super::{Kind, Sensor};
-use crate::number::numeral;
 use crate::table::{Column, Direction, Table};
 
 /// One row for each sensor; studies of sensors are named below the rows.
@@ -26,7 +25,8 @@ pub fn list(sensors: &[Sensor]) -> Table {
     let mut table = Table::new("Catalogue of tactile sensors, as published", columns);
     let is_sensor = |entry: &&Sensor| entry.kind == Kind::Sensor;
     for sensor in sensors.iter().filter(is_sensor) {
-        let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), numeral);
+        // Published numbers keep the digits that were published.
+        let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |of| of.to_string());
         let mae = |channel| number(sensor.result("mae", channel).map(|result| result.value));
         let opaque = sensor
             .opaque

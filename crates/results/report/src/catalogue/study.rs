@@ -15,6 +15,8 @@ impl Sensor {
     /// sensor are not part of results; they are taken from the sensor of that name in the catalogue, if there is one, and not known of one that was simulated.
     pub fn of_study(study: &Study) -> Sensor {
         let result = |score: &Score| {
+            let decided_by = score.decided_by().map(|variant| variant.name.clone());
+            let score = score.deciding();
             Some(Published {
                 metric: score.metric.clone(),
                 channel: score.channel.clone(),
@@ -25,7 +27,8 @@ impl Sensor {
                 conditions: "as its provenance says".to_owned(),
                 definition: score.definition.clone(),
                 bound: None,
-                note: None,
+                note: decided_by
+                    .map(|variant| format!("the variant {variant}, by which verdicts go")),
                 standing: score.standing,
                 interval: score.interval.as_ref().and_then(Interval::ends),
             })

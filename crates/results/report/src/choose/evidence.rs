@@ -2,6 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use taceva_metrics::Better;
+
 use super::{Choice, Need, Property, choose};
 use crate::catalogue::Sensor;
 use crate::compare::{Answer, CompareRequest, compare};
@@ -73,7 +75,7 @@ fn evidence(studies: &[Study], needs: &[Need], choice: &Choice) -> Vec<Evidence>
         let property = properties.find(|property| {
             property.score() == Some((answer.metric.as_str(), answer.channel.as_str()))
         })?;
-        let at = answer.better()?;
+        let at = answer.better().or_else(|| by_need(answer, *property))?;
         let other = match answer.sides.a == at {
             true => answer.sides.b,
             false => answer.sides.a,
@@ -87,6 +89,18 @@ fn evidence(studies: &[Study], needs: &[Need], choice: &Choice) -> Vec<Evidence>
         })
     };
     comparison.answers.iter().filter_map(of_answer).collect()
+}
+
+/// The study that is shown to have more of what a need asks for, of a score that describes a sensor and has no better end of its own.
+fn by_need(answer: &Answer, property: Property) -> Option<usize> {
+    let describes = answer.direction == Better::Described;
+    let difference = answer.difference.as_ref();
+    let difference = difference.filter(|difference| describes && difference.is_shown)?;
+    let wants_more = property.better() == Better::Higher;
+    match (difference.value > 0.0) == wants_more {
+        true => Some(answer.sides.a),
+        false => Some(answer.sides.b),
+    }
 }
 
 /// Which of the scores that rank are of labels of different spread among those that are ranked.

@@ -1,6 +1,6 @@
 //! The decisions of a comparison, as an overview.
 
-use taceva_metrics::Better;
+use taceva_metrics::{Better, Verdict};
 
 use super::{Answer, Comparison, Remarks};
 use crate::names::listed;
@@ -13,14 +13,13 @@ pub const OVERVIEW_LINES: usize = 12;
 pub const OVERVIEW_WIDTH: usize = 100;
 
 /// First questions of a reader: metric, channel and words.
-pub(crate) const QUESTIONS: [(&str, &str, &str); 11] = [
+pub(crate) const QUESTIONS: [(&str, &str, &str); 10] = [
     ("mae", "Pz", "Depth"),
     ("mae", "Pxy", "Position in the plane"),
     ("mae", "Fz", "Normal force"),
     ("mae", "Fxy", "Shear force"),
     ("sr", "line", "Fine lines"),
     ("sr", "dot", "Fine dots"),
-    ("sensitivity", "Fz", "Sensitivity"),
     ("uniformity", "Fz", "Uniformity of the surface"),
     ("r_light", "Fz", "Force in changing light"),
     ("repeatability", "Pz", "Repeated depth"),
@@ -36,6 +35,8 @@ pub struct Decision {
     pub metric: String,
     /// The channel or plane.
     pub channel: String,
+    /// The variant of the metric that decides; `None` where it is the value itself.
+    pub decided_by: Option<String>,
     /// Whether lower or higher values are better.
     pub better: Better,
     /// The position of the study that is shown to be better than every other one.
@@ -49,9 +50,11 @@ pub struct Decision {
 impl Decision {
     /// `Depth (mae Pz ↓)`
     pub fn asked(&self) -> String {
-        let of = self
-            .better
-            .beside(&format!("{} {}", self.metric, self.channel));
+        let metric = match &self.decided_by {
+            Some(variant) => format!("{}.{variant}", self.metric),
+            None => self.metric.clone(),
+        };
+        let of = self.better.beside(&format!("{metric} {}", self.channel));
         if self.question.is_empty() {
             of
         } else {
@@ -97,9 +100,15 @@ impl Comparison {
             .iter()
             .filter(|answer| answer.difference.is_none());
         let without = without.count();
-        let kept = all - shown - without;
+        let equivalent = self.answers.iter().filter(|answer| answer.is_equivalent());
+        let equivalent = equivalent.count();
+        let kept = all - shown - without - equivalent;
+        let equivalent = match equivalent {
+            0 => String::new(),
+            count => format!("{count} are equivalent within the margin, "),
+        };
         format!(
-            "{all} pairs of scores: {shown} differ, {kept} are not shown to, {without} have no answer (5 %, by Holm over each metric)"
+            "{all} pairs of scores: {shown} differ, {equivalent}{kept} are not shown to, {without} have no answer (5 %, by Holm over each metric)"
         )
     }
 
@@ -132,6 +141,7 @@ impl Comparison {
         let is_of_it = |answer: &&Answer| answer.metric == metric && answer.channel == channel;
         let answers: Vec<&Answer> = self.answers.iter().filter(is_of_it).collect();
         let better = answers.first()?.direction;
+        let decided_by = answers.first()?.decided_by.clone();
         let unit = spaced(answers.first()?.unit);
         let is_of_score = |aside: &&Remarks| aside.metric == metric && aside.channel == channel;
         let aside = self.asides.iter().find(is_of_score)?;
@@ -159,15 +169,43 @@ impl Comparison {
                     false => answer.sides.a,
                 };
                 let losers: Vec<usize> = won.iter().map(|answer| other(answer)).collect();
-                let open = valued
-                    .iter()
-                    .filter(|(rival, _)| *rival != at && !losers.contains(rival));
+                let equals = answers.iter().filter(|answer| answer.is_equivalent());
+                let equals = equals.filter(|answer| [answer.sides.a, answer.sides.b].contains(&at));
+                let equals: Vec<&Answer> = equals.copied().collect();
+                let equal: Vec<usize> = equals.iter().map(|answer| other(answer)).collect();
+                let open = valued.iter().filter(|(rival, _)| {
+                    *rival != at && !losers.contains(rival) && !equal.contains(rival)
+                });
                 let open: Vec<String> = open.map(|(rival, _)| self.names[*rival].clone()).collect();
                 let p_values = won.iter().filter_map(|answer| answer.difference.as_ref());
                 let p = p_values.fold(0.0_f64, |p, difference| p.max(difference.adjusted_p));
                 let start = format!("{}, {}{unit}", self.names[at], numeral(value));
                 let p = p_words(p);
+                let alike = self.equivalent(&equals, &equal);
                 match (losers.len(), open.len()) {
+                    // One decision a row: what is equivalent is not left undecided beside it.
+                    (0, 0) if !equal.is_empty() => (
+                        None,
+                        format!("no winner; the best value, {start}, is {alike}"),
+                    ),
+                    (0, _) if !equal.is_empty() => (
+                        None,
+                        format!(
+                            "no winner; the best value, {start}, is {alike}, undecided against {}",
+                            listed(&open)
+                        ),
+                    ),
+                    (count, _) if !equal.is_empty() => {
+                        let open = match open.as_slice() {
+                            [] => String::new(),
+                            open => format!(", undecided against {}", listed(open)),
+                        };
+                        let words = format!(
+                            "{start}, better than {count} of {} others ({p}), {alike}{open}",
+                            valued.len().saturating_sub(1)
+                        );
+                        (None, words)
+                    }
                     (0, _) => (
                         None,
                         format!("no winner; the best value, {start}, is not shown to be better"),
@@ -199,6 +237,7 @@ impl Comparison {
             question: question.to_owned(),
             metric: metric.to_owned(),
             channel: channel.to_owned(),
+            decided_by,
             better,
             winner,
             words,
@@ -206,18 +245,45 @@ impl Comparison {
     }
 }
 
+impl Comparison {
+    /// `equivalent to GelSight and TacTip within 0.05 N`
+    fn equivalent(&self, answers: &[&Answer], who: &[usize]) -> String {
+        let names: Vec<String> = who.iter().map(|at| self.names[*at].clone()).collect();
+        let margin = answers.iter().find_map(|answer| match &answer.verdict {
+            Verdict::Equivalent { margin, unit, .. } => Some(format!("{margin}{}", spaced(*unit))),
+            _ => None,
+        });
+        format!(
+            "equivalent to {} within {}",
+            listed(&names),
+            margin.unwrap_or_default()
+        )
+    }
+}
+
 impl Answer {
-    /// `mae Pz ↓`
-    pub(super) fn named(&self) -> String {
-        self.direction
-            .beside(&format!("{} {}", self.metric, self.channel))
+    /// Tells scores that are closer to each other than the margin.
+    fn is_equivalent(&self) -> bool {
+        matches!(self.verdict, Verdict::Equivalent { .. })
     }
 
-    /// Whether a difference is shown.
+    /// `mae Pz ↓`, or `repeatability.pooled Pz ↓` where a variant was compared
+    pub(super) fn named(&self) -> String {
+        let metric = self.compared();
+        self.direction.beside(&format!("{metric} {}", self.channel))
+    }
+
+    /// `mae`, or `repeatability.pooled`
+    pub(super) fn compared(&self) -> String {
+        match &self.decided_by {
+            Some(variant) => format!("{}.{variant}", self.metric),
+            None => self.metric.clone(),
+        }
+    }
+
+    /// Tells a difference that is shown and not within the margin.
     pub(super) fn is_shown(&self) -> bool {
-        self.difference
-            .as_ref()
-            .is_some_and(|difference| difference.is_shown)
+        matches!(self.verdict, Verdict::Differs { .. })
     }
 }
 

@@ -72,7 +72,7 @@ impl Comparison {
             difference.map_or_else(|| "–".to_owned(), words)
         };
         vec![
-            answer.metric.clone(),
+            answer.compared(),
             answer.channel.clone(),
             self.names[answer.sides.a].clone(),
             self.names[answer.sides.b].clone(),
@@ -152,6 +152,7 @@ impl Comparison {
             });
             json!({
                 "metric": answer.metric,
+                "decided_by": answer.decided_by,
                 "better": answer.direction.name(),
                 "channel": answer.channel,
                 "scores": [answer.scores.a, answer.scores.b],
@@ -168,6 +169,7 @@ impl Comparison {
             json!({
                 "question": decision.question,
                 "metric": decision.metric,
+                "decided_by": decision.decided_by,
                 "channel": decision.channel,
                 "better": decision.better.name(),
                 "winner": decision.winner.map(|at| &self.names[at]),

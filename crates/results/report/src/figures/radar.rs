@@ -48,9 +48,9 @@ const ACCURACY: [Axis; 6] = [
 ];
 /// Without what only describes a sensor, as frame rate and field of view do: there the rim would not be the best.
 const SENSOR: [Axis; 3] = [
-    high("sensitivity", "Fz", "sensitivity S"),
     high("uniformity", "Fz", "uniformity U"),
-    low("minimum_detectable_force", "Fz", "least force"),
+    low("noise_equivalent_force", "Fz", "noise as force"),
+    high("signal_to_repeatability", "Fz", "signal to repeats"),
 ];
 const ROBUSTNESS: [Axis; 7] = [
     low("r_spatial", "Pz", "spatial Pz"),
@@ -88,6 +88,8 @@ pub(super) fn draw(studies: &[Study]) -> Vec<Option<Figure>> {
 
 fn one(studies: &[Study], axes: &[Axis], id: &str, title: &str) -> Option<Figure> {
     let names = crate::names::names(studies);
+    let deciding: Vec<Study> = studies.iter().map(Study::deciding).collect();
+    let studies = deciding.as_slice();
     let shares: Vec<Vec<Option<(f64, f64)>>> =
         axes.iter().map(|axis| axis.shares(studies)).collect();
     if shares.iter().all(|axis| axis.iter().all(Option::is_none)) {

@@ -332,3 +332,97 @@ fn errors_are_compared_sample_by_sample_if_both_tables_are_of_the_same_samples_a
     let strange = test(sampled("a", 0.0, 0.25), stranger);
     assert_eq!(strange, other_truth);
 }
+
+/// A study of one score of Fz whose variant `name` has another value and interval.
+fn with_variant(sensor: &str, metric: &str, value: f64, name: &str, variant: f64) -> Study {
+    let mut drawn = score(value, 0.001, "N");
+    drawn[name] = score(variant, 0.01, "N");
+    study(sensor, &[(metric, "Fz", drawn)], &["Fz"])
+}
+
+#[test]
+fn equal_sensors_that_were_pressed_twice_and_ten_times_have_no_winner() {
+    // The mean of deviations of two repeats is low by a fifth; pooled they are equal.
+    let studies = [
+        with_variant("Twice", "repeatability", 0.0807, "pooled", 0.1004),
+        with_variant("Ten", "repeatability", 0.0980, "pooled", 0.0996),
+    ];
+    let comparison = of_metric(&studies, "repeatability");
+    let decision = &comparison.decisions()[0];
+    assert_eq!((decision.winner, decision.tied.len()), (None, 0));
+    assert_eq!(
+        decision.asked(),
+        "repeatability.pooled Fz ↓",
+        "what was compared is said"
+    );
+    assert_eq!(
+        decision.words,
+        "no winner; the best value, Ten, 0.0996 N, is not shown to be better"
+    );
+    // A result that does not hold the variant is compared by what it has.
+    let mut without = studies.clone();
+    for study in &mut without {
+        study.scores[0].variants.clear();
+    }
+    let comparison = of_metric(&without, "repeatability");
+    assert_eq!(comparison.decisions()[0].winner, Some(0));
+}
+
+#[test]
+fn an_unevenness_that_is_no_more_than_chance_gives_no_verdict_and_says_why() {
+    let mut studies = [
+        with_variant("Few", "r_spatial", 0.3, "excess", 0.02),
+        with_variant("Many", "r_spatial", 0.1, "excess", 0.08),
+    ];
+    studies[0].scores[0].standing = taceva_metrics::Standing::NotAboveNoiseFloor;
+    let comparison = of_metric(&studies, "r_spatial");
+    let decision = &comparison.decisions()[0];
+    assert_eq!(decision.winner, None);
+    assert!(
+        decision.words.contains("Few: not above its noise floor"),
+        "{}",
+        decision.words
+    );
+    let reason = comparison.answers[0].reason.as_deref().unwrap_or_default();
+    assert!(reason.contains("not above its noise floor"), "{reason}");
+}
+
+#[test]
+fn with_a_margin_a_row_has_one_decision() {
+    let margins = [("mae".to_owned(), 0.05)].into();
+    let request = CompareRequest {
+        metrics: vec!["mae".to_owned()],
+        margins,
+        ..CompareRequest::default()
+    };
+    let decided = |values: &[(&str, f64)], error: f64| {
+        let of = |&(sensor, value): &(&str, f64)| {
+            study(sensor, &[("mae", "Fz", score(value, error, "N"))], &["Fz"])
+        };
+        let studies: Vec<Study> = values.iter().map(of).collect();
+        let comparison = compare(&studies, &request);
+        let words = comparison.decisions()[0].words.clone();
+        (comparison.summary(), words)
+    };
+    let (summary, words) = decided(&[("one", 0.50), ("two", 0.52)], 0.002);
+    assert_eq!(
+        words,
+        "no winner; the best value, one, 0.5 N, is equivalent to two within 0.05 N"
+    );
+    assert!(
+        summary.starts_with(
+            "1 pairs of scores: 0 differ, 1 are equivalent within the margin, 0 are not shown to"
+        ),
+        "{summary}"
+    );
+    let (_, words) = decided(&[("one", 0.50), ("two", 0.52), ("far", 0.9)], 0.002);
+    assert_eq!(
+        words,
+        "one, 0.5 N, better than 1 of 2 others (p < 0.001), equivalent to two within 0.05 N"
+    );
+    let (_, words) = decided(&[("one", 0.50), ("two", 0.56)], 0.05);
+    assert_eq!(
+        words,
+        "no winner; the best value, one, 0.5 N, is not shown to be better"
+    );
+}

@@ -46,9 +46,9 @@ fn summary(studies: &[Study]) -> String {
 
 #[test]
 fn scores_of_the_same_bits_are_a_tie_on_the_page_in_the_overview_and_in_json() {
-    let same = |_: usize, metrics: &mut Value| metrics["sensitivity"]["Fz"]["value"] = json!(2.5);
+    let same = |_: usize, metrics: &mut Value| metrics["uniformity"]["Fz"]["value"] = json!(0.9);
     let studies = studies(&["one", "two"], same);
-    let tie = "tie: one and two have the same value, 2.5 mm/N";
+    let tie = "tie: one and two have the same value, 0.9";
     let page = summary(&studies);
     assert!(page.contains(tie), "{page}");
     let comparison = compared(&studies);
@@ -61,8 +61,8 @@ fn scores_of_the_same_bits_are_a_tie_on_the_page_in_the_overview_and_in_json() {
         let mut found = decisions.iter();
         found.find(|of| of["metric"] == metric).expect("asked")
     };
-    assert_eq!(of("sensitivity")["tied"], json!(["one", "two"]));
-    assert_eq!(of("sensitivity")["winner"], Value::Null);
+    assert_eq!(of("uniformity")["tied"], json!(["one", "two"]));
+    assert_eq!(of("uniformity")["winner"], Value::Null);
     assert_eq!(of("mae")["tied"], json!([]));
     assert_eq!(json["schema"], "taceva.comparison/2");
 }
@@ -162,11 +162,11 @@ fn errors_of_labels_that_spread_differently_are_said_to_be() {
 #[test]
 fn a_tie_says_whom_those_that_share_the_value_are_not_shown_to_be_better_than() {
     // Those that tie have the best value of three; the third is within everyone's interval, the fourth far from it.
-    let values = [2.5, 2.5, 2.4, 0.5];
+    let values = [0.9, 0.9, 0.89, 0.5];
     let studies = studies(&["one", "two", "near", "far"], |at, metrics| {
         let value = values[at];
-        metrics["sensitivity"]["Fz"]["value"] = json!(value);
-        metrics["sensitivity"]["Fz"]["ci95"] = json!([value - 0.2, value + 0.2]);
+        metrics["uniformity"]["Fz"]["value"] = json!(value);
+        metrics["uniformity"]["Fz"]["ci95"] = json!([value - 0.02, value + 0.02]);
     });
     let words = "; neither is shown to be better than near";
     let page = summary(&studies);
@@ -175,7 +175,7 @@ fn a_tie_says_whom_those_that_share_the_value_are_not_shown_to_be_better_than() 
     let of = comparison.decisions();
     let of = of
         .iter()
-        .find(|of| of.metric == "sensitivity")
+        .find(|of| of.metric == "uniformity")
         .expect("asked");
     assert!(of.words.ends_with(words), "{}", of.words);
     let alone = compared(&studies[..2]);
@@ -270,7 +270,7 @@ fn questions_without_room_are_counted_and_no_line_is_cut_away_from_a_terminal() 
     }
     let comparison = compared(&studies);
     let asked = comparison.decisions().len();
-    assert_eq!(asked, 11);
+    assert_eq!(asked, 10);
     let whole = comparison.overview(None);
     assert!(!whole.contains('…'), "{whole}");
     let lines: Vec<&str> = whole.lines().collect();
@@ -297,7 +297,7 @@ fn a_radar_places_nothing_without_an_interval_or_of_light_that_hardly_changed() 
     let names = ["dim", "other"];
     let undefined = json!({"undefined": "1 clusters, 5 are needed"});
     let studies = studies(&names, |at, metrics| {
-        metrics["sensitivity"]["Fz"]["ci95"] = undefined.clone();
+        metrics["uniformity"]["Fz"]["ci95"] = undefined.clone();
         if at == 0 {
             metrics["r_light"]["Fz"]["flags"] = json!(["low stimulus"]);
         }
@@ -309,7 +309,7 @@ fn a_radar_places_nothing_without_an_interval_or_of_light_that_hardly_changed() 
     };
     let sensor = caption("radar-sensor");
     for name in names {
-        let missing = format!("sensitivity S of {name} (no interval)");
+        let missing = format!("uniformity U of {name} (no interval)");
         assert!(sensor.contains(&missing), "{sensor}");
     }
     let robustness = caption("radar-robustness");

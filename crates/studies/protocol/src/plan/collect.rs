@@ -54,7 +54,7 @@ fn phase_of(id: &str, fields: FieldSet) -> PhaseKind {
         // What it reads is what every accuracy reads; only its name says that it wants points no model has seen.
         "r_spatial" => PhaseKind::Spatial,
         // It looks at what is predicted where nothing is touched.
-        "minimum_detectable_force" => PhaseKind::Idle,
+        "noise_equivalent_force" | "zero_error" => PhaseKind::Idle,
         _ if reads(Field::Spacing) || reads(Field::Kind) => PhaseKind::Gratings,
         _ if reads(Field::Scene) || reads(Field::Intensity) => PhaseKind::LightSweep,
         _ if reads(Field::UnitId) => PhaseKind::SurfaceMap,

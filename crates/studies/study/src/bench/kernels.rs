@@ -195,7 +195,8 @@ pub fn kernels(
                 .map(|input| input.digits)
                 .fold(f64::INFINITY, f64::min),
             digits,
-            order_free: survives_shuffling(*candidate, request.seed),
+            order_free: candidate.kernel.is_order_free()
+                && survives_shuffling(*candidate, request.seed),
             pareto: false,
         });
         progress.advance(1);

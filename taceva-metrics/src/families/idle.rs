@@ -1,9 +1,9 @@
-//! The least force that is distinguished from none.
+//! The family of scores that are finished from predictions where nothing is touched.
 
 use taceva_core::{Batch, Channel, Field, FieldSet, Needs, Unit};
 
 use crate::evaluate::family::{FamilyKind, Numbers, Output, erased};
-use crate::evaluate::metric::{Metric, ScoreUnit};
+use crate::evaluate::metric::Metric;
 use crate::evaluate::plan::MetricPlan;
 use crate::exact::merge::Merge;
 use crate::exact::moments::Moments;
@@ -11,49 +11,24 @@ use crate::exact::record::Record;
 use crate::families::channelwise::{ByChannel, Channelwise};
 use crate::families::row_columns::Gathered;
 use crate::pair::{Paired, is_valid};
-use crate::score::Parameter;
-use crate::score::direction::Better;
-use crate::score::range::Range;
-use crate::score::theme::Theme;
 use crate::score::value::UndefinedReason;
 
-/// k_α + k_β of Currie for risks of 5 % each: 2 × 1.645.
-pub(crate) const DETECTION_FACTOR: f64 = 3.29;
-/// Samples without contact below which their spread is not estimated.
-const LEAST_SAMPLES: u64 = 10;
 /// The normal force from which on there is contact, in N.
-const GATE_N: f64 = 0.02;
+pub(crate) const GATE_N: f64 = 0.02;
+/// Samples without contact below which nothing is said of them.
+pub(crate) const LEAST_SAMPLES: u64 = 10;
 
-pub(crate) static MINIMUM_DETECTABLE_FORCE: Metric = Metric {
-    id: "minimum_detectable_force",
-    title: "minimum detectable force",
-    symbol: Some("$F_{\\min}$"),
-    theme: Theme::Detail,
-    better: Better::Lower,
-    unit: ScoreUnit::OfChannel,
-    range: Range::Positive,
-    definition: "minimum_detectable_force/1",
-    reference: "Currie 1968, Analytical Chemistry 40: detection limit 3.29 σ₀ for risks of 5 %",
-    documentation: "The least force that is distinguished from none, with 5 % of false alarms and 5 % of misses: 3.29 times the standard \
-                    deviation (over n − 1) of predicted force over the samples without contact, |true Fz| < 0.02 N. Of forces \
-                    only, and from ten such samples on. It says nothing of a constant offset: see bias.",
-    needs: Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction))
+/// Needs of scores of predictions without contact.
+pub(crate) const IDLE_NEEDS: Needs =
+    Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction))
         .with_channels(&["Fz"])
-        .with_least_samples(LEAST_SAMPLES),
-    constants: factor_and_gate,
-    ..Metric::of(&KIND)
-};
+        .with_least_samples(LEAST_SAMPLES);
 
-fn factor_and_gate(_: Unit) -> Vec<Parameter> {
-    let parameter = |name, value| Parameter { name, value };
-    vec![
-        parameter("factor", DETECTION_FACTOR),
-        parameter("gate", GATE_N),
-    ]
-}
+/// Formula of a metric that is finished from predictions without contact.
+pub(crate) struct IdleFormula(pub(crate) fn(&Moments, Unit) -> Numbers);
 
 /// Family of predictions without contact.
-pub(crate) static KIND: FamilyKind = FamilyKind::new("taceva.idle/1", |plan| {
+pub(crate) static IDLE: FamilyKind = FamilyKind::new("taceva.idle/1", |plan| {
     erased(ByChannel::new(Idle::for_plan(plan)?, plan))
 });
 
@@ -81,11 +56,11 @@ impl Idle {
     }
 }
 
-/// L_D = RN(3.29 s), s the standard deviation of the predictions.
-fn minimum_detectable_force(sums: &IdleSums) -> Result<f64, UndefinedReason> {
-    match (sums.predictions.n, sums.predictions.deviation(1)) {
-        (0, _) => Err(UndefinedReason::NoIdleSamples),
-        (LEAST_SAMPLES.., Some(deviation)) => Ok(DETECTION_FACTOR * deviation),
+/// Refuses too few samples for a score.
+pub(crate) fn enough(predictions: &Moments) -> Result<(), UndefinedReason> {
+    match predictions.n {
+        0 => Err(UndefinedReason::NoIdleSamples),
+        LEAST_SAMPLES.. => Ok(()),
         _ => Err(UndefinedReason::TooFew {
             least: LEAST_SAMPLES,
         }),
@@ -153,8 +128,11 @@ impl Channelwise for Idle {
         sums.n_invalid
     }
 
-    fn numbers(&self, _metric: &Metric, _output: &Output, sums: &IdleSums) -> Numbers {
-        Numbers::of(minimum_detectable_force(sums))
+    fn numbers(&self, metric: &Metric, output: &Output, sums: &IdleSums) -> Numbers {
+        match metric.formula.get::<IdleFormula>() {
+            Some(formula) => (formula.0)(&sums.predictions, output.unit),
+            None => Numbers::of(Err(UndefinedReason::Empty)),
+        }
     }
 }
 

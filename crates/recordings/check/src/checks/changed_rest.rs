@@ -1,0 +1,99 @@
+//! TAC034: untouched pictures that differ from the reference: the camera, the light or the gel is not what it was.
+
+use taceva_core::{Field, Unit};
+
+use crate::evidence::Evidence;
+use crate::finding::{Check, Found, Severity};
+use crate::tiles::Tiles;
+
+pub(super) static CHECK: Check = Check {
+    code: "TAC034",
+    name: "changed-rest",
+    looks_for: "untouched pictures that differ from the reference by more than a third of a contact in the mean, or in one tile of an eighth of the width by more than a contact does",
+    hint: "take a new untouched picture as the reference: that mends most faults of light, exposure, dust and place; then look at the lens, the lamps and the coating",
+    reads: Some(Field::Frame),
+    find,
+};
+
+/// Untouched pictures, and pictures of contact, below which their means say nothing.
+const LEAST: usize = 3;
+/// Below so many newtons, or millimetres of depth, nothing is touched.
+const UNTOUCHED_N: f64 = 0.02;
+const UNTOUCHED_MM: f64 = 0.01;
+/// A picture is of contact from this share of the greatest load on.
+const PRESSED: f64 = 0.5;
+/// A change of the untouched picture counts from this share of what a contact changes in the mean over all tiles.
+const THIRD: f64 = 1.0 / 3.0;
+
+fn find(evidence: &Evidence<'_>) -> Vec<Found> {
+    let (Some(load), Some(reference)) = (evidence.load(), evidence.reference) else {
+        return Vec::new();
+    };
+    let channel = &evidence.table.channels().as_slice()[load];
+    let untouched_to = match channel.unit() {
+        Unit::Newton => UNTOUCHED_N,
+        Unit::Millimetre => UNTOUCHED_MM,
+        _ => return Vec::new(),
+    };
+    let column = evidence.table.truth(load);
+    let pictures: Vec<(usize, &Tiles, f64)> = evidence
+        .frames
+        .iter()
+        .enumerate()
+        .filter_map(|(row, facts)| Some((row, &facts.as_ref()?.tiles, column.get(row)?.abs())))
+        .collect();
+    let greatest = pictures.iter().map(|picture| picture.2).fold(0.0, f64::max);
+    let rest: Vec<(usize, &Tiles)> = pictures
+        .iter()
+        .filter(|picture| picture.2 < untouched_to)
+        .map(|picture| (picture.0, picture.1))
+        .collect();
+    let pressed: Vec<&Tiles> = pictures
+        .iter()
+        .filter(|picture| picture.2 >= PRESSED * greatest && picture.2 >= 2.0 * untouched_to)
+        .map(|picture| picture.1)
+        .collect();
+    if rest.len() < LEAST || pressed.len() < LEAST {
+        return Vec::new();
+    }
+    // The median tile by tile would cost more and say the same: faults that stand still are in every picture.
+    let Some(mean) = Tiles::mean(rest.iter().map(|(_, tiles)| *tiles)) else {
+        return Vec::new();
+    };
+    let still = &reference.tiles;
+    // A contact is measured from the untouched pictures of its own time: a fault is in both.
+    let contact = median(pressed.iter().map(|tiles| mean.distance(tiles)));
+    let contact_tile = median(pressed.iter().map(|tiles| mean.greatest(tiles)));
+    let (change, change_tile) = (mean.distance(still), mean.greatest(still));
+    if !change.is_finite() || contact <= 0.0 || contact_tile <= 0.0 {
+        return Vec::new();
+    }
+    let percent = |part: f64, whole: f64| 100.0 * part / whole;
+    let count = rest.len();
+    let message = if change > THIRD * contact {
+        format!(
+            "{count} pictures without contact differ from the reference by {:.0} % of what a contact changes in the mean",
+            percent(change, contact)
+        )
+    } else if change_tile > contact_tile {
+        format!(
+            "{count} pictures without contact differ from the reference in one place by {:.0} % of what a contact changes where it changes most",
+            percent(change_tile, contact_tile)
+        )
+    } else {
+        return Vec::new();
+    };
+    let rows: Vec<usize> = rest.iter().map(|(row, _)| *row).collect();
+    vec![Found::about(
+        Severity::Warning,
+        message,
+        evidence.names(&rows),
+    )]
+}
+
+/// The number in the middle; 0 of none.
+fn median(numbers: impl Iterator<Item = f64>) -> f64 {
+    let mut sorted: Vec<f64> = numbers.collect();
+    sorted.sort_by(f64::total_cmp);
+    sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
+}

@@ -1,0 +1,51 @@
+//! TAC039: taxels that say the same in every row.
+
+use std::collections::BTreeMap;
+
+use taceva_core::{Field, shown};
+
+use crate::evidence::Evidence;
+use crate::finding::{Check, Found, Severity};
+
+pub(super) static CHECK: Check = Check {
+    code: "TAC039",
+    name: "equal-taxels",
+    looks_for: "taxels that are equal in every row although they change: a column that is named twice, or two places that are wired together",
+    hint: "name each column once under [signals]; where both are one place of the sensor, leave one out",
+    reads: Some(Field::Signals),
+    find,
+};
+
+/// Rows below which two taxels may be equal by chance.
+const LEAST: u64 = 5;
+/// Names that a message lists.
+const NAMED: usize = 5;
+
+fn find(evidence: &Evidence<'_>) -> Vec<Found> {
+    let Some(facts) = evidence.signals.filter(|facts| facts.samples >= LEAST) else {
+        return Vec::new();
+    };
+    let mut alike: BTreeMap<u64, Vec<&str>> = BTreeMap::new();
+    for (taxel, name) in facts.taxels.iter().zip(&facts.names) {
+        if !taxel.is_stuck() {
+            alike.entry(taxel.series).or_default().push(name);
+        }
+    }
+    let mut groups: Vec<Vec<&str>> = alike.into_values().filter(|all| all.len() > 1).collect();
+    groups.sort_unstable();
+    let Some(first) = groups.first() else {
+        return Vec::new();
+    };
+    let count: usize = groups.iter().map(Vec::len).sum();
+    let named: Vec<String> = first
+        .iter()
+        .take(NAMED)
+        .map(|name| format!("`{}`", shown(name)))
+        .collect();
+    let message = format!(
+        "{count} taxels are equal to another one in all {} rows, such as {}",
+        facts.samples,
+        named.join(" and ")
+    );
+    vec![Found::overall(Severity::Warning, message)]
+}

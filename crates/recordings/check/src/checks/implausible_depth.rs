@@ -1,0 +1,51 @@
+//! TAC041: depths that no gel has: the distance of a camera or a robot instead of an indentation.
+
+use taceva_core::Channel;
+
+use crate::evidence::Evidence;
+use crate::finding::{Check, Found, Severity};
+
+pub(super) static CHECK: Check = Check {
+    code: "TAC041",
+    name: "implausible-depth",
+    looks_for: "depths that lie beyond any gel, or never come near 0: a distance to the camera or a height of the robot instead of an indentation",
+    hint: "map the indentation as Pz, 0 at the first touch and positive into the gel; `offset` of the column takes the height of the surface away",
+    reads: None,
+    find,
+};
+
+/// Depths that a check needs.
+const LEAST: usize = 3;
+/// The deepest press of a gel, mm: the thickest that are sold have 10 mm.
+const DEEPEST_MM: f64 = 12.0;
+/// A depth that is never below this share of the greatest, and above so many mm, is a distance.
+const NEVER_BELOW: f64 = 0.5;
+const DISTANCE_MM: f64 = 5.0;
+
+fn find(evidence: &Evidence<'_>) -> Vec<Found> {
+    let Some(position) = evidence.table.channels().position(Channel::PZ.name()) else {
+        return Vec::new();
+    };
+    let column = evidence.table.truth(position);
+    let mut depths: Vec<f64> = (0..column.len())
+        .filter_map(|row| Some(column.get(row)?.abs()))
+        .collect();
+    depths.sort_by(f64::total_cmp);
+    if depths.len() < LEAST {
+        return Vec::new();
+    }
+    let (least, greatest) = (depths[0], depths[depths.len() - 1]);
+    let usual = depths[depths.len() / 2];
+    let message = if usual > DEEPEST_MM {
+        format!(
+            "Pz is typically {usual} mm, deeper than any gel is thick: is it the distance to the camera?"
+        )
+    } else if least > NEVER_BELOW * greatest && least > DISTANCE_MM {
+        format!(
+            "Pz lies between {least} mm and {greatest} mm and never near 0: is it a distance and no indentation?"
+        )
+    } else {
+        return Vec::new();
+    };
+    vec![Found::overall(Severity::Warning, message)]
+}

@@ -1,0 +1,82 @@
+//! TAC040: labels that were scaled to 0 … 1, or to −1 … 1, and are said to be newtons or millimetres.
+
+use taceva_core::{Channel, Unit};
+
+use crate::evidence::Evidence;
+use crate::finding::{Check, Found, Severity};
+
+pub(super) static CHECK: Check = Check {
+    code: "TAC040",
+    name: "normalised-labels",
+    looks_for: "forces, torques and places that end at exactly 0 and 1, or at -1 and 1: labels that were normalised for training",
+    hint: "export the labels as they were measured, or undo the scaling with `scale` and `offset` of the column in the map",
+    reads: None,
+    find,
+};
+
+/// Different values below which ends say nothing.
+const VALUES: usize = 10;
+/// Distance from an end of a label that was rounded to binary32.
+const ROUNDING: f64 = 1e-6;
+/// One channel alone may end there by chance of its levels; so many do not.
+const CHANNELS: usize = 2;
+
+fn find(evidence: &Evidence<'_>) -> Vec<Found> {
+    let channels = evidence.table.channels().iter().enumerate();
+    let measured: Vec<(usize, &Channel)> = channels
+        .filter(|(_, channel)| {
+            let unit = channel.unit();
+            matches!(
+                unit,
+                Unit::Newton | Unit::NewtonMillimetre | Unit::Millimetre
+            )
+        })
+        .collect();
+    let ends: Vec<(&Channel, [f64; 2])> = measured
+        .iter()
+        .filter_map(|(position, channel)| Some((*channel, ends(evidence, *position)?)))
+        .collect();
+    let near = |value: f64, end: f64| (value - end).abs() <= ROUNDING;
+    for (low, said) in [(0.0, "0 and 1"), (-1.0, "-1 and 1")] {
+        let scaled: Vec<&str> = ends
+            .iter()
+            .filter(|(_, [least, greatest])| near(*least, low) && near(*greatest, 1.0))
+            .map(|(channel, _)| channel.name())
+            .collect();
+        // A lone channel is convincing where it is all there is.
+        let enough = scaled.len() >= CHANNELS || (scaled.len() == 1 && ends.len() == 1);
+        if enough {
+            let message = format!(
+                "{} {} at exactly {said}, as normalised labels do, and {} said to be in {}",
+                scaled.join(", "),
+                if scaled.len() == 1 { "ends" } else { "end" },
+                if scaled.len() == 1 { "is" } else { "are" },
+                units(&ends, &scaled),
+            );
+            return vec![Found::overall(Severity::Warning, message)];
+        }
+    }
+    Vec::new()
+}
+
+/// The units of the channels called `names`, each once.
+fn units(ends: &[(&Channel, [f64; 2])], names: &[&str]) -> String {
+    let mut units: Vec<String> = ends
+        .iter()
+        .filter(|(channel, _)| names.contains(&channel.name()))
+        .map(|(channel, _)| channel.unit().to_string())
+        .collect();
+    units.dedup();
+    units.join(" and ")
+}
+
+/// The least and the greatest label; `None` of few different ones.
+fn ends(evidence: &Evidence<'_>, position: usize) -> Option<[f64; 2]> {
+    let column = evidence.table.truth(position);
+    let mut values: Vec<f64> = (0..column.len())
+        .filter_map(|row| column.get(row))
+        .collect();
+    values.sort_by(f64::total_cmp);
+    values.dedup();
+    (values.len() >= VALUES).then(|| [values[0], values[values.len() - 1]])
+}

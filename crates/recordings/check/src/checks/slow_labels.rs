@@ -1,0 +1,189 @@
+//! TAC037: labels of a slow table that serve many pictures each.
+
+use std::collections::BTreeMap;
+
+use taceva_core::{Channel, Unit};
+use taceva_dataset::{MappedJoin, Table};
+
+use crate::evidence::Evidence;
+use crate::finding::{Check, Found, Severity};
+use crate::stamps::repeated;
+
+pub(super) static CHECK: Check = Check {
+    code: "TAC037",
+    name: "slow-labels",
+    looks_for: "tables joined by time whose rows serve several rows of the recording each: labels that stand still while pictures go on",
+    hint: "write `pick = \"linear\"` in the [[join]] of the map, or record the labels at least as often as the pictures",
+    reads: None,
+    find,
+};
+
+/// Stretches of one label below which their length says nothing.
+const LEAST: usize = 5;
+/// A stretch serves so many rows in the middle of all, and nine in ten are at most so many times as long: held levels are not alike.
+const ROWS: usize = 2;
+const ALIKE: usize = 2;
+
+fn find(evidence: &Evidence<'_>) -> Vec<Found> {
+    let (header, table) = (evidence.header, evidence.table);
+    // Of rows without times of their own nothing can be interpolated, and TAC036 says so.
+    if repeated(table).is_some() {
+        return Vec::new();
+    }
+    let joins = header.joins.iter();
+    let held = joins.filter(|join| join.by == "time" && join.pick.as_deref() != Some("linear"));
+    held.filter_map(|join| of_join(evidence, join)).collect()
+}
+
+/// The labels that one joined table gives.
+fn of_join(evidence: &Evidence<'_>, join: &MappedJoin) -> Option<Found> {
+    let table = evidence.table;
+    let prefix = format!("{}.", join.name);
+    let from_it = |label: &str| {
+        let mut columns = evidence.header.columns.iter();
+        columns.any(|column| {
+            column.label == label && column.from.iter().any(|from| from.starts_with(&prefix))
+        })
+    };
+    let channels: Vec<(usize, &Channel)> = table
+        .channels()
+        .iter()
+        .enumerate()
+        .filter(|(_, channel)| from_it(channel.name()))
+        .collect();
+    let stretches = Stretches::of(table, &channels)?;
+    let name = taceva_core::shown(&join.name);
+    let mut message = format!(
+        "{} rows of `{name}` serve {} rows, up to {} each: labels are up to {:.0} ms old",
+        stretches.all.len(),
+        stretches.rows,
+        stretches.longest(),
+        1e3 * stretches.oldest_s(join.pick.as_deref())
+    );
+    let changes = channels.iter().filter_map(|(position, channel)| {
+        let (mean, most) = stretches.interpolated(table, *position)?;
+        Some((most, format!(
+            "; `pick = \"linear\"` would change {} by {mean:.3} {unit} in the mean and {most:.3} {unit} at most",
+            channel.name(),
+            unit = channel.unit(),
+        ), channel.unit()))
+    });
+    let of_force = |unit: Unit| matches!(unit, Unit::Newton);
+    let greatest = changes.max_by(|one, other| {
+        let force = of_force(one.2).cmp(&of_force(other.2));
+        force.then(one.0.total_cmp(&other.0))
+    })?;
+    message += &greatest.1;
+    Some(Found::overall(Severity::Warning, message))
+}
+
+/// Rows on end with one label, clock by clock.
+struct Stretches {
+    all: Vec<Vec<usize>>,
+    /// Rows in all of them.
+    rows: usize,
+    times: Vec<Option<f64>>,
+}
+
+impl Stretches {
+    /// The stretches of the labels of `channels`; `None` where most rows have a label of their own, or where levels were held.
+    fn of(table: &Table, channels: &[(usize, &Channel)]) -> Option<Stretches> {
+        let times = table.t_s();
+        let label = |row: usize| -> Option<Vec<u64>> {
+            let values = channels
+                .iter()
+                .map(|(position, _)| table.truth(*position).get(row).map(f64::to_bits));
+            values.collect()
+        };
+        type Clock<'t> = (Option<&'t str>, Option<&'t str>);
+        let mut open: BTreeMap<Clock<'_>, (Vec<u64>, Vec<usize>)> = BTreeMap::new();
+        let mut all = Vec::new();
+        for row in 0..table.rows() {
+            let (Some(label), Some(_)) = (label(row), times[row]) else {
+                continue;
+            };
+            let clock = (
+                table.unit_id()[row].as_deref(),
+                table.source_table()[row].as_deref(),
+            );
+            let (of, stretch) = open.entry(clock).or_default();
+            if *of != label && !stretch.is_empty() {
+                all.push(std::mem::take(stretch));
+            }
+            *of = label;
+            stretch.push(row);
+        }
+        all.extend(open.into_values().map(|(_, stretch)| stretch));
+        // What is zero on end is not measured, or at rest.
+        let is_zero = |row: usize| {
+            let mut values = channels.iter();
+            values.all(|(position, _)| {
+                table
+                    .truth(*position)
+                    .get(row)
+                    .is_some_and(|value| value.abs() <= 0.0)
+            })
+        };
+        all.retain(|stretch| !is_zero(stretch[0]));
+        let mut lengths: Vec<usize> = all.iter().map(Vec::len).collect();
+        lengths.sort_unstable();
+        let usual = *lengths.get(lengths.len() / 2)?;
+        let long = *lengths.get(lengths.len() * 9 / 10)?;
+        let rows = lengths.iter().sum();
+        let is_held = usual >= ROWS && long <= ALIKE * usual && all.len() >= LEAST;
+        is_held.then(|| Stretches {
+            all,
+            rows,
+            times: times.to_vec(),
+        })
+    }
+
+    fn longest(&self) -> usize {
+        self.all.iter().map(Vec::len).max().unwrap_or_default()
+    }
+
+    fn time(&self, row: usize) -> f64 {
+        self.times[row].unwrap_or_default()
+    }
+
+    /// Greatest age of a label, s: half of a stretch for `nearest`, all of it for `before`.
+    fn oldest_s(&self, pick: Option<&str>) -> f64 {
+        let spans = self.all.iter().map(|stretch| {
+            let (first, last) = (stretch[0], stretch[stretch.len() - 1]);
+            self.time(last) - self.time(first)
+        });
+        let longest = spans.fold(0.0, f64::max);
+        match pick {
+            Some("before") => longest,
+            _ => longest / 2.0,
+        }
+    }
+
+    /// Mean and greatest difference between the labels and a straight line from stretch to stretch.
+    fn interpolated(&self, table: &Table, position: usize) -> Option<(f64, f64)> {
+        let column = table.truth(position);
+        let middle = |stretch: &[usize]| {
+            let (first, last) = (stretch[0], stretch[stretch.len() - 1]);
+            0.5 * (self.time(first) + self.time(last))
+        };
+        let (mut sum, mut count, mut most) = (0.0, 0.0, 0.0_f64);
+        for pair in self.all.windows(2) {
+            let [before, after] = pair else { continue };
+            let (from, to) = (middle(before), middle(after));
+            let (low, high) = (column.get(before[0])?, column.get(after[0])?);
+            if to <= from {
+                continue;
+            }
+            for &row in before.iter().chain(after) {
+                let share = (self.time(row) - from) / (to - from);
+                if (0.0..=1.0).contains(&share) {
+                    let change = (low + share * (high - low) - column.get(row)?).abs();
+                    sum += change;
+                    count += 1.0;
+                    most = most.max(change);
+                }
+            }
+        }
+        (count > 0.0).then(|| (sum / count, most))
+    }
+}

@@ -1,0 +1,90 @@
+//! Pictures that look like those of an untouched gel, whatever their labels say.
+
+use crate::evidence::Evidence;
+use crate::tiles::Tiles;
+
+/// A picture is a candidate for an untouched one up to this share of the greatest load.
+const LOW: f64 = 0.1;
+/// So many candidates are looked at for the place where most pictures are alike, and so many pictures beside each.
+const CANDIDATES: usize = 200;
+const BESIDE: usize = 1000;
+/// So many pictures alike, and one in so many of all, are a group.
+const LEAST: usize = 8;
+const SHARE: usize = 20;
+/// Pictures belong to the group up to so many times the distance within which its core lies.
+const REACH: f64 = 2.5;
+/// More than this share of all pictures are no group: pictures say nothing about contact there.
+const MOST: f64 = 0.75;
+/// The group comes and goes at least so often: one held contact is no rest.
+const VISITS: usize = 4;
+
+/// The rows whose pictures are alike and were taken at rest by the label of some of them; empty where no such group is seen.
+///
+/// Labels choose only where the group is sought. A force that is zeroed anew gives some untouched pictures a load, and they belong to it all the
+/// same.
+pub(crate) fn look_alikes(evidence: &Evidence<'_>) -> Vec<usize> {
+    let Some(load) = evidence.load() else {
+        return Vec::new();
+    };
+    let column = evidence.table.truth(load);
+    let pictures: Vec<(usize, &Tiles, f64)> = evidence
+        .frames
+        .iter()
+        .enumerate()
+        .filter_map(|(row, facts)| Some((row, &facts.as_ref()?.tiles, column.get(row)?.abs())))
+        .collect();
+    let greatest = pictures.iter().map(|picture| picture.2).fold(0.0, f64::max);
+    if pictures.len() < 2 * LEAST || greatest <= 0.0 {
+        return Vec::new();
+    }
+    let every = |count: usize, most: usize| count.div_ceil(most).max(1);
+    let low: Vec<&(usize, &Tiles, f64)> = pictures
+        .iter()
+        .filter(|picture| picture.2 <= LOW * greatest)
+        .collect();
+    let beside: Vec<&Tiles> = pictures
+        .iter()
+        .step_by(every(pictures.len(), BESIDE))
+        .map(|picture| picture.1)
+        .collect();
+    let core = (beside.len() / SHARE).max(LEAST.min(beside.len() / 2));
+    let radius = |centre: &Tiles| -> Option<f64> {
+        let mut distances: Vec<f64> = beside.iter().map(|tiles| centre.distance(tiles)).collect();
+        distances.sort_by(f64::total_cmp);
+        distances.get(core).copied().filter(|far| far.is_finite())
+    };
+    let candidates = low.iter().step_by(every(low.len(), CANDIDATES));
+    let centre = candidates
+        .filter_map(|picture| Some((picture.1, radius(picture.1)?)))
+        .min_by(|one, other| one.1.total_cmp(&other.1));
+    let Some((centre, radius)) = centre else {
+        return Vec::new();
+    };
+    let near = pictures
+        .iter()
+        .filter(|picture| centre.distance(picture.1) <= radius);
+    // The mean of the core is a better picture of rest than any of it.
+    let Some(rest) = Tiles::mean(near.clone().map(|picture| picture.1)) else {
+        return Vec::new();
+    };
+    let within = near
+        .map(|picture| rest.distance(picture.1))
+        .fold(0.0, f64::max);
+    let alike: Vec<bool> = pictures
+        .iter()
+        .map(|picture| rest.distance(picture.1) <= REACH * within)
+        .collect();
+    let visits = alike.windows(2).filter(|pair| !pair[0] && pair[1]).count();
+    let rows: Vec<usize> = pictures
+        .iter()
+        .zip(&alike)
+        .filter(|(_, alike)| **alike)
+        .map(|(picture, _)| picture.0)
+        .collect();
+    #[expect(clippy::cast_precision_loss, reason = "rows are far below 2^53")]
+    let share = rows.len() as f64 / pictures.len() as f64;
+    match rows.len() >= LEAST && share <= MOST && visits >= VISITS {
+        true => rows,
+        false => Vec::new(),
+    }
+}

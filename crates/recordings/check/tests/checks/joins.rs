@@ -1,0 +1,109 @@
+//! Labels that a join by time found, although the times or the readings do not allow it.
+
+use super::codes;
+use super::lab::{PICTURES, SENSOR, imported, pictures};
+use super::streams::{message, says_nothing};
+use taceva_check::Severity;
+
+/// A recording of `cam.csv` whose forces are those of `ft.csv` at its times.
+fn joined(cam: &str, ft: &str, pick: &str, only: &[&str]) -> taceva_check::CheckReport {
+    let rows = cam.lines().count() - 1;
+    let presses: Vec<f64> = (0..rows)
+        .map(|row| 0.02 * f64::from(u32::try_from(row * 13 % 61).expect("small")))
+        .collect();
+    let files = [
+        ("cam.csv", cam.as_bytes().to_vec()),
+        ("ft.csv", ft.as_bytes().to_vec()),
+        ("f.npy", pictures(&presses)),
+    ];
+    let map = format!(
+        "map_version = 2\ntable = \"cam.csv\"\n{PICTURES}[columns]\nFz = {{ from = \"ft.fz\", unit = \"N\" }}\n[time]\nclock = \"monotonic\"\ncolumn = \"t\"\nunit = \"s\"\n[[join]]\nname = \"ft\"\ntable = \"ft.csv\"\ntime = {{ column = \"t\", unit = \"s\" }}\npick = \"{pick}\"\ntolerance_ms = 1000\nlag_ms = 0\nunmatched = \"drop\"\n{SENSOR}"
+    );
+    imported(&files, &map, only)
+}
+
+const ALL: &[&str] = &["TAC019", "TAC036", "TAC037"];
+
+#[test]
+fn forces_that_were_joined_by_whole_seconds_are_warned_of_and_no_lag_is_sought() {
+    let report = joined(
+        include_str!("../cases/12-join-whole-second-stamps/cam.csv"),
+        include_str!("../cases/12-join-whole-second-stamps/ft.csv"),
+        "nearest",
+        ALL,
+    );
+    assert_eq!(codes(&report), [("TAC036", Severity::Warning)]);
+    assert_eq!(
+        message(&report, "TAC036"),
+        "150 rows have 5 different times and were joined with `ft` by them: rows of one time get the labels of the same row, so that a match may be up to 1.000 s off"
+    );
+}
+
+#[test]
+fn stamps_that_are_all_zero_and_stamps_of_tenths_are_warned_of_and_exact_ones_are_not() {
+    let force = |row: u32| 1.0 + 0.01 * f64::from(row * 37 % 100);
+    let table = |stamp: &dyn Fn(u32) -> f64, head: &str, cell: &dyn Fn(u32) -> String| {
+        let rows = (0..120).map(|row| format!("{}{}", stamp(row), cell(row)));
+        std::iter::once(head.to_owned())
+            .chain(rows)
+            .collect::<Vec<_>>()
+            .join("\n")
+    };
+    let stamps: [(&dyn Fn(u32) -> f64, Option<&str>); 3] = [
+        (&|_| 0.0, Some("120 rows have 1 different times")),
+        (
+            &|row| f64::from(row / 4) * 0.1,
+            Some("120 rows have 30 different times"),
+        ),
+        (&|row| f64::from(row) / 30.0, None),
+    ];
+    for (stamp, expected) in stamps {
+        let cam = table(stamp, "t,x", &|row| format!(",{row}"));
+        let ft = table(stamp, "t,fz", &|row| format!(",{}", force(row)));
+        let report = joined(&cam, &ft, "nearest", ALL);
+        match expected {
+            Some(expected) => {
+                let said = message(&report, "TAC036");
+                assert!(said.starts_with(expected), "{said}");
+            }
+            None => says_nothing(&report, "TAC036"),
+        }
+    }
+}
+
+#[test]
+fn forces_at_5_hz_beside_pictures_at_30_hz_are_slow_and_linear_is_proposed() {
+    let cam = include_str!("../cases/13-join-slow-force/cam.csv");
+    let ft = include_str!("../cases/13-join-slow-force/ft.csv");
+    let report = joined(cam, ft, "nearest", ALL);
+    let said = message(&report, "TAC037");
+    assert_eq!(
+        said,
+        "16 rows of `ft` serve 90 rows, up to 7 each: labels are up to 100 ms old; `pick = \"linear\"` would change Fz by 0.176 N in the mean and 0.526 N at most"
+    );
+    assert_eq!(codes(&report), [("TAC037", Severity::Warning)]);
+    says_nothing(&joined(cam, ft, "linear", ALL), "TAC037");
+}
+
+#[test]
+fn the_reading_before_is_older_and_a_table_that_is_as_fast_is_no_slow_one() {
+    let cam: Vec<String> = (0..200)
+        .map(|row| format!("{},{row}", f64::from(row) / 50.0))
+        .collect();
+    let cam = format!("t,x\n{}", cam.join("\n"));
+    let force = |rate: f64| {
+        let rows = (0..400).map(move |row| {
+            let time = f64::from(row) / rate;
+            format!("{time},{}", 1.0 + (3.0 * time).sin())
+        });
+        format!("t,fz\n{}", rows.collect::<Vec<_>>().join("\n"))
+    };
+    let report = joined(&cam, &force(10.0), "before", ALL);
+    let said = message(&report, "TAC037");
+    assert!(
+        said.contains("up to 5 each: labels are up to 80 ms old"),
+        "{said}"
+    );
+    says_nothing(&joined(&cam, &force(200.0), "nearest", ALL), "TAC037");
+    says_nothing(&joined(&cam, &force(50.0), "nearest", ALL), "TAC037");
+}

@@ -1,0 +1,131 @@
+//! Untouched pictures that are not what the reference was.
+
+use taceva_check::CheckReport;
+use taceva_core::{Frame, FrameInfo, PixelFormat, PressOutcome, Readings};
+use taceva_core::{SilentProgress, Stamp};
+
+use super::streams::{message, says_nothing};
+use super::{Recording, readings};
+
+const SIDE: u32 = 32;
+
+/// A picture of a press of `force`, whose light `fault` changes by place.
+fn picture(number: u32, force: f64, fault: &dyn Fn(u32, u32, f64) -> f64) -> Frame {
+    let info = FrameInfo {
+        width: SIDE,
+        height: SIDE,
+        format: PixelFormat::Gray8,
+    };
+    let bytes = (0..SIDE * SIDE).map(|pixel| {
+        let (x, y) = (pixel % SIDE, pixel / SIDE);
+        let away = f64::from(x.abs_diff(16)).hypot(f64::from(y.abs_diff(16)));
+        let noise = (pixel * 64 + number)
+            .wrapping_mul(2_654_435_761)
+            .rotate_left(13)
+            % 11;
+        let light = 130.0 - 45.0 * force * (-away * away / 60.0).exp();
+        let light = fault(x, y, light) + f64::from(noise);
+        (0..=255_u8)
+            .find(|byte| f64::from(*byte) >= light)
+            .unwrap_or(255)
+    });
+    Frame::new(info, bytes.collect()).expect("whole")
+}
+
+/// Checks presses of which every fourth touches nothing, with a reference from before `fault`.
+fn after(fault: &dyn Fn(u32, u32, f64) -> f64) -> CheckReport {
+    let mut recording = Recording::sound();
+    recording.reference = Some(picture(0, 0.0, &|_, _, light| light));
+    for (number, sample) in (0..).zip(&mut recording.samples) {
+        let force = f64::from(number % 4) * 0.5;
+        sample.frame = Some(picture(number, force, fault));
+        readings(sample, |channel, value| match channel {
+            2 => Some(force),
+            _ => Some(value),
+        });
+    }
+    recording.check("")
+}
+
+#[test]
+fn a_picture_that_was_dimmed_shifted_or_torn_after_the_reference_is_noticed() {
+    let lost_lamp = |x: u32, _: u32, light: f64| light * (1.0 - 0.15 * f64::from(x) / 32.0);
+    let brighter = |_: u32, _: u32, light: f64| light * 1.15;
+    let torn = |x: u32, y: u32, light: f64| if x < 5 && y < 5 { 0.2 * light } else { light };
+    let faults: [&dyn Fn(u32, u32, f64) -> f64; 3] = [&lost_lamp, &brighter, &torn];
+    for fault in faults {
+        let said = after(fault);
+        let said = message(&said, "TAC034");
+        assert!(
+            said.starts_with("50 pictures without contact differ from the reference"),
+            "{said}"
+        );
+    }
+    let report = after(&torn);
+    assert!(message(&report, "TAC034").contains("in one place"));
+    let hint = report
+        .findings
+        .iter()
+        .find(|finding| finding.code == "TAC034");
+    assert!(hint.expect("found").hint.contains("new untouched picture"));
+}
+
+#[test]
+fn good_recordings_are_flagged_less_than_once_in_a_hundred() {
+    let flagged = (0..100).filter(|seed| {
+        // Exposure wanders by a few per mille, as cameras do.
+        let wander = 1.0 + 0.002 * f64::from(seed % 7 - 3);
+        let report = after(&|_, _, light| light * wander);
+        report
+            .findings
+            .iter()
+            .any(|finding| finding.code == "TAC034")
+    });
+    assert_eq!(flagged.count(), 0);
+    says_nothing(&after(&|_, _, light| light), "TAC034");
+}
+
+#[test]
+fn presses_of_a_board_that_follow_one_another_are_no_contact_and_have_no_rate() {
+    use taceva_dataset::{Dataset, Recorder, RecordingFacts, RecordingSpec, Source};
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("data");
+    let sound = Recording::sound();
+    let facts = RecordingFacts::new(Source::Synthetic, sound.clock, sound.facts);
+    let channels = taceva_core::Channels::new(sound.channels).expect("distinct");
+    let mut recorder = Recorder::create(&path, &RecordingSpec::new(facts, channels)).expect("new");
+    recorder
+        .append_reference(sound.reference.as_ref().expect("set"))
+        .expect("recorded");
+    for (number, mut sample) in (0_u32..).zip(sound.samples) {
+        // Boards of twenty presses, 0.83 s apart, and a minute to change them.
+        let pause = f64::from(number / 20) * 60.0 + if number % 20 > 9 { 95.0 } else { 0.0 };
+        sample.stamp = Some(Stamp {
+            valid_s: 0.83 * f64::from(number) + pause,
+            received_s: None,
+        });
+        sample.point_id = Some(format!("board {}", number / 20));
+        sample.truth = Readings::new(sample.truth.as_slice().to_vec());
+        recorder
+            .append_press(
+                &format!("press {number}"),
+                PressOutcome::Complete,
+                std::slice::from_ref(&sample),
+            )
+            .expect("recorded");
+    }
+    recorder.close().expect("closed");
+    let dataset = Dataset::open(&path).expect("a dataset");
+    let request = taceva_check::CheckRequest {
+        only: vec![
+            "TAC008".to_owned(),
+            "TAC023".to_owned(),
+            "TAC024".to_owned(),
+        ],
+        split: None,
+        seed: 0,
+        jobs: std::num::NonZeroUsize::MIN,
+    };
+    let report = taceva_check::check(&dataset, &request, &SilentProgress).expect("checked");
+    assert_eq!(report.findings, []);
+}

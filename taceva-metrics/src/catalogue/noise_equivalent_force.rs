@@ -1,0 +1,72 @@
+//! The force that noise of the prediction amounts to.
+
+use taceva_core::Unit;
+
+use crate::evaluate::family::Numbers;
+use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
+use crate::exact::moments::Moments;
+use crate::families::idle::{GATE_N, IDLE, IDLE_NEEDS, IdleFormula, enough};
+use crate::score::Parameter;
+use crate::score::direction::Better;
+use crate::score::range::Range;
+use crate::score::theme::Theme;
+use crate::score::value::Finished;
+use crate::stats::noncentral::{critical_factor, detection_factor};
+
+/// k_α + k_β of Currie for risks of 5 % each where the deviation is known: 2 × 1.645.
+const KNOWN_DEVIATION: f64 = 3.29;
+
+pub(crate) static NOISE_EQUIVALENT_FORCE: Metric = Metric {
+    id: "noise_equivalent_force",
+    title: "noise-equivalent force",
+    symbol: Some("$F_{\\mathrm{NE}}$"),
+    theme: Theme::Detail,
+    better: Better::Lower,
+    unit: ScoreUnit::OfChannel,
+    range: Range::Positive,
+    definition: "noise_equivalent_force/1",
+    reference: "Currie 1995, Pure and Applied Chemistry 67; ISO 11843-2, with the factor of the noncentral t distribution",
+    documentation: "The force that stands out of the noise of untouched pictures with 5 % of false alarms and 5 % of misses: \
+                    δ √(1 + 1/n) s, s the standard deviation (over n − 1) of predicted force over the n samples without \
+                    contact, |true Fz| < 0.02 N, and δ the factor for n − 1 degrees of freedom. Of forces only, and from ten such \
+                    samples on. It is no detection limit: that is not verified without light presses, which other places, \
+                    other days and the error at zero (see zero_error) make worse. `critical` is the threshold that zero \
+                    exceeds in 5 % of cases; `known_deviation` is 3.29 s, as if s were known.",
+    needs: IDLE_NEEDS,
+    constants: gate,
+    formula: Formula(&IdleFormula(noise_equivalent_force)),
+    ..Metric::of(&IDLE)
+};
+
+fn gate(_: Unit) -> Vec<Parameter> {
+    vec![Parameter {
+        name: "gate",
+        value: GATE_N,
+    }]
+}
+
+/// δ(n − 1) √(1 + 1/n) s.
+fn noise_equivalent_force(predictions: &Moments, unit: Unit) -> Numbers {
+    let times = |factor: fn(f64) -> f64| -> Finished {
+        enough(predictions)?;
+        let deviation = predictions.deviation(1).unwrap_or_default();
+        let n = number(predictions.n);
+        Ok(factor(n - 1.0) * (1.0 + 1.0 / n).sqrt() * deviation)
+    };
+    let known = enough(predictions).map(|()| {
+        let deviation = predictions.deviation(1).unwrap_or_default();
+        KNOWN_DEVIATION * deviation
+    });
+    Numbers::of(times(detection_factor))
+        .with("critical", unit, Range::Positive, times(critical_factor))
+        .with("known_deviation", unit, Range::Positive, known)
+}
+
+fn number(count: u64) -> f64 {
+    #[expect(
+        clippy::cast_precision_loss,
+        reason = "nobody takes 2^53 pictures of an untouched gel"
+    )]
+    let number = count as f64;
+    number
+}

@@ -1,0 +1,34 @@
+//! A variant that is made of the spread of bins beyond chance, where it is known which samples belong to one contact point.
+
+use crate::evaluate::family::Intervals;
+use crate::score::Interval;
+use crate::score::value::UndefinedReason;
+use crate::stats::components::Excess;
+
+/// Value and ends of a variant.
+pub(crate) struct WithEnds {
+    pub(crate) value: f64,
+    pub(crate) ends: [f64; 2],
+}
+
+/// The variant called `name`, its value and its interval by `clusters` clusters, that `finish` makes of the mean of `all`.
+pub(crate) fn of_mean(
+    name: &str,
+    all: Result<Vec<Excess>, UndefinedReason>,
+    clusters: usize,
+    finish: impl Fn(&Excess) -> Result<WithEnds, UndefinedReason>,
+) -> Intervals {
+    let found = all.and_then(|all| {
+        let excess = Excess::mean_of(&all).ok_or(UndefinedReason::Empty)?;
+        finish(&excess)
+    });
+    let (value, interval) = match found {
+        Ok(found) => (Ok(found.value), Excess::interval(found.ends, clusters)),
+        Err(reason) => (Err(reason), Interval::Undefined(reason)),
+    };
+    Intervals {
+        variants: vec![(name.to_owned(), interval)],
+        values: vec![(name.to_owned(), value)],
+        ..Intervals::default()
+    }
+}

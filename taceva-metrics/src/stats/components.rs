@@ -1,0 +1,523 @@
+//! Spread of the means of bins beyond chance, where samples of one cluster are alike: its value, and an interval that is no narrower than it may be.
+
+use std::collections::BTreeMap;
+
+use super::student::quantile;
+use crate::exact::moments::Moments;
+use crate::score::least::LEAST_CLUSTERS;
+use crate::score::value::UndefinedReason;
+use crate::score::{COVERAGE, ClusteredBy, Interval};
+
+/// Standard normal quantiles: one-sided 2.5 %, and 5 % divided among several spreads.
+const TWO_SIDED: f64 = 1.959_963_984_540_054;
+const HALVED: f64 = TWO_SIDED;
+const QUARTERED: f64 = 2.241_402_727_604_947;
+const EIGHTH: f64 = 2.497_705_474_412_382;
+/// Excess kurtosis that is allowed for: the absolute value of a Gaussian error has 0.87, and spreads that differ from place to place bring more.
+const KURTOSIS: f64 = 1.5;
+/// Degrees of freedom of the noise below which nothing is called more than chance: Paulson's approximation needs three, and tails ask for more.
+const LEAST_FREEDOM: f64 = 6.0;
+/// Steps of a bisection: each halves what is not known.
+const STEPS: usize = 100;
+
+/// Samples of one cluster in one bin.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    cluster: usize,
+    n: f64,
+    mean: f64,
+}
+
+/// Bins with what each cluster brings to them.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct ClusteredBins {
+    bins: Vec<Vec<Part>>,
+    /// Squared deviations of samples from the mean of their cluster in their bin, and their degrees of freedom.
+    squares: f64,
+    freedom: f64,
+}
+
+/// Standard deviation of the means of bins, beyond what chance gives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Excess {
+    /// √max(0, variance of the means − noise).
+    pub(crate) value: f64,
+    /// Both ends of its interval of 95 %.
+    pub(crate) ends: [f64; 2],
+    /// Distance of the variance of the means from chance, as a standard normal number.
+    above: f64,
+    /// The mean of the means of the bins.
+    pub(crate) mean: f64,
+}
+
+impl ClusteredBins {
+    /// The bins of `clusters`, of which those with at least `n_min` samples take part. Bins and clusters come in their order, so the sums are the
+    /// same on every machine.
+    pub(crate) fn of<'a, K: Ord + Copy + 'a>(
+        clusters: impl IntoIterator<Item = impl IntoIterator<Item = (K, &'a Moments)>>,
+        n_min: u64,
+    ) -> Result<ClusteredBins, UndefinedReason> {
+        let mut bins: BTreeMap<K, (u64, Vec<(Part, f64, u64)>)> = BTreeMap::new();
+        for (cluster, of_cluster) in clusters.into_iter().enumerate() {
+            for (bin, moments) in of_cluster {
+                let (Some(mean), Some(squares)) = (moments.mean(), moments.squared_deviations())
+                else {
+                    continue;
+                };
+                if !(mean.is_finite() && squares.is_finite()) {
+                    return Err(UndefinedReason::Overflow);
+                }
+                let bin = bins.entry(bin).or_default();
+                bin.0 = bin.0.saturating_add(moments.n);
+                let part = Part {
+                    cluster,
+                    n: number(moments.n),
+                    mean,
+                };
+                bin.1.push((part, squares, moments.n - 1));
+            }
+        }
+        let mut kept = ClusteredBins::default();
+        for (_, parts) in bins.into_values().filter(|(n, _)| *n >= n_min) {
+            for (_, squares, freedom) in &parts {
+                kept.squares += squares;
+                kept.freedom += number(*freedom);
+            }
+            kept.bins
+                .push(parts.into_iter().map(|part| part.0).collect());
+        }
+        Ok(kept)
+    }
+
+    /// The spread of the means beyond chance.
+    ///
+    /// With the variance between clusters of a bin, and within them, pooled over bins, each mean has a variance; clusters that take part in
+    /// several bins move their means together, which is no spread. What remains is noise. The interval inverts the test of the ratio of both
+    /// variances by the F distribution in Paulson's approximation, with the degrees of freedom of Satterthwaite: other bins would have been met
+    /// with other clusters.
+    ///
+    /// # Reference
+    /// Thomas and Hultquist, Annals of Statistics 6 (1978); Searle, Casella and McCulloch, Variance Components (1992), chapter 3; Paulson, Annals
+    /// of Mathematical Statistics 13 (1942).
+    pub(crate) fn excess(&self) -> Result<Excess, UndefinedReason> {
+        let bins = number(count(self.bins.len()));
+        let totals: Vec<(f64, f64)> = self
+            .bins
+            .iter()
+            .map(|parts| {
+                let n: f64 = parts.iter().map(|part| part.n).sum();
+                let sum: f64 = parts.iter().map(|part| part.n * part.mean).sum();
+                (n, sum / n)
+            })
+            .collect();
+        let noise = self.noise(&totals)?;
+        if self.bins.len() < 2 {
+            return Err(UndefinedReason::TooFewBins {
+                have: count(self.bins.len()),
+                least: 2,
+            });
+        }
+        let mean = totals.iter().map(|(_, mean)| mean).sum::<f64>() / bins;
+        let squares: f64 = totals
+            .iter()
+            .map(|(_, of_bin)| (of_bin - mean) * (of_bin - mean))
+            .sum();
+        let variance = squares / (bins - 1.0);
+        if !(variance.is_finite() && noise.variance.is_finite()) {
+            return Err(UndefinedReason::Overflow);
+        }
+        if noise.variance <= 0.0 {
+            // Nothing scatters within bins: what differs between them is known.
+            let value = variance.sqrt();
+            return Ok(Excess {
+                value,
+                ends: [value; 2],
+                above: if value > 0.0 { f64::INFINITY } else { 0.0 },
+                mean,
+            });
+        }
+        let ratio = variance / noise.variance;
+        // Decreases as the true spread grows.
+        let above = |spread: f64| {
+            paulson(
+                ratio / (1.0 + spread),
+                noise.bins_with(spread),
+                noise.freedom,
+            )
+        };
+        let at = |wanted: f64| -> f64 {
+            if above(0.0) <= wanted {
+                return 0.0;
+            }
+            let mut high = 1.0;
+            while above(high) > wanted && high < 1e300 {
+                high *= 2.0;
+            }
+            let mut low = 0.0;
+            for _ in 0..STEPS {
+                let middle = (low + high) / 2.0;
+                match above(middle) > wanted {
+                    true => low = middle,
+                    false => high = middle,
+                }
+            }
+            (low + high) / 2.0
+        };
+        let value = (variance - noise.variance).max(0.0).sqrt();
+        // Of so little that is known of chance nothing is shown.
+        let low = match noise.freedom >= LEAST_FREEDOM {
+            true => (at(TWO_SIDED) * noise.variance).sqrt().min(value),
+            false => 0.0,
+        };
+        let high = (at(-TWO_SIDED) * noise.variance).sqrt().max(value);
+        Ok(Excess {
+            value,
+            ends: [low, high],
+            above: match low > 0.0 {
+                true => above(0.0),
+                false => 0.0,
+            },
+            mean,
+        })
+    }
+
+    fn noise(&self, totals: &[(f64, f64)]) -> Result<Noise, UndefinedReason> {
+        let bins = number(count(self.bins.len()));
+        let (mut between, mut between_freedom, mut weight) = (0.0, 0.0, 0.0);
+        let mut shares = Vec::with_capacity(self.bins.len());
+        for (parts, (n, mean)) in self.bins.iter().zip(totals) {
+            let squares: f64 = parts.iter().map(|part| part.n * part.n).sum();
+            for part in parts {
+                between += part.n * (part.mean - mean) * (part.mean - mean);
+            }
+            between_freedom += number(count(parts.len())) - 1.0;
+            weight += n - squares / n;
+            shares.push((squares / (n * n), 1.0 / n));
+        }
+        if between_freedom + self.freedom <= 0.0 {
+            return Err(UndefinedReason::NoRepeats);
+        }
+        let within = match self.freedom > 0.0 {
+            true => self.squares / self.freedom,
+            false => 0.0,
+        };
+        let (mut of_cluster, of_sample) = (0.0, within);
+        let mut freedom = self.freedom;
+        if between_freedom > 0.0 {
+            let size = weight / between_freedom;
+            let mean_square = between / between_freedom;
+            of_cluster = (mean_square - within).max(0.0) / size;
+            // Where clusters scatter less than their samples let expect, how well that is known is still up to them.
+            let mean_square = mean_square.max(within);
+            let alpha = shares.iter().map(|share| share.0).sum::<f64>() / bins / size;
+            let beta = shares.iter().map(|share| share.1).sum::<f64>() / bins - alpha;
+            let (one, other) = (alpha * mean_square, beta * within);
+            let parts = [(one, between_freedom), (other, self.freedom)];
+            let parts = parts.into_iter().filter(|(_, freedom)| *freedom > 0.0);
+            let spread: f64 = parts.map(|(part, freedom)| part * part / freedom).sum();
+            if spread > 0.0 {
+                freedom = (one + other) * (one + other) / spread;
+            }
+        }
+        let of_bins: Vec<f64> = shares
+            .iter()
+            .map(|(clusters, samples)| of_cluster * clusters + of_sample * samples)
+            .collect();
+        let sum: f64 = of_bins.iter().sum();
+        let squares: f64 = of_bins.iter().map(|variance| variance * variance).sum();
+        let kurtosis: f64 = of_bins
+            .iter()
+            .zip(&shares)
+            .map(|(variance, (clusters, samples))| {
+                let worth = if of_cluster > 0.0 { clusters } else { samples };
+                variance * variance * worth
+            })
+            .sum();
+        if sum <= 0.0 {
+            return Ok(Noise {
+                variance: 0.0,
+                bins,
+                sum,
+                squares,
+                freedom,
+            });
+        }
+        let shared = self.shared(totals, of_cluster);
+        let heavy = 1.0 + KURTOSIS / 2.0;
+        Ok(Noise {
+            variance: (sum / bins - shared).max(0.0),
+            bins,
+            sum,
+            squares: squares + KURTOSIS / 2.0 * kurtosis,
+            freedom: (freedom / heavy).max(1.0),
+        })
+    }
+
+    /// Mean covariance of the means of two bins, from clusters that take part in both.
+    fn shared(&self, totals: &[(f64, f64)], of_cluster: f64) -> f64 {
+        let clusters = self.bins.iter().flatten().map(|part| part.cluster + 1);
+        let clusters = clusters.max().unwrap_or_default();
+        let size = self.bins.len();
+        if of_cluster <= 0.0 || clusters == 0 {
+            return 0.0;
+        }
+        // The bins of each cluster, with its share of them and how far it lies from their means.
+        let mut of_clusters: Vec<Vec<(usize, f64, Option<f64>)>> = vec![Vec::new(); clusters];
+        for (bin, (parts, (n, mean))) in self.bins.iter().zip(totals).enumerate() {
+            for part in parts {
+                let residual = (parts.len() > 1).then_some(part.mean - mean);
+                of_clusters[part.cluster].push((bin, part.n / n, residual));
+            }
+        }
+        let mut overlaps = vec![0.0; size * size];
+        let pairs_of = |bins: &[(usize, f64, Option<f64>)]| {
+            let pairs = bins.iter().enumerate();
+            let pairs =
+                pairs.flat_map(|(at, one)| bins[at + 1..].iter().map(|other| (*one, *other)));
+            pairs.collect::<Vec<_>>()
+        };
+        let mut together = 0.0;
+        for (one, other) in of_clusters.iter().flat_map(|bins| pairs_of(bins)) {
+            let overlap = one.1 * other.1;
+            overlaps[one.0 * size + other.0] += overlap;
+            together += overlap;
+        }
+        let (mut products, mut expected) = (0.0, 0.0);
+        for (one, other) in of_clusters.iter().flat_map(|bins| pairs_of(bins)) {
+            if let (Some(left), Some(right)) = (one.2, other.2) {
+                products += left * right;
+                expected += 1.0 - one.1 - other.1 + overlaps[one.0 * size + other.0];
+            }
+        }
+        if expected <= 0.0 {
+            return 0.0;
+        }
+        let component = (products / expected).clamp(0.0, of_cluster);
+        let pairs = number(count(size)) * (number(count(size)) - 1.0) / 2.0;
+        component * together / pairs
+    }
+}
+
+/// Variance that chance gives the means of bins.
+#[derive(Clone, Copy, Debug)]
+struct Noise {
+    variance: f64,
+    /// Number of bins.
+    bins: f64,
+    /// Sum of the variances of their means, and of the squares of these with what heavy tails add.
+    sum: f64,
+    squares: f64,
+    /// Degrees of freedom of the noise.
+    freedom: f64,
+}
+
+impl Noise {
+    /// Degrees of freedom of the variance of the means where the true spread is `spread` times the noise, both as variances.
+    fn bins_with(&self, spread: f64) -> f64 {
+        let true_variance = spread * self.variance;
+        let sum = self.sum + self.bins * true_variance;
+        let squares = self.squares
+            + 2.0 * true_variance * self.sum
+            + self.bins * true_variance * true_variance;
+        (self.bins - 1.0) / self.bins * sum * sum / squares
+    }
+}
+
+impl Excess {
+    /// The mean of several excesses, as that of distance and depth, with an interval that begins above 0 in at most 5 % of cases where none of
+    /// them is any.
+    pub(crate) fn mean_of(all: &[Excess]) -> Option<Excess> {
+        let first = all.first()?;
+        if all.len() == 1 {
+            return Some(*first);
+        }
+        let parts = number(count(all.len()));
+        let value = all.iter().map(|one| one.value).sum::<f64>() / parts;
+        let mean = all.iter().map(|one| one.mean).sum::<f64>() / parts;
+        let distance = |of: &dyn Fn(&Excess) -> f64| {
+            let squares: f64 = all.iter().map(|one| of(one) * of(one)).sum();
+            squares.sqrt() / parts
+        };
+        let high = value + distance(&|one| one.ends[1] - one.value);
+        let wanted = match all.len() {
+            2 => HALVED,
+            3 | 4 => QUARTERED,
+            _ => EIGHTH,
+        };
+        let shown = all.iter().filter(|one| one.above > wanted);
+        let least = shown.map(|one| one.ends[0] / parts).reduce(f64::max);
+        let low = least.map_or(0.0, |least| {
+            (value - distance(&|one| one.value - one.ends[0])).max(least)
+        });
+        Some(Excess {
+            value,
+            ends: [low.min(value), high],
+            above: match least {
+                Some(_) => f64::INFINITY,
+                None => 0.0,
+            },
+            mean,
+        })
+    }
+
+    /// The interval with these ends, as a score holds it.
+    pub(crate) fn interval([low, high]: [f64; 2], clusters: usize) -> Interval {
+        if clusters < LEAST_CLUSTERS {
+            return Interval::Undefined(UndefinedReason::TooFewClusters { have: clusters });
+        }
+        let freedom = number(count(clusters)) - 1.0;
+        Interval::Components {
+            low,
+            high,
+            standard_error: (high - low) / 2.0 / quantile(COVERAGE, freedom),
+            freedom,
+            clusters,
+            by: ClusteredBy::default(),
+        }
+    }
+}
+
+/// Distance of a ratio of two variances from 1, as a standard normal number.
+fn paulson(ratio: f64, above: f64, below: f64) -> f64 {
+    let root = cube_root(ratio);
+    let (a, b) = (2.0 / (9.0 * above), 2.0 / (9.0 * below));
+    ((1.0 - b) * root - (1.0 - a)) / (b * root * root + a).sqrt()
+}
+
+/// The cube root of a number from 0 on, by Newton's steps, which every machine rounds alike.
+fn cube_root(of: f64) -> f64 {
+    if of <= 0.0 {
+        return 0.0;
+    }
+    // From above, steps only fall.
+    let mut root = if of > 1.0 { of } else { 1.0 };
+    loop {
+        let next = (2.0 * root + of / (root * root)) / 3.0;
+        if next >= root || !next.is_finite() {
+            return root;
+        }
+        root = next;
+    }
+}
+
+fn count(of: usize) -> u64 {
+    u64::try_from(of).unwrap_or(u64::MAX)
+}
+
+fn number(count: u64) -> f64 {
+    #[expect(
+        clippy::cast_precision_loss,
+        reason = "no bin has 2^53 samples, each of which was one"
+    )]
+    let number = count as f64;
+    number
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use taceva_core::random::SplitMix64;
+
+    #[test]
+    fn cube_roots_are_those_of_the_machine() {
+        for value in [1e-30_f64, 0.001, 0.5, 1.0, 8.0, 1e9, 1e200] {
+            let found = cube_root(value);
+            assert!(
+                (found / value.cbrt() - 1.0).abs() < 1e-14,
+                "{value}: {found}"
+            );
+        }
+        assert_eq!(cube_root(0.0).to_bits(), 0.0_f64.to_bits());
+    }
+
+    #[test]
+    fn upper_ends_of_the_f_distribution_agree_with_tables() {
+        // 97.5 % quantiles: F(10, 20) 2.7737, F(40, 60) 1.7440, F(5, 120) 2.6740.
+        for (ratio, above, below) in [
+            (2.7737, 10.0, 20.0),
+            (1.7440, 40.0, 60.0),
+            (2.6740, 5.0, 120.0),
+        ] {
+            let found = paulson(ratio, above, below);
+            assert!((found - TWO_SIDED).abs() < 0.02, "{above} {below}: {found}");
+        }
+    }
+
+    fn gaussian(random: &mut SplitMix64) -> f64 {
+        (0..12).map(|_| random.unit()).sum::<f64>() - 6.0
+    }
+
+    /// Absolute errors of `clusters` places, each in one bin of distance and pressed `presses` times through as many bins of depth.
+    fn sizes(
+        random: &mut SplitMix64,
+        clusters: usize,
+        presses: usize,
+        trend: f64,
+        spread: f64,
+    ) -> [Vec<Vec<(u8, Moments)>>; 2] {
+        let mut distance = Vec::new();
+        let mut depth = Vec::new();
+        for _ in 0..clusters {
+            let own = 1.0 + spread * (2.0 * random.unit() - 1.0);
+            let bin = u8::try_from(random.below(60)).expect("small");
+            let mut of_distance = Moments::default();
+            let mut of_depth = Vec::new();
+            for press in 0..presses {
+                let level = own * (1.0 + trend * f64::from(bin) / 60.0);
+                let size = (level * gaussian(random)).abs();
+                of_distance.add(size);
+                let step = u8::try_from(10 * press).expect("small");
+                of_depth.push((step, std::iter::once(size).collect::<Moments>()));
+            }
+            distance.push(vec![(bin, of_distance)]);
+            depth.push(of_depth);
+        }
+        [distance, depth]
+    }
+
+    fn excess(clusters: &[Vec<(u8, Moments)>]) -> Excess {
+        let clusters = clusters
+            .iter()
+            .map(|of| of.iter().map(|(bin, moments)| (*bin, moments)));
+        let bins = ClusteredBins::of(clusters, 1).expect("finite");
+        bins.excess().expect("bins")
+    }
+
+    #[test]
+    fn errors_that_are_equal_everywhere_are_called_uneven_in_at_most_5_percent_of_repeats() {
+        const REPEATS: u64 = 600;
+        for (clusters, presses) in [(20, 4), (46, 4), (60, 1), (64, 8)] {
+            let (mut shown, mut each) = (0_u32, [0_u32, 0]);
+            for repeat in 0..REPEATS {
+                let mut random = SplitMix64::new(repeat << 20 | clusters as u64);
+                let [distance, depth] = sizes(&mut random, clusters, presses, 0.0, 0.6);
+                let mut axes = vec![excess(&distance)];
+                if presses > 1 {
+                    axes.push(excess(&depth));
+                }
+                for (axis, count) in axes.iter().zip(&mut each) {
+                    *count += u32::from(axis.ends[0] > 0.0);
+                }
+                let both = Excess::mean_of(&axes).expect("two");
+                shown += u32::from(both.ends[0] > 0.0);
+            }
+            // Three standard errors of 600 runs at 5 % are 2.7 %.
+            assert!(
+                f64::from(shown) <= 0.05 * 600.0 + 16.0,
+                "{clusters} × {presses}: {shown} of {REPEATS}, {each:?}"
+            );
+            println!("{clusters} × {presses}: {shown} of {REPEATS}, {each:?}");
+        }
+    }
+
+    #[test]
+    fn errors_that_grow_with_the_distance_are_called_uneven() {
+        let shown = (0..50).filter(|repeat| {
+            let mut random = SplitMix64::new(*repeat);
+            let [distance, _] = sizes(&mut random, 64, 10, 3.0, 0.0);
+            excess(&distance).ends[0] > 0.0
+        });
+        let shown = shown.count();
+        assert!(shown >= 25, "{shown} of 50");
+    }
+}
