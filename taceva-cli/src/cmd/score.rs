@@ -19,6 +19,7 @@ pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
             .iter()
             .map(|word| unit(word))
             .collect::<anyhow::Result<_>>()?,
+        key: args.key.clone(),
         sensor: asked.sensor.clone(),
         metrics: asked.metrics.clone(),
         allow_invalid: args.allow_invalid,

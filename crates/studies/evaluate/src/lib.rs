@@ -49,7 +49,7 @@ pub use evaluate::{
 pub use features::{FeatureTable, blank, extract, extractor, feature_table};
 pub use fit::{FitPlan, FitRequest, Fitted, Recipe, fit};
 pub use merge::merge;
-pub use note::{Coverage, Learning, Note};
+pub use note::{Coverage, Learning, Note, PairedBy};
 pub use over_seeds::of as over_seeds;
 pub use plan::{Plan, Step};
 pub use predict::{
@@ -63,7 +63,9 @@ pub use row_ledger::Taken;
 pub use rows::{DataPart, Divided, Need, require_samples, usable};
 pub use run_layout::{PLANS, RECORDINGS};
 pub use samples::{add_predictions, of as samples_of, protocol as protocol_words};
-pub use score::{ScoreRequest, ScoreTables, Scored, Scoring, Shard, ShardError, score_in_one_pass};
+pub use score::{
+    RowKey, ScoreRequest, ScoreTables, Scored, Scoring, Shard, ShardError, score_in_one_pass,
+};
 pub use skill::{skill, with_skill};
 pub use state_file::{STATE_SCHEMA, StateFile};
 pub use subject::of as subject_of;
