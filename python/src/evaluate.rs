@@ -33,6 +33,7 @@ pub(crate) fn score_tables(
         prediction,
         units: Vec::new(),
         key: key.map(RowKey::from),
+        is_independent: false,
         sensor,
         metrics,
         allow_invalid,
@@ -91,6 +92,7 @@ pub(crate) fn evaluate_named(
             metrics,
             part,
             sensor: None,
+            is_independent: false,
         };
         let work = Work {
             jobs: jobs_of(jobs),

@@ -25,6 +25,8 @@ pub enum Standing {
     SkillUnknown,
     /// It takes no part: more than 5 % of its predictions lie beyond the bounds of the model.
     Bounded,
+    /// It takes no part: tested samples have neighbours in the training part that resemble them.
+    Neighbours,
     /// It takes no part: what it is formed from hardly changed, the light of some scene or the labels of repeated presses.
     LowStimulus,
     /// It takes no part: a share of good answers whose interval does not lie above the share that the constant of the skill score reaches,
@@ -38,10 +40,11 @@ pub enum Standing {
 
 impl Standing {
     /// Every standing, the best first.
-    pub const ALL: [Standing; 7] = [
+    pub const ALL: [Standing; 8] = [
         Standing::Counts,
         Standing::SkillUnknown,
         Standing::Bounded,
+        Standing::Neighbours,
         Standing::LowStimulus,
         Standing::NotAboveConstant,
         Standing::NoInterval,
@@ -65,6 +68,7 @@ impl Standing {
             Standing::Counts => None,
             Standing::SkillUnknown => Some("skill unknown"),
             Standing::Bounded => Some("bounded"),
+            Standing::Neighbours => Some("neighbours in training"),
             Standing::LowStimulus => Some("low stimulus"),
             Standing::NotAboveConstant => Some("not above the constant"),
             Standing::NoInterval => Some("skill not known: no interval"),
@@ -85,6 +89,9 @@ impl Standing {
             Standing::Bounded => {
                 Some("bounded: more than 5 % of its predictions lie beyond the bounds of the model")
             }
+            Standing::Neighbours => Some(
+                "neighbours in training: tested samples resemble neighbours that the model was fitted on, so the score flatters",
+            ),
             Standing::LowStimulus => Some(
                 "low stimulus: what it is formed from, the light of some scene or the labels of repeated presses, hardly changed",
             ),

@@ -13,7 +13,9 @@ mod evaluate;
 mod facts;
 mod features;
 mod fit;
+mod grouping;
 mod merge;
+mod neighbours;
 mod note;
 mod over_seeds;
 mod plan;
@@ -29,6 +31,7 @@ mod score;
 mod skill;
 mod state_file;
 mod subject;
+mod validated_fit;
 mod work;
 
 pub use accumulate::{Columns, Rows, accumulate};
@@ -49,7 +52,10 @@ pub use evaluate::{
 pub use features::{FeatureTable, blank, extract, extractor, feature_table};
 pub use fit::{FitPlan, FitRequest, Fitted, Recipe, fit};
 pub use merge::merge;
-pub use note::{Coverage, Learning, Note, PairedBy};
+pub use neighbours::Resemblance;
+pub use note::{
+    Coverage, Division, Independence, Learning, Neighbours, Note, PairedBy, SampleOrder,
+};
 pub use over_seeds::of as over_seeds;
 pub use plan::{Plan, Step};
 pub use predict::{
@@ -69,4 +75,5 @@ pub use score::{
 pub use skill::{skill, with_skill};
 pub use state_file::{STATE_SCHEMA, StateFile};
 pub use subject::of as subject_of;
+pub use validated_fit::fit_validated;
 pub use work::Work;

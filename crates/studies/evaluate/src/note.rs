@@ -1,9 +1,13 @@
 //! What a reader of scores must know of the samples and the model behind them: data here, sentences in a report.
 
+mod division;
+
 use std::fmt;
 
 use taceva_core::shown;
 use taceva_dataset::{Extension, FramesInfo};
+
+pub use division::{Division, Independence, Neighbours, SampleOrder};
 
 /// Below so many recordings an interval by them states how few they are: Student's t has too few degrees of freedom to be narrow.
 const CLUSTERS_MANY: usize = 10;
@@ -14,6 +18,15 @@ const CLUSTERS_MANY: usize = 10;
 pub enum Note {
     /// The division of the rows, in the words of the split.
     Split(String),
+    /// Neighbouring samples that resemble each other, and how they were divided.
+    Neighbours {
+        /// What was found.
+        found: Neighbours,
+        /// What was made of it.
+        division: Division,
+    },
+    /// Samples that are taken as independent, each as a point of its own.
+    Independent(Independence),
     /// The clusters of intervals, where recordings were joined.
     Clusters {
         /// Recordings with scored rows.
@@ -181,6 +194,13 @@ impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Note::Split(words) | Note::Sessions(words) => f.write_str(words),
+            Note::Neighbours { found, division } => division::write(found, division, f),
+            Note::Independent(Independence::Stated) => f.write_str(
+                "each sample is taken as a point of its own, by the word of the caller: intervals are too narrow if samples depend on each other",
+            ),
+            Note::Independent(Independence::Found) => f.write_str(
+                "each sample is taken as a point of its own: no point_id repeats, and neighbouring samples do not resemble each other",
+            ),
             Note::Clusters {
                 recordings,
                 points,

@@ -27,7 +27,7 @@ use crate::assess::{Assessed, Context, FitFacts, ScoredRows, assess};
 use crate::bounded_share::Bounded;
 use crate::error::EvaluateError;
 use crate::facts;
-use crate::note::{Note, PairedBy};
+use crate::note::{Independence, Note, PairedBy};
 use crate::plan::Plan;
 use crate::row_ledger::Taken;
 use crate::samples;
@@ -207,6 +207,7 @@ impl Scoring {
             self.digests.clone(),
             taken,
             Said {
+                is_independent: self.request.is_independent,
                 paired: self.matching.by.clone(),
                 shard: None,
             },
@@ -233,6 +234,10 @@ fn planned(
     let sensor = sensor.unwrap_or_default();
     let metrics = MetricPlan::new(&with_skill(wanted), channels, fields::stated(&places))
         .with_facts(facts::of_file(&sensor, SensorFacts::default()));
+    let metrics = match request.is_independent {
+        true => metrics.independent_samples(),
+        false => metrics,
+    };
     Ok(ScorePlan {
         metrics,
         places,
@@ -243,6 +248,8 @@ fn planned(
 
 /// What a reader must know of scored tables.
 struct Said {
+    /// Whether the caller takes samples as independent.
+    is_independent: bool,
     /// How rows were paired, which the state says too.
     paired: PairedBy,
     /// The shard, which the report alone says.
@@ -268,8 +275,12 @@ fn finished(
         evaluator: Box::new(evaluator),
         taken: vec![taken],
     };
+    let independence = said
+        .is_independent
+        .then_some(Note::Independent(Independence::Stated));
     let context = Context {
         notes: std::iter::once(Note::Paired(said.paired))
+            .chain(independence)
             .chain(same_bytes.then_some(Note::SameBytes))
             .collect(),
         fit: FitFacts {

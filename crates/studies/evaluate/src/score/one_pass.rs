@@ -78,6 +78,7 @@ pub fn score_in_one_pass(
     .into();
     let taken = Taken::all_of(tables::input_of(&digests), rows);
     let said = Said {
+        is_independent: request.is_independent,
         paired: matching.by,
         shard: None,
     };
@@ -241,6 +242,7 @@ mod tests {
             prediction: write("prediction.csv", prediction),
             units: Vec::new(),
             key: None,
+            is_independent: false,
             sensor: None,
             metrics: Vec::new(),
             allow_invalid: false,

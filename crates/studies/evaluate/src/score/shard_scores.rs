@@ -193,6 +193,7 @@ impl ScoreTables {
             of: self.rows(),
         });
         let said = Said {
+            is_independent: request.is_independent,
             paired,
             shard: note,
         };
@@ -414,6 +415,7 @@ mod tests {
             prediction,
             units: Vec::new(),
             key: None,
+            is_independent: false,
             sensor: None,
             metrics: Vec::new(),
             allow_invalid: false,

@@ -1,5 +1,6 @@
 //! Evaluations of whole recordings.
 
+mod division;
 mod networks;
 mod pairing;
 mod taxel_drawing;

@@ -24,6 +24,7 @@ impl Tables {
             prediction: folder.path().join("pred.csv"),
             units: Vec::new(),
             key: None,
+            is_independent: false,
             sensor: None,
             metrics: vec!["mae".to_owned()],
             allow_invalid: false,
@@ -252,7 +253,7 @@ fn two_keys_that_pair_rows_differently_are_refused_unless_one_is_chosen() {
     }
     let error = Tables::new(&truth, &rows).refused();
     assert!(
-        error.contains("pred.csv, line 2, column `index`"),
+        error.contains("pred.csv, line 5, column `index`"),
         "{error}"
     );
     assert!(
