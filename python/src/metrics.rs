@@ -238,7 +238,7 @@ impl Sums {
     }
 }
 
-/// How rows were paired, in the words of Python.
+/// The pairing of rows, from the words of Python.
 fn paired(key: String) -> PairedBy {
     match key.as_str() {
         "" => PairedBy::Order,

@@ -13,7 +13,7 @@ from taceva import _taceva
 from taceva._arrays import numbers
 from taceva._bar import bar
 from taceva._dataset import Dataset
-from taceva._named_columns import predicted
+from taceva._column_names import predicted
 from taceva._onnx import OnnxModel
 from taceva._result import Result
 from taceva._settings import setting_words

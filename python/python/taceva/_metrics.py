@@ -11,7 +11,7 @@ from taceva._arrays import BLOCK_ROWS, native, real, require_finite
 from taceva._arrays import points as names_of_points
 from taceva._bar import bar
 from taceva._fields import columns
-from taceva._named_columns import beside, pair
+from taceva._column_names import beside, pair
 from taceva._pickles import PICKLE_VERSION, require_version
 from taceva._result import Result
 

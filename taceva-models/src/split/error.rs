@@ -46,7 +46,7 @@ pub enum SplitError {
         groups: usize,
         /// Folds that were asked for.
         folds: usize,
-        /// What stays together.
+        /// Samples that stay together.
         by: FoldGroups,
     },
     /// Shares of a text that do not come to a whole.

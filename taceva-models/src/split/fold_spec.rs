@@ -11,14 +11,14 @@ use crate::settings::Suggestion;
 pub struct FoldSpec {
     /// Number of folds; one for each group if `None`.
     pub count: Option<usize>,
-    /// What stays together.
+    /// Samples that stay together.
     pub by: FoldGroups,
 }
 
 /// Samples that stay together in one fold.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum FoldGroups {
-    /// What the recording itself shows: points that repeat, groups or blocks of time where neighbours resemble each other, else single samples.
+    /// The groups that the recording shows: points that repeat, groups or blocks of time where neighbours resemble each other, else single samples.
     #[default]
     Detected,
     /// Single samples.

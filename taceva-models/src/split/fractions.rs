@@ -36,7 +36,7 @@ impl Fractions {
         }
     }
 
-    /// How many of `total` groups that are not tested on choose settings: none where there is no share for it, and never all.
+    /// The number of `total` groups that choose settings: none where there is no share for it, and never all.
     pub(super) fn validation_of_rest(&self, total: usize) -> usize {
         let [train, validation, _] = self.shares;
         let rest = Fractions {

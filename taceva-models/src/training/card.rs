@@ -146,7 +146,7 @@ pub struct Provenance {
     pub split: Option<SplitCard>,
     /// What else a reader should know.
     pub notes: Vec<String>,
-    /// How well models fitted alike predict samples that they have not seen, where the model itself was fitted on every sample.
+    /// Scores of models fitted alike on samples that they have not seen, of a model that was fitted on every sample.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub validation: Option<ValidationCard>,
 }
@@ -156,11 +156,11 @@ pub struct Provenance {
 pub struct ValidationCard {
     /// The split, such as `cv:5 by-point`.
     pub split: String,
-    /// Its seed.
+    /// The seed of the split.
     pub seed: u64,
     /// Samples that were predicted, each once.
     pub samples: usize,
-    /// What was found of neighbouring samples that resemble each other.
+    /// Findings on neighbouring samples that resemble each other.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub neighbours: Option<String>,
     /// The scores.

@@ -28,7 +28,7 @@ pub struct Provenance {
     /// The division of samples into parts.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub split: Option<String>,
-    /// What was found of neighbouring samples that resemble each other, and how they were divided for it.
+    /// Findings on neighbouring samples that resemble each other, and their division.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub neighbours: Option<String>,
     /// The seed of everything that was drawn.

@@ -32,7 +32,7 @@ pub struct Context {
     pub notes: Vec<Note>,
     /// Whether a model was fitted on some of the rows, beyond what `provenance` says.
     pub is_seen: bool,
-    /// Whether tested samples have neighbours, which resemble them, that the model was fitted on.
+    /// True if tested samples have neighbours, which resemble them, that the model was fitted on.
     pub are_neighbours_learnt: bool,
     /// The fit behind the predictions, of which states say nothing.
     pub fit: FitFacts,

@@ -56,7 +56,7 @@ pub struct Cache {
     is_of_many: bool,
     /// Features of whole recordings, for the folds of one call.
     memory: Option<features::Memory>,
-    /// Whether anything is kept in the folder.
+    /// True if anything is kept in the folder.
     is_on_disk: bool,
     written: AtomicU64,
     notes: Mutex<BTreeSet<String>>,

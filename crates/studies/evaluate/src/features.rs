@@ -97,7 +97,7 @@ fn of_whole(
     let Some(positions) = positions.filter(|_| is_kept) else {
         return own();
     };
-    let whole = cache.whole_features((recording, extractor, &all), || {
+    let whole = cache.whole_features(recording, extractor, &all, || {
         make(recording, extractor, &all, work)
     });
     match whole {

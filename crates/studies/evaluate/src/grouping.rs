@@ -65,7 +65,7 @@ impl Grouping {
     }
 }
 
-/// Whether every one of `rows` names its contact point, and some name the same.
+/// True if every one of `rows` names its contact point, and some name the same.
 pub(crate) fn has_repeats(dataset: &Dataset, rows: &[usize]) -> bool {
     let points = all_texts(dataset.table().point_id(), rows);
     points.is_some_and(|points| points.iter().collect::<BTreeSet<_>>().len() < points.len())
@@ -83,7 +83,7 @@ pub(crate) struct SplitFields {
 }
 
 impl SplitFields {
-    /// Those of `rows` of `dataset` that `kind` asks for.
+    /// The columns of `rows` of `dataset` that `kind` asks for.
     pub(crate) fn of(dataset: &Dataset, rows: &[usize], kind: &SplitKind) -> SplitFields {
         let table = dataset.table();
         let wanted = match kind {
@@ -118,7 +118,7 @@ impl SplitFields {
         }
     }
 
-    /// What the split of `rows` samples looks at.
+    /// The input of a split of `rows` samples.
     pub(crate) fn input(&self, rows: usize) -> SplitInput<'_> {
         SplitInput {
             rows,
@@ -140,7 +140,7 @@ impl SplitFields {
         }
     }
 
-    /// What a reader must know of neighbours among `rows` that `splits`, by positions among them, kept together or separated.
+    /// The note on neighbours among `rows` that `splits`, by positions among them, keep together or separate.
     pub(crate) fn neighbours(
         &self,
         dataset: &Dataset,
@@ -185,7 +185,7 @@ impl SplitFields {
         Some(Note::Neighbours { found, division })
     }
 
-    /// Whether each of `rows` is a point of its own: nobody names points, chance divides samples, and neighbours do not resemble each other.
+    /// True if each of `rows` is a point of its own: nobody names points, chance divides samples, and neighbours do not resemble each other.
     pub(crate) fn are_independent(
         &self,
         dataset: &Dataset,
@@ -228,7 +228,7 @@ impl SplitFields {
     }
 }
 
-/// How many tested samples of `split` stand beside one that was learnt from, in the order of neighbours.
+/// Counts the tested samples of `split` that have a neighbour in the training or validation part.
 fn beside_learnt(dataset: &Dataset, rows: &[usize], split: &Split) -> usize {
     let mut parts = vec![None; rows.len()];
     for part in Part::ALL {

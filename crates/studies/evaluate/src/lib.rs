@@ -31,7 +31,7 @@ mod score;
 mod skill;
 mod state_file;
 mod subject;
-mod validated_fit;
+mod validation;
 mod work;
 
 pub use accumulate::{Columns, Rows, accumulate};
@@ -75,5 +75,5 @@ pub use score::{
 pub use skill::{skill, with_skill};
 pub use state_file::{STATE_SCHEMA, StateFile};
 pub use subject::of as subject_of;
-pub use validated_fit::fit_validated;
+pub use validation::fit_validated;
 pub use work::Work;

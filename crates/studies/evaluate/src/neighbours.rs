@@ -46,7 +46,7 @@ struct Sequence {
     order: SampleOrder,
 }
 
-/// What the labels of a recording say of neighbouring samples.
+/// Resemblance of neighbouring samples by the labels of a recording.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Resemblance {
     /// Neighbours resemble each other.
@@ -58,7 +58,7 @@ pub enum Resemblance {
 }
 
 impl Resemblance {
-    /// What is found among `rows` of `dataset`.
+    /// The resemblance among `rows` of `dataset`.
     pub fn of(dataset: &Dataset, rows: &[usize]) -> Resemblance {
         let sequence = Sequence::of(dataset, rows);
         match most_alike(dataset, rows, &sequence) {
@@ -164,7 +164,7 @@ impl Sequence {
         })
     }
 
-    /// How much samples resemble those `lag` later, with the number of pairs.
+    /// The resemblance of samples to those `lag` later, with the number of pairs.
     fn resemblance(&self, ranks: &[Option<f64>], lag: usize) -> Option<(f64, usize)> {
         let pairs = self.pairs(lag);
         let both = pairs.filter_map(|[one, other]| Some([ranks[one]?, ranks[other]?]));

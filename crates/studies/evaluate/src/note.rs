@@ -20,9 +20,9 @@ pub enum Note {
     Split(String),
     /// Neighbouring samples that resemble each other, and how they were divided.
     Neighbours {
-        /// What was found.
+        /// The finding.
         found: Neighbours,
-        /// What was made of it.
+        /// The division that follows from it.
         division: Division,
     },
     /// Samples that are taken as independent, each as a point of its own.

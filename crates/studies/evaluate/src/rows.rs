@@ -62,11 +62,11 @@ pub struct Divided {
     pub seed: u64,
     /// Which rows went where.
     pub split: Split,
-    /// What a reader must know of neighbouring samples.
+    /// The note on neighbouring samples.
     pub neighbours: Option<Note>,
     /// The group of every row of the dataset, where intervals are by groups; empty of a row in none.
     pub groups: Option<Vec<String>>,
-    /// Whether no sample repeats a contact point, and neighbours do not resemble each other, so that each is a point of its own.
+    /// True if no sample repeats a contact point, and neighbours do not resemble each other, so that each is a point of its own.
     pub are_independent: bool,
 }
 

@@ -69,11 +69,11 @@ pub struct Scoring {
     matching: Matching,
 }
 
-/// What can be scored by the columns of both tables.
+/// Metrics, fields and keys of both tables.
 #[derive(Debug)]
 struct ScorePlan {
     metrics: MetricPlan,
-    /// Where fields are stated.
+    /// The columns of fields.
     places: Vec<Place>,
     /// What is known of the sensor.
     sensor: SensorFile,
@@ -215,7 +215,7 @@ impl Scoring {
     }
 }
 
-/// What can be scored by the columns of both tables.
+/// Metrics, fields and keys of both tables.
 fn planned(
     request: &ScoreRequest,
     truth: &CsvTable,
@@ -246,11 +246,11 @@ fn planned(
     })
 }
 
-/// What a reader must know of scored tables.
+/// Notes on scored tables.
 struct Said {
-    /// Whether the caller takes samples as independent.
+    /// True if the caller takes samples as independent.
     is_independent: bool,
-    /// How rows were paired, which the state says too.
+    /// The pairing of rows, which the state says too.
     paired: PairedBy,
     /// The shard, which the report alone says.
     shard: Option<Note>,

@@ -43,7 +43,7 @@ pub struct StateFile {
     /// Whether the model was fitted on some of the samples.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub(crate) seen: bool,
-    /// Whether tested samples have neighbours in the training part that resemble them.
+    /// True if tested samples have neighbours in the training part that resemble them.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub(crate) neighbours: bool,
     pub(crate) states: Vec<State>,

@@ -33,7 +33,9 @@ impl Cache {
     /// The features of `rows`, all of `dataset` that any fold may want: those in memory, or what `make` gives, which stays there from then on.
     pub(crate) fn whole_features(
         &self,
-        (dataset, extractor, rows): (&Dataset, &Extractor, &[usize]),
+        dataset: &Dataset,
+        extractor: &Extractor,
+        rows: &[usize],
         make: impl FnOnce() -> Result<Features, EvaluateError>,
     ) -> Result<Arc<Features>, EvaluateError> {
         let Some(memory) = &self.memory else {
@@ -51,7 +53,7 @@ impl Cache {
         Ok(made)
     }
 
-    /// Whether features of whole recordings stay in memory, so that their size is no reason to make them twice.
+    /// True if features of whole recordings stay in memory, so that their size is no reason to make them twice.
     pub(crate) fn is_in_memory(&self) -> bool {
         self.memory.is_some()
     }
@@ -126,7 +128,7 @@ impl Cache {
     }
 }
 
-/// What the features of `rows` are kept under.
+/// Key of the features of `rows`.
 fn features_key(dataset: &Dataset, extractor: &Extractor, rows: &[usize]) -> Key {
     // Principal components are found by the model, of all features.
     let spec = FeatureSpec {

@@ -28,7 +28,7 @@ const GROUPS_MANY: usize = 1000;
 /// Divisions that together test on every sample.
 pub(crate) struct Folds<'a> {
     dataset: &'a Dataset,
-    /// Of all folds together.
+    /// The division of all folds together.
     whole: Divided,
     folds: Vec<Fold>,
     are_recordings: bool,

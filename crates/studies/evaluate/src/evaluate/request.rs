@@ -19,7 +19,7 @@ pub struct EvaluateRequest {
     pub part: Option<DataPart>,
     /// What is known of the sensor beyond the dataset's header.
     pub sensor: Option<SensorFile>,
-    /// Whether the caller says that samples do not depend on each other, so that each is a point of its own in intervals.
+    /// True if the caller says that samples do not depend on each other, so that each is a point of its own in intervals.
     pub is_independent: bool,
 }
 

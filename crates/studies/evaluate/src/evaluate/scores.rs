@@ -150,7 +150,7 @@ pub fn score(
     })
 }
 
-/// Why the samples of `target` are taken as independent, if they are.
+/// The reason why samples of `target` are taken as independent, if they are.
 fn independence(asked: Asked<'_>, target: &Target) -> Option<Independence> {
     let found = target.divided.as_ref();
     match (

@@ -1,4 +1,4 @@
-//! What was found of neighbouring samples, and how they were divided.
+//! Findings on neighbouring samples, and their division.
 
 use std::fmt;
 
@@ -7,13 +7,13 @@ use taceva_core::shown;
 /// Order of the samples, by which they are neighbours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SampleOrder {
-    /// That of their times.
+    /// Order of times.
     Time,
-    /// That of the table.
+    /// Order of rows in the table.
     Table,
 }
 
-/// What was found of neighbouring samples that resemble each other.
+/// Findings on neighbouring samples that resemble each other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Neighbours {
     /// The channel whose neighbours resemble each other most.
@@ -28,7 +28,7 @@ pub struct Neighbours {
     pub column: Option<String>,
 }
 
-/// What was made of neighbouring samples that resemble each other.
+/// Division of neighbouring samples that resemble each other.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Division {
     /// Blocks of time stay together.
@@ -49,7 +49,7 @@ pub enum Division {
     },
 }
 
-/// Why samples are taken as independent.
+/// Reasons to take samples as independent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Independence {
     /// The caller said so.

@@ -27,7 +27,7 @@ const LEAST_DECIMALS: usize = 3;
 /// Column that both tables have and in which paired rows agree.
 #[derive(Clone, Debug)]
 pub(super) struct Agreement {
-    /// Its name in the predictions.
+    /// The name in the predictions.
     name: String,
     columns: [usize; 2],
     kind: Kind,
@@ -146,7 +146,7 @@ impl Agreement {
     }
 }
 
-/// Whether two stamps may be one time, written with different numbers of decimals. A stamp that is no number is left to its reader.
+/// True if two stamps may be one time, written with different numbers of decimals. A stamp that is no number is left to its reader.
 fn is_same_time(one: &str, other: &str) -> bool {
     let (Ok(first), Ok(second)) = (one.parse::<f64>(), other.parse::<f64>()) else {
         return true;

@@ -10,7 +10,7 @@ use super::row_key::{KeyPair, key_of};
 /// The keys of both tables, as far as blocks of them were seen, in whatever order.
 #[derive(Debug)]
 pub(super) struct KeyOrder {
-    /// Where keys stand in the truth and in the prediction.
+    /// The columns of keys in the truth and in the prediction.
     columns: [usize; 2],
     /// The number of each block that was seen, with its first key and its last.
     ends: Mutex<Vec<(u64, [String; 2])>>,
@@ -28,7 +28,7 @@ impl KeyOrder {
         })
     }
 
-    /// Whether the keys of a block ascend and are the same in both tables; they have as many rows.
+    /// True if the keys of a block ascend and are the same in both tables; they have as many rows.
     pub(super) fn is_kept_in(&self, number: u64, [truth, prediction]: [&CsvTable; 2]) -> bool {
         let rows = 0..truth.rows();
         let keys = truth.text_in(self.columns[0], rows.clone()).map(key_of);
@@ -48,7 +48,7 @@ impl KeyOrder {
         true
     }
 
-    /// Whether the keys of all blocks that were seen ascend from each to the next, so that none comes twice.
+    /// True if the keys of all blocks that were seen ascend from each to the next, so that none comes twice.
     pub(super) fn ascends(self) -> bool {
         let ends = self.ends.into_inner();
         let mut ends = ends.unwrap_or_else(PoisonError::into_inner);
@@ -74,7 +74,7 @@ mod tests {
         }
     }
 
-    /// Whether order is kept in blocks that are seen in this order.
+    /// True if order is kept in blocks that are seen in this order.
     fn is_kept(blocks: &[(u64, &[&str])]) -> bool {
         let header = table(&[]);
         let order = KeyOrder::of([&header, &header], &id()).expect("keys");

@@ -135,7 +135,7 @@ impl ByKey<'_> {
             .collect()
     }
 
-    /// Whether the keys in `own` are those of the same rows in both tables, and ascend, from the row before on: so that none comes twice.
+    /// True if the keys in `own` are those of the same rows in both tables, and ascend, from the row before on: so that none comes twice.
     fn is_in_order(
         &self,
         own: &Range<u64>,

@@ -143,7 +143,7 @@ fn text_of_both(name: &str, tables: [&Cells<'_>; 2]) -> Result<Option<String>, E
     Ok(found)
 }
 
-/// Whether a column holds the same whole numbers in both tables, each of them once.
+/// True if a column holds the same whole numbers in both tables, each of them once.
 fn counts_rows_of_both(name: &str, tables: [&Cells<'_>; 2]) -> Result<bool, EvaluateError> {
     let mut sets = Vec::new();
     for cells in tables {

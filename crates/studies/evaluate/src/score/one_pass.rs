@@ -93,7 +93,7 @@ struct Pass<'a> {
     matching: &'a Matching,
     request: &'a ScoreRequest,
     allow_invalid: bool,
-    /// Of tables that both have a key.
+    /// The order of keys, in tables that both have one.
     order: Option<KeyOrder>,
     /// Blocks that were begun to be read.
     blocks: AtomicU64,

@@ -18,7 +18,7 @@ pub struct ScoreRequest {
     pub units: Vec<(String, Unit)>,
     /// The key by which rows are paired; found by its name if `None`.
     pub key: Option<RowKey>,
-    /// Whether samples do not depend on each other, so that each is a point of its own in intervals.
+    /// True if samples do not depend on each other, so that each is a point of its own in intervals.
     pub is_independent: bool,
     /// What is known of the sensor: a file with footprint, greatest depth, opacity.
     pub sensor: Option<PathBuf>,

@@ -55,7 +55,7 @@ impl KeyPair {
 pub(super) struct RowKeys {
     /// Keys that may pair rows; none where rows are paired by order.
     pub(super) pairs: Vec<KeyPair>,
-    /// Whether the caller chose the pairing, so that other keys are not compared.
+    /// True if the caller chose the pairing, so that other keys are not compared.
     is_chosen: bool,
 }
 
@@ -108,7 +108,7 @@ impl RowKeys {
         })
     }
 
-    /// Whether rows are paired by a key.
+    /// True if rows are paired by a key.
     pub(super) fn are_there(&self) -> bool {
         !self.pairs.is_empty()
     }
@@ -126,7 +126,7 @@ impl RowKeys {
         pairs.filter(move |pair| Some(*pair) != by)
     }
 
-    /// How rows are paired, by `pair` or by order.
+    /// The way in which rows are paired, by `pair` or by order.
     pub(super) fn paired_by(&self, pair: Option<&KeyPair>) -> PairedBy {
         match pair {
             Some(KeyPair { truth, prediction }) => PairedBy::Key {
@@ -155,7 +155,7 @@ pub(super) fn key_of(cell: &str) -> &str {
     }
 }
 
-/// Whether the text is a whole number, with a sign or none.
+/// True if the text is a whole number, with a sign or none.
 pub(super) fn is_whole(text: &str) -> bool {
     let digits = text.strip_prefix('-').unwrap_or(text);
     !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit())

@@ -156,7 +156,7 @@ pub(super) fn channels(
     Channels::new(found).map_err(|error| wrong(prediction, error.to_string()))
 }
 
-/// Whether the unit of the column called `name` is declared, so that it is a channel.
+/// True if the unit of the column called `name` is declared, so that it is a channel.
 pub(super) fn is_declared(units: &[(String, Unit)], name: &str) -> bool {
     units.iter().any(|(known, _)| known == name)
 }

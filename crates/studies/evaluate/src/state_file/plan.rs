@@ -35,10 +35,10 @@ pub(crate) struct WrittenPlan {
     /// Whether recordings are the clusters of intervals, and not contact points.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     by_recording: bool,
-    /// Whether groups of samples are, such as blocks of time.
+    /// True if groups of samples are, such as blocks of time.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     by_group: bool,
-    /// Whether single samples are.
+    /// True if single samples are.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     independent: bool,
 }

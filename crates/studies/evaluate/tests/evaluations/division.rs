@@ -20,7 +20,7 @@ use taceva_models::{ModelSettings, Models};
 use crate::taxel_drawing::Draws;
 use crate::taxels::WORK;
 
-/// What one row of a drawn recording says.
+/// Row of a drawn recording.
 struct Row {
     time_s: Option<f64>,
     force: f64,
