@@ -24,7 +24,7 @@ fn every_form_is_exported_and_imported_again_by_its_own_map() {
             "import {form} --map {form}/map.toml --out {form}-again"
         ));
         let found = bench.json(&format!(
-            "evaluate {form}-again --model ridge --set size=8x8 --metrics r2"
+            "evaluate {form}-again --model ridge --split by-point --set size=8x8 --metrics r2"
         ));
         assert_eq!(found["metrics"], scores, "{form}");
         bench.refused(

@@ -73,7 +73,11 @@ fn kept(bench: &Bench) -> Vec<PathBuf> {
 fn features_are_made_once_for_every_model_and_found_by_what_they_are_made_of() {
     let bench = Bench::new();
     bench.record("data", 64);
-    let evaluate = |words: &str| bench.json(&format!("evaluate data --metrics mae {words}"));
+    let evaluate = |words: &str| {
+        bench.json(&format!(
+            "evaluate data --metrics mae --split by-point {words}"
+        ))
+    };
     let bare = evaluate("--model knn --no-cache");
     assert!(kept(&bench).is_empty());
     evaluate("--model ridge");
