@@ -25,10 +25,10 @@ def main(dataset, model):
         run("predict", dataset, "--no-cache", "--with", model, "--out", pred_csv, "--truth-out", truth_csv, "--quiet")
         scored = evaluation("score", "--truth", truth_csv, "--pred", pred_csv)["metrics"]
         evaluated = evaluation("evaluate", dataset, "--no-cache", "--with", model)["metrics"]
-        truth = pandas.read_csv(truth_csv, dtype={"id": str, "point_id": str})
-        pred = pandas.read_csv(pred_csv, dtype={"id": str})
+        truth = pandas.read_csv(truth_csv, dtype={"sample": str, "point_id": str})
+        pred = pandas.read_csv(pred_csv, dtype={"sample": str})
 
-    assert list(truth["id"]) == list(pred["id"]), "the two tables hold the same samples"
+    assert list(truth["sample"]) == list(pred["sample"]), "the two tables hold the same samples"
     channels = [name for name in pred.columns if name in scored["mae"]]
     assert channels, "there is something to compare"
     worst = 0.0

@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use pyo3::prelude::*;
 use taceva_evaluate::{
-    DataPart, EvaluateError, EvaluateRequest, FitRequest, ModelChoice, ScoreRequest, Scoring, Work,
+    DataPart, EvaluateError, EvaluateRequest, FitRequest, ModelChoice, RowKey, ScoreRequest,
+    Scoring, Work,
 };
 use taceva_models::ModelSettings;
 
@@ -14,7 +15,7 @@ use crate::{results, watched};
 
 /// The results file of two tables, as `taceva score` writes it.
 #[pyfunction]
-#[pyo3(signature = (truth, prediction, metrics, sensor, allow_invalid, jobs, bar = None))]
+#[pyo3(signature = (truth, prediction, metrics, sensor, key, allow_invalid, jobs, bar = None))]
 #[expect(clippy::too_many_arguments, reason = "the Python side names them")]
 pub(crate) fn score_tables(
     py: Python<'_>,
@@ -22,6 +23,7 @@ pub(crate) fn score_tables(
     prediction: PathBuf,
     metrics: Vec<String>,
     sensor: Option<PathBuf>,
+    key: Option<&str>,
     allow_invalid: bool,
     jobs: usize,
     bar: Option<&Bound<'_, PyAny>>,
@@ -30,6 +32,8 @@ pub(crate) fn score_tables(
         truth,
         prediction,
         units: Vec::new(),
+        key: key.map(RowKey::from),
+        is_independent: false,
         sensor,
         metrics,
         allow_invalid,
@@ -88,6 +92,7 @@ pub(crate) fn evaluate_named(
             metrics,
             part,
             sensor: None,
+            is_independent: false,
         };
         let work = Work {
             jobs: jobs_of(jobs),

@@ -6,7 +6,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use taceva_core::{Batch, Channel, Channels, Column, Field, FieldSet, Unit};
-use taceva_evaluate::with_skill;
+use taceva_evaluate::{Note, PairedBy, with_skill};
 use taceva_metrics::{Evaluator, MetricPlan, State, catalogue};
 use taceva_results::EvaluationReport;
 
@@ -222,12 +222,31 @@ impl Sums {
         *self.evaluator() = Evaluator::new(&self.plan);
     }
 
-    /// The scores so far, as the text of a results file.
-    fn compute(&self, py: Python<'_>) -> PyResult<String> {
+    /// The scores so far, as the text of a results file; `paired_by` names the keys by which rows of named columns were paired, `""` where
+    /// they were paired by order.
+    fn compute(&self, py: Python<'_>, paired_by: Vec<String>) -> PyResult<String> {
         py.detach(|| {
             let evaluation = self.evaluator().score().map_err(value_error)?;
-            crate::results::sealed(&EvaluationReport::of_arrays(&evaluation))
+            let mut report = EvaluationReport::of_arrays(&evaluation);
+            let notes = paired_by.into_iter().map(|key| Note::Paired(paired(key)));
+            report
+                .provenance
+                .notes
+                .extend(notes.map(|note| note.to_string()));
+            crate::results::sealed(&report)
         })
+    }
+}
+
+/// The pairing of rows, from the words of Python.
+fn paired(key: String) -> PairedBy {
+    match key.as_str() {
+        "" => PairedBy::Order,
+        "the index" => PairedBy::Index,
+        _ => PairedBy::Key {
+            truth: key.clone(),
+            prediction: key,
+        },
     }
 }
 

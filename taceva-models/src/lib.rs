@@ -42,12 +42,12 @@ pub use model::{CloserFeatures, FitInput, LabelBounds, Model};
 pub use models::{ChosenModel, Models};
 pub use settings::{ModelSettings, SettingError, SettingInfo, Suggestion};
 pub use split::{
-    ColumnSplit, Fractions, Part, Split, SplitCounts, SplitError, SplitInput, SplitKind,
-    SplitManifest, SplitSpec,
+    ColumnSplit, FoldGroups, FoldSpec, Folds, Fractions, Part, Split, SplitBlocks, SplitCounts,
+    SplitError, SplitInput, SplitKind, SplitManifest, SplitSpec,
 };
 pub use training::card::{
     AutoCard, AutoTrial, ChannelCard, Form, LibraryCard, ModelCard, NetworkCard, PluginCard,
-    Provenance, SampleCounts, Source, SplitCard, Untried,
+    Provenance, SampleCounts, Source, SplitCard, Untried, ValidationCard, ValidationScore,
 };
 pub use training::checkpoint::{CheckpointError, Checkpoints, Foreign};
 pub use training::choice::{ChannelChoice, Choice, ChosenBy};

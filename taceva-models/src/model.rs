@@ -17,7 +17,7 @@ use crate::features::choice::FeatureChoice;
 use crate::features::signals::{divided, spread};
 use crate::features::{Extractor, FeatureError, Pca};
 use crate::linalg::invalid;
-use crate::training::card::{ChannelCard, ModelCard};
+use crate::training::card::{ChannelCard, ModelCard, ValidationCard};
 use crate::training::regressor::ModelRegressor;
 
 /// A fitted model: from pixels, or from signals, to the channels, in their units.
@@ -99,6 +99,13 @@ impl Model {
     #[must_use]
     pub fn with_features_chosen(mut self, how: FeatureChoice) -> Model {
         self.card.feature_choice = Some(how);
+        self
+    }
+
+    /// This model, with a card that says how models fitted alike were validated.
+    #[must_use]
+    pub fn with_validation(mut self, validation: ValidationCard) -> Model {
+        self.card.provenance.validation = Some(validation);
         self
     }
 

@@ -2,13 +2,17 @@
 
 mod assign;
 mod error;
+mod fold_spec;
+mod folds;
 mod fractions;
 mod manifest;
 mod part;
 mod spec;
 
-pub use assign::{Split, SplitInput};
+pub use assign::{Split, SplitBlocks, SplitInput};
 pub use error::SplitError;
+pub use fold_spec::{FoldGroups, FoldSpec};
+pub use folds::Folds;
 pub use fractions::Fractions;
 pub use manifest::{SplitCounts, SplitManifest};
 pub use part::Part;

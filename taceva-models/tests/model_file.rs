@@ -86,6 +86,7 @@ pub(crate) fn fit(name: &str, words: &[&str], spec: FeatureSpec) -> (Model, Feat
                 seed: 7,
             }),
             notes: vec!["random frames".into()],
+            validation: None,
         },
     };
     (

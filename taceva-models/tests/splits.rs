@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use proptest::prelude::*;
 use taceva_models::{
-    Fractions, Part, Split, SplitCounts, SplitError, SplitInput, SplitKind, SplitManifest,
-    SplitSpec,
+    Fractions, Part, Split, SplitBlocks, SplitCounts, SplitError, SplitInput, SplitKind,
+    SplitManifest, SplitSpec,
 };
 
 fn spec(text: &str) -> SplitSpec {
@@ -282,4 +282,109 @@ fn a_manifest_holds_the_ids_and_comes_back_from_json() {
         manifest
     );
     assert!(SplitManifest::new(&spec, 3, &split, &ids[1..]).is_err());
+}
+
+/// Folds of 40 rows in 20 points, and the names of these.
+fn folds_of_points(text: &str, points: &[String]) -> Result<Vec<Split>, SplitError> {
+    let input = SplitInput {
+        rows: points.len(),
+        points: Some(points),
+        ..SplitInput::default()
+    };
+    let SplitKind::Folds(folds) = spec(text).kind else {
+        panic!("{text} is no cross-validation");
+    };
+    Ok(folds.folds(&input, Fractions::default(), 3)?.splits)
+}
+
+#[test]
+fn folds_test_on_each_sample_once_and_never_share_a_point() {
+    let points: Vec<String> = (0..40).map(|row| format!("p{}", row / 2)).collect();
+    for (text, count) in [
+        ("cv:5", 5),
+        ("cv:7 by-point", 7),
+        ("loo by-point", 20),
+        ("cv:20", 20),
+    ] {
+        let folds = folds_of_points(text, &points).expect("enough points");
+        assert_eq!(folds.len(), count);
+        let mut tested: Vec<usize> = folds.iter().flat_map(|fold| fold.test.clone()).collect();
+        tested.sort_unstable();
+        assert_eq!(tested, (0..40).collect::<Vec<_>>(), "{text}");
+        for fold in &folds {
+            assert!(
+                !fold.train.is_empty() && !fold.validation.is_empty(),
+                "{text}"
+            );
+            assert_eq!(
+                fold.train.len() + fold.validation.len() + fold.test.len(),
+                40
+            );
+            for row in &fold.test {
+                // The other row of the point.
+                assert!(fold.test.contains(&(row ^ 1)), "{text}");
+            }
+            for row in &fold.validation {
+                assert!(fold.validation.contains(&(row ^ 1)), "{text}");
+            }
+        }
+        assert_eq!(folds_of_points(text, &points), Ok(folds));
+    }
+}
+
+#[test]
+fn more_folds_than_groups_are_refused_with_both_numbers() {
+    let points: Vec<String> = (0..8).map(|row| format!("p{}", row / 2)).collect();
+    let error = folds_of_points("cv:5 by-point", &points).expect_err("four points");
+    assert_eq!(
+        error.to_string(),
+        "5 folds, but the recording has 4 groups (by-point); name fewer folds, or another --split"
+    );
+    assert!(folds_of_points("cv:4", &points).is_ok());
+    let one = vec!["p".to_owned(); 8];
+    assert!(matches!(
+        folds_of_points("loo", &one),
+        Err(SplitError::FewGroups { groups: 1, .. })
+    ));
+}
+
+#[test]
+fn blocks_of_different_parts_keep_a_gap_between_them() {
+    let names: Vec<String> = (0..100).map(|row| format!("block {}", row / 10)).collect();
+    let places: Vec<usize> = (0..100).collect();
+    let input = SplitInput {
+        rows: 100,
+        blocks: Some(SplitBlocks {
+            names: &names,
+            places: &places,
+            gap: 3,
+        }),
+        ..SplitInput::default()
+    };
+    let SplitKind::Folds(folds) = spec("cv:5 by-block").kind else {
+        panic!("no cross-validation");
+    };
+    let folds = folds
+        .folds(&input, Fractions::default(), 1)
+        .expect("ten blocks");
+    let one = spec("by-block").assign(&input, 1).expect("ten blocks");
+    for split in folds.splits.iter().chain([&one]) {
+        assert!(!split.train.is_empty() && !split.left_out.is_empty());
+        for test in &split.test {
+            let near = |row: &&usize| row.abs_diff(*test) <= 3;
+            assert!(!split.train.iter().any(|row| near(&row)));
+            assert!(!split.validation.iter().any(|row| near(&row)));
+        }
+        for held in &split.validation {
+            assert!(!split.train.iter().any(|row| row.abs_diff(*held) <= 3));
+        }
+    }
+    let without = SplitInput {
+        rows: 100,
+        ..SplitInput::default()
+    };
+    assert_eq!(
+        spec("by-block").assign(&without, 1),
+        Err(SplitError::NoBlocks)
+    );
 }

@@ -47,6 +47,7 @@ fn evaluated(dataset: &Dataset, model: &str, split: &str, seed: u64) -> Evaluate
         }),
         metrics: vec!["r2".to_owned()],
         part: None,
+        is_independent: false,
         sensor: None,
     };
     evaluate(dataset, &request, WORK).expect("evaluated")

@@ -42,6 +42,7 @@ fn study(name: &str, model: &str, split: &str) -> Option<Study> {
         }),
         metrics: vec!["all".to_owned()],
         part: None,
+        is_independent: false,
         sensor: None,
     };
     let written = evaluate(&dataset, &request, WORK)

@@ -30,6 +30,7 @@ fn r2(dataset: &Dataset, model: &str, words: &[&str]) -> f64 {
         }),
         metrics: vec!["r2".to_owned()],
         part: None,
+        is_independent: false,
         sensor: None,
     };
     let evaluated = evaluate(dataset, &request, WORK).expect(model);

@@ -13,6 +13,7 @@ from taceva import _taceva
 from taceva._arrays import numbers
 from taceva._bar import bar
 from taceva._dataset import Dataset
+from taceva._column_names import predicted
 from taceva._onnx import OnnxModel
 from taceva._result import Result
 from taceva._settings import setting_words
@@ -108,8 +109,7 @@ def evaluate(
         predictions = _fitted(recording, model, given, words, described, jobs)
     else:
         predictions = _called(recording, model, given, batch, jobs)
-    width = len(given.channels())
-    found = _as_rows(predictions, _name_of(model), len(given.target()), width)
+    found = _as_rows(predictions, _name_of(model), len(given.target()), given.channels())
     text = given.score(recording._inner, _name_of(model), described, found, wanted, jobs)
     return Result(text)
 
@@ -130,7 +130,7 @@ def _called(recording: Dataset, model: Any, given: Any, batch: int, jobs: int) -
     rows = given.target()
     call = _module(model) if _is_module(model) else model
     shown = bar()
-    width = len(given.channels())
+    names = given.channels()
     if shown is not None:
         shown.begin("predict", len(rows))
     try:
@@ -138,7 +138,7 @@ def _called(recording: Dataset, model: Any, given: Any, batch: int, jobs: int) -
         for first in range(0, len(rows), batch):
             own = rows[first : first + batch]
             frames = np.asarray(recording._inner.frames(own, jobs, None))
-            predictions.append(_as_rows(call(frames), _name_of(model), len(own), width))
+            predictions.append(_as_rows(call(frames), _name_of(model), len(own), names))
             if shown is not None:
                 shown.advance(len(own))
     finally:
@@ -175,9 +175,10 @@ def _module(model: Any) -> Callable[[npt.NDArray[Any]], Any]:
     return call
 
 
-def _as_rows(predictions: Any, name: str, rows: int, width: int) -> Any:
-    """Return predictions as an array of ``[rows, width]``."""
-    found = numbers(predictions, f"what {name} predicted", allow_invalid=True)
+def _as_rows(predictions: Any, name: str, rows: int, channels: list[str]) -> Any:
+    """Return predictions as an array of ``[rows, channels]``; named columns are matched by name."""
+    width = len(channels)
+    found = numbers(predicted(predictions, channels, f"what {name} predicted"), f"what {name} predicted", allow_invalid=True)
     if found.ndim == 1 and width == 1:
         found = found[:, np.newaxis]
     if found.shape != (rows, width):

@@ -11,6 +11,7 @@ from taceva._arrays import BLOCK_ROWS, native, real, require_finite
 from taceva._arrays import points as names_of_points
 from taceva._bar import bar
 from taceva._fields import columns
+from taceva._column_names import beside, pair
 from taceva._pickles import PICKLE_VERSION, require_version
 from taceva._result import Result
 
@@ -71,6 +72,7 @@ class TactileMetrics:
         wanted = [metrics] if isinstance(metrics, str) else list(metrics)
         self._asked = (with_units, wanted, independent, list(fields))
         self._sums = _taceva.Sums(*self._asked)
+        self._paired: set[str] = set()
 
     @property
     def channels(self) -> tuple[str, ...]:
@@ -92,9 +94,11 @@ class TactileMetrics:
         ----------
         truth, prediction
             ``[rows, channels]``, or ``[rows]`` of one channel: arrays of numpy or tensors of torch, float32 or float64, in the unit of their
-            channel; whole numbers are converted.
+            channel; whole numbers are converted. What names its columns (pandas, polars, Arrow, a dict of arrays) is matched by these
+            names, and rows by a column ``sample``, ``id``, ``sample_id`` or ``index`` of both, else by the index of pandas.
         points
-            The contact point of each row, a whole number or a text: intervals take the samples of one point as dependent.
+            The contact point of each row, a whole number or a text: intervals take the samples of one point as dependent. A column
+            ``point_id`` is taken where none are given.
         allow_invalid
             Whether rows with NaN or an infinite number are counted and left out instead of refused.
         fields
@@ -103,10 +107,14 @@ class TactileMetrics:
         Raises
         ------
         ValueError
-            For arrays of other shapes or lengths, and for NaN.
+            For arrays of other shapes or lengths, for NaN, and for rows that cannot be paired.
         TypeError
             For arrays of anything but real numbers.
         """
+        _, both = pair(truth, prediction, self.channels)
+        points = beside(both.points if points is None else points, both.index, "points")
+        fields = {name: beside(column, both.index, name) for name, column in fields.items()}
+        truth, prediction = both.truth, both.prediction
         tables = {"truth": real(truth, "truth"), "prediction": real(prediction, "prediction")}
         width = len(self.channels)
         for name, table in tables.items():
@@ -131,18 +139,22 @@ class TactileMetrics:
                     require_finite(found, name, first)
         if sums is not self._sums:
             self._sums.merge(sums)
+        if both.paired_by is not None:
+            self._paired.add(both.paired_by)
 
     def compute(self) -> Result:
         """Return the scores of all samples so far; more samples may follow."""
-        return Result(self._sums.compute())
+        return Result(self._sums.compute(sorted(self._paired)))
 
     def merge(self, other: TactileMetrics) -> None:
         """Take over what ``other``, of the same channels and metrics, has seen."""
         self._sums.merge(other._sums)
+        self._paired |= other._paired
 
     def reset(self) -> None:
         """Forget all samples."""
         self._sums.reset()
+        self._paired.clear()
 
     def states(self) -> bytes:
         """Return all that was seen, a few kB, for ``merge_states`` in another process."""
@@ -153,13 +165,14 @@ class TactileMetrics:
         self._sums.merge_bytes(states)
 
     def __getstate__(self) -> dict[str, Any]:
-        return {"version": PICKLE_VERSION, "asked": self._asked, "states": self.states()}
+        return {"version": PICKLE_VERSION, "asked": self._asked, "states": self.states(), "paired": sorted(self._paired)}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         require_version(state.get("version"))
         self._asked = state["asked"]
         self._sums = _taceva.Sums(*self._asked)
         self._sums.merge_bytes(state["states"])
+        self._paired = set(state.get("paired", ()))
 
     def __repr__(self) -> str:
         return f"TactileMetrics({list(self.channels)}, {self._asked[1]})"
@@ -179,7 +192,8 @@ def score(
 ) -> Result:
     """Return the scores of ``prediction`` against ``truth``, arrays of ``[rows, channels]``; see `TactileMetrics`.
 
-    Where ``channels`` are not named there are six columns, those of the paper. ``fields`` are what rows say besides, such as ``scene=[…]``.
+    Where ``channels`` are not named they are the columns of data frames, or the six of the paper. Columns of data frames are matched by name, and
+    rows by key or index, as those of two files are. ``fields`` are what rows say besides, such as ``scene=[…]``.
 
     >>> import numpy as np
     >>> import taceva
@@ -187,9 +201,14 @@ def score(
     >>> taceva.score(truth, truth + 0.5)["mae", "Pz"].value
     0.5
     """
+    channels, both = pair(truth, prediction, channels)
     wanted = SIX if channels is None else channels
     found = TactileMetrics(wanted, metrics, units=units, independent=independent, fields=list(fields))
-    found.update(truth, prediction, points, allow_invalid=allow_invalid, **fields)
+    points = beside(both.points if points is None else points, both.index, "points")
+    fields = {name: beside(column, both.index, name) for name, column in fields.items()}
+    found.update(both.truth, both.prediction, points, allow_invalid=allow_invalid, **fields)
+    if both.paired_by is not None:
+        found._paired.add(both.paired_by)
     return found.compute()
 
 
@@ -199,11 +218,13 @@ def score_tables(
     *,
     metrics: str | Sequence[str] = "all",
     sensor: str | os.PathLike[str] | None = None,
+    key: str | None = None,
     allow_invalid: bool = False,
     jobs: int = 0,
 ) -> Result:
     """Return the scores of two CSV tables: what ``taceva score --truth … --pred …`` writes, byte for byte.
 
+    Rows are paired by the column ``key`` of both, or by ``"order"``; by a key of a known name where nothing is said.
     ``jobs`` are threads, all cores where it is 0; no result depends on it.
     """
     wanted = [metrics] if isinstance(metrics, str) else list(metrics)
@@ -212,6 +233,7 @@ def score_tables(
         os.fspath(prediction),
         wanted,
         None if sensor is None else os.fspath(sensor),
+        key,
         allow_invalid,
         jobs,
         bar(),

@@ -56,7 +56,7 @@ class Sums:
     def states_bytes(self) -> bytes: ...
     def merge_bytes(self, bytes: bytes) -> None: ...
     def reset(self) -> None: ...
-    def compute(self) -> str: ...
+    def compute(self, paired_by: list[str]) -> str: ...
 
 @final
 class Recording:
@@ -121,6 +121,7 @@ def score_tables(
     prediction: str,
     metrics: list[str],
     sensor: str | None,
+    key: str | None,
     allow_invalid: bool,
     jobs: int,
     bar: Any = None,

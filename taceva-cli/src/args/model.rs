@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{ArgGroup, Args};
-use taceva_evaluate::Shard;
+use taceva_evaluate::{RowKey, Shard};
 use taceva_models::Checkpoints;
 
 use super::{
@@ -92,7 +92,8 @@ pub(crate) struct Predict {
     pub(crate) force: bool,
 }
 
-/// Both tables have a header with channel names; rows are matched by `id` where both have one, else by order.
+/// Both tables have a header with channel names. Rows are paired by `sample`, `id`, `sample_id` or `index` where both tables have it, else by order;
+/// rows that disagree in another key, in `t_s`, `point_id` or `frame_sha256` are refused.
 #[derive(Debug, Args)]
 pub(crate) struct Score {
     /// The truth: a table, CSV or Parquet, with columns Px,Py,Pz (mm), Fx,Fy,Fz (N) or named others
@@ -104,6 +105,9 @@ pub(crate) struct Score {
     /// Units of channels beside the six, as NAME=UNIT, separated by commas [default: 1]
     #[arg(long, value_name = "NAME=UNIT", value_delimiter = ',')]
     pub(crate) units: Vec<String>,
+    /// Pair rows by this column of both tables, or by `order` [default: by sample, id, sample_id or index, where both tables have it; else by order]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) key: Option<RowKey>,
     /// Count NaN and infinite cells as n_invalid instead of refusing the file
     #[arg(long)]
     pub(crate) allow_invalid: bool,

@@ -47,9 +47,9 @@ pub(crate) struct SettingArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct SplitArgs {
-    /// How samples are divided: random, chronological, by-point, declared, by-column:NAME[=train:1,2;val:3;test:4], or all: every sample is
-    /// trained on, for a final model; of several recordings also by-recording[=train:A,B;test:C] and leave-one-recording-out, which fits a model
-    /// for each [default: by-point where points have repeats, else random]
+    /// How samples are divided: random, chronological, by-point, by-block, declared, by-column:NAME[=train:1,2;val:3;test:4], or all: every sample
+    /// is trained on, for a final model; cv:K or loo, alone or with random, by-point, by-block or by-column:NAME behind it, predicts each sample
+    /// once; of several recordings also by-recording[=train:A,B;test:C] and leave-one-recording-out, which fits a model for each [default: by-point where points have repeats, by groups or blocks of time where neighbours resemble each other, else random; `evaluate` of fewer than 1,000 groups: cv:5 of these]
     #[arg(long, value_name = "SPLIT")]
     pub(crate) split: Option<String>,
     #[command(flatten)]
@@ -99,6 +99,9 @@ pub(crate) struct ScoringArgs {
         default_value = "all"
     )]
     pub(crate) metrics: Vec<String>,
+    /// Take each sample as independent of the others: intervals are of samples then, and not of contact points
+    #[arg(long)]
+    pub(crate) independent: bool,
     /// Facts about the sensor: footprint, greatest depth, opacity; metrics that need a fact that is missing are skipped
     #[arg(long, value_name = "SENSOR.toml")]
     pub(crate) sensor: Option<PathBuf>,

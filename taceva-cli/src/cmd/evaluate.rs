@@ -48,6 +48,7 @@ pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
             .as_deref()
             .map(SensorFile::read)
             .transpose()?,
+        is_independent: scoring.independent,
     };
     if scoring.explain.is_wanted {
         let plan = evaluate_plan(&dataset, &request)?;

@@ -5,7 +5,7 @@ use std::time::Duration;
 use taceva_core::shown;
 
 use anyhow::Context as _;
-use taceva_evaluate::{Effort, Fitted, fit};
+use taceva_evaluate::{Effort, Fitted, fit_validated};
 use taceva_models::{Checkpoints, Foreign};
 
 use super::{Context, cache, effort, fit_request, open_all};
@@ -25,7 +25,7 @@ pub(crate) fn run(args: &Fit, context: &Context) -> anyhow::Result<u8> {
     let planned = Effort::of_fit(&dataset, &request)?;
     effort::print(&planned, &dataset, cache.as_ref(), context);
     let work = context.work(cache.as_ref());
-    let fitted = fit(&dataset, &request, Some(checkpoints.clone()), work)?;
+    let fitted = fit_validated(&dataset, &request, Some(checkpoints.clone()), work)?;
     cache::note(cache.as_ref(), context);
     fitted.model.save(&args.out)?;
     checkpoints.remove().with_context(|| {
@@ -78,6 +78,20 @@ fn summary(fitted: &Fitted, args: &Fit, out: &mut dyn Write) -> io::Result<()> {
         "split    {}, seed {}: train {}, validation {}, test {}",
         fitted.manifest.split, fitted.manifest.seed, counts.train, counts.validation, counts.test
     )?;
+    if let Some(validation) = &card.provenance.validation {
+        writeln!(
+            out,
+            "validated by {}, seed {}: {} samples, each predicted by a model that had not seen its group",
+            validation.split, validation.seed, validation.samples
+        )?;
+        for score in &validation.scores {
+            let interval = score.interval.map_or_else(String::new, |[low, high]| {
+                format!("  ({low:.4} … {high:.4})")
+            });
+            let (metric, channel) = (&score.metric, &score.channel);
+            writeln!(out, "  {metric} {channel}  {:.4}{interval}", score.value)?;
+        }
+    }
     for (channel, choice) in card.channels.iter().zip(&card.choice.channels) {
         let setting = card.choice.setting.as_deref().zip(choice.value);
         let chosen =

@@ -19,6 +19,8 @@ pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
             .iter()
             .map(|word| unit(word))
             .collect::<anyhow::Result<_>>()?,
+        key: args.key.clone(),
+        is_independent: asked.independent,
         sensor: asked.sensor.clone(),
         metrics: asked.metrics.clone(),
         allow_invalid: args.allow_invalid,

@@ -177,6 +177,8 @@ fn caption_with(report: &EvaluationReport, foreign: impl Fn(&str) -> String) -> 
     let model = model.map_or_else(String::new, |model| format!(" Model: {}.", model.name));
     let split = provenance.split.as_ref();
     let split = split.map_or_else(String::new, |split| format!(" Split: {split}."));
+    let neighbours = provenance.neighbours.as_ref();
+    let neighbours = neighbours.map_or_else(String::new, |found| format!(" Note: {found}."));
     let recordings = provenance.recordings.iter();
     let recordings: Vec<String> = recordings
         .map(|own| format!("{} ({})", foreign(&own.name), short_digests(&own.digest)))
@@ -194,7 +196,7 @@ fn caption_with(report: &EvaluationReport, foreign: impl Fn(&str) -> String) -> 
         .map(|standing| format!(" No full part in verdicts: {standing}."))
         .collect();
     format!(
-        "{subject}, n = {n}.{recordings}{model}{split} {intervals}.{standings} TacEva {}.",
+        "{subject}, n = {n}.{recordings}{model}{split}{neighbours} {intervals}.{standings} TacEva {}.",
         provenance.taceva
     )
 }

@@ -92,6 +92,9 @@ pub(super) fn over_seeds(report: &EvaluationReport, out: &mut dyn Write) -> io::
 fn heading(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     let subject = &report.subject;
     let provenance = &report.provenance;
+    if let Some(neighbours) = &provenance.neighbours {
+        writeln!(out, "{}", escape_terminal(neighbours))?;
+    }
     if subject.source == "unknown" {
         writeln!(out, "Scores of two tables")?;
     } else {

@@ -8,8 +8,9 @@ use crate::support::Bench;
 fn every_form_is_exported_and_imported_again_by_its_own_map() {
     let bench = Bench::new();
     bench.record("data", 16);
-    let scores =
-        bench.json("evaluate data --model ridge --set size=8x8 --metrics r2")["metrics"].clone();
+    let scores = bench
+        .json("evaluate data --model ridge --split by-point --set size=8x8 --metrics r2")["metrics"]
+        .clone();
     assert!(scores.is_object() || scores.is_array(), "{scores}");
     for form in ["csv", "huggingface", "hdf5", "lerobot"] {
         let said = bench.ok(&format!("export data --format {form} --out {form}"));
@@ -23,7 +24,7 @@ fn every_form_is_exported_and_imported_again_by_its_own_map() {
             "import {form} --map {form}/map.toml --out {form}-again"
         ));
         let found = bench.json(&format!(
-            "evaluate {form}-again --model ridge --set size=8x8 --metrics r2"
+            "evaluate {form}-again --model ridge --split by-point --set size=8x8 --metrics r2"
         ));
         assert_eq!(found["metrics"], scores, "{form}");
         bench.refused(

@@ -66,7 +66,7 @@ fn rows_join_a_dataset_whose_table_is_then_that_of_one_import() {
         )
         .is_empty()
     );
-    let report = bench.json("evaluate data --model baseline --metrics mae");
+    let report = bench.json("evaluate data --model baseline --split by-point --metrics mae");
     let notes = report["provenance"]["notes"].to_string();
     assert!(
         notes.contains("18 samples were added to 42 on 20"),

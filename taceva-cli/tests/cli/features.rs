@@ -37,7 +37,7 @@ fn kinds_of_features_are_chosen_by_a_setting() {
     let bench = Bench::new();
     bench.record("data", 64);
     let found =
-        bench.json("evaluate data --model ridge --set features=pixels+statistics --metrics mae");
+        bench.json("evaluate data --model ridge --split by-point --set features=pixels+statistics --metrics mae");
     let model = &found["provenance"]["model"];
     assert_eq!(
         model["settings"]["features"], "8×8 gray pixels+statistics",
@@ -73,7 +73,11 @@ fn kept(bench: &Bench) -> Vec<PathBuf> {
 fn features_are_made_once_for_every_model_and_found_by_what_they_are_made_of() {
     let bench = Bench::new();
     bench.record("data", 64);
-    let evaluate = |words: &str| bench.json(&format!("evaluate data --metrics mae {words}"));
+    let evaluate = |words: &str| {
+        bench.json(&format!(
+            "evaluate data --metrics mae --split by-point {words}"
+        ))
+    };
     let bare = evaluate("--model knn --no-cache");
     assert!(kept(&bench).is_empty());
     evaluate("--model ridge");
@@ -99,7 +103,7 @@ fn features_are_made_once_for_every_model_and_found_by_what_they_are_made_of() {
         bytes[last] ^= 1;
         fs::write(&path, bytes).expect("altered");
     }
-    let ran = bench.run("evaluate data --metrics mae --model knn --format json");
+    let ran = bench.run("evaluate data --metrics mae --model knn --split by-point --format json");
     assert!(ran.err.contains("made anew"), "{}", ran.err);
     let found: serde_json::Value = serde_json::from_str(&ran.out).expect("JSON");
     assert_eq!(found, bare);
@@ -109,7 +113,8 @@ fn features_are_made_once_for_every_model_and_found_by_what_they_are_made_of() {
 fn the_size_of_features_is_chosen_by_what_it_costs_and_the_model_says_how() {
     let bench = Bench::new();
     bench.record("data", 64);
-    let found = bench.json("evaluate data --model ridge --set size=auto --metrics mae");
+    let found =
+        bench.json("evaluate data --model ridge --split by-point --set size=auto --metrics mae");
     let settings = &found["provenance"]["model"]["settings"];
     assert_eq!(settings["size"], "auto");
     let notes = found["provenance"]["notes"].as_array().expect("a list");
@@ -120,7 +125,7 @@ fn the_size_of_features_is_chosen_by_what_it_costs_and_the_model_says_how() {
     assert_eq!(chosen, settings["features"].as_str());
     assert!(note.contains("8×8 ") && note.contains("32×32 "), "{note}");
     // Nothing to choose for a model that looks at nothing.
-    bench.ok("evaluate data --model baseline --set size=auto --metrics mae");
+    bench.ok("evaluate data --model baseline --split by-point --set size=auto --metrics mae");
     bench.refused(
         "evaluate data --model ridge --set size=fine",
         2,
@@ -161,7 +166,8 @@ fn a_difference_is_tried_beside_the_picture_itself_and_taken_only_if_it_shows_mo
 fn a_size_is_not_chosen_on_a_handful_of_samples() {
     let bench = Bench::new();
     bench.record("data", 64);
-    let mut command = bench.command("evaluate data --model ridge --set size=auto -q");
+    let mut command =
+        bench.command("evaluate data --model ridge --split by-point --set size=auto -q");
     let ran = command.args(["--split", "random 30/30/40"]).output();
     let ran = ran.expect("the program starts");
     assert_eq!(ran.status.code(), Some(2));
@@ -174,7 +180,8 @@ fn a_size_is_not_chosen_on_a_handful_of_samples() {
 fn features_that_no_model_can_be_fitted_to_are_told_beside_those_that_were_tried() {
     let bench = Bench::new();
     bench.record("data", 64);
-    let mut command = bench.command("evaluate data --model ridge --set size=auto --metrics mae -q");
+    let mut command = bench
+        .command("evaluate data --model ridge --split by-point --set size=auto --metrics mae -q");
     // A grid of 2×2 has 28 statistics, and thirty components are asked for.
     let command = command.args(["--set", "features=statistics", "--set", "pca=30"]);
     let ran = command.args(["--split", "random 80/10/10"]).output();

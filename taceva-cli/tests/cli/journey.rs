@@ -26,7 +26,8 @@ fn a_folder_of_pictures_becomes_scores_in_two_commands() {
     ] {
         assert!(text.contains(word), "no `{word}` in\n{text}");
     }
-    let report = bench.json("evaluate data --model ridge --set size=8 --metrics r2");
+    let report =
+        bench.json("evaluate data --model ridge --split by-point --set size=8 --metrics r2");
     let r2 = report["metrics"]["r2"]["Fz"]["value"]
         .as_f64()
         .expect("a number");
@@ -81,7 +82,7 @@ fn the_bytes_of_a_result_do_not_depend_on_the_number_of_jobs() {
     let bench = imported();
     let of = |jobs: u32| {
         bench.ok(&format!(
-            "evaluate data --model ridge --format json -q --jobs {jobs}"
+            "evaluate data --model ridge --split by-point --format json -q --jobs {jobs}"
         ))
     };
     assert_eq!(of(1), of(2));
@@ -91,22 +92,22 @@ fn the_bytes_of_a_result_do_not_depend_on_the_number_of_jobs() {
 #[test]
 fn an_evaluation_that_reads_no_frame_decodes_none() {
     let bench = imported();
-    let report = bench.json("evaluate data --model baseline");
+    let report = bench.json("evaluate data --model baseline --split by-point");
     assert_eq!(report["provenance"]["frames_decoded"], 0);
-    let plan = bench.ok("evaluate data --model baseline --explain");
+    let plan = bench.ok("evaluate data --model baseline --split by-point --explain");
     assert!(
         plan.contains("field:frame") && plan.contains("nothing that was asked for reads it"),
         "{plan}"
     );
-    let plan = bench.ok("evaluate data --model ridge --explain");
+    let plan = bench.ok("evaluate data --model ridge --split by-point --explain");
     assert!(
         plan.contains("decode   6 frames of the part `test`"),
         "{plan}"
     );
     // Pictures that cannot be decoded do not matter to who does not look.
     std::fs::remove_dir_all(bench.path("data/frames")).expect("there");
-    bench.ok("evaluate data --model baseline");
-    bench.refused("evaluate data --model ridge", 3, "frames/");
+    bench.ok("evaluate data --model baseline --split by-point");
+    bench.refused("evaluate data --model ridge --split by-point", 3, "frames/");
 }
 
 #[test]
@@ -119,7 +120,9 @@ fn every_form_of_a_result_holds_every_score() {
         ("md", "| mae ↓ |"),
         ("tex", "\\toprule"),
     ] {
-        let out = bench.ok(&format!("evaluate data --model ridge --format {format} -q"));
+        let out = bench.ok(&format!(
+            "evaluate data --model ridge --split by-point --format {format} -q"
+        ));
         assert!(out.contains(sign), "{format}:\n{out}");
         assert!(
             ["mae", "rmse", "bias", "r2", "smape"]

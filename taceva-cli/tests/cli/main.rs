@@ -6,6 +6,7 @@ mod bench_models;
 mod cache;
 mod cache_list;
 mod directions;
+mod division;
 mod exported;
 mod extended;
 mod features;

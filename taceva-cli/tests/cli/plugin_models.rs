@@ -45,7 +45,9 @@ fn the_estimator_of_a_plugin_is_fitted_kept_asked_and_named_in_a_scene() {
 
     // Kept and loaded, it says what it said when it was fitted.
     let kept = bench.json(&format!("evaluate set --with near.model {with}"));
-    let at_once = bench.json(&format!("evaluate set --model {MODEL} {set} {with}"));
+    let at_once = bench.json(&format!(
+        "evaluate set --model {MODEL} --split by-point {set} {with}"
+    ));
     assert_eq!(kept["metrics"], at_once["metrics"]);
     let mae = kept["metrics"]["mae"]["Fz"]["value"].as_f64();
     assert!(mae.is_some_and(|mae| mae > 0.0 && mae < 0.3), "{kept}");

@@ -15,7 +15,7 @@ fn a_preset_is_fitted_and_reported_as_its_model_with_its_settings() {
     bench.record("data", 64);
     let short = "--set epochs=1 --set batch=4 --metrics mae";
     let found = bench.json(&format!(
-        "evaluate data --model fast --set jitter=0 {short}"
+        "evaluate data --model fast --split by-point --set jitter=0 {short}"
     ));
     let model = &found["provenance"]["model"];
     assert_eq!(model["name"], "cnn", "{model}");
@@ -29,7 +29,9 @@ fn a_preset_is_fitted_and_reported_as_its_model_with_its_settings() {
     }
     // By its model and its settings the same comes out.
     let spelt = "--set size=up-to-80x60 --set color=auto --set difference=in-color --set appearance=auto --set jitter=0";
-    let same = bench.json(&format!("evaluate data --model cnn {spelt} {short}"));
+    let same = bench.json(&format!(
+        "evaluate data --model cnn --split by-point {spelt} {short}"
+    ));
     assert_eq!(found, same);
     let said = bench.ok("fit data --model fast --set epochs=1 --set batch=4 --out m.safetensors");
     assert!(
@@ -52,7 +54,9 @@ fn a_preset_sees_no_more_cells_than_frames_have_pixels_where_its_model_would_ref
     bench.record("data", 24);
     let short = "--set epochs=1 --set batch=4 --metrics mae";
     for preset in ["fast", "default"] {
-        let found = bench.json(&format!("evaluate data --model {preset} {short}"));
+        let found = bench.json(&format!(
+            "evaluate data --model {preset} --split by-point {short}"
+        ));
         let settings = &found["provenance"]["model"]["settings"];
         assert_eq!(settings["features"], "24×24 gray", "{settings}");
     }
@@ -116,7 +120,8 @@ fn a_preset_keeps_the_colours_of_frames_less_those_without_contact_and_their_lig
 fn a_model_left_open_says_what_was_tried_and_what_a_network_would_have_taken() {
     let bench = Bench::new();
     bench.record("data", 128);
-    let found = bench.json("evaluate data --model auto --set budget_s=0.5 --metrics mae");
+    let found =
+        bench.json("evaluate data --model auto --split by-point --set budget_s=0.5 --metrics mae");
     let notes = found["provenance"]["notes"].as_array().expect("a list");
     let mut notes = notes.iter().filter_map(|note| note.as_str());
     let note = notes.find(|note| note.starts_with("auto took "));

@@ -24,7 +24,8 @@ fn notes(report: &Value) -> String {
 fn a_single_recording_has_no_key_of_several() {
     let bench = Bench::new();
     bench.record("monday", 24);
-    let report = bench.json("evaluate monday --model ridge --set size=8 --metrics accuracy");
+    let report = bench
+        .json("evaluate monday --model ridge --split by-point --set size=8 --metrics accuracy");
     assert_eq!(report["schema"], "taceva.evaluation/1.0");
     assert_eq!(report["by_recording"], Value::Null);
     assert_eq!(report["provenance"]["recordings"], Value::Null);

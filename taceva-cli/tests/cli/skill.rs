@@ -8,7 +8,7 @@ use serde_json::Value;
 /// Evaluates `data` with `model`, on enough contact points for intervals, into `NAME.json`, and gives what it says.
 fn evaluated(bench: &Bench, model: &str, seed: u32, name: &str) -> Value {
     let words = format!(
-        "evaluate data --model {model} --seed {seed} --metrics all --format json --out {name}.json --samples-out {name}.samples.csv -q"
+        "evaluate data --model {model} --split by-point --seed {seed} --metrics all --format json --out {name}.json --samples-out {name}.samples.csv -q"
     );
     let ran = bench
         .command(&words)
@@ -130,7 +130,7 @@ fn the_baseline_wins_nothing_in_comparisons_choices_pages_and_acceptances() {
 fn too_few_points_for_an_interval_leave_open_whether_there_is_skill() {
     let bench = Bench::new();
     bench.record("data", 32);
-    let report = bench.json("evaluate data --model ridge --metrics mae");
+    let report = bench.json("evaluate data --model ridge --split by-point --metrics mae");
     let skill = &report["metrics"]["skill"]["Fz"];
     assert!(skill["ci95"]["undefined"].is_string(), "{skill:#}");
     assert!(
@@ -142,7 +142,7 @@ fn too_few_points_for_an_interval_leave_open_whether_there_is_skill() {
     assert_eq!(standing, "skill not known: no interval");
     for model in ["ridge", "pls"] {
         bench.ok(&format!(
-            "evaluate data --model {model} --metrics mae --format json --out {model}.json -q"
+            "evaluate data --model {model} --split by-point --metrics mae --format json --out {model}.json -q"
         ));
     }
     let comparison = bench.json("compare ridge.json pls.json");

@@ -43,7 +43,7 @@ fn no_name_of_cards_ids_points_or_files_reaches_a_terminal_raw_by_any_command() 
     bench.ok("predict data --with m.taceva --out p.csv --truth-out t.csv -q");
     for (name, extra) in [("a", ""), ("b", " --set strength=9")] {
         bench.ok(&format!(
-            "evaluate data --model ridge --set size=8x8{extra} --format json --out {name}.json --samples-out {name}.samples.csv -q"
+            "evaluate data --model ridge --split by-point --set size=8x8{extra} --format json --out {name}.json --samples-out {name}.samples.csv -q"
         ));
     }
     bench.write(
@@ -66,7 +66,7 @@ fn no_name_of_cards_ids_points_or_files_reaches_a_terminal_raw_by_any_command() 
         "check data",
         "check data --split by-column:X",
         "fit data --model ridge --set size=8x8 --out n.taceva -v",
-        "evaluate data --model ridge --set size=8x8 -v",
+        "evaluate data --model ridge --split by-point --set size=8x8 -v",
         "evaluate data --with m.taceva",
         "evaluate data --with m.taceva --explain",
         "evaluate data --model X",
@@ -113,7 +113,7 @@ fn no_name_of_cards_ids_points_or_files_reaches_a_terminal_raw_by_any_command() 
 #[test]
 fn json_keeps_the_names_that_it_escapes() {
     let bench = hostile();
-    let report = bench.json("evaluate data --model ridge --set size=8x8");
+    let report = bench.json("evaluate data --model ridge --split by-point --set size=8x8");
     assert_eq!(report["subject"]["sensor"], HOSTILE);
 }
 
@@ -123,7 +123,7 @@ fn on_a_terminal_tables_for_programs_are_as_harmless_as_words() {
     let program = env!("CARGO_BIN_EXE_taceva");
     for words in [
         "check data --format csv -q",
-        "evaluate data --model ridge --set size=8x8 --format csv -q",
+        "evaluate data --model ridge --split by-point --set size=8x8 --format csv -q",
     ] {
         let typed = format!("'{program}' {words}");
         let done = Command::new("script")
@@ -227,7 +227,9 @@ fn one_file_given_twice_is_said_to_be_one_file() {
     bench.write("t.csv", "Fz\n1\n2\n");
     bench.refused("score --truth t.csv --pred ./t.csv", 2, "are one file");
     bench.ok("import lab --map map.toml --out data -q");
-    bench.ok("evaluate data --model ridge --set size=8x8 --format json --out a.json -q");
+    bench.ok(
+        "evaluate data --model ridge --split by-point --set size=8x8 --format json --out a.json -q",
+    );
     bench.refused("compare a.json ./a.json", 2, "./a.json: given twice");
 }
 

@@ -155,6 +155,7 @@ impl Accumulator {
             ClusteredBy::Point => None,
             ClusteredBy::Sample => Some("samples"),
             ClusteredBy::Recording => Some("recordings"),
+            ClusteredBy::Group => Some("groups"),
         };
         if let Some(clusters) = clusters {
             parameters.insert("clusters".to_owned(), clusters.to_owned());

@@ -79,7 +79,8 @@ impl<'a> BatchClusters<'a> {
                 let find = || borrowed(self.batch.points());
                 self.points.get_or_init(find).as_ref()
             }
-            ClusteredBy::Recording => {
+            // The caller says of one batch either recordings or groups.
+            ClusteredBy::Recording | ClusteredBy::Group => {
                 let find = || borrowed(self.batch.recordings());
                 self.recordings.get_or_init(find).as_ref()
             }

@@ -77,6 +77,17 @@ impl Evaluation {
         self
     }
 
+    /// The same scores, of samples whose neighbours, which resemble them, the model was fitted on: they take part in no verdict.
+    #[must_use]
+    pub fn of_neighbours_in_training(mut self) -> Evaluation {
+        for entry in &mut self.entries {
+            if entry.metric.reads_predictions() {
+                entry.score.standing = entry.score.standing.max(Standing::Neighbours);
+            }
+        }
+        self
+    }
+
     /// Every score with its metric and the name of its channel or plane.
     pub fn scores(&self) -> impl Iterator<Item = (&'static Metric, &str, &Score)> {
         let entries = self.entries.iter();

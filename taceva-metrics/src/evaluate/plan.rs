@@ -128,6 +128,17 @@ impl MetricPlan {
         }
     }
 
+    /// The same plan for samples in groups that depend on each other, such as blocks of time or clips, each of which is a cluster: as
+    /// [`by_recording`](MetricPlan::by_recording), with the name of the group of each sample in the place of its recording, and the method
+    /// `by group`.
+    #[must_use]
+    pub fn by_group(self) -> MetricPlan {
+        MetricPlan {
+            clustered_by: ClusteredBy::Group,
+            ..self
+        }
+    }
+
     /// What the clusters of intervals are, of metrics that do not ask which samples belong together.
     pub fn clustered_by(&self) -> ClusteredBy {
         self.clustered_by

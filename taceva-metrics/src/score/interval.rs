@@ -25,6 +25,8 @@ pub enum ClusteredBy {
     Sample,
     /// Whole recordings, of samples of several.
     Recording,
+    /// Groups of samples that depend on each other: blocks of time, clips, objects.
+    Group,
 }
 
 impl ClusteredBy {
@@ -34,6 +36,7 @@ impl ClusteredBy {
             ClusteredBy::Point => " by point_id",
             ClusteredBy::Sample => ", samples taken as independent",
             ClusteredBy::Recording => " by recording",
+            ClusteredBy::Group => " by group",
         }
     }
 }

@@ -25,6 +25,8 @@ pub enum Standing {
     SkillUnknown,
     /// It takes no part: more than 5 % of its predictions lie beyond the bounds of the model.
     Bounded,
+    /// It takes no part: tested samples have neighbours in the training part that resemble them.
+    Neighbours,
     /// It takes no part: what it is formed from hardly changed, the light of some scene or the labels of repeated presses.
     LowStimulus,
     /// Excluded: the interval of the variant that verdicts go by holds what chance gives.
@@ -44,6 +46,7 @@ impl Standing {
         Standing::Counts,
         Standing::SkillUnknown,
         Standing::Bounded,
+        Standing::Neighbours,
         Standing::LowStimulus,
         Standing::NotAboveNoiseFloor,
         Standing::NotAboveConstant,
@@ -68,6 +71,7 @@ impl Standing {
             Standing::Counts => None,
             Standing::SkillUnknown => Some("skill unknown"),
             Standing::Bounded => Some("bounded"),
+            Standing::Neighbours => Some("neighbours in training"),
             Standing::LowStimulus => Some("low stimulus"),
             Standing::NotAboveNoiseFloor => Some("not above its noise floor"),
             Standing::NotAboveConstant => Some("not above the constant"),
@@ -89,6 +93,9 @@ impl Standing {
             Standing::Bounded => {
                 Some("bounded: more than 5 % of its predictions lie beyond the bounds of the model")
             }
+            Standing::Neighbours => Some(
+                "neighbours in training: tested samples resemble neighbours that the model was fitted on, so the score flatters",
+            ),
             Standing::LowStimulus => Some(
                 "low stimulus: what it is formed from, the light of some scene or the labels of repeated presses, hardly changed",
             ),

@@ -28,9 +28,25 @@ pub struct SplitInput<'a> {
     pub columns: BTreeMap<&'a str, &'a [String]>,
     /// The recording of each sample, where several are divided.
     pub recordings: Option<&'a [String]>,
+    /// Blocks of time, where there are such.
+    pub blocks: Option<SplitBlocks<'a>>,
     /// The first row of each section but the first, ascending: samples that were recorded, or added, later. Chance and time divide section by
     /// section, so that samples which come later change the part of none that was there; empty: all samples are one section.
     pub sections: &'a [usize],
+}
+
+/// Blocks of time: samples in a row that stay together.
+///
+/// # Shapes
+/// Both lists have a value a row.
+#[derive(Clone, Copy, Debug)]
+pub struct SplitBlocks<'a> {
+    /// The block of each sample; empty of a sample in none.
+    pub names: &'a [String],
+    /// The place of each sample in time, counted in samples; places of samples that do not follow each other are further apart than the gap.
+    pub places: &'a [usize],
+    /// Samples that are left out between blocks of different parts.
+    pub gap: usize,
 }
 
 /// The rows of each part, ascending.
@@ -79,7 +95,7 @@ impl Split {
         self
     }
 
-    fn of(parts: impl IntoIterator<Item = Option<Part>>) -> Split {
+    pub(super) fn of(parts: impl IntoIterator<Item = Option<Part>>) -> Split {
         let mut split = Split::default();
         for (row, part) in parts.into_iter().enumerate() {
             match part {
@@ -128,7 +144,15 @@ impl SplitSpec {
             }
             SplitKind::ByColumn(column) => by_column(input, column, self.fractions, seed),
             SplitKind::ByRecording(parts) => by_recording(input, parts, self.fractions, seed),
-            SplitKind::LeaveOneRecordingOut => Err(SplitError::ManyFolds),
+            SplitKind::ByBlock => {
+                let blocks = input.blocks.ok_or(SplitError::NoBlocks)?;
+                // Blocks of a recording of several are never shared, so chance may begin anew with each.
+                by_cluster(blocks.names, input, self.fractions, seed, "blocks")
+                    .map(|split| input.apart(split))
+            }
+            SplitKind::LeaveOneRecordingOut | SplitKind::Folds(_) => Err(SplitError::ManyFolds {
+                split: self.to_string(),
+            }),
             SplitKind::Declared => declared(input),
             SplitKind::All => Ok(Split {
                 train: (0..input.rows).collect(),
@@ -166,12 +190,14 @@ impl SplitSpec {
 }
 
 impl SplitInput<'_> {
-    fn check(&self) -> Result<(), SplitError> {
+    pub(super) fn check(&self) -> Result<(), SplitError> {
         let lengths = [
             ("points", self.points.map(<[_]>::len)),
             ("times", self.times_s.map(<[_]>::len)),
             ("parts", self.parts.map(<[_]>::len)),
             ("recordings", self.recordings.map(<[_]>::len)),
+            ("blocks", self.blocks.map(|blocks| blocks.names.len())),
+            ("places", self.blocks.map(|blocks| blocks.places.len())),
         ];
         let columns = self
             .columns
@@ -189,6 +215,49 @@ impl SplitInput<'_> {
                 rows: self.rows,
             }),
         }
+    }
+
+    /// The split without samples that stand, within the gap, beside a sample of a part that judges them: training samples beside any other part, and
+    /// validation samples beside the test part.
+    pub(super) fn apart(&self, split: Split) -> Split {
+        let Some(SplitBlocks { places, gap, .. }) = self.blocks.filter(|blocks| blocks.gap > 0)
+        else {
+            return split;
+        };
+        let mut parts = vec![None; self.rows];
+        for part in Part::ALL {
+            split
+                .rows(part)
+                .iter()
+                .for_each(|&row| parts[row] = Some(part));
+        }
+        let mut order: Vec<usize> = (0..self.rows).collect();
+        order.sort_by_key(|&row| places[row]);
+        // The last place so far, from either side, of a part that judges the training part, and of the test part.
+        let mut near = vec![false; self.rows];
+        let mut look = |order: &mut dyn Iterator<Item = usize>| {
+            let mut last: [Option<usize>; 2] = [None, None];
+            for row in order {
+                let judge = match parts[row] {
+                    Some(Part::Train) => last[0],
+                    Some(Part::Validation) => last[1],
+                    _ => None,
+                };
+                near[row] |= judge.is_some_and(|place| places[row].abs_diff(place) <= gap);
+                if matches!(parts[row], Some(Part::Validation | Part::Test)) {
+                    last[0] = Some(places[row]);
+                }
+                if parts[row] == Some(Part::Test) {
+                    last[1] = Some(places[row]);
+                }
+            }
+        };
+        look(&mut order.iter().copied());
+        look(&mut order.iter().rev().copied());
+        let kept = parts.into_iter().zip(near);
+        let mut apart = Split::of(kept.map(|(part, is_near)| part.filter(|_| !is_near)));
+        apart.note = split.note;
+        apart
     }
 }
 

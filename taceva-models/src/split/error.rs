@@ -1,5 +1,6 @@
 //! Why a split cannot be.
 
+use super::fold_spec::FoldGroups;
 use super::part::Part;
 use crate::settings::Suggestion;
 
@@ -29,6 +30,38 @@ pub enum SplitError {
         /// The value.
         value: String,
     },
+    /// A number of folds that is none.
+    #[error("cv:{found}: expected a number of folds from 2, such as cv:5, cv:5 by-point or loo by-column:object", found = taceva_core::shown(found))]
+    Folds {
+        /// The text in place of the number.
+        found: String,
+    },
+    /// Fewer groups than folds.
+    #[error(
+        "{folds} folds, but the recording has {groups} groups{}; name fewer folds, or another --split",
+        by_words(by)
+    )]
+    FewGroups {
+        /// Groups of the recording.
+        groups: usize,
+        /// Folds that were asked for.
+        folds: usize,
+        /// Samples that stay together.
+        by: FoldGroups,
+    },
+    /// Shares of a text that do not come to a whole.
+    #[error("`{found}` comes to {sum}: expected shares that come to 100, such as 70/20/10", found = taceva_core::shown(found))]
+    Sum {
+        /// The shares as given.
+        found: String,
+        /// Their sum.
+        sum: f64,
+    },
+    /// Blocks of time where nothing orders the samples in time.
+    #[error(
+        "split by-block: the recording has too few samples in a row for blocks of time; use random, or name a column with by-column:NAME"
+    )]
+    NoBlocks,
     /// Shares that are no shares.
     #[error("fractions {given:?}: expected numbers from 0, the first above 0")]
     Fractions {
@@ -105,9 +138,13 @@ pub enum SplitError {
     },
     /// A split that divides once for each recording, where one division is asked for.
     #[error(
-        "split leave-one-recording-out fits a model for each recording: `evaluate` does; one model is fitted with by-recording=train:a,b;test:c"
+        "split {split} fits a model for each fold: `evaluate` does, and `fit` where it validates; one model is fitted with `all`, or with a \
+         split that keeps a test part"
     )]
-    ManyFolds,
+    ManyFolds {
+        /// The split.
+        split: String,
+    },
     /// Some samples have no declared part, or none has.
     #[error(
         "split declared: not every sample has a part; fill each cell of the column that `part` of `[ids]` names, or use another split"
@@ -121,4 +158,11 @@ pub enum SplitError {
         /// What it declares.
         found: String,
     },
+}
+
+fn by_words(by: &FoldGroups) -> String {
+    match by {
+        FoldGroups::Detected => String::new(),
+        by => format!(" ({by})"),
+    }
 }

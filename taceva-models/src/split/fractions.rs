@@ -36,6 +36,17 @@ impl Fractions {
         }
     }
 
+    /// The number of `total` groups that choose settings: none where there is no share for it, and never all.
+    pub(super) fn validation_of_rest(&self, total: usize) -> usize {
+        let [train, validation, _] = self.shares;
+        let rest = Fractions {
+            shares: [train, validation, 0.0].map(|share| share / (train + validation)),
+        };
+        let [_, wanted, _] = rest.counts(total);
+        let least = usize::from(validation > 0.0 && total > 1);
+        wanted.max(least).min(total.saturating_sub(1))
+    }
+
     /// The shares in the order of [`Part::ALL`](crate::Part::ALL); they sum to 1.
     pub fn shares(&self) -> [f64; 3] {
         self.shares

@@ -5,6 +5,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use super::error::SplitError;
+use super::fold_spec::FoldSpec;
 use super::fractions::Fractions;
 use super::part::Part;
 use crate::settings::Suggestion;
@@ -32,8 +33,12 @@ pub enum SplitKind {
     ByColumn(ColumnSplit),
     /// Of several recordings: chance, recording by recording, or the part that a person names for each; empty: chance.
     ByRecording(BTreeMap<String, Part>),
+    /// Chance, block of time by block of time, with a gap between blocks of different parts.
+    ByBlock,
     /// Of several recordings: each is tested on by a model that was fitted on all others.
     LeaveOneRecordingOut,
+    /// Cross-validation: each group is tested on by a model that was fitted on others.
+    Folds(FoldSpec),
     /// The recording itself.
     Declared,
     /// Nothing: every sample is learnt from, for a final model that other recordings judge.
@@ -49,10 +54,13 @@ pub struct ColumnSplit {
     pub parts: BTreeMap<String, Part>,
 }
 
-const KINDS: [&str; 8] = [
+const KINDS: [&str; 11] = [
     "random",
     "chronological",
     "by-point",
+    "by-block",
+    "cv:5",
+    "loo",
     "by-column:NAME",
     "by-recording",
     "leave-one-recording-out",
@@ -63,7 +71,7 @@ const KINDS: [&str; 8] = [
 impl FromStr for SplitSpec {
     type Err = SplitError;
 
-    /// Reads `random`, `chronological`, `by-point`, `by-column:NAME`, `by-column:NAME=train:1,2;val:3;test:4`, `by-recording`,
+    /// Reads `random`, `chronological`, `by-point`, `by-block`, `cv:5`, `cv:5 by-point`, `loo`, `by-column:NAME`, `by-column:NAME=train:1,2;val:3;test:4`, `by-recording`,
     /// `by-recording=train:a,b;test:c`, `leave-one-recording-out`, `declared` or `all`, and after a blank the shares: `random 70/20/10`. A `\` takes the
     /// `,`, `;` or `\` behind it for a letter of the value. What a split is displayed as reads back as the same split.
     fn from_str(text: &str) -> Result<SplitSpec, SplitError> {
@@ -72,11 +80,22 @@ impl FromStr for SplitSpec {
             .and_then(|(word, shares)| Some((word, three_numbers(shares)?)));
         let (text, fractions) = match shares {
             Some((word, [train, validation, test])) => {
+                check_sum(text, [train, validation, test])?;
                 (word, Fractions::new(train, validation, test)?)
             }
             None => (text, Fractions::default()),
         };
+        if let Some(folds) = FoldSpec::parse(text) {
+            return Ok(SplitSpec {
+                kind: SplitKind::Folds(folds?),
+                fractions,
+            });
+        }
+        if let Some(shares) = three_numbers(text) {
+            check_sum(text, shares)?;
+        }
         let kind = match text {
+            "by-block" => SplitKind::ByBlock,
             "random" => SplitKind::Random,
             "chronological" => SplitKind::Chronological,
             "by-point" => SplitKind::ByPoint,
@@ -106,6 +125,21 @@ impl FromStr for SplitSpec {
 fn three_numbers(text: &str) -> Option<[f64; 3]> {
     let numbers: Option<Vec<f64>> = text.split('/').map(|number| number.parse().ok()).collect();
     numbers?.try_into().ok()
+}
+
+/// Refuses shares at the end of `text` that come neither to 100 nor to 1. Infinite and other odd ones are left to [`Fractions::new`].
+fn check_sum(text: &str, shares: [f64; 3]) -> Result<(), SplitError> {
+    let sum: f64 = shares.iter().sum();
+    let is_whole = [100.0, 1.0]
+        .iter()
+        .any(|whole| (sum - whole).abs() <= 1e-3 * whole);
+    match is_whole || !sum.is_finite() || shares.iter().any(|share| *share < 0.0) {
+        true => Ok(()),
+        false => Err(SplitError::Sum {
+            found: text.rsplit(' ').next().unwrap_or(text).to_owned(),
+            sum,
+        }),
+    }
 }
 
 fn column_split(text: &str) -> Result<ColumnSplit, SplitError> {
@@ -200,6 +234,8 @@ impl fmt::Display for SplitSpec {
             SplitKind::Random => f.write_str("random")?,
             SplitKind::Chronological => f.write_str("chronological")?,
             SplitKind::ByPoint => f.write_str("by-point")?,
+            SplitKind::ByBlock => f.write_str("by-block")?,
+            SplitKind::Folds(folds) => return write!(f, "{folds}"),
             SplitKind::Declared => return f.write_str("declared"),
             SplitKind::All => return f.write_str("all"),
             SplitKind::LeaveOneRecordingOut => f.write_str("leave-one-recording-out")?,
@@ -264,6 +300,11 @@ mod tests {
                 "leave-one-recording-out",
                 "leave-one-recording-out 70/20/10",
             ),
+            ("by-block", "by-block 70/20/10"),
+            ("cv:5", "cv:5"),
+            ("cv:10 by-point", "cv:10 by-point"),
+            ("cv:3 by-column:object", "cv:3 by-column:object"),
+            ("loo by-block", "loo by-block"),
             ("declared", "declared"),
             ("all", "all"),
         ] {
@@ -321,6 +362,37 @@ mod tests {
             "by-column:a=train:1;test:1".parse::<SplitSpec>(),
             Err(SplitError::Twice { .. })
         ));
+    }
+
+    #[test]
+    fn shares_that_do_not_come_to_a_hundred_are_refused() {
+        for (text, sum) in [
+            ("by-point 35/20/10", 65.0),
+            ("random 70/20/20", 110.0),
+            ("35/20/10", 65.0),
+        ] {
+            let error = text.parse::<SplitSpec>().expect_err(text);
+            assert!(
+                matches!(error, SplitError::Sum { sum: found, .. } if (found - sum).abs() < 1e-9),
+                "{error}"
+            );
+        }
+        for text in ["random 0.7/0.2/0.1", "random 33.3333/33.3333/33.3333"] {
+            assert!(text.parse::<SplitSpec>().is_ok(), "{text}");
+        }
+    }
+
+    #[test]
+    fn numbers_of_folds_that_are_none_are_refused() {
+        for text in ["cv:1", "cv:0", "cv:-3", "cv:", "cv:five"] {
+            let error = text.parse::<SplitSpec>().expect_err(text);
+            assert!(matches!(error, SplitError::Folds { .. }), "{error}");
+        }
+        let error = "cv:5 by-pont".parse::<SplitSpec>().expect_err("misspelt");
+        assert_eq!(
+            error.to_string(),
+            "no split is called `by-pont`, did you mean `by-point`?"
+        );
     }
 
     #[test]

@@ -146,6 +146,39 @@ pub struct Provenance {
     pub split: Option<SplitCard>,
     /// What else a reader should know.
     pub notes: Vec<String>,
+    /// Scores of models fitted alike on samples that they have not seen, of a model that was fitted on every sample.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub validation: Option<ValidationCard>,
+}
+
+/// Cross-validation behind a model that was fitted on every sample.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ValidationCard {
+    /// The split, such as `cv:5 by-point`.
+    pub split: String,
+    /// The seed of the split.
+    pub seed: u64,
+    /// Samples that were predicted, each once.
+    pub samples: usize,
+    /// Findings on neighbouring samples that resemble each other.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub neighbours: Option<String>,
+    /// The scores.
+    pub scores: Vec<ValidationScore>,
+}
+
+/// Score of a cross-validation.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ValidationScore {
+    /// The metric: `mae`.
+    pub metric: String,
+    /// The channel.
+    pub channel: String,
+    /// The value, in the unit of the metric and channel.
+    pub value: f64,
+    /// Both ends of its interval of 95 %, where there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub interval: Option<[f64; 2]>,
 }
 
 /// What made a recording.

@@ -28,6 +28,9 @@ pub struct Provenance {
     /// The division of samples into parts.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub split: Option<String>,
+    /// Findings on neighbouring samples that resemble each other, and their division.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub neighbours: Option<String>,
     /// The seed of everything that was drawn.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seed: Option<u64>,
@@ -74,6 +77,7 @@ impl Provenance {
         self.dataset = same(self.dataset, &other.dataset);
         self.split = same(self.split, &other.split);
         self.part = same(self.part, &other.part);
+        self.neighbours = same(self.neighbours, &other.neighbours);
         self.seed = self.seed.filter(|seed| other.seed == Some(*seed));
         self.model = self
             .model

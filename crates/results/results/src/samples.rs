@@ -9,7 +9,7 @@ use crate::formula::{escape_csv, unescape_csv};
 
 /// Columns of words.
 const WORDS: [&str; 9] = [
-    "id",
+    Samples::KEY,
     "recording",
     "protocol",
     "part",
@@ -31,7 +31,7 @@ const NUMBERS: [&str; 6] = [
 /// Suffix of the name of a column of predictions.
 const PREDICTED: &str = "_predicted";
 
-/// Samples, column by column: `id`, covariates, and truth and prediction of each channel.
+/// Samples, column by column: `sample`, covariates, and truth and prediction of each channel.
 ///
 /// # Shapes
 /// Every column has one value a sample, or none.
@@ -77,17 +77,20 @@ pub enum SamplesError {
         /// The cell.
         found: String,
     },
-    /// No column is called `id`.
-    #[error("samples: no column `id`")]
-    NoId,
+    /// No column is called `sample`.
+    #[error("samples: no column `sample`, which names the rows")]
+    NoKey,
 }
 
 impl Samples {
+    /// The column that names samples, in every table that this program writes.
+    pub const KEY: &'static str = "sample";
+
     /// Samples called `ids`, of the recordings in these folders.
     pub fn new(ids: Vec<Option<String>>, recordings: Vec<PathBuf>) -> Samples {
         Samples {
             rows: ids.len(),
-            columns: vec![("id".to_owned(), SampleColumn::Words(ids))],
+            columns: vec![(Samples::KEY.to_owned(), SampleColumn::Words(ids))],
             recordings,
         }
     }
@@ -98,7 +101,7 @@ impl Samples {
             .push((name.to_owned(), SampleColumn::Words(words)));
     }
 
-    /// Adds the parts of the protocol of each sample, behind `id`.
+    /// Adds the parts of the protocol of each sample, behind `sample`.
     pub fn insert_protocol(&mut self, parts: Vec<Option<String>>) {
         let column = ("protocol".to_owned(), SampleColumn::Words(parts));
         self.columns.insert(1.min(self.columns.len()), column);
@@ -115,12 +118,12 @@ impl Samples {
         self.push_numbers(&format!("{}{PREDICTED}", channel.name()), numbers);
     }
 
-    /// Reads a table with a head: `id`, covariates, and for each channel its truth under its name and its prediction under
+    /// Reads a table with a head: `sample` (or `id`), covariates, and for each channel its truth under its name and its prediction under
     /// `<name>_predicted`.
     ///
     /// ```
     /// use taceva_results::Samples;
-    /// let samples = Samples::read("id,point_id,Fz,Fz_predicted\na,p1,0.5,0.4\nb,p1,0.7,\n")?;
+    /// let samples = Samples::read("sample,point_id,Fz,Fz_predicted\na,p1,0.5,0.4\nb,p1,0.7,\n")?;
     /// let force = samples.channel("Fz").expect("there");
     /// assert_eq!((force.pair(0), force.pair(1)), (Some([0.5, 0.4]), None));
     /// # Ok::<(), taceva_results::SamplesError>(())
@@ -130,7 +133,13 @@ impl Samples {
     /// [`SamplesError`] with the line and the column.
     pub fn read(table: &str) -> Result<Samples, SamplesError> {
         let mut reader = csv::Reader::from_reader(table.as_bytes());
-        let names = reader.headers()?.iter().map(unescape_csv);
+        let names: Vec<&str> = reader.headers()?.iter().map(unescape_csv).collect();
+        let has_key = names.contains(&Samples::KEY);
+        // Tables of other programs call it so, and so did this one once.
+        let names = names.into_iter().map(|name| match name {
+            "id" if !has_key => Samples::KEY,
+            name => name,
+        });
         let column = |name: &str| match WORDS.contains(&name) {
             true => SampleColumn::Words(Vec::new()),
             false => SampleColumn::Numbers(Column::default()),
@@ -139,8 +148,8 @@ impl Samples {
             columns: names.map(|name| (name.to_owned(), column(name))).collect(),
             ..Samples::default()
         };
-        if !samples.columns.iter().any(|(name, _)| name == "id") {
-            return Err(SamplesError::NoId);
+        if !samples.columns.iter().any(|(name, _)| name == Samples::KEY) {
+            return Err(SamplesError::NoKey);
         }
         let mut record = csv::StringRecord::new();
         while reader.read_record(&mut record)? {
@@ -336,7 +345,7 @@ mod tests {
 
     #[test]
     fn samples_are_found_by_the_part_of_the_protocol() {
-        let table = "id,protocol,scene\n1,calibration light-sweep,\n2,idle,S1\n";
+        let table = "sample,protocol,scene\n1,calibration light-sweep,\n2,idle,S1\n";
         let samples = Samples::read(table).expect("samples");
         assert_eq!(samples.of_protocol("light-sweep"), [0]);
         assert_eq!(samples.word("scene", 0), None);
@@ -345,16 +354,21 @@ mod tests {
 
     #[test]
     fn names_that_begin_like_a_formula_are_read_as_they_were() {
-        let table = "id,point_id\n'=1+1,'=p\n'a,b\n";
+        let table = "sample,point_id\n'=1+1,'=p\n'a,b\n";
         let samples = Samples::read(table).expect("samples");
-        let words = |row: usize| (samples.word("id", row), samples.word("point_id", row));
+        let words = |row: usize| {
+            (
+                samples.word(Samples::KEY, row),
+                samples.word("point_id", row),
+            )
+        };
         assert_eq!(words(0), (Some("=1+1"), Some("=p")));
         assert_eq!(words(1), (Some("'a"), Some("b")));
     }
 
     #[test]
     fn a_table_is_written_as_it_was_read() {
-        let table = "id,part,depth_step,Fz,Fz_predicted\n'=a,test,2.0,0.5,\nb,,,0.25,0.1\n";
+        let table = "sample,part,depth_step,Fz,Fz_predicted\n'=a,test,2.0,0.5,\nb,,,0.25,0.1\n";
         let samples = Samples::read(table).expect("samples");
         let mut text = Vec::new();
         samples.write(&mut text).expect("written");
@@ -369,6 +383,6 @@ mod tests {
             error.to_string(),
             "samples, line 3, column `Fz`: expected a finite number, found `nan`"
         );
-        assert!(matches!(Samples::read("Fz\n1\n"), Err(SamplesError::NoId)));
+        assert!(matches!(Samples::read("Fz\n1\n"), Err(SamplesError::NoKey)));
     }
 }

@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 use std::ops::Range;
 
-use taceva_core::{Batch, Column, Field};
+use taceva_core::{Batch, Column, Field, Labels};
 use taceva_dataset::Dataset;
 use taceva_metrics::{ClusteredBy, Evaluator, MetricPlan};
 
@@ -86,6 +86,8 @@ pub struct Columns<'a> {
     pub dataset: &'a Dataset,
     /// The numbers of the rows in it.
     pub rows: &'a [usize],
+    /// The group of every row of the recording, where intervals are by groups.
+    pub groups: Option<&'a [String]>,
 }
 
 impl Rows for Columns<'_> {
@@ -110,6 +112,13 @@ impl Rows for Columns<'_> {
             Batch::from_columns(channels, slice(self.truth), slice(self.prediction), points);
         if plan.clustered_by() == ClusteredBy::Recording {
             batch = batch.with_recordings(recordings::labels(self.dataset, of_table()));
+        }
+        if let (ClusteredBy::Group, Some(groups)) = (plan.clustered_by(), self.groups) {
+            // By the recording too, so that blocks of several shards are different ones.
+            let recording = self.dataset.digest().to_string();
+            let mut labels = Labels::default();
+            of_table().for_each(|row| labels.push(&format!("{recording} {}", groups[row])));
+            batch = batch.with_recordings(labels);
         }
         for field in wanted.iter().filter(|field| *field != Field::Point) {
             if let Some(labels) = table.labels(field, of_table()) {

@@ -32,6 +32,8 @@ pub struct Context {
     pub notes: Vec<Note>,
     /// Whether a model was fitted on some of the rows, beyond what `provenance` says.
     pub is_seen: bool,
+    /// True if tested samples have neighbours, which resemble them, that the model was fitted on.
+    pub are_neighbours_learnt: bool,
     /// The fit behind the predictions, of which states say nothing.
     pub fit: FitFacts,
     /// The scores of each recording alone, where several were joined.
@@ -67,6 +69,7 @@ impl Context {
             provenance,
             notes: Vec::new(),
             is_seen: false,
+            are_neighbours_learnt: false,
             fit: FitFacts::default(),
             by_recording: Vec::new(),
             over_seeds: None,
@@ -95,7 +98,8 @@ pub fn assess(
         } => {
             let state = StateFile::of(&mut evaluator, &context.subject, &provenance, predictions)?
                 .with_taken(taken)
-                .with_seen(context.is_seen);
+                .with_seen(context.is_seen)
+                .with_neighbours(context.are_neighbours_learnt);
             (state.finish(*evaluator)?, Some(state))
         }
     };

@@ -54,6 +54,10 @@ pub struct Cache {
     models: String,
     /// Whether many tasks at once take features of the same recordings.
     is_of_many: bool,
+    /// Features of whole recordings, for the folds of one call.
+    memory: Option<features::Memory>,
+    /// True if anything is kept in the folder.
+    is_on_disk: bool,
     written: AtomicU64,
     notes: Mutex<BTreeSet<String>>,
     records: Mutex<Vec<(usize, StageRecord)>>,
@@ -69,6 +73,8 @@ impl Cache {
             folder,
             models,
             is_of_many: false,
+            memory: None,
+            is_on_disk: true,
             written: AtomicU64::new(0),
             notes: Mutex::default(),
             records: Mutex::default(),
@@ -83,6 +89,18 @@ impl Cache {
         Cache {
             is_of_many: true,
             ..self
+        }
+    }
+
+    /// A cache for the folds of one call: features are made of whole recordings, once, and stay in memory; behind it stands the folder of `outer`.
+    pub(crate) fn of_folds(outer: Option<&Cache>) -> Cache {
+        let folder = outer.map_or_else(PathBuf::new, |outer| outer.folder.clone());
+        let models = outer.map_or_else(String::new, |outer| outer.models.clone());
+        Cache {
+            memory: Some(features::Memory::default()),
+            is_on_disk: outer.is_some(),
+            is_of_many: true,
+            ..Cache::new(folder, models)
         }
     }
 

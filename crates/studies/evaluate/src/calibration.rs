@@ -51,6 +51,7 @@ pub fn calibration(
     let available: FieldSet = dataset.table().fields().with(Field::Prediction);
     let plan = MetricPlan::new(&[share], predicted.channels().clone(), available);
     let columns = Columns {
+        groups: None,
         truth: &zeros,
         prediction: &hits,
         dataset,

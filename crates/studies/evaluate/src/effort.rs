@@ -28,7 +28,10 @@ impl Effort {
     /// # Errors
     /// [`EvaluateError`] if the request is not valid.
     pub fn of_fit(dataset: &Dataset, request: &FitRequest) -> Result<Effort, EvaluateError> {
-        Ok(Effort::of_plan(&FitPlan::new(dataset, request)?))
+        let Some(folds) = folds::asked(dataset, request)? else {
+            return Ok(Effort::of_plan(&FitPlan::new(dataset, request)?));
+        };
+        Effort::of_fold(dataset, folds.first(request)?, None)
     }
 
     /// Of [`evaluate`](crate::evaluate).
@@ -41,13 +44,10 @@ impl Effort {
     ) -> Result<Effort, EvaluateError> {
         match &request.model {
             ModelChoice::Fit(fit) => {
-                if let Some(folds) = folds::of(dataset, fit)? {
+                if let Some(folds) = folds::of(dataset, fit, request.part)? {
                     folds.refuse_part(request)?;
-                    let mut all = Effort::default();
-                    for plan in folds.plans(fit) {
-                        all = all.and(Effort::of_fold(dataset, plan?, None)?);
-                    }
-                    return Ok(all);
+                    // The parts of each fold are all samples, whose features are made once.
+                    return Effort::of_fold(dataset, folds.first(fit)?, None);
                 }
                 Effort::of_fold(dataset, FitPlan::new(dataset, fit)?, request.part)
             }

@@ -106,7 +106,10 @@ impl EvaluateError {
                     SplitError::Kind { .. }
                         | SplitError::Assignment { .. }
                         | SplitError::Twice { .. }
-                        | SplitError::ManyFolds
+                        | SplitError::ManyFolds { .. }
+                        | SplitError::Folds { .. }
+                        | SplitError::FewGroups { .. }
+                        | SplitError::Sum { .. }
                 )
         )
     }

@@ -36,7 +36,7 @@ pub fn evaluate(
         ModelChoice::Fit(fit) => {
             // Asked before the work: an unknown metric must not cost a fit.
             catalogue::select(request.metrics.iter().map(String::as_str))?;
-            if let Some(folds) = folds::of(dataset, fit)? {
+            if let Some(folds) = folds::of(dataset, fit, request.part)? {
                 return folds.evaluate((request, fit), work);
             }
             let plan = FitPlan::new(dataset, fit)?;

@@ -93,10 +93,11 @@ fn of_whole(
         })
     };
     let bytes = all.len() as u64 * extractor.shape().len() as u64 * 4;
-    let Some(positions) = positions.filter(|_| bytes <= ONE_MAX) else {
+    let is_kept = bytes <= ONE_MAX || cache.is_in_memory();
+    let Some(positions) = positions.filter(|_| is_kept) else {
         return own();
     };
-    let whole = cache.features((recording, extractor, &all), || {
+    let whole = cache.whole_features(recording, extractor, &all, || {
         make(recording, extractor, &all, work)
     });
     match whole {

@@ -13,7 +13,9 @@ mod evaluate;
 mod facts;
 mod features;
 mod fit;
+mod grouping;
 mod merge;
+mod neighbours;
 mod note;
 mod over_seeds;
 mod plan;
@@ -29,6 +31,7 @@ mod score;
 mod skill;
 mod state_file;
 mod subject;
+mod validation;
 mod work;
 
 pub use accumulate::{Columns, Rows, accumulate};
@@ -49,7 +52,10 @@ pub use evaluate::{
 pub use features::{FeatureTable, blank, extract, extractor, feature_table};
 pub use fit::{FitPlan, FitRequest, Fitted, Recipe, fit};
 pub use merge::merge;
-pub use note::{Coverage, Learning, Note};
+pub use neighbours::Resemblance;
+pub use note::{
+    Coverage, Division, Independence, Learning, Neighbours, Note, PairedBy, SampleOrder,
+};
 pub use over_seeds::of as over_seeds;
 pub use plan::{Plan, Step};
 pub use predict::{
@@ -63,8 +69,11 @@ pub use row_ledger::Taken;
 pub use rows::{DataPart, Divided, Need, require_samples, usable};
 pub use run_layout::{PLANS, RECORDINGS};
 pub use samples::{add_predictions, of as samples_of, protocol as protocol_words};
-pub use score::{ScoreRequest, ScoreTables, Scored, Scoring, Shard, ShardError, score_in_one_pass};
+pub use score::{
+    RowKey, ScoreRequest, ScoreTables, Scored, Scoring, Shard, ShardError, score_in_one_pass,
+};
 pub use skill::{skill, with_skill};
 pub use state_file::{STATE_SCHEMA, StateFile};
 pub use subject::of as subject_of;
+pub use validation::fit_validated;
 pub use work::Work;

@@ -40,6 +40,7 @@ pub fn merge(paths: &[PathBuf]) -> Result<(EvaluationReport, StateFile), Evaluat
     let mut provenance = first.provenance.clone();
     let mut bounded = first.bounded.clone();
     let mut is_seen = first.seen;
+    let mut are_neighbours_learnt = first.neighbours;
     let mut subject = first.subject.clone();
     let mut take = |path: &Path, file: &StateFile| -> Result<(), EvaluateError> {
         let wrong = |problem: String| EvaluateError::State {
@@ -67,6 +68,7 @@ pub fn merge(paths: &[PathBuf]) -> Result<(EvaluationReport, StateFile), Evaluat
             other.is_some_and(|other| other.to_bits() == constant.to_bits())
         });
         is_seen |= file.seen;
+        are_neighbours_learnt |= file.neighbours;
         subject = subject.joined(&file.subject);
         provenance = provenance.joined(&file.provenance);
         bounded = bounded.joined(&file.bounded);
@@ -92,6 +94,7 @@ pub fn merge(paths: &[PathBuf]) -> Result<(EvaluationReport, StateFile), Evaluat
     let context = Context {
         notes,
         is_seen,
+        are_neighbours_learnt,
         fit: FitFacts {
             frames_decoded: 0,
             notes: of_report,

@@ -1,9 +1,13 @@
 //! What a reader of scores must know of the samples and the model behind them: data here, sentences in a report.
 
+mod division;
+
 use std::fmt;
 
 use taceva_core::shown;
 use taceva_dataset::{Extension, FramesInfo};
+
+pub use division::{Division, Independence, Neighbours, SampleOrder};
 
 /// Below so many recordings an interval by them states how few they are: Student's t has too few degrees of freedom to be narrow.
 const CLUSTERS_MANY: usize = 10;
@@ -14,6 +18,15 @@ const CLUSTERS_MANY: usize = 10;
 pub enum Note {
     /// The division of the rows, in the words of the split.
     Split(String),
+    /// Neighbouring samples that resemble each other, and how they were divided.
+    Neighbours {
+        /// The finding.
+        found: Neighbours,
+        /// The division that follows from it.
+        division: Division,
+    },
+    /// Samples that are taken as independent, each as a point of its own.
+    Independent(Independence),
     /// The clusters of intervals, where recordings were joined.
     Clusters {
         /// Recordings with scored rows.
@@ -101,6 +114,8 @@ pub enum Note {
         /// Rows of the tables.
         of: u64,
     },
+    /// The way in which rows of two tables were paired.
+    Paired(PairedBy),
     /// Tables of truth and predictions with the same bytes.
     SameBytes,
     /// Something that a plan left out.
@@ -123,6 +138,24 @@ pub enum Note {
     Sessions(String),
     /// Frames that were taken again.
     FramesRetried(u64),
+}
+
+/// The way in which rows of truth and predictions find each other; its `Display` ends the sentence "rows were paired".
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PairedBy {
+    /// The first row with the first, because no key stands in both tables.
+    Order,
+    /// The first row with the first, by the word of the caller.
+    ChosenOrder,
+    /// The rows with the same label in the index of a data frame.
+    Index,
+    /// The rows with the same key.
+    Key {
+        /// The column of the truth.
+        truth: String,
+        /// The column of the predictions.
+        prediction: String,
+    },
 }
 
 /// What is known of the learning of a model that a caller holds.
@@ -161,6 +194,13 @@ impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Note::Split(words) | Note::Sessions(words) => f.write_str(words),
+            Note::Neighbours { found, division } => division::write(found, division, f),
+            Note::Independent(Independence::Stated) => f.write_str(
+                "each sample is taken as a point of its own, by the word of the caller: intervals are too narrow if samples depend on each other",
+            ),
+            Note::Independent(Independence::Found) => f.write_str(
+                "each sample is taken as a point of its own: no point_id repeats, and neighbouring samples do not resemble each other",
+            ),
             Note::Clusters {
                 recordings,
                 points,
@@ -264,6 +304,7 @@ impl fmt::Display for Note {
                 rows: [first, end],
                 of,
             } => write!(f, "shard {shard}: rows {first} to before {end} of {of}, from 0"),
+            Note::Paired(by) => write!(f, "rows were paired {by}"),
             Note::SameBytes => f.write_str(
                 "truth and predictions are the same bytes: every error is 0, which no sensor reaches",
             ),
@@ -276,6 +317,31 @@ impl fmt::Display for Note {
             Note::FramesRetried(count) => write!(
                 f,
                 "{count} frames were lost, damaged or older than their contact, and were taken again"
+            ),
+        }
+    }
+}
+
+impl fmt::Display for PairedBy {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let name = |name: &str| match name {
+            "" => "the unnamed column".to_owned(),
+            name => format!("`{}`", shown(name)),
+        };
+        match self {
+            PairedBy::Order => {
+                f.write_str("by order, because no key of rows stands in both tables")
+            }
+            PairedBy::Index => f.write_str("by the index of both data frames"),
+            PairedBy::ChosenOrder => f.write_str("by order, as was asked for"),
+            PairedBy::Key { truth, prediction } if truth == prediction => {
+                write!(f, "by {}", name(truth))
+            }
+            PairedBy::Key { truth, prediction } => write!(
+                f,
+                "by {} of the truth and {} of the predictions",
+                name(truth),
+                name(prediction)
             ),
         }
     }

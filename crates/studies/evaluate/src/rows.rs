@@ -5,12 +5,14 @@ use std::collections::BTreeMap;
 use taceva_core::{Channel, Channels, Field, shown};
 use taceva_dataset::{Dataset, Table};
 use taceva_models::{
-    Fractions, Model, Part as SplitPart, Split, SplitInput, SplitKind, SplitManifest, SplitSpec,
+    Fractions, Model, Part as SplitPart, Split, SplitKind, SplitManifest, SplitSpec,
 };
 
 use crate::calibration_rows::{self, PlannedRows};
 use crate::error::EvaluateError;
-use crate::recordings::{self, is_fitted_on};
+use crate::grouping::{Grouping, SplitFields};
+use crate::note::Note;
+use crate::recordings::is_fitted_on;
 
 /// What a table of samples says beside channels, in its order.
 pub(crate) const BESIDE_CHANNELS: [Field; 10] = [
@@ -60,6 +62,12 @@ pub struct Divided {
     pub seed: u64,
     /// Which rows went where.
     pub split: Split,
+    /// The note on neighbouring samples.
+    pub neighbours: Option<Note>,
+    /// The group of every row of the dataset, where intervals are by groups; empty of a row in none.
+    pub groups: Option<Vec<String>>,
+    /// True if no sample repeats a contact point, and neighbours do not resemble each other, so that each is a point of its own.
+    pub are_independent: bool,
 }
 
 impl Divided {
@@ -90,7 +98,8 @@ impl Divided {
         divided.map(Some)
     }
 
-    /// Divides `dataset` as `text` says, or by point where points have repeats, else at random. Of joined recordings each is divided as it would
+    /// Divides `dataset` as `text` says, or by point where points have repeats; else by groups or blocks of time where neighbours resemble each
+    /// other, else at random. Of joined recordings each is divided as it would
     /// be alone, and rows that were added later change the part of none before.
     ///
     /// # Errors
@@ -128,15 +137,17 @@ impl Divided {
         text: Option<&str>,
         seed: u64,
     ) -> Result<Divided, EvaluateError> {
-        let points = all_texts(dataset.table().point_id(), rows);
         let spec = match text {
             Some(text) => text.parse::<SplitSpec>()?,
-            None => default_spec(points.as_deref()),
+            None => SplitSpec {
+                kind: Grouping::of(dataset, rows).kind(),
+                fractions: Fractions::default(),
+            },
         };
         Divided::by_spec(dataset, rows, spec, seed)
     }
 
-    /// Divides `rows` of `dataset` by point where points have repeats, else at random, into parts of these sizes.
+    /// Divides `rows` of `dataset` as [`within`](Divided::within) does where nothing is said, into parts of these sizes.
     ///
     /// # Errors
     /// As [`new`](Divided::new).
@@ -146,10 +157,9 @@ impl Divided {
         fractions: Fractions,
         seed: u64,
     ) -> Result<Divided, EvaluateError> {
-        let points = all_texts(dataset.table().point_id(), rows);
         let spec = SplitSpec {
+            kind: Grouping::of(dataset, rows).kind(),
             fractions,
-            ..default_spec(points.as_deref())
         };
         Divided::by_spec(dataset, rows, spec, seed)
     }
@@ -160,45 +170,23 @@ impl Divided {
         spec: SplitSpec,
         seed: u64,
     ) -> Result<Divided, EvaluateError> {
-        let table = dataset.table();
-        let points = all_texts(table.point_id(), rows);
-        let times: Option<Vec<f64>> = rows.iter().map(|&row| table.t_s()[row]).collect();
-        let parts = all_texts(table.part(), rows);
-        let column = match &spec.kind {
-            SplitKind::ByColumn(by) => table
-                .as_text(&by.column)
-                .map(|cells| (by.column.as_str(), cells)),
-            _ => None,
+        let fields = SplitFields::of(dataset, rows, &spec.kind);
+        let split = spec.assign(&fields.input(rows.len()), seed)?;
+        let neighbours = fields.neighbours(dataset, rows, &spec.kind, &[&split]);
+        let groups = fields.groups_of_rows(dataset, rows, &spec.kind);
+        let are_independent = fields.are_independent(dataset, rows, &spec.kind);
+        let split = match rows.len() < dataset.table().rows() {
+            true => split.among(rows, dataset.table().rows()),
+            false => split,
         };
-        // A sample without the value is in no part: nobody can name the empty text.
-        let filled = column.map(|(name, cells)| {
-            (
-                name,
-                rows.iter()
-                    .map(|&row| cells[row].clone().unwrap_or_default())
-                    .collect::<Vec<String>>(),
-            )
-        });
-        let columns: BTreeMap<&str, &[String]> = filled
-            .iter()
-            .map(|(name, cells)| (*name, cells.as_slice()))
-            .collect();
-        let recordings = recordings::names(dataset, rows);
-        let sections = recordings::sections(dataset, rows);
-        let input = SplitInput {
-            rows: rows.len(),
-            points: points.as_deref(),
-            times_s: times.as_deref(),
-            parts: parts.as_deref(),
-            columns,
-            recordings: recordings.as_deref(),
-            sections: &sections,
-        };
-        let mut split = spec.assign(&input, seed)?;
-        if rows.len() < table.rows() {
-            split = split.among(rows, table.rows());
-        }
-        Ok(Divided { spec, seed, split })
+        Ok(Divided {
+            spec,
+            seed,
+            split,
+            neighbours,
+            groups,
+            are_independent,
+        })
     }
 
     /// The rows of a part, ascending.
@@ -257,27 +245,6 @@ impl Divided {
             .then(|| ("left_out".to_owned(), self.split.left_out.len()));
         parts.into_iter().chain(left_out).collect()
     }
-}
-
-fn default_spec(points: Option<&[String]>) -> SplitSpec {
-    let have_repeats = points.is_some_and(|points| {
-        let distinct: std::collections::BTreeSet<&String> = points.iter().collect();
-        distinct.len() < points.len()
-    });
-    let kind = if have_repeats {
-        SplitKind::ByPoint
-    } else {
-        SplitKind::Random
-    };
-    SplitSpec {
-        kind,
-        fractions: Default::default(),
-    }
-}
-
-/// The texts of `rows`, if each has one.
-fn all_texts(column: &[Option<String>], rows: &[usize]) -> Option<Vec<String>> {
-    rows.iter().map(|&row| column[row].clone()).collect()
 }
 
 /// Refuses a dataset without a sample.

@@ -1,11 +1,14 @@
 //! Someone else's predictions against the truth: two tables, no pictures, no model.
 
+mod agreement;
 mod fields;
-mod id_order;
-mod ids;
+mod key_order;
+mod key_parts;
+mod likely_key;
 mod one_pass;
 mod parquet_parts;
 mod request;
+mod row_key;
 mod row_pairs;
 mod shard;
 mod shard_scores;
@@ -24,7 +27,7 @@ use crate::assess::{Assessed, Context, FitFacts, ScoredRows, assess};
 use crate::bounded_share::Bounded;
 use crate::error::EvaluateError;
 use crate::facts;
-use crate::note::Note;
+use crate::note::{Independence, Note, PairedBy};
 use crate::plan::Plan;
 use crate::row_ledger::Taken;
 use crate::samples;
@@ -33,12 +36,15 @@ use crate::state_file::StateFile;
 use crate::subject;
 use taceva_results::{EvaluationReport, Provenance, Samples};
 
+use agreement::Matching;
 use fields::Place;
+use row_key::{KEY_NAMES, RowKeys};
 use row_pairs::PairedRows;
 use tables::Pairing;
 
 pub use one_pass::score_in_one_pass;
 pub use request::ScoreRequest;
+pub use row_key::RowKey;
 pub use shard::{Shard, ShardError};
 pub use shard_scores::ScoreTables;
 
@@ -58,10 +64,21 @@ pub struct Scoring {
     truth: CsvTable,
     prediction: CsvTable,
     digests: BTreeMap<String, String>,
-    metrics: MetricPlan,
-    sensor: SensorFile,
-    places: Vec<Place>,
+    plan: ScorePlan,
     pairing: Pairing,
+    matching: Matching,
+}
+
+/// Metrics, fields and keys of both tables.
+#[derive(Debug)]
+struct ScorePlan {
+    metrics: MetricPlan,
+    /// The columns of fields.
+    places: Vec<Place>,
+    /// What is known of the sensor.
+    sensor: SensorFile,
+    /// Columns that name rows.
+    keys: RowKeys,
 }
 
 impl Scoring {
@@ -76,8 +93,10 @@ impl Scoring {
         tables::check_rows(&truth)?;
         tables::check_rows(&prediction)?;
         let digests = [("truth", of_truth), ("prediction", of_prediction)];
-        let (metrics, places, sensor) = planned(&request, &truth, &prediction)?;
-        let pairing = tables::pair(&truth, &prediction)?;
+        let plan = planned(&request, &truth, &prediction)?;
+        likely_key::check_tables(&request, &plan, [&truth, &prediction])?;
+        let (pairing, key) = tables::pair(&truth, &prediction, &plan.keys)?;
+        let matching = Matching::of([&truth, &prediction], &plan.keys, key)?;
         Ok(Scoring {
             request,
             truth,
@@ -85,17 +104,16 @@ impl Scoring {
             digests: digests
                 .map(|(role, digest)| (role.to_owned(), digest.to_string()))
                 .into(),
-            metrics,
-            sensor,
-            places,
+            plan,
             pairing,
+            matching,
         })
     }
 
     /// What [`run`](Scoring::run) would do.
     pub fn plan(&self) -> Plan {
         let mut plan = Plan {
-            skipped: self.metrics.skipped().to_vec(),
+            skipped: self.plan.metrics.skipped().to_vec(),
             ..Plan::default()
         };
         let names = |names: Vec<&str>| names.join(", ");
@@ -115,15 +133,10 @@ impl Scoring {
                 shown(&self.request.prediction)
             ),
         );
-        plan.step(
-            "pair",
-            match self.pairing {
-                Pairing::ByOrder => "rows by order",
-                Pairing::ById(_) => "rows by id",
-            },
-        );
-        let channels = names(self.metrics.channels().iter().map(Channel::name).collect());
-        let metrics = names(self.metrics.kept().iter().map(|metric| metric.id).collect());
+        plan.step("pair", format!("rows {}", self.matching.by));
+        let kept = &self.plan.metrics;
+        let channels = names(kept.channels().iter().map(Channel::name).collect());
+        let metrics = names(kept.kept().iter().map(|metric| metric.id).collect());
         plan.step("score", format!("{metrics} of {channels}"));
         plan
     }
@@ -139,26 +152,32 @@ impl Scoring {
         scored
     }
 
-    /// The pairs of truth and prediction one by one, called by the `id` of the truth or by their number; scoring never holds them all.
+    /// The pairs of truth and prediction one by one, called by the key of the truth or by their number; scoring never holds them all.
     ///
     /// # Errors
     /// As [`run`](Scoring::run).
     pub fn samples(&self) -> Result<Samples, EvaluateError> {
         let rows = self.truth.rows();
-        let batch = self.paired()?.batch(&self.metrics, 0..rows)?;
-        let ids = match self.truth.has("id") {
-            true => {
-                let column = self.truth.position("id")?;
+        let batch = self.paired()?.batch(&self.plan.metrics, 0..rows)?;
+        let key = match &self.matching.by {
+            PairedBy::Key { truth, .. } => Some(truth.as_str()),
+            PairedBy::Order | PairedBy::ChosenOrder | PairedBy::Index => {
+                KEY_NAMES.into_iter().find(|name| self.truth.has(name))
+            }
+        };
+        let ids = match key {
+            Some(key) => {
+                let column = self.truth.position(key)?;
                 let id = |row| Some(self.truth.cell(row, column).to_owned());
                 (0..rows).map(id).collect()
             }
-            false => (1..=rows).map(|number| Some(number.to_string())).collect(),
+            None => (1..=rows).map(|number| Some(number.to_string())).collect(),
         };
         let points = batch.points().map(|points| {
             let point = |row| points.get(row).map(str::to_owned);
             (0..rows).map(point).collect()
         });
-        let channels = self.metrics.channels().iter().enumerate();
+        let channels = self.plan.metrics.channels().iter().enumerate();
         let channels = channels.map(|(at, channel)| {
             let columns = [batch.truth(at), batch.prediction(at)].map(Column::clone);
             let [truth, prediction] = columns;
@@ -171,35 +190,41 @@ impl Scoring {
         PairedRows::new(
             [&self.truth, &self.prediction],
             &self.pairing,
-            &self.metrics,
-            &self.places,
+            &self.matching,
+            &self.plan,
             self.request.allow_invalid,
         )
     }
 
     fn evaluate(&self) -> Result<Scored, EvaluateError> {
         let rows = self.paired()?;
-        let evaluator = accumulate::accumulate(&rows, &self.metrics, self.request.jobs)?;
+        let evaluator = accumulate::accumulate(&rows, &self.plan.metrics, self.request.jobs)?;
         let input = tables::input_of(&self.digests);
         let taken = Taken::all_of(input, self.truth.rows());
         finished(
             evaluator,
-            &self.sensor,
+            &self.plan.sensor,
             self.digests.clone(),
             taken,
-            Vec::new(),
+            Said {
+                is_independent: self.request.is_independent,
+                paired: self.matching.by.clone(),
+                shard: None,
+            },
         )
     }
 }
 
-/// What can be scored by the columns of both tables, where fields are stated, and what is known of the sensor.
+/// Metrics, fields and keys of both tables.
 fn planned(
     request: &ScoreRequest,
     truth: &CsvTable,
     prediction: &CsvTable,
-) -> Result<(MetricPlan, Vec<Place>, SensorFile), EvaluateError> {
+) -> Result<ScorePlan, EvaluateError> {
     let wanted = catalogue::select(request.metrics.iter().map(String::as_str))?;
-    let channels = tables::channels(truth, prediction, &request.units)?;
+    let is_declared = |name: &str| tables::is_declared(&request.units, name);
+    let keys = RowKeys::of(truth, prediction, request.key.as_ref(), is_declared)?;
+    let channels = tables::channels(truth, prediction, &request.units, &keys)?;
     let places = fields::places(truth, prediction)?;
     let sensor = request
         .sensor
@@ -209,16 +234,35 @@ fn planned(
     let sensor = sensor.unwrap_or_default();
     let metrics = MetricPlan::new(&with_skill(wanted), channels, fields::stated(&places))
         .with_facts(facts::of_file(&sensor, SensorFacts::default()));
-    Ok((metrics, places, sensor))
+    let metrics = match request.is_independent {
+        true => metrics.independent_samples(),
+        false => metrics,
+    };
+    Ok(ScorePlan {
+        metrics,
+        places,
+        sensor,
+        keys,
+    })
 }
 
-/// The scores and the state of what `evaluator` has seen of the tables with these digests; the report alone says `notes`.
+/// Notes on scored tables.
+struct Said {
+    /// True if the caller takes samples as independent.
+    is_independent: bool,
+    /// The pairing of rows, which the state says too.
+    paired: PairedBy,
+    /// The shard, which the report alone says.
+    shard: Option<Note>,
+}
+
+/// The scores and the state of what `evaluator` has seen of the tables with these digests.
 fn finished(
     evaluator: Evaluator,
     sensor: &SensorFile,
     digests: BTreeMap<String, String>,
     taken: Taken,
-    notes: Vec<Note>,
+    said: Said,
 ) -> Result<Scored, EvaluateError> {
     let same_bytes =
         digests.contains_key("truth") && digests.get("truth") == digests.get("prediction");
@@ -231,11 +275,17 @@ fn finished(
         evaluator: Box::new(evaluator),
         taken: vec![taken],
     };
+    let independence = said
+        .is_independent
+        .then_some(Note::Independent(Independence::Stated));
     let context = Context {
-        notes: same_bytes.then_some(Note::SameBytes).into_iter().collect(),
+        notes: std::iter::once(Note::Paired(said.paired))
+            .chain(independence)
+            .chain(same_bytes.then_some(Note::SameBytes))
+            .collect(),
         fit: FitFacts {
             frames_decoded: 0,
-            notes,
+            notes: said.shard.into_iter().collect(),
         },
         ..Context::new(subject::of_file(sensor), provenance)
     };

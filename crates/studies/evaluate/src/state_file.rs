@@ -38,6 +38,9 @@ pub struct StateFile {
     /// Whether the model was fitted on some of the samples.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub(crate) seen: bool,
+    /// True if tested samples have neighbours in the training part that resemble them.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub(crate) neighbours: bool,
     pub(crate) states: Vec<State>,
     #[serde(default)]
     pub(crate) taken: Vec<Taken>,
@@ -71,6 +74,7 @@ impl StateFile {
             provenance: provenance.clone(),
             bounded,
             seen: provenance::is_of_seen_samples(provenance),
+            neighbours: false,
             states: evaluator.states()?,
             taken: Vec::new(),
             history: Vec::new(),
@@ -86,8 +90,12 @@ impl StateFile {
     pub(crate) fn finish(&self, evaluator: Evaluator) -> Result<Evaluation, EvaluateError> {
         let evaluation = evaluator.finish()?;
         let evaluation = evaluation.with_bounded_shares(&self.bounded.shares());
-        Ok(match self.seen {
+        let evaluation = match self.seen {
             true => evaluation.of_seen_samples(),
+            false => evaluation,
+        };
+        Ok(match self.neighbours {
+            true => evaluation.of_neighbours_in_training(),
             false => evaluation,
         })
     }
@@ -101,6 +109,14 @@ impl StateFile {
     pub(crate) fn with_seen(self, is_seen: bool) -> StateFile {
         StateFile {
             seen: self.seen || is_seen,
+            ..self
+        }
+    }
+
+    /// The same; if `are_learnt`, of samples whose neighbours, which resemble them, the model was fitted on.
+    pub(crate) fn with_neighbours(self, are_learnt: bool) -> StateFile {
+        StateFile {
+            neighbours: self.neighbours || are_learnt,
             ..self
         }
     }

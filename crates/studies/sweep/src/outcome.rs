@@ -75,6 +75,7 @@ pub(crate) fn carry_out(task: &Task, common: Common<'_>, work: Work<'_>) -> Resu
         model: ModelChoice::Fitted(Box::new(model)),
         metrics: common.list.metrics.clone(),
         part: None,
+        is_independent: false,
         sensor: common.sensor.cloned(),
     };
     let mut result = TaskResult::new(task.key.clone());

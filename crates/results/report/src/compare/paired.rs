@@ -62,7 +62,7 @@ impl<'a> Errors<'a> {
         let (mut sum, mut count) = (0.0, 0.0);
         for row in rows {
             let [truth, prediction] = channel.pair(row)?;
-            truths.insert(samples.word("id", row)?, truth.to_bits());
+            truths.insert(samples.word(Samples::KEY, row)?, truth.to_bits());
             let error = (truth - prediction).abs();
             sums.try_add(samples.word("point_id", row)?, error).ok()?;
             sum += error;

@@ -124,7 +124,7 @@ fn panel(
         points.at.push(panel.at(truth, prediction));
         points.words.push(format!(
             "{}: true {}, predicted {}",
-            short(samples.word("id", row).unwrap_or("?"), 40),
+            short(samples.word(Samples::KEY, row).unwrap_or("?"), 40),
             numeral(truth),
             numeral(prediction)
         ));

@@ -54,7 +54,10 @@ pub fn picks(study: &Study) -> Vec<Pick> {
     let best = apart(samples, errors.iter().rev(), each, &mut taken);
     let pick = |is_worst: bool| {
         move |(row, error): (usize, f64)| Pick {
-            id: samples.word("id", row).unwrap_or_default().to_owned(),
+            id: samples
+                .word(Samples::KEY, row)
+                .unwrap_or_default()
+                .to_owned(),
             row,
             is_worst,
             error,
@@ -68,7 +71,7 @@ pub fn picks(study: &Study) -> Vec<Pick> {
 fn place(samples: &Samples, row: usize) -> Option<&str> {
     samples
         .word("point_id", row)
-        .or_else(|| samples.word("id", row))
+        .or_else(|| samples.word(Samples::KEY, row))
 }
 
 /// The first of `rows` of each contact point that nothing was taken of, `most` of them.

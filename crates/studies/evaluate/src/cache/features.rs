@@ -1,8 +1,10 @@
 //! Features of frames and signals that are kept for the next model; beyond a total size the oldest are removed.
 
+use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::{self, Cursor, Read};
 use std::path::Path;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, SystemTime};
 
 use taceva_core::{FeatureShape, Features};
@@ -21,7 +23,41 @@ const LOOK_EVERY: Duration = Duration::from_millis(50);
 /// What is kept of one set of them.
 pub(crate) const ONE_MAX: u64 = ALL_MAX / 4;
 
+/// Features of whole recordings in memory, by their key.
+#[derive(Debug, Default)]
+pub(super) struct Memory {
+    kept: Mutex<BTreeMap<String, Arc<Features>>>,
+}
+
 impl Cache {
+    /// The features of `rows`, all of `dataset` that any fold may want: those in memory, or what `make` gives, which stays there from then on.
+    pub(crate) fn whole_features(
+        &self,
+        dataset: &Dataset,
+        extractor: &Extractor,
+        rows: &[usize],
+        make: impl FnOnce() -> Result<Features, EvaluateError>,
+    ) -> Result<Arc<Features>, EvaluateError> {
+        let Some(memory) = &self.memory else {
+            return self
+                .features((dataset, extractor, rows), make)
+                .map(Arc::new);
+        };
+        let digits = features_key(dataset, extractor, rows).digits();
+        let lock = || memory.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(found) = lock().get(&digits) {
+            return Ok(Arc::clone(found));
+        }
+        let made = Arc::new(self.features((dataset, extractor, rows), make)?);
+        lock().insert(digits, Arc::clone(&made));
+        Ok(made)
+    }
+
+    /// True if features of whole recordings stay in memory, so that their size is no reason to make them twice.
+    pub(crate) fn is_in_memory(&self) -> bool {
+        self.memory.is_some()
+    }
+
     /// The features of `rows` of `dataset` by `extractor`: those kept, or what `make` gives, which is kept from then on.
     ///
     /// Features are a function of frames and reference frame, or of signals and those at rest, which the digest of a dataset covers.
@@ -31,27 +67,18 @@ impl Cache {
         make: impl FnOnce() -> Result<Features, EvaluateError>,
     ) -> Result<Features, EvaluateError> {
         let bytes = rows.len() as u64 * extractor.shape().len() as u64 * 4;
-        if bytes > ONE_MAX {
+        if bytes > ONE_MAX || !self.is_on_disk {
             return make();
         }
-        // Principal components are found by the model, of all features.
-        let spec = FeatureSpec {
-            pca: None,
-            ..*extractor.spec()
-        };
-        let key = Key::of(CachedStage::Features)
-            .part("dataset", &dataset.digest().to_string())
-            .whole("input", &extractor.input())
-            .whole("features", &spec)
-            .whole("rows", &rows)
-            .finish();
+        let key = features_key(dataset, extractor, rows);
         if let Some(found) = self.take_value(&key) {
             let entry = File::open(self.entry(&key));
             // Of those that are not looked at any more the oldest goes first; a folder that may only be read is as good.
             drop(entry.and_then(|entry| entry.set_modified(SystemTime::now())));
             return Ok(found);
         }
-        let turn = self.is_of_many().then(|| self.turn(&key));
+        let is_shared = self.is_of_many() && self.memory.is_none();
+        let turn = is_shared.then(|| self.turn(&key));
         if turn.is_some()
             && let Some(found) = self.take_value(&key)
         {
@@ -99,6 +126,21 @@ impl Cache {
         }
         Ok(())
     }
+}
+
+/// Key of the features of `rows`.
+fn features_key(dataset: &Dataset, extractor: &Extractor, rows: &[usize]) -> Key {
+    // Principal components are found by the model, of all features.
+    let spec = FeatureSpec {
+        pca: None,
+        ..*extractor.spec()
+    };
+    Key::of(CachedStage::Features)
+        .part("dataset", &dataset.digest().to_string())
+        .whole("input", &extractor.input())
+        .whole("features", &spec)
+        .whole("rows", &rows)
+        .finish()
 }
 
 /// Removes the files of `folder` that were not looked at for longest, until the others come to no more than `most` bytes.

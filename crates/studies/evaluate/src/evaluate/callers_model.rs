@@ -178,6 +178,7 @@ impl GivenRows {
             metrics: &metrics,
             part: self.part,
             sensor: None,
+            is_independent: false,
         };
         let behind = Behind {
             model: ModelProvenance {

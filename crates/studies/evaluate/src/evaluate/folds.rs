@@ -1,13 +1,18 @@
-//! Leaving one recording out after the other: each is predicted by a model that was fitted on all others.
+//! Cross-validation: each group of samples, or each recording, is predicted by a model that was fitted on others.
 
-use taceva_dataset::{Dataset, Digest, JoinedRecording};
-use taceva_models::{Fractions, Split, SplitError, SplitKind, SplitSpec};
+use std::collections::BTreeSet;
+
+use taceva_dataset::{Dataset, Digest};
+use taceva_models::{FoldGroups, FoldSpec, Fractions, Split, SplitError, SplitKind, SplitSpec};
 
 use super::request::{EvaluateRequest, Evaluated};
 use super::scores::{Behind, score};
 use crate::assess::FitFacts;
+use crate::cache::Cache;
+use crate::calibration_rows::PlannedRows;
 use crate::error::EvaluateError;
 use crate::fit::{FitPlan, FitRequest, Recipe};
+use crate::grouping::{Grouping, SplitFields};
 use crate::note::Note;
 use crate::plan::Plan;
 use crate::predict::{self, Predicted, Target};
@@ -15,113 +20,327 @@ use crate::rows::{DataPart, Divided};
 use crate::work::Work;
 use taceva_results::ModelProvenance;
 
-/// A division a recording: that is the test part, and the samples of all others are learnt from.
+/// Folds where nobody says how many.
+const COUNT: usize = 5;
+/// Groups below which one division scores too few of them, so that cross-validation is the default.
+const GROUPS_MANY: usize = 1000;
+
+/// Divisions that together test on every sample.
 pub(crate) struct Folds<'a> {
     dataset: &'a Dataset,
-    spec: SplitSpec,
-    seed: u64,
+    /// The division of all folds together.
+    whole: Divided,
+    folds: Vec<Fold>,
+    are_recordings: bool,
 }
 
-/// The folds that `request` asks for; `None` where it asks for one division.
+/// One division.
+struct Fold {
+    name: String,
+    divided: Divided,
+}
+
+/// The folds that `request` asks for, or that are the default for as few groups as there are; `None` where it asks for one division, or a part
+/// is asked for, which folds have none of.
 ///
 /// # Errors
-/// [`EvaluateError::Split`] if there is one recording, or the split means nothing.
+/// [`EvaluateError::Split`] if there is one recording, fewer groups than folds, or the split means nothing.
 pub(crate) fn of<'a>(
+    dataset: &'a Dataset,
+    request: &FitRequest,
+    part: Option<DataPart>,
+) -> Result<Option<Folds<'a>>, EvaluateError> {
+    match request.split.as_deref() {
+        Some(text) => of_spec(dataset, request, text.parse()?),
+        None if part.is_some() => Ok(None),
+        None => match default_folds(dataset)? {
+            Some(folds) => {
+                let spec = SplitSpec {
+                    kind: SplitKind::Folds(folds),
+                    fractions: Fractions::default(),
+                };
+                of_spec(dataset, request, spec)
+            }
+            None => Ok(None),
+        },
+    }
+}
+
+/// The folds of the cross-validation that `request` names; `None` where it names none.
+///
+/// # Errors
+/// As of [`of`].
+pub(crate) fn asked<'a>(
     dataset: &'a Dataset,
     request: &FitRequest,
 ) -> Result<Option<Folds<'a>>, EvaluateError> {
     let spec = request.split.as_deref().map(str::parse::<SplitSpec>);
-    let Some(spec) = spec.transpose()? else {
-        return Ok(None);
-    };
-    if spec.kind != SplitKind::LeaveOneRecordingOut {
-        return Ok(None);
+    let spec = spec.transpose()?;
+    match spec.filter(|spec| matches!(spec.kind, SplitKind::Folds(_))) {
+        Some(spec) => of_spec(dataset, request, spec),
+        None => Ok(None),
     }
-    if dataset.recordings().is_empty() {
-        return Err(SplitError::NoRecordings {
-            split: "leave-one-recording-out",
+}
+
+fn of_spec<'a>(
+    dataset: &'a Dataset,
+    request: &FitRequest,
+    spec: SplitSpec,
+) -> Result<Option<Folds<'a>>, EvaluateError> {
+    match &spec.kind {
+        SplitKind::LeaveOneRecordingOut => Folds::of_recordings(dataset, spec, request.seed),
+        SplitKind::Folds(folds) => {
+            let folds = folds.clone();
+            Folds::of_groups(dataset, spec, folds, request.seed)
         }
-        .into());
+        _ => return Ok(None),
     }
-    Ok(Some(Folds {
-        dataset,
-        spec,
-        seed: request.seed,
-    }))
+    .map(Some)
+}
+
+/// The folds of a recording whose groups are few; not of a run, whose plan divides it, nor of several recordings.
+fn default_folds(dataset: &Dataset) -> Result<Option<FoldSpec>, EvaluateError> {
+    if !dataset.recordings().is_empty() || PlannedRows::of(dataset)?.is_some() {
+        return Ok(None);
+    }
+    let rows = dataset.all_rows();
+    let spec = FoldSpec {
+        count: Some(COUNT),
+        by: Grouping::of(dataset, &rows).folds(),
+    };
+    let kind = SplitKind::Folds(spec.clone());
+    let fields = SplitFields::of(dataset, &rows, &kind);
+    let groups = spec.groups(&fields.input(rows.len()))?;
+    let groups: BTreeSet<&String> = groups.iter().filter(|name| !name.is_empty()).collect();
+    // With two groups a fold there is something to learn from and to choose settings by.
+    let is_default = (2 * COUNT..GROUPS_MANY).contains(&groups.len());
+    Ok(is_default.then_some(spec))
 }
 
 impl<'a> Folds<'a> {
-    /// Refuses a part: what is scored is every sample, by a model that has not seen its recording.
+    fn of_recordings(
+        dataset: &'a Dataset,
+        spec: SplitSpec,
+        seed: u64,
+    ) -> Result<Folds<'a>, EvaluateError> {
+        let recordings = dataset.recordings();
+        if recordings.is_empty() {
+            return Err(SplitError::NoRecordings {
+                split: "leave-one-recording-out",
+            }
+            .into());
+        }
+        let mut folds = Vec::new();
+        for left_out in recordings {
+            let rows = dataset.all_rows().into_iter();
+            let others: Vec<usize> = rows.filter(|row| !left_out.rows().contains(row)).collect();
+            let [train, validation, _] = spec.fractions.shares();
+            let fractions = Fractions::new(train, validation, 0.0)?;
+            let mut divided = Divided::within_default(dataset, &others, fractions, seed)?;
+            divided.split.test = left_out.rows().collect();
+            divided.split.left_out.clear();
+            divided.spec = spec.clone();
+            folds.push(Fold {
+                name: left_out.name().to_owned(),
+                divided,
+            });
+        }
+        let count = recordings.len();
+        let note = format!(
+            "each of {count} recordings was predicted by a model that was fitted on the other {}; skill is measured by the mean of truth, because \
+             these {count} models have no constant in common",
+            count - 1
+        );
+        let whole = Divided {
+            spec,
+            seed,
+            split: Split {
+                test: dataset.all_rows(),
+                note: Some(note),
+                ..Split::default()
+            },
+            neighbours: None,
+            groups: None,
+            are_independent: false,
+        };
+        Ok(Folds {
+            dataset,
+            whole,
+            folds,
+            are_recordings: true,
+        })
+    }
+
+    fn of_groups(
+        dataset: &'a Dataset,
+        spec: SplitSpec,
+        folds: FoldSpec,
+        seed: u64,
+    ) -> Result<Folds<'a>, EvaluateError> {
+        let planned = PlannedRows::of(dataset)?;
+        let rows = planned.map_or_else(|| dataset.all_rows(), |planned| planned.rows);
+        let by = match folds.by {
+            FoldGroups::Detected => Grouping::of(dataset, &rows).folds(),
+            by => by,
+        };
+        let folds = FoldSpec { by, ..folds };
+        let spec = SplitSpec {
+            kind: SplitKind::Folds(folds.clone()),
+            ..spec
+        };
+        let fields = SplitFields::of(dataset, &rows, &spec.kind);
+        let made = folds.folds(&fields.input(rows.len()), spec.fractions, seed)?;
+        let splits: Vec<&Split> = made.splits.iter().collect();
+        let neighbours = fields.neighbours(dataset, &rows, &spec.kind, &splits);
+        let groups = fields.groups_of_rows(dataset, &rows, &spec.kind);
+        let are_independent = fields.are_independent(dataset, &rows, &spec.kind);
+        let named = made.groups.iter().filter(|name| !name.is_empty());
+        let named = named.collect::<BTreeSet<_>>().len();
+        let (count, all) = (made.splits.len(), dataset.table().rows());
+        let mut tested: Vec<usize> = splits.iter().flat_map(|split| split.test.clone()).collect();
+        tested.sort_unstable();
+        let tested: Vec<usize> = tested.into_iter().map(|at| rows[at]).collect();
+        let left_out = (0..all).filter(|row| tested.binary_search(row).is_err());
+        let whole = Split {
+            left_out: left_out.collect(),
+            test: tested,
+            note: Some(format!(
+                "each sample was predicted once, by one of {count} models that were fitted without its group ({named} groups), and settings were \
+                 chosen among the groups that each model was fitted on; skill is measured by the mean of truth, because these models have no \
+                 constant in common"
+            )),
+            ..Split::default()
+        };
+        let divided = |split| Divided {
+            spec: spec.clone(),
+            seed,
+            split,
+            neighbours: neighbours.clone(),
+            groups: groups.clone(),
+            are_independent,
+        };
+        let folds = made
+            .splits
+            .into_iter()
+            .enumerate()
+            .map(|(number, split)| Fold {
+                name: format!("fold {}", number + 1),
+                divided: divided(match rows.len() < all {
+                    true => split.among(&rows, all),
+                    false => split,
+                }),
+            });
+        Ok(Folds {
+            dataset,
+            folds: folds.collect(),
+            whole: divided(whole),
+            are_recordings: false,
+        })
+    }
+
+    /// Refuses a part: what is scored is every sample, by a model that has not seen its group.
     pub(crate) fn refuse_part(&self, request: &EvaluateRequest) -> Result<(), EvaluateError> {
         match request.part {
             None => Ok(()),
             Some(part) => Err(EvaluateError::Request(format!(
-                "part `{}`: leave-one-recording-out scores every sample, each by a model that has not seen its recording; leave --part out",
-                part.name()
+                "part `{}`: {} scores every sample, each by a model that has not seen its {}; leave --part out, or name a --split that keeps a test \
+                 part, such as by-point",
+                part.name(),
+                self.words(),
+                match self.are_recordings {
+                    true => "recording",
+                    false => "group",
+                }
             ))),
+        }
+    }
+
+    /// The split in words, without shares, which say nothing of recordings that are left out.
+    fn words(&self) -> String {
+        match self.are_recordings {
+            true => "leave-one-recording-out".to_owned(),
+            false => self.whole.spec.to_string(),
         }
     }
 
     /// Says what is fitted, once for all folds.
     pub(super) fn explain(&self, plan: &mut Plan) {
-        let count = self.dataset.recordings().len();
+        let count = self.folds.len();
+        let what = match self.are_recordings {
+            true => format!("each of {count} recordings"),
+            false => format!("each of {count} folds ({})", self.words()),
+        };
         plan.step(
             "leave out",
-            format!("each of {count} recordings in turn: {count} models; of the first:"),
+            format!("{what} in turn: {count} models; of the first:"),
         );
     }
 
-    /// The fit that leaves the first recording out.
-    pub(super) fn first(&self, request: &FitRequest) -> Result<FitPlan<'a>, EvaluateError> {
-        self.plan(request, &self.dataset.recordings()[0])
+    /// The fit of the first fold.
+    pub(crate) fn first(&self, request: &FitRequest) -> Result<FitPlan<'a>, EvaluateError> {
+        self.plan(request, &self.folds[0])
     }
 
-    /// The fit of each fold.
-    pub(crate) fn plans(
-        &self,
-        request: &FitRequest,
-    ) -> impl Iterator<Item = Result<FitPlan<'a>, EvaluateError>> {
-        let left_out = self.dataset.recordings().iter();
-        left_out.map(move |left_out| self.plan(request, left_out))
-    }
-
-    /// Fits and predicts fold by fold, and scores all predictions together.
-    pub(super) fn evaluate(
+    /// Fits and predicts fold by fold, and scores all predictions together. Features are made once.
+    pub(crate) fn evaluate(
         &self,
         (request, fit): (&EvaluateRequest, &FitRequest),
         work: Work<'_>,
     ) -> Result<Evaluated, EvaluateError> {
         self.refuse_part(request)?;
         let dataset = self.dataset;
+        let own;
+        let shared = match work.cache {
+            Some(cache) if cache.is_in_memory() => cache,
+            outer => {
+                own = Cache::of_folds(outer);
+                &own
+            }
+        };
+        let work = Work {
+            cache: Some(shared),
+            ..work
+        };
         let mut models = Vec::new();
         let mut predicted: Option<Predicted> = None;
         let mut rows = Vec::new();
-        let (mut frames_decoded, mut unlearnt, mut unpredicted) = (0, 0, 0);
-        for left_out in dataset.recordings() {
-            let fitted = self.plan(fit, left_out)?.run(work)?;
+        let mut decoded = BTreeSet::new();
+        let (mut passes, mut unlearnt, mut unpredicted) = (1, 0, 0);
+        for fold in &self.folds {
+            let plan = self.plan(fit, fold)?;
+            if plan.reads_frames() {
+                decoded.extend(plan.train.iter().chain(&plan.validation).copied());
+                passes = plan.passes();
+            }
+            let fitted = plan.run(work)?;
             let model = &fitted.model;
             let reads = model.reads_frames();
             let target = Target::of(dataset, Some(fitted.divided), None, reads)?;
             let own = predict::predict_target(dataset, model, &target, work)?;
-            frames_decoded += fitted.frames_decoded;
+            if reads {
+                decoded.extend(target.rows.iter().copied());
+            }
             unlearnt += fitted.left_out;
             unpredicted += target.left_out;
             rows.extend(target.rows);
-            models.push((left_out.name(), Behind::of(model)?));
+            models.push((fold.name.as_str(), Behind::of(model)?));
             predicted = Some(match predicted {
                 None => own,
                 Some(before) => before.followed_by(own)?,
             });
         }
-        let predicted = predicted.expect("at least two recordings were joined");
+        let predicted = predicted.expect("BUG: there are at least two folds");
+        let (rows, mut predicted) = predicted.in_order_of(rows);
+        // Every frame once for each kind of features, whatever number of folds it was in.
+        predicted.frames_decoded = 0;
         let target = Target {
             part: DataPart::Test,
             rows,
-            divided: Some(self.divided()),
+            divided: Some(self.whole.clone()),
             left_out: unpredicted,
         };
         let fit = FitFacts {
-            frames_decoded,
+            frames_decoded: passes * decoded.len() as u64,
             notes: Note::left_out("training and validation of all folds", unlearnt)
                 .into_iter()
                 .collect(),
@@ -136,50 +355,20 @@ impl<'a> Folds<'a> {
             (&target, &predicted),
             work.jobs,
         )?;
-        let manifest = self.divided().manifest(dataset.table())?;
+        let manifest = self.whole.manifest(dataset.table())?;
         Ok(Evaluated {
             manifest: Some(manifest),
             ..scored
         })
     }
 
-    fn plan(
-        &self,
-        request: &FitRequest,
-        left_out: &JoinedRecording,
-    ) -> Result<FitPlan<'a>, EvaluateError> {
-        let dataset = self.dataset;
-        let rows = dataset.all_rows();
-        let others: Vec<usize> = rows
-            .into_iter()
-            .filter(|row| !left_out.rows().contains(row))
-            .collect();
-        let [train, validation, _] = self.spec.fractions.shares();
-        let fractions = Fractions::new(train, validation, 0.0)?;
-        let mut divided = Divided::within_default(dataset, &others, fractions, self.seed)?;
-        divided.split.test = left_out.rows().collect();
-        divided.split.left_out.clear();
-        divided.spec = self.spec.clone();
-        FitPlan::on(dataset, request, Recipe::of(request)?, divided)
-    }
-
-    /// Of all folds together: every sample is tested on.
-    fn divided(&self) -> Divided {
-        let count = self.dataset.recordings().len();
-        let note = format!(
-            "each of {count} recordings was predicted by a model that was fitted on the other {}; skill is measured by the mean of truth, because \
-             these {count} models have no constant in common",
-            count - 1
-        );
-        Divided {
-            spec: self.spec.clone(),
-            seed: self.seed,
-            split: Split {
-                test: self.dataset.all_rows(),
-                note: Some(note),
-                ..Split::default()
-            },
-        }
+    fn plan(&self, request: &FitRequest, fold: &Fold) -> Result<FitPlan<'a>, EvaluateError> {
+        FitPlan::on(
+            self.dataset,
+            request,
+            Recipe::of(request)?,
+            fold.divided.clone(),
+        )
     }
 }
 

@@ -15,6 +15,8 @@ use crate::predict::{Predicted, truth};
 /// The metrics of a plan by the rows they read.
 pub(super) struct Passes<'a> {
     plan: &'a MetricPlan,
+    /// The group of every row, where intervals are by groups.
+    groups: Option<&'a [String]>,
     /// Those that compare predictions within the bounds of the model with the truth.
     of_predictions: Vec<&'static Metric>,
     /// Those that compare predictions as the model gives them with the truth.
@@ -25,7 +27,11 @@ pub(super) struct Passes<'a> {
 
 impl<'a> Passes<'a> {
     /// Assigns the metrics of `plan` to passes; where a part was asked for, every metric reads that part.
-    pub(super) fn new(plan: &'a MetricPlan, is_part_asked_for: bool) -> Passes<'a> {
+    pub(super) fn new(
+        plan: &'a MetricPlan,
+        groups: Option<&'a [String]>,
+        is_part_asked_for: bool,
+    ) -> Passes<'a> {
         let kept = plan.kept().iter().copied();
         let (of_truth, others): (Vec<_>, Vec<_>) =
             kept.partition(|metric| !is_part_asked_for && reads_no_prediction(metric));
@@ -34,6 +40,7 @@ impl<'a> Passes<'a> {
             .partition(|metric| metric.reads_unbounded_predictions());
         Passes {
             plan,
+            groups,
             of_predictions,
             of_unbounded,
             of_truth,
@@ -59,6 +66,7 @@ impl<'a> Passes<'a> {
                 prediction,
                 dataset,
                 rows,
+                groups: self.groups,
             };
             let plan = self.restricted(metrics)?;
             total.merge(accumulate(&columns, &plan, jobs)?)?;
@@ -76,6 +84,7 @@ impl<'a> Passes<'a> {
                 truth: &truth,
                 dataset,
                 rows: &rows,
+                groups: self.groups,
             };
             let plan = self.restricted(&self.of_truth)?;
             total.merge(accumulate(&columns, &plan, jobs)?)?;
@@ -107,6 +116,7 @@ impl<'a> Passes<'a> {
                 prediction: &slice(prediction),
                 dataset,
                 rows: &rows[own.clone()],
+                groups: self.groups,
             };
             let plan = self.restricted(metrics)?;
             total.merge(accumulate(&columns, &plan, jobs)?)?;
@@ -134,6 +144,8 @@ impl<'a> Passes<'a> {
             .with_settings(*plan.settings())?;
         Ok(match plan.clustered_by() {
             ClusteredBy::Recording => restricted.by_recording(),
+            ClusteredBy::Group => restricted.by_group(),
+            ClusteredBy::Sample => restricted.independent_samples(),
             _ => restricted,
         })
     }

@@ -22,7 +22,7 @@ pub fn evaluate_plan(dataset: &Dataset, request: &EvaluateRequest) -> Result<Pla
     plan.step("read", format!("{rows} rows of {}", shown(&dataset.path())));
     let (target, channels, reads_frames) = match &request.model {
         ModelChoice::Fit(fit) => {
-            let fit = match folds::of(dataset, fit)? {
+            let fit = match folds::of(dataset, fit, request.part)? {
                 Some(folds) => {
                     folds.refuse_part(request)?;
                     folds.explain(&mut plan);

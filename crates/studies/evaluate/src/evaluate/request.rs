@@ -19,6 +19,8 @@ pub struct EvaluateRequest {
     pub part: Option<DataPart>,
     /// What is known of the sensor beyond the dataset's header.
     pub sensor: Option<SensorFile>,
+    /// True if the caller says that samples do not depend on each other, so that each is a point of its own in intervals.
+    pub is_independent: bool,
 }
 
 /// What is asked for beside the model.
@@ -27,6 +29,7 @@ pub struct Asked<'a> {
     pub(super) metrics: &'a [String],
     pub(super) part: Option<DataPart>,
     pub(super) sensor: Option<&'a SensorFile>,
+    pub(super) is_independent: bool,
 }
 
 impl EvaluateRequest {
@@ -36,6 +39,7 @@ impl EvaluateRequest {
             metrics: &self.metrics,
             part: self.part,
             sensor: self.sensor.as_ref(),
+            is_independent: self.is_independent,
         }
     }
 }

@@ -15,7 +15,7 @@ use crate::assess::{Assessed, Context, FitFacts, ScoredRows, assess};
 use crate::calibration::calibration;
 use crate::error::EvaluateError;
 use crate::facts;
-use crate::note::Note;
+use crate::note::{Division, Independence, Note};
 use crate::predict::{Predicted, Target};
 use crate::provenance::{self, choices};
 use crate::recordings::{self, Clusters};
@@ -70,20 +70,39 @@ pub fn score(
     let plan = metrics(dataset, predicted.channels(), asked)?
         .with_constants(predicted.constants().clone())?;
     let clusters = Clusters::of(dataset, &target.rows);
+    let divided = target.divided.as_ref();
+    let groups = divided.and_then(|divided| divided.groups.as_deref());
+    let independence = independence(asked, target);
+    let plan = match (independence, groups) {
+        (Some(_), _) => plan.independent_samples(),
+        (None, Some(_)) => plan.by_group(),
+        (None, None) => plan,
+    };
     let by_recording = by_recording(dataset, (&plan, asked), (target, predicted), jobs)?;
     let plan = match clusters.is_some_and(Clusters::are_recordings) {
         true => plan.by_recording(),
         false => plan,
     };
-    let passes = Passes::new(&plan, asked.part.is_some());
+    let passes = Passes::new(&plan, groups, asked.part.is_some());
     let evaluator = passes.run(dataset, predicted, &target.rows, jobs)?;
-    let divided = target.divided.as_ref();
+    let neighbours = divided.and_then(|divided| divided.neighbours.clone());
     let split = divided.and_then(|divided| divided.split.note.clone());
-    let few_points = match clusters.is_some_and(Clusters::are_recordings) {
+    let are_points = independence.is_none() && groups.is_none();
+    let few_points = match clusters.is_some_and(Clusters::are_recordings) || !are_points {
         true => None,
         false => few_points(predicted.points()),
     };
-    let mut notes: Vec<Note> = split.map(Note::Split).into_iter().collect();
+    let are_neighbours_learnt = matches!(
+        neighbours,
+        Some(Note::Neighbours {
+            division: Division::Separated { .. },
+            ..
+        })
+    );
+    let first_line = neighbours.as_ref().map(Note::to_string);
+    let mut notes: Vec<Note> = neighbours.into_iter().collect();
+    notes.extend(split.map(Note::Split));
+    notes.extend(independence.map(Note::Independent));
     notes.extend(clusters.map(Clusters::note));
     notes.extend(few_points);
     notes.extend(recordings::extended(dataset));
@@ -102,6 +121,7 @@ pub fn score(
     let provenance = Provenance {
         model: Some(behind.model),
         split: divided.map(|divided| divided.spec.to_string()),
+        neighbours: first_line,
         seed: divided.map(|divided| divided.seed),
         part: Some(target.part.name().to_owned()),
         samples: divided.map(Divided::counts).unwrap_or_default(),
@@ -116,6 +136,7 @@ pub fn score(
     };
     let context = Context {
         notes,
+        are_neighbours_learnt,
         fit: behind.fit,
         by_recording,
         samples: Some(samples),
@@ -129,6 +150,19 @@ pub fn score(
     })
 }
 
+/// The reason why samples of `target` are taken as independent, if they are.
+fn independence(asked: Asked<'_>, target: &Target) -> Option<Independence> {
+    let found = target.divided.as_ref();
+    match (
+        asked.is_independent,
+        found.is_some_and(|divided| divided.are_independent),
+    ) {
+        (true, _) => Some(Independence::Stated),
+        (false, true) => Some(Independence::Found),
+        (false, false) => None,
+    }
+}
+
 /// The scores of each recording alone, where several were joined.
 fn by_recording(
     dataset: &Dataset,
@@ -136,7 +170,9 @@ fn by_recording(
     (target, predicted): (&Target, &Predicted),
     jobs: NonZeroUsize,
 ) -> Result<Vec<RecordingScores>, EvaluateError> {
-    let passes = Passes::new(plan, asked.part.is_some());
+    let divided = target.divided.as_ref();
+    let groups = divided.and_then(|divided| divided.groups.as_deref());
+    let passes = Passes::new(plan, groups, asked.part.is_some());
     let rows = &target.rows;
     let mut scores = Vec::new();
     for recording in dataset.recordings() {

@@ -130,11 +130,15 @@ impl<'a> FitPlan<'a> {
         self.features
     }
 
+    /// Kinds of features for each of which every frame is decoded.
+    pub(crate) fn passes(&self) -> u64 {
+        if self.closer.is_some() { 2 } else { 1 }
+    }
+
     /// How many frames [`run`](FitPlan::run) decodes.
     pub fn frames_to_decode(&self) -> u64 {
         if self.reads_frames() {
-            let passes = if self.closer.is_some() { 2 } else { 1 };
-            passes * (self.train.len() + self.validation.len()) as u64
+            self.passes() * (self.train.len() + self.validation.len()) as u64
         } else {
             0
         }

@@ -11,6 +11,7 @@ use taceva_models::{
 use super::{FitPlan, Fitted};
 use crate::error::EvaluateError;
 use crate::features::{blank, extract, extractor, kinds};
+use crate::note::Note;
 use crate::recordings;
 use crate::work::Work;
 
@@ -167,7 +168,11 @@ impl FitPlan<'_> {
                 split: self.divided.spec.to_string(),
                 seed: self.divided.seed,
             }),
-            notes: self.divided.split.note.iter().cloned().collect(),
+            notes: {
+                let neighbours = self.divided.neighbours.iter().map(Note::to_string);
+                neighbours.chain(self.divided.split.note.clone()).collect()
+            },
+            validation: None,
         }
     }
 }

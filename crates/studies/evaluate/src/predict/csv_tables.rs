@@ -3,11 +3,12 @@
 use std::io::{self, Write};
 
 use taceva_core::Column;
+use taceva_results::Samples;
 
 use super::Predicted;
 
 impl Predicted {
-    /// Writes the predictions as `score` reads them: `id` and a column a channel.
+    /// Writes the predictions as `score` reads them: `sample` and a column a channel.
     ///
     /// # Errors
     /// Those of `out`.
@@ -24,7 +25,7 @@ impl Predicted {
         self.write(&self.unbounded, false, out)
     }
 
-    /// Writes the standard deviation of each prediction, where the model knows it: `id` and a column a channel; says whether it does.
+    /// Writes the standard deviation of each prediction, where the model knows it: `sample` and a column a channel; says whether it does.
     ///
     /// # Errors
     /// Those of `out`.
@@ -35,7 +36,7 @@ impl Predicted {
         }
     }
 
-    /// Writes the truth of the same samples: `id`, `point_id` where every sample has one, what else is known of them (`scene`,
+    /// Writes the truth of the same samples: `sample`, `point_id` where every sample has one, what else is known of them (`scene`,
     /// `repeat`, `phase` and the like), and a column a channel.
     ///
     /// # Errors
@@ -48,7 +49,7 @@ impl Predicted {
         let points = self.points.as_ref().filter(|_| is_truth);
         let beside = if is_truth { &self.beside[..] } else { &[] };
         let mut writer = csv::Writer::from_writer(out);
-        let mut head = vec!["id"];
+        let mut head = vec![Samples::KEY];
         head.extend(points.map(|_| "point_id"));
         head.extend(beside.iter().map(|(name, _)| *name));
         head.extend(self.channels.iter().map(|channel| channel.name()));

@@ -84,6 +84,41 @@ impl Predicted {
         Ok(self)
     }
 
+    /// The predictions of `rows` in ascending order, with these: the order of the recording, whichever fold a sample was in.
+    pub(crate) fn in_order_of(self, rows: Vec<usize>) -> (Vec<usize>, Predicted) {
+        let mut order: Vec<usize> = (0..rows.len()).collect();
+        order.sort_by_key(|at| rows[*at]);
+        let columns = |columns: Vec<Column>| -> Vec<Column> {
+            let sorted = |column: &Column| {
+                let mut sorted = Column::default();
+                order.iter().for_each(|&at| sorted.push(column.get(at)));
+                sorted
+            };
+            columns.iter().map(sorted).collect()
+        };
+        let texts = |texts: &[String]| order.iter().map(|&at| texts[at].clone()).collect();
+        let predicted = Predicted {
+            ids: texts(&self.ids),
+            points: self.points.as_deref().map(texts),
+            beside: self
+                .beside
+                .into_iter()
+                .map(|(name, cells)| (name, order.iter().map(|&at| cells[at].clone()).collect()))
+                .collect(),
+            truth: columns(self.truth),
+            prediction: columns(self.prediction),
+            unbounded: columns(self.unbounded),
+            deviation: self.deviation.map(columns),
+            beyond: self
+                .beyond
+                .into_iter()
+                .map(|beyond| beyond.map(|beyond| order.iter().map(|&at| beyond[at]).collect()))
+                .collect(),
+            ..self
+        };
+        (order.iter().map(|&at| rows[at]).collect(), predicted)
+    }
+
     /// The part of the dataset.
     pub fn part(&self) -> &'static str {
         self.part.name()

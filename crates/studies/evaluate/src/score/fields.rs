@@ -5,10 +5,8 @@ use taceva_import::CsvTable;
 
 use crate::error::EvaluateError;
 
-/// Columns of a table that are no channels.
-pub(super) const NOT_CHANNELS: [&str; 14] = [
-    "id",
-    "sample",
+/// Columns of a table that are no channels, beside the keys of rows.
+pub(super) const NOT_CHANNELS: [&str; 12] = [
     "point_id",
     "scene",
     "unit_id",

@@ -7,19 +7,21 @@ use std::sync::{Mutex, PoisonError};
 
 use taceva_core::{ErrorKind, ModelError, Progress};
 use taceva_import::{CsvStream, CsvTable};
-use taceva_metrics::{Evaluator, MetricPlan};
+use taceva_metrics::Evaluator;
 
-use super::fields::Place;
-use super::id_order::IdOrder;
+use super::agreement::Matching;
+use super::key_order::KeyOrder;
 use super::row_pairs::PairedRows;
 use super::tables::Pairing;
-use super::{ScoreRequest, Scored, finished, parquet_parts, planned, tables};
+use super::{
+    Said, ScorePlan, ScoreRequest, Scored, finished, likely_key, parquet_parts, planned, tables,
+};
 use crate::accumulate::{BATCH_ROWS, Rows};
 use crate::error::EvaluateError;
 use crate::row_ledger::Taken;
 
 /// Scores the tables of `request` in one pass, to the same bytes as [`Scoring`](super::Scoring) does; `None` where that is not possible: rows with
-/// an `id` in both tables that does not ascend alike, quoted cells, Parquet, and whatever is refused: [`Scoring`](super::Scoring) reads the whole
+/// a key in both tables that does not ascend alike, quoted cells, Parquet, columns that may be keys, and whatever is refused: [`Scoring`](super::Scoring) reads the whole
 /// first, so that of several things that are wrong it says the same as ever.
 ///
 /// # Errors
@@ -36,16 +38,21 @@ pub fn score_in_one_pass(
     let (Ok(()), [Ok(truth), Ok(prediction)]) = (tables::check_distinct(request), streams) else {
         return Ok(None);
     };
-    let Ok((metrics, places, sensor)) = planned(request, truth.header(), prediction.header())
-    else {
+    let headers = [truth.header(), prediction.header()];
+    let Ok(plan) = planned(request, headers[0], headers[1]) else {
+        return Ok(None);
+    };
+    let key = plan.keys.pairs.first();
+    let Ok(matching) = Matching::of(headers, &plan.keys, key) else {
         return Ok(None);
     };
     let pass = Pass {
-        order: IdOrder::of(truth.header(), prediction.header()),
+        order: key.and_then(|key| KeyOrder::of(headers, key)),
         truth: Mutex::new(truth),
         prediction: Mutex::new(prediction),
-        metrics: &metrics,
-        places: &places,
+        plan: &plan,
+        matching: &matching,
+        request,
         allow_invalid: request.allow_invalid,
         blocks: AtomicU64::new(0),
         rows: AtomicU64::new(0),
@@ -55,7 +62,7 @@ pub fn score_in_one_pass(
     progress.begin("score", None);
     let evaluator = pass.evaluate(request.jobs.get());
     progress.end();
-    let is_in_order = pass.order.is_none_or(IdOrder::ascends);
+    let is_in_order = pass.order.is_none_or(KeyOrder::ascends);
     let Some(evaluator) = evaluator?.filter(|_| is_in_order) else {
         return Ok(None);
     };
@@ -70,18 +77,24 @@ pub fn score_in_one_pass(
     ]
     .into();
     let taken = Taken::all_of(tables::input_of(&digests), rows);
-    finished(evaluator, &sensor, digests, taken, Vec::new()).map(Some)
+    let said = Said {
+        is_independent: request.is_independent,
+        paired: matching.by,
+        shard: None,
+    };
+    finished(evaluator, &plan.sensor, digests, taken, said).map(Some)
 }
 
 /// What the threads of a pass have in common.
 struct Pass<'a> {
     truth: Mutex<CsvStream>,
     prediction: Mutex<CsvStream>,
-    metrics: &'a MetricPlan,
-    places: &'a [Place],
+    plan: &'a ScorePlan,
+    matching: &'a Matching,
+    request: &'a ScoreRequest,
     allow_invalid: bool,
-    /// Of tables that both have ids.
-    order: Option<IdOrder>,
+    /// The order of keys, in tables that both have one.
+    order: Option<KeyOrder>,
     /// Blocks that were begun to be read.
     blocks: AtomicU64,
     /// Rows that were scored.
@@ -114,7 +127,7 @@ impl Pass<'_> {
                 });
                 joined.collect()
             });
-        let mut total = Evaluator::new(self.metrics);
+        let mut total = Evaluator::new(&self.plan.metrics);
         for evaluator in evaluators {
             match evaluator? {
                 Some(evaluator) => total.merge(evaluator)?,
@@ -129,7 +142,7 @@ impl Pass<'_> {
     fn batches(&self) -> Result<Option<Evaluator>, EvaluateError> {
         let block = |stream: &Mutex<CsvStream>| lock(stream).block();
         let mut pair = [block(&self.truth), block(&self.prediction)];
-        let mut evaluator = Evaluator::new(self.metrics);
+        let mut evaluator = Evaluator::new(&self.plan.metrics);
         while !self.is_over.load(Ordering::Relaxed) {
             if self.progress.is_cancelled() {
                 let stopped = ModelError::new(ErrorKind::Interrupted, "stopped while scoring");
@@ -165,6 +178,10 @@ impl Pass<'_> {
 
     /// Scores a block; returns whether that was possible.
     fn take(&self, number: u64, tables: [&CsvTable; 2], evaluator: &mut Evaluator) -> bool {
+        // The first block shows whether a column may be a key; the whole tables, whether it is.
+        if number == 0 && likely_key::check_tables(self.request, self.plan, tables).is_err() {
+            return false;
+        }
         let mut order = self.order.iter();
         order.all(|order| order.is_kept_in(number, tables))
             && self.update(tables, evaluator).is_ok()
@@ -179,11 +196,11 @@ impl Pass<'_> {
         let paired = PairedRows::new(
             tables,
             &Pairing::ByOrder,
-            self.metrics,
-            self.places,
+            self.matching,
+            self.plan,
             self.allow_invalid,
         )?;
-        Ok(evaluator.update(&paired.batch(self.metrics, rows)?)?)
+        Ok(evaluator.update(&paired.batch(&self.plan.metrics, rows)?)?)
     }
 }
 
@@ -224,6 +241,8 @@ mod tests {
             truth: write("truth.csv", truth),
             prediction: write("prediction.csv", prediction),
             units: Vec::new(),
+            key: None,
+            is_independent: false,
             sensor: None,
             metrics: Vec::new(),
             allow_invalid: false,

@@ -5,6 +5,8 @@ use std::path::PathBuf;
 
 use taceva_core::Unit;
 
+use super::row_key::RowKey;
+
 /// What to score.
 #[derive(Clone, Debug)]
 pub struct ScoreRequest {
@@ -14,6 +16,10 @@ pub struct ScoreRequest {
     pub prediction: PathBuf,
     /// Units of channels beside the six; those not named have the unit 1.
     pub units: Vec<(String, Unit)>,
+    /// The key by which rows are paired; found by its name if `None`.
+    pub key: Option<RowKey>,
+    /// True if samples do not depend on each other, so that each is a point of its own in intervals.
+    pub is_independent: bool,
     /// What is known of the sensor: a file with footprint, greatest depth, opacity.
     pub sensor: Option<PathBuf>,
     /// Metrics and groups by name.

@@ -6,6 +6,8 @@ use taceva_core::{Batch, Channel, Column, Field};
 use taceva_import::CsvTable;
 use taceva_metrics::MetricPlan;
 
+use super::ScorePlan;
+use super::agreement::Matching;
 use super::fields::{self, Place};
 use super::tables::Pairing;
 use crate::accumulate::Rows;
@@ -20,25 +22,27 @@ pub(super) struct PairedRows<'a> {
     channels: Vec<[usize; 2]>,
     /// Where the fields that metrics read are stated.
     places: Vec<Place>,
+    matching: &'a Matching,
     allow_invalid: bool,
 }
 
 impl<'a> PairedRows<'a> {
-    /// The rows of the truth with those of the prediction that `pairing` gives them; `places` say which columns state which fields.
+    /// The rows of the truth with those of the prediction that `pairing` gives them, and what `plan` reads of both.
     pub(super) fn new(
         [truth, prediction]: [&'a CsvTable; 2],
         pairing: &'a Pairing,
-        metrics: &MetricPlan,
-        places: &[Place],
+        matching: &'a Matching,
+        plan: &ScorePlan,
         allow_invalid: bool,
     ) -> Result<PairedRows<'a>, EvaluateError> {
         let stand = |channel: &Channel| {
             let name = channel.name();
             Ok([truth.position(name)?, prediction.position(name)?])
         };
-        let channels: Result<_, EvaluateError> = metrics.channels().iter().map(stand).collect();
-        let wanted = metrics.fields();
-        let places = places.iter().copied();
+        let channels: Result<_, EvaluateError> =
+            plan.metrics.channels().iter().map(stand).collect();
+        let wanted = plan.metrics.fields();
+        let places = plan.places.iter().copied();
         Ok(PairedRows {
             truth,
             prediction,
@@ -47,6 +51,7 @@ impl<'a> PairedRows<'a> {
             places: places
                 .filter(|place| wanted.contains(place.field))
                 .collect(),
+            matching,
             allow_invalid,
         })
     }
@@ -70,6 +75,9 @@ impl<'a> PairedRows<'a> {
         rows: Range<usize>,
         paired: impl ExactSizeIterator<Item = usize> + Clone,
     ) -> Result<Batch, EvaluateError> {
+        let tables = [self.truth, self.prediction];
+        self.matching
+            .check(tables, rows.clone().zip(paired.clone()))?;
         let truth: Result<_, EvaluateError> = self
             .channels
             .iter()
@@ -128,7 +136,7 @@ impl Rows for PairedRows<'_> {
     fn batch(&self, plan: &MetricPlan, rows: Range<usize>) -> Result<Batch, EvaluateError> {
         match self.pairing {
             Pairing::ByOrder => self.side_by_side(plan, rows.clone(), rows),
-            Pairing::ById(paired) => {
+            Pairing::ByKey(paired) => {
                 let paired = paired[rows.clone()].iter().copied();
                 self.side_by_side(plan, rows, paired)
             }

@@ -8,17 +8,21 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use taceva_core::{Channel, ErrorKind, ModelError, Progress, shown};
-use taceva_dataset::{Digest, SensorFile};
+use taceva_dataset::Digest;
 use taceva_import::{CsvParts, CsvTable};
-use taceva_metrics::{Evaluator, MetricPlan};
+use taceva_metrics::Evaluator;
 
-use super::fields::{NOT_CHANNELS, Place};
-use super::ids::{ById, Found, ID, parts_of};
+use super::agreement::Matching;
+use super::fields::NOT_CHANNELS;
+use super::key_parts::{ByKey, Found, parts_of};
+use super::row_key::{KEY_NAMES, KeyPair, RowKey};
 use super::row_pairs::PairedRows;
 use super::shard::Shard;
 use super::table_parts::{Reader, TableParts};
 use super::tables::Pairing;
-use super::{ScoreRequest, Scored, finished, parquet_parts, planned, tables};
+use super::{
+    Said, ScorePlan, ScoreRequest, Scored, finished, likely_key, parquet_parts, planned, tables,
+};
 use crate::accumulate::{BATCH_ROWS, Rows};
 use crate::error::EvaluateError;
 use crate::note::Note;
@@ -37,10 +41,13 @@ pub struct ScoreTables {
 struct Understood<'a> {
     truth: Reader<'a>,
     prediction: Reader<'a>,
-    metrics: MetricPlan,
-    places: Vec<Place>,
-    sensor: SensorFile,
-    is_by_id: bool,
+    plan: ScorePlan,
+}
+
+/// Rows of a shard with their predictions.
+struct PairedShard {
+    found: Found,
+    matching: Matching,
 }
 
 impl ScoreTables {
@@ -115,7 +122,7 @@ impl ScoreTables {
     pub fn plan(&self, request: &ScoreRequest, shard: Shard) -> Result<Plan, EvaluateError> {
         let understood = self.understood(request)?;
         let mut plan = Plan {
-            skipped: understood.metrics.skipped().to_vec(),
+            skipped: understood.plan.metrics.skipped().to_vec(),
             ..Plan::default()
         };
         let own = shard.rows(self.rows());
@@ -131,14 +138,17 @@ impl ScoreTables {
                 ),
             );
         }
-        let how = match understood.is_by_id {
-            true => "rows by id",
-            false => "rows by order",
-        };
-        plan.step("pair", how);
-        let channels = understood.metrics.channels().iter().map(Channel::name);
+        let keys = &understood.plan.keys;
+        let by = keys.paired_by(keys.pairs.first());
+        plan.step("pair", format!("rows {by}"));
+        let channels = understood.plan.metrics.channels().iter().map(Channel::name);
         let channels: Vec<&str> = channels.collect();
-        let metrics = understood.metrics.kept().iter().map(|metric| metric.id);
+        let metrics = understood
+            .plan
+            .metrics
+            .kept()
+            .iter()
+            .map(|metric| metric.id);
         let metrics: Vec<&str> = metrics.collect();
         plan.step(
             "score",
@@ -150,7 +160,7 @@ impl ScoreTables {
     /// Scores the rows of `shard`. The states of all shards join to the scores, and to the state, of all rows at once.
     ///
     /// # Errors
-    /// [`EvaluateError`] at the first cell that is no finite number, unless they are allowed; for an id that comes twice or that one table lacks.
+    /// [`EvaluateError`] at the first cell that is no finite number, unless they are allowed; for a key that comes twice or that one table lacks.
     pub fn score(
         &self,
         request: &ScoreRequest,
@@ -160,8 +170,13 @@ impl ScoreTables {
         let understood = self.understood(request)?;
         let own = shard.rows(self.rows());
         progress.begin("score", Some(own.end - own.start));
-        let evaluator = self.accumulated(&understood, request, &own, progress);
+        let paired = self.paired(&understood, &own);
+        let evaluator = paired.and_then(|paired| {
+            let evaluator = self.accumulated(&understood, request, &own, &paired, progress)?;
+            Ok((evaluator, paired.matching.by))
+        });
         progress.end();
+        let (evaluator, paired) = evaluator?;
         let digests: BTreeMap<String, String> = [
             ("truth", self.truth.digest()),
             ("prediction", self.prediction.digest()),
@@ -177,8 +192,12 @@ impl ScoreTables {
             rows: [own.start, own.end],
             of: self.rows(),
         });
-        let notes = note.into_iter().collect();
-        finished(evaluator?, &understood.sensor, digests, taken, notes)
+        let said = Said {
+            is_independent: request.is_independent,
+            paired,
+            shard: note,
+        };
+        finished(evaluator, &understood.plan.sensor, digests, taken, said)
     }
 
     fn understood(&self, request: &ScoreRequest) -> Result<Understood<'_>, EvaluateError> {
@@ -186,19 +205,63 @@ impl ScoreTables {
         let predicted = prediction.header()?;
         let is_six = |name: &str| Channel::SIX.iter().any(|channel| channel.name() == name);
         // What is neither predicted nor stands beside channels is not read: pictures, for instance.
+        let is_key = |name: &str| {
+            let chosen = matches!(&request.key, Some(RowKey::Column(key)) if key == name);
+            chosen || KEY_NAMES.contains(&name)
+        };
         let truth = truth.with_columns(|name| {
-            predicted.has(name) || NOT_CHANNELS.contains(&name) || is_six(name)
+            predicted.has(name) || NOT_CHANNELS.contains(&name) || is_key(name) || is_six(name)
         });
-        let head = truth.header()?;
-        let (metrics, places, sensor) = planned(request, &head, &predicted)?;
+        let plan = planned(request, &truth.header()?, &predicted)?;
+        let parts = |rows: u64| rows.div_ceil(CsvParts::ROWS);
+        let tables = [
+            (&truth, parts(self.truth.rows())),
+            (&prediction, parts(self.prediction.rows())),
+        ];
+        likely_key::check_parts(request, &plan, tables)?;
         Ok(Understood {
             truth,
             prediction,
-            metrics,
-            places,
-            sensor,
-            is_by_id: head.has(ID) && predicted.has(ID),
+            plan,
         })
+    }
+
+    /// The predictions of the rows in `own`, by the first key that pairs them.
+    fn paired(
+        &self,
+        understood: &Understood<'_>,
+        own: &Range<u64>,
+    ) -> Result<PairedShard, EvaluateError> {
+        let keys = &understood.plan.keys;
+        let headers = [understood.truth.header()?, understood.prediction.header()?];
+        let matching = |key: Option<&KeyPair>| Matching::of([&headers[0], &headers[1]], keys, key);
+        if own.is_empty() || !keys.are_there() {
+            return Ok(PairedShard {
+                found: Found::InOrder,
+                matching: matching(keys.pairs.first())?,
+            });
+        }
+        let mut first_error = None;
+        for key in &keys.pairs {
+            let by_key = ByKey {
+                key,
+                truth: &self.truth,
+                prediction: &self.prediction,
+                reader: &understood.prediction,
+            };
+            match by_key.pair(own) {
+                Ok(found) => {
+                    return Ok(PairedShard {
+                        found,
+                        matching: matching(Some(key))?,
+                    });
+                }
+                Err(error) => {
+                    first_error.get_or_insert(error);
+                }
+            }
+        }
+        Err(first_error.expect("BUG: there are keys, and none paired the rows or failed"))
     }
 
     fn accumulated(
@@ -206,23 +269,15 @@ impl ScoreTables {
         understood: &Understood<'_>,
         request: &ScoreRequest,
         own: &Range<u64>,
+        paired: &PairedShard,
         progress: &dyn Progress,
     ) -> Result<Evaluator, EvaluateError> {
-        let found = match understood.is_by_id && !own.is_empty() {
-            true => ById {
-                truth: &self.truth,
-                prediction: &self.prediction,
-                reader: &understood.prediction,
-            }
-            .pair(own)?,
-            false => Found::InOrder,
-        };
         let parts: Vec<u64> = parts_of(own).collect();
         // Each thread takes parts that follow each other; sums are exact, so that their number changes nothing.
         let work = Work {
             understood,
             own,
-            found: &found,
+            paired,
             allow_invalid: request.allow_invalid,
             progress,
         };
@@ -242,7 +297,7 @@ impl ScoreTables {
             });
             joined.collect()
         });
-        let mut total = Evaluator::new(&understood.metrics);
+        let mut total = Evaluator::new(&understood.plan.metrics);
         for evaluator in evaluators {
             total.merge(evaluator?)?;
         }
@@ -276,14 +331,14 @@ fn both(request: &ScoreRequest) -> Result<ScoreTables, EvaluateError> {
 struct Work<'a> {
     understood: &'a Understood<'a>,
     own: &'a Range<u64>,
-    found: &'a Found,
+    paired: &'a PairedShard,
     allow_invalid: bool,
     progress: &'a dyn Progress,
 }
 
 impl Work<'_> {
     fn parts(&self, parts: &[u64]) -> Result<Evaluator, EvaluateError> {
-        let mut evaluator = Evaluator::new(&self.understood.metrics);
+        let mut evaluator = Evaluator::new(&self.understood.plan.metrics);
         for &part in parts {
             if self.progress.is_cancelled() {
                 let stopped = ModelError::new(ErrorKind::Interrupted, "stopped while scoring");
@@ -301,7 +356,7 @@ impl Work<'_> {
         let here = self.own.start.max(begin)..self.own.end.min(begin + truth.rows() as u64);
         let inside = |row: u64, first: u64| usize::try_from(row - first).unwrap_or(usize::MAX);
         let rows = inside(here.start, begin)..inside(here.end, begin);
-        match self.found {
+        match &self.paired.found {
             Found::InOrder => {
                 let prediction = self.understood.prediction.read(part)?;
                 self.update(evaluator, [&truth, &prediction], &Pairing::ByOrder, rows)
@@ -310,7 +365,7 @@ impl Work<'_> {
                 // Rows before the shard have no prediction there, and are not asked for.
                 let paired = (0..truth.rows() as u64)
                     .map(|at| inside((begin + at).max(self.own.start), self.own.start));
-                let pairing = Pairing::ById(paired.collect());
+                let pairing = Pairing::ByKey(paired.collect());
                 self.update(evaluator, [&truth, prediction], &pairing, rows)
             }
         }
@@ -323,12 +378,13 @@ impl Work<'_> {
         pairing: &Pairing,
         rows: Range<usize>,
     ) -> Result<(), EvaluateError> {
-        let metrics = &self.understood.metrics;
+        let plan = &self.understood.plan;
+        let metrics = &plan.metrics;
         let paired = PairedRows::new(
             [truth, prediction],
             pairing,
-            metrics,
-            &self.understood.places,
+            &self.paired.matching,
+            plan,
             self.allow_invalid,
         )?;
         for start in rows.clone().step_by(BATCH_ROWS) {
@@ -358,6 +414,8 @@ mod tests {
             truth,
             prediction,
             units: Vec::new(),
+            key: None,
+            is_independent: false,
             sensor: None,
             metrics: Vec::new(),
             allow_invalid: false,

@@ -6,10 +6,11 @@ use std::path::Path;
 use taceva_core::shown;
 
 use taceva_core::{Channel, Channels, Unit};
-use taceva_dataset::Digest;
+use taceva_dataset::{Digest, Place};
 use taceva_import::CsvTable;
 
 use super::fields::NOT_CHANNELS;
+use super::row_key::{KEY_NAMES, KeyPair, RowKeys, in_words, key_of, nearly};
 use super::table_parts::TableParts;
 use super::{ScoreRequest, parquet_parts};
 use crate::error::EvaluateError;
@@ -20,7 +21,7 @@ pub(super) enum Pairing {
     /// The first with the first.
     ByOrder,
     /// For each row of the truth, its row of the prediction.
-    ById(Vec<usize>),
+    ByKey(Vec<usize>),
 }
 
 /// Both tables with their digests, read at the same time where two threads are allowed.
@@ -100,8 +101,14 @@ pub(super) fn channels(
     truth: &CsvTable,
     prediction: &CsvTable,
     units: &[(String, Unit)],
+    keys: &RowKeys,
 ) -> Result<Channels, EvaluateError> {
-    let is_channel = |name: &&String| !NOT_CHANNELS.contains(&name.as_str());
+    let is_beside = |name: &str| {
+        NOT_CHANNELS.contains(&name)
+            || KEY_NAMES.contains(&name)
+            || keys.names().any(|key| key == name)
+    };
+    let is_channel = |name: &&String| is_declared(units, name) || !is_beside(name);
     let six = |name: &str| {
         Channel::SIX
             .into_iter()
@@ -149,60 +156,148 @@ pub(super) fn channels(
     Channels::new(found).map_err(|error| wrong(prediction, error.to_string()))
 }
 
-/// Pairs the rows by `id` where both tables have one, else by order.
-pub(super) fn pair(truth: &CsvTable, prediction: &CsvTable) -> Result<Pairing, EvaluateError> {
-    let wrong = |table: &CsvTable, problem: String| EvaluateError::Tables {
-        path: table.path().to_owned(),
-        problem,
-    };
-    if !truth.has("id") || !prediction.has("id") {
-        if truth.rows() != prediction.rows() {
-            let problem = format!(
-                "{} rows, but {} has {}; without a column `id` in both, rows are matched by order",
+/// True if the unit of the column called `name` is declared, so that it is a channel.
+pub(super) fn is_declared(units: &[(String, Unit)], name: &str) -> bool {
+    units.iter().any(|(known, _)| known == name)
+}
+
+/// Pairs the rows by the first of `keys` that pairs them all, else by order; returns the key.
+///
+/// # Errors
+/// [`EvaluateError::Tables`] for a key that is empty, comes twice, or stands in one table alone; without a key, for different numbers of rows.
+pub(super) fn pair<'a>(
+    truth: &CsvTable,
+    prediction: &CsvTable,
+    keys: &'a RowKeys,
+) -> Result<(Pairing, Option<&'a KeyPair>), EvaluateError> {
+    let mut first_error = None;
+    for key in &keys.pairs {
+        match pair_by(truth, prediction, key) {
+            Ok(pairing) => return Ok((pairing, Some(key))),
+            Err(error) => {
+                first_error.get_or_insert(error);
+            }
+        }
+    }
+    if let Some(error) = first_error {
+        return Err(error);
+    }
+    if truth.rows() != prediction.rows() {
+        return Err(EvaluateError::Tables {
+            path: prediction.path().to_owned(),
+            problem: format!(
+                "{} rows, but {} has {}; without a column `sample` or `id` in both, rows are matched by order",
                 prediction.rows(),
                 shown(&truth.path()),
                 truth.rows()
-            );
-            return Err(wrong(prediction, problem));
-        }
-        return Ok(Pairing::ByOrder);
+            ),
+        });
     }
-    let ids = prediction.text("id")?;
-    let mut rows: HashMap<&str, usize> = HashMap::with_capacity(ids.len());
-    for (row, id) in ids.iter().enumerate() {
-        if rows.insert(id, row).is_some() {
-            return Err(wrong(
-                prediction,
-                format!("id `{}` comes twice", shown(*id)),
-            ));
+    Ok((Pairing::ByOrder, None))
+}
+
+/// The keys of all rows, each of which is some word and comes once.
+fn rows_by_key<'a>(
+    table: &'a CsvTable,
+    name: &str,
+) -> Result<HashMap<&'a str, usize>, EvaluateError> {
+    let column = table.position(name)?;
+    let mut rows: HashMap<&str, usize> = HashMap::with_capacity(table.rows());
+    for row in 0..table.rows() {
+        let key = key_of(table.cell(row, column));
+        if key.is_empty() {
+            return Err(without_key(table, row, name)?);
+        }
+        if let Some(first) = rows.insert(key, row) {
+            return Err(EvaluateError::Tables {
+                path: table.path().to_owned(),
+                problem: comes_twice(
+                    name,
+                    key,
+                    Some([table.place(first, column), table.place(row, column)]),
+                ),
+            });
         }
     }
-    let wanted = truth.text("id")?;
-    let mut paired = Vec::with_capacity(wanted.len());
-    for id in &wanted {
-        // Taken out, so that an id of the truth that comes twice finds nothing the second time.
-        match rows.remove(id) {
-            Some(row) => paired.push(row),
-            None if ids.contains(id) => {
-                return Err(wrong(truth, format!("id `{}` comes twice", shown(*id))));
+    Ok(rows)
+}
+
+/// The error of a row whose key is empty.
+///
+/// # Errors
+/// [`EvaluateError::Dataset`] if the table has no column called `name`.
+pub(super) fn without_key(
+    table: &CsvTable,
+    row: usize,
+    name: &str,
+) -> Result<EvaluateError, EvaluateError> {
+    let expected = "expected the key of the row: fill it in, or choose another key with --key NAME";
+    Ok(table.refuse(row, table.position(name)?, expected).into())
+}
+
+/// A key that comes twice, with the lines of both rows where they are known.
+pub(super) fn comes_twice(name: &str, key: &str, places: Option<[Place; 2]>) -> String {
+    let lines = places.and_then(|[first, second]| Some([first.line?, second.line?]));
+    let lines = lines.map_or_else(String::new, |[first, second]| {
+        format!(", in lines {first} and {second}")
+    });
+    format!(
+        "{} `{}` comes twice{lines}: rows are paired by it, so each row needs its own; name another column with --key NAME, or --key order",
+        in_words(name),
+        shown(key)
+    )
+}
+
+/// A key that one table has and the other lacks.
+pub(super) fn is_lacking<'a>(
+    name: &str,
+    key: &str,
+    has: &Path,
+    others: impl IntoIterator<Item = &'a str>,
+) -> String {
+    let nearly = nearly(key, others).map_or_else(String::new, |other| {
+        format!(
+            "; `{}` differs from it in blanks or case alone: write both alike",
+            shown(other)
+        )
+    });
+    format!(
+        "no row with {} `{}`, which {} has{nearly}",
+        in_words(name),
+        shown(key),
+        shown(has)
+    )
+}
+
+fn pair_by(
+    truth: &CsvTable,
+    prediction: &CsvTable,
+    key: &KeyPair,
+) -> Result<Pairing, EvaluateError> {
+    let predicted = rows_by_key(prediction, &key.prediction)?;
+    let wanted = rows_by_key(truth, &key.truth)?;
+    let lacking =
+        |table: &CsvTable, name: &str, key: &str, has: &CsvTable, others: &HashMap<&str, usize>| {
+            EvaluateError::Tables {
+                path: table.path().to_owned(),
+                problem: is_lacking(name, key, has.path(), others.keys().copied()),
             }
-            None => {
-                let problem = format!(
-                    "no row with id `{}`, which {} has",
-                    shown(*id),
-                    shown(&truth.path())
-                );
-                return Err(wrong(prediction, problem));
-            }
+        };
+    let column = truth.position(&key.truth)?;
+    let mut paired = Vec::with_capacity(truth.rows());
+    for row in 0..truth.rows() {
+        let own = key_of(truth.cell(row, column));
+        match predicted.get(own) {
+            Some(row) => paired.push(*row),
+            None => return Err(lacking(prediction, &key.prediction, own, truth, &predicted)),
         }
     }
-    if let Some(id) = ids.iter().find(|id| rows.contains_key(**id)) {
-        let problem = format!(
-            "no row with id `{}`, which {} has",
-            shown(*id),
-            shown(&prediction.path())
-        );
-        return Err(wrong(truth, problem));
+    let column = prediction.position(&key.prediction)?;
+    for row in 0..prediction.rows() {
+        let own = key_of(prediction.cell(row, column));
+        if !wanted.contains_key(own) {
+            return Err(lacking(truth, &key.truth, own, prediction, &wanted));
+        }
     }
-    Ok(Pairing::ById(paired))
+    Ok(Pairing::ByKey(paired))
 }

@@ -35,6 +35,12 @@ pub(crate) struct WrittenPlan {
     /// Whether recordings are the clusters of intervals, and not contact points.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     by_recording: bool,
+    /// True if groups of samples are, such as blocks of time.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    by_group: bool,
+    /// True if single samples are.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    independent: bool,
 }
 
 /// A footprint in whole nanometres: a radius, or half a width and half a height.
@@ -78,6 +84,8 @@ impl WrittenPlan {
             resolution_tolerance_nm: settings.resolution_tolerance.0,
             constants: plan.constants().clone(),
             by_recording: plan.clustered_by() == ClusteredBy::Recording,
+            by_group: plan.clustered_by() == ClusteredBy::Group,
+            independent: plan.clustered_by() == ClusteredBy::Sample,
         }
     }
 
@@ -128,9 +136,12 @@ impl WrittenPlan {
                     .with_smoothing_window(self.smoothing_window)
                     .with_resolution_tolerance(Nanometre(self.resolution_tolerance_nm)),
             );
-        Ok(match self.by_recording {
-            true => plan?.by_recording(),
-            false => plan?,
+        let plan = plan?;
+        Ok(match (self.by_recording, self.by_group, self.independent) {
+            (true, _, _) => plan.by_recording(),
+            (_, true, _) => plan.by_group(),
+            (_, _, true) => plan.independent_samples(),
+            _ => plan,
         })
     }
 }

@@ -44,6 +44,7 @@ pub(crate) fn of(model: ModelChoice) -> EvaluateRequest {
         metrics: vec!["r2".to_owned()],
         part: None,
         sensor: None,
+        is_independent: false,
     }
 }
 

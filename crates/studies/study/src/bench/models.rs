@@ -252,6 +252,7 @@ impl Raced {
             model: ModelChoice::Fit(request.clone()),
             metrics: vec![METRIC.to_owned()],
             part: None,
+            is_independent: false,
             sensor: None,
         };
         let behind = Behind::of(&model)?;

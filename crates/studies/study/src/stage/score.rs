@@ -129,6 +129,7 @@ impl Scores<'_> {
             prediction: &prediction,
             dataset: self.dataset,
             rows: &rows,
+            groups: None,
         };
         let predicted_spacings = self
             .predicted_spacings

@@ -3,8 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use taceva_core::shown;
 use taceva_dataset::{Digest, read_toml};
-use taceva_models::SplitSpec;
+use taceva_models::{SplitKind, SplitSpec};
 
 use super::place::FilePlace;
 use super::vary::vary;
@@ -54,7 +55,14 @@ impl SweepFile {
         place.check_distinct("splits", &written.splits)?;
         for split in &written.splits {
             let known = split.parse::<SplitSpec>();
-            known.map_err(|error| place.wrong("splits", error.to_string()))?;
+            let known = known.map_err(|error| place.wrong("splits", error.to_string()))?;
+            if matches!(known.kind, SplitKind::Folds(_)) {
+                let problem = format!(
+                    "`{}`: a sweep chooses by the validation part of one division; name one that keeps a test part, such as by-point or by-block",
+                    shown(split)
+                );
+                return Err(place.wrong("splits", problem));
+            }
         }
         let (datasets, scenes) = (written.datasets.list(), written.scenes.list());
         place.check_distinct("datasets", &datasets)?;

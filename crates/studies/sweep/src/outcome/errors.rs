@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use taceva_results::EvaluationReport;
+use taceva_results::{EvaluationReport, Samples};
 
 use crate::result::PointErrors;
 
@@ -14,7 +14,7 @@ pub(super) fn errors(report: &EvaluationReport) -> PointErrors {
     };
     let point = match samples.has("point_id") {
         true => "point_id",
-        false => "id",
+        false => Samples::KEY,
     };
     for channel in samples.channels() {
         let mut points: BTreeMap<&str, (u64, f64)> = BTreeMap::new();

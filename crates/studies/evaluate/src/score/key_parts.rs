@@ -1,17 +1,15 @@
-//! Rows of a shard and their predictions, paired by `id`.
+//! Rows of a shard and their predictions, paired by a key.
 
 use std::cmp::Ordering;
 use std::collections::HashMap;
 use std::ops::Range;
 
-use taceva_core::shown;
 use taceva_import::{CsvParts, CsvTable};
 
+use super::row_key::{KeyPair, key_of};
 use super::table_parts::{Reader, TableParts};
+use super::tables;
 use crate::error::EvaluateError;
-
-/// The column that names rows.
-pub(super) const ID: &str = "id";
 
 /// How the rows of a shard find their predictions.
 pub(super) enum Found {
@@ -21,34 +19,38 @@ pub(super) enum Found {
     Gathered(CsvTable),
 }
 
-/// Both tables, with what reads their ids alone where that is less.
-pub(super) struct ById<'a> {
+/// Both tables and their key.
+pub(super) struct ByKey<'a> {
+    pub(super) key: &'a KeyPair,
     pub(super) truth: &'a TableParts,
     pub(super) prediction: &'a TableParts,
     /// What reads all columns of the prediction that are wanted.
     pub(super) reader: &'a Reader<'a>,
 }
 
-impl ById<'_> {
-    /// Finds the predictions of the rows in `own`. Where the ids of both tables are the same row by row and ascend, no other row is looked at;
+impl ByKey<'_> {
+    /// Finds the predictions of the rows in `own`. Where the keys of both tables are the same row by row and ascend, no other row is looked at;
     /// else both are looked through, and the predictions of the shard are brought into its order.
     ///
     /// # Errors
-    /// [`EvaluateError::Tables`] for an id that comes twice, or that one of the tables lacks.
+    /// [`EvaluateError::Tables`] for a key that is empty, comes twice, or that one of the tables lacks.
     pub(super) fn pair(&self, own: &Range<u64>) -> Result<Found, EvaluateError> {
-        let truth = self.truth.reader()?.with_columns(|name| name == ID);
-        let prediction = self.prediction.reader()?.with_columns(|name| name == ID);
-        if is_in_order(own, &truth, &prediction)? {
+        let key = self.key;
+        let truth = self.truth.reader()?;
+        let truth = truth.with_columns(|name| name == key.truth);
+        let prediction = self.prediction.reader()?;
+        let prediction = prediction.with_columns(|name| name == key.prediction);
+        if self.is_in_order(own, &truth, &prediction)? {
             return Ok(Found::InOrder);
         }
-        let wanted = self.own_ids(own, &truth)?;
+        let wanted = self.own_keys(own, &truth)?;
         self.check_once(own, &wanted, &truth)?;
         let rows = self.rows_of_predictions(&wanted, &prediction)?;
         self.gathered(&rows).map(Found::Gathered)
     }
 
-    /// The ids of the shard, each with its position in it.
-    fn own_ids(
+    /// The keys of the shard, each with its position in it.
+    fn own_keys(
         &self,
         own: &Range<u64>,
         truth: &Reader<'_>,
@@ -57,21 +59,25 @@ impl ById<'_> {
         for part in parts_of(own) {
             let table = truth.read(part)?;
             let first = part * CsvParts::ROWS;
-            for (at, id) in table.text(ID)?.into_iter().enumerate() {
+            for (at, cell) in table.text(&self.key.truth)?.into_iter().enumerate() {
                 let row = first + at as u64;
                 if !own.contains(&row) {
                     continue;
                 }
+                let key = key_of(cell);
+                if key.is_empty() {
+                    return Err(tables::without_key(&table, at, &self.key.truth)?);
+                }
                 let position = usize::try_from(row - own.start).unwrap_or(usize::MAX);
-                if wanted.insert(id.to_owned(), position).is_some() {
-                    return Err(twice(self.truth, id));
+                if wanted.insert(key.to_owned(), position).is_some() {
+                    return Err(twice(self.truth, &self.key.truth, key));
                 }
             }
         }
         Ok(wanted)
     }
 
-    /// Refuses an id of the shard that another row of the truth has too.
+    /// Refuses a key of the shard that another row of the truth has too.
     fn check_once(
         &self,
         own: &Range<u64>,
@@ -81,9 +87,10 @@ impl ById<'_> {
         for part in parts_of(&(0..self.truth.rows())) {
             let table = truth.read(part)?;
             let first = part * CsvParts::ROWS;
-            for (at, id) in table.text(ID)?.into_iter().enumerate() {
-                if !own.contains(&(first + at as u64)) && wanted.contains_key(id) {
-                    return Err(twice(self.truth, id));
+            for (at, cell) in table.text(&self.key.truth)?.into_iter().enumerate() {
+                let key = key_of(cell);
+                if !own.contains(&(first + at as u64)) && wanted.contains_key(key) {
+                    return Err(twice(self.truth, &self.key.truth, key));
                 }
             }
         }
@@ -100,23 +107,25 @@ impl ById<'_> {
         for part in parts_of(&(0..self.prediction.rows())) {
             let table = prediction.read(part)?;
             let first = part * CsvParts::ROWS;
-            for (at, id) in table.text(ID)?.into_iter().enumerate() {
-                if let Some(position) = wanted.get(id)
+            for (at, cell) in table.text(&self.key.prediction)?.into_iter().enumerate() {
+                let key = key_of(cell);
+                if let Some(position) = wanted.get(key)
                     && found[*position].replace(first + at as u64).is_some()
                 {
-                    return Err(twice(self.prediction, id));
+                    return Err(twice(self.prediction, &self.key.prediction, key));
                 }
             }
         }
         let lacking = |position: usize| {
-            let mut ids = wanted.iter();
-            let id = ids.find(|(_, at)| **at == position).map(|(id, _)| id);
+            let mut keys = wanted.iter();
+            let key = keys.find(|(_, at)| **at == position).map(|(key, _)| key);
             EvaluateError::Tables {
                 path: self.prediction.path().to_owned(),
-                problem: format!(
-                    "no row with id `{}`, which {} has",
-                    shown(id.map_or("", String::as_str)),
-                    shown(self.truth.path())
+                problem: tables::is_lacking(
+                    &self.key.prediction,
+                    key.map_or("", String::as_str),
+                    self.truth.path(),
+                    [],
                 ),
             }
         };
@@ -124,6 +133,39 @@ impl ById<'_> {
         found
             .map(|(position, row)| row.ok_or_else(|| lacking(position)))
             .collect()
+    }
+
+    /// True if the keys in `own` are those of the same rows in both tables, and ascend, from the row before on: so that none comes twice.
+    fn is_in_order(
+        &self,
+        own: &Range<u64>,
+        truth: &Reader<'_>,
+        prediction: &Reader<'_>,
+    ) -> Result<bool, EvaluateError> {
+        let with_one_before = own.start.saturating_sub(1)..own.end;
+        let mut last: Option<String> = None;
+        for part in parts_of(&with_one_before) {
+            let [truth, prediction] = [truth.read(part)?, prediction.read(part)?];
+            let first = part * CsvParts::ROWS;
+            let pairs = truth
+                .text(&self.key.truth)?
+                .into_iter()
+                .zip(prediction.text(&self.key.prediction)?);
+            for (at, (key, other)) in pairs.enumerate() {
+                if !with_one_before.contains(&(first + at as u64)) {
+                    continue;
+                }
+                let [key, other] = [key_of(key), key_of(other)];
+                let ascends = last
+                    .as_deref()
+                    .is_none_or(|last| by_length(last, key).is_lt());
+                if key != other || key.is_empty() || !ascends {
+                    return Ok(false);
+                }
+                last = Some(key.to_owned());
+            }
+        }
+        Ok(true)
     }
 
     /// The predictions in these rows, in their order.
@@ -154,34 +196,6 @@ impl ById<'_> {
     }
 }
 
-/// Whether the ids in `own` are those of the same rows in both tables, and ascend, from the row before on: so that none comes twice.
-fn is_in_order(
-    own: &Range<u64>,
-    truth: &Reader<'_>,
-    prediction: &Reader<'_>,
-) -> Result<bool, EvaluateError> {
-    let with_one_before = own.start.saturating_sub(1)..own.end;
-    let mut last: Option<String> = None;
-    for part in parts_of(&with_one_before) {
-        let [truth, prediction] = [truth.read(part)?, prediction.read(part)?];
-        let first = part * CsvParts::ROWS;
-        let pairs = truth.text(ID)?.into_iter().zip(prediction.text(ID)?);
-        for (at, (id, other)) in pairs.enumerate() {
-            if !with_one_before.contains(&(first + at as u64)) {
-                continue;
-            }
-            let ascends = last
-                .as_deref()
-                .is_none_or(|last| by_length(last, id).is_lt());
-            if id != other || !ascends {
-                return Ok(false);
-            }
-            last = Some(id.to_owned());
-        }
-    }
-    Ok(true)
-}
-
 /// Whole numbers in their order, and all other words in some order.
 pub(super) fn by_length(one: &str, other: &str) -> Ordering {
     one.len().cmp(&other.len()).then_with(|| one.cmp(other))
@@ -199,9 +213,9 @@ pub(super) fn parts_of(rows: &Range<u64>) -> Range<u64> {
     }
 }
 
-fn twice(table: &TableParts, id: &str) -> EvaluateError {
+fn twice(table: &TableParts, name: &str, key: &str) -> EvaluateError {
     EvaluateError::Tables {
         path: table.path().to_owned(),
-        problem: format!("id `{}` comes twice", shown(id)),
+        problem: tables::comes_twice(name, key, None),
     }
 }

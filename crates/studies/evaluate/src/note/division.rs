@@ -1,0 +1,89 @@
+//! Findings on neighbouring samples, and their division.
+
+use std::fmt;
+
+use taceva_core::shown;
+
+/// Order of the samples, by which they are neighbours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SampleOrder {
+    /// Order of times.
+    Time,
+    /// Order of rows in the table.
+    Table,
+}
+
+/// Findings on neighbouring samples that resemble each other.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Neighbours {
+    /// The channel whose neighbours resemble each other most.
+    pub channel: String,
+    /// One minus the mean squared difference of the ranks of neighbours over that of random pairs: 0 of independent samples, 1 of equal neighbours.
+    pub resemblance: f64,
+    /// Samples between two that hardly resemble each other.
+    pub lag: usize,
+    /// The order in which they are neighbours.
+    pub order: SampleOrder,
+    /// The column whose values are groups of neighbours; `None` where blocks of time are.
+    pub column: Option<String>,
+}
+
+/// Division of neighbouring samples that resemble each other.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Division {
+    /// Blocks of time stay together.
+    Blocks {
+        /// Their number.
+        count: usize,
+        /// Samples that are left out between blocks of different parts.
+        gap: usize,
+    },
+    /// Samples with one value of this column stay together.
+    Column(String),
+    /// They were separated, as the caller asked, though so many of the tested samples have a neighbour that was learnt from.
+    Separated {
+        /// Such samples.
+        beside: usize,
+        /// Tested samples.
+        of: usize,
+    },
+}
+
+/// Reasons to take samples as independent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Independence {
+    /// The caller said so.
+    Stated,
+    /// Nothing repeats, and neighbours do not resemble each other.
+    Found,
+}
+
+/// Writes both as one sentence.
+pub(super) fn write(
+    found: &Neighbours,
+    division: &Division,
+    f: &mut fmt::Formatter<'_>,
+) -> fmt::Result {
+    let order = match found.order {
+        SampleOrder::Time => "in time",
+        SampleOrder::Table => "in the table",
+    };
+    write!(
+        f,
+        "neighbours {order} resemble each other ({} by {:.2}, where 1 is equal and 0 independent)",
+        found.channel, found.resemblance
+    )?;
+    match division {
+        Division::Blocks { count, gap } => write!(
+            f,
+            ", so {count} blocks of time stay together, with a gap of {gap} samples between those that are learnt from and tested on"
+        ),
+        Division::Column(name) => {
+            write!(f, ", so samples with one `{}` stay together", shown(name))
+        }
+        Division::Separated { beside, of } => write!(
+            f,
+            ", and {beside} of {of} tested samples have a neighbour that was learnt from: the scores flatter; divide by --split 'cv:5 by-block'"
+        ),
+    }
+}

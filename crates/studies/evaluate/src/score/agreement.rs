@@ -1,0 +1,178 @@
+//! Agreement of paired rows: what both tables say of a row must be the same.
+
+use taceva_core::{Field, shown};
+use taceva_import::CsvTable;
+
+use super::row_key::{KeyPair, RowKeys, in_words, key_of};
+use crate::error::EvaluateError;
+use crate::note::PairedBy;
+
+/// Fields that name the row or its surroundings, so that both tables must say the same of them.
+const FIELDS: [Field; 7] = [
+    Field::Point,
+    Field::FrameDigest,
+    Field::Stamp,
+    Field::Scene,
+    Field::Repeat,
+    Field::DepthStep,
+    Field::Phase,
+];
+
+/// Least difference of two stamps of one row, in s: both may be rounded to milliseconds, none is trusted below a microsecond.
+const LEAST_S: f64 = 1e-6;
+
+/// Decimals below which a stamp is not taken for a rounded one.
+const LEAST_DECIMALS: usize = 3;
+
+/// Column that both tables have and in which paired rows agree.
+#[derive(Clone, Debug)]
+pub(super) struct Agreement {
+    /// The name in the predictions.
+    name: String,
+    columns: [usize; 2],
+    kind: Kind,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    /// A key: the same word, never absent in one of them.
+    Key,
+    /// A word; an empty cell says nothing.
+    Word,
+    /// A time in s, rounded to the fewer decimals of both.
+    Stamp,
+}
+
+/// The way in which rows of two tables are paired, and the columns in which a pair must agree.
+#[derive(Clone, Debug)]
+pub(super) struct Matching {
+    pub(super) by: PairedBy,
+    agreements: Vec<Agreement>,
+}
+
+impl Matching {
+    /// Pairs of rows that have the same key in `by`, or the same number where it is `None`, in tables with these headers.
+    pub(super) fn of(
+        [truth, prediction]: [&CsvTable; 2],
+        keys: &RowKeys,
+        by: Option<&KeyPair>,
+    ) -> Result<Matching, EvaluateError> {
+        let mut agreements = Vec::new();
+        for pair in keys.others(by) {
+            agreements.push(Agreement {
+                name: pair.prediction.clone(),
+                columns: [
+                    truth.position(&pair.truth)?,
+                    prediction.position(&pair.prediction)?,
+                ],
+                kind: Kind::Key,
+            });
+        }
+        for field in FIELDS {
+            let name = field.name();
+            let is_key = keys.names().any(|key| key == name);
+            if is_key || !truth.has(name) || !prediction.has(name) {
+                continue;
+            }
+            agreements.push(Agreement {
+                name: name.to_owned(),
+                columns: [truth.position(name)?, prediction.position(name)?],
+                kind: match field {
+                    Field::Stamp => Kind::Stamp,
+                    _ => Kind::Word,
+                },
+            });
+        }
+        Ok(Matching {
+            by: keys.paired_by(by),
+            agreements,
+        })
+    }
+
+    /// Refuses the first pair of rows that disagrees in a column of both tables.
+    ///
+    /// # Errors
+    /// [`EvaluateError::Dataset`] at the cell of the predictions.
+    pub(super) fn check(
+        &self,
+        [truth, prediction]: [&CsvTable; 2],
+        mut pairs: impl Iterator<Item = (usize, usize)>,
+    ) -> Result<(), EvaluateError> {
+        if self.agreements.is_empty() {
+            return Ok(());
+        }
+        pairs.try_for_each(|(row, paired)| {
+            let mut agreements = self.agreements.iter();
+            let differs = agreements.find(|agreement| {
+                let one = truth.cell(row, agreement.columns[0]);
+                let other = prediction.cell(paired, agreement.columns[1]);
+                !agreement.agrees(one, other)
+            });
+            match differs {
+                Some(agreement) => Err(self.differs(agreement, [truth, prediction], [row, paired])),
+                None => Ok(()),
+            }
+        })
+    }
+
+    fn differs(
+        &self,
+        agreement: &Agreement,
+        [truth, prediction]: [&CsvTable; 2],
+        [row, paired]: [usize; 2],
+    ) -> EvaluateError {
+        let [of_truth, of_prediction] = agreement.columns;
+        let expected = format!(
+            "expected `{}`, as in {}: these rows were paired {}, but differ in {}; name the key of the rows with --key NAME, or mend the tables",
+            shown(truth.cell(row, of_truth)),
+            truth.place(row, of_truth),
+            self.by,
+            in_words(&agreement.name),
+        );
+        prediction.refuse(paired, of_prediction, &expected).into()
+    }
+}
+
+impl Agreement {
+    fn agrees(&self, one: &str, other: &str) -> bool {
+        if key_of(one) == key_of(other) {
+            return true;
+        }
+        match self.kind {
+            Kind::Key => false,
+            Kind::Word => one.is_empty() || other.is_empty(),
+            Kind::Stamp => one.is_empty() || other.is_empty() || is_same_time(one, other),
+        }
+    }
+}
+
+/// True if two stamps may be one time, written with different numbers of decimals. A stamp that is no number is left to its reader.
+fn is_same_time(one: &str, other: &str) -> bool {
+    let (Ok(first), Ok(second)) = (one.parse::<f64>(), other.parse::<f64>()) else {
+        return true;
+    };
+    let decimals = |text: &str| {
+        text.split_once('.')
+            .map_or(0, |(_, decimals)| decimals.len())
+    };
+    let common = decimals(one).min(decimals(other)).max(LEAST_DECIMALS);
+    let rounding = 0.5 * 10_f64.powi(-i32::try_from(common).unwrap_or(i32::MAX));
+    // A hair more, since the decimals themselves are rounded to binary.
+    (first - second).abs() <= LEAST_S.max(rounding) * (1.0 + 1e-9)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stamps_agree_as_far_as_the_shorter_one_is_written() {
+        assert!(is_same_time("0.3333333333", "0.333"));
+        assert!(is_same_time("0.1", "0.10000000149011612"));
+        assert!(is_same_time("0.33333334", "0.3333333333"));
+        assert!(is_same_time("1700000000.25", "1700000000.250"));
+        assert!(!is_same_time("0.333", "0.334"));
+        assert!(!is_same_time("1", "1.02"));
+        assert!(!is_same_time("0.30", "0.31"));
+    }
+}

@@ -1,0 +1,108 @@
+//! Order of keys in rows that come block by block: the same keys in both tables, each above the one before, so that rows are paired as they stand.
+
+use std::sync::{Mutex, PoisonError};
+
+use taceva_import::CsvTable;
+
+use super::key_parts::by_length;
+use super::row_key::{KeyPair, key_of};
+
+/// The keys of both tables, as far as blocks of them were seen, in whatever order.
+#[derive(Debug)]
+pub(super) struct KeyOrder {
+    /// The columns of keys in the truth and in the prediction.
+    columns: [usize; 2],
+    /// The number of each block that was seen, with its first key and its last.
+    ends: Mutex<Vec<(u64, [String; 2])>>,
+}
+
+impl KeyOrder {
+    /// The order of `key` in two tables with these headers; `None` where one of them lacks it.
+    pub(super) fn of([truth, prediction]: [&CsvTable; 2], key: &KeyPair) -> Option<KeyOrder> {
+        Some(KeyOrder {
+            columns: [
+                truth.position(&key.truth).ok()?,
+                prediction.position(&key.prediction).ok()?,
+            ],
+            ends: Mutex::default(),
+        })
+    }
+
+    /// True if the keys of a block ascend and are the same in both tables; they have as many rows.
+    pub(super) fn is_kept_in(&self, number: u64, [truth, prediction]: [&CsvTable; 2]) -> bool {
+        let rows = 0..truth.rows();
+        let keys = truth.text_in(self.columns[0], rows.clone()).map(key_of);
+        let others = prediction.text_in(self.columns[1], rows).map(key_of);
+        let mut ends: Option<[&str; 2]> = None;
+        for (key, other) in keys.zip(others) {
+            let ascends = ends.is_none_or(|[_, last]| by_length(last, key).is_lt());
+            if key != other || key.is_empty() || !ascends {
+                return false;
+            }
+            ends = Some([ends.map_or(key, |[first, _]| first), key]);
+        }
+        if let Some(ends) = ends {
+            let mut all = self.ends.lock().unwrap_or_else(PoisonError::into_inner);
+            all.push((number, ends.map(str::to_owned)));
+        }
+        true
+    }
+
+    /// True if the keys of all blocks that were seen ascend from each to the next, so that none comes twice.
+    pub(super) fn ascends(self) -> bool {
+        let ends = self.ends.into_inner();
+        let mut ends = ends.unwrap_or_else(PoisonError::into_inner);
+        ends.sort_unstable();
+        ends.windows(2)
+            .all(|pair| by_length(&pair[0].1[1], &pair[1].1[0]).is_lt())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table(keys: &[&str]) -> CsvTable {
+        let rows = keys.iter().map(|key| [*key, "1"]);
+        CsvTable::of_cells("table.csv".as_ref(), &["id", "Fz"], rows).expect("a table")
+    }
+
+    fn id() -> KeyPair {
+        KeyPair {
+            truth: "id".to_owned(),
+            prediction: "id".to_owned(),
+        }
+    }
+
+    /// True if order is kept in blocks that are seen in this order.
+    fn is_kept(blocks: &[(u64, &[&str])]) -> bool {
+        let header = table(&[]);
+        let order = KeyOrder::of([&header, &header], &id()).expect("keys");
+        let each = blocks.iter().all(|(number, keys)| {
+            let block = table(keys);
+            order.is_kept_in(*number, [&block, &block])
+        });
+        each && order.ascends()
+    }
+
+    #[test]
+    fn keys_that_ascend_from_row_to_row_and_from_block_to_block_are_in_order() {
+        assert!(is_kept(&[(0, &["8", "9"]), (1, &["10", "11"])]));
+        assert!(is_kept(&[(1, &["s3", "s4"]), (2, &[]), (0, &["s1", "s2"])]));
+        assert!(is_kept(&[(0, &["1.0", "2"])]));
+        assert!(!is_kept(&[(0, &["1", "1"])]));
+        assert!(!is_kept(&[(0, &["", "1"])]));
+        assert!(!is_kept(&[(0, &["2", "1"])]));
+        assert!(!is_kept(&[(0, &["1", "2"]), (1, &["2", "3"])]));
+        assert!(!is_kept(&[(1, &["1", "2"]), (0, &["3", "4"])]));
+    }
+
+    #[test]
+    fn other_keys_in_the_other_table_are_not_in_order() {
+        let header = table(&[]);
+        let order = KeyOrder::of([&header, &header], &id()).expect("keys");
+        assert!(!order.is_kept_in(0, [&table(&["1", "2"]), &table(&["1", "3"])]));
+        let bare = CsvTable::of_cells("bare.csv".as_ref(), &["Fz"], [["1"]]);
+        assert!(KeyOrder::of([&header, &bare.expect("a table")], &id()).is_none());
+    }
+}

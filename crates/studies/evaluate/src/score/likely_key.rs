@@ -1,0 +1,164 @@
+//! Columns that are likely the key of rows, though no known name says so: they are asked about, never scored.
+
+use std::collections::HashSet;
+
+use taceva_core::{Channel, shown};
+use taceva_import::CsvTable;
+
+use super::row_key::{is_whole, key_of};
+use super::table_parts::Reader;
+use super::{ScorePlan, ScoreRequest, tables};
+use crate::error::EvaluateError;
+
+/// Rows from which on equal sets of different whole numbers are no chance.
+const LEAST_ROWS: u64 = 5;
+
+/// Cells of a column, handed out until the visitor returns `false`.
+type Cells<'a> = dyn Fn(&str, &mut dyn FnMut(&str) -> bool) -> Result<(), EvaluateError> + 'a;
+
+/// Channels that nobody declared, and which are none of the six.
+pub(super) fn doubtful<'a>(
+    request: &'a ScoreRequest,
+    plan: &'a ScorePlan,
+) -> impl Iterator<Item = &'a Channel> {
+    plan.metrics.channels().iter().filter(|channel| {
+        let is_six = Channel::SIX.iter().any(|six| six.name() == channel.name());
+        !is_six && !tables::is_declared(&request.units, channel.name())
+    })
+}
+
+/// Refuses tables of which a column is likely a key, and would be scored.
+///
+/// # Errors
+/// [`EvaluateError::Tables`] naming the column.
+pub(super) fn check_tables(
+    request: &ScoreRequest,
+    plan: &ScorePlan,
+    [truth, prediction]: [&CsvTable; 2],
+) -> Result<(), EvaluateError> {
+    let cells = |table: &CsvTable, name: &str, visit: &mut dyn FnMut(&str) -> bool| {
+        let column = table.position(name)?;
+        (0..table.rows()).all(|row| visit(table.cell(row, column)));
+        Ok(())
+    };
+    check(
+        request,
+        plan,
+        [&|name, visit| cells(truth, name, visit), &|name, visit| {
+            cells(prediction, name, visit)
+        }],
+    )
+}
+
+/// The same of tables that are read in parts.
+///
+/// # Errors
+/// As [`check_tables`].
+pub(super) fn check_parts(
+    request: &ScoreRequest,
+    plan: &ScorePlan,
+    [truth, prediction]: [(&Reader<'_>, u64); 2],
+) -> Result<(), EvaluateError> {
+    let cells = |(reader, parts): (&Reader<'_>, u64),
+                 name: &str,
+                 visit: &mut dyn FnMut(&str) -> bool|
+     -> Result<(), EvaluateError> {
+        for part in 0..parts {
+            let table = reader.read(part)?;
+            let column = table.position(name)?;
+            if !(0..table.rows()).all(|row| visit(table.cell(row, column))) {
+                break;
+            }
+        }
+        Ok(())
+    };
+    check(
+        request,
+        plan,
+        [&|name, visit| cells(truth, name, visit), &|name, visit| {
+            cells(prediction, name, visit)
+        }],
+    )
+}
+
+fn check(
+    request: &ScoreRequest,
+    plan: &ScorePlan,
+    tables: [&Cells<'_>; 2],
+) -> Result<(), EvaluateError> {
+    for channel in doubtful(request, plan) {
+        let name = channel.name();
+        if let Some(first) = text_of_both(name, tables)? {
+            return Err(refused(
+                request,
+                format!(
+                    "column `{}` holds texts such as `{}`, which are not scored: if it names rows, pair them by it with --key {}, \
+                     else leave it out of the predictions",
+                    shown(name),
+                    shown(&first),
+                    shown(name)
+                ),
+            ));
+        }
+        if counts_rows_of_both(name, tables)? {
+            return Err(refused(
+                request,
+                format!(
+                    "column `{}` holds the same whole numbers in both tables, each of them once, so it likely names rows: pair them by it with \
+                     --key {}, or score it as a channel with --units {}=1",
+                    shown(name),
+                    shown(name),
+                    shown(name)
+                ),
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn refused(request: &ScoreRequest, problem: String) -> EvaluateError {
+    EvaluateError::Tables {
+        path: request.prediction.clone(),
+        problem,
+    }
+}
+
+/// The first text of a column whose first cells in both tables are no numbers.
+fn text_of_both(name: &str, tables: [&Cells<'_>; 2]) -> Result<Option<String>, EvaluateError> {
+    let mut found = None;
+    for cells in tables {
+        let mut first = None;
+        cells(name, &mut |cell| {
+            first = (!cell.is_empty()).then(|| cell.to_owned());
+            first.is_none()
+        })?;
+        match first {
+            // A decimal comma, a stray sign: the reader of numbers says what is wrong with it.
+            Some(text) if text.contains(char::is_alphabetic) && text.parse::<f64>().is_err() => {
+                found = Some(text);
+            }
+            _ => return Ok(None),
+        }
+    }
+    Ok(found)
+}
+
+/// True if a column holds the same whole numbers in both tables, each of them once.
+fn counts_rows_of_both(name: &str, tables: [&Cells<'_>; 2]) -> Result<bool, EvaluateError> {
+    let mut sets = Vec::new();
+    for cells in tables {
+        let mut numbers = HashSet::new();
+        let mut are_distinct = true;
+        cells(name, &mut |cell| {
+            let key = key_of(cell);
+            let number = key.parse::<i64>().ok().filter(|_| is_whole(key));
+            are_distinct = number.is_some_and(|number| numbers.insert(number));
+            are_distinct
+        })?;
+        if !are_distinct || (numbers.len() as u64) < LEAST_ROWS {
+            return Ok(false);
+        }
+        sets.push(numbers);
+    }
+    Ok(sets[0] == sets[1])
+}

@@ -1,0 +1,306 @@
+"""Arrays whose columns or rows have names: pandas, polars, Arrow, structured arrays of numpy and dicts of arrays.
+
+Columns are matched by name and rows by key, as ``taceva score`` does with files; what disagrees is refused.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+#: Columns that name rows, in the order in which they are tried: those of the command.
+KEYS = ("sample", "id", "sample_id", "index")
+
+#: Columns in which paired rows must agree, with how far apart numbers may lie.
+_AGREE = {"point_id": 0.0, "frame_sha256": 0.0, "t_s": 0.0005}
+
+#: Columns that are no channels.
+_BESIDE = {*KEYS, *_AGREE, "scene", "unit_id", "repeat", "depth_step", "phase", "part", "kind", "spacing_mm", "intensity"}
+
+_SIX = ("Px", "Py", "Pz", "Fx", "Fy", "Fz")
+
+#: What a caller does whose index means nothing.
+_REMEDY = "pass .to_numpy() where the order of rows is what counts, or reset_index(drop=True)"
+
+
+@dataclass
+class NamedColumns:
+    """Columns by name, and the index of their rows where they have one."""
+
+    columns: dict[str, Any]
+    #: Of pandas; ``None`` where rows have no names.
+    index: npt.NDArray[Any] | None = None
+    #: Whether the index is the count from 0 that pandas gives rows by itself.
+    is_counted: bool = True
+
+    def channels(self) -> list[str]:
+        """Return the names of columns that are channels."""
+        return [name for name in self.columns if name not in _BESIDE]
+
+    def array(self, channels: Sequence[str], name: str) -> npt.NDArray[Any]:
+        """Return ``[rows, channels]``, in the order of ``channels``.
+
+        Raises
+        ------
+        ValueError
+            For a channel that is no column.
+        """
+        missing = [channel for channel in channels if channel not in self.columns]
+        if missing:
+            known = ", ".join(self.columns)
+            raise ValueError(f"{name} has no column {missing[0]!r}: its columns are {known}; rename them, or name channels=[…] as they are called")
+        return np.column_stack([_numbers(self.columns[channel]) for channel in channels])
+
+    def column(self, name: str) -> Any:
+        """Return the column called ``name``, or ``None``."""
+        return self.columns.get(name)
+
+
+@dataclass
+class PairedArrays:
+    """Truth and prediction of the same rows and channels."""
+
+    truth: Any
+    prediction: Any
+    #: Contact points that the columns name, if nobody gave others.
+    points: Any
+    #: How rows were paired: the name of a key, ``index``, or ``""`` for by order.
+    paired_by: str | None
+    #: The rows of the truth, where they have names, for what comes beside them.
+    index: npt.NDArray[Any] | None = field(default=None)
+
+
+def named_columns(table: Any, name: str) -> NamedColumns | None:
+    """Return the columns of what has names for them; ``None`` of a plain array or tensor.
+
+    Raises
+    ------
+    ValueError
+        For a name that comes twice.
+    """
+    if isinstance(table, Mapping):
+        return NamedColumns({str(key): np.asarray(column) for key, column in table.items()})
+    if isinstance(table, np.ndarray) and table.dtype.names:
+        return NamedColumns({key: table[key] for key in table.dtype.names})
+    if hasattr(table, "iloc") and hasattr(table, "index"):
+        return _of_pandas(table, name)
+    if hasattr(table, "get_column") and hasattr(table, "columns"):
+        return NamedColumns({str(key): table.get_column(key).to_numpy() for key in table.columns})
+    if hasattr(table, "column_names") and hasattr(table, "column"):
+        return NamedColumns({str(key): np.asarray(table.column(key)) for key in table.column_names})
+    return None
+
+
+def _of_pandas(table: Any, name: str) -> NamedColumns:
+    """Return the columns of a data frame, or the one of a series under the empty name."""
+    index = table.index
+    is_counted = bool(getattr(index, "start", None) == 0 and getattr(index, "step", None) == 1)
+    rows = index.to_numpy()
+    if not hasattr(table, "columns"):
+        called = table.name if isinstance(table.name, str) else ""
+        return NamedColumns({called: _of_extension(table)}, rows, is_counted)
+    names = list(table.columns)
+    if not all(isinstance(key, str) for key in names):
+        # Columns that are counted have no names: they are an array with an index.
+        return NamedColumns({"": np.column_stack([_of_extension(table.iloc[:, at]) for at in range(len(names))])}, rows, is_counted)
+    for key in names:
+        if names.count(key) > 1:
+            raise ValueError(f"{name}: the column {key!r} comes twice")
+    return NamedColumns({key: _of_extension(table[key]) for key in names}, rows, is_counted)
+
+
+def _of_extension(column: Any) -> npt.NDArray[Any]:
+    """Return a series of pandas as an array; numbers that may be absent as float64 with NaN."""
+    if hasattr(column.dtype, "na_value") and getattr(column.dtype, "kind", "O") in "iuf":
+        return np.asarray(column.to_numpy(dtype="float64", na_value=np.nan))
+    return np.asarray(column.to_numpy())
+
+
+def _numbers(column: Any) -> npt.NDArray[Any]:
+    found = np.asarray(column)
+    if found.dtype.kind == "f" and found.dtype.itemsize <= 4:
+        return found.astype(np.float32)
+    return found
+
+
+def pair(truth: Any, prediction: Any, channels: Sequence[str] | None) -> tuple[Sequence[str] | None, PairedArrays]:
+    """Return the channels that both have, and both as arrays with the rows of the truth.
+
+    Plain arrays are returned as they are, with ``channels``.
+
+    Raises
+    ------
+    ValueError
+        For other columns, and for rows that cannot be paired or disagree.
+    """
+    of_truth, of_prediction = named_columns(truth, "truth"), named_columns(prediction, "prediction")
+    if of_truth is None and of_prediction is None:
+        return channels, PairedArrays(truth, prediction, None, None)
+    wanted = _channels(of_truth, of_prediction, channels)
+    order, paired_by = _order(of_truth, of_prediction)
+    arrays = []
+    for columns, given, name in ((of_truth, truth, "truth"), (of_prediction, prediction, "prediction")):
+        if columns is None:
+            arrays.append(given)
+        elif list(columns.columns) == [""] or (len(columns.columns) == 1 and len(wanted or _SIX) == 1 and not _is_known(columns, wanted)):
+            # One column, or counted ones: their place says what they are.
+            arrays.append(next(iter(columns.columns.values())))
+        else:
+            arrays.append(columns.array(wanted or _SIX, name))
+    if order is not None:
+        arrays[1] = arrays[1][order]
+    points = None if of_truth is None else of_truth.column("point_id")
+    if points is None and of_prediction is not None:
+        points = of_prediction.column("point_id")
+        points = points if points is None or order is None else points[order]
+    if of_truth is not None and of_prediction is not None:
+        _check_agreement(of_truth, of_prediction, order, paired_by)
+    index = None if of_truth is None else of_truth.index
+    return wanted, PairedArrays(arrays[0], arrays[1], points, paired_by, index)
+
+
+def _is_known(columns: NamedColumns, wanted: Sequence[str] | None) -> bool:
+    """Tell whether the one column is called like a channel."""
+    (name,) = columns.columns
+    return name in (*_SIX, *(wanted or ()))
+
+
+def _channels(truth: NamedColumns | None, prediction: NamedColumns | None, given: Sequence[str] | None) -> Sequence[str] | None:
+    """Return the channels: those given, else the columns of the prediction, which the truth must have."""
+    if given is not None:
+        return given
+    found = [columns.channels() for columns in (prediction, truth) if columns is not None]
+    found = [names for names in found if names != [""]]
+    if not found:
+        return None
+    names = found[0]
+    if not names:
+        raise ValueError("no column is a channel: expected Px, Py, Pz, Fx, Fy, Fz or named others")
+    if truth is not None and prediction is not None and len(found) == 2:
+        absent = [name for name in found[1] if name in _SIX and name not in names]
+        if absent:
+            raise ValueError(f"prediction has no column {absent[0]!r}, which truth has: both must have the same channels, or name channels=[…]")
+    return names
+
+
+def _order(truth: NamedColumns | None, prediction: NamedColumns | None) -> tuple[npt.NDArray[np.intp] | None, str | None]:
+    """Return for each row of the truth that of the prediction, or ``None`` for the same, and by what they were paired."""
+    if truth is None or prediction is None:
+        return None, None
+    for key in KEYS:
+        own, other = truth.column(key), prediction.column(key)
+        if own is not None and other is not None:
+            order = aligned(own, other, f"the key {key!r}", "mend the keys, or leave the column out")
+            _check_index(truth, prediction, order, key)
+            return order, key
+    if truth.index is None or prediction.index is None:
+        return None, ""
+    if truth.is_counted and prediction.is_counted:
+        return None, ""
+    return aligned(truth.index, prediction.index, "the index", _REMEDY), "the index"
+
+
+def _check_index(truth: NamedColumns, prediction: NamedColumns, order: npt.NDArray[np.intp] | None, key: str) -> None:
+    """Refuse rows of one key whose indices differ, where both have one that says something."""
+    if truth.index is None or prediction.index is None or truth.is_counted or prediction.is_counted:
+        return
+    other = prediction.index if order is None else prediction.index[order]
+    differs = [at for at, (one, two) in enumerate(zip(truth.index.tolist(), other.tolist(), strict=True)) if one != two]
+    if differs:
+        at = differs[0]
+        raise ValueError(f"row {at}: paired by {key!r}, but the index is {truth.index[at]!r} in truth and {other[at]!r} in prediction; {_REMEDY}")
+
+
+def aligned(own: Any, other: Any, what: str, remedy: str) -> npt.NDArray[np.intp] | None:
+    """Return for each of the names ``own`` its place among ``other``, or ``None`` where they are the same row by row.
+
+    Raises
+    ------
+    ValueError
+        For a name that comes twice, or that one of both lacks.
+    """
+    wanted, found = list(np.asarray(own).tolist()), list(np.asarray(other).tolist())
+    if wanted == found and len(set(map(_hashable, found))) == len(found):
+        return None
+    places: dict[Any, int] = {}
+    for at, name in enumerate(found):
+        if places.setdefault(_hashable(name), at) != at:
+            raise ValueError(f"{what} {name!r} comes twice in prediction, in rows {places[_hashable(name)]} and {at}; {remedy}")
+    seen: dict[Any, int] = {}
+    order = []
+    for at, name in enumerate(wanted):
+        if seen.setdefault(_hashable(name), at) != at:
+            raise ValueError(f"{what} {name!r} comes twice in truth, in rows {seen[_hashable(name)]} and {at}; {remedy}")
+        if _hashable(name) not in places:
+            raise ValueError(f"no row of prediction has {what} {name!r}, which row {at} of truth has; {remedy}")
+        order.append(places[_hashable(name)])
+    more = [name for name in found if _hashable(name) not in seen]
+    if more:
+        raise ValueError(f"no row of truth has {what} {more[0]!r}, which prediction has; {remedy}")
+    return np.asarray(order, dtype=np.intp)
+
+
+def _hashable(name: Any) -> Any:
+    """Return a whole number written as a decimal as that number, since pandas makes one of the other."""
+    return int(name) if isinstance(name, float) and name.is_integer() else name
+
+
+def _check_agreement(truth: NamedColumns, prediction: NamedColumns, order: npt.NDArray[np.intp] | None, paired_by: str | None) -> None:
+    """Refuse pairs of rows that differ in a column that both have and that names the row."""
+    for name, tolerance in _AGREE.items():
+        own, other = truth.column(name), prediction.column(name)
+        if own is None or other is None or len(own) != len(other):
+            continue
+        own, other = np.asarray(own), np.asarray(other) if order is None else np.asarray(other)[order]
+        if tolerance and own.dtype.kind in "iuf" and other.dtype.kind in "iuf":
+            differs = np.abs(own - other) > tolerance
+        else:
+            differs = np.asarray([str(one) != str(two) for one, two in zip(own.tolist(), other.tolist(), strict=True)], dtype=bool)
+        if differs.any():
+            at = int(np.nonzero(differs)[0][0])
+            by = "order" if paired_by in ("", None) else repr(paired_by)
+            raise ValueError(
+                f"row {at}: {name} is {own[at]!r} in truth and {other[at]!r} in prediction, which were paired by {by}: "
+                "they do not belong together; give both a column `sample` that names their rows"
+            )
+
+
+def beside(values: Any, index: npt.NDArray[Any] | None, name: str) -> Any:
+    """Return what stands beside the rows of the truth in their order, where it is a series with an index of its own.
+
+    Raises
+    ------
+    ValueError
+        For an index of other rows.
+    """
+    columns = named_columns(values, name) if hasattr(values, "iloc") and hasattr(values, "index") else None
+    if columns is None or columns.index is None:
+        return values
+    column = next(iter(columns.columns.values()))
+    if index is None or columns.is_counted or len(column) != len(index):
+        return column
+    order = aligned(index, columns.index, "the index", _REMEDY)
+    return column if order is None else column[order]
+
+
+def predicted(table: Any, channels: Sequence[str], name: str) -> Any:
+    """Return what a model predicted as a plain array with ``channels`` as columns and rows as they were handed to it.
+
+    Raises
+    ------
+    ValueError
+        For other columns, or an index of other rows.
+    """
+    columns = named_columns(table, name)
+    if columns is None:
+        return table
+    is_lone = len(columns.columns) == 1 and (list(columns.columns) == [""] or (len(channels) == 1 and not _is_known(columns, channels)))
+    array = next(iter(columns.columns.values())) if is_lone else columns.array(channels, name)
+    if columns.index is None or columns.is_counted:
+        return array
+    order = aligned(np.arange(len(array)), columns.index, "the index", "number its rows from 0, as they were handed over")
+    return array if order is None else array[order]

@@ -1,0 +1,135 @@
+"""Columns matched by name and rows by key, wherever labelled data comes from."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+import taceva
+
+pd = pytest.importorskip("pandas")
+
+ROWS = 12
+ERROR = 0.1
+
+
+def frames() -> tuple[Any, Any]:
+    """Truth and predictions that are 0.1 off everywhere."""
+    generator = np.random.default_rng(3)
+    truth = pd.DataFrame({name: generator.normal(size=ROWS) for name in ("Px", "Fz")})
+    return truth, truth + ERROR
+
+
+def shuffled(frame: Any) -> Any:
+    return frame.sample(frac=1.0, random_state=1)
+
+
+def mae(result: taceva.Result, channel: str = "Fz") -> float:
+    return float(result["mae", channel])
+
+
+def test_columns_in_another_order_are_matched_by_name_and_named_in_the_result() -> None:
+    truth, prediction = frames()
+    result = taceva.score(truth, prediction[["Fz", "Px"]])
+    assert mae(result) == pytest.approx(ERROR) and mae(result, "Px") == pytest.approx(ERROR)
+    for other in (truth.to_dict("list"), truth.to_records(index=False)):
+        assert mae(taceva.score(other, prediction[["Fz", "Px"]])) == pytest.approx(ERROR)
+    assert mae(taceva.score(truth.to_numpy(), prediction, channels=["Px", "Fz"])) == pytest.approx(ERROR)
+
+
+def test_polars_and_arrow_tables_are_matched_by_name() -> None:
+    truth, prediction = frames()
+    polars = pytest.importorskip("polars")
+    assert mae(taceva.score(polars.DataFrame(truth.to_dict("list")), prediction[["Fz", "Px"]])) == pytest.approx(ERROR)
+    arrow = pytest.importorskip("pyarrow")
+    table = arrow.table(prediction[["Fz", "Px"]].to_dict("list"))
+    assert mae(taceva.score(truth, table)) == pytest.approx(ERROR)
+
+
+def test_shuffled_rows_are_paired_by_their_index_and_it_is_said() -> None:
+    truth, prediction = frames()
+    result = taceva.score(truth, shuffled(prediction))
+    assert mae(result) == pytest.approx(ERROR)
+    assert any("by the index" in note for note in result.notes)
+    series = taceva.score(truth["Fz"], shuffled(prediction["Fz"]), channels=["Fz"])
+    assert mae(series) == pytest.approx(ERROR)
+    named = truth.set_axis([f"press {row}" for row in range(ROWS)])
+    assert mae(taceva.score(named, shuffled(named + ERROR))) == pytest.approx(ERROR)
+
+
+def test_a_key_column_pairs_rows_whatever_their_index() -> None:
+    truth, prediction = frames()
+    for key in ("sample", "id", "sample_id", "index"):
+        names = [f"s{row}" for row in range(ROWS)]
+        mixed = shuffled(prediction.assign(**{key: names})).reset_index(drop=True)
+        result = taceva.score(truth.assign(**{key: names}), mixed)
+        assert mae(result) == pytest.approx(ERROR)
+        assert any(f"by `{key}`" in note for note in result.notes)
+
+
+def test_indices_of_other_rows_or_that_repeat_are_refused_with_the_remedy() -> None:
+    truth, prediction = frames()
+    with pytest.raises(ValueError, match="no row of prediction has the index"):
+        taceva.score(truth.iloc[4:8], pd.DataFrame(prediction.iloc[4:8].to_numpy(), columns=["Px", "Fz"]))
+    with pytest.raises(ValueError, match="comes twice in prediction"):
+        taceva.score(truth, shuffled(prediction).set_axis([0, 0, *range(2, ROWS)]))
+    twice = prediction.assign(sample=[0, 1, 1, *range(3, ROWS)])
+    with pytest.raises(ValueError, match="key 'sample' 1 comes twice in prediction"):
+        taceva.score(truth.assign(sample=range(ROWS)), twice)
+
+
+def test_two_keys_that_pair_rows_differently_are_refused() -> None:
+    truth, prediction = frames()
+    names = [f"s{row}" for row in range(ROWS)]
+    one = truth.assign(sample=names).set_axis(range(100, 100 + ROWS))
+    other = shuffled(prediction.assign(sample=names)).set_axis(range(100, 100 + ROWS))
+    with pytest.raises(ValueError, match="paired by 'sample', but the index is"):
+        taceva.score(one, other)
+
+
+def test_rows_that_disagree_in_time_or_point_are_refused() -> None:
+    truth, prediction = frames()
+    times = np.arange(ROWS) / 30.0
+    with pytest.raises(ValueError, match="row 0: t_s is"):
+        taceva.score(truth.assign(t_s=times), prediction.assign(t_s=times + 0.1))
+    with pytest.raises(ValueError, match="row 1: point_id is"):
+        taceva.score(truth.assign(point_id=["a"] * ROWS), prediction.assign(point_id=["a", *["b"] * (ROWS - 1)]))
+
+
+def test_other_columns_are_refused_by_name() -> None:
+    truth, prediction = frames()
+    with pytest.raises(ValueError, match="truth has no column 'force'"):
+        taceva.score(truth, prediction.rename(columns={"Fz": "force"}), channels=["force"])
+    with pytest.raises(ValueError, match="prediction has no column 'Px', which truth has"):
+        taceva.score(truth, prediction[["Fz"]])
+    assert mae(taceva.score(truth, prediction[["Fz"]], channels=["Fz"])) == pytest.approx(ERROR)
+
+
+def test_contact_points_of_a_column_or_a_shuffled_series_go_with_their_rows() -> None:
+    truth, prediction = frames()
+    points = pd.Series([f"p{row // 2}" for row in range(ROWS)])
+    expected = taceva.score(truth, prediction, points=points.to_list())
+    for result in (
+        taceva.score(truth.assign(point_id=points), shuffled(prediction)),
+        taceva.score(truth, prediction, points=shuffled(points)),
+    ):
+        assert result["mae", "Fz"].interval == expected["mae", "Fz"].interval
+        assert result["mae", "Fz"].interval is not None
+
+
+def test_streamed_frames_are_matched_and_remembered_over_merge_and_pickle() -> None:
+    import pickle
+
+    truth, prediction = frames()
+    metrics = taceva.TactileMetrics(["Px", "Fz"])
+    metrics.update(truth, shuffled(prediction)[["Fz", "Px"]])
+    again = taceva.TactileMetrics(["Px", "Fz"])
+    again.merge(pickle.loads(pickle.dumps(metrics)))
+    assert mae(again.compute()) == pytest.approx(ERROR)
+    assert any("by the index" in note for note in again.compute().notes)
+
+
+def test_arrays_without_names_are_scored_as_ever() -> None:
+    truth, prediction = (frame.to_numpy() for frame in frames())
+    assert taceva.score(truth, prediction, channels=["Px", "Fz"]).notes == []

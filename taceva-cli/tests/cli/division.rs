@@ -1,0 +1,146 @@
+//! Division of recordings whose neighbouring samples resemble each other, cross-validation, and pairing of tables, as a person meets them.
+
+use std::fs;
+use std::path::Path;
+
+use crate::support::{Bench, SAMPLES};
+
+/// A stream of sixteen taxels at 50 Hz that know nothing of the force beside them.
+const STREAM: &str = "../crates/studies/evaluate/tests/data/division/tax.csv";
+
+const MAP: &str = r#"map_version = 2
+table = "tax.csv"
+[columns]
+Fz = { from = "fz", unit = "N" }
+[signals]
+from = "c0..15"
+unit = "uT"
+places = [4, 4]
+channels = ["p"]
+order = "place-first"
+[time]
+clock = "monotonic"
+column = "t"
+unit = "s"
+[sensor]
+model = "lab gel"
+serial = "unknown"
+gel = "unknown"
+opaque = "unknown"
+"#;
+
+fn stream(map: &str) -> Bench {
+    let bench = Bench::new();
+    let table = Path::new(env!("CARGO_MANIFEST_DIR")).join(STREAM);
+    bench.write("lab/map.toml", map);
+    fs::copy(table, bench.path("lab/tax.csv")).expect("copied");
+    bench.ok("import lab --map lab/map.toml --out data -q");
+    bench
+}
+
+#[test]
+fn a_stream_is_divided_by_blocks_of_time_and_says_so_first() {
+    let points = MAP.replace("[signals]", "[ids]\npoint_id = \"t\"\n[signals]");
+    for map in [MAP, &points] {
+        let bench = stream(map);
+        let report = bench.json("evaluate data --model knn --metrics mae,r2");
+        let r2 = report["metrics"]["r2"]["Fz"]["value"]
+            .as_f64()
+            .expect("a number");
+        assert!(r2 < 0.6, "{r2}");
+        let split = report["provenance"]["split"].as_str().expect("divided");
+        assert_eq!(split, "cv:5 by-block");
+        let text = bench.ok("evaluate data --model knn --metrics mae,r2");
+        let said = "neighbours in time resemble each other (Fz by ";
+        assert!(text.lines().any(|line| line.starts_with(said)), "{text}");
+    }
+}
+
+#[test]
+fn a_stream_that_is_divided_at_random_by_hand_is_marked_in_every_output() {
+    let bench = stream(MAP);
+    for format in ["text", "json", "md", "tex"] {
+        let words =
+            format!("evaluate data --model knn --metrics r2 --split random --format {format}");
+        let out = bench.ok(&words);
+        assert!(out.contains("the scores flatter"), "{format}: {out}");
+    }
+    bench.ok("evaluate data --model knn --metrics r2 --split random --html page.html -q");
+    let page = fs::read_to_string(bench.path("page.html")).expect("written");
+    assert!(page.contains("the scores flatter"));
+    let report = bench.json("evaluate data --model knn --metrics r2 --split random");
+    let standing = &report["metrics"]["r2"]["Fz"]["standing"];
+    assert_eq!(standing, "skill not known: no interval", "{report}");
+}
+
+#[test]
+fn few_points_are_each_tested_on_once_and_no_frame_is_decoded_twice() {
+    let bench = Bench::new();
+    bench.record("data", 32);
+    let report = bench.json("evaluate data --model ridge --set size=8 --metrics mae");
+    assert_eq!(report["provenance"]["split"], "cv:5 by-point");
+    assert_eq!(report["metrics"]["mae"]["Fz"]["n"], SAMPLES);
+    assert_eq!(report["provenance"]["frames_decoded"], SAMPLES);
+    bench.refused(
+        "evaluate data --model ridge --split cv:11",
+        2,
+        "11 folds, but the recording has 10 groups",
+    );
+    bench.refused(
+        "evaluate data --model ridge --split 35/20/10",
+        2,
+        "expected shares that come to 100",
+    );
+}
+
+#[test]
+fn a_model_file_says_how_it_was_validated() {
+    let bench = Bench::new();
+    bench.record("data", 32);
+    let said = bench.ok("fit data --model ridge --set size=8 --split cv:5 --out m.taceva");
+    assert!(said.contains("validated by cv:5 by-point"), "{said}");
+    let file = fs::read(bench.path("m.taceva")).expect("written");
+    let text = String::from_utf8_lossy(&file);
+    assert!(text.contains("cv:5 by-point") && text.contains("\"validation\""));
+    bench.refused("evaluate data --with m.taceva", 2, "split all");
+}
+
+#[test]
+fn what_predict_writes_is_paired_with_the_recording_in_any_order() {
+    let bench = Bench::new();
+    bench.record("data", 32);
+    bench.ok("fit data --model ridge --set size=8 --split by-point --out m.taceva -q");
+    bench.ok("predict data --with m.taceva --part all --out p.csv --truth-out t.csv -q");
+    let expected = bench.json("score --truth t.csv --pred p.csv --metrics mae");
+    let text = fs::read_to_string(bench.path("p.csv")).expect("written");
+    let mut lines: Vec<&str> = text.lines().collect();
+    assert!(lines[0].starts_with("sample,"), "{}", lines[0]);
+    lines[1..].reverse();
+    bench.write("reversed.csv", &(lines.join("\n") + "\n"));
+    for truth in ["t.csv", "data/samples.parquet"] {
+        let words = format!("score --truth {truth} --pred reversed.csv --metrics mae");
+        let report = bench.json(&words);
+        let value = |report: &serde_json::Value| report["metrics"]["mae"]["Fz"]["value"].clone();
+        assert_eq!(value(&report), value(&expected), "{truth}");
+        let notes = report["provenance"]["notes"].to_string();
+        assert!(notes.contains("paired by `sample`"), "{notes}");
+    }
+}
+
+#[test]
+fn presses_are_independent_by_the_word_of_the_caller() {
+    let bench = Bench::new();
+    let rows: String = (0..50).map(|row| format!("{row}\n")).collect();
+    bench.write("truth.csv", &format!("Fz\n{rows}"));
+    bench.write("pred.csv", &format!("Fz\n{}", rows.replace("1\n", "1.5\n")));
+    let report = bench.json("score --truth truth.csv --pred pred.csv --metrics mae --independent");
+    let mae = &report["metrics"]["mae"]["Fz"];
+    assert!(
+        mae["ci95"]
+            .to_string()
+            .contains("samples taken as independent"),
+        "{mae}"
+    );
+    let notes = report["provenance"]["notes"].to_string();
+    assert!(notes.contains("by the word of the caller"), "{notes}");
+}

@@ -1,0 +1,120 @@
+//! Cross-validation as people write it.
+
+use std::fmt;
+use std::str::FromStr;
+
+use super::error::SplitError;
+use crate::settings::Suggestion;
+
+/// Cross-validation as people write it: how many folds, and what stays together in one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FoldSpec {
+    /// Number of folds; one for each group if `None`.
+    pub count: Option<usize>,
+    /// Samples that stay together.
+    pub by: FoldGroups,
+}
+
+/// Samples that stay together in one fold.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum FoldGroups {
+    /// The groups that the recording shows: points that repeat, groups or blocks of time where neighbours resemble each other, else single samples.
+    #[default]
+    Detected,
+    /// Single samples.
+    Samples,
+    /// Samples of one contact point.
+    Points,
+    /// Samples of one block of time.
+    Blocks,
+    /// Samples of one recording, of several.
+    Recordings,
+    /// Samples with one value in the column of this name.
+    Column(String),
+}
+
+/// Words of what stays together, in the order of suggestions.
+const GROUPS: [&str; 5] = [
+    "random",
+    "by-point",
+    "by-block",
+    "by-recording",
+    "by-column:NAME",
+];
+
+impl FoldSpec {
+    /// The cross-validation that `text` means, such as `cv:5`, `cv:10 by-point` or `loo by-column:object`; `None` if it means none.
+    pub(super) fn parse(text: &str) -> Option<Result<FoldSpec, SplitError>> {
+        let (word, by) = text.split_once(' ').unwrap_or((text, ""));
+        let count = match (word, word.strip_prefix("cv:")) {
+            ("loo", _) => None,
+            (_, Some(count)) => Some(count),
+            _ => return None,
+        };
+        let refused = |found: &str| SplitError::Folds {
+            found: found.to_owned(),
+        };
+        let count = count.map(|text| {
+            let count = text.parse().ok().filter(|count| *count >= 2);
+            count.ok_or_else(|| refused(text))
+        });
+        let spec = count.transpose().and_then(|count| {
+            Ok(FoldSpec {
+                count,
+                by: by.trim().parse()?,
+            })
+        });
+        Some(spec)
+    }
+}
+
+impl FromStr for FoldGroups {
+    type Err = SplitError;
+
+    fn from_str(text: &str) -> Result<FoldGroups, SplitError> {
+        Ok(match text {
+            "" => FoldGroups::Detected,
+            "random" => FoldGroups::Samples,
+            "by-point" => FoldGroups::Points,
+            "by-block" => FoldGroups::Blocks,
+            "by-recording" => FoldGroups::Recordings,
+            _ => match text.strip_prefix("by-column:") {
+                Some(name) if !name.is_empty() && !name.contains('=') => {
+                    FoldGroups::Column(name.to_owned())
+                }
+                _ => {
+                    return Err(SplitError::Kind {
+                        given: text.to_owned(),
+                        suggestion: Suggestion::of(text, GROUPS),
+                    });
+                }
+            },
+        })
+    }
+}
+
+impl fmt::Display for FoldGroups {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            FoldGroups::Detected => Ok(()),
+            FoldGroups::Samples => f.write_str("random"),
+            FoldGroups::Points => f.write_str("by-point"),
+            FoldGroups::Blocks => f.write_str("by-block"),
+            FoldGroups::Recordings => f.write_str("by-recording"),
+            FoldGroups::Column(name) => write!(f, "by-column:{name}"),
+        }
+    }
+}
+
+impl fmt::Display for FoldSpec {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.count {
+            Some(count) => write!(f, "cv:{count}")?,
+            None => f.write_str("loo")?,
+        }
+        match self.by {
+            FoldGroups::Detected => Ok(()),
+            _ => write!(f, " {}", self.by),
+        }
+    }
+}

@@ -1,0 +1,133 @@
+//! Folds of a cross-validation: each group of samples is tested on once, by a model that was fitted on the others.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use taceva_core::random::SplitMix64;
+
+use super::assign::{Split, SplitInput};
+use super::error::SplitError;
+use super::fold_spec::{FoldGroups, FoldSpec};
+use super::fractions::Fractions;
+use super::part::Part;
+use crate::settings::Suggestion;
+
+/// Folds of a recording: for each a division, and the group of every sample.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Folds {
+    /// A division a fold; together their test parts have every sample once that is in a group.
+    pub splits: Vec<Split>,
+    /// The name of the group of each sample; empty where there is none.
+    pub groups: Vec<String>,
+}
+
+impl FoldSpec {
+    /// The folds of `input`, the same for the same seed on every machine. Of the groups that a fold does not test on, some are for choosing
+    /// settings, in the shares that `fractions` give training and validation.
+    ///
+    /// ```
+    /// use taceva_models::{Fractions, FoldGroups, FoldSpec, SplitInput};
+    /// let points: Vec<String> = (0..20).map(|row| format!("p{}", row / 2)).collect();
+    /// let input = SplitInput { rows: 20, points: Some(&points), ..SplitInput::default() };
+    /// let spec = FoldSpec { count: Some(5), by: FoldGroups::Points };
+    /// let folds = spec.folds(&input, Fractions::default(), 7)?;
+    /// assert_eq!(folds.splits.iter().map(|split| split.test.len()).sum::<usize>(), 20);
+    /// # Ok::<(), taceva_models::SplitError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`SplitError`] if `input` lacks what names groups, or has fewer of them than folds.
+    pub fn folds(
+        &self,
+        input: &SplitInput<'_>,
+        fractions: Fractions,
+        seed: u64,
+    ) -> Result<Folds, SplitError> {
+        input.check()?;
+        let groups = self.groups(input)?;
+        let mut order: Vec<&str> = Vec::new();
+        let mut seen = BTreeSet::new();
+        for name in groups.iter().filter(|name| !name.is_empty()) {
+            if seen.insert(name.as_str()) {
+                order.push(name);
+            }
+        }
+        SplitMix64::new(seed).shuffle(&mut order);
+        let count = self.count.unwrap_or(order.len());
+        if order.len() < count || count < 2 {
+            return Err(SplitError::FewGroups {
+                groups: order.len(),
+                folds: count,
+                by: self.by.clone(),
+            });
+        }
+        let splits = (0..count).map(|fold| {
+            let parts = parts(&order, fold, count, fractions);
+            let part = |name: &String| parts.get(name.as_str()).copied();
+            input.apart(Split::of(groups.iter().map(part)))
+        });
+        Ok(Folds {
+            splits: splits.collect(),
+            groups,
+        })
+    }
+
+    /// The name of the group of every row of `input`; empty where it is in none.
+    ///
+    /// # Errors
+    /// [`SplitError`] if `input` lacks what names them.
+    pub fn groups(&self, input: &SplitInput<'_>) -> Result<Vec<String>, SplitError> {
+        let samples = || (0..input.rows).map(|row| format!("{row}")).collect();
+        Ok(match &self.by {
+            FoldGroups::Detected => match (input.points, input.blocks) {
+                (Some(points), _) => points.to_vec(),
+                (None, Some(blocks)) => blocks.names.to_vec(),
+                (None, None) => samples(),
+            },
+            FoldGroups::Samples => samples(),
+            FoldGroups::Points => input.points.ok_or(SplitError::NoPoints)?.to_vec(),
+            FoldGroups::Blocks => input.blocks.ok_or(SplitError::NoBlocks)?.names.to_vec(),
+            FoldGroups::Recordings => {
+                let recordings = input.recordings.ok_or(SplitError::NoRecordings {
+                    split: "by-recording",
+                })?;
+                recordings.to_vec()
+            }
+            FoldGroups::Column(name) => {
+                let column = input.columns.get(name.as_str());
+                let column = column.ok_or_else(|| SplitError::NoColumn {
+                    name: name.clone(),
+                    suggestion: Suggestion::of(name, input.columns.keys().copied()),
+                })?;
+                column.to_vec()
+            }
+        })
+    }
+}
+
+/// The part of each group in fold number `fold` of `count`. Groups take turns; those behind the tested ones choose settings.
+fn parts<'a>(
+    order: &[&'a str],
+    fold: usize,
+    count: usize,
+    fractions: Fractions,
+) -> BTreeMap<&'a str, Part> {
+    let mut parts = BTreeMap::new();
+    // Other groups from the next fold on, so that each fold chooses by other groups.
+    let mut others = Vec::new();
+    for turn in 0..count {
+        let own = order.iter().skip((fold + turn) % count).step_by(count);
+        match turn {
+            0 => parts.extend(own.map(|name| (*name, Part::Test))),
+            _ => others.extend(own.copied()),
+        }
+    }
+    let validation = fractions.validation_of_rest(others.len());
+    for (at, name) in others.into_iter().enumerate() {
+        let part = match at < validation {
+            true => Part::Validation,
+            false => Part::Train,
+        };
+        parts.insert(name, part);
+    }
+    parts
+}
