@@ -31,6 +31,14 @@ enum Scale {
 
 /// Standard gravity, m/s²: exact by definition (3rd CGPM, 1901).
 const STANDARD_GRAVITY: f64 = 9.806_65;
+/// Pound-force, N: exact, 0.45359237 kg of the international pound (1959) under standard gravity.
+const POUND_FORCE: f64 = 4.448_221_615_260_5;
+/// Ounce-force, N: a sixteenth of a pound-force.
+const OUNCE_FORCE: f64 = POUND_FORCE / 16.0;
+/// Inch, mm: exact (1959).
+const INCH: f64 = 25.4;
+/// Foot, mm: twelve inches.
+const FOOT: f64 = 304.8;
 
 const SOURCE_UNITS: &[(&str, Unit, Scale)] = &[
     ("mm", Unit::Millimetre, Scale::Times(1.0)),
@@ -41,16 +49,42 @@ const SOURCE_UNITS: &[(&str, Unit, Scale)] = &[
     // The micro sign and the Greek letter look the same.
     ("\u{3bc}m", Unit::Millimetre, Scale::Over(1e3)),
     ("nm", Unit::Millimetre, Scale::Over(1e6)),
+    ("inch", Unit::Millimetre, Scale::Times(INCH)),
     ("N", Unit::Newton, Scale::Times(1.0)),
     ("mN", Unit::Newton, Scale::Over(1e3)),
     ("kN", Unit::Newton, Scale::Times(1e3)),
     ("gf", Unit::Newton, Scale::Times(STANDARD_GRAVITY / 1e3)),
     ("kgf", Unit::Newton, Scale::Times(STANDARD_GRAVITY)),
+    ("lbf", Unit::Newton, Scale::Times(POUND_FORCE)),
+    ("klbf", Unit::Newton, Scale::Times(4_448.221_615_260_5)),
+    ("ozf", Unit::Newton, Scale::Times(OUNCE_FORCE)),
+    ("dyn", Unit::Newton, Scale::Over(1e5)),
     ("N·mm", Unit::NewtonMillimetre, Scale::Times(1.0)),
     ("Nmm", Unit::NewtonMillimetre, Scale::Times(1.0)),
     ("N·m", Unit::NewtonMillimetre, Scale::Times(1e3)),
     ("Nm", Unit::NewtonMillimetre, Scale::Times(1e3)),
     ("mNm", Unit::NewtonMillimetre, Scale::Times(1.0)),
+    ("kgf-cm", Unit::NewtonMillimetre, Scale::Times(98.066_5)),
+    (
+        "gf-cm",
+        Unit::NewtonMillimetre,
+        Scale::Times(98.066_5 / 1e3),
+    ),
+    (
+        "lbf-in",
+        Unit::NewtonMillimetre,
+        Scale::Times(112.984_829_027_616_7),
+    ),
+    (
+        "lbf-ft",
+        Unit::NewtonMillimetre,
+        Scale::Times(POUND_FORCE * FOOT),
+    ),
+    (
+        "ozf-in",
+        Unit::NewtonMillimetre,
+        Scale::Times(OUNCE_FORCE * INCH),
+    ),
     ("deg", Unit::Degree, Scale::Times(1.0)),
     (
         "rad",
@@ -80,6 +114,11 @@ const SOURCE_UNITS: &[(&str, Unit, Scale)] = &[
     ("mV", Unit::Volt, Scale::Over(1e3)),
     ("kPa", Unit::Kilopascal, Scale::Times(1.0)),
     ("Pa", Unit::Kilopascal, Scale::Over(1e3)),
+    ("hPa", Unit::Kilopascal, Scale::Over(10.0)),
+    ("MPa", Unit::Kilopascal, Scale::Times(1e3)),
+    ("bar", Unit::Kilopascal, Scale::Times(100.0)),
+    ("mbar", Unit::Kilopascal, Scale::Over(10.0)),
+    ("psi", Unit::Kilopascal, Scale::Times(6.894_757_293_168_361)),
     ("degC", Unit::DegreeCelsius, Scale::Times(1.0)),
     ("ohm", Unit::Ohm, Scale::Times(1.0)),
     ("pF", Unit::Picofarad, Scale::Times(1.0)),
@@ -126,8 +165,15 @@ impl SourceUnit {
     /// converted twice.
     pub fn decimal_shift(&self) -> Option<i32> {
         let find = |factor: f64| {
-            let powers: [(f64, i32); 6] =
-                [(1e0, 0), (1e1, 1), (1e2, 2), (1e3, 3), (1e6, 6), (1e9, 9)];
+            let powers: [(f64, i32); 7] = [
+                (1e0, 0),
+                (1e1, 1),
+                (1e2, 2),
+                (1e3, 3),
+                (1e5, 5),
+                (1e6, 6),
+                (1e9, 9),
+            ];
             let is_it = |power: f64| power.to_bits() == factor.to_bits();
             let found = powers.into_iter().find(|(power, _)| is_it(*power));
             found.map(|(_, shift)| shift)
@@ -205,6 +251,33 @@ mod tests {
         assert_eq!(kept("G", 0.5), (Unit::Microtesla, 50.0));
         assert_eq!(kept("mV", 512.0), (Unit::Volt, 0.512));
         assert_eq!(kept("Pa", 101_325.0), (Unit::Kilopascal, 101.325));
+    }
+
+    #[test]
+    fn units_of_american_transducers_and_of_pressures_are_those_of_nist_special_publication_811() {
+        for (symbol, unit, one) in [
+            ("lbf", Unit::Newton, 4.448_221_615_260_5),
+            ("klbf", Unit::Newton, 4_448.221_615_260_5),
+            ("ozf", Unit::Newton, 0.278_013_850_953_781_25),
+            ("dyn", Unit::Newton, 1e-5),
+            ("lbf-in", Unit::NewtonMillimetre, 112.984_829_027_616_7),
+            ("lbf-ft", Unit::NewtonMillimetre, 1_355.817_948_331_400_4),
+            ("ozf-in", Unit::NewtonMillimetre, 7.061_551_814_226_043_75),
+            ("kgf-cm", Unit::NewtonMillimetre, 98.066_5),
+            ("psi", Unit::Kilopascal, 6.894_757_293_168_361),
+            ("bar", Unit::Kilopascal, 100.0),
+            ("mbar", Unit::Kilopascal, 0.1),
+            ("inch", Unit::Millimetre, 25.4),
+        ] {
+            let source = SourceUnit::parse(symbol).expect("known");
+            assert_eq!(source.unit(), unit, "{symbol}");
+            let error = (source.convert(1.0) - one).abs();
+            assert!(
+                error <= f64::EPSILON * one,
+                "{symbol}: {}",
+                source.convert(1.0)
+            );
+        }
     }
 
     #[test]

@@ -52,18 +52,50 @@ impl ArrayFile {
             array: None,
             problem,
         };
-        let store = open(path, format).map_err(wrong)?;
+        Ok(ArrayFile::of_store(
+            path,
+            open(path, format).map_err(wrong)?,
+        ))
+    }
+
+    /// Reads the bytes of a `.npy` file that lies within another file; `path` is named in errors alone.
+    ///
+    /// # Errors
+    /// [`ArrayError`] if they are damaged, no array of NumPy, or of a type that is not read here.
+    ///
+    /// ```
+    /// use taceva_arrays::{ArrayFile, ArrayValues};
+    ///
+    /// let header = "{'descr': '<i2', 'fortran_order': False, 'shape': (2,), }\n";
+    /// let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+    /// bytes.extend([header.len() as u8, 0]);
+    /// bytes.extend(header.as_bytes());
+    /// bytes.extend([1, 0, 2, 0]);
+    /// let file = ArrayFile::of_npy("run.tar".as_ref(), bytes)?;
+    /// assert_eq!(file.read("value", 0..2)?.values, ArrayValues::I16(vec![1, 2]));
+    /// # Ok::<(), taceva_arrays::ArrayError>(())
+    /// ```
+    pub fn of_npy(path: &Path, bytes: Vec<u8>) -> Result<ArrayFile, ArrayError> {
+        let store = NpyArray::open("", Arc::new(bytes)).map_err(|problem| ArrayError {
+            path: path.to_owned(),
+            array: None,
+            problem,
+        })?;
+        Ok(ArrayFile::of_store(path, Box::new(store)))
+    }
+
+    fn of_store(path: &Path, store: Box<dyn Store>) -> ArrayFile {
         let arrays = store.arrays();
         let named = arrays.iter().enumerate();
         let by_name = named
             .map(|(index, (name, _))| (name.clone(), index))
             .collect();
-        Ok(ArrayFile {
+        ArrayFile {
             path: path.to_owned(),
             store,
             arrays,
             by_name,
-        })
+        }
     }
 
     /// The names of the arrays, in the order of the file.

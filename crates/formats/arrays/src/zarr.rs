@@ -1,16 +1,17 @@
-//! zarr, versions 2 and 3: a folder of arrays in chunks, a file each. A chunk that is not there holds the fill value.
+//! zarr, versions 2 and 3: a folder of arrays in chunks, a file each, or a ZIP archive of such a folder. A chunk that is not there holds the fill value.
 
 mod array;
 mod codecs;
 mod fill;
 mod grid;
 mod metadata;
+mod tree;
 mod version_2;
 mod version_3;
 
 use std::fs;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use serde_json::Value;
@@ -18,12 +19,12 @@ use serde_json::Value;
 use crate::cache::Cache;
 use crate::error::Problem;
 use crate::limits;
-use crate::source::{ByteSource, FileBytes, bytes_of};
 use crate::store::{Arrays, Store, chunks_of};
 use crate::values::ArrayData;
 
 use array::ZarrArray;
 use grid::Grid;
+use tree::Tree;
 
 /// Groups within groups.
 const DEPTH: usize = 16;
@@ -31,11 +32,11 @@ const DEPTH: usize = 16;
 /// Chunks that were read, by the number of their array and their place in its grid.
 type Chunks = Cache<(usize, Vec<u64>), Vec<u8>>;
 
-/// A folder of zarr.
+/// A store of zarr.
 #[derive(Debug)]
 pub(crate) struct Zarr {
     groups: Vec<String>,
-    arrays: Vec<(PathBuf, ZarrArray)>,
+    arrays: Vec<(Tree, ZarrArray)>,
     /// For each array that is listed, which array and which field of it.
     listed: Vec<(usize, usize)>,
     /// Attributes of groups and arrays that have any, by full name.
@@ -54,13 +55,7 @@ impl Zarr {
     }
 
     pub(crate) fn open(folder: &Path) -> Result<Zarr, Problem> {
-        let metadata = fs::metadata(folder).map_err(Problem::io("open"))?;
-        if !metadata.is_dir() {
-            return Err(Problem::unsupported(
-                "a zarr store that is no folder",
-                "unpack it, or save it with a path that is a folder",
-            ));
-        }
+        let tree = Tree::open(folder)?;
         let mut zarr = Zarr {
             groups: Vec::new(),
             arrays: Vec::new(),
@@ -69,12 +64,12 @@ impl Zarr {
             refused: Vec::new(),
             chunks: Mutex::new(Cache::new(limits::HELD_BYTES)),
         };
-        zarr.visit(folder, "", 0)?;
+        zarr.visit(&tree, "", 0)?;
         if zarr.groups.is_empty() && zarr.arrays.is_empty() && zarr.refused.is_empty() {
             return Err(Problem::damaged(
                 0,
                 "no `zarr.json`, `.zgroup` or `.zarray`",
-                "a folder of zarr version 2 or 3",
+                "a folder, or a ZIP archive, of zarr version 2 or 3",
             ));
         }
         for (index, (_, array)) in zarr.arrays.iter().enumerate() {
@@ -85,7 +80,7 @@ impl Zarr {
     }
 
     /// Lists what `folder` holds; `path` is its full name, empty for the outermost.
-    fn visit(&mut self, folder: &Path, path: &str, depth: usize) -> Result<(), Problem> {
+    fn visit(&mut self, folder: &Tree, path: &str, depth: usize) -> Result<(), Problem> {
         let name = if path.is_empty() { "/" } else { path };
         let within = |problem: Problem| problem.within(&format!("the metadata of `{name}`"));
         let node = metadata::node(folder).map_err(within)?;
@@ -94,7 +89,7 @@ impl Zarr {
         }
         match node.array {
             Some(Ok(array)) => {
-                self.arrays.push((folder.to_owned(), array));
+                self.arrays.push((folder.clone(), array));
                 if let Some((_, array)) = self.arrays.last_mut() {
                     array.name = name.to_owned();
                 }
@@ -121,21 +116,11 @@ impl Zarr {
         Ok(())
     }
 
-    fn members(&mut self, folder: &Path, path: &str, depth: usize) -> Result<(), Problem> {
+    fn members(&mut self, folder: &Tree, path: &str, depth: usize) -> Result<(), Problem> {
         if depth == DEPTH {
             return Ok(());
         }
-        let mut members = Vec::new();
-        for entry in fs::read_dir(folder).map_err(Problem::io("list"))? {
-            let entry = entry.map_err(Problem::io("list"))?;
-            // Links are not followed: they may lead anywhere.
-            let is_folder = entry.file_type().map_err(Problem::io("list"))?.is_dir();
-            if let (true, Some(name)) = (is_folder, entry.file_name().to_str()) {
-                members.push(name.to_owned());
-            }
-        }
-        members.sort_unstable();
-        for name in members {
+        for name in folder.folders()? {
             self.visit(&folder.join(&name), &format!("{path}/{name}"), depth + 1)?;
         }
         Ok(())
@@ -151,35 +136,15 @@ impl Zarr {
         drop(kept);
         let (folder, array) = &self.arrays[index];
         let name = array.key(place);
-        let path = folder.join(&name);
-        // A chunk is a file of its own, never a link to one elsewhere.
-        match fs::symlink_metadata(&path) {
-            Ok(metadata) if metadata.is_file() => {}
-            Ok(_) => {
-                return Err(Problem::unsupported(
-                    format!("chunk `{name}` is no regular file"),
-                    "copy the store",
-                ));
-            }
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-            Err(error) => return Err(Problem::io("open")(error)),
+        if let Tree::Folder(folder) = folder
+            && !is_own_file(folder, &name)?
+        {
+            return Ok(None);
         }
-        let real = |path: &Path| fs::canonicalize(path).map_err(Problem::io("open"));
-        if !real(&path)?.starts_with(real(folder)?) {
-            return Err(Problem::unsupported(
-                format!("chunk `{name}` is outside of its array, through a link"),
-                "copy the store",
-            ));
-        }
-        let file = FileBytes::open(&path)?;
-        if file.length() > limits::CHUNK_BYTES {
-            return Err(Problem::too_large(
-                "bytes of one chunk",
-                file.length(),
-                limits::CHUNK_BYTES,
-            ));
-        }
-        let packed = bytes_of(&file, 0, file.length())?;
+        let packed = folder.bytes(&name, "bytes of one chunk", limits::CHUNK_BYTES)?;
+        let Some(packed) = packed else {
+            return Ok(None);
+        };
         let chunk = array
             .unpack(packed)
             .map_err(|problem| problem.within(&format!("chunk `{name}`")))?;
@@ -191,22 +156,42 @@ impl Zarr {
     }
 }
 
+/// Whether the chunk `name` of the array in `folder` is there; a link to a file elsewhere is refused.
+fn is_own_file(folder: &Path, name: &str) -> Result<bool, Problem> {
+    let path = folder.join(name);
+    match fs::symlink_metadata(&path) {
+        Ok(metadata) if metadata.is_file() => {}
+        Ok(_) => {
+            return Err(Problem::unsupported(
+                format!("chunk `{name}` is no regular file"),
+                "copy the store",
+            ));
+        }
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(false),
+        Err(error) => return Err(Problem::io("open")(error)),
+    }
+    let real = |path: &Path| fs::canonicalize(path).map_err(Problem::io("open"));
+    match real(&path)?.starts_with(real(folder)?) {
+        true => Ok(true),
+        false => Err(Problem::unsupported(
+            format!("chunk `{name}` is outside of its array, through a link"),
+            "copy the store",
+        )),
+    }
+}
+
 /// How many chunks of the array in `folder` are there: a file that has the name of one.
-fn written(folder: &Path, array: &ZarrArray) -> Result<u64, Problem> {
+fn written(folder: &Tree, array: &ZarrArray) -> Result<u64, Problem> {
     let mut there = 0;
-    let mut folders = vec![(folder.to_owned(), String::new(), 0)];
+    let mut folders = vec![(folder.clone(), String::new(), 0)];
     while let Some((folder, before, depth)) = folders.pop() {
-        for entry in fs::read_dir(folder).map_err(Problem::io("list"))? {
-            let entry = entry.map_err(Problem::io("list"))?;
-            let name = entry.file_name();
-            let Some(name) = name.to_str() else { continue };
-            let kind = entry.file_type().map_err(Problem::io("list"))?;
-            let name = format!("{before}{name}");
-            // Of a chunk `c/0/1` each axis may be a folder.
-            if kind.is_dir() && depth <= array.shape.len() {
-                folders.push((entry.path(), format!("{name}/"), depth + 1));
-            } else if kind.is_file() && array.is_key(&name) {
-                there += 1;
+        let files = folder.files()?;
+        let is_key = |name: &&String| array.is_key(&format!("{before}{name}"));
+        there += files.iter().filter(is_key).count() as u64;
+        // Of a chunk `c/0/1` each axis may be a folder.
+        if depth <= array.shape.len() {
+            for name in folder.folders()? {
+                folders.push((folder.join(&name), format!("{before}{name}/"), depth + 1));
             }
         }
     }

@@ -7,6 +7,7 @@ mod info;
 mod metadata;
 mod pattern;
 mod stats;
+mod takes;
 mod video;
 mod writer;
 
@@ -66,7 +67,8 @@ impl LeRobot {
     /// The dataset in `folder`: its descriptions are read, and the footers of all data files.
     ///
     /// # Errors
-    /// [`TableError::Unsupported`] if it has another version, or files lie outside the folder; else as [`ParquetTable::open`].
+    /// [`TableError::Unsupported`] if it has another version, or files lie outside the folder; [`TableError::Damaged`] if an episode has other rows
+    /// than its description says, or two takes; else as [`ParquetTable::open`].
     pub fn open(folder: &Path) -> Result<LeRobot, TableError> {
         let (source, json) = json_file(folder, "meta/info.json")?;
         let info = info::parse(&source, &json)?;
@@ -118,7 +120,7 @@ impl LeRobot {
             tasks = episodes::tasks(folder, info.layout == Layout::V21)?;
             names.push("task".to_owned());
         }
-        Ok(LeRobot {
+        let dataset = LeRobot {
             folder: folder.to_owned(),
             source,
             info,
@@ -126,7 +128,9 @@ impl LeRobot {
             names,
             tasks,
             rows,
-        })
+        };
+        takes::check(&dataset)?;
+        Ok(dataset)
     }
 
     /// The folder.

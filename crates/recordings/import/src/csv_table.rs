@@ -8,6 +8,7 @@ mod quotation;
 mod scan;
 mod split;
 pub(crate) mod stream;
+pub(crate) mod text_form;
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};

@@ -1,5 +1,6 @@
 //! A first map for a folder that nobody has described: what is sure, what is guessed, what only its lab knows.
 
+mod channels;
 mod frames;
 mod joins;
 mod map_text;
@@ -19,13 +20,13 @@ use taceva_dataset::DatasetError;
 /// The most tables that are read for a draft.
 const TABLES: usize = 64;
 
-/// A map with gaps to fill in: every unit is `"?"`, but that of times whose size or step says it; an import refuses it, naming the line.
+/// A map with gaps to fill in, each `"?"`: units that neither names nor headers say, columns of which two fit alike; an import refuses them, naming the line.
 ///
 /// ```
 /// # let folder = tempfile::tempdir()?;
 /// std::fs::write(folder.path().join("labels.csv"), "Fz_N,note\n1.5,a\n2.5,b\n")?;
 /// let draft = taceva_import::MapDraft::of(folder.path())?;
-/// assert!(draft.text().contains(r#"Fz = { from = "Fz_N", unit = "?" }"#));
+/// assert!(draft.text().contains(r#"Fz = { from = "Fz_N", unit = "N" }   # its name and unit"#));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -75,12 +76,13 @@ impl MapDraft {
                 Err(problem) => notes.push(format!("not read: {problem}")),
             }
         }
-        if let Some(preset) = Preset::recognised(folder) {
-            notes.push(map_text::known_layout(preset.name()));
-        }
-        let text = match main_table(&source, &tables) {
+        let most = pictures.iter().max_by_key(|group| group.paths.len());
+        let main = main_table(&source, &tables);
+        let array = main.filter(|main| most.is_some_and(|most| are_beside(&source, main, most)));
+        notes.extend(array.map(map_text::array_beside_pictures));
+        let text = match main.filter(|_| array.is_none()) {
             Some(main) => map_text::of_table(&source, &groups, main, &tables, &notes),
-            None => match pictures.iter().max_by_key(|group| group.paths.len()) {
+            None => match most {
                 Some(group) => map_text::of_files(group, &notes),
                 None => {
                     return Err(DatasetError::Request {
@@ -93,13 +95,44 @@ impl MapDraft {
                 }
             },
         };
-        Ok(MapDraft { text })
+        Ok(MapDraft {
+            text: match known_layout(folder, &text) {
+                Some(preset) => map_text::with_note(&text, &map_text::known_layout(preset)),
+                None => text,
+            },
+        })
     }
 
     /// The map, with comments that say why each line stands there.
     pub fn text(&self) -> &str {
         &self.text
     }
+}
+
+/// The preset whose layout the folder has, if its map fits: its files are there, and what it names is in them.
+fn known_layout(folder: &Path, draft: &str) -> Option<&'static str> {
+    let preset = Preset::recognised(folder)?;
+    let fits = match preset.is_drafted() {
+        true => {
+            draft.contains("\n[columns]\n")
+                && !draft.contains("from = \"?\"")
+                && draft.contains("unit = \"")
+        }
+        false => preset.map(folder).is_ok(),
+    };
+    fits.then(|| preset.name())
+}
+
+/// Whether `table` is an array of another kind beside the pictures, such as the mean of those without contact, and these are the samples.
+fn are_beside(folder: &SourceFolder, table: &SeenTable<'_>, pictures: &FileGroup) -> bool {
+    let has_pictures = !table.pictures.is_empty() || frames::file_column(folder, table).is_some();
+    let is_other =
+        table.is_single_array || (table.own_taxels().is_empty() && table.time().is_none());
+    !has_pictures
+        && is_other
+        && table.channels() == 0
+        && pictures.paths.len() > 1
+        && table.rows != pictures.paths.len()
 }
 
 /// The table whose rows are the samples: one that names pictures before one of taxels, then the one with the most channels.
@@ -117,8 +150,7 @@ fn main_table<'t, 'g>(
                 !table.pictures.is_empty() || frames::file_column(folder, table).is_some();
             (
                 has_pictures,
-                !table.is_single_array && table.own_taxels().is_some(),
-                table.measured(),
+                !table.is_single_array && !table.own_taxels().is_empty(),
                 table.channels(),
                 table.group.paths.len(),
                 table.rows,

@@ -5,6 +5,7 @@ mod byte_pictures;
 pub(crate) mod cell_list;
 mod clips;
 mod columns;
+mod delimited;
 mod file_series;
 mod files;
 mod json;
@@ -24,7 +25,7 @@ use std::sync::Arc;
 
 use taceva_arrays::ArrayFormat;
 
-use crate::csv_table::CsvTable;
+use crate::csv_table::text_form::TextForm;
 use crate::frame_names::FrameNames;
 use crate::source_folder::SourceFolder;
 use taceva_core::nearest;
@@ -34,6 +35,7 @@ use taceva_dataset::{DatasetError, Place};
 pub(crate) use arrays::{ArrayPictures, stated};
 pub(crate) use clips::ClipPictures;
 pub(crate) use columns::{ColumnTable, PictureColumn, PictureKind, Stated};
+pub(crate) use delimited::DelimitedTable;
 pub(crate) use file_series::SeveralPictures;
 pub(crate) use files::FileRows;
 pub(crate) use json::JsonRows;
@@ -43,7 +45,7 @@ pub(crate) use pictures::{Picture, Pictures};
 /// A table of any form.
 #[derive(Debug)]
 pub(crate) enum ForeignTable {
-    Delimited(CsvTable),
+    Delimited(DelimitedTable),
     Json(JsonRows),
     Files(FileRows),
     Columns(ColumnTable),
@@ -52,10 +54,8 @@ pub(crate) enum ForeignTable {
 /// How a table is written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum TableForm {
-    /// Cells between separators, below a header; without one, columns are called by their position, from 0.
-    Delimited {
-        has_header: bool,
-    },
+    /// Cells between separators.
+    Delimited(TextForm),
     /// JSON, whose rows are what the pointer leads to: a step `*` stands for each member, the empty pointer for the whole.
     Json {
         rows: Option<String>,
@@ -93,11 +93,8 @@ impl ForeignTable {
     /// The table at `path`.
     pub(crate) fn read(path: &Path, form: &TableForm) -> Result<ForeignTable, DatasetError> {
         Ok(match form {
-            TableForm::Delimited { has_header: true } => {
-                ForeignTable::Delimited(CsvTable::read(path)?)
-            }
-            TableForm::Delimited { has_header: false } => {
-                ForeignTable::Delimited(CsvTable::read_headerless(path)?)
+            TableForm::Delimited(form) => {
+                ForeignTable::Delimited(DelimitedTable::read(path, form)?)
             }
             TableForm::Json { rows } => ForeignTable::Json(JsonRows::read(path, rows.as_deref())?),
             TableForm::JsonLines => ForeignTable::Json(JsonRows::read_lines(path)?),
@@ -161,10 +158,7 @@ impl ForeignTable {
     /// [`DatasetError::Table`] if no row has such a column.
     pub(crate) fn cell(&self, row: usize, name: &str) -> Result<Cow<'_, str>, DatasetError> {
         match self {
-            ForeignTable::Delimited(table) => {
-                let column = table.position(name)?;
-                Ok(Cow::Borrowed(table.cell(row, column)))
-            }
+            ForeignTable::Delimited(table) => table.cell(row, name),
             ForeignTable::Json(table) if table.has(name) => Ok(table.cell(row, name)),
             ForeignTable::Columns(table) if table.has(name) => {
                 table.cell(row, name).map(Cow::Owned)
@@ -185,7 +179,33 @@ impl ForeignTable {
     pub(crate) fn stated(&self, name: &str) -> Vec<Stated> {
         match self {
             ForeignTable::Columns(table) => table.stated(name),
+            ForeignTable::Delimited(table) => table.stated(name),
             _ => Vec::new(),
+        }
+    }
+
+    /// The names that may say the unit of `name`, a number in the column `base`: its own name, that of the column, that of the file where columns
+    /// have none.
+    pub(crate) fn names_with_units(&self, name: &str, base: &str) -> Vec<String> {
+        let at = name.strip_prefix(base).unwrap_or_default();
+        let at: Option<usize> = at.trim_matches(['[', ']']).parse().ok();
+        let own = at.and_then(|at| self.element_names(base).get(at).cloned());
+        let mut names: Vec<String> = own.into_iter().collect();
+        names.push(match base {
+            "value" => {
+                let stem = self.path().file_stem().unwrap_or_default();
+                stem.to_string_lossy().into_owned()
+            }
+            base => base.to_owned(),
+        });
+        names
+    }
+
+    /// Of a table of text, a cell whose point may group digits, and how many such cells the column has.
+    pub(crate) fn grouped_digits(&self, name: &str) -> Option<(String, u64)> {
+        match self {
+            ForeignTable::Delimited(table) => table.grouped_digits(name),
+            _ => None,
         }
     }
 
@@ -209,10 +229,7 @@ impl ForeignTable {
     /// Where a row stands, in the column called `name`.
     pub(crate) fn place(&self, row: usize, name: &str) -> Place {
         match self {
-            ForeignTable::Delimited(table) => {
-                let column = table.position(name).unwrap_or(usize::MAX);
-                table.place(row, column)
-            }
+            ForeignTable::Delimited(table) => table.place(row, name),
             ForeignTable::Json(table) => named(table.place(row), name),
             ForeignTable::Files(table) => Place::file(table.path()),
             ForeignTable::Columns(table) => {

@@ -17,6 +17,7 @@ mod signals;
 pub(crate) mod source;
 mod summary;
 mod suspicion;
+mod warning;
 
 pub use archive::UnpackedArchive;
 pub use copy::ImportReport;
@@ -29,3 +30,4 @@ pub use map::{
 pub use plan::ImportPlan;
 pub use summary::{Conversion, ImportSummary, JoinSummary};
 pub use suspicion::{Suspicion, magnitude_suspicion};
+pub use warning::ImportWarning;

@@ -131,6 +131,11 @@ impl Preset {
         layouts.iter().map(Preset)
     }
 
+    /// Whether its map is a draft of the folder.
+    pub(crate) fn is_drafted(self) -> bool {
+        self.facts().fit == Some(Fit::Draft)
+    }
+
     pub(crate) fn facts(self) -> &'static Layout {
         self.0
     }

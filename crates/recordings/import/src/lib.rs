@@ -7,9 +7,11 @@ mod export;
 mod foreign;
 mod frame_names;
 mod import;
+mod instant;
 mod layouts;
 mod preset;
 mod source_folder;
+mod unit_suffix;
 
 pub use advice::advice;
 pub use csv_table::CsvTable;
@@ -19,8 +21,8 @@ pub use draft::MapDraft;
 pub use export::{ExportForm, ExportPlan, ExportReport, export_csv};
 pub use import::{
     Addition, ArrayFrames, ArrayLayout, ColumnMap, Conversion, DropRules, FrameMap, FrameNames,
-    IdMap, ImportMap, ImportPlan, ImportReport, ImportSummary, JoinSummary, PixelRange,
-    Placeholder, Suspicion, TimeMap, UnpackedArchive, VideoFrames, magnitude_suspicion,
+    IdMap, ImportMap, ImportPlan, ImportReport, ImportSummary, ImportWarning, JoinSummary,
+    PixelRange, Placeholder, Suspicion, TimeMap, UnpackedArchive, VideoFrames, magnitude_suspicion,
 };
 pub use layouts::Preset;
 pub use taceva_video::Decoders;

@@ -46,13 +46,20 @@ impl SourceFolder {
             written: relative.to_owned(),
             problem: problem.to_owned(),
         };
+        if relative.is_empty() {
+            return Err(refused(
+                "empty, expected a path relative to the folder; `frames_named = [\"\"]` under [drop] leaves rows without a picture out",
+            ));
+        }
         check_relative(relative).map_err(refused)?;
         let path = base.join(relative);
         let canonical = path
             .canonicalize()
             .map_err(|error| refused(&format!("no such file: {error}")))?;
         if !canonical.starts_with(&self.canonical) {
-            return Err(refused("leads out of the folder through a link"));
+            return Err(refused(
+                "leads out of the folder through a link: copy the folder with what its links lead to (`cp -rL`), or start from the folder that holds both",
+            ));
         }
         Ok(path)
     }

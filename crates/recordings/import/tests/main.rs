@@ -13,4 +13,5 @@ mod recordings;
 mod round_trip;
 #[path = "../../dataset/tests/support.rs"]
 mod support;
+mod suspect_inputs;
 mod tiff;

@@ -1,15 +1,12 @@
 //! What the metadata of a folder says, whichever version it is.
 
-use std::fs;
-use std::path::Path;
-
 use serde_json::Value;
 
 use super::array::ZarrArray;
+use super::tree::Tree;
 use super::{version_2, version_3};
 use crate::error::Problem;
 use crate::limits;
-use crate::source::{ByteSource, FileBytes, bytes_of};
 
 /// What one folder is.
 #[derive(Debug, Default)]
@@ -19,7 +16,7 @@ pub(crate) struct Node {
     pub(crate) attributes: Option<Value>,
 }
 
-pub(crate) fn node(folder: &Path) -> Result<Node, Problem> {
+pub(crate) fn node(folder: &Tree) -> Result<Node, Problem> {
     if let Some(metadata) = json(folder, "zarr.json")? {
         let is_group = metadata["node_type"] == "group";
         let array = (metadata["node_type"] == "array").then(|| version_3::array(&metadata));
@@ -45,22 +42,11 @@ pub(crate) fn node(folder: &Path) -> Result<Node, Problem> {
     })
 }
 
-fn json(folder: &Path, name: &str) -> Result<Option<Value>, Problem> {
-    let path = folder.join(name);
-    match fs::symlink_metadata(&path) {
-        Ok(_) => {}
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-        Err(error) => return Err(Problem::io("open")(error)),
-    }
-    let file = FileBytes::open(&path)?;
-    if file.length() > limits::METADATA_BYTES {
-        return Err(Problem::too_large(
-            format!("bytes of `{name}`"),
-            file.length(),
-            limits::METADATA_BYTES,
-        ));
-    }
-    let text = bytes_of(&file, 0, file.length())?;
+fn json(folder: &Tree, name: &str) -> Result<Option<Value>, Problem> {
+    let what = format!("bytes of `{name}`");
+    let Some(text) = folder.bytes(name, &what, limits::METADATA_BYTES)? else {
+        return Ok(None);
+    };
     let value = serde_json::from_slice(&text);
     value.map(Some).map_err(|error| {
         Problem::damaged(

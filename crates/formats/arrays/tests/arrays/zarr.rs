@@ -194,3 +194,121 @@ fn a_shape_that_would_fill_a_memory_is_refused() {
     assert!(write("[4,4]", "[4]").contains("as many axes"));
     assert!(write("[4,-4]", "[4,4]").contains("list of lengths"));
 }
+
+/// A ZIP archive of members that are stored as they are, in their order.
+fn zip(members: &[(&str, &[u8])]) -> Vec<u8> {
+    let mut archive = Vec::new();
+    let mut directory = Vec::new();
+    let small = |number: usize| u16::try_from(number).expect("small").to_le_bytes();
+    let size = |number: usize| u32::try_from(number).expect("small").to_le_bytes();
+    for (name, bytes) in members {
+        let at = archive.len();
+        let mut hasher = crc32fast::Hasher::new();
+        hasher.update(bytes);
+        let crc = hasher.finalize().to_le_bytes();
+        let sizes = [
+            &crc[..],
+            &size(bytes.len()),
+            &size(bytes.len()),
+            &small(name.len()),
+            &[0, 0],
+        ]
+        .concat();
+        archive.extend(
+            [
+                &b"PK\x03\x04\x14\0\0\0\0\0\0\0\0\0"[..],
+                &sizes,
+                name.as_bytes(),
+                bytes,
+            ]
+            .concat(),
+        );
+        let entry = [
+            &b"PK\x01\x02\x14\0\x14\0\0\0\0\0\0\0\0\0"[..],
+            &sizes,
+            &[0; 10],
+            &size(at),
+            name.as_bytes(),
+        ];
+        directory.extend(entry.concat());
+    }
+    let count = small(members.len());
+    let end = [
+        &b"PK\x05\x06\0\0\0\0"[..],
+        &count,
+        &count,
+        &size(directory.len()),
+        &size(archive.len()),
+        &[0, 0],
+    ]
+    .concat();
+    archive.extend(directory);
+    archive.extend(end);
+    archive
+}
+
+const ARRAY: &[u8] = br#"{"zarr_format": 2, "shape": [3, 2], "chunks": [2, 2], "dtype": "<i2", "compressor": null, "fill_value": 7, "order": "C", "filters": null}"#;
+
+#[test]
+fn a_store_in_an_archive_is_read_and_of_members_of_one_name_the_last() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("grip.hapt.zarr");
+    for before in ["", "grip.zarr/"] {
+        let name = |name: &str| format!("{before}{name}");
+        let names = [
+            ".zgroup",
+            "raw/.zattrs",
+            "raw/.zarray",
+            "raw/0.0",
+            "raw/.zattrs",
+        ]
+        .map(name);
+        let members: Vec<(&str, &[u8])> = names
+            .iter()
+            .map(String::as_str)
+            .zip([
+                br#"{"zarr_format": 2}"#.as_slice(),
+                b"{}",
+                ARRAY,
+                &[1, 0, 2, 0, 3, 0, 4, 0],
+                br#"{"unit": "N"}"#,
+            ])
+            .collect();
+        std::fs::write(&path, zip(&members)).expect("written");
+        let file = ArrayFile::open(&path, ArrayFormat::Zarr).expect("opens");
+        assert_eq!(file.names(), ["/raw"], "{before}");
+        assert_eq!(file.attribute("/raw", "unit").as_deref(), Some("N"));
+        let read = file.read("/raw", 0..3).expect("numbers");
+        assert_eq!(
+            read.values.to_f64().expect("numbers"),
+            [1.0, 2.0, 3.0, 4.0, 7.0, 7.0]
+        );
+        assert_eq!(file.absent_chunks("/raw").expect("counted"), 1);
+    }
+}
+
+#[test]
+fn an_archive_without_a_store_or_with_a_changed_chunk_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("other.zarr");
+    std::fs::write(&path, zip(&[("note.txt", b"nothing")])).expect("written");
+    let error = ArrayFile::open(&path, ArrayFormat::Zarr).expect_err("no store");
+    assert!(error.to_string().contains("zarr.json"), "{error}");
+    std::fs::write(&path, b"no archive").expect("written");
+    assert!(ArrayFile::open(&path, ArrayFormat::Zarr).is_err());
+    let chunk = [1, 0, 2, 0, 3, 0, 4, 0];
+    let mut bytes = zip(&[
+        ("raw/.zarray", ARRAY),
+        (".zgroup", br#"{"zarr_format": 2}"#),
+        ("raw/0.0", &chunk),
+    ]);
+    let at = bytes
+        .windows(8)
+        .position(|window| window == chunk)
+        .expect("stored");
+    bytes[at] = 9;
+    std::fs::write(&path, bytes).expect("written");
+    let file = ArrayFile::open(&path, ArrayFormat::Zarr).expect("opens");
+    let error = file.read("/raw", 0..1).expect_err("another checksum");
+    assert!(error.to_string().contains("raw/0.0"), "{error}");
+}

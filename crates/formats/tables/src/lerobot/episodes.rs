@@ -1,7 +1,7 @@
 //! Episodes and tasks: in lines of JSON in version 2.1, in Parquet files in version 3.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
@@ -36,6 +36,42 @@ pub(super) fn of_lines(folder: &Path) -> Result<Vec<u64>, TableError> {
             })
         })
         .collect()
+}
+
+/// The rows that each episode has by its description, as far as it says so; that description.
+pub(super) fn lengths(
+    folder: &Path,
+    is_in_lines: bool,
+) -> Result<BTreeMap<u64, (u64, PathBuf)>, TableError> {
+    let mut lengths = BTreeMap::new();
+    if is_in_lines {
+        let name = "meta/episodes.jsonl";
+        for (_, line) in json_lines(folder, name)?.1 {
+            let number = |key: &str| line.get(key).and_then(Value::as_u64);
+            if let (Some(episode), Some(length)) = (number("episode_index"), number("length")) {
+                lengths.insert(episode, (length, folder.join(name)));
+            }
+        }
+        return Ok(lengths);
+    }
+    for table in tables(folder)? {
+        let names = table.names();
+        let has = |name: &str| names.iter().any(|known| known == name);
+        if !has("episode_index") || !has("length") {
+            continue;
+        }
+        let columns = [table.column("episode_index")?, table.column("length")?];
+        for (episode, length) in columns[0].iter().zip(&columns[1]) {
+            let number = |cell: &Cell| match cell {
+                Cell::Integer(value) => u64::try_from(*value).ok(),
+                _ => None,
+            };
+            if let (Some(episode), Some(length)) = (number(episode), number(length)) {
+                lengths.insert(episode, (length, table.path().to_owned()));
+            }
+        }
+    }
+    Ok(lengths)
 }
 
 /// The clips of the video called `key` in version 3, by episode.

@@ -29,6 +29,8 @@ pub struct Feature {
     pub names: Vec<String>,
     /// Frames a second of a video: its own where it states them, else those of the dataset.
     pub fps: f64,
+    /// Whether a video shows depths: codes of 12 bits, which are no brightness.
+    pub is_depth: bool,
 }
 
 #[derive(Debug)]
@@ -77,6 +79,11 @@ pub(super) fn parse(source: &Source, json: &Value) -> Result<Info, TableError> {
         let own = ["info", "video_info"]
             .iter()
             .find_map(|key| feature.get(*key)?.get("video.fps")?.as_f64());
+        let is_depth = ["info", "video_info"].iter().any(|key| {
+            let info = feature.get(*key);
+            let says = |name: &str| info.and_then(|info| info.get(name)?.as_bool()) == Some(true);
+            says("is_depth_map") || says("video.is_depth_map")
+        });
         features.push(Feature {
             name: name.clone(),
             dtype: dtype.to_owned(),
@@ -87,6 +94,7 @@ pub(super) fn parse(source: &Source, json: &Value) -> Result<Info, TableError> {
                 .collect(),
             names: feature.get("names").map(names).unwrap_or_default(),
             fps: own.filter(|fps| is_rate(*fps)).unwrap_or(fps),
+            is_depth,
         });
     }
     Ok(Info {

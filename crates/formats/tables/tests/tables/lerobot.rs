@@ -264,3 +264,61 @@ fn a_link_that_leads_out_of_the_folder_is_refused() {
         "{message}"
     );
 }
+
+#[test]
+fn an_episode_of_other_rows_than_its_description_says_is_refused_with_both_counts() {
+    for (from, to, words) in [
+        (
+            "[\"press the cube\"], \"length\": 3",
+            "[\"press the cube\"], \"length\": 4",
+            "episode 0 has 3 rows, and its description says 4",
+        ),
+        (
+            "\"length\": 2",
+            "\"length\": 1",
+            "episode 1 has 2 rows, and its description says 1",
+        ),
+    ] {
+        let opened = changed("lerobot-v2.1", |folder| {
+            replace(&folder.join("meta/episodes.jsonl"), from, to);
+        });
+        let message = opened.expect_err("two counts").to_string();
+        assert!(message.contains(words), "{message}");
+        assert!(message.contains("episodes.jsonl"), "{message}");
+    }
+    // A description without lengths is believed.
+    let opened = changed("lerobot-v2.1", |folder| {
+        let file = folder.join("meta/episodes.jsonl");
+        let text = std::fs::read_to_string(&file).expect("readable");
+        std::fs::write(&file, text.replace("\"length\"", "\"rows\"")).expect("written");
+    });
+    assert_eq!(opened.expect("opens").rows(), 9);
+}
+
+#[test]
+fn a_video_of_depths_is_refused_as_pictures() {
+    for (from, to) in [
+        (
+            "\"video.is_depth_map\": false",
+            "\"video.is_depth_map\": true",
+        ),
+        ("\"video.is_depth_map\": false", "\"is_depth_map\": true"),
+    ] {
+        let dataset = changed("lerobot-v3-h264", |folder| {
+            replace(&folder.join("meta/info.json"), from, to);
+        });
+        let dataset = dataset.expect("its other columns are read");
+        let depths: Vec<bool> = dataset
+            .features()
+            .iter()
+            .filter(|feature| feature.name == KEY)
+            .map(|feature| feature.is_depth)
+            .collect();
+        assert_eq!(depths, [true]);
+        let message = dataset.video(KEY).expect_err("depths").to_string();
+        assert!(
+            message.contains("codes of 12 bits") && message.contains(KEY),
+            "{message}"
+        );
+    }
+}

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::unit_suffix::UnitSuffix;
 use taceva_core::{MAGNITUDE_MAX, SourceUnit, is_scorable};
 
 /// Powers of ten that binary64 holds exactly.
@@ -165,8 +166,15 @@ fn number_hint(cell: &str) -> &'static str {
     let is_numeric = cell
         .bytes()
         .all(|byte| byte.is_ascii_digit() || b"+-.,' ".contains(&byte));
-    if is_numeric && cell.contains([',', '\'', ' ']) {
-        "; write it without thousands separators and with a decimal point"
+    let is_truth = cell.eq_ignore_ascii_case("true") || cell.eq_ignore_ascii_case("false");
+    if is_truth {
+        "; true and false are a class, which [classes] of a map reads"
+    } else if cell.matches(':').count() == 2 {
+        "; times as text are read in [time] of a map as ISO 8601 (2024-10-27 02:59:59.5) or as times of day (02:59:59.5)"
+    } else if is_numeric && cell.contains([',', '\'', ' ']) {
+        "; write it without thousands separators and with a decimal point, or say `decimal` and `thousands` in the table of a map"
+    } else if UnitSuffix::of(&format!("cell {cell}")).is_some() {
+        "; `units_row = true` in the table of a map says that the line below the header holds units"
     } else {
         "; leave the cell empty where there is no value"
     }

@@ -26,6 +26,12 @@ pub(super) fn is_clip(ending: &str) -> bool {
 pub(super) struct FrameLines {
     pub(super) lines: Vec<String>,
     pub(super) is_gray: bool,
+    /// The order of the colours, where the file says it.
+    pub(super) order: Option<ChannelOrder>,
+    /// The lines of [path], where pictures are found by the end of a path.
+    pub(super) path: Option<String>,
+    /// The lines of [drop].
+    pub(super) drop: Option<String>,
 }
 
 /// The column whose cells name pictures, and whether they are relative to the folder itself and not to that of the table.
@@ -57,6 +63,98 @@ pub(super) fn file_column<'t>(
     })
 }
 
+/// The rule that leaves rows out which name no picture, as recorders write them that make room ahead.
+fn empty_rows(column: &SeenColumn, rows: usize) -> Option<String> {
+    (column.empty > 0).then(|| {
+        format!(
+            "frames_named = [\"\"]   # {} of {rows} rows name no picture\n",
+            column.empty
+        )
+    })
+}
+
+/// Pictures whose paths in the table begin in folders above this one, or on another machine.
+fn by_end_of_path(folder: &SourceFolder, main: &SeenTable<'_>) -> Option<FrameLines> {
+    let own = folder.path().join(main.group.first());
+    let own = taceva_files::parent_of(&own).to_owned();
+    let found = main.columns.iter().find_map(|column| {
+        let mut cells = column.cells.iter().filter(|cell| !cell.is_empty());
+        let first = cells.next()?;
+        let ending = first.rsplit_once('.').map_or("", |(_, ending)| ending);
+        if !is_picture(&ending.to_ascii_lowercase()) || first.contains('\\') {
+            return None;
+        }
+        let parts: Vec<&str> = first.split('/').collect();
+        // The longest end of the path that leads to a file.
+        (1..parts.len()).find_map(|above| {
+            let end = parts[above..].join("/");
+            let base = [&own, folder.path()]
+                .into_iter()
+                .find(|base| base.join(&end).is_file())?;
+            let is_there = |cell: &String| {
+                let parts: Vec<&str> = cell.split('/').collect();
+                parts.len() > above && base.join(parts[above..].join("/")).is_file()
+            };
+            let are_there = cells.clone().take(LOOKED_UP).all(is_there);
+            are_there.then(|| (column, above, end, base.to_owned()))
+        })
+    });
+    let (column, above, end, base) = found?;
+    let inside = base.strip_prefix(folder.path()).unwrap_or(&base);
+    let mut folders: Vec<String> = vec![inside.to_string_lossy().into_owned()];
+    let (within, _) = end.rsplit_once('/').unwrap_or(("", &end));
+    folders.push(within.to_owned());
+    folders.retain(|folder| !folder.is_empty());
+    folders.push("{path.picture}".to_owned());
+    let first = column.cells.iter().find(|cell| !cell.is_empty())?;
+    let begin: Vec<&str> = first.split('/').take(above).collect();
+    let comment = format!(
+        "# A guess: cells of {:?} begin with {:?}, {above} folders above what lies here; their end leads to the pictures.",
+        column.name,
+        begin.join("/")
+    );
+    let one_folder = column
+        .cells
+        .iter()
+        .filter(|cell| !cell.is_empty())
+        .all(|cell| {
+            cell.rsplit_once('/')
+                .is_some_and(|(before, _)| before.ends_with(within))
+        });
+    if main.group.paths.len() > 1 || !one_folder {
+        return Some(FrameLines {
+            lines: vec![
+                comment,
+                format!(
+                    "column = \"?\"   # {:?}, once the draft is made of the folder in which its paths begin",
+                    column.name
+                ),
+            ],
+            is_gray: is_gray(&base.join(&end)),
+            ..FrameLines::default()
+        });
+    }
+    let within = match within {
+        "" => String::new(),
+        within => format!("{within}/"),
+    };
+    Some(FrameLines {
+        lines: vec![
+            comment,
+            format!("pattern = {:?}", folders.join("/")),
+            "folder = \".\"".to_owned(),
+        ],
+        is_gray: is_gray(&base.join(&end)),
+        path: Some(format!(
+            "of = {:?}\npattern = {:?}\n",
+            column.name,
+            format!("{{before:folders}}{within}{{picture}}")
+        )),
+        drop: empty_rows(column, main.rows),
+        ..FrameLines::default()
+    })
+}
+
 /// Where the frames are.
 pub(super) fn of(
     folder: &SourceFolder,
@@ -77,7 +175,12 @@ pub(super) fn of(
         return Some(FrameLines {
             lines,
             is_gray: first.is_some_and(|cell| is_gray(&base.join(cell))),
+            drop: empty_rows(column, main.rows),
+            ..FrameLines::default()
         });
+    }
+    if let Some(lines) = by_end_of_path(folder, main) {
+        return Some(lines);
     }
     if let Some(picture) = main.pictures.first() {
         return Some(in_array(picture, None, &main.pictures[1..]));
@@ -103,7 +206,7 @@ pub(super) fn of(
     };
     Some(FrameLines {
         lines: vec![format!("video = {file:?}"), index],
-        is_gray: false,
+        ..FrameLines::default()
     })
 }
 
@@ -218,7 +321,12 @@ fn in_array(
             lines.push("bits = 8".to_owned());
         }
     }
-    FrameLines { lines, is_gray }
+    FrameLines {
+        lines,
+        is_gray,
+        order: picture.order,
+        ..FrameLines::default()
+    }
 }
 
 /// The range that pictures of such numbers mostly have: 0 to 1, −1 to 1 or 0 to 255.

@@ -150,6 +150,6 @@ fn by_time(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
 /// Row by row: both tables have as many rows, and nothing else relates them.
 fn by_row(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
     // Of several tables each would begin with the first row of the other.
-    let is_alike = main.rows == other.rows && main.measured() == 0 && main.group.paths.len() == 1;
+    let is_alike = main.rows == other.rows && main.channels() == 0 && main.group.paths.len() == 1;
     is_alike.then(|| vec!["on = \"row\"   # both have as many rows".to_owned()])
 }

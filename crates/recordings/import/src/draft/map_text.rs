@@ -2,14 +2,17 @@
 
 use std::fmt::Write;
 
+use super::channels::{self, Offered};
 use super::frames::{self, FrameLines};
 use super::joins::{self, SeenJoin};
 use super::path_parts::PathParts;
-use super::roles::{Role, channel, words};
+use super::roles::candidate::{Candidate, Named};
+use super::roles::{Role, words};
 use super::survey::FileGroup;
-use super::tables::{SeenColumn, SeenTable};
+use super::tables::{SeenColumn, SeenTable, Taxels};
 use crate::import::converter;
 use crate::source_folder::SourceFolder;
+use taceva_dataset::ChannelOrder;
 use taceva_dataset::internal::is_attribute_name;
 
 const HEAD: &str = "\
@@ -32,6 +35,23 @@ pub(super) fn known_layout(preset: &str) -> String {
     format!(
         "This looks like the layout of `--preset {preset}`, which needs no map: `taceva import --presets` says what it reads."
     )
+}
+
+/// That an array beside pictures is no table of them.
+pub(super) fn array_beside_pictures(table: &SeenTable<'_>) -> String {
+    format!(
+        "{} ({} rows) is no table of the pictures: if it is the picture without contact, save it as PNG and name it as `reference`.",
+        table.group.pattern(),
+        table.rows
+    )
+}
+
+/// The map with one more comment at its beginning.
+pub(super) fn with_note(text: &str, note: &str) -> String {
+    match text.strip_prefix(HEAD) {
+        Some(rest) => format!("{HEAD}# {note}\n{rest}"),
+        None => text.to_owned(),
+    }
 }
 
 /// The map of a folder whose samples are the rows of `main`.
@@ -73,25 +93,22 @@ pub(super) fn of_table(
     let parts = (main.group.paths.len() > 1).then_some(&main.group.parts);
     if let Some(parts) = parts {
         add_path(&mut text, parts);
+    } else if let Some(path) = frame.as_ref().and_then(|frame| frame.path.as_ref()) {
+        add_section(&mut text, "path", path);
     }
     add_frame(&mut text, frame.as_ref());
     let columns = table_columns(main, &joins);
-    let mut channels = Lines::default();
     let mut attributes = Lines::default();
-    for NamedColumn { name, role, doubt } in &columns {
-        match role {
-            Role::Channels(found) if doubt.is_none() => {
-                add_channels(&mut channels, name, found, "")
-            }
-            Role::Channels(_) => {}
-            _ if main.classes.iter().any(|(column, _)| column == name) => {}
-            Role::Attribute => attributes.add(&attribute_name(name), &format!("{name:?}")),
-            Role::Time { .. } | Role::Index | Role::Number | Role::Other => {}
+    for NamedColumn { name, role, .. } in &columns {
+        let is_class = main.classes.iter().any(|(column, _)| column == name);
+        if **role == Role::Attribute && !is_class {
+            attributes.add(&attribute_name(name), &format!("{name:?}"));
         }
     }
     let mut ids = Lines::default();
+    let mut of_path = Vec::new();
     if let Some(parts) = parts {
-        add_parts(parts, &mut channels, &mut ids, &mut attributes);
+        of_path = add_parts(parts, &mut ids, &mut attributes);
         let mut counted = parts
             .names
             .iter()
@@ -100,40 +117,63 @@ pub(super) fn of_table(
             ids.add("repeat", &format!("\"path.{name}\"   # a guess"));
         }
     }
-    // What was commanded or predicted stands behind whatever was measured.
-    for NamedColumn { name, role, doubt } in &columns {
-        if let (Role::Channels(found), Some(doubt)) = (role, doubt) {
-            add_channels(&mut channels, name, found, &format!("   # {doubt}"));
-        }
-    }
     if main.has_groups() {
         attributes.add("group", "\"group\"");
     }
-    let own_taxels = main.own_taxels();
-    let numbers: Vec<&str> = columns
-        .iter()
-        .filter(|NamedColumn { name, role, .. }| {
-            let is_taxel =
-                own_taxels.is_some() && main.columns.iter().any(|column| column.name == *name);
-            *role == Role::Number && !is_taxel
+    let offered = columns.iter().flat_map(|column| {
+        let candidates = match column.role {
+            Role::Channels(candidates) => candidates.as_slice(),
+            _ => &[],
+        };
+        candidates.iter().map(|candidate| Offered {
+            name: &column.name,
+            candidate,
+            is_own: column.is_own,
         })
-        .map(|column| column.name.as_str())
+    });
+    let of_path = of_path.iter().map(|(name, candidate)| Offered {
+        name,
+        candidate,
+        is_own: true,
+    });
+    let offered: Vec<Offered<'_>> = offered.chain(of_path).collect();
+    let mut channels = channels::lines(&offered);
+    let own_taxels = main.own_taxels();
+    let numbers: Vec<String> = columns
+        .iter()
+        .filter(|column| {
+            !(column.is_own && own_taxels.iter().any(|taxels| taxels.holds(&column.name)))
+        })
+        .filter_map(|column| match column.role {
+            Role::Number => Some(column.name.clone()),
+            Role::Numbers(count) => Some(format!("{} ({count} numbers)", column.name)),
+            _ => None,
+        })
+        .collect();
+    let excluded: Vec<String> = columns
+        .iter()
+        .filter_map(|column| match column.role {
+            Role::Excluded(why) => Some(format!("{} ({why})", column.name)),
+            _ => None,
+        })
         .collect();
     let mut joined = joins.iter().map(|join| join.table.has_guessed_channels);
     if main.has_guessed_channels || joined.any(|is_guessed| is_guessed) {
-        channels.0.insert_str(
+        channels.insert_str(
             0,
             "# A guess: three or six numbers without a header are mostly these, in this order.\n",
         );
     }
-    let numbers = match numbers.is_empty() {
-        true => String::new(),
-        false => format!(
-            "# Numbers whose names say nothing: {}\n",
-            numbers.join(", ")
-        ),
-    };
-    add_section(&mut text, "columns", &format!("{numbers}{}", channels.0));
+    let mut comments = String::new();
+    for (said, names) in [
+        ("Numbers whose names say nothing", numbers),
+        ("No channels", excluded),
+    ] {
+        if !names.is_empty() {
+            let _ = writeln!(comments, "# {said}: {}", shortened(&names));
+        }
+    }
+    add_section(&mut text, "columns", &format!("{comments}{channels}"));
     match main.time() {
         Some(time) => {
             let clock = if time.is_unix { "unix" } else { "monotonic" };
@@ -157,8 +197,12 @@ pub(super) fn of_table(
             &format!("name = {:?}\ntable = {}\n{lines}", join.name, join.written),
         );
     }
-    add_section(&mut text, "ids", &ids.0);
+    let shared = shared_points(main, parts);
+    add_section(&mut text, "ids", &format!("{}{shared}", ids.0));
     add_section(&mut text, "attributes", &attributes.0);
+    if let Some(drop) = frame.as_ref().and_then(|frame| frame.drop.as_ref()) {
+        add_section(&mut text, "drop", drop);
+    }
     let mut classes = Lines::default();
     for (column, names) in &main.classes {
         let names: Vec<String> = names.iter().map(|name| format!("{name:?}")).collect();
@@ -168,33 +212,156 @@ pub(super) fn of_table(
         );
     }
     add_section(&mut text, "classes", &classes.0);
-    let mut taxels = tables
+    let beside = tables
         .iter()
-        .filter(|table| table.rows == main.rows && table.written != main.written);
-    let beside = |table: &SeenTable<'_>| {
-        let from = format!("{{ file = {:?} }}", table.group.first());
-        Some((from, table.taxels()?))
-    };
-    if let Some((from, count)) = own_taxels.or_else(|| taxels.find_map(beside)) {
-        add_section(&mut text, "signals", &signals(&from, count));
+        .filter(|table| table.rows == main.rows && table.written != main.written)
+        .filter_map(|table| {
+            let from = format!("{{ file = {:?} }}", table.group.first());
+            Some(Taxels {
+                from,
+                ..table.taxels()?
+            })
+        });
+    let mut taxels = own_taxels.into_iter().chain(beside);
+    if let Some(first) = taxels.next() {
+        let others: Vec<String> = taxels.map(|other| other.from).collect();
+        add_section(&mut text, "signals", &signals(&first, &others));
     }
     ended(text)
 }
 
-/// Taxels: so many numbers a row.
-fn signals(from: &str, count: usize) -> String {
-    let (places, channels) = match count % 3 {
-        0 => (count / 3, "[\"x\", \"y\", \"z\"]"),
-        _ => (count, "[\"value\"]"),
+/// Words of columns whose rows of one value belong together.
+const SHARED: [&str; 12] = [
+    "episode", "session", "trial", "object", "video", "clip", "take", "press", "run", "repeat",
+    "grasp", "sequence",
+];
+
+/// The line of what repeats share: of episodes as it stands, of others as an offer.
+fn shared_points(main: &SeenTable<'_>, parts: Option<&PathParts>) -> String {
+    let is_shared = |name: &str| {
+        let words = words(name);
+        words.iter().any(|word| SHARED.contains(&word.as_str()))
     };
-    let side = places.isqrt();
-    let grid = match side > 1 && side * side == places {
-        true => format!("[{side}, {side}]"),
-        false => format!("[{places}, 1]"),
+    let several = |column: &&SeenColumn| {
+        let mut values: Vec<&String> = column
+            .cells
+            .iter()
+            .filter(|cell| !cell.is_empty())
+            .collect();
+        let filled = values.len();
+        values.sort_unstable();
+        values.dedup();
+        values.len() * 2 <= filled
     };
-    format!(
-        "from = {from}\nunit = \"?\"\nplaces = {grid}   # a guess: rows and columns of the grid\nchannels = {channels}   # a guess\norder = \"place-first\"   # a guess: x y z x y z …\n"
-    )
+    let mut columns = main.columns.iter().filter(|column| is_shared(&column.name));
+    if let Some(episode) = columns
+        .clone()
+        .find(|column| column.name == "episode_index")
+    {
+        return format!(
+            "point_id = {:?}   # a guess: rows of an episode belong together, intervals and --split by-point go by it\n",
+            episode.name
+        );
+    }
+    if let Some(column) = columns.find(several) {
+        return format!(
+            "# point_id = {:?}   # what repeats share: intervals and --split by-point go by it\n",
+            column.name
+        );
+    }
+    let Some(parts) = parts.filter(|_| main.rows > 1) else {
+        return String::new();
+    };
+    let names: Vec<String> = parts
+        .names
+        .iter()
+        .map(|(name, _)| format!("\"path.{name}\""))
+        .collect();
+    match names.is_empty() {
+        true => String::new(),
+        false => format!(
+            "# point_id = [{}]   # rows of a file, if they share a contact or a session: intervals and --split by-point go by it\n",
+            names.join(", ")
+        ),
+    }
+}
+
+/// How many columns a comment names.
+const NAMED: usize = 24;
+
+fn shortened(names: &[String]) -> String {
+    let more = match names.len().saturating_sub(NAMED) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    let names: Vec<&str> = names.iter().take(NAMED).map(String::as_str).collect();
+    format!("{}{more}", names.join(", "))
+}
+
+/// The lines of taxels; `others` are columns that may be meant instead.
+fn signals(taxels: &Taxels, others: &[String]) -> String {
+    let names = |count: usize| match count {
+        1 => "[\"value\"]".to_owned(),
+        count if count <= 3 => format!("{:?}", &["x", "y", "z"][..count]),
+        count => {
+            let names: Vec<String> = (0..count).map(|at| format!("v{at}")).collect();
+            format!("{names:?}")
+        }
+    };
+    let square = |places: usize| {
+        let side = places.isqrt();
+        match side > 1 && side * side == places {
+            true => [side, side],
+            false => [places, 1],
+        }
+    };
+    let count = taxels.count();
+    let (grid, channels, is_channel_first) = match taxels.shape[..] {
+        [places, channels] if channels <= 6 => (square(places), channels, false),
+        [channels, places] if channels <= 3 => (square(places), channels, true),
+        [rows, columns] => ([rows, columns], 1, false),
+        [rows, columns, channels] if channels <= 6 => ([rows, columns], channels, false),
+        [channels, rows, columns] if channels <= 6 => ([rows, columns], channels, true),
+        _ if count.is_multiple_of(3) => (square(count / 3), 3, false),
+        _ => (square(count), 1, false),
+    };
+    let mut text = match others {
+        [] => String::new(),
+        others => format!("# or: from = {}\n", shortened(others)),
+    };
+    let unit = match taxels.unit {
+        Some(unit) => format!("{unit:?}   # by its name"),
+        None => "\"?\"".to_owned(),
+    };
+    let order = match is_channel_first {
+        true => "\"channel-first\"   # a guess: x x … y y … z z …",
+        false => "\"place-first\"   # a guess: x y z x y z …",
+    };
+    let _ = writeln!(
+        text,
+        "from = {}\nunit = {unit}\nplaces = {grid:?}   # a guess: rows and columns of the grid\nchannels = {}   # a guess\norder = {order}",
+        taxels.from,
+        names(channels),
+    );
+    if !taxels.placeholders.is_empty() {
+        let codes: Vec<String> = taxels
+            .placeholders
+            .iter()
+            .map(|(code, _)| code.to_string())
+            .collect();
+        let reasons = taxels
+            .placeholders
+            .iter()
+            .map(|(_, reason)| reason.as_str());
+        let reasons: Vec<&str> = reasons.collect();
+        let _ = writeln!(
+            text,
+            "placeholders = [{}]   # a guess, nothing was measured: {}",
+            codes.join(", "),
+            reasons.join("; ")
+        );
+    }
+    text
 }
 
 /// The map of a folder of pictures without a table.
@@ -208,8 +375,8 @@ pub(super) fn of_files(group: &FileGroup, notes: &[String]) -> String {
             group.paths.len()
         ),
     );
-    let (mut channels, mut ids, mut attributes) =
-        (Lines::default(), Lines::default(), Lines::default());
+    let (mut ids, mut attributes) = (Lines::default(), Lines::default());
+    let mut of_path = Vec::new();
     if group.parts.names.is_empty() {
         line(
             &mut text,
@@ -217,8 +384,17 @@ pub(super) fn of_files(group: &FileGroup, notes: &[String]) -> String {
         );
     } else {
         add_path(&mut text, &group.parts);
-        add_parts(&group.parts, &mut channels, &mut ids, &mut attributes);
+        of_path = add_parts(&group.parts, &mut ids, &mut attributes);
     }
+    let offered: Vec<Offered<'_>> = of_path
+        .iter()
+        .map(|(name, candidate)| Offered {
+            name,
+            candidate,
+            is_own: true,
+        })
+        .collect();
+    let channels = channels::lines(&offered);
     add_frame(
         &mut text,
         Some(&FrameLines {
@@ -226,7 +402,7 @@ pub(super) fn of_files(group: &FileGroup, notes: &[String]) -> String {
             ..FrameLines::default()
         }),
     );
-    if channels.0.is_empty()
+    if channels.is_empty()
         && let Some((name, words)) = group.parts.words.first()
     {
         let names: Vec<String> = words.iter().map(|word| format!("{word:?}")).collect();
@@ -237,7 +413,7 @@ pub(super) fn of_files(group: &FileGroup, notes: &[String]) -> String {
         add_section(&mut text, "classes", &class);
         attributes.0.clear();
     }
-    add_section(&mut text, "columns", &channels.0);
+    add_section(&mut text, "columns", &channels);
     add_section(&mut text, "time", "clock = \"unknown\"\n");
     add_section(&mut text, "ids", &ids.0);
     add_section(&mut text, "attributes", &attributes.0);
@@ -245,60 +421,65 @@ pub(super) fn of_files(group: &FileGroup, notes: &[String]) -> String {
 }
 
 /// A column as a map names it.
-struct NamedColumn {
+struct NamedColumn<'t> {
     name: String,
-    role: Role,
-    doubt: Option<String>,
+    role: &'t Role,
+    /// Whether it stands in the main table.
+    is_own: bool,
 }
 
 /// The columns of the main table and of those that are joined.
-fn table_columns(main: &SeenTable<'_>, joins: &[SeenJoin<'_, '_>]) -> Vec<NamedColumn> {
-    let named = |name: String, column: &SeenColumn| NamedColumn {
+fn table_columns<'t>(
+    main: &'t SeenTable<'_>,
+    joins: &'t [SeenJoin<'_, '_>],
+) -> Vec<NamedColumn<'t>> {
+    let named = |name: String, column: &'t SeenColumn, is_own: bool| NamedColumn {
         name,
-        role: column.role.clone(),
-        doubt: column.doubt.clone(),
+        role: &column.role,
+        is_own,
     };
-    let mut columns: Vec<NamedColumn> = main
+    let mut columns: Vec<NamedColumn<'_>> = main
         .columns
         .iter()
-        .map(|column| named(column.name.clone(), column))
+        .map(|column| named(column.name.clone(), column, true))
         .collect();
     for join in joins {
         let others = join.table.columns.iter();
-        columns
-            .extend(others.map(|column| named(format!("{}.{}", join.name, column.name), column)));
+        columns.extend(
+            others.map(|column| named(format!("{}.{}", join.name, column.name), column, false)),
+        );
     }
     columns
 }
 
-/// A line for each channel that the column called `name` holds.
-fn add_channels(lines: &mut Lines, name: &str, found: &[(&'static str, String)], mark: &str) {
-    for (channel, index) in found {
-        let value = format!("{{ from = \"{name}{index}\", unit = \"?\" }}{mark}");
-        lines.add(channel, &value);
-    }
-}
-
-/// What the parts of a path seem to be: channels by their names, a unit, texts.
-fn add_parts(parts: &PathParts, channels: &mut Lines, ids: &mut Lines, attributes: &mut Lines) {
+/// What the parts of a path seem to be: channels by their names, which are returned, a unit, texts.
+fn add_parts(
+    parts: &PathParts,
+    ids: &mut Lines,
+    attributes: &mut Lines,
+) -> Vec<(String, Candidate)> {
+    let mut candidates = Vec::new();
     for (name, is_number) in &parts.names {
         let from = format!("path.{name}");
-        match (is_number, channel(&words(name))) {
-            (true, Some(channel)) => {
-                channels.add(channel, &format!("{{ from = {from:?}, unit = \"?\" }}"))
-            }
-            (true, None) if name.eq_ignore_ascii_case("unit") => {
+        let named = match parts.letters_behind(name) {
+            Some(letters) => Named::new(&format!("{name} ({letters})")),
+            None => Named::new(name),
+        };
+        match (is_number, named.candidate(String::new())) {
+            (true, Some(Ok(candidate))) => candidates.push((from, candidate)),
+            (true, _) if name.eq_ignore_ascii_case("unit") => {
                 ids.add("unit_id", &format!("{from:?}"))
             }
-            (true, None)
+            (true, _)
                 if ["repeat", "rep", "trial"].contains(&name.to_ascii_lowercase().as_str()) =>
             {
                 ids.add("repeat", &format!("{from:?}"))
             }
-            (true, None) if name.starts_with("number") => {}
+            (true, _) if name.starts_with("number") => {}
             _ => attributes.add(&attribute_name(name), &format!("{from:?}")),
         }
     }
+    candidates
 }
 
 /// Lines of a section, each key once.
@@ -357,9 +538,11 @@ fn add_frame(text: &mut String, frame: Option<&FrameLines>) {
         return;
     };
     let mut lines: String = frame.lines.iter().map(|line| format!("{line}\n")).collect();
-    lines += match frame.is_gray {
-        true => "channel_order = \"gray\"\n",
-        false => {
+    lines += match (frame.is_gray, frame.order) {
+        (_, Some(ChannelOrder::Bgr)) => "channel_order = \"bgr\"   # the messages say so\n",
+        (_, Some(ChannelOrder::Rgb)) => "channel_order = \"rgb\"   # the messages say so\n",
+        (true, _) | (_, Some(ChannelOrder::Gray)) => "channel_order = \"gray\"\n",
+        (false, _) => {
             "channel_order = \"rgb\"   # a guess: OpenCV writes arrays as \"bgr\"; pictures without colours are \"gray\"\n"
         }
     };

@@ -65,6 +65,16 @@ impl PathParts {
         plain.replace(":number}", "}").replace('{', "{path.")
     }
 
+    /// The letters right behind the part called `name`: mostly its unit.
+    pub(super) fn letters_behind(&self, name: &str) -> Option<&str> {
+        let (_, behind) = self.pattern.split_once(&format!("{{{name}:"))?;
+        let (_, behind) = behind.split_once('}')?;
+        let end = behind
+            .find(|letter: char| !letter.is_alphabetic())
+            .unwrap_or(behind.len());
+        (end > 0).then(|| &behind[..end])
+    }
+
     /// Adds the folder or file that is called `names` in the paths.
     fn add_level(&mut self, names: &[&str]) {
         let rows: Vec<Vec<Token<'_>>> = names.iter().map(|name| tokens(name)).collect();

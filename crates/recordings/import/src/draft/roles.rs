@@ -1,20 +1,25 @@
 //! What the columns of a table seem to be, by their names and their first cells.
 
-mod doubts;
+pub(super) mod candidate;
+pub(super) mod exclusion;
+mod instants;
 mod times;
+mod words;
 
 use crate::csv_table::number;
 use crate::foreign::cell_list;
-use doubts::doubt_of;
+use candidate::{Candidate, Named, Quantity, Reason};
+use exclusion::{Exclusion, is_counting};
 use times::time;
 
-pub(super) use doubts::doubt;
+pub(super) use words::words;
 
 /// What a column seems to be.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Role {
-    /// Channels, each with where it is in the cell: nothing behind the name, or `[2]`.
-    Channels(Vec<(&'static str, String)>),
+    Channels(Vec<Candidate>),
+    /// Its name begins like that of a channel, and it is none.
+    Excluded(Exclusion),
     /// A time in such a unit, since 1970 or not; `"?"` where nothing says which.
     Time {
         unit: &'static str,
@@ -28,12 +33,14 @@ pub(super) enum Role {
     Index,
     /// Numbers that no name explains.
     Number,
+    /// So many numbers a cell, which no name explains.
+    Numbers(usize),
     Other,
 }
 
-const FORCES: [&str; 3] = ["Fx", "Fy", "Fz"];
-const TORQUES: [&str; 3] = ["Tx", "Ty", "Tz"];
-const PLACES: [&str; 3] = ["Px", "Py", "Pz"];
+/// How many rows that count up make a force a counter, by how sure its name is.
+const COUNTED: usize = 4;
+const COUNTED_BY_NAME: usize = 16;
 
 /// What says what a column is: its name, or that of its file where columns are called `value`.
 fn explained<'n>(name: &'n str, about: &'n str) -> &'n str {
@@ -45,7 +52,7 @@ fn explained<'n>(name: &'n str, about: &'n str) -> &'n str {
 
 /// What the column called `name` is; `about` is what its file is called, which explains columns called `value`.
 pub(super) fn role(name: &str, about: &str, cells: &[String]) -> Role {
-    let words = words(explained(name, about));
+    let explained = explained(name, about);
     let filled: Vec<&str> = cells
         .iter()
         .map(String::as_str)
@@ -57,42 +64,44 @@ pub(super) fn role(name: &str, about: &str, cells: &[String]) -> Role {
         .collect();
     match numbers.filter(|numbers| !numbers.is_empty()) {
         // The index of pandas, which has no name.
-        Some(numbers) if name.is_empty() && are_counts(&numbers) => Role::Other,
-        Some(numbers) => of_numbers(&words, &numbers),
+        Some(numbers) if is_unnamed(name) && are_counts(&numbers) => Role::Other,
+        Some(numbers) => of_numbers(explained, &numbers),
         None => match width(&filled) {
-            Some(width) => match several(&words, width) {
-                Some(channels) => Role::Channels(channels),
-                None => Role::Other,
-            },
-            None => of_texts(&filled),
+            Some(width) => several(&Named::new(explained), width),
+            None => instants::of_texts(&filled).unwrap_or_else(|| of_texts(&filled)),
         },
     }
 }
 
-/// What a column is whose numbers have names of their own: the channels that those names are, each once; an action is commanded, not measured,
-/// and names that say as much are none.
+/// Whether a column has no name, as the index of pandas in a table of text.
+fn is_unnamed(name: &str) -> bool {
+    name.is_empty() || name.starts_with("Unnamed: ")
+}
+
+/// What a column is whose numbers have names of their own: the channels that those names are, each once.
 pub(super) fn of_named(column: &str, names: &[String]) -> Option<Role> {
-    let is_known = !names.is_empty() && names.iter().any(|name| !name.is_empty());
-    if !is_known || column.starts_with("action") {
+    let is_known = names.iter().any(|name| !words(name).is_empty());
+    if !is_known {
         return None;
     }
-    let mut found: Vec<(&'static str, String)> = Vec::new();
+    let mut found: Vec<Candidate> = Vec::new();
+    let mut excluded = None;
     for (at, name) in names.iter().enumerate() {
-        let words = words(name);
-        if let Some(channel) = channel(&words)
-            && doubt_of(&words).is_none()
-            && found.iter().all(|(known, _)| *known != channel)
-        {
-            found.push((channel, format!("[{at}]")));
+        match Named::within(column, name).candidate(format!("[{at}]")) {
+            Some(Ok(candidate)) => found.push(candidate),
+            Some(Err(exclusion)) => excluded = Some(exclusion),
+            None => {}
         }
     }
-    Some(match found.is_empty() {
-        true => Role::Other,
-        false => Role::Channels(found),
+    Some(match (found.is_empty(), excluded) {
+        (false, _) => Role::Channels(found),
+        (true, Some(exclusion)) => Role::Excluded(exclusion),
+        (true, None) => Role::Other,
     })
 }
 
-fn of_numbers(words: &[String], numbers: &[f64]) -> Role {
+fn of_numbers(name: &str, numbers: &[f64]) -> Role {
+    let words = &words(name);
     let has = |known: &[&str]| words.iter().any(|word| known.contains(&word.as_str()));
     let is_rising =
         numbers.windows(2).all(|pair| pair[0] <= pair[1]) && numbers.first() < numbers.last();
@@ -100,8 +109,19 @@ fn of_numbers(words: &[String], numbers: &[f64]) -> Role {
     if is_named_time || (words.is_empty() && is_rising && !are_counts(numbers)) {
         return time(words, numbers);
     }
-    if let Some(channel) = channel(words) {
-        return Role::Channels(vec![(channel, String::new())]);
+    match Named::new(name).candidate(String::new()) {
+        Some(Ok(candidate)) => {
+            let least = match candidate.reason {
+                Reason::Name | Reason::NameWithUnit => COUNTED_BY_NAME,
+                _ => COUNTED,
+            };
+            return match candidate.channel.starts_with('P') || !is_counting(numbers, least) {
+                true => Role::Channels(vec![candidate]),
+                false => Role::Excluded(Exclusion::Counting),
+            };
+        }
+        Some(Err(exclusion)) => return Role::Excluded(exclusion),
+        None => {}
     }
     if has(&["episode", "session", "trial"]) && are_counts(numbers) {
         return Role::Attribute;
@@ -131,59 +151,30 @@ fn of_texts(cells: &[&str]) -> Role {
     }
 }
 
-/// The channel that a single number is by the words of its name.
-pub(super) fn channel(words: &[String]) -> Option<&'static str> {
-    let mut kind = None;
-    for word in words {
-        match word.as_str() {
-            "force" | "forces" | "f" | "load" | "loadcell" => kind = Some(FORCES),
-            "torque" | "torques" | "moment" | "tau" => kind = Some(TORQUES),
-            "pos" | "position" | "pose" | "tcp" | "p" | "translation" => {
-                kind = kind.or(Some(PLACES));
-            }
-            "x" | "y" | "z" => {
-                let axis = usize::from(word.as_bytes()[0] - b'x');
-                return Some(kind.unwrap_or(PLACES)[axis]);
-            }
-            _ => {
-                let (letter, axis) = word.split_at_checked(1)?;
-                let axis = ["x", "y", "z"].iter().position(|known| *known == axis);
-                let kind = match (letter, axis) {
-                    ("f", Some(_)) => Some(FORCES),
-                    ("t" | "m", Some(_)) => Some(TORQUES),
-                    ("p", Some(_)) => Some(PLACES),
-                    _ => None,
-                };
-                if let (Some(kind), Some(axis)) = (kind, axis) {
-                    return Some(kind[axis]);
-                }
-            }
-        }
-    }
-    // A force without an axis is what presses.
-    (kind == Some(FORCES)).then_some("Fz")
-}
-
-/// The channels that a cell with so many numbers holds.
-fn several(words: &[String], width: usize) -> Option<Vec<(&'static str, String)>> {
-    let has = |known: &[&str]| words.iter().any(|word| known.contains(&word.as_str()));
-    let at = |names: &[&'static str], first: usize| {
-        let numbered = names.iter().enumerate();
-        numbered
-            .map(|(position, name)| (*name, format!("[{}]", first + position)))
-            .collect::<Vec<_>>()
+/// What a column is whose cells hold so many numbers each.
+fn several(named: &Named, width: usize) -> Role {
+    let words = named.quantity_of_several();
+    let has = |known: &[&str]| words.iter().any(|word| known.contains(word));
+    let is_force = has(&["ft", "force", "forces", "wrench", "f", "fts", "loadcell"]);
+    let is_torque = has(&["torque", "torques", "moment"]);
+    let is_place = has(&["pos", "position", "pose", "xyz", "tcp", "translation"]);
+    let quantities: &[Quantity] = match width {
+        6 if is_force => &[Quantity::Force, Quantity::Torque],
+        3 if is_torque => &[Quantity::Torque],
+        3 if is_force => &[Quantity::Force],
+        3 | 6 | 7 if is_place => &[Quantity::Place],
+        _ => return Role::Numbers(width),
     };
-    let is_force = has(&[
-        "ft", "force", "forces", "wrench", "f", "fts", "state", "loadcell",
-    ]);
-    match width {
-        6 if is_force => Some([at(&FORCES, 0), at(&TORQUES, 3)].concat()),
-        3 if is_force => Some(at(&FORCES, 0)),
-        3 if has(&["torque", "torques", "moment"]) => Some(at(&TORQUES, 0)),
-        3 | 6 | 7 if has(&["pos", "position", "pose", "xyz", "tcp", "translation"]) => {
-            Some(at(&PLACES, 0))
-        }
-        _ => None,
+    if let Some(exclusion) = named.exclusion() {
+        return Role::Excluded(exclusion);
+    }
+    let channels = quantities.iter().flat_map(|quantity| quantity.channels());
+    let candidates = channels
+        .enumerate()
+        .map(|(at, channel)| named.as_channel(channel, format!("[{at}]"), Reason::Position));
+    match candidates.collect() {
+        Ok(candidates) => Role::Channels(candidates),
+        Err(exclusion) => Role::Excluded(exclusion),
     }
 }
 
@@ -205,26 +196,6 @@ fn width(cells: &[&str]) -> Option<usize> {
         .then_some(first)
 }
 
-/// The words of a name, in lower case: `wrench.force.x`, `Fx_mN`, `ForceX`.
-pub(super) fn words(name: &str) -> Vec<String> {
-    let mut words: Vec<String> = vec![String::new()];
-    let mut before = ' ';
-    for letter in name.chars() {
-        let is_new = letter.is_ascii_uppercase() && before.is_ascii_lowercase();
-        if is_new || !letter.is_ascii_alphabetic() {
-            words.push(String::new());
-        }
-        if letter.is_ascii_alphabetic()
-            && let Some(last) = words.last_mut()
-        {
-            last.push(letter.to_ascii_lowercase());
-        }
-        before = letter;
-    }
-    words.retain(|word| !word.is_empty());
-    words
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -233,35 +204,53 @@ mod tests {
         texts.iter().map(|text| (*text).to_owned()).collect()
     }
 
-    #[test]
-    fn channels_are_known_by_the_words_of_a_name() {
-        for (name, expected) in [
-            ("Fx", Some("Fx")),
-            ("Fz_mN", Some("Fz")),
-            ("force_y", Some("Fy")),
-            ("ForceX", Some("Fx")),
-            ("ft.wrench.torque.z", Some("Tz")),
-            ("pose.x", Some("Px")),
-            ("x_m", Some("Px")),
-            ("load_g", Some("Fz")),
-            ("Mx", Some("Tx")),
-            ("temperature", None),
-            ("note", None),
-        ] {
-            assert_eq!(channel(&words(name)), expected, "{name}");
-        }
+    fn channels(role: Option<Role>) -> Vec<String> {
+        let Some(Role::Channels(found)) = role else {
+            return Vec::new();
+        };
+        let text = |found: &Candidate| format!("{}{}", found.channel, found.index);
+        found.iter().map(text).collect()
     }
 
     #[test]
     fn numbers_with_names_of_their_own_are_the_channels_that_those_name() {
         let names = ["gripper", "Fz", "Fx", "joint_1.pos"].map(str::to_owned);
-        let found = of_named("observation.state", &names);
-        let expected = vec![("Fz", "[1]".to_owned()), ("Fx", "[2]".to_owned())];
-        assert_eq!(found, Some(Role::Channels(expected)));
+        let found = channels(of_named("observation.state", &names));
+        assert_eq!(found, ["Fz[1]", "Fx[2]"]);
         let joints = ["joint_1", "joint_2"].map(str::to_owned);
         assert_eq!(of_named("observation.state", &joints), Some(Role::Other));
-        assert_eq!(of_named("action", &names), None);
         assert_eq!(of_named("observation.state", &[]), None);
+        let commanded = of_named("action", &names);
+        assert!(
+            matches!(commanded, Some(Role::Excluded(_))),
+            "{commanded:?}"
+        );
+        let axes = ["x", "y", "z"].map(str::to_owned);
+        let found = channels(of_named("observation.force", &axes));
+        assert_eq!(found, ["Fx[0]", "Fy[1]", "Fz[2]"]);
+    }
+
+    #[test]
+    fn numbers_without_names_are_no_wrench_because_they_are_six() {
+        let cells = cells(&["[1, 2, 3, 4, 5, 6]", "[2, 2, 3, 4, 5, 6]"]);
+        assert_eq!(role("observation.state", "", &cells), Role::Numbers(6));
+        assert_eq!(
+            channels(Some(role("observation.force_torque", "", &cells))).len(),
+            6
+        );
+    }
+
+    #[test]
+    fn a_counter_is_no_force_whatever_its_name() {
+        let counts: Vec<String> = (40..70).map(|number| number.to_string()).collect();
+        for name in ["force_frame", "force_z", "load", "Fz"] {
+            let found = role(name, "", &counts);
+            assert!(matches!(found, Role::Excluded(_)), "{name}: {found:?}");
+        }
+        // A few presses of whole newtons are no counter where the name says so.
+        let few = &counts[..8];
+        assert!(matches!(role("Fz", "", few), Role::Channels(_)));
+        assert!(matches!(role("z", "", &counts), Role::Channels(_)));
     }
 
     #[test]
@@ -270,7 +259,10 @@ mod tests {
         let Role::Channels(channels) = of("value", &["[1, 2, 3, 4, 5, 6]", "1 2 3 4 5 6"]) else {
             panic!("forces and torques");
         };
-        assert_eq!(channels[5], ("Tz", "[5]".to_owned()));
+        assert_eq!(
+            (channels[5].channel, channels[5].index.as_str()),
+            ("Tz", "[5]")
+        );
         assert_eq!(
             of("stamp", &["1700000000000000000", "1700000000100000000"]),
             Role::Time {

@@ -65,6 +65,10 @@ pub(super) fn groups(folder: &SourceFolder) -> Result<Vec<FileGroup>, DatasetErr
                 && Path::new(&name)
                     .extension()
                     .is_some_and(|ending| ending == "zarr");
+            // A dataset that was made here is no part of what the lab recorded.
+            if kind.is_dir() && entry.path().join("dataset.toml").is_file() {
+                continue;
+            }
             if kind.is_dir() && !is_store {
                 folders.push(inside);
             } else if kind.is_file() || is_store {

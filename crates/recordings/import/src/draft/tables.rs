@@ -1,24 +1,25 @@
 //! The tables of a folder, and what their columns seem to be.
 
 mod form;
+mod taxels;
 
 use std::path::Path;
 
 use taceva_arrays::ArrayFormat;
+use taceva_core::SourceUnit;
 
-use super::roles::{Role, doubt, of_named, role};
+use super::roles::candidate::{Candidate, Reason, UnitSource, kept_unit};
+use super::roles::{Role, of_named, role, words};
 use super::survey::FileGroup;
 use crate::csv_table::number;
 use crate::foreign::{ForeignTable, PictureColumn, TableForm, cell_list, topics};
 use crate::source_folder::SourceFolder;
 use form::{NUMBERED_HEADER, form_of};
+pub(super) use taxels::Taxels;
+use taxels::taxels_of;
 
 /// How many rows of a table are looked at.
 const SAMPLED: usize = 200;
-
-/// The fewest and the most numbers of a row that are taken for taxels.
-const LEAST_TAXELS: usize = 8;
-const MOST_TAXELS: usize = 4_096;
 
 /// A table, or the first of several that were written alike.
 #[derive(Debug)]
@@ -46,10 +47,12 @@ pub(super) struct SeenTable<'g> {
 pub(super) struct SeenColumn {
     pub(super) name: String,
     pub(super) role: Role,
-    /// Why its numbers may not be what was measured, by its name.
-    pub(super) doubt: Option<String>,
     /// Its first cells.
     pub(super) cells: Vec<String>,
+    /// The lengths of the lists in its first cell, where they hold many numbers: those of taxels.
+    pub(super) taxels: Option<Vec<usize>>,
+    /// How many of all cells are empty.
+    pub(super) empty: usize,
 }
 
 /// The column of the time of a table.
@@ -147,6 +150,9 @@ impl<'g> SeenTable<'g> {
                 .collect();
             let mut role = of_named(&name, &table.element_names(&name))
                 .unwrap_or_else(|| role(&name, about, &cells));
+            if let Role::Channels(candidates) = &mut role {
+                complete(&table, &name, candidates);
+            }
             // Times that the file says to be times are read in seconds.
             if table.time_unit(&name).is_some()
                 && let Role::Time { unit, guess, .. } = &mut role
@@ -154,16 +160,22 @@ impl<'g> SeenTable<'g> {
                 (*unit, *guess) = ("s", None);
             }
             SeenColumn {
+                taxels: taxels_of(&role, &cells),
+                empty: match role {
+                    Role::Other | Role::Attribute => empty_cells(&table, &name),
+                    _ => 0,
+                },
                 role,
-                doubt: doubt(&name, about),
                 name,
                 cells,
             }
         });
         let mut columns: Vec<SeenColumn> = columns.collect();
-        let is_nameless = matches!(extra.as_str(), "header = false" | NUMBERED_HEADER);
+        open_invalid(&mut columns);
+        let is_numbered = extra.starts_with(NUMBERED_HEADER);
+        let is_nameless = extra.contains("header = false") || is_numbered;
         let has_guessed_channels = is_nameless && guess_channels(&mut columns);
-        let header_guess = (extra == NUMBERED_HEADER).then(|| {
+        let header_guess = is_numbered.then(|| {
             let names = columns.iter().map(|column| column.name.as_str());
             let names: Vec<&str> = names.take(4).collect();
             let more = if columns.len() > names.len() { ",…" } else { "" };
@@ -172,6 +184,18 @@ impl<'g> SeenTable<'g> {
                 names.join(",")
             )
         });
+        // Whether points group digits, nothing but the lab knows.
+        let grouped = columns
+            .iter()
+            .find_map(|column| table.grouped_digits(&column.name));
+        let header_guess = header_guess.or(grouped.as_ref().map(|(example, _)| {
+            format!("# Is `{example}` a fraction, or a whole number in groups? `thousands` is \"\" if a fraction, \".\" if in groups.")
+        }));
+        let extra = match (&grouped, extra.as_str()) {
+            (None, _) => extra,
+            (Some(_), "") => "thousands = \"?\"".to_owned(),
+            (Some(_), extra) => format!("{extra}, thousands = \"?\""),
+        };
         Ok(SeenTable {
             columns,
             has_guessed_channels,
@@ -201,70 +225,9 @@ impl<'g> SeenTable<'g> {
         self.written.contains("/*\"") && self.group.ending != "json"
     }
 
-    /// How many numbers a row has, if it is an array of many and of nothing else: those of taxels.
-    pub(super) fn taxels(&self) -> Option<usize> {
-        let [column] = self.columns.as_slice() else {
-            return None;
-        };
-        let cell = column.cells.first()?;
-        // Lists in lists are one grid.
-        let numbers = cell
-            .split(['[', ']', ',', ' '])
-            .filter(|part| !part.is_empty());
-        let numbers: Option<Vec<f64>> = numbers
-            .map(|part| number::number(part).ok().flatten())
-            .collect();
-        let count = numbers?.len();
-        let is_many = (LEAST_TAXELS..=MOST_TAXELS).contains(&count);
-        (self.is_single_array && self.pictures.is_empty() && is_many).then_some(count)
-    }
-
-    /// The taxels that its columns are, as a map writes them, and how many numbers: a cell of many, or a run of many columns whose names say nothing.
-    pub(super) fn own_taxels(&self) -> Option<(String, usize)> {
-        if let Some(count) = self.taxels() {
-            return Some((format!("{:?}", self.columns[0].name), count));
-        }
-        let is_number = |column: &&SeenColumn| column.role == Role::Number;
-        let run: Vec<&SeenColumn> = self
-            .columns
-            .iter()
-            .skip_while(|column| !is_number(column))
-            .take_while(is_number)
-            .collect();
-        let numbers = self.columns.iter().filter(is_number).count();
-        let is_taxels = run.len() == numbers
-            && numbers.is_multiple_of(3)
-            && (LEAST_TAXELS..=MOST_TAXELS).contains(&numbers);
-        if !is_taxels || self.channels() > 0 || !self.pictures.is_empty() {
-            return None;
-        }
-        let [first, .., last] = run.as_slice() else {
-            return None;
-        };
-        let is_position = |column: &SeenColumn| column.name.parse::<usize>().is_ok();
-        let from = match is_position(first) && is_position(last) {
-            true => format!("\"{}..{}\"", first.name, last.name),
-            false => {
-                let names: Vec<String> = run
-                    .iter()
-                    .map(|column| format!("{:?}", column.name))
-                    .collect();
-                format!("[{}]", names.join(", "))
-            }
-        };
-        Some((from, numbers))
-    }
-
     /// How many channels its columns hold.
     pub(super) fn channels(&self) -> usize {
         self.columns.iter().map(SeenColumn::channels).sum()
-    }
-
-    /// How many of them are what was measured, as far as names say.
-    pub(super) fn measured(&self) -> usize {
-        let columns = self.columns.iter();
-        let sure = columns.filter(|column| column.doubt.is_none());
-        sure.map(SeenColumn::channels).sum()
     }
 
     /// The column of the time: when it was taken rather than when it was logged.
@@ -303,6 +266,96 @@ impl SeenColumn {
     }
 }
 
+/// How many cells of a column hold nothing.
+fn empty_cells(table: &ForeignTable, name: &str) -> usize {
+    let rows = 0..table.rows();
+    rows.filter(|row| table.cell(*row, name).is_ok_and(|cell| cell.is_empty()))
+        .count()
+}
+
+/// How many rows, spread over the table, are looked at for a number that is not 0.
+const SPREAD: usize = 2_000;
+
+/// Adds what the file says of the unit, and whether there is anything but 0.
+fn complete(table: &ForeignTable, name: &str, candidates: &mut [Candidate]) {
+    let stated = table.stated(name);
+    let stated = stated.iter().find_map(|stated| stated.unit.as_deref());
+    let stated = stated.and_then(|unit| SourceUnit::parse(unit.trim()).ok());
+    let rows = table.rows();
+    let step = rows.div_ceil(SPREAD).max(1);
+    for candidate in candidates {
+        if let Some(unit) = stated
+            && kept_unit(candidate.channel) == Some(unit.unit())
+        {
+            candidate.unit = Some((unit.symbol(), UnitSource::File));
+        }
+        let at: Vec<usize> = candidate
+            .index
+            .trim_matches(['[', ']'])
+            .parse()
+            .into_iter()
+            .collect();
+        let mut looked_at = 0;
+        let is_zero = (0..rows).step_by(step).all(|row| {
+            let cell = table.cell(row, name).unwrap_or_default();
+            let cell = cell_list::plain(&cell);
+            let found = match at.as_slice() {
+                [] => number::number(cell),
+                at => match cell_list::value(cell, at) {
+                    Ok(value) => number::number(&value.text),
+                    Err(_) => Ok(None),
+                },
+            };
+            looked_at += usize::from(matches!(found, Ok(Some(_))));
+            !matches!(found, Ok(Some(number)) if number != 0.0)
+        });
+        if is_zero && looked_at >= LEAST_ZEROS {
+            candidate.open = Some(format!(
+                "is 0 in all {looked_at} rows that were looked at: name it if 0 was measured"
+            ));
+        }
+    }
+}
+
+/// How many rows of 0 make a channel doubtful.
+const LEAST_ZEROS: usize = 4;
+
+/// Leaves channels open beside which a column says that they are not valid: `force_valid` beside `force_z`.
+fn open_invalid(columns: &mut [SeenColumn]) {
+    let is_false = |cell: &String| {
+        matches!(
+            cell.to_ascii_lowercase().as_str(),
+            "false" | "0" | "0.0" | "no"
+        )
+    };
+    let invalid: Vec<(String, Vec<String>)> = columns
+        .iter()
+        .filter(|column| !column.cells.is_empty() && column.cells.iter().all(is_false))
+        .filter_map(|column| {
+            let mut about = words(&column.name);
+            about.iter().any(|word| word == "valid").then(|| {
+                about.retain(|word| word != "valid" && word != "is");
+                (column.name.clone(), about)
+            })
+        })
+        .collect();
+    for column in columns {
+        let own = words(&column.name);
+        let Role::Channels(candidates) = &mut column.role else {
+            continue;
+        };
+        let mut known = invalid.iter();
+        let said = known.find(|(_, about)| about.iter().all(|word| own.contains(word)));
+        if let Some((name, _)) = said {
+            for candidate in candidates {
+                candidate.open = Some(format!(
+                    "is not valid by `{name}` in any row that was looked at: name it if it is"
+                ));
+            }
+        }
+    }
+}
+
 /// Takes three numbers without names for forces, six for forces and torques; returns whether there are three or six.
 fn guess_channels(columns: &mut [SeenColumn]) -> bool {
     let names = ["Fx", "Fy", "Fz", "Tx", "Ty", "Tz"];
@@ -312,8 +365,14 @@ fn guess_channels(columns: &mut [SeenColumn]) -> bool {
         .collect();
     let is_so_many = matches!(numbers.len(), 3 | 6);
     if is_so_many {
-        for (column, name) in numbers.into_iter().zip(names) {
-            column.role = Role::Channels(vec![(name, String::new())]);
+        for (column, channel) in numbers.into_iter().zip(names) {
+            column.role = Role::Channels(vec![Candidate {
+                channel,
+                index: String::new(),
+                reason: Reason::Guess,
+                unit: None,
+                open: None,
+            }]);
         }
     }
     is_so_many

@@ -2,7 +2,10 @@
 
 use std::fmt::Write as _;
 
+use taceva_core::SourceUnit;
+
 use super::content::Exported;
+use crate::unit_suffix::UnitSuffix;
 use taceva_dataset::internal::RESERVED;
 use taceva_dataset::{ChannelOrder, Footprint, ReducedFrames, SensorFacts};
 
@@ -103,8 +106,15 @@ pub(super) fn text(exported: &Exported<'_>, written: &Written) -> String {
         line(format_args!("\n[columns]"));
     }
     for (channel, from) in table.channels().iter().zip(&written.channels) {
+        // A name may say the unit in which the lab wrote its numbers, such as `gap_m`; here they are converted.
+        let unit = SourceUnit::parse(channel.unit().symbol()).ok();
+        let is_contradicted = unit.is_some_and(|unit| {
+            let suffix = UnitSuffix::of(from);
+            suffix.is_some_and(|suffix| suffix.contradiction(&unit).is_some())
+        });
+        let scale = if is_contradicted { ", scale = 1" } else { "" };
         line(format_args!(
-            "{} = {{ from = {}, unit = {} }}",
+            "{} = {{ from = {}, unit = {}{scale} }}",
             channel.name(),
             quoted(from),
             quoted(channel.unit().symbol())

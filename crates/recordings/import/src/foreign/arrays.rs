@@ -191,7 +191,11 @@ impl ColumnSource for ArrayRows {
         let seems = |name: String| {
             let (path, info) = self.info(group, &name)?;
             let kind = form::kind_of(&self.file, &path, info)?;
-            Some(PictureColumn { name, kind })
+            Some(PictureColumn {
+                name,
+                kind,
+                order: None,
+            })
         };
         let names = self.names().into_iter().take(LISTED);
         names.filter_map(seems).collect()

@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use super::pictures::Pictures;
 use crate::frame_names::FrameNames;
 use taceva_dataset::internal::guarded;
-use taceva_dataset::{DatasetError, Place};
+use taceva_dataset::{ChannelOrder, DatasetError, Place};
 
 /// What a file says of the numbers in a column, in attributes of its array.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -93,6 +93,8 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
 pub(crate) struct PictureColumn {
     pub(crate) name: String,
     pub(crate) kind: PictureKind,
+    /// The order of the colours, where the file says it.
+    pub(crate) order: Option<ChannelOrder>,
 }
 
 /// How it holds them.

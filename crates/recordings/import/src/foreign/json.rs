@@ -130,12 +130,24 @@ impl JsonRows {
     /// Whether a row has something at the pointer `name`.
     pub(super) fn has(&self, name: &str) -> bool {
         let mut rows = self.rows.iter();
-        name.starts_with('/') && rows.any(|row| row.value.pointer(name).is_some())
+        match name {
+            VALUE => rows.any(|row| is_plain(&row.value)),
+            name => name.starts_with('/') && rows.any(|row| row.value.pointer(name).is_some()),
+        }
+    }
+
+    /// What a row has at the pointer `name`; a row that is a number or a text itself is called `value`.
+    fn at(&self, row: usize, name: &str) -> Option<&Value> {
+        let value = &self.rows[row].value;
+        match name {
+            VALUE => is_plain(value).then_some(value),
+            name => value.pointer(name),
+        }
     }
 
     /// What is at the pointer `name`: texts as they are, numbers in the shortest form that reads back, lists as JSON; nothing of `null`.
     pub(super) fn cell(&self, row: usize, name: &str) -> Cow<'_, str> {
-        match self.rows[row].value.pointer(name) {
+        match self.at(row, name) {
             None | Some(Value::Null) => Cow::Borrowed(""),
             Some(Value::String(text)) => Cow::Borrowed(text.trim()),
             Some(value) => Cow::Owned(value.to_string()),
@@ -144,7 +156,7 @@ impl JsonRows {
 
     /// Whether an integer is at the pointer `name` in every row that has something there.
     pub(super) fn holds_integers(&self, name: &str) -> bool {
-        let found = self.rows.iter().filter_map(|row| row.value.pointer(name));
+        let found = (0..self.rows.len()).filter_map(|row| self.at(row, name));
         let mut found = found.filter(|value| !value.is_null()).peekable();
         found.peek().is_some() && found.all(|value| value.is_i64() || value.is_u64())
     }
@@ -159,7 +171,9 @@ impl JsonRows {
     /// Pointers to what lies in the first row: numbers, texts, and lists of such.
     pub(super) fn leaves(&self) -> Vec<String> {
         let mut found = Vec::new();
-        if let Some(row) = self.rows.first() {
+        if self.has(VALUE) {
+            found.push(VALUE.to_owned());
+        } else if let Some(row) = self.rows.first() {
             add_leaves(&row.value, String::new(), &mut found);
         }
         found
@@ -173,8 +187,17 @@ impl JsonRows {
             .flat_map(|object| object.keys())
             .map(|key| format!("/{}", key.replace('~', "~0").replace('/', "~1")))
             .collect();
-        names.into_iter().collect()
+        let value = self.has(VALUE).then(|| VALUE.to_owned());
+        value.into_iter().chain(names).collect()
     }
+}
+
+/// The column of rows that are numbers or texts themselves.
+const VALUE: &str = "value";
+
+/// Whether a row is no object, so that it has no members.
+fn is_plain(value: &Value) -> bool {
+    !value.is_object() && !value.is_null()
 }
 
 /// Adds pointers to the leaves of `value`; objects, and lists that hold objects or lists, are descended into.
@@ -334,6 +357,21 @@ mod tests {
         let deep = r#"{"y": {"s": [{"a": 1}, {"a": 2}]}, "x": {"t": []}, "w": {"s": [{"a": 3}]}}"#;
         assert_eq!(of(deep, Some("/*/s/*")), ["y:1", "y:2", "w:3"]);
         assert_eq!(of(deep, Some("/*/s/0")), ["y:1", "w:3"]);
+    }
+
+    #[test]
+    fn rows_that_are_numbers_themselves_are_called_value() {
+        let file = file(r#"{"sampling": {"timestamps_s": [0.0, 0.01, null, 3]}}"#);
+        let table = JsonRows::read(file.path(), Some("/sampling/timestamps_s/*")).expect("rows");
+        assert_eq!(
+            (table.names(), table.leaves()),
+            (vec![VALUE.to_owned()], vec![VALUE.to_owned()])
+        );
+        let cells: Vec<_> = (0..4)
+            .map(|row| table.cell(row, VALUE).into_owned())
+            .collect();
+        assert_eq!(cells, ["0.0", "0.01", "", "3"]);
+        assert!(!table.holds_integers(VALUE));
     }
 
     #[test]

@@ -52,7 +52,9 @@ impl ColumnSource for LeRobotRows {
     }
 
     fn picture_columns(&self) -> Vec<PictureColumn> {
-        let features = self.dataset.features().iter().filter_map(|feature| {
+        let features = self.dataset.features().iter();
+        let features = features.filter(|feature| !feature.is_depth);
+        let features = features.filter_map(|feature| {
             let kind = match feature.dtype.as_str() {
                 "video" => PictureKind::Clip,
                 "image" => PictureKind::Encoded,
@@ -61,9 +63,20 @@ impl ColumnSource for LeRobotRows {
             Some(PictureColumn {
                 name: feature.name.clone(),
                 kind,
+                order: None,
             })
         });
         features.collect()
+    }
+
+    /// Depths, whose codes are no pictures.
+    fn unread(&self) -> Vec<String> {
+        let features = self.dataset.features().iter();
+        let depths = features.filter(|feature| feature.is_depth && feature.dtype == "video");
+        let refused = depths.filter_map(|feature| self.dataset.video(&feature.name).err());
+        refused
+            .map(|error| said(self.dataset.folder(), &error))
+            .collect()
     }
 
     fn element_names(&self, column: &str) -> Vec<String> {

@@ -66,6 +66,30 @@ impl MessageRows {
     }
 }
 
+impl MessageRows {
+    /// The order of the colours of the first picture, where its message says it.
+    fn order_of(&self, field: &str) -> Option<ChannelOrder> {
+        let mut order = None;
+        let _ = self.table.visit_pictures(field, &[0], &mut |_, picture| {
+            if let taceva_tables::Picture::Samples(samples) = picture {
+                order = order_of(samples.form);
+            }
+            Ok::<(), taceva_tables::TableError>(())
+        });
+        order
+    }
+}
+
+/// The order of colours that samples of a form have.
+fn order_of(form: SampleForm) -> Option<ChannelOrder> {
+    match form {
+        SampleForm::Mono8 | SampleForm::Mono16 => Some(ChannelOrder::Gray),
+        SampleForm::Rgb8 => Some(ChannelOrder::Rgb),
+        SampleForm::Bgr8 => Some(ChannelOrder::Bgr),
+        _ => None,
+    }
+}
+
 impl ColumnSource for MessageRows {
     fn rows(&self) -> usize {
         usize::try_from(self.table.rows()).unwrap_or(usize::MAX)
@@ -101,6 +125,7 @@ impl ColumnSource for MessageRows {
         let data = is_picture.then(|| PictureColumn {
             name: "data".to_owned(),
             kind: PictureKind::Encoded,
+            order: self.order_of("data"),
         });
         data.into_iter().collect()
     }

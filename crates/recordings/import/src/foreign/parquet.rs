@@ -67,6 +67,7 @@ impl ColumnSource for ParquetRows {
             .map(|name| PictureColumn {
                 name,
                 kind: PictureKind::Encoded,
+                order: None,
             })
             .collect()
     }

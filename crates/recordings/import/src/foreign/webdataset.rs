@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use serde_json::Value;
+use taceva_arrays::ArrayFile;
 
 use super::columns::{ColumnSource, PictureColumn, PictureKind};
 use super::json::json_problem;
@@ -20,6 +21,8 @@ use taceva_dataset::{ChannelOrder, DatasetError};
 const LOOKED_AT: usize = 100;
 /// The most bytes of a JSON or a text of a sample.
 const TEXT_BYTES: u64 = 1 << 20;
+/// The most bytes of an array of a sample.
+const ARRAY_BYTES: u64 = 1 << 26;
 /// Endings of members that are texts.
 const TEXTS: [&str; 4] = ["txt", "text", "cls", "id"];
 
@@ -66,42 +69,117 @@ impl Shard {
             .map_err(|_| format!("`{}.{name}` is no text of Unicode", sample.key))
     }
 
-    fn json(&self, sample: &Sample) -> Result<Option<Value>, String> {
-        let text = self.text(sample, "json")?;
-        let Some(text) = text else {
+    /// The JSON that a sample has in the field `field`.
+    fn json(&self, sample: &Sample, field: &str) -> Result<Option<Value>, String> {
+        let Some(text) = self.text(sample, field)? else {
             return Ok(None);
         };
         let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
         serde_json::from_str(text).map(Some).map_err(|error| {
             let (line, problem) = (error.line(), json_problem(text, &error));
-            format!("`{}.json`, line {line}: no JSON: {problem}", sample.key)
+            format!("`{}.{field}`, line {line}: no JSON: {problem}", sample.key)
         })
     }
 
-    fn has_json(&self, pointer: &str) -> bool {
+    fn has_json(&self, field: &str, pointer: &str) -> bool {
         let mut first = self.samples.iter().take(LOOKED_AT);
         first.any(|sample| {
-            let value = self.json(sample).ok().flatten();
+            let value = self.json(sample, field).ok().flatten();
             value.is_some_and(|value| value.pointer(pointer).is_some())
         })
+    }
+
+    /// The numbers of the array that a sample has in the field `field`, as lists in lists; nothing without it.
+    fn array(&self, sample: &Sample, field: &str) -> Result<String, String> {
+        let Some(place) = sample.parts.get(field) else {
+            return Ok(String::new());
+        };
+        let wrong = |problem: String| format!("`{}.{field}`: {problem}", sample.key);
+        let bytes = self.bytes(*place, ARRAY_BYTES).map_err(wrong)?;
+        let file = ArrayFile::of_npy(&self.path, bytes);
+        let file = file.map_err(|error| wrong(error.problem.to_string()))?;
+        let info = file
+            .info("value")
+            .ok_or_else(|| wrong("no array of numbers".to_owned()))?;
+        let shape = info.shape.clone();
+        let rows = shape.first().copied().unwrap_or(1);
+        let read = file.read("value", 0..rows);
+        let read = read.map_err(|error| wrong(error.problem.to_string()))?;
+        let numbers = read.values.to_f64();
+        let numbers = numbers.ok_or_else(|| wrong("no array of numbers".to_owned()))?;
+        Ok(nested(&shape, &numbers))
     }
 
     fn cell(&self, sample: &Sample, name: &str) -> Result<String, String> {
         if name == "key" {
             return Ok(sample.key.clone());
         }
-        let Some(pointer) = name.strip_prefix("json") else {
-            let text = self.text(sample, name)?.unwrap_or_default();
-            return Ok(text.trim().to_owned());
+        match Field::of(name) {
+            Field::Text(field) => {
+                let text = self.text(sample, field)?.unwrap_or_default();
+                Ok(text.trim().to_owned())
+            }
+            Field::Array(field) => self.array(sample, field),
+            Field::Json(field, pointer) => {
+                let value = self.json(sample, field)?;
+                let found = value.as_ref().and_then(|value| value.pointer(pointer));
+                Ok(match found {
+                    None | Some(Value::Null) => String::new(),
+                    Some(Value::String(text)) => text.trim().to_owned(),
+                    Some(value) => value.to_string(),
+                })
+            }
+        }
+    }
+
+    /// The first samples' fields that end with one of these, whatever stands before: `meta.json`, `fz.cls`.
+    fn fields(&self, endings: &[&str]) -> Vec<String> {
+        let first = self.samples.first().into_iter();
+        let parts = first.flat_map(|first| first.parts.keys());
+        let fields = parts.filter(|part| endings.contains(&ending_of(part)));
+        fields.map(ToString::to_string).collect()
+    }
+}
+
+/// What a name of a column says of the members of a sample.
+enum Field<'n> {
+    Text(&'n str),
+    Array(&'n str),
+    /// The field, and the pointer into its JSON.
+    Json(&'n str, &'n str),
+}
+
+impl<'n> Field<'n> {
+    fn of(name: &'n str) -> Field<'n> {
+        let (field, pointer) = match name.find('/') {
+            Some(at) => name.split_at(at),
+            None => (name, ""),
         };
-        let value = self.json(sample)?;
-        Ok(
-            match value.as_ref().and_then(|value| value.pointer(pointer)) {
-                None | Some(Value::Null) => String::new(),
-                Some(Value::String(text)) => text.trim().to_owned(),
-                Some(value) => value.to_string(),
-            },
-        )
+        match ending_of(field) {
+            "json" => Field::Json(field, pointer),
+            "npy" => Field::Array(name),
+            _ => Field::Text(name),
+        }
+    }
+}
+
+/// What a field ends with: `json` of `meta.json`.
+fn ending_of(field: &str) -> &str {
+    field.rsplit_once('.').map_or(field, |(_, ending)| ending)
+}
+
+/// Numbers of such a shape as lists in lists, in the shortest form that reads back.
+fn nested(shape: &[u64], numbers: &[f64]) -> String {
+    match shape {
+        [] => numbers
+            .first()
+            .map_or_else(String::new, |number| format!("{number:?}")),
+        [_] => format!("{numbers:?}"),
+        [rows, rest @ ..] => {
+            let length = numbers.len() / usize::try_from(*rows).unwrap_or(1).max(1);
+            let lists = numbers.chunks(length.max(1)).map(|own| nested(rest, own));
+            format!("[{}]", lists.collect::<Vec<_>>().join(", "))
+        }
     }
 }
 
@@ -177,35 +255,49 @@ impl ColumnSource for Shard {
         let Some(first) = self.samples.first() else {
             return Vec::new();
         };
-        let texts = first
-            .parts
-            .keys()
-            .filter(|ending| TEXTS.contains(&&***ending));
         let mut names = vec!["key".to_owned()];
-        names.extend(texts.map(|ending| ending.to_string()));
-        let members = self.json(first).ok().flatten();
-        let members = members.as_ref().and_then(Value::as_object);
-        names.extend(
-            members
-                .into_iter()
-                .flatten()
-                .map(|(name, _)| format!("json/{name}")),
-        );
+        names.extend(self.fields(&TEXTS));
+        names.extend(self.fields(&["npy"]));
+        for field in self.fields(&["json"]) {
+            let members = self.json(first, &field).ok().flatten();
+            let members = members.as_ref().and_then(Value::as_object);
+            let members = members.into_iter().flatten();
+            names.extend(members.map(|(name, _)| format!("{field}/{name}")));
+        }
         names
     }
 
     fn has(&self, name: &str) -> bool {
-        match name.strip_prefix("json/") {
-            Some(pointer) => self.has_json(&format!("/{pointer}")),
-            None => {
-                name == "key"
-                    || (TEXTS.contains(&name)
-                        && self
-                            .samples
-                            .iter()
-                            .any(|sample| sample.parts.contains_key(name)))
-            }
+        let is_field = |field: &str| {
+            let mut samples = self.samples.iter();
+            samples.any(|sample| sample.parts.contains_key(field))
+        };
+        match Field::of(name) {
+            _ if name == "key" => true,
+            Field::Json(field, pointer) => !pointer.is_empty() && self.has_json(field, pointer),
+            Field::Array(field) => is_field(field),
+            Field::Text(field) => TEXTS.contains(&ending_of(field)) && is_field(field),
         }
+    }
+
+    /// Members whose form is not read, such as TenBin and pickles.
+    fn unread(&self) -> Vec<String> {
+        let first = self.samples.first().into_iter();
+        let parts = first.flat_map(|first| &first.parts);
+        let is_read = |part: &str, place: (u64, u64)| {
+            let ending = ending_of(part);
+            TEXTS.contains(&ending)
+                || ["npy", "json"].contains(&ending)
+                || self
+                    .bytes(place, limits::IMAGE_BYTES)
+                    .is_ok_and(|bytes| ImageKind::of(&bytes).is_some())
+        };
+        let others = parts.filter(|(part, place)| !is_read(part, **place));
+        others
+            .map(|(part, _)| {
+                format!("`.{part}` of its samples: write numbers as `.npy`, `.json` or `.cls`")
+            })
+            .collect()
     }
 
     fn columns(&self, names: &[&str]) -> Result<Vec<Vec<String>>, String> {
@@ -220,12 +312,12 @@ impl ColumnSource for Shard {
 
     /// Of numbers in JSON; a text says nothing of what it means.
     fn holds_integers(&self, name: &str) -> bool {
-        let Some(pointer) = name.strip_prefix("json") else {
+        let Field::Json(field, pointer) = Field::of(name) else {
             return false;
         };
         let mut found = 0;
         self.samples.iter().all(|sample| {
-            let value = self.json(sample).ok().flatten();
+            let value = self.json(sample, field).ok().flatten();
             match value.as_ref().and_then(|value| value.pointer(pointer)) {
                 None | Some(Value::Null) => true,
                 Some(value) => {
@@ -249,6 +341,7 @@ impl ColumnSource for Shard {
         let column = |(name, _): (&Arc<str>, _)| PictureColumn {
             name: name.to_string(),
             kind: PictureKind::Encoded,
+            order: None,
         };
         pictures.map(column).collect()
     }

@@ -112,6 +112,9 @@ impl ImportSummary {
     }
 
     fn write_suspicions(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for warning in &self.warnings {
+            writeln!(f, "warning  {warning}")?;
+        }
         self.suspicions
             .iter()
             .try_for_each(|suspicion| writeln!(f, "warning  {suspicion}"))

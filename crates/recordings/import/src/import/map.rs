@@ -20,6 +20,7 @@ use std::path::Path;
 
 use taceva_core::Channels;
 
+use crate::csv_table::text_form::TextForm;
 use crate::foreign::TableForm;
 use taceva_dataset::DatasetError;
 use taceva_dataset::RecordingFacts;
@@ -134,7 +135,7 @@ impl ImportMap {
             time: None,
             drop: DropRules::default(),
             facts,
-            form: TableForm::Delimited { has_header: true },
+            form: TableForm::Delimited(TextForm::new(true)),
             path: None,
             joins: Vec::new(),
             matrices: Vec::new(),

@@ -13,20 +13,24 @@ mod unit_statement;
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use taceva_core::Clock;
+
 use super::map::{FrameNames, ImportMap, OWN_ROW};
+use super::warning::ImportWarning;
 use crate::foreign::{ForeignTable, cell_list};
 use crate::source_folder::SourceFolder;
 use columns::{base_of, mentioned};
 use join::Joined;
 use taceva_dataset::{DatasetError, Place};
+use times::TextTimes;
 
 pub(super) use classes::ClassCells;
 pub(super) use join::JoinMatches;
 pub(super) use matrix::matrix_rows;
 pub(super) use naming_folder::NamedBy;
-pub(super) use signals::place_first;
+pub(super) use signals::{ColumnSignals, place_first};
 pub(super) use table::ResolvedTable;
-pub(super) use unit_statement::{problem_of_name, problem_of_signals};
+pub(super) use unit_statement::{problem_of_names, problem_of_signals};
 
 /// A table in which every column that the map names is found by that name.
 pub(super) struct Resolved {
@@ -39,9 +43,10 @@ pub(super) struct Resolved {
     /// The main table itself.
     pub(super) main: ForeignTable,
     /// The numbers of taxels of every row, where they are in columns.
-    pub(super) signals: Option<Vec<f32>>,
+    pub(super) signals: Option<ColumnSignals>,
     /// What the cells of each class are.
     pub(super) class_cells: Vec<ClassCells>,
+    pub(super) warnings: Vec<ImportWarning>,
     /// The folders of joined tables that name files.
     pub(super) named_by: NamedBy,
 }
@@ -55,6 +60,9 @@ struct Sources<'a> {
     /// What the parts of the path are in each row; one entry where they are the same in all.
     captures: Vec<Vec<String>>,
     joined: Vec<Joined<'a>>,
+    /// The column of the time as seconds, where the table writes it as text.
+    times: Option<Vec<String>>,
+    warnings: Vec<ImportWarning>,
 }
 
 /// The table at `path` as `map` reads it.
@@ -75,6 +83,8 @@ pub(super) fn resolve(
         },
         captures: Vec::new(),
         joined: Vec::new(),
+        times: None,
+        warnings: Vec::new(),
     };
     let names = mentioned(map);
     let of_signals = map.signals.iter().flat_map(|signals| signals.columns());
@@ -82,6 +92,7 @@ pub(super) fn resolve(
     let bases: Vec<&str> = bases.collect();
     sources.main.read_ahead(&bases)?;
     sources.capture()?;
+    sources.read_times()?;
     // Before a join compares times, and once what is joined is known.
     sources.check_units()?;
     for join in &map.joins {
@@ -89,12 +100,16 @@ pub(super) fn resolve(
         sources.joined.push(joined);
     }
     sources.check_units()?;
+    // A joined table may have the column of the time.
+    sources.read_times()?;
+    sources.warn_of_grouped_digits();
     let class_cells = classes::of(&sources)?;
     let rows = sources.main.rows();
     let mut cells = Vec::with_capacity(names.len());
     for name in &names {
-        let column: Result<Vec<String>, DatasetError> =
-            (0..rows).map(|row| sources.cell(row, name)).collect();
+        let column: Result<Vec<String>, DatasetError> = (0..rows)
+            .map(|row| sources.cell_in_seconds(row, name))
+            .collect();
         cells.push(column?);
     }
     let mut absent_chunks = BTreeMap::new();
@@ -124,12 +139,71 @@ pub(super) fn resolve(
             .map(|joined| joined.matched(&sources.main))
             .collect(),
         named_by: NamedBy::of(&sources),
+        warnings: std::mem::take(&mut sources.warnings),
         main: sources.main,
         table,
     })
 }
 
 impl Sources<'_> {
+    /// Reads the column of the time where it is text; numbers are read row by row.
+    fn read_times(&mut self) -> Result<(), DatasetError> {
+        let Some(time) = &self.map.time else {
+            return Ok(());
+        };
+        let is_joined = time.column.split_once('.').is_some_and(|(join, _)| {
+            let mut joins = self.map.joins.iter();
+            joins.any(|known| known.name == join) && !self.main.has(&time.column)
+        });
+        if self.times.is_some() || (is_joined && self.joined.len() < self.map.joins.len()) {
+            return Ok(());
+        }
+        let cells: Result<Vec<String>, DatasetError> = (0..self.main.rows())
+            .map(|row| self.cell(row, &time.column))
+            .collect();
+        let read = TextTimes::of(&cells?, time).map_err(|(row, problem)| DatasetError::Table {
+            place: self.main.place(row, &time.column),
+            problem,
+        })?;
+        if let Some(read) = read {
+            let is_unix = self.map.facts.clock == Clock::Unix;
+            self.warnings.extend(read.warnings(&time.column, is_unix));
+            self.times = Some(read.seconds);
+        }
+        Ok(())
+    }
+
+    /// Warns of columns of labels whose points may group digits.
+    fn warn_of_grouped_digits(&mut self) {
+        for column in &self.map.columns {
+            let base = base_of(&column.from);
+            let found = match self.joined_column(base) {
+                None => self.main.grouped_digits(base),
+                Some((joined, column)) => joined.grouped_digits(column),
+            };
+            if let Some((example, cells)) = found {
+                self.warnings.push(ImportWarning::GroupedDigits {
+                    column: column.from.clone(),
+                    example,
+                    cells,
+                });
+            }
+        }
+    }
+
+    /// The cell, of the column of the time in seconds where the table writes it as text.
+    fn cell_in_seconds(&self, row: usize, name: &str) -> Result<String, DatasetError> {
+        let is_time = self
+            .map
+            .time
+            .as_ref()
+            .is_some_and(|time| time.column == name);
+        match &self.times {
+            Some(times) if is_time => Ok(times[row].clone()),
+            _ => self.cell(row, name),
+        }
+    }
+
     /// Takes the labels out of the path.
     fn capture(&mut self) -> Result<(), DatasetError> {
         let Some(pattern) = &self.map.path else {

@@ -9,11 +9,15 @@ use std::sync::Arc;
 
 use super::frame_cells::{FrameCells, FrameName, filled};
 use super::map::{FrameNames, ImportMap};
-use super::resolve::{ClassCells, JoinMatches, NamedBy, ResolvedTable, resolve};
+use super::resolve::{ClassCells, ColumnSignals, JoinMatches, NamedBy, ResolvedTable, resolve};
+use super::warning::ImportWarning;
 use crate::foreign::{Pictures, TableForm};
 use crate::source_folder::SourceFolder;
 use taceva_dataset::internal::shown;
 use taceva_dataset::{DatasetError, Place, Row};
+
+/// The rule that leaves rows out in which a taxel measured nothing.
+pub(super) const SIGNAL_PLACEHOLDERS: &str = "placeholders of [signals]";
 
 /// A table whose columns have been found.
 pub(super) struct MappedTable<'a> {
@@ -22,6 +26,7 @@ pub(super) struct MappedTable<'a> {
     /// The columns that the map mentions nowhere, where they are not found by the others.
     unmentioned: Vec<String>,
     pub(super) joins: Vec<JoinMatches>,
+    pub(super) warnings: Vec<ImportWarning>,
     /// Chunks that were never written of the arrays that are read, by file and array.
     pub(super) absent_chunks: BTreeMap<String, u64>,
     truth: Vec<usize>,
@@ -50,7 +55,7 @@ pub(super) struct MappedTable<'a> {
     /// The pictures that the table itself holds.
     pub(super) pictures: Option<Arc<dyn Pictures>>,
     /// The numbers of taxels of every row, where they are in columns.
-    signals: Option<Vec<f32>>,
+    signals: Option<ColumnSignals>,
     /// The folders of joined tables that name files.
     pub(super) named_by: NamedBy,
     /// Whether the table has a column called `row`, so that the word is not the number of the row.
@@ -139,6 +144,7 @@ impl<'a> MappedTable<'a> {
             signals: found.signals,
             unmentioned: found.unmentioned,
             joins: found.joins,
+            warnings: found.warnings,
             absent_chunks: found.absent_chunks,
             class_cells: found.class_cells,
             named_by: found.named_by,
@@ -158,6 +164,7 @@ impl<'a> MappedTable<'a> {
         let first = row.checked_mul(length)?;
         self.signals
             .as_ref()?
+            .numbers
             .get(first..first.checked_add(length)?)
     }
 
@@ -204,6 +211,10 @@ impl<'a> MappedTable<'a> {
         };
         if !rules.placeholders.is_empty() && rules.placeholders.iter().all(is_placeholder) {
             reasons.push("placeholders".to_owned());
+        }
+        let signals = self.signals.as_ref();
+        if signals.is_some_and(|signals| signals.are_placeholders.get(row) == Some(&true)) {
+            reasons.push(SIGNAL_PLACEHOLDERS.to_owned());
         }
         reasons
     }

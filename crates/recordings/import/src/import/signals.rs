@@ -2,7 +2,7 @@
 
 mod array;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use taceva_core::Progress;
@@ -23,6 +23,8 @@ pub(super) struct FoundSignals<'a> {
     kept: u64,
     /// Runs of those that are without contact.
     rest: Vec<[u64; 2]>,
+    /// Rows of an array in which a taxel measured nothing.
+    placeholders: BTreeSet<u64>,
 }
 
 #[derive(Debug)]
@@ -54,12 +56,22 @@ impl<'a> FoundSignals<'a> {
                 Found::Array(array, Vec::new())
             }
         };
+        let placeholders = match &from {
+            Found::Array(array, _) if !map.placeholders.is_empty() => array.placeholders(map)?,
+            _ => BTreeSet::new(),
+        };
         Ok(FoundSignals {
             map,
+            placeholders,
             from,
             kept: 0,
             rest: Vec::new(),
         })
+    }
+
+    /// Whether the row of that number, among those of all tables, holds a number of an array that stands for "nothing measured".
+    pub(super) fn is_placeholder(&self, number: u64) -> bool {
+        self.placeholders.contains(&number)
     }
 
     /// Takes the signals of a row that is kept; `number` is its place among the rows of all tables.

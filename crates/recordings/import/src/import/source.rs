@@ -136,6 +136,8 @@ pub(super) fn unnamed_images(folder: &Path, named: &BTreeSet<PathBuf>) -> Unname
             }
             let path = entry.path();
             match entry.file_type() {
+                // A dataset that was made here is no part of what the lab recorded.
+                Ok(kind) if kind.is_dir() && path.join("dataset.toml").is_file() => {}
                 Ok(kind) if kind.is_dir() => folders.push(path),
                 Ok(kind) if kind.is_file() && is_image(&path) && !named.contains(&path) => {
                     unnamed.push(path);

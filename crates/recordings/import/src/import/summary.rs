@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use taceva_core::{SignalInfo, SourceUnit, Unit};
 
 use super::suspicion::Suspicion;
+use super::warning::ImportWarning;
 use taceva_dataset::{ChannelOrder, LeftOut, names_quality};
 
 /// The counts of an import.
@@ -66,6 +67,8 @@ pub struct ImportSummary {
     pub unmentioned_columns: BTreeSet<String>,
     /// Channels whose numbers look like those of another unit.
     pub suspicions: Vec<Suspicion>,
+    /// What the map says and is seldom meant, sorted.
+    pub warnings: BTreeSet<ImportWarning>,
 }
 
 /// How many columns that the map does not mention a dataset remembers, and how long their names may be.

@@ -1,10 +1,13 @@
 //! How a table is written, by its name and what it holds.
 
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
 use taceva_arrays::ArrayFormat;
 
 use crate::csv_table::number;
+use crate::csv_table::text_form::TextForm;
 use crate::draft::survey::FileGroup;
 use crate::foreign::{ForeignTable, TableForm, cell_list};
 
@@ -16,15 +19,21 @@ pub(super) fn form_of(path: &Path, group: &FileGroup) -> Option<(TableForm, Stri
     let plain = |form| Some((form, String::new()));
     match group.ending.as_str() {
         "csv" | "tsv" => {
-            let with_header = TableForm::Delimited { has_header: true };
-            match ForeignTable::read(path, &with_header).map(|table| table.names()) {
-                Ok(names) if is_numbered(&names) => Some((with_header, NUMBERED_HEADER.to_owned())),
-                Ok(names) if !is_of_numbers(&names) => plain(with_header),
-                _ => Some((
-                    TableForm::Delimited { has_header: false },
-                    "header = false".to_owned(),
-                )),
-            }
+            let guessed = TextForm::guessed(&beginning(path)?);
+            let form = |has_header: bool| TextForm {
+                has_header,
+                ..guessed.clone()
+            };
+            let with_header = TableForm::Delimited(form(true));
+            let names = ForeignTable::read(path, &with_header).map(|table| table.names());
+            let (form, keys) = match names {
+                Ok(names) if is_numbered(&names) => (form(true), format!(", {NUMBERED_HEADER}")),
+                Ok(names) if !is_of_numbers(&names) => (form(true), String::new()),
+                _ => (form(false), String::new()),
+            };
+            let keys = format!("{keys}{}", form.keys());
+            let extra = keys.trim_start_matches(", ").to_owned();
+            Some((TableForm::Delimited(form), extra))
         }
         "json" => {
             // An object whose members are objects is a table of them.
@@ -65,6 +74,24 @@ pub(super) fn form_of(path: &Path, group: &FileGroup) -> Option<(TableForm, Stri
             Some((of(Some(rows)), extra))
         }
     }
+}
+
+/// How much of a table of text is looked at to say how it is written.
+const BEGINNING: u64 = 1 << 16;
+
+/// The first lines of a table of text.
+fn beginning(path: &Path) -> Option<String> {
+    let file = File::open(path).ok()?;
+    let mut bytes = Vec::new();
+    file.take(BEGINNING).read_to_end(&mut bytes).ok()?;
+    let text = String::from_utf8_lossy(&bytes);
+    let text = text.trim_start_matches('\u{feff}');
+    // The last line may be cut.
+    let end = match bytes.len() as u64 == BEGINNING {
+        true => text.rfind('\n').unwrap_or(text.len()),
+        false => text.len(),
+    };
+    Some(text[..end].to_owned())
 }
 
 /// Whether what would be names of columns are numbers: the file has no header.

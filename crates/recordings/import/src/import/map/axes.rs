@@ -82,6 +82,7 @@ mod tests {
             from: SignalsFrom::Columns(vec!["value".to_owned()]),
             unit: SourceUnit::parse("count").expect("known"),
             spec: SignalsSpec::new(info, names).expect("named"),
+            placeholders: Vec::new(),
             is_channel_first,
             rest: Vec::new(),
         }

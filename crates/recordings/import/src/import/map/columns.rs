@@ -122,6 +122,8 @@ pub struct TimeMap {
     pub column: String,
     /// The unit of its numbers.
     pub unit: SourceUnit,
+    /// How far the clock of times as text is before UTC, s, where they say no time zone.
+    pub zone_s: Option<i64>,
 }
 
 impl TimeMap {
@@ -130,6 +132,7 @@ impl TimeMap {
         TimeMap {
             column: column.into(),
             unit,
+            zone_s: None,
         }
     }
 }

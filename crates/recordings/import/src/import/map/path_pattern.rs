@@ -87,6 +87,20 @@ impl PathPattern {
         })
     }
 
+    /// The letters right behind the part called `name`, which are mostly its unit.
+    pub(crate) fn letters_behind(&self, name: &str) -> Option<&str> {
+        let is_it =
+            |piece: &Piece| matches!(piece, Piece::Named { name: known, .. } if known == name);
+        let at = self.pieces.iter().position(is_it)?;
+        let Some(Piece::Text(text)) = self.pieces.get(at + 1) else {
+            return None;
+        };
+        let end = text
+            .find(|letter: char| !letter.is_alphabetic())
+            .unwrap_or(text.len());
+        (end > 0).then(|| &text[..end])
+    }
+
     /// Whether the part called `name` is any text.
     pub(crate) fn is_text(&self, name: &str) -> bool {
         let is_so = |piece: &Piece| match piece {

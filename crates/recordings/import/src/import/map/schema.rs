@@ -13,6 +13,8 @@ use super::frame_schema::WrittenFrame;
 use super::sections::{WrittenClass, WrittenJoin, WrittenMatrix, WrittenPath};
 use super::signals::WrittenSignals;
 use super::table_schema::WrittenTable;
+use crate::instant::zone_seconds;
+
 use super::{ColumnMap, DropRules, IdMap, ImportMap, MatrixMap, OriginMap, Placeholder, TimeMap};
 use taceva_dataset::internal::{RESERVED, is_attribute_name, parse_toml, shown, toml_error};
 use taceva_dataset::{DatasetError, Footprint, RecordingFacts, SensorFacts, Source};
@@ -63,6 +65,7 @@ struct WrittenColumn {
 struct WrittenTime {
     column: Option<ColumnName>,
     unit: Option<Spanned<String>>,
+    zone: Option<Spanned<String>>,
     clock: Clock,
 }
 
@@ -253,7 +256,8 @@ impl Check<'_> {
                 "[time] has a `column` and no `unit`, such as \"s\" or \"ns\"",
             )
         })?;
-        self.time_of(column.clone(), unit).map(Some)
+        self.time_of(column.clone(), unit, written.zone.as_ref())
+            .map(Some)
     }
 
     /// A column of times.
@@ -261,7 +265,17 @@ impl Check<'_> {
         &self,
         column: ColumnName,
         unit: &Spanned<String>,
+        zone: Option<&Spanned<String>>,
     ) -> Result<TimeMap, DatasetError> {
+        let zone_s = zone.map(|zone| {
+            zone_seconds(zone.get_ref()).ok_or_else(|| {
+                let problem = format!(
+                    "`{}` is no time zone, expected how far the clock is before UTC: \"+02:00\", \"-05:30\", \"Z\"",
+                    shown(zone.get_ref())
+                );
+                self.at(zone.span().start, &problem)
+            })
+        });
         let source_unit = self.unit(unit)?;
         if source_unit.unit() != taceva_core::Unit::Second {
             return Err(self.at(
@@ -275,6 +289,7 @@ impl Check<'_> {
         Ok(TimeMap {
             column: column.into_name(),
             unit: source_unit,
+            zone_s: zone_s.transpose()?,
         })
     }
 

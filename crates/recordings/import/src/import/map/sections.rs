@@ -51,6 +51,7 @@ enum WrittenOn {
 struct WrittenJoinTime {
     column: ColumnName,
     unit: Spanned<String>,
+    zone: Option<Spanned<String>>,
 }
 
 #[derive(Deserialize)]
@@ -151,7 +152,7 @@ impl Check<'_> {
                     return Err(self.at(offset, "`tolerance_ms` is at least 0, and `lag_ms` a finite number"));
                 }
                 JoinBy::Time(TimeJoin {
-                    time: self.time_of(time.column, &time.unit)?,
+                    time: self.time_of(time.column, &time.unit, time.zone.as_ref())?,
                     pick: pick.unwrap_or(Pick::Nearest),
                     tolerance_ms,
                     lag_ms,

@@ -15,6 +15,8 @@ pub(crate) struct SignalsMap {
     pub(crate) unit: SourceUnit,
     /// The taxels, in the unit that they are kept in; no row without contact is in it.
     pub(crate) spec: SignalsSpec,
+    /// Numbers that stand for "nothing measured", before they are converted: a row that has one is left out.
+    pub(crate) placeholders: Vec<f64>,
     /// Whether all places of a channel stand together, and not all channels of a place.
     pub(crate) is_channel_first: bool,
     /// Runs of rows without contact, of the tables as they are read, each by its first and its last, from 0.
@@ -38,6 +40,8 @@ pub(super) struct WrittenSignals {
     places: [u32; 2],
     channels: Vec<String>,
     order: Option<Order>,
+    #[serde(default)]
+    placeholders: Vec<f64>,
     rest: Option<Spanned<WrittenRest>>,
 }
 
@@ -83,6 +87,16 @@ impl SignalsMap {
             SignalsFrom::Columns(columns) => columns,
             SignalsFrom::Array { .. } => &[],
         }
+    }
+
+    /// Whether `number`, before it is converted, stands for "nothing measured".
+    pub(crate) fn is_placeholder(&self, number: f64) -> bool {
+        let mut placeholders = self.placeholders.iter();
+        placeholders.any(|known| {
+            number
+                .partial_cmp(known)
+                .is_some_and(std::cmp::Ordering::is_eq)
+        })
     }
 
     /// Whether the row of that number, among those of all tables, is without contact.
@@ -133,6 +147,7 @@ impl Check<'_> {
             from,
             unit,
             spec,
+            placeholders: written.placeholders,
             is_channel_first: written.order == Some(Order::ChannelFirst),
             rest: self.rest(written.rest)?,
         })

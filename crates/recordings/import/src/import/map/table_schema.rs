@@ -7,6 +7,7 @@ use taceva_arrays::ArrayFormat;
 use toml::Spanned;
 
 use super::check::Check;
+use crate::csv_table::text_form::TextForm;
 use crate::foreign::TableForm;
 use taceva_dataset::DatasetError;
 
@@ -14,7 +15,7 @@ use taceva_dataset::DatasetError;
 #[derive(Deserialize)]
 #[serde(
     untagged,
-    expecting = "the path of a table, { file = …, format = …, header = false, rows = … }, or { files = … }"
+    expecting = "the path of a table, { file = …, format = …, header = false, rows = …, decimal = \",\", thousands = \".\", comment = \"#\", skip_lines = 2, units_row = true }, or { files = … }"
 )]
 pub(super) enum WrittenTable {
     Path(String),
@@ -28,6 +29,12 @@ pub(super) struct WrittenForm {
     files: Option<String>,
     format: Option<Format>,
     header: Option<bool>,
+    decimal: Option<String>,
+    thousands: Option<String>,
+    comment: Option<String>,
+    skip_lines: Option<u32>,
+    #[serde(default)]
+    units_row: bool,
     rows: Option<String>,
     #[serde(default)]
     whole: bool,
@@ -96,7 +103,7 @@ fn form_of(path: &str, format: Option<Format>) -> TableForm {
         (Some(Format::Webdataset), _) | (None, Some("tar")) => TableForm::WebDataset,
         (Some(Format::Mcap), _) | (None, Some("mcap")) => TableForm::Messages { topic: None },
         (Some(Format::Jsonl), _) | (None, Some("jsonl" | "ndjson")) => TableForm::JsonLines,
-        _ => TableForm::Delimited { has_header: true },
+        _ => TableForm::Delimited(TextForm::new(true)),
     }
 }
 
@@ -170,10 +177,16 @@ impl Check<'_> {
                 ));
             }
         };
+        if described.has_text_keys() && !matches!(form, TableForm::Delimited(_)) {
+            return Err(self.at(
+                offset,
+                "`decimal`, `thousands`, `comment`, `skip_lines` and `units_row` are for CSV and TSV alone",
+            ));
+        }
         let form = match (form, described.header, &described.rows) {
-            (TableForm::Delimited { .. }, header, None) => TableForm::Delimited {
-                has_header: header.unwrap_or(true),
-            },
+            (TableForm::Delimited(_), _, None) => {
+                TableForm::Delimited(self.text_form(described, offset)?)
+            }
             (TableForm::Json { .. }, None, rows) => TableForm::Json { rows: rows.clone() },
             (TableForm::Messages { .. }, None, rows) => TableForm::Messages {
                 topic: rows.clone(),
@@ -196,5 +209,60 @@ impl Check<'_> {
             }
         };
         Ok((file, form))
+    }
+
+    fn text_form(&self, described: &WrittenForm, offset: usize) -> Result<TextForm, DatasetError> {
+        let decimal = match described.decimal.as_deref() {
+            // Points that group digits are no decimal points.
+            None if described.thousands.as_deref() == Some(".") => ',',
+            None | Some(".") => '.',
+            Some(",") => ',',
+            Some(other) => {
+                return Err(self.at(
+                    offset,
+                    &format!("`decimal = {other:?}`, expected \".\" or \",\""),
+                ));
+            }
+        };
+        let thousands = described.thousands.clone();
+        if let Some(sign) = &thousands
+            && (!["", ".", ",", "'", " ", "_", "\u{a0}", "\u{202f}"].contains(&sign.as_str())
+                || *sign == decimal.to_string())
+        {
+            return Err(self.at(
+                offset,
+                &format!(
+                    "`thousands = {sign:?}`, expected \".\", \",\", \"'\", \"_\", a blank, or \"\" where digits are not grouped; not the sign of `decimal`"
+                ),
+            ));
+        }
+        if described
+            .comment
+            .as_ref()
+            .is_some_and(|comment| comment.trim().is_empty())
+        {
+            return Err(self.at(
+                offset,
+                "`comment` is what lines begin with that are no rows, such as \"#\"",
+            ));
+        }
+        Ok(TextForm {
+            has_header: described.header.unwrap_or(true),
+            decimal,
+            thousands,
+            comment: described.comment.clone(),
+            skip_lines: described.skip_lines.unwrap_or_default(),
+            has_units: described.units_row,
+        })
+    }
+}
+
+impl WrittenForm {
+    fn has_text_keys(&self) -> bool {
+        self.decimal.is_some()
+            || self.thousands.is_some()
+            || self.comment.is_some()
+            || self.skip_lines.is_some()
+            || self.units_row
     }
 }

@@ -12,7 +12,7 @@ use crate::import::frame_plan::{FrameSource, PlannedFrame};
 use crate::import::map::ImportMap;
 use crate::import::references::References;
 use crate::import::resolve::JoinMatches;
-use crate::import::rows::MappedTable;
+use crate::import::rows::{MappedTable, SIGNAL_PLACEHOLDERS};
 use crate::import::signals::FoundSignals;
 use crate::import::summary::ImportSummary;
 use crate::source_folder::SourceFolder;
@@ -94,6 +94,9 @@ impl<'a> Reading<'a> {
             }
         }
         self.absent_chunks.append(&mut rows.absent_chunks);
+        self.summary
+            .warnings
+            .extend(std::mem::take(&mut rows.warnings));
         let frame = self.map.frame.as_ref();
         let base = match frame.and_then(|frame| frame.folder.as_ref()) {
             Some(folder) => self.folder.path().join(folder),
@@ -117,7 +120,11 @@ impl<'a> Reading<'a> {
     ) -> Result<(), DatasetError> {
         let number = self.summary.rows_read;
         self.summary.rows_read += 1;
-        let reasons = rows.drop_reasons(row);
+        let mut reasons = rows.drop_reasons(row);
+        let signals = self.signals.as_ref();
+        if signals.is_some_and(|signals| signals.is_placeholder(number)) {
+            reasons.push(SIGNAL_PLACEHOLDERS.to_owned());
+        }
         // What a table names lies beside it, unless the map says a folder.
         let says_folder = self
             .map

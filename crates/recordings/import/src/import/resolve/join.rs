@@ -8,6 +8,7 @@ use std::path::Path;
 
 use super::classes::holds_integers;
 use super::columns::{base_of, mentioned};
+use super::times::TextTimes;
 use super::unit_statement::{self, Of, Reading};
 use super::{Sources, cell_of};
 use crate::csv_table::number;
@@ -155,6 +156,12 @@ impl<'a> Joined<'a> {
         }
     }
 
+    /// A cell of the joined tables whose point may group digits, and how many there are.
+    pub(super) fn grouped_digits(&self, column: &str) -> Option<(String, u64)> {
+        let mut tables = self.tables.iter();
+        tables.find_map(|candidates| candidates.table.grouped_digits(column))
+    }
+
     /// Checks that what the map says of `column` agrees with what the files say of it.
     pub(super) fn check(&self, column: &str, reading: Reading<'_>) -> Result<(), DatasetError> {
         let mut tables = self.tables.iter();
@@ -273,7 +280,7 @@ impl<'a> Joined<'a> {
                         ),
                     });
                 };
-                let cell = sources.cell(row, &time.column)?;
+                let cell = sources.cell_in_seconds(row, &time.column)?;
                 let place = || sources.main.place(row, &time.column);
                 let Some(instant) = seconds(&cell, time, place)? else {
                     return Ok(At::Nowhere);
@@ -363,10 +370,21 @@ impl Candidates {
                     of: Of::Others,
                 };
                 unit_statement::check(table, &join.time.column, reading)?;
-                for row in rows.iter() {
-                    let cell = cell_of(table, *row, &join.time.column)?;
+                let cells: Result<Vec<String>, DatasetError> = rows
+                    .iter()
+                    .map(|row| cell_of(table, *row, &join.time.column))
+                    .collect();
+                let cells = cells?;
+                let texts = TextTimes::of(&cells, &join.time);
+                let texts = texts.map_err(|(at, problem)| DatasetError::Table {
+                    place: table
+                        .place(rows.get(at).copied().unwrap_or_default(), &join.time.column),
+                    problem,
+                })?;
+                let cells = texts.map_or(cells, |texts| texts.seconds);
+                for (row, cell) in rows.iter().zip(&cells) {
                     let place = || table.place(*row, &join.time.column);
-                    by_time.extend(seconds(&cell, &join.time, place)?.map(|time| (time, *row)));
+                    by_time.extend(seconds(cell, &join.time, place)?.map(|time| (time, *row)));
                 }
                 let back = by_time.windows(2).find(|pair| pair[1].0 < pair[0].0);
                 let back = back.map(<[_]>::to_vec);

@@ -7,9 +7,13 @@ use taceva_dataset::DatasetError;
 
 /// The numbers of every row, place first, in the unit that they are kept in. Where a cell holds none there is a NaN, which is an
 /// error if the row is kept.
-pub(super) fn numbers(sources: &Sources<'_>, map: &SignalsMap) -> Result<Vec<f32>, DatasetError> {
+pub(super) fn numbers(
+    sources: &Sources<'_>,
+    map: &SignalsMap,
+) -> Result<ColumnSignals, DatasetError> {
     let (rows, length) = (sources.main.rows(), map.spec.info.len());
     let mut numbers = Vec::new();
+    let mut are_placeholders = vec![false; rows];
     let mut cells = Vec::with_capacity(length);
     for row in 0..rows {
         let first = numbers.len();
@@ -19,6 +23,12 @@ pub(super) fn numbers(sources: &Sources<'_>, map: &SignalsMap) -> Result<Vec<f32
             continue;
         }
         cells.clear();
+        let mut has_placeholder = false;
+        let mut read = |cell: &str| {
+            let number = number::number(cell.trim()).ok().flatten();
+            has_placeholder |= number.is_some_and(|number| map.is_placeholder(number));
+            read(cell, map)
+        };
         for name in map.columns() {
             let cell = sources.cell(row, name)?;
             match map.columns() {
@@ -28,11 +38,12 @@ pub(super) fn numbers(sources: &Sources<'_>, map: &SignalsMap) -> Result<Vec<f32
                     if shape.len() > 1 {
                         map.check_axes(&shape).map_err(wrong)?;
                     }
-                    cells.extend(packed(&cell).map(|cell| read(cell, map)));
+                    cells.extend(packed(&cell).map(&mut read));
                 }
-                _ => cells.push(read(&cell, map)),
+                _ => cells.push(read(&cell)),
             }
         }
+        are_placeholders[row] = has_placeholder;
         if cells.len() == length {
             let values = place_first(map, &cells);
             numbers[first..]
@@ -41,7 +52,18 @@ pub(super) fn numbers(sources: &Sources<'_>, map: &SignalsMap) -> Result<Vec<f32
                 .for_each(|(place, value)| *place = value);
         }
     }
-    Ok(numbers)
+    Ok(ColumnSignals {
+        numbers,
+        are_placeholders,
+    })
+}
+
+/// Numbers of taxels that stand in columns.
+pub(in crate::import) struct ColumnSignals {
+    /// Those of every row, place first.
+    pub(in crate::import) numbers: Vec<f32>,
+    /// Whether a row holds a number that stands for "nothing measured".
+    pub(in crate::import) are_placeholders: Vec<bool>,
 }
 
 impl Sources<'_> {

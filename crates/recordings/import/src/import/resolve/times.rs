@@ -1,9 +1,13 @@
-//! Units of columns that the file says to be times: its type is believed, and no map scales them again.
+//! Times that a file says to be times, or writes as text: they are read in seconds, and no map scales them again.
 
 use taceva_core::SourceUnit;
 
 use super::columns::base_of;
 use crate::foreign::ForeignTable;
+use crate::import::map::TimeMap;
+use crate::import::warning::ImportWarning;
+use crate::instant::TextInstant;
+use taceva_dataset::internal::shown;
 use taceva_dataset::{DatasetError, Place};
 
 /// Checks that `unit`, which the map states of the column `name` of `table`, is seconds where the file itself says that it holds times.
@@ -24,5 +28,91 @@ pub(super) fn check(
                  write `unit = \"s\"`"
             ),
         }),
+    }
+}
+
+/// Times that a column writes as text.
+pub(super) struct TextTimes {
+    /// Seconds as decimal text, or nothing where a cell is empty.
+    pub(super) seconds: Vec<String>,
+    /// Whether the texts have a date and neither they nor the map state a zone.
+    has_no_zone: bool,
+    /// How often times of day pass midnight.
+    midnights: i64,
+}
+
+/// From one row to the next a time of day falls by more than this only through midnight, s.
+const HALF_A_DAY_S: i64 = 43_200;
+
+impl TextTimes {
+    /// The times in `cells` as `map` reads them; `None` where they are numbers.
+    ///
+    /// # Errors
+    /// The first row that is no time as the rows before, and what is wrong with it.
+    pub(super) fn of(
+        cells: &[String],
+        map: &TimeMap,
+    ) -> Result<Option<TextTimes>, (usize, String)> {
+        let first = cells.iter().find(|cell| !cell.trim().is_empty());
+        let first = first.and_then(|cell| TextInstant::parse(cell));
+        let Some(first) = first else {
+            return Ok(None);
+        };
+        if map.unit.symbol() != "s" {
+            let problem = format!(
+                "texts of times are read in seconds, and the map says `unit = \"{}\"`: write `unit = \"s\"`",
+                map.unit.symbol()
+            );
+            return Err((0, problem));
+        }
+        let mut times = TextTimes {
+            seconds: Vec::with_capacity(cells.len()),
+            has_no_zone: !first.is_of_day() && !first.has_zone() && map.zone_s.is_none(),
+            midnights: 0,
+        };
+        let mut last = 0;
+        for (row, cell) in cells.iter().enumerate() {
+            if cell.trim().is_empty() {
+                times.seconds.push(String::new());
+                continue;
+            }
+            let instant = TextInstant::parse(cell).filter(|instant| {
+                instant.is_of_day() == first.is_of_day() && instant.has_zone() == first.has_zone()
+            });
+            let instant = instant.ok_or_else(|| {
+                let problem = format!(
+                    "`{}` is no time as the rows before have them: all have a date and a time zone, or none has",
+                    shown(cell)
+                );
+                (row, problem)
+            })?;
+            if instant.is_of_day() {
+                times.midnights += i64::from(last - instant.second_of_day() > HALF_A_DAY_S);
+                last = instant.second_of_day();
+            }
+            times
+                .seconds
+                .push(instant.seconds(map.zone_s, times.midnights));
+        }
+        Ok(Some(times))
+    }
+
+    /// What is to be said of them.
+    pub(super) fn warnings(&self, column: &str, is_unix: bool) -> Vec<ImportWarning> {
+        let mut warnings = Vec::new();
+        if self.has_no_zone && is_unix {
+            warnings.push(ImportWarning::ZoneUnstated {
+                column: column.to_owned(),
+            });
+        }
+        if let Ok(days) = u64::try_from(self.midnights)
+            && days > 0
+        {
+            warnings.push(ImportWarning::Midnight {
+                column: column.to_owned(),
+                days,
+            });
+        }
+        warnings
     }
 }

@@ -6,6 +6,7 @@ use super::Sources;
 use super::columns::base_of;
 use super::times;
 use crate::foreign::{ForeignTable, Stated};
+use crate::unit_suffix::UnitSuffix;
 use taceva_dataset::{DatasetError, Place};
 
 /// How a map reads a column.
@@ -37,13 +38,15 @@ pub(super) fn check(
         true => name,
         false => base_of(name),
     };
-    if reading.is_moved || !table.has(base) {
+    // Times by their type are in seconds, whatever they are called.
+    if reading.is_moved || !table.has(base) || table.time_unit(base).is_some() {
         return Ok(());
     }
     let stated = table.stated(base);
     let mut stated = stated.iter();
     let found = stated.find_map(|stated| problem(stated, reading.unit, reading.of));
-    match found.or_else(|| problem_of_name(base, reading.unit)) {
+    let names = table.names_with_units(name, base);
+    match found.or_else(|| problem_of_names(names.iter().map(String::as_str), reading.unit)) {
         None => Ok(()),
         Some(problem) => Err(DatasetError::Table {
             place: Place::file(table.path()).in_column(name),
@@ -52,21 +55,23 @@ pub(super) fn check(
     }
 }
 
-/// Why the map contradicts the unit in brackets at the end of the name of a column: `Fz [mN]`, `depth (um)`.
-pub(in crate::import) fn problem_of_name(name: &str, unit: &SourceUnit) -> Option<String> {
-    let name = name.trim_end();
-    let (close, open) = match name.chars().last()? {
-        ']' => (']', '['),
-        ')' => (')', '('),
-        _ => return None,
-    };
-    let (_, stated) = name.strip_suffix(close)?.rsplit_once(open)?;
-    contradicted(stated, unit).map(|own| {
-        format!(
-            "its name says `{own}`, the map says `{}`: correct the one that is wrong",
-            unit.symbol()
-        )
-    })
+/// Why the map contradicts the first of `names` that says a unit of the same quantity: that of a number in a cell before that of its column.
+pub(in crate::import) fn problem_of_names<'n>(
+    names: impl IntoIterator<Item = &'n str>,
+    unit: &SourceUnit,
+) -> Option<String> {
+    for name in names {
+        let Some(suffix) = UnitSuffix::of(name) else {
+            continue;
+        };
+        if let Some(problem) = suffix.contradiction(unit) {
+            return Some(problem);
+        }
+        if suffix.of_quantity(unit.unit()).is_some() {
+            return None;
+        }
+    }
+    None
 }
 
 /// The unit that is stated, if it is of the same quantity as that of the map and has another factor: an array of forces and torques has one
@@ -126,12 +131,29 @@ impl Sources<'_> {
         });
         for (name, unit, is_moved, of) in columns.chain(times).chain(signals) {
             let reading = Reading { unit, is_moved, of };
-            match self.joined_column(name) {
-                None => check(&self.main, name, reading)?,
-                Some((joined, column)) => joined.check(column, reading)?,
+            match (name.strip_prefix("path."), self.joined_column(name)) {
+                (Some(part), _) => self.check_part(part, reading)?,
+                (None, None) => check(&self.main, name, reading)?,
+                (None, Some((joined, column))) => joined.check(column, reading)?,
             }
         }
         Ok(())
+    }
+
+    /// Checks a number in a path by its name and by the letters behind it: `Fz{fz:number}mN`.
+    fn check_part(&self, part: &str, reading: Reading<'_>) -> Result<(), DatasetError> {
+        let pattern = self.map.path.as_ref();
+        let behind = pattern.and_then(|pattern| pattern.letters_behind(part));
+        let with_letters = format!("{part} {}", behind.unwrap_or_default());
+        let is_moved = reading.is_moved;
+        let problem = problem_of_names([with_letters.as_str(), part], reading.unit);
+        match problem.filter(|_| !is_moved) {
+            None => Ok(()),
+            Some(problem) => Err(DatasetError::Table {
+                place: Place::file(self.main.path()).in_column(format!("path.{part}")),
+                problem,
+            }),
+        }
     }
 }
 
@@ -159,21 +181,17 @@ mod tests {
     }
 
     #[test]
-    fn a_unit_in_brackets_behind_a_name_contradicts_the_map_likewise() {
-        let of = |name: &str, map: &str| {
-            problem_of_name(name, &SourceUnit::parse(map).expect("known")).is_some()
+    fn the_name_of_a_number_in_a_cell_counts_before_that_of_its_column() {
+        let of = |names: &[&str], map: &str| {
+            let unit = SourceUnit::parse(map).expect("known");
+            problem_of_names(names.iter().copied(), &unit)
         };
-        assert!(of("Fz [mN]", "N") && of("depth (um) ", "mm") && of("t(ms)", "s"));
-        for (name, map) in [
-            ("Fz [mN]", "mN"),
-            ("Fz [N]", "Nm"),
-            ("ft[1]", "N"),
-            ("force (raw)", "N"),
-            ("force_mN", "N"),
-            ("]", "N"),
-        ] {
-            assert!(!of(name, map), "{name}");
-        }
+        assert_eq!(of(&["Fz_mN", "state_N"], "mN"), None);
+        let problem = of(&["Fz_mN", "state_N"], "N").unwrap_or_default();
+        assert!(problem.contains("`mN`"), "{problem}");
+        let problem = of(&["Fz", "state_mN"], "N").unwrap_or_default();
+        assert!(problem.contains("`mN`"), "{problem}");
+        assert_eq!(of(&["Tz_Nm", "state_N"], "Nm"), None);
     }
 
     #[test]

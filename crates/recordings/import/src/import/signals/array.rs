@@ -1,6 +1,6 @@
 //! Signals in an array of another file, read some rows at a time.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use taceva_arrays::{ArrayFile, ArrayFormat};
@@ -8,7 +8,7 @@ use taceva_core::Progress;
 
 use crate::foreign::stated;
 use crate::import::map::SignalsMap;
-use crate::import::resolve::{place_first, problem_of_name, problem_of_signals};
+use crate::import::resolve::{place_first, problem_of_names, problem_of_signals};
 use crate::source_folder::SourceFolder;
 use taceva_dataset::internal::{SignalsWriter, guarded};
 use taceva_dataset::{DatasetError, Place};
@@ -75,7 +75,13 @@ impl ArraySignals {
         }
         let of_file = guarded(|| stated(&file, &name)).map_err(wrong)?;
         let contradicted = problem_of_signals(&of_file, &map.unit);
-        if let Some(problem) = contradicted.or_else(|| problem_of_name(&name, &map.unit)) {
+        // The array of a `.npy` has no name but that of its file.
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        let named = match name.as_str() {
+            "value" => stem.as_ref(),
+            name => name,
+        };
+        if let Some(problem) = contradicted.or_else(|| problem_of_names([named], &map.unit)) {
             return Err(wrong(format!("`{array}`: {problem}")));
         }
         map.check_axes(beside)
@@ -123,6 +129,23 @@ impl ArraySignals {
             into.insert(folder.inside(&self.path, &self.name), count);
         }
         Ok(())
+    }
+
+    /// The rows that hold a number which stands for "nothing measured".
+    pub(super) fn placeholders(&self, map: &SignalsMap) -> Result<BTreeSet<u64>, DatasetError> {
+        let step = (READ_VALUES / self.length).max(1);
+        let length = usize::try_from(self.length).unwrap_or(usize::MAX);
+        let mut found = BTreeSet::new();
+        let mut first = 0;
+        while first < self.rows {
+            let end = (first + step).min(self.rows);
+            let values = self.read(first..end)?;
+            let rows = (first..end).zip(values.chunks(length));
+            let held = rows.filter(|(_, row)| row.iter().any(|value| map.is_placeholder(*value)));
+            found.extend(held.map(|(row, _)| row));
+            first = end;
+        }
+        Ok(found)
     }
 
     /// Writes the signals of `rows`, which ascend.

@@ -1,0 +1,163 @@
+//! Folder of a zarr store: on the disk, or within a ZIP archive that holds the whole store.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use crate::archive::members;
+use crate::error::Problem;
+use crate::member_bytes::{Budget, Packed, PackedBytes};
+use crate::source::{ByteSource, FileBytes, bytes_of};
+
+/// A folder of a store.
+#[derive(Clone, Debug)]
+pub(crate) enum Tree {
+    Folder(PathBuf),
+    Archive(Archive),
+}
+
+/// A folder within an archive.
+#[derive(Clone, Debug)]
+pub(crate) struct Archive {
+    file: Arc<FileBytes>,
+    /// Members by their path; of several with one path the last, as ZIP archives that were added to have them.
+    members: Arc<BTreeMap<String, Packed>>,
+    /// The path of the folder, with a `/` behind it; empty of the outermost.
+    folder: String,
+}
+
+impl Tree {
+    /// The store at `path`.
+    pub(crate) fn open(path: &Path) -> Result<Tree, Problem> {
+        if fs::metadata(path).map_err(Problem::io("open"))?.is_dir() {
+            return Ok(Tree::Folder(path.to_owned()));
+        }
+        let file = Arc::new(FileBytes::open(path)?);
+        let mut by_path = BTreeMap::new();
+        for member in members(&*file)? {
+            let name = member.name.trim_start_matches("./").to_owned();
+            by_path.insert(name, member);
+        }
+        let archive = Archive {
+            file,
+            folder: outermost(&by_path),
+            members: Arc::new(by_path),
+        };
+        Ok(Tree::Archive(archive))
+    }
+
+    /// The folder `name` within this one.
+    pub(crate) fn join(&self, name: &str) -> Tree {
+        match self {
+            Tree::Folder(path) => Tree::Folder(path.join(name)),
+            Tree::Archive(archive) => Tree::Archive(Archive {
+                folder: format!("{}{name}/", archive.folder),
+                ..archive.clone()
+            }),
+        }
+    }
+
+    /// The bytes of the file `name` within this folder, at most `most` of them; `None` where there is none. `what` names it in errors.
+    pub(crate) fn bytes(
+        &self,
+        name: &str,
+        what: &str,
+        most: u64,
+    ) -> Result<Option<Vec<u8>>, Problem> {
+        let checked = |source: &dyn ByteSource| match source.length() {
+            length if length > most => Err(Problem::too_large(what, length, most)),
+            length => bytes_of(source, 0, length),
+        };
+        match self {
+            Tree::Folder(folder) => {
+                let path = folder.join(name);
+                match fs::symlink_metadata(&path) {
+                    Ok(_) => checked(&FileBytes::open(&path)?).map(Some),
+                    Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
+                    Err(error) => Err(Problem::io("open")(error)),
+                }
+            }
+            Tree::Archive(archive) => {
+                let path = format!("{}{name}", archive.folder);
+                let Some(member) = archive.members.get(&path) else {
+                    return Ok(None);
+                };
+                let mut budget = Budget::default();
+                let source = PackedBytes::new(&archive.file, member.clone(), &mut budget);
+                checked(&source).map(Some)
+            }
+        }
+    }
+
+    /// The names of the folders within this one, sorted; links on the disk are none, as they may lead anywhere.
+    pub(crate) fn folders(&self) -> Result<Vec<String>, Problem> {
+        let mut names = BTreeSet::new();
+        match self {
+            Tree::Folder(folder) => {
+                for entry in fs::read_dir(folder).map_err(Problem::io("list"))? {
+                    let entry = entry.map_err(Problem::io("list"))?;
+                    let is_folder = entry.file_type().map_err(Problem::io("list"))?.is_dir();
+                    if let (true, Some(name)) = (is_folder, entry.file_name().to_str()) {
+                        names.insert(name.to_owned());
+                    }
+                }
+            }
+            Tree::Archive(archive) => {
+                for path in archive.below() {
+                    names.extend(path.split_once('/').map(|(name, _)| name.to_owned()));
+                }
+            }
+        }
+        Ok(names.into_iter().collect())
+    }
+
+    /// The names of the files within this folder.
+    pub(crate) fn files(&self) -> Result<Vec<String>, Problem> {
+        match self {
+            Tree::Folder(folder) => {
+                let mut names = Vec::new();
+                for entry in fs::read_dir(folder).map_err(Problem::io("list"))? {
+                    let entry = entry.map_err(Problem::io("list"))?;
+                    let is_file = entry.file_type().map_err(Problem::io("list"))?.is_file();
+                    if let (true, Some(name)) = (is_file, entry.file_name().to_str()) {
+                        names.push(name.to_owned());
+                    }
+                }
+                Ok(names)
+            }
+            Tree::Archive(archive) => {
+                let own = archive.below().filter(|path| !path.contains('/'));
+                Ok(own.map(str::to_owned).collect())
+            }
+        }
+    }
+}
+
+impl Archive {
+    /// The paths of the members below this folder, relative to it.
+    fn below(&self) -> impl Iterator<Item = &str> {
+        let from = self.members.range(self.folder.clone()..);
+        from.map_while(|(path, _)| path.strip_prefix(&self.folder))
+    }
+}
+
+/// The folder that holds the store: the archive itself, or the only folder in it where nothing else is.
+fn outermost(members: &BTreeMap<String, Packed>) -> String {
+    let is_described = ["zarr.json", ".zgroup", ".zarray"]
+        .iter()
+        .any(|name| members.contains_key(*name));
+    let mut folders = members.keys().map(|path| path.split_once('/'));
+    let first = folders.next().flatten().map(|(folder, _)| folder);
+    match first {
+        Some(first) if !is_described => {
+            let is_only = folders.all(|path| path.is_some_and(|(folder, _)| folder == first));
+            if is_only {
+                format!("{first}/")
+            } else {
+                String::new()
+            }
+        }
+        _ => String::new(),
+    }
+}

@@ -1,0 +1,75 @@
+//! Rows of each episode, held against its description: two takes under one number would get the pictures of the first.
+
+use std::collections::BTreeMap;
+
+use super::LeRobot;
+use super::episodes;
+use super::info::Layout;
+use crate::cell::Cell;
+use crate::error::{Place, TableError};
+use crate::source::Source;
+
+/// Rows of one episode, as the data files have them.
+#[derive(Clone, Copy)]
+struct Take {
+    rows: u64,
+    last_s: f64,
+}
+
+/// Checks that every episode is one take of as many rows as its description says. Datasets without numbers of episodes are not checked.
+pub(super) fn check(dataset: &LeRobot) -> Result<(), TableError> {
+    let has = |name: &str| dataset.names.iter().any(|known| known == name);
+    if !has("episode_index") {
+        return Ok(());
+    }
+    let episodes = dataset.column("episode_index")?;
+    let times = match has("timestamp") {
+        true => dataset.column("timestamp")?,
+        false => Vec::new(),
+    };
+    let mut takes: BTreeMap<u64, Take> = BTreeMap::new();
+    // The first row whose time is not above that of the row before it in its episode.
+    let mut again: Option<(u64, u64)> = None;
+    for (row, episode) in episodes.iter().enumerate() {
+        let Cell::Integer(episode) = episode else {
+            continue;
+        };
+        let Ok(episode) = u64::try_from(*episode) else {
+            continue;
+        };
+        let time_s = match times.get(row) {
+            Some(Cell::Number(time_s)) => *time_s,
+            _ => f64::NAN,
+        };
+        let take = takes.entry(episode).or_insert(Take {
+            rows: 0,
+            last_s: f64::NEG_INFINITY,
+        });
+        if time_s <= take.last_s && again.is_none() {
+            again = Some((episode, row as u64));
+        }
+        take.rows += 1;
+        take.last_s = time_s;
+    }
+    let lengths = episodes::lengths(&dataset.folder, dataset.info.layout == Layout::V21)?;
+    for (episode, take) in &takes {
+        if let Some((length, described)) = lengths.get(episode)
+            && *length != take.rows
+        {
+            let problem = format!(
+                "episode {episode} has {} rows, and its description says {length}: its pictures cannot be told apart, number the takes anew or correct `length`",
+                take.rows
+            );
+            return Err(Source::new(described)?.damaged(Place::of("length"), problem));
+        }
+    }
+    match again {
+        None => Ok(()),
+        Some((episode, row)) => {
+            let problem = format!(
+                "row {row}: `timestamp` does not rise within episode {episode}, so that it holds two takes or a frame twice: number the takes anew"
+            );
+            Err(dataset.source.damaged(Place::of("episode_index"), problem))
+        }
+    }
+}

@@ -1,0 +1,574 @@
+//! A table of text as programs of force gauges and spreadsheets write it: lines before the header, a row of units, commas for points.
+
+use std::path::Path;
+
+use super::{CsvTable, as_text, cells_of_first_row, delimiter_of, number};
+use crate::unit_suffix::UnitSuffix;
+use taceva_dataset::internal::{all_cores, limits, read_capped, shown};
+use taceva_dataset::{DatasetError, Place};
+
+/// What a map says of a table of text beside its separator.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct TextForm {
+    /// Without a header, columns are called by their position, from 0.
+    pub(crate) has_header: bool,
+    /// The sign before the fraction of a number.
+    pub(crate) decimal: char,
+    /// The sign between groups of three digits; `None` where the map says nothing, an empty text where it says that there is none.
+    pub(crate) thousands: Option<String>,
+    /// What lines begin with that are no rows.
+    pub(crate) comment: Option<String>,
+    /// Lines before the header that are no part of the table.
+    pub(crate) skip_lines: u32,
+    /// Whether the line below the header says units.
+    pub(crate) has_units: bool,
+}
+
+/// How many lines are looked at to say how a table is written.
+const LOOKED_AT: usize = 64;
+
+impl TextForm {
+    /// A table with points for decimals and nothing but rows below its header, where it has one.
+    pub(crate) fn new(has_header: bool) -> TextForm {
+        TextForm {
+            has_header,
+            decimal: '.',
+            thousands: None,
+            comment: None,
+            skip_lines: 0,
+            has_units: false,
+        }
+    }
+
+    fn is_plain(&self) -> bool {
+        self.comment.is_none() && self.skip_lines == 0 && !self.has_units
+    }
+
+    /// Whether cells are to be converted before they are numbers.
+    fn converts(&self) -> bool {
+        self.decimal != '.'
+            || self
+                .thousands
+                .as_deref()
+                .is_some_and(|sign| !sign.is_empty())
+    }
+
+    /// What `cell` says with a point for the decimal sign and without groups; `None` where it is no number or needs no change.
+    ///
+    /// # Errors
+    /// What is wrong with a cell of digits and signs that does not follow this form.
+    pub(crate) fn converted(&self, cell: &str) -> Result<Option<String>, String> {
+        if !self.converts() || !cell.bytes().any(|byte| byte.is_ascii_digit()) {
+            return Ok(None);
+        }
+        let sign = self.thousands.as_deref().unwrap_or_default();
+        let is_of_number = |letter: char| {
+            letter.is_ascii_digit() || "+-.,eE'".contains(letter) || sign.contains(letter)
+        };
+        if !cell.chars().all(is_of_number) {
+            return Ok(None);
+        }
+        let (mantissa, exponent) = match cell.find(['e', 'E']) {
+            Some(at) => cell.split_at(at),
+            None => (cell, ""),
+        };
+        let (whole, fraction) = match mantissa.rsplit_once(self.decimal) {
+            Some((whole, fraction)) => (whole, Some(fraction)),
+            None => (mantissa, None),
+        };
+        let digits = whole.trim_start_matches(['+', '-']);
+        let are_groups = match sign {
+            "" => true,
+            sign => {
+                let mut groups = digits.split(sign);
+                let first = groups.next().unwrap_or_default();
+                let is_grouped = digits.contains(sign);
+                groups.all(|group| group.len() == 3)
+                    && (!is_grouped || (1..=3).contains(&first.len()))
+            }
+        };
+        let bare = match sign {
+            "" => whole.to_owned(),
+            sign => whole.replace(sign, ""),
+        };
+        let is_right = are_groups
+            && bare
+                .trim_start_matches(['+', '-'])
+                .bytes()
+                .all(|byte| byte.is_ascii_digit())
+            && fraction.is_none_or(|fraction| fraction.bytes().all(|byte| byte.is_ascii_digit()));
+        if !is_right {
+            let groups = match sign {
+                "" => String::new(),
+                sign => format!(" and `{sign}` between groups of three digits"),
+            };
+            return Err(format!(
+                "is no number with `{}` before its fraction{groups}, as the table of the map says",
+                self.decimal
+            ));
+        }
+        Ok(Some(match fraction {
+            Some(fraction) => format!("{bare}.{fraction}{exponent}"),
+            None => format!("{bare}{exponent}"),
+        }))
+    }
+
+    /// The keys of a map that say this form, as `, decimal = ","`; nothing of the default.
+    pub(crate) fn keys(&self) -> String {
+        let mut keys = String::new();
+        if !self.has_header {
+            keys += ", header = false";
+        }
+        if self.skip_lines > 0 {
+            keys += &format!(", skip_lines = {}", self.skip_lines);
+        }
+        if let Some(comment) = &self.comment {
+            keys += &format!(", comment = {comment:?}");
+        }
+        if self.has_units {
+            keys += ", units_row = true";
+        }
+        if self.decimal != '.' {
+            keys += &format!(", decimal = {:?}", self.decimal.to_string());
+        }
+        if let Some(thousands) = &self.thousands {
+            keys += &format!(", thousands = {thousands:?}");
+        }
+        keys
+    }
+
+    /// The form that the beginning of `text` seems to have.
+    pub(crate) fn guessed(text: &str) -> TextForm {
+        let mut form = TextForm::new(true);
+        let lines: Vec<&str> = text.lines().take(LOOKED_AT).collect();
+        let first = lines.iter().find(|line| !line.trim().is_empty());
+        let marks = ["#", "%", "//"];
+        let mark = first.and_then(|first| {
+            let first = first.trim_start_matches('"');
+            marks.into_iter().find(|mark| first.starts_with(mark))
+        });
+        form.comment = mark.map(str::to_owned);
+        let is_row = |line: &&str| {
+            !line.trim().is_empty()
+                && mark.is_none_or(|mark| !line.trim_start_matches('"').starts_with(mark))
+                && separator_line(line).is_none()
+        };
+        let rows: Vec<(usize, &str)> = lines
+            .iter()
+            .enumerate()
+            .filter(|(_, line)| is_row(line))
+            .map(|(at, line)| (at, *line))
+            .collect();
+        let Some((_, last)) = rows.last() else {
+            return form;
+        };
+        // The last line is of the body, whatever stands above the header, and as wide as it.
+        let header_by = |delimiter: &u8| {
+            let expected = cells_of_first_row(last, *delimiter);
+            let mut lines = rows.iter();
+            let first =
+                lines.position(|(_, line)| cells_of_first_row(line, *delimiter) == expected);
+            (expected < 2, first)
+        };
+        let delimiter = [b';', b'\t', b',']
+            .into_iter()
+            .min_by_key(header_by)
+            .unwrap_or(b',');
+        let cells = |line: &str| cells_of_first_row(line, delimiter);
+        let expected = cells(last);
+        if mark.is_none()
+            && rows.len() > 2
+            && expected > 1
+            && let Some(header) = rows.iter().position(|(_, line)| cells(line) == expected)
+            && rows[header..]
+                .iter()
+                .all(|(_, line)| cells(line) == expected)
+        {
+            let skipped = rows[header].0;
+            let separated = usize::from(
+                lines
+                    .iter()
+                    .take(skipped)
+                    .any(|line| separator_line(line).is_some()),
+            );
+            form.skip_lines = u32::try_from(skipped - separated.min(skipped)).unwrap_or_default();
+            if separated > 0 && header == 0 {
+                form.skip_lines = 0;
+            }
+        }
+        let table: Vec<&str> = rows
+            .iter()
+            .map(|(_, line)| *line)
+            .filter(|line| cells(line) == expected)
+            .collect();
+        if let [_, units, below, ..] = table.as_slice() {
+            form.has_units = is_units_row(units, below, delimiter);
+        }
+        let body = table
+            .get(1 + usize::from(form.has_units)..)
+            .unwrap_or_default();
+        if delimiter != b',' {
+            let cells: Vec<&str> = body
+                .iter()
+                .flat_map(|line| line.split(char::from(delimiter)))
+                .map(|cell| cell.trim().trim_matches('"'))
+                .collect();
+            let is_comma = |cell: &&&str| is_decimal(cell, ',');
+            let is_point = |cell: &&&str| is_decimal(cell, '.');
+            let commas = cells.iter().filter(is_comma).count();
+            if commas > 0
+                && !cells
+                    .iter()
+                    .any(|cell| is_point(&cell) && !is_grouped(cell, '.'))
+            {
+                form.decimal = ',';
+                if cells.iter().any(|cell| {
+                    is_grouped(cell, '.')
+                        || is_grouped(cell.split(',').next().unwrap_or_default(), '.')
+                }) {
+                    form.thousands = Some(".".to_owned());
+                }
+            }
+        }
+        form
+    }
+}
+
+/// Whether a cell is digits with one `sign` among them.
+fn is_decimal(cell: &str, sign: char) -> bool {
+    let bare = cell.trim_start_matches(['+', '-']);
+    bare.split_once(sign).is_some_and(|(whole, fraction)| {
+        let are_digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
+        are_digits(fraction)
+            && !fraction.is_empty()
+            && whole
+                .chars()
+                .all(|letter| letter.is_ascii_digit() || letter == '.')
+    })
+}
+
+/// Whether a cell is a number of groups of three digits: `1.333`, `12.345.678`; `0.333` is none.
+pub(crate) fn is_grouped(cell: &str, sign: char) -> bool {
+    let bare = cell.trim_start_matches(['+', '-']);
+    let mut groups = bare.split(sign);
+    let first = groups.next().unwrap_or_default();
+    let are_digits =
+        |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    let mut others = groups.peekable();
+    others.peek().is_some()
+        && (1..=3).contains(&first.len())
+        && !first.starts_with('0')
+        && are_digits(first)
+        && others.all(|group| group.len() == 3 && are_digits(group))
+}
+
+/// The separator that a spreadsheet says in a line of its own: `sep=;`.
+fn separator_line(line: &str) -> Option<u8> {
+    let line = line.trim().trim_matches('"');
+    match line
+        .strip_prefix("sep=")
+        .or_else(|| line.strip_prefix("SEP="))?
+        .as_bytes()
+    {
+        [only] if matches!(only, b';' | b',' | b'\t' | b'|') => Some(*only),
+        _ => None,
+    }
+}
+
+/// Whether `units` is a row of units above a row of numbers.
+fn is_units_row(units: &str, below: &str, delimiter: u8) -> bool {
+    let cells = |line: &str| -> Vec<String> {
+        let cells = line.split(char::from(delimiter));
+        cells
+            .map(|cell| cell.trim().trim_matches('"').trim().to_owned())
+            .collect()
+    };
+    let (units, below) = (cells(units), cells(below));
+    let is_number = |cell: &str| {
+        number::number(cell).is_ok_and(|found| found.is_some()) || is_decimal(cell, ',')
+    };
+    let said = units
+        .iter()
+        .filter(|cell| unit_said(cell).is_some())
+        .count();
+    said > 0
+        && !units.iter().any(|cell| is_number(cell))
+        && units
+            .iter()
+            .zip(&below)
+            .any(|(unit, cell)| unit_said(unit).is_some() && is_number(cell))
+}
+
+/// The unit that a cell of a row of units says: `[mN]`, `(mN)`, `mN`.
+fn unit_said(cell: &str) -> Option<String> {
+    let bare = cell
+        .trim()
+        .trim_matches(['[', ']', '(', ')', '<', '>'])
+        .trim();
+    let suffix = UnitSuffix::of(&format!("cell ({bare})"))?;
+    Some(suffix.any_unit()?.symbol().to_owned())
+}
+
+/// Table of text, and the unit of each of its columns as a row below the header says it.
+pub(crate) struct WrittenTable {
+    pub(crate) table: CsvTable,
+    pub(crate) units: Vec<Option<String>>,
+}
+
+impl CsvTable {
+    /// Reads the file at `path`, written as `form` says. A line `sep=;` before the header is what it says.
+    ///
+    /// # Errors
+    /// As [`read`](CsvTable::read), with what the map may say of a file whose rows have other lengths.
+    pub(crate) fn read_written(path: &Path, form: &TextForm) -> Result<WrittenTable, DatasetError> {
+        let text = as_text(path, read_capped(path, limits::TABLE_BYTES)?)?;
+        let hint = match form.is_plain() {
+            true => hint(&text, form),
+            false => None,
+        };
+        let read = read_text(path, text, form);
+        read.map_err(|error| match (error, hint) {
+            (DatasetError::Table { place, problem }, Some(hint)) => DatasetError::Table {
+                place,
+                problem: format!("{problem}; {hint}"),
+            },
+            (error, _) => error,
+        })
+    }
+}
+
+/// The keys of the map's table that would read a text that is no plain table.
+fn hint(text: &str, form: &TextForm) -> Option<String> {
+    let guessed = TextForm::guessed(text);
+    let keys = TextForm {
+        has_header: true,
+        decimal: '.',
+        thousands: None,
+        ..guessed
+    };
+    (!keys.is_plain()).then(|| {
+        let keys = TextForm {
+            has_header: form.has_header,
+            ..keys
+        };
+        format!("`table = {{ file = \"…\"{} }}` may read it", keys.keys())
+    })
+}
+
+fn read_text(path: &Path, text: String, form: &TextForm) -> Result<WrittenTable, DatasetError> {
+    let wrong = |line: u64, problem: String| DatasetError::Table {
+        place: Place::line(path, line),
+        problem,
+    };
+    let is_comment = |line: &str| {
+        let mark = form.comment.as_deref();
+        mark.is_some_and(|mark| line.trim_start().trim_start_matches('"').starts_with(mark))
+    };
+    // Lines before the header, which are cut off.
+    let mut before = 0_u64;
+    let mut at = 0;
+    let mut separator = None;
+    for line in text.split_inclusive('\n') {
+        let is_skipped = before < u64::from(form.skip_lines);
+        let said = separator_line(line).filter(|_| separator.is_none());
+        separator = separator.or(said);
+        let is_blank = line.trim().is_empty() && !form.is_plain();
+        if !is_skipped && said.is_none() && !is_comment(line) && !is_blank {
+            break;
+        }
+        // A line that says the separator is none of those that the map counts.
+        before += 1;
+        at += line.len();
+    }
+    if at >= text.len() {
+        let lines = text.lines().count();
+        let problem = format!(
+            "nothing but comments and skipped lines among its {lines}: `skip_lines` and `comment` of the map leave no header"
+        );
+        return Err(wrong(1, problem));
+    }
+    let mut text = match at {
+        0 => text,
+        at => text[at..].to_owned(),
+    };
+    let delimiter =
+        separator.unwrap_or_else(|| delimiter_of(text.lines().next().unwrap_or_default()));
+    let mut units = Vec::new();
+    if form.has_units || form.comment.is_some() {
+        let mut cleared = String::with_capacity(text.len());
+        let mut is_header = form.has_header;
+        let mut needs_units = form.has_units;
+        let mut is_quoted = false;
+        for line in text.split_inclusive('\n') {
+            let end = if line.ends_with('\n') { "\n" } else { "" };
+            let is_blank = line.trim().is_empty();
+            // Within a quoted cell a line is no line.
+            let is_removed = if is_quoted {
+                false
+            } else if is_comment(line) {
+                true
+            } else if is_header || is_blank {
+                is_header &= is_blank;
+                false
+            } else if needs_units {
+                needs_units = false;
+                units = cells_of(line, delimiter);
+                true
+            } else {
+                false
+            };
+            match is_removed {
+                true => cleared.push_str(end),
+                false => {
+                    is_quoted ^= line.matches('"').count() % 2 == 1;
+                    cleared.push_str(line);
+                }
+            }
+        }
+        text = cleared;
+    }
+    let read = match form.has_header {
+        true => CsvTable::of_text(path, text, delimiter, all_cores()),
+        false => {
+            // Blank lines are no rows, and the first of them is no header.
+            let first = text.lines().find(|line| !line.trim().is_empty());
+            let count = cells_of_first_row(first.unwrap_or_default(), delimiter);
+            let names: Vec<String> = (0..count).map(|position| position.to_string()).collect();
+            let header = names.join(&char::from(delimiter).to_string());
+            let read = CsvTable::of_text(path, format!("{header}\n{text}"), delimiter, all_cores());
+            read.map_err(DatasetError::a_line_above).map(|mut table| {
+                table.added_lines = 1;
+                table
+            })
+        }
+    };
+    let mut table = read.map_err(|error| error.lines_below(before))?;
+    table.left_out_lines = before;
+    let said = |cell: &String| unit_said(cell);
+    let written: Vec<Option<String>> = units.iter().map(said).collect();
+    if let Some(cell) = units
+        .iter()
+        .find(|cell| number::number(cell).is_ok_and(|found| found.is_some()))
+    {
+        let problem = format!(
+            "`{}` is a number where `units_row = true` of the map expects units",
+            shown(cell)
+        );
+        return Err(wrong(before + 2, problem));
+    }
+    Ok(WrittenTable {
+        table,
+        units: written,
+    })
+}
+
+/// The cells of a line.
+fn cells_of(line: &str, delimiter: u8) -> Vec<String> {
+    let mut reader = csv::ReaderBuilder::new()
+        .delimiter(delimiter)
+        .has_headers(false)
+        .from_reader(line.as_bytes());
+    let mut record = csv::StringRecord::new();
+    match reader.read_record(&mut record) {
+        Ok(true) => record.iter().map(|cell| cell.trim().to_owned()).collect(),
+        _ => Vec::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str, form: &TextForm) -> Result<WrittenTable, String> {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("table.csv");
+        std::fs::write(&path, text).expect("written");
+        CsvTable::read_written(&path, form).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn comments_skipped_lines_units_and_separators_are_no_rows_and_lines_keep_their_numbers() {
+        for (text, line) in [
+            ("# load cell\n# lab 3\nfile;fz\na;1\n# pause\nb;2\n", 4),
+            ("file,fz\n-,[mN]\na,1\nb,2\n", 3),
+            ("sep=;\nfile;fz\na;1\nb;2\n", 3),
+            ("Gauge 7\nserial 12\n\nfile,fz\na,1\nb,2\n", 5),
+            ("\"# note, with a comma\"\nfile,fz\n\"a\",1\n\"b\",2\n", 3),
+        ] {
+            let form = TextForm::guessed(text);
+            let found = read(text, &form).unwrap_or_else(|problem| panic!("{text}: {problem}"));
+            assert_eq!(found.table.names(), ["file", "fz"], "{text}");
+            assert_eq!(
+                found.table.text("file").expect("a column"),
+                ["a", "b"],
+                "{text}"
+            );
+            assert_eq!(found.table.place(0, 0).line, Some(line), "{text}");
+            if form.has_units {
+                assert_eq!(found.units, [None, Some("mN".to_owned())]);
+            }
+        }
+    }
+
+    #[test]
+    fn a_table_that_is_read_as_it_lies_names_the_key_that_reads_it() {
+        let plain = TextForm::new(true);
+        for (text, key) in [
+            ("# load cell\nfile,fz\na,1\nb,2\n", "comment = \"#\""),
+            ("Gauge 7\nserial 12\nfile,fz\na,1\nb,2\n", "skip_lines = 2"),
+        ] {
+            let problem = read(text, &plain).err().unwrap_or_default();
+            assert!(problem.contains(key), "{problem}");
+        }
+        assert!(
+            read("a,b\n1,2\n3\n", &plain).is_err_and(|problem| !problem.contains("skip_lines"))
+        );
+    }
+
+    #[test]
+    fn commas_for_points_and_groups_of_digits_are_converted_or_refused() {
+        let form = |decimal: char, thousands: Option<&str>| TextForm {
+            decimal,
+            thousands: thousands.map(str::to_owned),
+            ..TextForm::new(true)
+        };
+        let german = form(',', Some("."));
+        for (cell, expected) in [
+            ("1.333", "1333"),
+            ("1.234.567,5", "1234567.5"),
+            ("-12,25", "-12.25"),
+            ("756", "756"),
+            ("1,5e-3", "1.5e-3"),
+        ] {
+            assert_eq!(
+                german.converted(cell),
+                Ok(Some(expected.to_owned())),
+                "{cell}"
+            );
+        }
+        for cell in ["1.33", "1.2345", "1,2,3", "1333.000"] {
+            assert!(german.converted(cell).is_err(), "{cell}");
+        }
+        assert_eq!(german.converted("img/00.png"), Ok(None));
+        assert_eq!(form('.', Some("")).converted("1.333"), Ok(None));
+        assert_eq!(
+            form('.', Some("'")).converted("1'333.5"),
+            Ok(Some("1333.5".to_owned()))
+        );
+    }
+
+    #[test]
+    fn the_form_of_a_spreadsheet_is_guessed_by_its_cells() {
+        let keys = |text: &str| TextForm::guessed(text).keys();
+        assert_eq!(keys("a;b\n1,5;2\n2,5;3\n"), ", decimal = \",\"");
+        assert_eq!(
+            keys("a;b\n1.500,5;2\n2,5;3\n"),
+            ", decimal = \",\", thousands = \".\""
+        );
+        assert_eq!(keys("a,b\n1.5,2\n2.5,3\n"), "");
+        assert_eq!(keys("a;b\n1.333;2\n2.500;3\n"), "");
+        assert_eq!(keys("sep=;\na;b\n1;2\n2;3\n"), "");
+        assert_eq!(keys("t [s],f\ns,N\n0.1,2\n0.2,3\n"), ", units_row = true");
+        assert_eq!(keys("name,kind\nm,s\nx,y\n"), "");
+    }
+}

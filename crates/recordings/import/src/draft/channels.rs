@@ -1,0 +1,162 @@
+//! Lines of `[columns]`: for each channel the surest candidate, the others behind it.
+
+use std::fmt::Write;
+
+use super::roles::candidate::{Candidate, Reason};
+
+/// Candidate as a map names it.
+pub(super) struct Offered<'t> {
+    pub(super) name: &'t str,
+    pub(super) candidate: &'t Candidate,
+    /// Whether it stands in the main table.
+    pub(super) is_own: bool,
+}
+
+impl Offered<'_> {
+    fn from(&self) -> String {
+        format!("{:?}", format!("{}{}", self.name, self.candidate.index))
+    }
+
+    fn unit(&self) -> &'static str {
+        self.candidate.unit.map_or("?", |(unit, _)| unit)
+    }
+
+    /// What makes one candidate surer than another; the least is the surest.
+    fn rank(&self) -> (bool, Reason, bool, u32) {
+        (
+            self.candidate.open.is_some(),
+            self.candidate.reason,
+            !self.is_own,
+            self.place_in_pose(),
+        )
+    }
+
+    /// Of a pose as a list of lists, which of these it is: the place comes before the rotation.
+    fn place_in_pose(&self) -> u32 {
+        let is_place = self.candidate.channel.starts_with('P');
+        let last = self.name.rsplit('/').next().filter(|_| is_place);
+        last.and_then(|last| last.parse().ok()).unwrap_or_default()
+    }
+
+    fn line(&self) -> String {
+        let Candidate {
+            channel, reason, ..
+        } = self.candidate;
+        let unit = self.candidate.unit.map(|(_, source)| format!("; {source}"));
+        format!(
+            "{channel} = {{ from = {}, unit = {:?} }}   # {reason}{}",
+            self.from(),
+            self.unit(),
+            unit.unwrap_or_default()
+        )
+    }
+}
+
+/// The lines of all channels, in the order in which the columns name them. Two candidates of one rank leave a line open.
+pub(super) fn lines(offered: &[Offered<'_>]) -> String {
+    let mut channels: Vec<&str> = Vec::new();
+    for one in offered {
+        if !channels.contains(&one.candidate.channel) {
+            channels.push(one.candidate.channel);
+        }
+    }
+    let mut text = String::new();
+    for channel in channels {
+        let of_channel = offered
+            .iter()
+            .filter(|one| one.candidate.channel == channel);
+        let mut ranked: Vec<&Offered<'_>> = of_channel.collect();
+        ranked.sort_by_key(|one| one.rank());
+        let Some((first, others)) = ranked.split_first() else {
+            continue;
+        };
+        let alike: Vec<&&Offered<'_>> = others
+            .iter()
+            .take_while(|other| other.rank() == first.rank())
+            .collect();
+        match (&first.candidate.open, alike.as_slice()) {
+            (Some(why), _) => {
+                let _ = writeln!(
+                    text,
+                    "{channel} = {{ from = \"?\", unit = {:?} }}   # {} {why}",
+                    first.unit(),
+                    first.from()
+                );
+            }
+            (None, []) => text += &format!("{}\n", first.line()),
+            (None, alike) => {
+                let names: Vec<String> = std::iter::once(first)
+                    .chain(alike.iter().copied())
+                    .map(|one| one.from())
+                    .collect();
+                let unit = match alike.iter().all(|one| one.unit() == first.unit()) {
+                    true => first.unit(),
+                    false => "?",
+                };
+                let _ = writeln!(
+                    text,
+                    "{channel} = {{ from = \"?\", unit = {unit:?} }}   # {} fit alike by {}: name the one that was measured",
+                    names.join(", "),
+                    first.candidate.reason
+                );
+            }
+        }
+        for other in others.iter().skip(alike.len()) {
+            let _ = writeln!(text, "# or: {}", other.line());
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::draft::roles::candidate::Named;
+
+    fn drafted(names: &[&str]) -> String {
+        let candidates: Vec<Candidate> = names
+            .iter()
+            .filter_map(|name| Named::new(name).candidate(String::new())?.ok())
+            .collect();
+        let offered: Vec<Offered<'_>> = names
+            .iter()
+            .zip(&candidates)
+            .map(|(name, candidate)| Offered {
+                name,
+                candidate,
+                is_own: true,
+            })
+            .collect();
+        lines(&offered)
+    }
+
+    #[test]
+    fn the_name_of_the_channel_comes_before_its_name_with_a_unit_and_that_before_words() {
+        let text = drafted(&["force_z", "Fz_N", "Fz"]);
+        let first: Vec<&str> = text.lines().collect();
+        assert_eq!(
+            first[0],
+            "Fz = { from = \"Fz\", unit = \"?\" }   # its name"
+        );
+        assert!(first[1].starts_with("# or: Fz = { from = \"Fz_N\", unit = \"N\" }"));
+        assert!(first[2].starts_with("# or: Fz = { from = \"force_z\""));
+    }
+
+    #[test]
+    fn two_candidates_of_one_rank_leave_the_line_open_with_both_named() {
+        for names in [
+            ["fz_raw", "fz_filtered"],
+            ["left_fz", "right_fz"],
+            ["sensor1.force.z", "sensor2.force.z"],
+        ] {
+            let text = drafted(&names);
+            assert!(
+                text.starts_with("Fz = { from = \"?\", unit = \"?\" }"),
+                "{text}"
+            );
+            for name in names {
+                assert!(text.contains(&format!("{name:?}")), "{text}");
+            }
+        }
+    }
+}

@@ -1,0 +1,439 @@
+//! Channels that columns may be, ranked by how sure their names say so.
+
+use std::fmt;
+
+use taceva_core::Unit;
+
+use super::exclusion::{Exclusion, of_words};
+use super::words::words;
+use crate::unit_suffix::UnitSuffix;
+
+/// Column, or number in its cells, that may be a channel.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::draft) struct Candidate {
+    pub(in crate::draft) channel: &'static str,
+    /// Its place in the cell: nothing behind the name, or `[2]`.
+    pub(in crate::draft) index: String,
+    pub(in crate::draft) reason: Reason,
+    /// The unit that its name or its file says.
+    pub(in crate::draft) unit: Option<(&'static str, UnitSource)>,
+    /// Why nobody but the lab knows that it was measured.
+    pub(in crate::draft) open: Option<String>,
+}
+
+/// Why a column is taken for a channel, the surest first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(in crate::draft) enum Reason {
+    /// Its name is that of the channel.
+    Name,
+    /// Its name is that of the channel, with a unit.
+    NameWithUnit,
+    /// The words of its own name say quantity and axis.
+    Words,
+    /// These and other words do: `left_force_z`.
+    MoreWords,
+    /// The quantity stands in the name of what it is part of.
+    Parent,
+    /// A force without an axis, which is mostly what presses.
+    NoAxis,
+    /// Its place among the numbers of a wrench or a place.
+    Position,
+    /// An axis alone, or the number of columns.
+    Guess,
+}
+
+/// Where a unit is said.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::draft) enum UnitSource {
+    Name,
+    File,
+}
+
+impl fmt::Display for Reason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Reason::Name => "its name",
+            Reason::NameWithUnit => "its name and unit",
+            Reason::Words => "the words of its name",
+            Reason::MoreWords => "some words of its name",
+            Reason::Parent => "the name of what it is part of",
+            Reason::NoAxis => "a guess: a force without an axis is mostly what presses",
+            Reason::Position => "a guess: its place among these numbers",
+            Reason::Guess => "a guess",
+        })
+    }
+}
+
+impl fmt::Display for UnitSource {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            UnitSource::Name => "unit by its name",
+            UnitSource::File => "unit by what the file says",
+        })
+    }
+}
+
+/// The unit that a channel is kept in.
+pub(in crate::draft) fn kept_unit(channel: &str) -> Option<Unit> {
+    match channel.as_bytes().first()? {
+        b'F' => Some(Unit::Newton),
+        b'T' => Some(Unit::NewtonMillimetre),
+        b'P' => Some(Unit::Millimetre),
+        _ => None,
+    }
+}
+
+/// What is measured along an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Quantity {
+    Force,
+    Torque,
+    Place,
+}
+
+impl Quantity {
+    const ALL: [Quantity; 3] = [Quantity::Force, Quantity::Torque, Quantity::Place];
+
+    /// The channels along x, y and z.
+    pub(super) fn channels(self) -> [&'static str; 3] {
+        match self {
+            Quantity::Force => ["Fx", "Fy", "Fz"],
+            Quantity::Torque => ["Tx", "Ty", "Tz"],
+            Quantity::Place => ["Px", "Py", "Pz"],
+        }
+    }
+
+    /// Words of which one says it.
+    fn words(self) -> &'static [&'static str] {
+        match self {
+            Quantity::Force => &["force", "forces", "f", "load", "loadcell"],
+            Quantity::Torque => &["torque", "torques", "moment", "moments", "tau"],
+            Quantity::Place => &[
+                "pos",
+                "position",
+                "positions",
+                "pose",
+                "tcp",
+                "p",
+                "translation",
+                "xyz",
+                "location",
+                "contact",
+                "point",
+                "cop",
+                "indenter",
+                "probe",
+                "stage",
+                "robot",
+                "ee",
+                "eef",
+                "tip",
+                "tool",
+                "depth",
+            ],
+        }
+    }
+
+    fn of(words: &[String]) -> Option<Quantity> {
+        // A torque may be called a force's: `ft_torque`, `force_torque`.
+        let has = |quantity: &Quantity| {
+            let known = quantity.words();
+            words.iter().any(|word| known.contains(&word.as_str()))
+        };
+        [Quantity::Torque, Quantity::Force, Quantity::Place]
+            .into_iter()
+            .find(has)
+    }
+}
+
+/// Words that say nothing of which of several numbers is meant.
+const NEUTRAL: [&str; 22] = [
+    "sensor",
+    "meas",
+    "measured",
+    "actual",
+    "act",
+    "gt",
+    "truth",
+    "true",
+    "ft",
+    "fts",
+    "wrench",
+    "ati",
+    "contact",
+    "normal",
+    "end",
+    "effector",
+    "of",
+    "in",
+    "observation",
+    "data",
+    "label",
+    "applied",
+];
+
+/// What a name says of a number.
+pub(in crate::draft) struct Named {
+    /// Words of the last part of the name, without its unit.
+    own: Vec<String>,
+    /// Words of the parts before it, the nearest last.
+    parents: Vec<String>,
+    /// Whether numbers stand among the words: `force2`.
+    has_digits: bool,
+    suffix: Option<UnitSuffix>,
+}
+
+/// An axis, and the quantity that is written with it: `fz`, `posx`.
+fn axis_of(word: &str) -> Option<(Option<Quantity>, usize)> {
+    let (before, axis) = word.split_at_checked(word.len().checked_sub(1)?)?;
+    let axis = ["x", "y", "z"].iter().position(|known| *known == axis)?;
+    match before {
+        "" => Some((None, axis)),
+        "t" | "m" => Some((Some(Quantity::Torque), axis)),
+        before => {
+            let known = |quantity: &Quantity| quantity.words().contains(&before);
+            let found = Quantity::ALL.into_iter().find(known)?;
+            Some((Some(found), axis))
+        }
+    }
+}
+
+impl Named {
+    pub(in crate::draft) fn new(name: &str) -> Named {
+        let suffix = UnitSuffix::of(name);
+        let base = suffix.as_ref().map_or(name, |suffix| &suffix.base);
+        let mut parts: Vec<&str> = base
+            .split(['.', '/', ':'])
+            .filter(|part| !part.trim().is_empty())
+            .collect();
+        // A position alone is no name: `/ft/0`.
+        while let [.., _, last] = parts.as_slice()
+            && last.bytes().all(|byte| byte.is_ascii_digit())
+        {
+            parts.pop();
+        }
+        let own = parts.pop().unwrap_or_default();
+        Named {
+            has_digits: own.bytes().any(|byte| byte.is_ascii_digit()),
+            own: words(own),
+            parents: parts.into_iter().flat_map(words).collect(),
+            suffix,
+        }
+    }
+
+    /// A number that is called `element` within the column `column`.
+    pub(super) fn within(column: &str, element: &str) -> Named {
+        let mut named = Named::new(element);
+        let of_column = Named::new(column);
+        named.parents = [of_column.parents, of_column.own, named.parents].concat();
+        named.suffix = named.suffix.or(of_column.suffix);
+        named
+    }
+
+    fn axis(&self) -> Option<(Option<Quantity>, usize)> {
+        self.own.iter().find_map(|word| axis_of(word))
+    }
+
+    /// Why the name is that of no channel.
+    pub(super) fn exclusion(&self) -> Option<Exclusion> {
+        let has_axis = self.axis().is_some();
+        // A single letter may be the name of a sensor.
+        let parents = self.parents.iter().filter(|word| word.len() > 1);
+        let parents: Vec<String> = parents.cloned().collect();
+        of_words(&self.own, has_axis).or_else(|| of_words(&parents, true))
+    }
+
+    /// The words of a column whose cells hold several numbers: its own, or those before it where they say nothing.
+    pub(super) fn quantity_of_several(&self) -> Vec<&str> {
+        let own = self.own.iter().chain(&self.parents);
+        own.map(String::as_str).collect()
+    }
+
+    /// The channel that the number is by its name, whatever its name forbids.
+    pub(super) fn channel(&self) -> Option<(&'static str, Reason)> {
+        let own = Quantity::of(&self.own);
+        let parent = || {
+            let mut parents = self.parents.iter().rev();
+            parents.find_map(|word| Quantity::of(std::slice::from_ref(word)))
+        };
+        let Some((written, axis)) = self.axis() else {
+            return self.without_axis(own);
+        };
+        let is_other = |word: &&String| {
+            axis_of(word).is_none()
+                && !NEUTRAL.contains(&word.as_str())
+                && Quantity::of(std::slice::from_ref(*word)).is_none()
+        };
+        let is_plain = !self.own.iter().any(|word| is_other(&word)) && !self.has_digits;
+        let of_words = match is_plain {
+            true => Reason::Words,
+            false => Reason::MoreWords,
+        };
+        let (quantity, reason) = match (written, own) {
+            (Some(quantity), _) if self.own.len() == 1 && !self.has_digits => (
+                quantity,
+                match self.suffix {
+                    Some(_) => Reason::NameWithUnit,
+                    None => Reason::Name,
+                },
+            ),
+            (Some(quantity), _) | (None, Some(quantity)) => (quantity, of_words),
+            (None, None) => match (parent(), self.is_in(Unit::Millimetre)) {
+                (Some(quantity), _) => (quantity, Reason::Parent),
+                (None, true) => (Quantity::Place, of_words),
+                (None, false) if self.own.len() == 1 && self.parents.is_empty() => {
+                    (Quantity::Place, Reason::Guess)
+                }
+                (None, false) => return None,
+            },
+        };
+        Some((quantity.channels()[axis], reason))
+    }
+
+    /// Of a name without an axis: the force that presses, the depth.
+    fn without_axis(&self, own: Option<Quantity>) -> Option<(&'static str, Reason)> {
+        let is_letter = |word: &&String| word.len() == 1;
+        let is_whole = self.own.len() == 1 && !self.has_digits && self.parents.is_empty();
+        match own {
+            Some(Quantity::Force) if is_whole || !self.own.iter().all(|word| is_letter(&word)) => {
+                Some(("Fz", Reason::NoAxis))
+            }
+            _ => {
+                let known = [
+                    "depth",
+                    "indentation",
+                    "indent",
+                    "penetration",
+                    "press",
+                    "pressing",
+                    "contact",
+                    "z",
+                ];
+                let is_depth = self.own.iter().all(|word| known.contains(&word.as_str()))
+                    && self
+                        .own
+                        .iter()
+                        .any(|word| word == "depth" || word.starts_with("indent"));
+                is_depth.then_some(("Pz", Reason::MoreWords))
+            }
+        }
+    }
+
+    fn is_in(&self, quantity: Unit) -> bool {
+        let suffix = self.suffix.as_ref();
+        suffix.is_some_and(|suffix| suffix.of_quantity(quantity).is_some())
+    }
+
+    /// The candidate that the number is at `index` of its cell; `Err` says why it is none although its name begins like one.
+    pub(in crate::draft) fn candidate(
+        &self,
+        index: String,
+    ) -> Option<Result<Candidate, Exclusion>> {
+        let (channel, reason) = self.channel()?;
+        if let Some(exclusion) = self.exclusion() {
+            return Some(Err(exclusion));
+        }
+        Some(self.as_channel(channel, index, reason))
+    }
+
+    /// The candidate for `channel`, in the unit that the name says.
+    pub(super) fn as_channel(
+        &self,
+        channel: &'static str,
+        index: String,
+        reason: Reason,
+    ) -> Result<Candidate, Exclusion> {
+        let unit = match (&self.suffix, kept_unit(channel)) {
+            (Some(suffix), Some(kept)) => match suffix.of_quantity(kept) {
+                Some(unit) => Some((unit.symbol(), UnitSource::Name)),
+                // Counts and volts are made forces by a scale.
+                None if suffix.is_unscaled() => None,
+                // A wrench in N holds torques too.
+                None if index.is_empty() => {
+                    return Err(Exclusion::Unit(suffix.written().to_owned()));
+                }
+                None => None,
+            },
+            _ => None,
+        };
+        Ok(Candidate {
+            channel,
+            index,
+            reason,
+            unit,
+            open: None,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn channels_are_known_by_the_words_of_a_name_and_ranked() {
+        for (name, expected) in [
+            ("Fx", Some(("Fx", Reason::Name))),
+            ("fz", Some(("Fz", Reason::Name))),
+            ("Fz_mN", Some(("Fz", Reason::NameWithUnit))),
+            ("Fz (mN)", Some(("Fz", Reason::NameWithUnit))),
+            ("force_y", Some(("Fy", Reason::Words))),
+            ("ForceX", Some(("Fx", Reason::Words))),
+            ("Force X (N)", Some(("Fx", Reason::Words))),
+            ("fz_meas", Some(("Fz", Reason::Words))),
+            ("fz_raw", Some(("Fz", Reason::MoreWords))),
+            ("left_force_z", Some(("Fz", Reason::MoreWords))),
+            ("force2_z", Some(("Fz", Reason::MoreWords))),
+            ("ft.wrench.torque.z", Some(("Tz", Reason::Parent))),
+            ("wrench.force.x", Some(("Fx", Reason::Parent))),
+            ("/ft/force/z", Some(("Fz", Reason::Parent))),
+            ("pose.x", Some(("Px", Reason::Parent))),
+            ("x_m", Some(("Px", Reason::Words))),
+            ("x", Some(("Px", Reason::Guess))),
+            ("contact_x_mm", Some(("Px", Reason::Words))),
+            ("Depth [mm]", Some(("Pz", Reason::MoreWords))),
+            ("load_g", Some(("Fz", Reason::NoAxis))),
+            ("normal_force", Some(("Fz", Reason::NoAxis))),
+            ("Mx", Some(("Tx", Reason::Name))),
+            ("F", Some(("Fz", Reason::NoAxis))),
+            ("F1", None),
+            ("m", None),
+            ("temperature", None),
+            ("note", None),
+            ("foo_x", None),
+            ("grid.x", None),
+        ] {
+            assert_eq!(Named::new(name).channel(), expected, "{name}");
+        }
+    }
+
+    #[test]
+    fn a_unit_of_another_quantity_makes_no_channel_and_counts_leave_the_unit_open() {
+        let of = |name: &str| Named::new(name).candidate(String::new());
+        assert!(matches!(of("pos_x_deg"), Some(Err(Exclusion::Unit(_)))));
+        assert!(matches!(of("x_rad"), None | Some(Err(_))));
+        let counts = of("resultant_fx_lsb").expect("a name of a force");
+        assert_eq!(counts.expect("a channel").unit, None);
+        let named = of("Tz (lbf-in)").expect("a torque").expect("a channel");
+        assert_eq!(named.unit, Some(("lbf-in", UnitSource::Name)));
+        let named = of("joint_torque_x_nm");
+        assert!(matches!(named, Some(Err(Exclusion::Word { .. }))));
+    }
+
+    #[test]
+    fn the_words_of_the_number_itself_come_before_those_of_what_it_is_part_of() {
+        let of = |column: &str, element: &str| {
+            let named = Named::within(column, element);
+            named.candidate("[0]".to_owned()).and_then(Result::ok)
+        };
+        let found = |column: &str, element: &str| of(column, element).map(|found| found.channel);
+        assert_eq!(found("observation.force", "x"), Some("Fx"));
+        assert_eq!(found("observation.force", "torque_x"), Some("Tx"));
+        assert_eq!(found("observation.state", "Fz"), Some("Fz"));
+        assert_eq!(found("observation.state", "joint_1.pos"), None);
+        assert_eq!(found("observation.acceleration", "x"), None);
+        assert_eq!(found("observation.velocity", "z"), None);
+        let unit = of("state_N", "Fz_mN").and_then(|found| found.unit);
+        assert_eq!(unit, Some(("mN", UnitSource::Name)));
+    }
+}

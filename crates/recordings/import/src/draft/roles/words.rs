@@ -1,0 +1,21 @@
+//! Words of the names of columns.
+
+/// The words of a name, in lower case: `wrench.force.x`, `Fx_mN`, `ForceX`.
+pub(in crate::draft) fn words(name: &str) -> Vec<String> {
+    let mut words: Vec<String> = vec![String::new()];
+    let mut before = ' ';
+    for letter in name.chars() {
+        let is_new = letter.is_ascii_uppercase() && before.is_ascii_lowercase();
+        if is_new || !letter.is_ascii_alphabetic() {
+            words.push(String::new());
+        }
+        if letter.is_ascii_alphabetic()
+            && let Some(last) = words.last_mut()
+        {
+            last.push(letter.to_ascii_lowercase());
+        }
+        before = letter;
+    }
+    words.retain(|word| !word.is_empty());
+    words
+}

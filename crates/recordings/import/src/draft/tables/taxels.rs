@@ -1,0 +1,350 @@
+//! Taxels in the columns of a table: cells of many numbers, or runs of columns that are counted through.
+
+use super::{SeenColumn, SeenTable};
+use crate::csv_table::number;
+use crate::draft::roles::{Role, words};
+use crate::unit_suffix::UnitSuffix;
+
+/// The fewest and the most numbers of a row that are taken for taxels.
+const LEAST: usize = 8;
+const MOST: usize = 4_096;
+/// Columns that are counted through are taxels from so many on, whatever their number.
+const LEAST_RUN: usize = 8;
+
+/// Numbers of taxels as a map writes them.
+#[derive(Debug, PartialEq)]
+pub(in crate::draft) struct Taxels {
+    /// What stands behind `from = `.
+    pub(in crate::draft) from: String,
+    /// The lengths of the lists in a cell, or how many columns there are.
+    pub(in crate::draft) shape: Vec<usize>,
+    /// The unit that the name says.
+    pub(in crate::draft) unit: Option<&'static str>,
+    /// Numbers that seem to stand for "nothing measured", and why.
+    pub(in crate::draft) placeholders: Vec<(f64, String)>,
+    /// Words of its name, by which one of several is preferred.
+    pub(in crate::draft) is_named: bool,
+}
+
+/// Words of columns of taxels.
+const WORDS: [&str; 14] = [
+    "taxel",
+    "taxels",
+    "tactile",
+    "skin",
+    "pressure",
+    "pressures",
+    "cells",
+    "sensel",
+    "sensels",
+    "forces",
+    "shear",
+    "pts",
+    "tac",
+    "array",
+];
+
+/// The lengths of the lists in the cells of a column, if they hold many numbers in each row alike.
+pub(super) fn taxels_of(role: &Role, cells: &[String]) -> Option<Vec<usize>> {
+    let is_open = matches!(role, Role::Numbers(_) | Role::Other | Role::Channels(_));
+    let first = cells.iter().find(|cell| !cell.is_empty())?;
+    if !is_open || !first.contains(['[', ',', ' ', ';']) {
+        return None;
+    }
+    let shape = shape_of(first)?;
+    let count: usize = shape.iter().product();
+    let is_many = (LEAST..=MOST).contains(&count) && shape.len() <= 3;
+    let mut filled = cells.iter().filter(|cell| !cell.is_empty());
+    (is_many && filled.all(|cell| shape_of(cell).as_ref() == Some(&shape))).then_some(shape)
+}
+
+/// The lengths of the lists in a cell of numbers, from the outermost one.
+fn shape_of(cell: &str) -> Option<Vec<usize>> {
+    let separators = |letter: char| letter.is_whitespace() || "[](),;".contains(letter);
+    let mut count = 0;
+    for part in cell.split(separators).filter(|part| !part.is_empty()) {
+        number::number(part).ok().flatten()?;
+        count += 1;
+    }
+    let depth = cell
+        .trim_start()
+        .bytes()
+        .take_while(|byte| matches!(byte, b'[' | b'(' | b' '))
+        .filter(|byte| *byte != b' ')
+        .count();
+    // Lists at the second level are as many as brackets that open there.
+    let mut opened = vec![0_usize; depth.max(1) + 1];
+    let mut level = 0_usize;
+    for byte in cell.bytes() {
+        match byte {
+            b'[' | b'(' => {
+                level += 1;
+                *opened.get_mut(level)? += 1;
+            }
+            b']' | b')' => level = level.checked_sub(1)?,
+            _ => {}
+        }
+    }
+    let mut shape = Vec::new();
+    let mut lists = 1;
+    for open in opened.iter().skip(2) {
+        shape.push(open.checked_div(lists)?);
+        lists = *open;
+    }
+    shape.push(usize::checked_div(count, lists)?);
+    (shape.iter().product::<usize>() == count && level == 0).then_some(shape)
+}
+
+impl SeenTable<'_> {
+    /// How many numbers a row has, if it is an array of many and of nothing else: those of taxels.
+    pub(in crate::draft) fn taxels(&self) -> Option<Taxels> {
+        let [column] = self.columns.as_slice() else {
+            return None;
+        };
+        let shape = column.taxels.clone()?;
+        (self.is_single_array && self.pictures.is_empty()).then(|| of_column(column, shape))
+    }
+
+    /// The taxels that its columns are, the likeliest first.
+    pub(in crate::draft) fn own_taxels(&self) -> Vec<Taxels> {
+        let of_cells = self.columns.iter().filter_map(|column| {
+            let shape = column.taxels.clone()?;
+            (!matches!(column.role, Role::Channels(_))).then(|| of_column(column, shape))
+        });
+        let mut found: Vec<Taxels> = of_cells.chain(self.runs()).collect();
+        found.sort_by_key(|taxels| (!taxels.is_named, std::cmp::Reverse(taxels.count())));
+        found
+    }
+
+    /// Runs of columns of numbers that are counted through: `c0`, `c1`, …
+    fn runs(&self) -> Vec<Taxels> {
+        let is_number = |column: &&SeenColumn| column.role == Role::Number;
+        let counted = |column: &SeenColumn| -> Option<(String, u32)> {
+            let digits = column.name.bytes().rev().take_while(u8::is_ascii_digit);
+            let at = column.name.len() - digits.count();
+            let number = column.name[at..].parse().ok()?;
+            Some((column.name[..at].to_owned(), number))
+        };
+        let numbers: Vec<&SeenColumn> = self.columns.iter().filter(is_number).collect();
+        let mut runs: Vec<Vec<&SeenColumn>> = Vec::new();
+        for column in &numbers {
+            let follows = runs.last().and_then(|run| {
+                let (stem, number) = counted(run.last()?)?;
+                Some(counted(column)? == (stem, number + 1))
+            });
+            match (follows, runs.last_mut()) {
+                (Some(true), Some(run)) => run.push(column),
+                _ => runs.push(vec![column]),
+            }
+        }
+        let is_padded = |column: &SeenColumn| {
+            let digits = column
+                .name
+                .trim_start_matches(|letter: char| !letter.is_ascii_digit());
+            digits.len() > 1 && digits.starts_with('0')
+        };
+        let of_run = |run: &Vec<&SeenColumn>| {
+            let [first, .., last] = run.as_slice() else {
+                return None;
+            };
+            let has_header = first.name.parse::<usize>().is_err();
+            let least = if has_header { LEAST_RUN } else { LEAST };
+            let is_taxels = (least..=MOST).contains(&run.len())
+                && (has_header || (run.len().is_multiple_of(3) && self.channels() == 0));
+            let (_, number) = counted(last)?;
+            let from = match run.iter().any(|column| is_padded(column)) {
+                true => listed(run),
+                false => format!("\"{}..{number}\"", first.name),
+            };
+            is_taxels.then(|| of_columns(run, from))
+        };
+        let mut found: Vec<Taxels> = runs.iter().filter_map(of_run).collect();
+        // Columns of names that say nothing, and of nothing else.
+        let is_one = self
+            .columns
+            .iter()
+            .skip_while(|column| !is_number(column))
+            .take_while(is_number)
+            .count()
+            == numbers.len();
+        let is_nameless = is_one
+            && numbers.len().is_multiple_of(3)
+            && (LEAST..=MOST).contains(&numbers.len())
+            && self.channels() == 0
+            && self.pictures.is_empty();
+        if found.is_empty() && is_nameless {
+            found.push(of_columns(&numbers, listed(&numbers)));
+        }
+        found
+    }
+}
+
+impl Taxels {
+    /// How many numbers a row has.
+    pub(in crate::draft) fn count(&self) -> usize {
+        self.shape.iter().product()
+    }
+
+    /// Whether one of its columns is the one called `name`.
+    pub(in crate::draft) fn holds(&self, name: &str) -> bool {
+        let quoted = format!("{name:?}");
+        if self.from == quoted
+            || self.from.contains(&format!("{quoted},"))
+            || self.from.contains(&format!("{quoted}]"))
+        {
+            return true;
+        }
+        let run = self.from.trim_matches('"').split_once("..");
+        run.is_some_and(|(first, last)| {
+            let stem = first.trim_end_matches(|letter: char| letter.is_ascii_digit());
+            let number = |text: &str| text.parse::<u32>().ok();
+            let bounds = (number(&first[stem.len()..]), number(last));
+            let own = name.strip_prefix(stem).and_then(number);
+            matches!((bounds, own), ((Some(first), Some(last)), Some(own)) if (first..=last).contains(&own))
+        })
+    }
+}
+
+fn listed(columns: &[&SeenColumn]) -> String {
+    let names: Vec<String> = columns
+        .iter()
+        .map(|column| format!("{:?}", column.name))
+        .collect();
+    format!("[{}]", names.join(", "))
+}
+
+fn is_named(name: &str) -> bool {
+    words(name)
+        .iter()
+        .any(|word| WORDS.contains(&word.as_str()))
+}
+
+fn unit_of(name: &str) -> Option<&'static str> {
+    let suffix = UnitSuffix::of(name)?;
+    suffix.any_unit().map(|unit| unit.symbol())
+}
+
+fn of_column(column: &SeenColumn, shape: Vec<usize>) -> Taxels {
+    Taxels {
+        from: format!("{:?}", column.name),
+        shape,
+        unit: unit_of(&column.name),
+        placeholders: Vec::new(),
+        is_named: is_named(&column.name),
+    }
+}
+
+fn of_columns(columns: &[&SeenColumn], from: String) -> Taxels {
+    let first = columns.first();
+    Taxels {
+        from,
+        shape: vec![columns.len()],
+        unit: first.and_then(|column| unit_of(&column.name)),
+        placeholders: placeholders(columns),
+        is_named: first.is_some_and(|column| is_named(&column.name)),
+    }
+}
+
+/// Numbers far from all others that come often in a column: codes for "nothing measured".
+fn placeholders(columns: &[&SeenColumn]) -> Vec<(f64, String)> {
+    let mut found: Vec<(f64, String)> = Vec::new();
+    for column in columns {
+        let numbers = column.cells.iter();
+        let mut numbers: Vec<f64> = numbers
+            .filter_map(|cell| number::number(cell).ok().flatten())
+            .collect();
+        numbers.sort_unstable_by(f64::total_cmp);
+        let rows = numbers.len();
+        let ends = [numbers.first().copied(), numbers.last().copied()];
+        for (code, is_least) in ends.into_iter().zip([true, false]) {
+            let Some(code) = code else {
+                continue;
+            };
+            let count = numbers
+                .iter()
+                .filter(|number| number.total_cmp(&code).is_eq())
+                .count();
+            let others: Vec<f64> = numbers
+                .iter()
+                .copied()
+                .filter(|number| number.total_cmp(&code).is_ne())
+                .collect();
+            let (Some(least), Some(greatest)) = (others.first(), others.last()) else {
+                continue;
+            };
+            let nearest = if is_least { *least } else { *greatest };
+            let is_code = match is_least {
+                true => code < 0.0 && nearest >= 0.0,
+                false => [
+                    255.0, 1_023.0, 4_095.0, 32_767.0, 65_535.0, 99_999.0, 9_999.0,
+                ]
+                .contains(&code),
+            };
+            let gap = (code - nearest).abs();
+            let is_far = gap > 0.25 * (greatest - least) || (is_least && gap >= 2.0);
+            let is_frequent = count >= 3 && count * 50 >= rows;
+            let is_known = found
+                .iter()
+                .any(|(known, _)| known.total_cmp(&code).is_eq());
+            if is_code && is_far && is_frequent && !is_known {
+                let reason = format!(
+                    "{:?} is {code} in {count} of {rows} rows, and the next number is {nearest}",
+                    column.name
+                );
+                found.push((code, reason));
+            }
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_shape_of_a_cell_is_that_of_its_lists() {
+        for (cell, shape) in [
+            ("[1, 2, 3, 4]", Some(vec![4])),
+            ("1 2 3", Some(vec![3])),
+            ("[[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]]", Some(vec![3, 2])),
+            ("[[[1],[2]],[[3],[4]]]", Some(vec![2, 2, 1])),
+            ("[[1, 2], [3]]", None),
+            ("[a, b]", None),
+            ("[[1, 2], [3, 4]", None),
+        ] {
+            assert_eq!(shape_of(cell), shape, "{cell}");
+        }
+    }
+
+    fn column(name: &str, numbers: &[f64]) -> SeenColumn {
+        SeenColumn {
+            name: name.to_owned(),
+            role: Role::Number,
+            cells: numbers.iter().map(f64::to_string).collect(),
+            taxels: None,
+            empty: 0,
+        }
+    }
+
+    #[test]
+    fn a_number_far_from_the_others_that_comes_often_is_a_code_for_nothing() {
+        let with = |code: f64, least: f64| {
+            let numbers: Vec<f64> = (0..100)
+                .map(|row| match row % 10 {
+                    0 => code,
+                    row => least + f64::from(row * 7),
+                })
+                .collect();
+            let column = column("c5", &numbers);
+            let found = placeholders(&[&column]);
+            found.first().map(|(number, _)| *number)
+        };
+        assert_eq!(with(-1.0, 8.0), Some(-1.0));
+        assert_eq!(with(65_535.0, 8.0), Some(65_535.0));
+        // Numbers around 0, and one that is greater by little.
+        assert_eq!(with(-1.0, -40.0), None);
+        assert_eq!(with(255.0, 190.0), None);
+        assert_eq!(with(70.0, 8.0), None);
+    }
+}

@@ -1,0 +1,91 @@
+//! Warnings of an import: what a map says may be, and is seldom meant.
+
+use std::fmt;
+
+/// Warning of an import, with a code that does not change.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum ImportWarning {
+    /// Several channels are read from one column, with the same sign and scale.
+    ColumnTwice {
+        /// The column, as the map names it.
+        column: String,
+        /// The channels.
+        channels: Vec<String>,
+    },
+    /// The numbers of a column look like whole ones with a point between groups of three digits.
+    GroupedDigits {
+        /// The column, as the map names it.
+        column: String,
+        /// One of its cells.
+        example: String,
+        /// How many cells have such a point.
+        cells: u64,
+    },
+    /// Times as text say no time zone, and the map states none for a clock that counts from 1970.
+    ZoneUnstated {
+        /// The column, as the map names it.
+        column: String,
+    },
+    /// Times of day pass midnight: later rows are taken for those of the next day.
+    Midnight {
+        /// The column, as the map names it.
+        column: String,
+        /// How often.
+        days: u64,
+    },
+}
+
+impl ImportWarning {
+    /// The code, for scripts: `column-twice`, `grouped-digits`, `zone-unstated` or `midnight`.
+    ///
+    /// ```
+    /// use taceva_import::ImportWarning;
+    ///
+    /// let warning = ImportWarning::ZoneUnstated { column: "stamp".to_owned() };
+    /// assert_eq!(warning.code(), "zone-unstated");
+    /// assert!(warning.to_string().contains("`zone = "));
+    /// ```
+    pub fn code(&self) -> &'static str {
+        match self {
+            ImportWarning::ColumnTwice { .. } => "column-twice",
+            ImportWarning::GroupedDigits { .. } => "grouped-digits",
+            ImportWarning::ZoneUnstated { .. } => "zone-unstated",
+            ImportWarning::Midnight { .. } => "midnight",
+        }
+    }
+}
+
+impl fmt::Display for ImportWarning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: ", self.code())?;
+        match self {
+            ImportWarning::ColumnTwice { column, channels } => write!(
+                f,
+                "`{}` is read as {}: correct `from` of all but one, or delete the others",
+                taceva_core::shown(column),
+                channels.join(" and ")
+            ),
+            ImportWarning::GroupedDigits {
+                column,
+                example,
+                cells,
+            } => write!(
+                f,
+                "`{}` has three digits behind each point in {cells} cells, as `{example}`, and no whole number above 999: write `thousands = \".\"` in the \
+                 table of the map if points group digits, `thousands = \"\"` if not",
+                taceva_core::shown(column)
+            ),
+            ImportWarning::ZoneUnstated { column } => write!(
+                f,
+                "`{}` says no time zone: its times are of the clock that was read; `zone = \"+00:00\"` in [time] states how far that clock is before UTC",
+                taceva_core::shown(column)
+            ),
+            ImportWarning::Midnight { column, days } => write!(
+                f,
+                "`{}` holds times of day that pass midnight {days} times: later rows are taken for those of the next day",
+                taceva_core::shown(column)
+            ),
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! Folders on which a wrong number would go in, or a good file would be refused: each is right, refused with the remedy, or warned of.
+
+mod drafts;
+mod numbers;
+mod taxels;
+mod text_forms;
+mod times;
+mod units;
+
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+use taceva_core::SilentProgress;
+use taceva_dataset::Dataset;
+use taceva_import::{ImportMap, ImportPlan, ImportSummary, ImportWarning, MapDraft};
+
+const FACTS: &str = "[sensor]\nmodel = \"drawn gel\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = \"unknown\"\n";
+const NO_TIME: &str = "[time]\nclock = \"unknown\"\n";
+
+/// A drawn folder of `tests/cases`.
+fn case(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/cases")
+        .join(name)
+}
+
+/// The map of a drawn folder.
+fn map_of(name: &str) -> String {
+    std::fs::read_to_string(case(name).join("map.toml")).expect("it is there")
+}
+
+/// A folder with files of these paths and texts.
+fn lab(files: &[(&str, &str)]) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (path, text) in files {
+        let path = folder.path().join(path);
+        std::fs::create_dir_all(path.parent().expect("inside")).expect("made");
+        std::fs::write(path, text).expect("written");
+    }
+    folder
+}
+
+/// The plan of an import by a whole map.
+fn planned(folder: &Path, map: &str) -> Result<ImportPlan, String> {
+    let map = ImportMap::parse("map.toml".as_ref(), map).map_err(|error| error.to_string())?;
+    ImportPlan::new(folder, &map).map_err(|error| error.to_string())
+}
+
+/// The plan of an import by a map without its first and its last lines.
+fn planned_with(folder: &Path, map: &str) -> Result<ImportPlan, String> {
+    planned(folder, &format!("map_version = 2\n{map}{FACTS}"))
+}
+
+fn summary(folder: &Path, map: &str) -> ImportSummary {
+    let plan = planned(folder, map).unwrap_or_else(|problem| panic!("{problem}\n{map}"));
+    plan.summary().clone()
+}
+
+/// The codes of its warnings.
+fn codes(summary: &ImportSummary) -> Vec<&'static str> {
+    summary.warnings.iter().map(ImportWarning::code).collect()
+}
+
+/// The numbers that an import keeps of a column.
+fn imported(folder: &Path, map: &str, column: &str) -> Vec<f64> {
+    let plan = planned(folder, map).unwrap_or_else(|problem| panic!("{problem}\n{map}"));
+    let target = tempfile::tempdir().expect("a folder");
+    let target = target.path().join("dataset");
+    plan.run(&target, NonZeroUsize::MIN, &SilentProgress)
+        .expect("imported");
+    let dataset = Dataset::open(&target).expect("a dataset");
+    let cells = dataset.table().as_text(column).expect("a column");
+    let numbers = cells.into_iter().flatten();
+    numbers
+        .map(|cell| cell.parse().expect("a number"))
+        .collect()
+}
+
+fn mean(numbers: &[f64]) -> f64 {
+    numbers.iter().sum::<f64>() / numbers.len() as f64
+}
+
+#[track_caller]
+fn assert_near(found: f64, expected: f64) {
+    assert!((found - expected).abs() < 1e-4, "{found} for {expected}");
+}
+
+fn draft(folder: &Path) -> String {
+    let draft = MapDraft::of(folder).expect("a draft");
+    draft.text().to_owned()
+}
+
+/// The first line of a draft that begins so.
+fn line<'d>(draft: &'d str, start: &str) -> &'d str {
+    let mut lines = draft.lines();
+    lines
+        .find(|line| line.starts_with(start))
+        .unwrap_or_default()
+}
