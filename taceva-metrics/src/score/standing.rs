@@ -42,7 +42,7 @@ pub enum Standing {
 
 impl Standing {
     /// Every standing, the best first.
-    pub const ALL: [Standing; 8] = [
+    pub const ALL: [Standing; 9] = [
         Standing::Counts,
         Standing::SkillUnknown,
         Standing::Bounded,
