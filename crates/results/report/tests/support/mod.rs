@@ -146,7 +146,6 @@ pub(crate) fn results(sensor: &str, scale: f64) -> Value {
     metrics["hysteresis"]["Fz"] = hysteresis;
     metrics["inter_sensor"]["surface_z"] = number(0.1, "mm");
     metrics["intrinsic"]["frame_rate"] = number(30.0 * scale, "Hz");
-    metrics["signal_to_repeatability"]["Fz"] = number(20.0 * scale, "1");
     metrics["noise_equivalent_force"]["Fz"] = json!({"undefined": "no sample is without contact", "n": 0, "n_invalid": 0, "definition": "drawn/1"});
     let matrix: Vec<Vec<f64>> = (0..6)
         .map(|row| {
