@@ -162,10 +162,13 @@ fn ratio(above: &Whole, below: &Whole, unit: i32) -> Option<f64> {
     let mut rest = Vec::new();
     let raised = above.raised(up);
     let mut quotient = 0_u128;
-    for place in (0..32 * raised.len()).rev() {
+    let mut places_left = 32 * raised.len();
+    while places_left > 0 && quotient < 1 << 70 {
+        places_left -= 1;
+        let place = places_left;
         let bit = raised[place / 32] >> (place % 32) & 1;
         rest = doubled(&rest, bit);
-        quotient = quotient.checked_mul(2)?;
+        quotient *= 2;
         if compared(&rest, &below.digits) != Ordering::Less {
             rest = taken(&rest, &below.digits);
             while rest.last() == Some(&0) {
@@ -174,13 +177,14 @@ fn ratio(above: &Whole, below: &Whole, unit: i32) -> Option<f64> {
             quotient += 1;
         }
     }
-    let sticky = u128::from(!rest.is_empty());
+    let is_left = (0..places_left).any(|place| raised[place / 32] >> (place % 32) & 1 == 1);
+    let sticky = u128::from(is_left || !rest.is_empty());
     #[expect(
         clippy::cast_precision_loss,
         reason = "the one rounding of a score; the last bit says whether anything is left"
     )]
     let rounded = ((quotient << 1) | sticky) as f64;
-    let power = unit - 1 - i32::try_from(up).ok()?;
+    let power = unit - 1 - i32::try_from(up).ok()? + i32::try_from(places_left).ok()?;
     // In two steps, each of which is exact unless the score is denormal.
     let half = power / 2;
     let value = rounded * 2.0_f64.powi(half) * 2.0_f64.powi(power - half);

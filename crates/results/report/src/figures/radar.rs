@@ -47,8 +47,12 @@ const ACCURACY: [Axis; 6] = [
     low("mae", "Fxy", "MAE Fxy"),
 ];
 /// Without what only describes a sensor, as frame rate and field of view do: there the rim would not be the best.
-const SENSOR: [Axis; 3] = [
+const SENSOR: [Axis; 4] = [
     high("uniformity", "Fz", "uniformity U"),
+    Axis {
+        variant: "ratio",
+        ..low("hysteresis", "Fz", "hysteresis ratio")
+    },
     low("noise_equivalent_force", "Fz", "noise as force"),
     high("signal_to_repeatability", "Fz", "signal to repeats"),
 ];
