@@ -77,12 +77,51 @@ impl Resemblance {
 
 impl Blocks {
     /// Blocks of `rows` of `dataset`, each at least twice as long as samples resemble each other, as far as their number allows it; `None` of too
-    /// few samples.
+    /// few samples. Rows that were added later make blocks of their own, so that those of before stay as they were.
     pub(crate) fn of(dataset: &Dataset, rows: &[usize]) -> Option<Blocks> {
-        let sequence = Sequence::of(dataset, rows);
-        let lag =
-            most_alike(dataset, rows, &sequence).map_or(0, |(_, ranks, _)| sequence.lag(&ranks));
-        blocks(&sequence, rows.len(), lag)
+        if rows.len() < BLOCKS[0] {
+            return None;
+        }
+        let starts = recordings::sections(dataset, rows);
+        let ends = starts.iter().copied().chain([rows.len()]);
+        let starts = std::iter::once(0).chain(starts.iter().copied());
+        let sections = starts.zip(ends).map(|(start, end)| {
+            let own = &rows[start..end];
+            let sequence = Sequence::of(dataset, own);
+            let lag =
+                most_alike(dataset, own, &sequence).map_or(0, |(_, ranks, _)| sequence.lag(&ranks));
+            // So few rows that there are not several blocks are one.
+            numbered(&sequence, own.len(), lag).unwrap_or_else(|| NumberedBlocks {
+                numbers: vec![0; own.len()],
+                places: (0..own.len()).collect(),
+                gap: 0,
+                count: 1,
+            })
+        });
+        Some(Blocks::one_after_the_other(sections.collect()))
+    }
+
+    /// Blocks of rows behind each other, which are no neighbours.
+    fn one_after_the_other(sections: Vec<NumberedBlocks>) -> Blocks {
+        let gap = sections.iter().map(|own| own.gap).max().unwrap_or(0);
+        let mut all = Blocks {
+            gap,
+            ..Blocks::default()
+        };
+        let mut place = 0;
+        for own in sections {
+            let first = all.count;
+            let last = own.places.iter().max().map_or(0, |last| last + 1);
+            all.names.extend(
+                own.numbers
+                    .iter()
+                    .map(|number| format!("block {}", first + number + 1)),
+            );
+            all.places.extend(own.places.iter().map(|own| place + own));
+            all.count += own.count;
+            place += last + gap + 1;
+        }
+        all
     }
 }
 
@@ -91,18 +130,28 @@ pub(crate) fn pairs(dataset: &Dataset, rows: &[usize]) -> Vec<[usize; 2]> {
     Sequence::of(dataset, rows).pairs(1).collect()
 }
 
-fn blocks(sequence: &Sequence, rows: usize, lag: usize) -> Option<Blocks> {
+/// Blocks of a section of rows, by number.
+#[derive(Debug)]
+struct NumberedBlocks {
+    /// The number of the block of each row, from 0.
+    numbers: Vec<usize>,
+    places: Vec<usize>,
+    gap: usize,
+    count: usize,
+}
+
+/// Blocks of the `rows` rows of `sequence`, which resemble each other for `lag` samples; `None` of too few.
+fn numbered(sequence: &Sequence, rows: usize, lag: usize) -> Option<NumberedBlocks> {
     let [least, most] = BLOCKS;
     let longest = rows / least;
     if longest < 1 {
         return None;
     }
     let length = (2 * lag).max(rows.div_ceil(most)).clamp(1, longest);
-    let gap = lag.min(length / 2);
-    let mut blocks = Blocks {
-        names: vec![String::new(); rows],
+    let mut blocks = NumberedBlocks {
+        numbers: vec![0; rows],
         places: vec![0; rows],
-        gap,
+        gap: lag.min(length / 2),
         count: 0,
     };
     let mut place = 0;
@@ -110,12 +159,11 @@ fn blocks(sequence: &Sequence, rows: usize, lag: usize) -> Option<Blocks> {
         // As long as each other: the last one is no rest.
         let own = segment.len().div_ceil(length).max(1);
         for (at, &position) in segment.iter().enumerate() {
-            let number = blocks.count + at * own / segment.len();
-            blocks.names[position] = format!("block {}", number + 1);
+            blocks.numbers[position] = blocks.count + at * own / segment.len();
             blocks.places[position] = place + at;
         }
         blocks.count += own;
-        place += segment.len() + gap + 1;
+        place += segment.len() + blocks.gap + 1;
     }
     Some(blocks)
 }
@@ -404,16 +452,16 @@ mod tests {
 
     #[test]
     fn blocks_are_long_enough_and_at_least_ten() {
-        let of = |rows: usize, lag: usize| blocks(&in_a_row(rows), rows, lag).expect("blocks");
+        let of = |rows: usize, lag: usize| numbered(&in_a_row(rows), rows, lag).expect("blocks");
         assert_eq!((of(900, 90).count, of(900, 90).gap), (10, 45));
         assert_eq!((of(4000, 10).count, of(4000, 10).gap), (40, 10));
         assert_eq!(of(12, 1).count, 12);
-        assert!(blocks(&in_a_row(9), 9, 1).is_none());
-        let named = of(900, 90);
-        assert_eq!(
-            (named.names[0].as_str(), named.names[899].as_str()),
-            ("block 1", "block 10")
-        );
+        assert!(numbered(&in_a_row(9), 9, 1).is_none());
+        let both = Blocks::one_after_the_other(vec![of(900, 90), of(40, 2)]);
+        let names = [0, 899, 900, 939].map(|row| both.names[row].as_str());
+        assert_eq!(names, ["block 1", "block 10", "block 11", "block 20"]);
+        // The first of the second section is no neighbour of the last of the first.
+        assert!(both.places[900] - both.places[899] > both.gap);
     }
 
     #[test]
