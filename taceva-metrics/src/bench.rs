@@ -25,11 +25,13 @@ mod digits;
 mod kernel;
 mod numbers;
 mod reference;
+mod scores;
 mod shuffled;
 mod textbook;
 
 pub use bandwidth::stream_sum;
 pub use case::{Case, Kind, Order, nasty_inputs};
 pub use digits::{ALL_DIGITS, digits};
-pub use kernel::{Kernel, Scores};
+pub use kernel::Kernel;
+pub use scores::Scores;
 pub use shuffled::shuffled;

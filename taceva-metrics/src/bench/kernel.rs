@@ -4,6 +4,7 @@ use taceva_core::Isa;
 
 use super::compensation::{Kahan, Neumaier, Plain, Single, pairwise};
 use super::reference;
+use super::scores::Scores;
 use super::textbook::{in_halves, length, mean_error, number, one_pass, two_pass, welford};
 use crate::catalogue;
 use crate::exact::Machine;
@@ -39,23 +40,6 @@ pub enum Kernel {
     Welford,
     /// This crate's sums, on the vectors of an instruction set.
     Exact(Isa),
-}
-
-/// What a kernel found; `None` where it found no number. A plain value, which gets no further fields.
-///
-/// ```
-/// use taceva_metrics::{Paired, bench::Kernel};
-/// let scores = Kernel::Naive.run(Paired { estimate: &[0.5, 0.5], reference: &[0.25, 0.5] });
-/// assert_eq!(scores.mae, Some(0.125));
-/// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Scores {
-    /// Mean absolute error, in the unit of the columns.
-    pub mae: Option<f64>,
-    /// Coefficient of determination.
-    pub r2: Option<f64>,
-    /// Symmetric mean absolute percentage error, as a fraction.
-    pub smape: Option<f64>,
 }
 
 impl Kernel {
@@ -106,7 +90,7 @@ impl Kernel {
             Kernel::Kahan => one_pass::<Kahan>(pairs),
             Kernel::Neumaier => one_pass::<Neumaier>(pairs),
             Kernel::Welford => welford(pairs),
-            Kernel::Exact(isa) => Scores::of(&exact(isa, THREE_SCORES, pairs)),
+            Kernel::Exact(isa) => scores_of(&exact(isa, THREE_SCORES, pairs)),
         }
     }
 
@@ -162,19 +146,17 @@ fn exact(isa: Isa, streams: Streams, pairs: Paired<&[f64]>) -> PairSums {
     sums
 }
 
-impl Scores {
-    fn of(sums: &PairSums) -> Scores {
-        Scores {
-            mae: score("mae", sums),
-            r2: score("r2", sums),
-            smape: score("smape", sums),
-        }
-    }
-}
-
 fn score(id: &str, sums: &PairSums) -> Option<f64> {
     let value = value_of(catalogue::find(id)?, sums).ok();
     value.filter(|value| value.is_finite())
+}
+
+fn scores_of(sums: &PairSums) -> Scores {
+    Scores {
+        mae: score("mae", sums),
+        r2: score("r2", sums),
+        smape: score("smape", sums),
+    }
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@
 
 use std::cmp::Ordering;
 
-use super::kernel::Scores;
+use super::scores::Scores;
 use crate::pair::Paired;
 
 /// The power of two that the last place of every value is a multiple of.

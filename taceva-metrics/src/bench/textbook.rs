@@ -1,7 +1,7 @@
 //! The scores as libraries form them: rounded at every step.
 
 use super::compensation::{RunningSum, pairwise};
-use super::kernel::Scores;
+use super::scores::Scores;
 use crate::pair::Paired;
 
 /// Σ|d|, Σd², SST and Σt as a library rounds them, over n rows.

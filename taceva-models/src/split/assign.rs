@@ -238,12 +238,12 @@ impl SplitInput<'_> {
         let mut look = |order: &mut dyn Iterator<Item = usize>| {
             let mut last: [Option<usize>; 2] = [None, None];
             for row in order {
-                let judge = match parts[row] {
+                let nearest = match parts[row] {
                     Some(Part::Train) => last[0],
                     Some(Part::Validation) => last[1],
                     _ => None,
                 };
-                near[row] |= judge.is_some_and(|place| places[row].abs_diff(place) <= gap);
+                near[row] |= nearest.is_some_and(|place| places[row].abs_diff(place) <= gap);
                 if matches!(parts[row], Some(Part::Validation | Part::Test)) {
                     last[0] = Some(places[row]);
                 }

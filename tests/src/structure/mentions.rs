@@ -25,7 +25,8 @@ pub const EXAMPLES: &[Example] = &[
             "SignalToRepeatability",
             "SIGNAL_TO_REPEATABILITY",
         ],
-        most: 2,
+        // Its file, its row of the catalogue, and its axis of a radar.
+        most: 3,
     },
     Example {
         kind: "model",

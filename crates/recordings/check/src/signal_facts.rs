@@ -1,6 +1,7 @@
 //! A few numbers of every taxel, gathered in one pass over a recording.
 
 use std::num::NonZeroUsize;
+use taceva_core::random::{FNV_OFFSET, fnv_1a_after};
 
 use taceva_core::{Progress, SignalInfo, Signals};
 use taceva_dataset::{Dataset, Pass};
@@ -111,7 +112,7 @@ impl TaxelFacts {
             above_least: None,
             greatest: (value, 1),
             below_greatest: None,
-            series: next_in_series(SERIES_START, value),
+            series: next_in_series(FNV_OFFSET, value),
         }
     }
 
@@ -137,18 +138,10 @@ impl TaxelFacts {
     }
 }
 
-/// Offset and factor of FNV-1a with 64 bits.
-const SERIES_START: u64 = 0xcbf2_9ce4_8422_2325;
-const SERIES_FACTOR: u64 = 0x0000_0100_0000_01b3;
-
 /// The digest of a series with one number more; both zeros are one.
 fn next_in_series(series: u64, value: f32) -> u64 {
     let value = if value.abs() <= 0.0 { 0.0 } else { value };
-    let mut series = series;
-    for byte in value.to_bits().to_le_bytes() {
-        series = (series ^ u64::from(byte)).wrapping_mul(SERIES_FACTOR);
-    }
-    series
+    fnv_1a_after(series, &value.to_bits().to_le_bytes())
 }
 
 /// Counts `value` where it is at the end or next to it; `beyond` tells which of two is nearer to the end.
