@@ -69,7 +69,7 @@ impl Zarr {
             return Err(Problem::damaged(
                 0,
                 "no `zarr.json`, `.zgroup` or `.zarray`",
-                "a folder, or a ZIP archive, of zarr version 2 or 3",
+                "a folder of zarr version 2 or 3, or a ZIP archive of one",
             ));
         }
         for (index, (_, array)) in zarr.arrays.iter().enumerate() {
