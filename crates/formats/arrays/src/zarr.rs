@@ -69,7 +69,7 @@ impl Zarr {
             return Err(Problem::damaged(
                 0,
                 "no `zarr.json`, `.zgroup` or `.zarray`",
-                "a folder, or a ZIP archive, of zarr version 2 or 3",
+                "a folder of zarr version 2 or 3, or a ZIP archive of one",
             ));
         }
         for (index, (_, array)) in zarr.arrays.iter().enumerate() {
@@ -156,7 +156,7 @@ impl Zarr {
     }
 }
 
-/// Whether the chunk `name` of the array in `folder` is there; a link to a file elsewhere is refused.
+/// Finds the file of the chunk `name` in `folder`; a link to a file elsewhere is refused.
 fn is_own_file(folder: &Path, name: &str) -> Result<bool, Problem> {
     let path = folder.join(name);
     match fs::symlink_metadata(&path) {

@@ -123,7 +123,7 @@ fn known_layout(folder: &Path, draft: &str) -> Option<&'static str> {
     fits.then(|| preset.name())
 }
 
-/// Whether `table` is an array of another kind beside the pictures, such as the mean of those without contact, and these are the samples.
+/// True if the pictures are the samples, and `table` lies beside them, such as a mean background.
 fn are_beside(folder: &SourceFolder, table: &SeenTable<'_>, pictures: &FileGroup) -> bool {
     let has_pictures = !table.pictures.is_empty() || frames::file_column(folder, table).is_some();
     let is_other =

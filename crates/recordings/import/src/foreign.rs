@@ -201,7 +201,7 @@ impl ForeignTable {
         names
     }
 
-    /// Of a table of text, a cell whose point may group digits, and how many such cells the column has.
+    /// Cell of a table of text whose point may group digits, and the number of such cells in the column.
     pub(crate) fn grouped_digits(&self, name: &str) -> Option<(String, u64)> {
         match self {
             ForeignTable::Delimited(table) => table.grouped_digits(name),

@@ -9,7 +9,7 @@ pub(crate) struct TextInstant {
     second: i64,
     /// Digits of the fraction of a second.
     fraction: String,
-    /// How far the clock is before UTC, s; `None` where the text says no zone.
+    /// Seconds that the clock is before UTC; `None` where the text says no zone.
     zone_s: Option<i64>,
 }
 
@@ -59,12 +59,12 @@ impl TextInstant {
         })
     }
 
-    /// Whether it says no date.
+    /// True without a date.
     pub(crate) fn is_of_day(&self) -> bool {
         self.day.is_none()
     }
 
-    /// Whether it says its time zone.
+    /// True with a time zone.
     pub(crate) fn has_zone(&self) -> bool {
         self.zone_s.is_some()
     }

@@ -131,7 +131,7 @@ impl Preset {
         layouts.iter().map(Preset)
     }
 
-    /// Whether its map is a draft of the folder.
+    /// True if its map is a draft of the folder.
     pub(crate) fn is_drafted(self) -> bool {
         self.facts().fit == Some(Fit::Draft)
     }

@@ -209,13 +209,13 @@ impl UnitSuffix {
         }
     }
 
-    /// Whether the name says counts, volts or another quantity than forces, torques, places, angles and times.
+    /// True of a name that says counts or volts.
     pub(crate) fn is_unscaled(&self) -> bool {
         let is_raw = |unit: &SourceUnit| matches!(unit.unit(), Unit::Count | Unit::Volt);
         self.units.iter().all(is_raw)
     }
 
-    /// Why a map that states `unit` contradicts the name; `None` where both agree, or the name says another quantity that may
+    /// Contradiction between the name and a map that states `unit`; `None` where both agree, or the name says another quantity that may
     /// be of a neighbour: an array `ft [N]` holds torques too.
     pub(crate) fn contradiction(&self, unit: &SourceUnit) -> Option<String> {
         let is_same = |own: &SourceUnit| {

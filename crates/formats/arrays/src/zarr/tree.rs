@@ -8,6 +8,7 @@ use std::sync::Arc;
 use crate::archive::members;
 use crate::error::Problem;
 use crate::member_bytes::{Budget, Packed, PackedBytes};
+use crate::scalar::shown;
 use crate::source::{ByteSource, FileBytes, bytes_of};
 
 /// A folder of a store.
@@ -85,7 +86,18 @@ impl Tree {
                 };
                 let mut budget = Budget::default();
                 let source = PackedBytes::new(&archive.file, member.clone(), &mut budget);
-                checked(&source).map(Some)
+                let bytes = checked(&source)?;
+                let is_other = member
+                    .crc32
+                    .is_some_and(|expected| crc32fast::hash(&bytes) != expected);
+                match is_other {
+                    true => Err(Problem::damaged(
+                        member.at,
+                        format!("other bytes of `{}`", shown(&path)),
+                        "those of its checksum",
+                    )),
+                    false => Ok(Some(bytes)),
+                }
             }
         }
     }

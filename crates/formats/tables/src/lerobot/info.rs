@@ -29,7 +29,7 @@ pub struct Feature {
     pub names: Vec<String>,
     /// Frames a second of a video: its own where it states them, else those of the dataset.
     pub fps: f64,
-    /// Whether a video shows depths: codes of 12 bits, which are no brightness.
+    /// True of a video of depths: codes of 12 bits, which are no brightness.
     pub is_depth: bool,
 }
 

@@ -7,7 +7,7 @@ use crate::unit_suffix::UnitSuffix;
 use taceva_dataset::internal::{all_cores, limits, read_capped, shown};
 use taceva_dataset::{DatasetError, Place};
 
-/// What a map says of a table of text beside its separator.
+/// Form of a table of text beside its separator.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct TextForm {
     /// Without a header, columns are called by their position, from 0.
@@ -16,15 +16,15 @@ pub(crate) struct TextForm {
     pub(crate) decimal: char,
     /// The sign between groups of three digits; `None` where the map says nothing, an empty text where it says that there is none.
     pub(crate) thousands: Option<String>,
-    /// What lines begin with that are no rows.
+    /// Mark at the beginning of lines that are no rows.
     pub(crate) comment: Option<String>,
     /// Lines before the header that are no part of the table.
     pub(crate) skip_lines: u32,
-    /// Whether the line below the header says units.
+    /// True if the line below the header says units.
     pub(crate) has_units: bool,
 }
 
-/// How many lines are looked at to say how a table is written.
+/// Lines of a table of text that show its form.
 const LOOKED_AT: usize = 64;
 
 impl TextForm {
@@ -44,7 +44,7 @@ impl TextForm {
         self.comment.is_none() && self.skip_lines == 0 && !self.has_units
     }
 
-    /// Whether cells are to be converted before they are numbers.
+    /// True if cells are converted before they are read as numbers.
     fn converts(&self) -> bool {
         self.decimal != '.'
             || self
@@ -53,10 +53,10 @@ impl TextForm {
                 .is_some_and(|sign| !sign.is_empty())
     }
 
-    /// What `cell` says with a point for the decimal sign and without groups; `None` where it is no number or needs no change.
+    /// The cell with a decimal point and without groups; `None` where it is no number or needs no change.
     ///
     /// # Errors
-    /// What is wrong with a cell of digits and signs that does not follow this form.
+    /// The problem with a cell of digits and signs that does not follow this form.
     pub(crate) fn converted(&self, cell: &str) -> Result<Option<String>, String> {
         if !self.converts() || !cell.bytes().any(|byte| byte.is_ascii_digit()) {
             return Ok(None);
@@ -234,7 +234,7 @@ impl TextForm {
     }
 }
 
-/// Whether a cell is digits with one `sign` among them.
+/// True of a cell of digits with one `sign` among them.
 fn is_decimal(cell: &str, sign: char) -> bool {
     let bare = cell.trim_start_matches(['+', '-']);
     bare.split_once(sign).is_some_and(|(whole, fraction)| {
@@ -247,7 +247,7 @@ fn is_decimal(cell: &str, sign: char) -> bool {
     })
 }
 
-/// Whether a cell is a number of groups of three digits: `1.333`, `12.345.678`; `0.333` is none.
+/// True of a number in groups of three digits: `1.333`, `12.345.678`, but not `0.333`.
 pub(crate) fn is_grouped(cell: &str, sign: char) -> bool {
     let bare = cell.trim_start_matches(['+', '-']);
     let mut groups = bare.split(sign);
@@ -275,7 +275,7 @@ fn separator_line(line: &str) -> Option<u8> {
     }
 }
 
-/// Whether `units` is a row of units above a row of numbers.
+/// True of a row of units above a row of numbers.
 fn is_units_row(units: &str, below: &str, delimiter: u8) -> bool {
     let cells = |line: &str| -> Vec<String> {
         let cells = line.split(char::from(delimiter));

@@ -8,7 +8,7 @@ use super::roles::candidate::{Candidate, Reason};
 pub(super) struct Offered<'t> {
     pub(super) name: &'t str,
     pub(super) candidate: &'t Candidate,
-    /// Whether it stands in the main table.
+    /// True for a column of the main table.
     pub(super) is_own: bool,
 }
 
@@ -21,7 +21,7 @@ impl Offered<'_> {
         self.candidate.unit.map_or("?", |(unit, _)| unit)
     }
 
-    /// What makes one candidate surer than another; the least is the surest.
+    /// Rank among the candidates of a channel; the least is the surest.
     fn rank(&self) -> (bool, Reason, bool, u32) {
         (
             self.candidate.open.is_some(),
@@ -31,7 +31,7 @@ impl Offered<'_> {
         )
     }
 
-    /// Of a pose as a list of lists, which of these it is: the place comes before the rotation.
+    /// Position in a pose that is a list of lists: the place comes before the rotation.
     fn place_in_pose(&self) -> u32 {
         let is_place = self.candidate.channel.starts_with('P');
         let last = self.name.rsplit('/').next().filter(|_| is_place);

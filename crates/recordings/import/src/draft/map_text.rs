@@ -37,7 +37,7 @@ pub(super) fn known_layout(preset: &str) -> String {
     )
 }
 
-/// That an array beside pictures is no table of them.
+/// Comment on an array beside pictures that is no table of them.
 pub(super) fn array_beside_pictures(table: &SeenTable<'_>) -> String {
     format!(
         "{} ({} rows) is no table of the pictures: if it is the picture without contact, save it as PNG and name it as `reference`.",
@@ -286,7 +286,7 @@ fn shared_points(main: &SeenTable<'_>, parts: Option<&PathParts>) -> String {
     }
 }
 
-/// How many columns a comment names.
+/// Most columns that a comment names.
 const NAMED: usize = 24;
 
 fn shortened(names: &[String]) -> String {
@@ -424,7 +424,7 @@ pub(super) fn of_files(group: &FileGroup, notes: &[String]) -> String {
 struct NamedColumn<'t> {
     name: String,
     role: &'t Role,
-    /// Whether it stands in the main table.
+    /// True for a column of the main table.
     is_own: bool,
 }
 
@@ -452,7 +452,7 @@ fn table_columns<'t>(
     columns
 }
 
-/// What the parts of a path seem to be: channels by their names, which are returned, a unit, texts.
+/// Sorts the parts of a path into ids and attributes; returns those that are channels.
 fn add_parts(
     parts: &PathParts,
     ids: &mut Lines,

@@ -18,7 +18,7 @@ pub(super) use words::words;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Role {
     Channels(Vec<Candidate>),
-    /// Its name begins like that of a channel, and it is none.
+    /// Name like that of a channel, for another quantity.
     Excluded(Exclusion),
     /// A time in such a unit, since 1970 or not; `"?"` where nothing says which.
     Time {
@@ -38,7 +38,7 @@ pub(super) enum Role {
     Other,
 }
 
-/// How many rows that count up make a force a counter, by how sure its name is.
+/// Least rows that count up and make a force a counter; more where its name is that of the channel.
 const COUNTED: usize = 4;
 const COUNTED_BY_NAME: usize = 16;
 
@@ -73,12 +73,12 @@ pub(super) fn role(name: &str, about: &str, cells: &[String]) -> Role {
     }
 }
 
-/// Whether a column has no name, as the index of pandas in a table of text.
+/// True of a column without a name, as the index of pandas.
 fn is_unnamed(name: &str) -> bool {
     name.is_empty() || name.starts_with("Unnamed: ")
 }
 
-/// What a column is whose numbers have names of their own: the channels that those names are, each once.
+/// Role of a column whose numbers have names of their own.
 pub(super) fn of_named(column: &str, names: &[String]) -> Option<Role> {
     let is_known = names.iter().any(|name| !words(name).is_empty());
     if !is_known {
@@ -151,7 +151,7 @@ fn of_texts(cells: &[&str]) -> Role {
     }
 }
 
-/// What a column is whose cells hold so many numbers each.
+/// Role of a column whose cells hold `width` numbers each.
 fn several(named: &Named, width: usize) -> Role {
     let words = named.quantity_of_several();
     let has = |known: &[&str]| words.iter().any(|word| known.contains(word));

@@ -51,7 +51,7 @@ pub(super) struct SeenColumn {
     pub(super) cells: Vec<String>,
     /// The lengths of the lists in its first cell, where they hold many numbers: those of taxels.
     pub(super) taxels: Option<Vec<usize>>,
-    /// How many of all cells are empty.
+    /// Number of empty cells among all.
     pub(super) empty: usize,
 }
 
@@ -266,14 +266,14 @@ impl SeenColumn {
     }
 }
 
-/// How many cells of a column hold nothing.
+/// Number of empty cells of a column.
 fn empty_cells(table: &ForeignTable, name: &str) -> usize {
     let rows = 0..table.rows();
     rows.filter(|row| table.cell(*row, name).is_ok_and(|cell| cell.is_empty()))
         .count()
 }
 
-/// How many rows, spread over the table, are looked at for a number that is not 0.
+/// Rows, spread over the table, that are searched for a number other than 0.
 const SPREAD: usize = 2_000;
 
 /// Adds what the file says of the unit, and whether there is anything but 0.
@@ -317,7 +317,7 @@ fn complete(table: &ForeignTable, name: &str, candidates: &mut [Candidate]) {
     }
 }
 
-/// How many rows of 0 make a channel doubtful.
+/// Least rows of 0 that make a channel doubtful.
 const LEAST_ZEROS: usize = 4;
 
 /// Leaves channels open beside which a column says that they are not valid: `force_valid` beside `force_z`.

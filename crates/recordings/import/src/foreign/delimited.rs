@@ -9,7 +9,7 @@ use crate::csv_table::text_form::{TextForm, is_grouped};
 use taceva_dataset::internal::shown;
 use taceva_dataset::{DatasetError, Place};
 
-/// How many cells with a point among three digits each make whole numbers likely.
+/// Least cells with a point before three digits that make grouped digits likely.
 const LEAST_GROUPED: u64 = 3;
 
 /// A table of text with what the map says of it.
@@ -64,7 +64,7 @@ impl DelimitedTable {
         }
     }
 
-    /// Whether the numbers of a column may be whole ones with a point between groups of three digits: one of the cells, and how many have a point.
+    /// Cell whose point may group digits, and the number of such cells in the column.
     /// Whole numbers without a point must stand among them, as fractions of three digits alone are common.
     pub(crate) fn grouped_digits(&self, name: &str) -> Option<(String, u64)> {
         if self.form.thousands.is_some() || self.form.decimal != '.' {
@@ -97,7 +97,7 @@ impl DelimitedTable {
         self.table.place(row, column)
     }
 
-    /// What the row of units says of a column.
+    /// Unit that the row of units states for a column.
     pub(super) fn stated(&self, name: &str) -> Vec<Stated> {
         let at = self.names().iter().position(|known| known == name);
         let unit = at.and_then(|at| self.units.get(at)?.clone());

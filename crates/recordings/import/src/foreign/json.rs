@@ -136,7 +136,7 @@ impl JsonRows {
         }
     }
 
-    /// What a row has at the pointer `name`; a row that is a number or a text itself is called `value`.
+    /// Value at the pointer `name`; a row that is a number or a text itself is called `value`.
     fn at(&self, row: usize, name: &str) -> Option<&Value> {
         let value = &self.rows[row].value;
         match name {
@@ -195,7 +195,7 @@ impl JsonRows {
 /// The column of rows that are numbers or texts themselves.
 const VALUE: &str = "value";
 
-/// Whether a row is no object, so that it has no members.
+/// True of a row without members: a number, a text or a list.
 fn is_plain(value: &Value) -> bool {
     !value.is_object() && !value.is_null()
 }

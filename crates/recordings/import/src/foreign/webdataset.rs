@@ -141,7 +141,7 @@ impl Shard {
     }
 }
 
-/// What a name of a column says of the members of a sample.
+/// Member of a sample that the name of a column means.
 enum Field<'n> {
     Text(&'n str),
     Array(&'n str),
@@ -163,7 +163,7 @@ impl<'n> Field<'n> {
     }
 }
 
-/// What a field ends with: `json` of `meta.json`.
+/// Ending of a field: `json` of `meta.json`.
 fn ending_of(field: &str) -> &str {
     field.rsplit_once('.').map_or(field, |(_, ending)| ending)
 }

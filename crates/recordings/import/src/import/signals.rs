@@ -69,7 +69,7 @@ impl<'a> FoundSignals<'a> {
         })
     }
 
-    /// Whether the row of that number, among those of all tables, holds a number of an array that stands for "nothing measured".
+    /// True of a row of the array with a number that stands for "nothing measured"; rows count through all tables.
     pub(super) fn is_placeholder(&self, number: u64) -> bool {
         self.placeholders.contains(&number)
     }

@@ -67,7 +67,7 @@ pub struct ImportSummary {
     pub unmentioned_columns: BTreeSet<String>,
     /// Channels whose numbers look like those of another unit.
     pub suspicions: Vec<Suspicion>,
-    /// What the map says and is seldom meant, sorted.
+    /// Warnings about the map and what it reads, sorted.
     pub warnings: BTreeSet<ImportWarning>,
 }
 

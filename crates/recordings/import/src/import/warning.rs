@@ -19,7 +19,7 @@ pub enum ImportWarning {
         column: String,
         /// One of its cells.
         example: String,
-        /// How many cells have such a point.
+        /// Number of cells with such a point.
         cells: u64,
     },
     /// Times as text say no time zone, and the map states none for a clock that counts from 1970.
@@ -31,7 +31,7 @@ pub enum ImportWarning {
     Midnight {
         /// The column, as the map names it.
         column: String,
-        /// How often.
+        /// Number of midnights.
         days: u64,
     },
 }

@@ -12,21 +12,21 @@ use crate::unit_suffix::UnitSuffix;
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::draft) struct Candidate {
     pub(in crate::draft) channel: &'static str,
-    /// Its place in the cell: nothing behind the name, or `[2]`.
+    /// Position in the cell: empty, or `[2]`.
     pub(in crate::draft) index: String,
     pub(in crate::draft) reason: Reason,
     /// The unit that its name or its file says.
     pub(in crate::draft) unit: Option<(&'static str, UnitSource)>,
-    /// Why nobody but the lab knows that it was measured.
+    /// Reason to leave the line open: only the lab knows that it was measured.
     pub(in crate::draft) open: Option<String>,
 }
 
-/// Why a column is taken for a channel, the surest first.
+/// Reason to take a column for a channel, the surest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(in crate::draft) enum Reason {
-    /// Its name is that of the channel.
+    /// The name of the channel itself.
     Name,
-    /// Its name is that of the channel, with a unit.
+    /// The name of the channel with a unit.
     NameWithUnit,
     /// The words of its own name say quantity and axis.
     Words,
@@ -36,13 +36,13 @@ pub(in crate::draft) enum Reason {
     Parent,
     /// A force without an axis, which is mostly what presses.
     NoAxis,
-    /// Its place among the numbers of a wrench or a place.
+    /// Position among the numbers of a wrench or a place.
     Position,
     /// An axis alone, or the number of columns.
     Guess,
 }
 
-/// Where a unit is said.
+/// Place that states a unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::draft) enum UnitSource {
     Name,
@@ -83,7 +83,7 @@ pub(in crate::draft) fn kept_unit(channel: &str) -> Option<Unit> {
     }
 }
 
-/// What is measured along an axis.
+/// Quantity along an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Quantity {
     Force,
@@ -172,13 +172,13 @@ const NEUTRAL: [&str; 22] = [
     "applied",
 ];
 
-/// What a name says of a number.
+/// Reading of the name of a number.
 pub(in crate::draft) struct Named {
     /// Words of the last part of the name, without its unit.
     own: Vec<String>,
     /// Words of the parts before it, the nearest last.
     parents: Vec<String>,
-    /// Whether numbers stand among the words: `force2`.
+    /// True of a name with digits: `force2`.
     has_digits: bool,
     suffix: Option<UnitSuffix>,
 }
@@ -234,7 +234,7 @@ impl Named {
         self.own.iter().find_map(|word| axis_of(word))
     }
 
-    /// Why the name is that of no channel.
+    /// Reason that bars the name from every channel.
     pub(super) fn exclusion(&self) -> Option<Exclusion> {
         let has_axis = self.axis().is_some();
         // A single letter may be the name of a sensor.
@@ -290,7 +290,7 @@ impl Named {
         Some((quantity.channels()[axis], reason))
     }
 
-    /// Of a name without an axis: the force that presses, the depth.
+    /// Channel of a name without an axis: the force that presses, or the depth.
     fn without_axis(&self, own: Option<Quantity>) -> Option<(&'static str, Reason)> {
         let is_letter = |word: &&String| word.len() == 1;
         let is_whole = self.own.len() == 1 && !self.has_digits && self.parents.is_empty();

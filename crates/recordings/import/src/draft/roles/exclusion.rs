@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Why a column is never taken for a channel.
+/// Reason that bars a column from every channel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(in crate::draft) enum Exclusion {
     /// Whole numbers that count up by one.
@@ -197,7 +197,7 @@ const WITHOUT_AXIS: &[(&[&str], &str)] = &[
     ),
 ];
 
-/// Why a name with these words is no channel.
+/// Finds the word that makes a name no channel.
 pub(super) fn of_words(words: &[String], has_axis: bool) -> Option<Exclusion> {
     let tables = match has_axis {
         true => [QUANTITIES, &[]],
@@ -213,7 +213,7 @@ pub(super) fn of_words(words: &[String], has_axis: bool) -> Option<Exclusion> {
     })
 }
 
-/// Whether numbers are whole and each is one above the one before: so many that no measurement does it by chance.
+/// True of at least `least` whole numbers, each one above the number before.
 pub(super) fn is_counting(numbers: &[f64], least: usize) -> bool {
     numbers.len() >= least
         && numbers[0].fract() == 0.0

@@ -76,7 +76,7 @@ pub(super) fn form_of(path: &Path, group: &FileGroup) -> Option<(TableForm, Stri
     }
 }
 
-/// How much of a table of text is looked at to say how it is written.
+/// Bytes of a table of text that show its form.
 const BEGINNING: u64 = 1 << 16;
 
 /// The first lines of a table of text.

@@ -14,7 +14,7 @@ const LEAST_RUN: usize = 8;
 /// Numbers of taxels as a map writes them.
 #[derive(Debug, PartialEq)]
 pub(in crate::draft) struct Taxels {
-    /// What stands behind `from = `.
+    /// Value of `from`, as TOML.
     pub(in crate::draft) from: String,
     /// The lengths of the lists in a cell, or how many columns there are.
     pub(in crate::draft) shape: Vec<usize>,
@@ -96,7 +96,7 @@ fn shape_of(cell: &str) -> Option<Vec<usize>> {
 }
 
 impl SeenTable<'_> {
-    /// How many numbers a row has, if it is an array of many and of nothing else: those of taxels.
+    /// Taxels of an array of nothing else, with many numbers a row.
     pub(in crate::draft) fn taxels(&self) -> Option<Taxels> {
         let [column] = self.columns.as_slice() else {
             return None;
@@ -180,12 +180,12 @@ impl SeenTable<'_> {
 }
 
 impl Taxels {
-    /// How many numbers a row has.
+    /// Numbers a row.
     pub(in crate::draft) fn count(&self) -> usize {
         self.shape.iter().product()
     }
 
-    /// Whether one of its columns is the one called `name`.
+    /// True if `name` is one of its columns.
     pub(in crate::draft) fn holds(&self, name: &str) -> bool {
         let quoted = format!("{name:?}");
         if self.from == quoted

@@ -122,7 +122,7 @@ pub struct TimeMap {
     pub column: String,
     /// The unit of its numbers.
     pub unit: SourceUnit,
-    /// How far the clock of times as text is before UTC, s, where they say no time zone.
+    /// Seconds that the clock of times as text is before UTC, where they say no time zone.
     pub zone_s: Option<i64>,
 }
 

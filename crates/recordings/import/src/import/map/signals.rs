@@ -89,7 +89,7 @@ impl SignalsMap {
         }
     }
 
-    /// Whether `number`, before it is converted, stands for "nothing measured".
+    /// True if `number`, before it is converted, stands for "nothing measured".
     pub(crate) fn is_placeholder(&self, number: f64) -> bool {
         let mut placeholders = self.placeholders.iter();
         placeholders.any(|known| {

@@ -60,9 +60,9 @@ pub(super) fn numbers(
 
 /// Numbers of taxels that stand in columns.
 pub(in crate::import) struct ColumnSignals {
-    /// Those of every row, place first.
+    /// Numbers of every row, place first.
     pub(in crate::import) numbers: Vec<f32>,
-    /// Whether a row holds a number that stands for "nothing measured".
+    /// True of each row with a number that stands for "nothing measured".
     pub(in crate::import) are_placeholders: Vec<bool>,
 }
 

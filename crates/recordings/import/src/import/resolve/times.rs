@@ -35,9 +35,9 @@ pub(super) fn check(
 pub(super) struct TextTimes {
     /// Seconds as decimal text, or nothing where a cell is empty.
     pub(super) seconds: Vec<String>,
-    /// Whether the texts have a date and neither they nor the map state a zone.
+    /// True of texts with a date whose zone neither they nor the map state.
     has_no_zone: bool,
-    /// How often times of day pass midnight.
+    /// Number of times that times of day pass midnight.
     midnights: i64,
 }
 
@@ -97,7 +97,7 @@ impl TextTimes {
         Ok(Some(times))
     }
 
-    /// What is to be said of them.
+    /// Warnings about the times of `column`.
     pub(super) fn warnings(&self, column: &str, is_unix: bool) -> Vec<ImportWarning> {
         let mut warnings = Vec::new();
         if self.has_no_zone && is_unix {

@@ -55,7 +55,7 @@ pub(super) fn check(
     }
 }
 
-/// Why the map contradicts the first of `names` that says a unit of the same quantity: that of a number in a cell before that of its column.
+/// Contradiction between the map and the first of `names` with a unit of its quantity: the name of a number counts before that of its column.
 pub(in crate::import) fn problem_of_names<'n>(
     names: impl IntoIterator<Item = &'n str>,
     unit: &SourceUnit,
