@@ -312,13 +312,14 @@ fn ranks(labels: &[Option<f64>]) -> Vec<Option<f64>> {
     let mut order: Vec<(f64, usize)> = labels
         .iter()
         .enumerate()
-        .filter_map(|(at, label)| Some((label.filter(|label| label.is_finite())?, at)))
+        // -0 and 0 are one label.
+        .filter_map(|(at, label)| Some((label.filter(|label| label.is_finite())? + 0.0, at)))
         .collect();
     order.sort_by(|(one, _), (other, _)| one.total_cmp(other));
     let count = order.len().max(1) as f64;
     let mut ranks = vec![None; labels.len()];
     let mut before = 0.0;
-    for equal in order.chunk_by(|(one, _), (other, _)| one == other) {
+    for equal in order.chunk_by(|(one, _), (other, _)| one.total_cmp(other).is_eq()) {
         let own = equal.len() as f64;
         let rank = (before + (own - 1.0) / 2.0) / count;
         equal.iter().for_each(|(_, at)| ranks[*at] = Some(rank));

@@ -245,11 +245,9 @@ fn two_keys_that_pair_rows_differently_are_refused_unless_one_is_chosen() {
     let truth = table("sample,index,Fz", &ORDER, |number| {
         format!("s{number},{number},{}", truth_of(number))
     });
-    let mut place = 0;
     let mut rows = String::from("sample,index,Fz\n");
-    for number in SHUFFLED {
+    for (place, number) in SHUFFLED.into_iter().enumerate() {
         writeln!(rows, "s{number},{place},{}", truth_of(number) + ERROR).expect("in memory");
-        place += 1;
     }
     let error = Tables::new(&truth, &rows).refused();
     assert!(
@@ -296,7 +294,7 @@ fn rows_that_disagree_in_time_point_or_picture_are_refused() {
     }
     // Times that one of both rounds, and names that one of both leaves out, are no contradiction.
     let rounded = Tables::new("t_s,Fz\n0.3333333,1\n0.5,2\n", "t_s,Fz\n0.333,1\n,2\n");
-    assert_eq!(mae(&rounded.scored()), 0.0);
+    assert_eq!(mae(&rounded.scored()).to_bits(), 0.0_f64.to_bits());
 }
 
 #[test]
