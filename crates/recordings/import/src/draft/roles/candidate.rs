@@ -10,20 +10,20 @@ use crate::unit_suffix::UnitSuffix;
 
 /// Column, or number in its cells, that may be a channel.
 #[derive(Clone, Debug, PartialEq)]
-pub(in crate::draft) struct Candidate {
-    pub(in crate::draft) channel: &'static str,
+pub(crate) struct Candidate {
+    pub(crate) channel: &'static str,
     /// Position in the cell: empty, or `[2]`.
-    pub(in crate::draft) index: String,
-    pub(in crate::draft) reason: Reason,
+    pub(crate) index: String,
+    pub(crate) reason: Reason,
     /// The unit that its name or its file says.
-    pub(in crate::draft) unit: Option<(&'static str, UnitSource)>,
+    pub(crate) unit: Option<(&'static str, UnitSource)>,
     /// Reason to leave the line open: only the lab knows that it was measured.
-    pub(in crate::draft) open: Option<String>,
+    pub(crate) open: Option<String>,
 }
 
 /// Reason to take a column for a channel, the surest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(in crate::draft) enum Reason {
+pub(crate) enum Reason {
     /// The name of the channel itself.
     Name,
     /// The name of the channel with a unit.
@@ -44,7 +44,7 @@ pub(in crate::draft) enum Reason {
 
 /// Place that states a unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::draft) enum UnitSource {
+pub(crate) enum UnitSource {
     Name,
     File,
 }
@@ -74,7 +74,7 @@ impl fmt::Display for UnitSource {
 }
 
 /// The unit that a channel is kept in.
-pub(in crate::draft) fn kept_unit(channel: &str) -> Option<Unit> {
+pub(crate) fn kept_unit(channel: &str) -> Option<Unit> {
     match channel.as_bytes().first()? {
         b'F' => Some(Unit::Newton),
         b'T' => Some(Unit::NewtonMillimetre),
@@ -173,7 +173,7 @@ const NEUTRAL: [&str; 22] = [
 ];
 
 /// Reading of the name of a number.
-pub(in crate::draft) struct Named {
+pub(crate) struct Named {
     /// Words of the last part of the name, without its unit.
     own: Vec<String>,
     /// Words of the parts before it, the nearest last.
@@ -199,7 +199,7 @@ fn axis_of(word: &str) -> Option<(Option<Quantity>, usize)> {
 }
 
 impl Named {
-    pub(in crate::draft) fn new(name: &str) -> Named {
+    pub(crate) fn new(name: &str) -> Named {
         let suffix = UnitSuffix::of(name);
         let base = suffix.as_ref().map_or(name, |suffix| &suffix.base);
         let mut parts: Vec<&str> = base
@@ -325,10 +325,7 @@ impl Named {
     }
 
     /// The candidate that the number is at `index` of its cell; `Err` says why it is none although its name begins like one.
-    pub(in crate::draft) fn candidate(
-        &self,
-        index: String,
-    ) -> Option<Result<Candidate, Exclusion>> {
+    pub(crate) fn candidate(&self, index: String) -> Option<Result<Candidate, Exclusion>> {
         let (channel, reason) = self.channel()?;
         if let Some(exclusion) = self.exclusion() {
             return Some(Err(exclusion));

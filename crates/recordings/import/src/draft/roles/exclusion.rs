@@ -4,7 +4,7 @@ use std::fmt;
 
 /// Reason that bars a column from every channel.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(in crate::draft) enum Exclusion {
+pub(crate) enum Exclusion {
     /// Whole numbers that count up by one.
     Counting,
     /// A word of the name says another quantity.

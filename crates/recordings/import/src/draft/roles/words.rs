@@ -1,7 +1,7 @@
 //! Words of the names of columns.
 
 /// The words of a name, in lower case: `wrench.force.x`, `Fx_mN`, `ForceX`.
-pub(in crate::draft) fn words(name: &str) -> Vec<String> {
+pub(crate) fn words(name: &str) -> Vec<String> {
     let mut words: Vec<String> = vec![String::new()];
     let mut before = ' ';
     for letter in name.chars() {

@@ -13,17 +13,17 @@ const LEAST_RUN: usize = 8;
 
 /// Numbers of taxels as a map writes them.
 #[derive(Debug, PartialEq)]
-pub(in crate::draft) struct Taxels {
+pub(crate) struct Taxels {
     /// Value of `from`, as TOML.
-    pub(in crate::draft) from: String,
+    pub(crate) from: String,
     /// The lengths of the lists in a cell, or how many columns there are.
-    pub(in crate::draft) shape: Vec<usize>,
+    pub(crate) shape: Vec<usize>,
     /// The unit that the name says.
-    pub(in crate::draft) unit: Option<&'static str>,
+    pub(crate) unit: Option<&'static str>,
     /// Numbers that seem to stand for "nothing measured", and why.
-    pub(in crate::draft) placeholders: Vec<(f64, String)>,
+    pub(crate) placeholders: Vec<(f64, String)>,
     /// Words of its name, by which one of several is preferred.
-    pub(in crate::draft) is_named: bool,
+    pub(crate) is_named: bool,
 }
 
 /// Words of columns of taxels.
@@ -97,7 +97,7 @@ fn shape_of(cell: &str) -> Option<Vec<usize>> {
 
 impl SeenTable<'_> {
     /// Taxels of an array of nothing else, with many numbers a row.
-    pub(in crate::draft) fn taxels(&self) -> Option<Taxels> {
+    pub(crate) fn taxels(&self) -> Option<Taxels> {
         let [column] = self.columns.as_slice() else {
             return None;
         };
@@ -106,7 +106,7 @@ impl SeenTable<'_> {
     }
 
     /// The taxels that its columns are, the likeliest first.
-    pub(in crate::draft) fn own_taxels(&self) -> Vec<Taxels> {
+    pub(crate) fn own_taxels(&self) -> Vec<Taxels> {
         let of_cells = self.columns.iter().filter_map(|column| {
             let shape = column.taxels.clone()?;
             (!matches!(column.role, Role::Channels(_))).then(|| of_column(column, shape))
@@ -181,12 +181,12 @@ impl SeenTable<'_> {
 
 impl Taxels {
     /// Numbers a row.
-    pub(in crate::draft) fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.shape.iter().product()
     }
 
     /// True if `name` is one of its columns.
-    pub(in crate::draft) fn holds(&self, name: &str) -> bool {
+    pub(crate) fn holds(&self, name: &str) -> bool {
         let quoted = format!("{name:?}");
         if self.from == quoted
             || self.from.contains(&format!("{quoted},"))
