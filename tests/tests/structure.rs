@@ -7,7 +7,7 @@ use taceva_tests::structure::{
 };
 
 /// Most lines of product code, and of all `.rs` files.
-const MOST_LINES: (usize, usize) = (181_500, 345_600);
+const MOST_LINES: (usize, usize) = (188_000, 357_000);
 
 /// Most parameters that are tuples.
 const MOST_TUPLES: usize = 115;

@@ -3,6 +3,14 @@
 use std::fmt;
 
 /// Warning of an import, with a code that does not change.
+///
+/// ```
+/// use taceva_import::ImportWarning;
+///
+/// let warning = ImportWarning::ZoneUnstated { column: "stamp".to_owned() };
+/// assert_eq!(warning.code(), "zone-unstated");
+/// assert!(warning.to_string().contains("`zone = "));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum ImportWarning {
@@ -38,14 +46,6 @@ pub enum ImportWarning {
 
 impl ImportWarning {
     /// The code, for scripts: `column-twice`, `grouped-digits`, `zone-unstated` or `midnight`.
-    ///
-    /// ```
-    /// use taceva_import::ImportWarning;
-    ///
-    /// let warning = ImportWarning::ZoneUnstated { column: "stamp".to_owned() };
-    /// assert_eq!(warning.code(), "zone-unstated");
-    /// assert!(warning.to_string().contains("`zone = "));
-    /// ```
     pub fn code(&self) -> &'static str {
         match self {
             ImportWarning::ColumnTwice { .. } => "column-twice",
