@@ -309,7 +309,9 @@ fn complete(table: &ForeignTable, name: &str, candidates: &mut [Candidate]) {
             looked_at += usize::from(matches!(found, Ok(Some(_))));
             !matches!(found, Ok(Some(number)) if number != 0.0)
         });
-        if is_zero && looked_at >= LEAST_ZEROS {
+        // A place may be 0 throughout: a scan along one axis.
+        let is_place = candidate.channel.starts_with('P');
+        if is_zero && !is_place && looked_at >= LEAST_ZEROS {
             candidate.open = Some(format!(
                 "is 0 in all {looked_at} rows that were looked at: name it if 0 was measured"
             ));
