@@ -43,8 +43,11 @@ pub(super) fn form_of(path: &Path, group: &FileGroup) -> Option<(TableForm, Stri
             let table = ForeignTable::read(path, &TableForm::Json { rows: None }).ok()?;
             let is_list = table.rows() != 1;
             let are_rows = !is_list
-                && ForeignTable::read(path, &members)
-                    .is_ok_and(|table| table.rows() > 1 && !table.names().is_empty());
+                && ForeignTable::read(path, &members).is_ok_and(|table| {
+                    // Members that are numbers or texts themselves are the cells of one row.
+                    let mut names = table.names().into_iter();
+                    table.rows() > 1 && names.any(|name| name.starts_with('/'))
+                });
             match are_rows {
                 true => Some((members, "rows = \"/*\"".to_owned())),
                 false => plain(TableForm::Json { rows: None }),
