@@ -15,7 +15,7 @@ pub(super) fn numbers(
     let mut numbers = Vec::new();
     let mut are_placeholders = vec![false; rows];
     let mut cells = Vec::with_capacity(length);
-    for row in 0..rows {
+    for (row, is_placeholder) in are_placeholders.iter_mut().enumerate() {
         let first = numbers.len();
         numbers.resize(first + length, f32::NAN);
         let mut joined = sources.joined.iter();
@@ -23,10 +23,9 @@ pub(super) fn numbers(
             continue;
         }
         cells.clear();
-        let mut has_placeholder = false;
         let mut read = |cell: &str| {
             let number = number::number(cell.trim()).ok().flatten();
-            has_placeholder |= number.is_some_and(|number| map.is_placeholder(number));
+            *is_placeholder |= number.is_some_and(|number| map.is_placeholder(number));
             read(cell, map)
         };
         for name in map.columns() {
@@ -43,7 +42,6 @@ pub(super) fn numbers(
                 _ => cells.push(read(&cell)),
             }
         }
-        are_placeholders[row] = has_placeholder;
         if cells.len() == length {
             let values = place_first(map, &cells);
             numbers[first..]
