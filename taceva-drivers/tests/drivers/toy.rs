@@ -203,7 +203,7 @@ impl Toy {
         assert!(self.flaw != Flaw::Panics, "the toy is broken");
         let is_late = match self.flaw {
             Flaw::IsSlow => deadline.has_passed(),
-            Flaw::IgnoresDeadline => true,
+            Flaw::IgnoresDeadline => deadline.remaining() < Duration::from_millis(100),
             _ => false,
         };
         if is_late {

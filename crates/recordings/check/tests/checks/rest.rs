@@ -99,7 +99,7 @@ fn presses_of_a_board_that_follow_one_another_are_no_contact_and_have_no_rate() 
         .expect("recorded");
     for (number, mut sample) in (0_u32..).zip(sound.samples) {
         // Boards of twenty presses, 0.83 s apart, and a minute to change them.
-        let pause = f64::from(number / 20) * 60.0 + if number % 20 > 9 { 95.0 } else { 0.0 };
+        let pause = f64::from(number / 20) * 155.0 + if number % 20 > 9 { 95.0 } else { 0.0 };
         sample.stamp = Some(Stamp {
             valid_s: 0.83 * f64::from(number) + pause,
             received_s: None,
