@@ -231,7 +231,7 @@ fn a_column_that_another_map_reads_otherwise_is_refused_by_its_key() {
             "columns.Fz.unit",
             line.replace(
                 &format!("unit = \"{unit}\""),
-                &format!("unit = \"{other_unit}\""),
+                &format!("unit = \"{other_unit}\", scale = 1"),
             ),
         ),
         ("columns.Fz.sign", line.replace(" }", ", sign = -1 }")),
@@ -258,7 +258,7 @@ fn a_column_that_another_map_reads_otherwise_is_refused_by_its_key() {
     let renamed = map.replace(&format!("\"{column}\""), "\"force_of_the_new_transducer\"");
     let renamed = renamed.replace(
         &format!("unit = \"{unit}\""),
-        &format!("unit = \"{other_unit}\""),
+        &format!("unit = \"{other_unit}\", scale = 1"),
     );
     bench.write("renamed.toml", &renamed);
     bench.ok("import second --map renamed.toml --extend data -q");

@@ -166,8 +166,7 @@ fn a_difference_is_tried_beside_the_picture_itself_and_taken_only_if_it_shows_mo
 fn a_size_is_not_chosen_on_a_handful_of_samples() {
     let bench = Bench::new();
     bench.record("data", 64);
-    let mut command =
-        bench.command("evaluate data --model ridge --split by-point --set size=auto -q");
+    let mut command = bench.command("evaluate data --model ridge --set size=auto -q");
     let ran = command.args(["--split", "random 30/30/40"]).output();
     let ran = ran.expect("the program starts");
     assert_eq!(ran.status.code(), Some(2));
@@ -180,8 +179,7 @@ fn a_size_is_not_chosen_on_a_handful_of_samples() {
 fn features_that_no_model_can_be_fitted_to_are_told_beside_those_that_were_tried() {
     let bench = Bench::new();
     bench.record("data", 64);
-    let mut command = bench
-        .command("evaluate data --model ridge --split by-point --set size=auto --metrics mae -q");
+    let mut command = bench.command("evaluate data --model ridge --set size=auto --metrics mae -q");
     // A grid of 2×2 has 28 statistics, and thirty components are asked for.
     let command = command.args(["--set", "features=statistics", "--set", "pca=30"]);
     let ran = command.args(["--split", "random 80/10/10"]).output();

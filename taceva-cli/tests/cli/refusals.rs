@@ -101,7 +101,7 @@ fn labels_a_thousand_times_too_large_are_a_warning_with_a_code() {
     bench.lab();
     bench.write(
         "map.toml",
-        &crate::support::MAP.replace("unit = \"N\"", "unit = \"kN\""),
+        &crate::support::MAP.replace("unit = \"N\"", "unit = \"kN\", scale = 1"),
     );
     let out = bench.ok("import lab --map map.toml --out data -q");
     assert!(out.contains("warning  magnitude-large"), "{out}");

@@ -25,6 +25,8 @@ fn names_that_begin_like_a_formula_are_words_in_tables_and_the_same_names_when_r
         .copied()
         .collect();
     names.sort_unstable();
+    // A number is one key with `.0` and without.
+    names.retain(|name| !name.ends_with(".0"));
     names.dedup();
     names.extend(["=1+1", "=cmd|' /C calc'!A0", "'=quoted", "plain"]);
     assert!(names.len() > 12, "{}", names.len());

@@ -152,7 +152,7 @@ fn leaving_one_recording_out_tests_every_sample_by_a_model_that_has_not_seen_its
     bench.refused(
         &format!("fit {all} --model ridge --split leave-one-recording-out --out m.model"),
         2,
-        "fits a model for each recording",
+        "fits a model for each fold",
     );
     bench.refused(
         "evaluate monday --model ridge --split leave-one-recording-out",

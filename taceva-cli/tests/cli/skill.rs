@@ -8,7 +8,7 @@ use serde_json::Value;
 /// Evaluates `data` with `model`, on enough contact points for intervals, into `NAME.json`, and gives what it says.
 fn evaluated(bench: &Bench, model: &str, seed: u32, name: &str) -> Value {
     let words = format!(
-        "evaluate data --model {model} --split by-point --seed {seed} --metrics all --format json --out {name}.json --samples-out {name}.samples.csv -q"
+        "evaluate data --model {model} --seed {seed} --metrics all --format json --out {name}.json --samples-out {name}.samples.csv -q"
     );
     let ran = bench
         .command(&words)
