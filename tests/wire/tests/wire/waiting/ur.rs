@@ -220,5 +220,5 @@ fn the_host_that_dies() {
 
 #[test]
 fn an_arm_whose_host_is_killed_stands_within_the_expiry_and_one_on_a_line_goes_on() {
-    setup().stands_where_its_host_dies("ur::the_host_that_dies");
+    setup().stands_where_its_host_dies("waiting::ur::the_host_that_dies");
 }

@@ -38,5 +38,5 @@ fn the_host_that_dies() {
 
 #[test]
 fn an_arm_whose_host_dies_stands_within_a_fifth_of_a_second_and_one_on_a_line_goes_on() {
-    setup(Ports::ANY).stands_where_its_host_dies("xarm::expiring::the_host_that_dies");
+    setup(Ports::ANY).stands_where_its_host_dies("waiting::xarm::expiring::the_host_that_dies");
 }
