@@ -60,7 +60,9 @@ fn latex(text: &str, whence: &str) -> usize {
     let describes = |name: &str| {
         let id = name.replace("\\_", "_");
         // What a sensor stands at most is a property of it, and no metric.
-        id == "greatest" || sign(&id).is_none() && Better::of(&id).is_some()
+        // The symbol of the sensitivity, which only describes.
+        let is_descriptive = id == "$S$" || sign(&id).is_none() && Better::of(&id).is_some();
+        id == "greatest" || is_descriptive
     };
     for name in names.filter(|name| !name.is_empty() && !describes(name)) {
         let signs = ["$\\downarrow$", "$\\uparrow$", "$\\to$0"];
