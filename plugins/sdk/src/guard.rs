@@ -93,7 +93,7 @@ mod tests {
         let panics: [(fn(), &str); 3] = [
             (|| panic!("plain"), "plain"),
             (|| panic!("{} of {}", 1, 2), "1 of 2"),
-            (|| std::panic::panic_any(()), "without a message"),
+            (|| std::panic::panic_any(()), "a panic without a message"),
         ];
         for (panics, expected) in panics {
             // SAFETY: the error is ours.
