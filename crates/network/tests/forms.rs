@@ -198,7 +198,7 @@ fn a_summary_that_names_no_form_of_convolution_is_refused() {
         summary,
         ..checkpoint
     });
-    let error = read.err().expect("no form").to_string();
+    let error = read.expect_err("no form").to_string();
     assert!(error.contains("convolutions"), "{error}");
 }
 

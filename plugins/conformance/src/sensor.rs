@@ -22,9 +22,7 @@ pub(crate) const PROMISES: &[Promise<dyn Sensor>] = &[
     ("sensor/passed-deadline", stream::passed_deadline),
     ("sensor/keeps-deadlines", stream::keeps_deadlines),
     ("sensor/interrupt-within-50-ms", stream::interrupt),
-    ("sensor/same-frames-of-a-simulation", |tried| {
-        stream::repeats(tried, |sensor, deadline| capture(sensor, deadline))
-    }),
+    ("sensor/same-frames-of-a-simulation", same_frames),
     ("sensor/sets-the-light", lights_as_declared),
     ("sensor/dropped-in-any-state", stream::dropped),
 ];
@@ -67,6 +65,14 @@ fn refuses_other_buffers(tried: &Subject<'_>) -> Result<(), Unmet> {
     }
     tried.reading(capture(&mut *sensor, tried.trial.deadline))?;
     Ok(())
+}
+
+#[expect(
+    clippy::redundant_closure,
+    reason = "the function itself is of one lifetime, and any is asked for"
+)]
+fn same_frames(tried: &Subject<'_>) -> Result<(), Unmet> {
+    stream::repeats(tried, |sensor, deadline| capture(sensor, deadline))
 }
 
 fn lights_as_declared(tried: &Subject<'_>) -> Result<(), Unmet> {

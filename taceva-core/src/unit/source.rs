@@ -258,11 +258,11 @@ mod tests {
         for (symbol, unit, one) in [
             ("lbf", Unit::Newton, 4.448_221_615_260_5),
             ("klbf", Unit::Newton, 4_448.221_615_260_5),
-            ("ozf", Unit::Newton, 0.278_013_850_953_781_25),
+            ("ozf", Unit::Newton, 0.278_013_850_953_781_2),
             ("dyn", Unit::Newton, 1e-5),
             ("lbf-in", Unit::NewtonMillimetre, 112.984_829_027_616_7),
             ("lbf-ft", Unit::NewtonMillimetre, 1_355.817_948_331_400_4),
-            ("ozf-in", Unit::NewtonMillimetre, 7.061_551_814_226_043_75),
+            ("ozf-in", Unit::NewtonMillimetre, 7.061_551_814_226_044),
             ("kgf-cm", Unit::NewtonMillimetre, 98.066_5),
             ("psi", Unit::Kilopascal, 6.894_757_293_168_361),
             ("bar", Unit::Kilopascal, 100.0),

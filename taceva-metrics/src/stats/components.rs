@@ -28,6 +28,9 @@ struct Part {
     mean: f64,
 }
 
+/// Number of samples of a bin, and its parts with their squared deviations and numbers of samples.
+type SizedBin = (u64, Vec<(Part, f64, u64)>);
+
 /// Bins with what each cluster brings to them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ClusteredBins {
@@ -57,7 +60,7 @@ impl ClusteredBins {
         clusters: impl IntoIterator<Item = impl IntoIterator<Item = (K, &'a Moments)>>,
         n_min: u64,
     ) -> Result<ClusteredBins, UndefinedReason> {
-        let mut bins: BTreeMap<K, (u64, Vec<(Part, f64, u64)>)> = BTreeMap::new();
+        let mut bins: BTreeMap<K, SizedBin> = BTreeMap::new();
         for (cluster, of_cluster) in clusters.into_iter().enumerate() {
             for (bin, moments) in of_cluster {
                 let (Some(mean), Some(squares)) = (moments.mean(), moments.squared_deviations())
@@ -506,7 +509,6 @@ mod tests {
                 f64::from(shown) <= 0.05 * 600.0 + 16.0,
                 "{clusters} × {presses}: {shown} of {REPEATS}, {each:?}"
             );
-            println!("{clusters} × {presses}: {shown} of {REPEATS}, {each:?}");
         }
     }
 

@@ -86,7 +86,7 @@ fn a_root_of_squares_that_no_binary64_holds_is_a_number() {
         let truth = [scale, 2.0 * scale, 3.0 * scale];
         let estimate = truth.map(|value| value - error);
         evaluator
-            .update_pairs(Channel::FZ, &truth, &estimate)
+            .update_pairs(Channel::FZ, truth, estimate)
             .expect("one length");
         let evaluation = evaluator.finish().expect("finished");
         let score = |metric: &str| {
@@ -105,7 +105,7 @@ fn a_root_of_squares_that_no_binary64_holds_is_a_number() {
 fn values_that_are_too_large_for_a_millionth_are_said_to_be_so_and_not_to_be_absent() {
     let mut evaluator = Evaluator::of_channels([Channel::FZ]).expect("one channel");
     evaluator
-        .update_pairs(Channel::FZ, &[1e16, 2e16, 3e16], &[1e16, 2e16, 3.5e16])
+        .update_pairs(Channel::FZ, [1e16, 2e16, 3e16], [1e16, 2e16, 3.5e16])
         .expect("one length");
     let evaluation = evaluator.finish().expect("finished");
     for metric in ["tolerance", "bias_level"] {

@@ -98,8 +98,8 @@ impl Stretches {
         type Clock<'t> = (Option<&'t str>, Option<&'t str>);
         let mut open: BTreeMap<Clock<'_>, (Vec<u64>, Vec<usize>)> = BTreeMap::new();
         let mut all = Vec::new();
-        for row in 0..table.rows() {
-            let (Some(label), Some(_)) = (label(row), times[row]) else {
+        for (row, time) in times.iter().enumerate() {
+            let (Some(label), Some(_)) = (label(row), time) else {
                 continue;
             };
             let clock = (
