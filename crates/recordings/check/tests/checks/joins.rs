@@ -49,7 +49,8 @@ fn stamps_that_are_all_zero_and_stamps_of_tenths_are_warned_of_and_exact_ones_ar
             .collect::<Vec<_>>()
             .join("\n")
     };
-    let stamps: [(&dyn Fn(u32) -> f64, Option<&str>); 3] = [
+    type Stamps<'a> = (&'a dyn Fn(u32) -> f64, Option<&'a str>);
+    let stamps: [Stamps<'_>; 3] = [
         (&|_| 0.0, Some("120 rows have 1 different times")),
         (
             &|row| f64::from(row / 4) * 0.1,
