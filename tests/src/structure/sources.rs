@@ -119,7 +119,9 @@ fn end_of_item(code: &str) -> usize {
             _ => {}
         }
         if depth == 0 && (letter == '}' || letter == ';') {
-            return at + 1;
+            let end = at + 1;
+            // A list of imports ends with both.
+            return end + usize::from(code[end..].starts_with(';'));
         }
     }
     code.len()
