@@ -15,7 +15,7 @@ robot = { driver = "sim/robot" }
 force = { driver = "sim/force-transducer" }
 lighting = { driver = "sim/lighting" }
 model = { name = "ridge", set = { size = "16x16" } }
-metrics = { want = ["mae", "r2", "r_light", "sensitivity", "uniformity"] }
+metrics = { want = ["mae", "rmse", "r2", "r_light", "sensitivity", "uniformity"] }
 protocol = { calibration = { points = 80, indentations = 1 }, lighting = { points = 3 }, surface = { points = 8 } }
 [[study]]
 name = "dome"
@@ -187,7 +187,7 @@ fn what_a_run_writes_names_no_metric_without_its_direction() {
     let bench = Bench::new();
     bench.write("small.toml", SCENE);
     let summary = bench.ok("run small.toml --out run -q");
-    assert!(lines(&summary, "run") > 4, "{summary}");
+    assert!(lines(&summary, "run") > 5, "{summary}");
     let kinds: [Kind; 6] = [
         ("scores.csv", csv),
         ("scores.md", markdown),
@@ -198,7 +198,7 @@ fn what_a_run_writes_names_no_metric_without_its_direction() {
     ];
     for (file, count) in kinds {
         let text = fs::read_to_string(bench.path(&format!("run/{file}"))).expect("there");
-        assert!(count(&text, file) > 4, "{file}");
+        assert!(count(&text, file) > 5, "{file}");
     }
 }
 

@@ -38,6 +38,17 @@ impl Evidence<'_> {
             .find_map(|name| channels.position(name))
     }
 
+    /// The row, the tiles and the load of each picture, by the channel at position `load`, in its unit and without its sign.
+    pub(crate) fn loaded_pictures(&self, load: usize) -> Vec<(usize, &Tiles, f64)> {
+        let column = self.table.truth(load);
+        let frames = self.frames.iter().enumerate();
+        let pictures = frames.filter_map(|(row, facts)| {
+            let facts = facts.as_ref()?;
+            Some((row, &facts.tiles, column.get(row)?.abs()))
+        });
+        pictures.collect()
+    }
+
     /// The names of `rows`.
     pub(crate) fn names<'b>(&'b self, rows: &'b [usize]) -> impl Iterator<Item = &'b str> {
         rows.iter().map(|&row| self.table.samples()[row].as_str())

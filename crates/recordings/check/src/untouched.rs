@@ -26,13 +26,7 @@ pub(crate) fn look_alikes(evidence: &Evidence<'_>) -> Vec<usize> {
     let Some(load) = evidence.load() else {
         return Vec::new();
     };
-    let column = evidence.table.truth(load);
-    let pictures: Vec<(usize, &Tiles, f64)> = evidence
-        .frames
-        .iter()
-        .enumerate()
-        .filter_map(|(row, facts)| Some((row, &facts.as_ref()?.tiles, column.get(row)?.abs())))
-        .collect();
+    let pictures = evidence.loaded_pictures(load);
     let greatest = pictures.iter().map(|picture| picture.2).fold(0.0, f64::max);
     if pictures.len() < 2 * LEAST || greatest <= 0.0 {
         return Vec::new();

@@ -8,6 +8,7 @@ mod quotation;
 mod scan;
 mod split;
 pub(crate) mod stream;
+mod table_with_units;
 pub(crate) mod text_form;
 
 use std::num::NonZeroUsize;

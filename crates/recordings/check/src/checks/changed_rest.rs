@@ -35,13 +35,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         Unit::Millimetre => UNTOUCHED_MM,
         _ => return Vec::new(),
     };
-    let column = evidence.table.truth(load);
-    let pictures: Vec<(usize, &Tiles, f64)> = evidence
-        .frames
-        .iter()
-        .enumerate()
-        .filter_map(|(row, facts)| Some((row, &facts.as_ref()?.tiles, column.get(row)?.abs())))
-        .collect();
+    let pictures = evidence.loaded_pictures(load);
     let greatest = pictures.iter().map(|picture| picture.2).fold(0.0, f64::max);
     let rest: Vec<(usize, &Tiles)> = pictures
         .iter()
