@@ -25,6 +25,7 @@ mod sign_flip;
 mod signed_sums;
 pub(crate) mod spread;
 mod student;
+mod variance_ratio;
 mod verdict;
 pub(crate) mod wilson;
 

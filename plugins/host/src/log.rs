@@ -36,7 +36,7 @@ impl Limited {
 
     /// Passes a line on, if it is not one too many.
     pub(crate) fn tell(&self, level: Level, target: &str, message: &str) {
-        self.tell_at(Instant::now(), (level, target, message));
+        self.tell_at(Instant::now(), level, target, message);
     }
 
     /// Counts lines that were lost on their way here.
@@ -45,7 +45,7 @@ impl Limited {
         state.left_out = state.left_out.saturating_add(count);
     }
 
-    fn tell_at(&self, now: Instant, (level, target, message): (Level, &str, &str)) {
+    fn tell_at(&self, now: Instant, level: Level, target: &str, message: &str) {
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         let due = state.due.map_or(now, |due| due.max(now));
         if due.saturating_duration_since(now) >= EVERY * BURST {
@@ -89,7 +89,7 @@ mod tests {
             lines.lock().expect("whole").push(message.to_owned());
         }));
         let begin = Instant::now();
-        let tell = |at, message: &str| limited.tell_at(begin + at, (Level::Info, "eye", message));
+        let tell = |at, message: &str| limited.tell_at(begin + at, Level::Info, "eye", message);
         for number in 0..1_000 {
             tell(Duration::ZERO, &format!("line {number}"));
         }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::student::quantile;
+use super::variance_ratio::paulson;
 use crate::exact::moments::Moments;
 use crate::score::least::LEAST_CLUSTERS;
 use crate::score::value::UndefinedReason;
@@ -380,29 +381,6 @@ impl Excess {
     }
 }
 
-/// Distance of a ratio of two variances from 1, as a standard normal number.
-fn paulson(ratio: f64, above: f64, below: f64) -> f64 {
-    let root = cube_root(ratio);
-    let (a, b) = (2.0 / (9.0 * above), 2.0 / (9.0 * below));
-    ((1.0 - b) * root - (1.0 - a)) / (b * root * root + a).sqrt()
-}
-
-/// The cube root of a number from 0 on, by Newton's steps, which every machine rounds alike.
-fn cube_root(of: f64) -> f64 {
-    if of <= 0.0 {
-        return 0.0;
-    }
-    // From above, steps only fall.
-    let mut root = if of > 1.0 { of } else { 1.0 };
-    loop {
-        let next = (2.0 * root + of / (root * root)) / 3.0;
-        if next >= root || !next.is_finite() {
-            return root;
-        }
-        root = next;
-    }
-}
-
 fn count(of: usize) -> u64 {
     u64::try_from(of).unwrap_or(u64::MAX)
 }
@@ -417,109 +395,4 @@ fn number(count: u64) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use taceva_core::random::SplitMix64;
-
-    #[test]
-    fn cube_roots_are_those_of_the_machine() {
-        for value in [1e-30_f64, 0.001, 0.5, 1.0, 8.0, 1e9, 1e200] {
-            let found = cube_root(value);
-            assert!(
-                (found / value.cbrt() - 1.0).abs() < 1e-14,
-                "{value}: {found}"
-            );
-        }
-        assert_eq!(cube_root(0.0).to_bits(), 0.0_f64.to_bits());
-    }
-
-    #[test]
-    fn upper_ends_of_the_f_distribution_agree_with_tables() {
-        // 97.5 % quantiles: F(10, 20) 2.7737, F(40, 60) 1.7440, F(5, 120) 2.6740.
-        for (ratio, above, below) in [
-            (2.7737, 10.0, 20.0),
-            (1.7440, 40.0, 60.0),
-            (2.6740, 5.0, 120.0),
-        ] {
-            let found = paulson(ratio, above, below);
-            assert!((found - TWO_SIDED).abs() < 0.02, "{above} {below}: {found}");
-        }
-    }
-
-    fn gaussian(random: &mut SplitMix64) -> f64 {
-        (0..12).map(|_| random.unit()).sum::<f64>() - 6.0
-    }
-
-    /// Absolute errors of `clusters` places, each in one bin of distance and pressed `presses` times through as many bins of depth.
-    fn sizes(
-        random: &mut SplitMix64,
-        clusters: usize,
-        presses: usize,
-        trend: f64,
-        spread: f64,
-    ) -> [Vec<Vec<(u8, Moments)>>; 2] {
-        let mut distance = Vec::new();
-        let mut depth = Vec::new();
-        for _ in 0..clusters {
-            let own = 1.0 + spread * (2.0 * random.unit() - 1.0);
-            let bin = u8::try_from(random.below(60)).expect("small");
-            let mut of_distance = Moments::default();
-            let mut of_depth = Vec::new();
-            for press in 0..presses {
-                let level = own * (1.0 + trend * f64::from(bin) / 60.0);
-                let size = (level * gaussian(random)).abs();
-                of_distance.add(size);
-                let step = u8::try_from(10 * press).expect("small");
-                of_depth.push((step, std::iter::once(size).collect::<Moments>()));
-            }
-            distance.push(vec![(bin, of_distance)]);
-            depth.push(of_depth);
-        }
-        [distance, depth]
-    }
-
-    fn excess(clusters: &[Vec<(u8, Moments)>]) -> Excess {
-        let clusters = clusters
-            .iter()
-            .map(|of| of.iter().map(|(bin, moments)| (*bin, moments)));
-        let bins = ClusteredBins::of(clusters, 1).expect("finite");
-        bins.excess().expect("bins")
-    }
-
-    #[test]
-    fn errors_that_are_equal_everywhere_are_called_uneven_in_at_most_5_percent_of_repeats() {
-        const REPEATS: u64 = 600;
-        for (clusters, presses) in [(20, 4), (46, 4), (60, 1), (64, 8)] {
-            let (mut shown, mut each) = (0_u32, [0_u32, 0]);
-            for repeat in 0..REPEATS {
-                let mut random = SplitMix64::new(repeat << 20 | clusters as u64);
-                let [distance, depth] = sizes(&mut random, clusters, presses, 0.0, 0.6);
-                let mut axes = vec![excess(&distance)];
-                if presses > 1 {
-                    axes.push(excess(&depth));
-                }
-                for (axis, count) in axes.iter().zip(&mut each) {
-                    *count += u32::from(axis.ends[0] > 0.0);
-                }
-                let both = Excess::mean_of(&axes).expect("two");
-                shown += u32::from(both.ends[0] > 0.0);
-            }
-            // Three standard errors of 600 runs at 5 % are 2.7 %.
-            assert!(
-                f64::from(shown) <= 0.05 * 600.0 + 16.0,
-                "{clusters} × {presses}: {shown} of {REPEATS}, {each:?}"
-            );
-        }
-    }
-
-    #[test]
-    fn errors_that_grow_with_the_distance_are_called_uneven() {
-        let shown = (0..50).filter(|repeat| {
-            let mut random = SplitMix64::new(*repeat);
-            let [distance, _] = sizes(&mut random, 64, 10, 3.0, 0.0);
-            excess(&distance).ends[0] > 0.0
-        });
-        let shown = shown.count();
-        assert!(shown >= 25, "{shown} of 50");
-    }
-}
+mod tests;

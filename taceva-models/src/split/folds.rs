@@ -4,10 +4,11 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use taceva_core::random::SplitMix64;
 
-use super::assign::{Split, SplitInput};
+use super::assign::Split;
 use super::error::SplitError;
 use super::fold_spec::{FoldGroups, FoldSpec};
 use super::fractions::Fractions;
+use super::input::SplitInput;
 use super::part::Part;
 use crate::settings::Suggestion;
 

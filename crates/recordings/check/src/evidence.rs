@@ -2,7 +2,7 @@
 
 use taceva_core::{Frame, PixelFormat};
 use taceva_dataset::{Header, Table};
-use taceva_models::Split;
+use taceva_evaluate::Divided;
 
 use crate::signal_facts::SignalFacts;
 use crate::tiles::Tiles;
@@ -15,8 +15,8 @@ pub struct Evidence<'a> {
     pub header: &'a Header,
     /// Its labels.
     pub table: &'a Table,
-    /// How it would be divided.
-    pub split: Option<&'a Split>,
+    /// Its division into parts.
+    pub divided: Option<&'a Divided>,
     /// A few numbers of each row's frame; empty if no check reads frames.
     pub frames: &'a [Option<FrameFacts>],
     /// The same of the frame without contact.

@@ -115,7 +115,7 @@ pub fn check(
     let evidence = Evidence {
         header: dataset.header(),
         table: dataset.table(),
-        split: divided.as_ref().map(|divided| &divided.split),
+        divided: divided.as_ref(),
         frames: &frames,
         reference: reference.as_ref(),
         signals: signals.as_ref(),

@@ -128,8 +128,7 @@ pub fn capture(
         state: CaptureState::default(),
         first_s: None,
     };
-    let (done, device) =
-        live.stream(|streams| recording.take_all(streams, (progress, &mut *on_stage)));
+    let (done, device) = live.stream(|streams| recording.take_all(streams, progress, on_stage));
     let Recording {
         recorder, state, ..
     } = recording;
@@ -177,7 +176,8 @@ impl Recording<'_> {
     fn take_all(
         &mut self,
         streams: &Streams<'_>,
-        (progress, on_stage): (&dyn Progress, &mut dyn FnMut(CaptureStage)),
+        progress: &dyn Progress,
+        on_stage: &mut dyn FnMut(CaptureStage),
     ) -> Result<(), DatasetError> {
         let mut is_enough = false;
         loop {

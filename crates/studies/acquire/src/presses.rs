@@ -60,7 +60,7 @@ impl PlannedStudy {
         cancel: &Cancel,
     ) -> Result<Dataset, AcquireError> {
         match &self.source {
-            StudySource::Rig(rig) => acquire(self, rig, path, (workshop, cancel)),
+            StudySource::Rig(rig) => acquire(self, rig, path, Sitting::new(workshop, cancel)),
             StudySource::Recording(path) => Ok(Dataset::open(path)?),
         }
     }
@@ -76,8 +76,9 @@ fn acquire(
     study: &PlannedStudy,
     rig: &RigSpec,
     path: &Path,
-    (workshop, cancel): (Workshop<'_>, &Cancel),
+    mut sitting: Sitting<'_>,
 ) -> Result<Dataset, AcquireError> {
+    let workshop = sitting.workshop;
     let plan = &study.plan;
     match Dataset::open(path) {
         Err(DatasetError::NoDataset { .. }) => {}
@@ -95,10 +96,8 @@ fn acquire(
     }
     let mut log: Option<RecordedPresses> = None;
     let mut left = 0;
-    let mut is_enabled = false;
     for unit in &plan.units {
-        let by_hand = (workshop, cancel, &mut is_enabled);
-        if !unit_is_there(study, rig, unit, by_hand)? {
+        if !unit_is_there(study, rig, unit, &mut sitting)? {
             left += plan
                 .presses
                 .iter()
@@ -106,7 +105,7 @@ fn acquire(
                 .count();
             continue;
         }
-        let mut open = OpenRig::open(study, rig, unit, (workshop, cancel))?;
+        let mut open = OpenRig::open(study, rig, unit, sitting)?;
         let log = match &mut log {
             Some(log) => log,
             None => {
@@ -128,13 +127,12 @@ fn acquire(
             }
         };
         let touched = session::touches(log.sessions().rows(), plan);
-        let sitting = Sitting {
-            is_enabled,
+        let of_unit = Sitting {
             touched: &touched,
+            ..sitting
         };
-        let whereabouts = (unit.as_str(), &mut open, path);
-        let done = acquire_unit(study, whereabouts, log, (workshop, cancel, sitting));
-        is_enabled = true;
+        let done = acquire_unit(study, unit, &mut open, path, log, of_unit);
+        sitting.is_enabled = true;
         if let Err(error) = done {
             left += presses_skipped(error)?;
         }
@@ -152,10 +150,15 @@ fn acquire(
 /// The presses of one unit.
 fn acquire_unit(
     study: &PlannedStudy,
-    (unit, open, path): (&str, &mut OpenRig, &Path),
+    unit: &str,
+    open: &mut OpenRig,
+    path: &Path,
     log: &mut RecordedPresses,
-    (workshop, cancel, sitting): (Workshop<'_>, &Cancel, Sitting<'_>),
+    sitting: Sitting<'_>,
 ) -> Result<(), AcquireError> {
+    let Sitting {
+        workshop, cancel, ..
+    } = sitting;
     let (plan, progress) = (&study.plan, workshop.progress);
     if open.surroundings.begins_anew {
         log.relive(plan, unit);
@@ -193,7 +196,7 @@ fn acquire_unit(
         unit,
         mode: Mode::Acquire,
     };
-    let done = open.conduct(&spec, log, (cancel, workshop, sitting), &mut events);
+    let done = open.conduct(&spec, log, sitting, &mut events);
     let done = done.map(drop).map_err(|error| stopped(plan, error));
     // A count that cannot be written is no reason to lose a recording.
     drop(add_frame_retries(path, retried));

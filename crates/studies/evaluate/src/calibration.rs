@@ -18,7 +18,8 @@ use crate::predict::Predicted;
 /// Only rows pressed in the same light as the training data count: a model states nothing about others.
 pub fn calibration(
     dataset: &Dataset,
-    (predicted, rows): (&Predicted, &[usize]),
+    predicted: &Predicted,
+    rows: &[usize],
     counts: impl Fn(usize) -> bool,
     jobs: NonZeroUsize,
 ) -> Result<Option<Note>, EvaluateError> {

@@ -37,7 +37,7 @@ pub fn evaluate(
             // Asked before the work: an unknown metric must not cost a fit.
             catalogue::select(request.metrics.iter().map(String::as_str))?;
             if let Some(folds) = folds::of(dataset, fit, request.part)? {
-                return folds.evaluate((request, fit), work);
+                return folds.evaluate(request, fit, work);
             }
             let plan = FitPlan::new(dataset, fit)?;
             if request.part.is_none() {
@@ -64,7 +64,8 @@ pub fn evaluate(
                 dataset,
                 request.asked(),
                 behind,
-                (&target, &predicted),
+                &target,
+                &predicted,
                 work.jobs,
             )?;
             Ok(Evaluated {
@@ -80,7 +81,8 @@ pub fn evaluate(
                 dataset,
                 request.asked(),
                 behind,
-                (&target, &predicted),
+                &target,
+                &predicted,
                 work.jobs,
             )?;
             let manifest = target

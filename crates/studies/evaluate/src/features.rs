@@ -65,8 +65,8 @@ fn of_recording(
 ) -> Result<Features, EvaluateError> {
     let make = || make(recording, extractor, rows, work);
     match work.cache {
-        Some(cache) if cache.is_of_many() => of_whole((recording, extractor, rows), cache, work),
-        Some(cache) => cache.features((recording, extractor, rows), make),
+        Some(cache) if cache.is_of_many() => of_whole(recording, extractor, rows, cache, work),
+        Some(cache) => cache.features(recording, extractor, rows, make),
         None => make(),
     }
 }
@@ -74,7 +74,9 @@ fn of_recording(
 /// The same from those of the whole recording, which other tasks need too; where these cannot be kept, or a frame that nobody asked for cannot
 /// be read, those of `rows` alone.
 fn of_whole(
-    (recording, extractor, rows): (&Dataset, &Extractor, &[usize]),
+    recording: &Dataset,
+    extractor: &Extractor,
+    rows: &[usize],
     cache: &Cache,
     work: Work<'_>,
 ) -> Result<Features, EvaluateError> {
@@ -88,7 +90,7 @@ fn of_whole(
     let positions = rows.iter().map(|row| all.binary_search(row).ok());
     let positions: Option<Vec<usize>> = positions.collect();
     let own = || {
-        cache.features((recording, extractor, rows), || {
+        cache.features(recording, extractor, rows, || {
             make(recording, extractor, rows, work)
         })
     };

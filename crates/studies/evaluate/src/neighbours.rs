@@ -1,11 +1,15 @@
 //! Neighbouring samples that resemble each other, found in the labels and their order: what a division at random would leak.
 
+mod blocks;
+mod sequence;
+
 use std::collections::BTreeMap;
 
 use taceva_dataset::Dataset;
 
-use crate::note::{Neighbours, SampleOrder};
-use crate::recordings;
+use crate::note::Neighbours;
+pub(crate) use blocks::Blocks;
+use sequence::Sequence;
 
 /// Resemblance of neighbours from which on they are kept together.
 const LEAST: f64 = 0.3;
@@ -13,38 +17,12 @@ const LEAST: f64 = 0.3;
 const DEVIATIONS: f64 = 3.5;
 /// Fewest pairs of neighbours by which anything is decided.
 const PAIRS_LEAST: usize = 20;
-/// Resemblance below which samples are far enough apart.
-const APART: f64 = 0.2;
-/// The largest distance that is looked at, as a share of the samples.
-const FARTHEST: usize = 10;
-/// Blocks of time that a recording has at least, where it has samples for it, and at most.
-const BLOCKS: [usize; 2] = [10, 40];
 /// Groups from which on a column is preferred to blocks of time.
 const GROUPS_LEAST: usize = 5;
 /// Names of columns whose values are groups, in the order in which they are preferred.
 const GROUP_NAMES: [&str; 10] = [
     "clip", "video", "episode", "take", "trial", "press", "repeat", "session", "run", "object",
 ];
-
-/// Blocks of time: samples in a row.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Blocks {
-    /// The block of each row.
-    pub(crate) names: Vec<String>,
-    /// The place of each row in time, counted in samples.
-    pub(crate) places: Vec<usize>,
-    /// Samples between blocks of different parts.
-    pub(crate) gap: usize,
-    /// Number of blocks.
-    pub(crate) count: usize,
-}
-
-/// Rows in the order in which they are neighbours: segments, across which there are none.
-#[derive(Debug)]
-struct Sequence {
-    segments: Vec<Vec<usize>>,
-    order: SampleOrder,
-}
 
 /// Resemblance of neighbouring samples by the labels of a recording.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,189 +53,9 @@ impl Resemblance {
     }
 }
 
-impl Blocks {
-    /// Blocks of `rows` of `dataset`, each at least twice as long as samples resemble each other, as far as their number allows it; `None` of too
-    /// few samples. Rows that were added later make blocks of their own, so that those of before stay as they were.
-    pub(crate) fn of(dataset: &Dataset, rows: &[usize]) -> Option<Blocks> {
-        if rows.len() < BLOCKS[0] {
-            return None;
-        }
-        let starts = recordings::sections(dataset, rows);
-        let ends = starts.iter().copied().chain([rows.len()]);
-        let starts = std::iter::once(0).chain(starts.iter().copied());
-        let sections = starts.zip(ends).map(|(start, end)| {
-            let own = &rows[start..end];
-            let sequence = Sequence::of(dataset, own);
-            let lag =
-                most_alike(dataset, own, &sequence).map_or(0, |(_, ranks, _)| sequence.lag(&ranks));
-            // So few rows that there are not several blocks are one.
-            numbered(&sequence, own.len(), lag).unwrap_or_else(|| NumberedBlocks {
-                numbers: vec![0; own.len()],
-                places: (0..own.len()).collect(),
-                gap: 0,
-                count: 1,
-            })
-        });
-        Some(Blocks::one_after_the_other(sections.collect()))
-    }
-
-    /// Blocks of rows behind each other, which are no neighbours.
-    fn one_after_the_other(sections: Vec<NumberedBlocks>) -> Blocks {
-        let gap = sections.iter().map(|own| own.gap).max().unwrap_or(0);
-        let mut all = Blocks {
-            gap,
-            ..Blocks::default()
-        };
-        let mut place = 0;
-        for own in sections {
-            let first = all.count;
-            let last = own.places.iter().max().map_or(0, |last| last + 1);
-            all.names.extend(
-                own.numbers
-                    .iter()
-                    .map(|number| format!("block {}", first + number + 1)),
-            );
-            all.places.extend(own.places.iter().map(|own| place + own));
-            all.count += own.count;
-            place += last + gap + 1;
-        }
-        all
-    }
-}
-
 /// Pairs of positions among `rows` that are neighbours.
 pub(crate) fn pairs(dataset: &Dataset, rows: &[usize]) -> Vec<[usize; 2]> {
     Sequence::of(dataset, rows).pairs(1).collect()
-}
-
-/// Blocks of a section of rows, by number.
-#[derive(Debug)]
-struct NumberedBlocks {
-    /// The number of the block of each row, from 0.
-    numbers: Vec<usize>,
-    places: Vec<usize>,
-    gap: usize,
-    count: usize,
-}
-
-/// Blocks of the `rows` rows of `sequence`, which resemble each other for `lag` samples; `None` of too few.
-fn numbered(sequence: &Sequence, rows: usize, lag: usize) -> Option<NumberedBlocks> {
-    let [least, most] = BLOCKS;
-    let longest = rows / least;
-    if longest < 1 {
-        return None;
-    }
-    let length = (2 * lag).max(rows.div_ceil(most)).clamp(1, longest);
-    let mut blocks = NumberedBlocks {
-        numbers: vec![0; rows],
-        places: vec![0; rows],
-        gap: lag.min(length / 2),
-        count: 0,
-    };
-    let mut place = 0;
-    for segment in &sequence.segments {
-        // As long as each other: the last one is no rest.
-        let own = segment.len().div_ceil(length).max(1);
-        for (at, &position) in segment.iter().enumerate() {
-            blocks.numbers[position] = blocks.count + at * own / segment.len();
-            blocks.places[position] = place + at;
-        }
-        blocks.count += own;
-        place += segment.len() + blocks.gap + 1;
-    }
-    Some(blocks)
-}
-
-impl Sequence {
-    /// `rows` of `dataset` as positions among them. Where times go back, as from clip to clip, a segment begins; where they go back all the time,
-    /// the table is in no order, and that of times counts.
-    fn of(dataset: &Dataset, rows: &[usize]) -> Sequence {
-        let names = recordings::names(dataset, rows);
-        let table = dataset.table();
-        let times: Option<Vec<f64>> = rows.iter().map(|&row| table.t_s()[row]).collect();
-        let times = times.filter(|times| times.iter().all(|time| time.is_finite()));
-        let is_new = |at: usize| {
-            names
-                .as_ref()
-                .is_some_and(|names| names[at] != names[at - 1])
-        };
-        let mut of_recordings: Vec<Vec<usize>> = Vec::new();
-        for at in 0..rows.len() {
-            match of_recordings.last_mut() {
-                Some(last) if !is_new(at) => last.push(at),
-                _ => of_recordings.push(vec![at]),
-            }
-        }
-        let Some(times) = times else {
-            return Sequence {
-                segments: of_recordings,
-                order: SampleOrder::Table,
-            };
-        };
-        let segments = of_recordings
-            .into_iter()
-            .flat_map(|recording| in_time(recording, &times))
-            .collect();
-        Sequence {
-            segments,
-            order: SampleOrder::Time,
-        }
-    }
-
-    /// Pairs of positions that stand `lag` samples apart in one segment.
-    fn pairs(&self, lag: usize) -> impl Iterator<Item = [usize; 2]> {
-        self.segments.iter().flat_map(move |segment| {
-            let later = segment.iter().skip(lag);
-            segment.iter().zip(later).map(|(one, other)| [*one, *other])
-        })
-    }
-
-    /// The resemblance of samples to those `lag` later, with the number of pairs.
-    fn resemblance(&self, ranks: &[Option<f64>], lag: usize) -> Option<(f64, usize)> {
-        let pairs = self.pairs(lag);
-        let both = pairs.filter_map(|[one, other]| Some([ranks[one]?, ranks[other]?]));
-        resemblance(both)
-    }
-
-    /// Samples after which the ranks hardly resemble each other.
-    fn lag(&self, ranks: &[Option<f64>]) -> usize {
-        let farthest = (ranks.len() / FARTHEST).max(1);
-        let mut lag = 1;
-        while lag < farthest {
-            match self.resemblance(ranks, lag) {
-                Some((resemblance, pairs)) if resemblance >= APART && pairs >= PAIRS_LEAST => {
-                    lag += (lag / 4).max(1);
-                }
-                _ => return lag,
-            }
-        }
-        farthest
-    }
-}
-
-/// The rows of one recording in segments of ascending times.
-fn in_time(mut recording: Vec<usize>, times: &[f64]) -> Vec<Vec<usize>> {
-    let goes_back = |pair: &[usize]| times[pair[1]] < times[pair[0]];
-    let backwards = recording.windows(2).filter(|pair| goes_back(pair)).count();
-    // Of rows in no order every second step goes back.
-    if backwards * 8 > recording.len() {
-        recording.sort_by(|one, other| times[*one].total_cmp(&times[*other]));
-        return vec![recording];
-    }
-    let mut segments: Vec<Vec<usize>> = Vec::new();
-    for position in recording {
-        match segments.last_mut() {
-            Some(segment)
-                if segment
-                    .last()
-                    .is_none_or(|last| times[position] >= times[*last]) =>
-            {
-                segment.push(position);
-            }
-            _ => segments.push(vec![position]),
-        }
-    }
-    segments
 }
 
 /// The channel whose neighbours resemble each other most, its ranks, and how much; `None` where no channel shows it.
@@ -385,6 +183,7 @@ fn groups_in_rows(values: &[&str], sequence: &Sequence, ranks: &[Option<f64>]) -
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::note::SampleOrder;
 
     fn in_a_row(rows: usize) -> Sequence {
         Sequence {
@@ -438,31 +237,6 @@ mod tests {
             .collect();
         let lag = in_a_row(1000).lag(&ranks(&wave));
         assert!((15..=35).contains(&lag), "{lag}");
-    }
-
-    #[test]
-    fn times_that_start_anew_begin_a_segment_and_shuffled_rows_are_put_in_order() {
-        let times: Vec<f64> = (0..30_u32).map(|row| f64::from(row % 10)).collect();
-        let clips = in_time((0..30).collect(), &times);
-        assert_eq!(clips.iter().map(Vec::len).collect::<Vec<_>>(), [10, 10, 10]);
-        let shuffled: Vec<f64> = (0..30_u32).map(|row| f64::from(row * 7 % 30)).collect();
-        let sorted = in_time((0..30).collect(), &shuffled);
-        assert_eq!(sorted.len(), 1);
-        assert!(sorted[0].is_sorted_by(|one, other| shuffled[*one] <= shuffled[*other]));
-    }
-
-    #[test]
-    fn blocks_are_long_enough_and_at_least_ten() {
-        let of = |rows: usize, lag: usize| numbered(&in_a_row(rows), rows, lag).expect("blocks");
-        assert_eq!((of(900, 90).count, of(900, 90).gap), (10, 45));
-        assert_eq!((of(4000, 10).count, of(4000, 10).gap), (40, 10));
-        assert_eq!(of(12, 1).count, 12);
-        assert!(numbered(&in_a_row(9), 9, 1).is_none());
-        let both = Blocks::one_after_the_other(vec![of(900, 90), of(40, 2)]);
-        let names = [0, 899, 900, 939].map(|row| both.names[row].as_str());
-        assert_eq!(names, ["block 1", "block 10", "block 11", "block 20"]);
-        // The first of the second section is no neighbour of the last of the first.
-        assert!(both.places[900] - both.places[899] > both.gap);
     }
 
     #[test]

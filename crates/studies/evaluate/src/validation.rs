@@ -39,7 +39,7 @@ pub fn fit_validated(
         sensor: None,
         is_independent: false,
     };
-    let report = folds.evaluate((&evaluation, request), work)?.report;
+    let report = folds.evaluate(&evaluation, request, work)?.report;
     let of_all = FitRequest {
         split: Some("all".to_owned()),
         ..request.clone()

@@ -39,7 +39,7 @@ pub(crate) fn assess(
 ) -> Result<EvaluationReport, StudyError> {
     let phase_rows = PhaseRows::new(study, dataset);
     let first = scene.seeds.first().copied();
-    let learnt = Learnt::new((scene, study), dataset, &phase_rows, context, first)?;
+    let learnt = Learnt::new(scene, study, dataset, &phase_rows, context, first)?;
     let predicted = learnt
         .as_ref()
         .map(|learnt| learnt.predict(study, dataset, &phase_rows, context))
@@ -70,7 +70,7 @@ pub(crate) fn assess(
     let (evaluation, mut notes) = scores_of(predicted.as_ref())?;
     let mut others = Vec::new();
     for seed in scene.seeds.iter().skip(1) {
-        let learnt = Learnt::new((scene, study), dataset, &phase_rows, context, Some(*seed))?;
+        let learnt = Learnt::new(scene, study, dataset, &phase_rows, context, Some(*seed))?;
         if let Some(learnt) = learnt {
             let predicted = learnt.predict(study, dataset, &phase_rows, context)?;
             others.push(scores_of(Some(&predicted))?.0);
@@ -94,7 +94,7 @@ pub(crate) fn assess(
         let calibrated = phase_rows.rows(PhaseKind::Calibration);
         let counts = |row: usize| calibrated.binary_search(&row).is_ok();
         let jobs = context.work.jobs;
-        notes.extend(calibration(dataset, (predicted, rows), counts, jobs)?);
+        notes.extend(calibration(dataset, predicted, rows, counts, jobs)?);
     }
     notes.extend(learnt.iter().flat_map(|learnt| choices(&learnt.model)));
     let divided = learnt.as_ref().and_then(|learnt| learnt.divided.as_ref());
@@ -144,7 +144,8 @@ struct Learnt {
 impl Learnt {
     /// Fits or opens the model that the plan needs, with a seed of its own if one is given; `None` where no metric reads a prediction.
     fn new(
-        (scene, study): (&PlannedScene, &PlannedStudy),
+        scene: &PlannedScene,
+        study: &PlannedStudy,
         dataset: &Dataset,
         phase_rows: &PhaseRows<'_>,
         context: RunContext<'_>,

@@ -52,7 +52,7 @@ pub(super) fn run(args: &BenchModels, context: &Context) -> anyhow::Result<u8> {
             race(&open(path)?, &name.to_string_lossy(), entered, context)?
         }
         None => {
-            let pressed = Pressed::new(args.quick, args.split.seed.value, (context, &known))?;
+            let pressed = Pressed::new(args.quick, args.split.seed.value, context, &known)?;
             race(&pressed.dataset, "simulated bench", entered, context)?
         }
     };

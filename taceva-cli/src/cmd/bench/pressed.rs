@@ -61,7 +61,8 @@ impl Pressed {
     pub(super) fn new(
         is_quick: bool,
         seed: u64,
-        (context, models): (&Context, &Models),
+        context: &Context,
+        models: &Models,
     ) -> anyhow::Result<Pressed> {
         let points = POINTS[usize::from(is_quick)];
         let text = SceneText {

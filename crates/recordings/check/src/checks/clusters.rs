@@ -8,8 +8,8 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC010",
     name: "few-points",
-    looks_for: "test parts without contact points, or with fewer than five",
-    hint: "name what repeats share as point_id in the map, record more points, or test on more of them: --split 'by-point 50/10/40'",
+    looks_for: "test parts with fewer than five contact points, groups or independent samples",
+    hint: "name what repeats share as point_id in the map, record more points, or predict every sample once: --split cv:5",
     reads: None,
     find,
 };
@@ -20,7 +20,17 @@ const LEAST: usize = 5;
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let points = evidence.table.point_id();
     let all: Vec<usize> = (0..points.len()).collect();
-    let rows = evidence.split.map_or(&all, |split| &split.test);
+    let rows = evidence.divided.map_or(&all, |divided| &divided.split.test);
+    if let Some(groups) = evidence.divided.and_then(|divided| divided.groups.as_ref()) {
+        let distinct: BTreeSet<_> = rows.iter().map(|&row| &groups[row]).collect();
+        return few(distinct.len(), "groups");
+    }
+    if evidence
+        .divided
+        .is_some_and(|divided| divided.are_independent)
+    {
+        return few(rows.len(), "independent samples");
+    }
     let unnamed = rows.iter().filter(|&&row| points[row].is_none()).count();
     if unnamed > 0 {
         let message = format!(
@@ -30,12 +40,14 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         return vec![Found::overall(Severity::Warning, message)];
     }
     let distinct: BTreeSet<_> = rows.iter().map(|&row| &points[row]).collect();
-    if distinct.len() >= LEAST || rows.is_empty() {
+    few(distinct.len(), "contact points")
+}
+
+/// The finding on `count` clusters of this kind, where there are too few.
+fn few(count: usize, kind: &str) -> Vec<Found> {
+    if count == 0 || count >= LEAST {
         return Vec::new();
     }
-    let message = format!(
-        "the test part has {} contact points, {LEAST} are needed for an interval",
-        distinct.len()
-    );
+    let message = format!("the test part has {count} {kind}, {LEAST} are needed for an interval");
     vec![Found::overall(Severity::Warning, message)]
 }

@@ -4,20 +4,22 @@ use std::collections::BTreeSet;
 
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};
+use taceva_evaluate::{Division, Note};
 
 pub(crate) static CHECK: Check = Check {
     code: "TAC007",
     name: "leakage",
-    looks_for: "contact points, or identical frames, in both the training and the test part",
-    hint: "divide with --split by-point, or by-column a session or an object; a score on seen points flatters",
+    looks_for: "contact points, neighbours or identical frames in both the training and the test part",
+    hint: "divide with --split by-point, by-block, or by-column a session or an object; a score on samples like those that were learnt from flatters",
     reads: None,
     find,
 };
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
-    let Some(split) = evidence.split else {
+    let Some(divided) = evidence.divided else {
         return Vec::new();
     };
+    let split = &divided.split;
     let table = evidence.table;
     let seen: Vec<usize> = split
         .train
@@ -57,5 +59,12 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let known: Vec<usize> = split.test.iter().copied().filter(is_known).collect();
     let what = "samples lie at a point that is also fitted on";
     report(Severity::Warning, &known, what);
+    if let Some(note @ Note::Neighbours { division, .. }) = &divided.neighbours {
+        let severity = match division {
+            Division::Separated { .. } => Severity::Warning,
+            Division::Blocks { .. } | Division::Column(_) => Severity::Note,
+        };
+        found.push(Found::overall(severity, note.to_string()));
+    }
     found
 }

@@ -5,6 +5,7 @@ mod forces;
 mod joins;
 mod lab;
 mod lag;
+mod neighbours;
 mod rest;
 mod stamps;
 mod streams;

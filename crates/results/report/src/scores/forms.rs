@@ -53,9 +53,9 @@ impl ScoreTable {
         let mut table = Table::new("Scores", columns);
         for row in &self.rows {
             let studies = self.names.iter().zip(&self.sources);
-            for (study, cell) in studies.zip(&row.cells) {
+            for ((name, source), cell) in studies.zip(&row.cells) {
                 if let Some(cell) = cell {
-                    table.push(row.numbers(study, cell));
+                    table.push(row.numbers(name, source, cell));
                 }
             }
         }
@@ -178,12 +178,12 @@ impl ScoreTable {
 
 impl ScoreRow {
     /// The numbers of the study `name`, in the order of the columns for programs.
-    fn numbers(&self, (name, source): (&String, &String), cell: &ScoreCell) -> [Cell; 15] {
+    fn numbers(&self, name: &str, source: &str, cell: &ScoreCell) -> [Cell; 15] {
         let number = |value: Option<f64>| {
             Cell::Number(value.map_or_else(String::new, |value| format!("{value:?}")))
         };
         [
-            Cell::text(name.as_str()),
+            Cell::text(name),
             Cell::text(self.metric.as_str()),
             Cell::text(self.channel.as_str()),
             number(cell.value),
@@ -197,7 +197,7 @@ impl ScoreRow {
             Cell::text(cell.formatted.reason.as_deref().unwrap_or_default()),
             Cell::text(cell.standing.words().unwrap_or_default()),
             number(cell.bounded_share),
-            Cell::text(source.as_str()),
+            Cell::text(source),
         ]
     }
 }

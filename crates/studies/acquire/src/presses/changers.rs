@@ -4,11 +4,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
-use taceva_core::{Changer, Deadline, DriverError, DriverKey, ErrorKind, Progress, Rig, Specimen};
+use taceva_core::{Changer, Deadline, DriverError, DriverKey, ErrorKind, Rig, Specimen};
 use taceva_drivers::{Drivers, OpenError};
 use taceva_protocol::{Cancel, RigFile, Setting, SpecimenChanger};
 
 use super::device::Opened;
+use super::devices::Sitting;
+use super::workshop::Workshop;
 use crate::scene::RigSpec;
 
 /// A wish to stop reaches a changer so soon.
@@ -24,7 +26,8 @@ pub(super) struct OpenChanger {
 impl OpenChanger {
     /// Opens what `device` of `rig` names; nothing moves.
     pub(super) fn open(
-        (spec, rig): (&RigSpec, &RigFile),
+        spec: &RigSpec,
+        rig: &RigFile,
         device: Option<&Setting<String>>,
         drivers: &Drivers,
     ) -> Result<Option<OpenChanger>, OpenError> {
@@ -115,11 +118,15 @@ impl SpecimenChanger for OfSpecimens {
 /// # Errors
 /// As [`OpenChanger::open`] and [`OpenChanger::bring`].
 pub(super) fn bring_unit(
-    (spec, rig): (&RigSpec, &RigFile),
+    spec: &RigSpec,
+    rig: &RigFile,
     unit: &str,
-    (drivers, progress, cancel): (&Drivers, &dyn Progress, &Cancel),
+    sitting: Sitting<'_>,
 ) -> Option<Result<(), OpenError>> {
-    let opened = OpenChanger::open((spec, rig), rig.changers.unit.as_ref(), drivers);
+    let Workshop {
+        drivers, progress, ..
+    } = sitting.workshop;
+    let opened = OpenChanger::open(spec, rig, rig.changers.unit.as_ref(), drivers);
     let mut changer = match opened {
         Ok(changer) => changer?,
         Err(error) => return Some(Err(error)),
@@ -127,7 +134,7 @@ pub(super) fn bring_unit(
     if !changer.holds(unit) {
         return None;
     }
-    let is_stopped = || progress.is_cancelled() || cancel.is_cancelled();
+    let is_stopped = || progress.is_cancelled() || sitting.cancel.is_cancelled();
     let brought = changer.bring(unit, &is_stopped);
     Some(brought.map_err(OpenError::Device))
 }

@@ -54,7 +54,8 @@ struct Opened {
 /// What opens each device of `rig` for `unit`.
 fn devices(rig: &RigSpec, unit: &str, drivers: &Drivers) -> Option<[Option<Opened>; 4]> {
     fn of<D: Device + ?Sized>(
-        (rig, unit): (&RigSpec, &str),
+        rig: &RigSpec,
+        unit: &str,
         registry: &Registry<D>,
         device: Option<&Setting<String>>,
     ) -> Option<Option<Opened>> {
@@ -75,11 +76,10 @@ fn devices(rig: &RigSpec, unit: &str, drivers: &Drivers) -> Option<[Option<Opene
             })
         })
     }
-    let way = (rig, unit);
     Some([
-        of(way, &drivers.sensors, rig.sensor.as_ref())?,
-        of(way, &drivers.robots, rig.robot.as_ref())?,
-        of(way, &drivers.forces, rig.force.as_ref())?,
-        of(way, &drivers.lightings, rig.lighting.as_ref())?,
+        of(rig, unit, &drivers.sensors, rig.sensor.as_ref())?,
+        of(rig, unit, &drivers.robots, rig.robot.as_ref())?,
+        of(rig, unit, &drivers.forces, rig.force.as_ref())?,
+        of(rig, unit, &drivers.lightings, rig.lighting.as_ref())?,
     ])
 }

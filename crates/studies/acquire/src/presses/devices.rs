@@ -42,13 +42,27 @@ pub(super) struct OpenRig {
     pub(super) switch: Option<Arc<dyn EnablingSwitch>>,
 }
 
-/// What a session of a real rig goes on from.
-#[derive(Clone, Copy, Debug)]
+/// A session at a rig: its workshop, the wish to stop, and the state that it goes on from.
+#[derive(Clone, Copy)]
 pub(super) struct Sitting<'a> {
+    pub(super) workshop: Workshop<'a>,
+    pub(super) cancel: &'a Cancel,
     /// Whether somebody has enabled the robot since this process has it.
     pub(super) is_enabled: bool,
     /// What earlier sessions of the recording touched.
     pub(super) touched: &'a [ReferenceTouch],
+}
+
+impl<'a> Sitting<'a> {
+    /// A session before which nothing was enabled or touched.
+    pub(super) fn new(workshop: Workshop<'a>, cancel: &'a Cancel) -> Sitting<'a> {
+        Sitting {
+            workshop,
+            cancel,
+            is_enabled: false,
+            touched: &[],
+        }
+    }
 }
 
 impl OpenRig {
@@ -57,8 +71,9 @@ impl OpenRig {
         study: &PlannedStudy,
         rig: &RigSpec,
         unit: &str,
-        (workshop, cancel): (Workshop<'_>, &Cancel),
+        sitting: Sitting<'_>,
     ) -> Result<OpenRig, AcquireError> {
+        let workshop = sitting.workshop;
         let failed = |source: OpenError| AcquireError::Open {
             study: study.plan.name.clone(),
             source: Box::new(source),
@@ -101,9 +116,9 @@ impl OpenRig {
         };
         if let Some(rig_file) = rig_file.filter(|_| rig.changes) {
             let specimen = rig_file.changers.specimen.as_ref();
-            let opened = OpenChanger::open((rig, rig_file), specimen, workshop.drivers);
+            let opened = OpenChanger::open(rig, rig_file, specimen, workshop.drivers);
             if let Some(changer) = opened.map_err(failed)? {
-                let cancel = cancel.clone();
+                let cancel = sitting.cancel.clone();
                 surroundings.specimens = Some(Box::new(OfSpecimens { changer, cancel }));
             }
         }
@@ -156,11 +171,10 @@ impl OpenRig {
     ///
     /// # Errors
     /// As [`raise`](taceva_protocol::raise).
-    pub(super) fn raise(
-        &mut self,
-        plan: &Plan,
-        (cancel, workshop, is_enabled): (&Cancel, Workshop<'_>, bool),
-    ) -> Result<bool, RunError> {
+    pub(super) fn raise(&mut self, plan: &Plan, sitting: Sitting<'_>) -> Result<bool, RunError> {
+        let Sitting {
+            workshop, cancel, ..
+        } = sitting;
         let Some(limits) = plan.limits.clone() else {
             return Ok(false);
         };
@@ -168,7 +182,7 @@ impl OpenRig {
         let mut operator =
             operator.map(|operator| operator.lock().unwrap_or_else(PoisonError::into_inner));
         let rig_file = self.rig_file.as_deref();
-        let robot_name = rig_file.and_then(|rig| to_be_enabled(rig, is_enabled));
+        let robot_name = rig_file.and_then(|rig| to_be_enabled(rig, sitting.is_enabled));
         let clock = &mut *self.surroundings.clock;
         let guarded = Guarded {
             robot: &mut *self.robot,
@@ -205,9 +219,12 @@ impl OpenRig {
         &mut self,
         spec: &RunSpec<'_>,
         log: &mut dyn PressLog,
-        (cancel, workshop, sitting): (&Cancel, Workshop<'_>, Sitting<'_>),
+        sitting: Sitting<'_>,
         events: &mut dyn FnMut(&Event),
     ) -> Result<RunReport, RunError> {
+        let Sitting {
+            workshop, cancel, ..
+        } = sitting;
         let operator = workshop.operator.filter(|_| self.is_real);
         let mut operator =
             operator.map(|operator| operator.lock().unwrap_or_else(PoisonError::into_inner));

@@ -4,11 +4,10 @@ use std::collections::BTreeSet;
 use std::sync::PoisonError;
 
 use taceva_drivers::{Drivers, OpenError};
-use taceva_protocol::{Answer, Cancel, Left, Plan, Question, RigFile, RunError, StopCause};
+use taceva_protocol::{Answer, Left, Plan, Question, RigFile, RunError, StopCause};
 
 use super::changers::bring_unit;
-use super::devices::OpenRig;
-use super::workshop::Workshop;
+use super::devices::{OpenRig, Sitting};
 use crate::error::AcquireError;
 use crate::scene::{PlannedScene, PlannedStudy, RigSpec, StudySource};
 
@@ -193,8 +192,11 @@ pub(super) fn unit_is_there(
     study: &PlannedStudy,
     rig: &RigSpec,
     unit: &str,
-    (workshop, cancel, is_enabled): (Workshop<'_>, &Cancel, &mut bool),
+    sitting: &mut Sitting<'_>,
 ) -> Result<bool, AcquireError> {
+    let Sitting {
+        workshop, cancel, ..
+    } = *sitting;
     let plan = &study.plan;
     let drivers = workshop.drivers;
     let has_changer = is_held(study.held(drivers).units.as_ref(), &unit.to_owned());
@@ -208,14 +210,12 @@ pub(super) fn unit_is_there(
             StopCause::Missing(format!("somebody to {question}")),
         ));
     }
-    let mut open = OpenRig::open(study, &rig.without_sensor(), unit, (workshop, cancel))?;
-    let raised = open.raise(plan, (cancel, workshop, *is_enabled));
+    let mut open = OpenRig::open(study, &rig.without_sensor(), unit, *sitting)?;
+    let raised = open.raise(plan, *sitting);
     drop(open);
-    *is_enabled |= raised.map_err(|source| stopped(plan, source))?;
-    let brought = study.rig().and_then(|file| {
-        let aids = (drivers, workshop.progress, cancel);
-        bring_unit((rig, file), unit, aids)
-    });
+    sitting.is_enabled |= raised.map_err(|source| stopped(plan, source))?;
+    let rig_file = study.rig();
+    let brought = rig_file.and_then(|file| bring_unit(rig, file, unit, *sitting));
     let question = match brought {
         None => question,
         Some(Ok(())) => return Ok(true),

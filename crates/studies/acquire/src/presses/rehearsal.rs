@@ -32,23 +32,18 @@ pub fn rehearse_scene(scene: &PlannedScene, workshop: Workshop<'_>) -> Result<us
         let StudySource::Rig(rig) = &study.source else {
             continue;
         };
-        let mut is_enabled = false;
+        let mut sitting = Sitting::new(workshop, &cancel);
         for unit in &study.plan.units {
-            let by_hand = (workshop, &cancel, &mut is_enabled);
-            if !unit_is_there(study, rig, unit, by_hand)? {
+            if !unit_is_there(study, rig, unit, &mut sitting)? {
                 continue;
             }
-            let mut open = OpenRig::open(study, rig, unit, (workshop, &cancel))?;
+            let mut open = OpenRig::open(study, rig, unit, sitting)?;
             let spec = RunSpec {
                 plan: &study.plan,
                 unit,
                 mode: Mode::Rehearse {
                     height: Millimetre(AIR_MM),
                 },
-            };
-            let sitting = Sitting {
-                is_enabled,
-                touched: &[],
             };
             let mut events = |event: &Event| {
                 if let Event::Rehearsed(_) = event {
@@ -58,14 +53,9 @@ pub fn rehearse_scene(scene: &PlannedScene, workshop: Workshop<'_>) -> Result<us
                     cancel.cancel();
                 }
             };
-            let done = open.conduct(
-                &spec,
-                &mut Unwritten,
-                (&cancel, workshop, sitting),
-                &mut events,
-            );
+            let done = open.conduct(&spec, &mut Unwritten, sitting, &mut events);
             let report = done.map_err(|error| stopped(&study.plan, error))?;
-            is_enabled = true;
+            sitting.is_enabled = true;
             visited += report.made;
         }
     }

@@ -72,7 +72,7 @@ impl HeldRigs {
     ) -> Result<HeldRigs, AcquireError> {
         let locks = devices.into_iter().map(|(device, rig)| {
             let path = lock_path(folder, &device);
-            take(&path, (&device, &rig))
+            take(&path, &device, &rig)
         });
         let locks: Result<Vec<File>, AcquireError> = locks.collect();
         Ok(HeldRigs { _locks: locks? })
@@ -83,7 +83,7 @@ fn lock_path(folder: &Path, device: &str) -> PathBuf {
     folder.join(format!("taceva-rig-{}.lock", ContentId::of_text(device)))
 }
 
-fn take(path: &Path, (device, rig): (&str, &str)) -> Result<File, AcquireError> {
+fn take(path: &Path, device: &str, rig: &str) -> Result<File, AcquireError> {
     let unusable = |error: std::io::Error| AcquireError::RigLock {
         path: path.to_owned(),
         problem: format!(
@@ -122,17 +122,17 @@ mod tests {
     fn a_device_that_is_held_is_refused_by_name_until_it_is_let_go() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = lock_path(folder.path(), "ufactory/xarm:host=10.0.0.2");
-        let named = ("ufactory/xarm:host=10.0.0.2", "lab.toml");
-        let held = take(&path, named).expect("free");
-        let error = take(&path, named).expect_err("held");
+        let (device, rig) = ("ufactory/xarm:host=10.0.0.2", "lab.toml");
+        let held = take(&path, device, rig).expect("free");
+        let error = take(&path, device, rig).expect_err("held");
         let said = error.to_string();
         assert!(
             said.starts_with("lab.toml: `ufactory/xarm:host=10.0.0.2` is in use by another run"),
             "{said}"
         );
         let other = lock_path(folder.path(), "ufactory/xarm:host=10.0.0.3");
-        take(&other, named).expect("another arm is free");
+        take(&other, device, rig).expect("another arm is free");
         drop(held);
-        take(&path, named).expect("free again");
+        take(&path, device, rig).expect("free again");
     }
 }

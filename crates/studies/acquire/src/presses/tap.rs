@@ -12,7 +12,7 @@ use taceva_protocol::{
     Cancel, Controls, RunError, SessionSpec, StopCause, TapHeard, TapListener, Tapped, tap,
 };
 
-use super::devices::{OpenRig, to_be_enabled};
+use super::devices::{OpenRig, Sitting, to_be_enabled};
 use super::guardian::{Guarded, Over};
 use super::workshop::Workshop;
 use crate::error::AcquireError;
@@ -51,18 +51,22 @@ pub(crate) fn tap_study(
     };
     let unit = plan.units.first().map_or("1", String::as_str);
     let cancel = Cancel::new();
-    let mut open = OpenRig::open(study, rig, unit, (workshop, &cancel))?;
-    open.tap(&plan, (workshop, &cancel), missing, failed)
+    let sitting = Sitting::new(workshop, &cancel);
+    let mut open = OpenRig::open(study, rig, unit, sitting)?;
+    open.tap(&plan, sitting, missing, failed)
 }
 
 impl OpenRig {
     fn tap(
         &mut self,
         plan: &taceva_protocol::Plan,
-        (workshop, cancel): (Workshop<'_>, &Cancel),
+        sitting: Sitting<'_>,
         missing: impl Fn(&str) -> AcquireError,
         failed: impl Fn(RunError) -> AcquireError,
     ) -> Result<Tapped, AcquireError> {
+        let Sitting {
+            workshop, cancel, ..
+        } = sitting;
         let limits = plan.limits.clone();
         let limits = limits.ok_or_else(|| missing("limits: nothing in it moves"))?;
         let rig_file = self.rig_file.clone();

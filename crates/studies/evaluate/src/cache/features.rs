@@ -39,16 +39,14 @@ impl Cache {
         make: impl FnOnce() -> Result<Features, EvaluateError>,
     ) -> Result<Arc<Features>, EvaluateError> {
         let Some(memory) = &self.memory else {
-            return self
-                .features((dataset, extractor, rows), make)
-                .map(Arc::new);
+            return self.features(dataset, extractor, rows, make).map(Arc::new);
         };
         let digits = features_key(dataset, extractor, rows).digits();
         let lock = || memory.kept.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(found) = lock().get(&digits) {
             return Ok(Arc::clone(found));
         }
-        let made = Arc::new(self.features((dataset, extractor, rows), make)?);
+        let made = Arc::new(self.features(dataset, extractor, rows, make)?);
         lock().insert(digits, Arc::clone(&made));
         Ok(made)
     }
@@ -63,7 +61,9 @@ impl Cache {
     /// Features are a function of frames and reference frame, or of signals and those at rest, which the digest of a dataset covers.
     pub(crate) fn features(
         &self,
-        (dataset, extractor, rows): (&Dataset, &Extractor, &[usize]),
+        dataset: &Dataset,
+        extractor: &Extractor,
+        rows: &[usize],
         make: impl FnOnce() -> Result<Features, EvaluateError>,
     ) -> Result<Features, EvaluateError> {
         let bytes = rows.len() as u64 * extractor.shape().len() as u64 * 4;

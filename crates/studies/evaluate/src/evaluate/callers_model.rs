@@ -199,7 +199,7 @@ impl GivenRows {
                 self.is_unbounded,
             ),
         };
-        score(dataset, asked, behind, (&self.target, &predicted), jobs)
+        score(dataset, asked, behind, &self.target, &predicted, jobs)
     }
 
     fn check(

@@ -284,7 +284,8 @@ impl<'a> Folds<'a> {
     /// Fits and predicts fold by fold, and scores all predictions together. Features are made once.
     pub(crate) fn evaluate(
         &self,
-        (request, fit): (&EvaluateRequest, &FitRequest),
+        request: &EvaluateRequest,
+        fit: &FitRequest,
         work: Work<'_>,
     ) -> Result<Evaluated, EvaluateError> {
         self.refuse_part(request)?;
@@ -352,7 +353,8 @@ impl<'a> Folds<'a> {
                 fit,
                 ..together(dataset, models)
             },
-            (&target, &predicted),
+            &target,
+            &predicted,
             work.jobs,
         )?;
         let manifest = self.whole.manifest(dataset.table())?;

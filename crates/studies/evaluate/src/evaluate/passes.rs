@@ -97,7 +97,8 @@ impl<'a> Passes<'a> {
         &self,
         dataset: &Dataset,
         predicted: &Predicted,
-        (rows, own): (&[usize], Range<usize>),
+        rows: &[usize],
+        own: Range<usize>,
         jobs: NonZeroUsize,
     ) -> Result<Evaluation, EvaluateError> {
         let slice = |columns: &[Column]| -> Vec<Column> {

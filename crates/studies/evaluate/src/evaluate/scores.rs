@@ -64,7 +64,8 @@ pub fn score(
     dataset: &Dataset,
     asked: Asked<'_>,
     behind: Behind,
-    (target, predicted): (&Target, &Predicted),
+    target: &Target,
+    predicted: &Predicted,
     jobs: NonZeroUsize,
 ) -> Result<Evaluated, EvaluateError> {
     let plan = metrics(dataset, predicted.channels(), asked)?
@@ -78,7 +79,7 @@ pub fn score(
         (None, Some(_)) => plan.by_group(),
         (None, None) => plan,
     };
-    let by_recording = by_recording(dataset, (&plan, asked), (target, predicted), jobs)?;
+    let by_recording = by_recording(dataset, &plan, asked, target, predicted, jobs)?;
     let plan = match clusters.is_some_and(Clusters::are_recordings) {
         true => plan.by_recording(),
         false => plan,
@@ -112,7 +113,8 @@ pub fn score(
     notes.extend(predicted.beyond());
     notes.extend(calibration(
         dataset,
-        (predicted, &target.rows),
+        predicted,
+        &target.rows,
         |_| true,
         jobs,
     )?);
@@ -166,8 +168,10 @@ fn independence(asked: Asked<'_>, target: &Target) -> Option<Independence> {
 /// The scores of each recording alone, where several were joined.
 fn by_recording(
     dataset: &Dataset,
-    (plan, asked): (&MetricPlan, Asked<'_>),
-    (target, predicted): (&Target, &Predicted),
+    plan: &MetricPlan,
+    asked: Asked<'_>,
+    target: &Target,
+    predicted: &Predicted,
     jobs: NonZeroUsize,
 ) -> Result<Vec<RecordingScores>, EvaluateError> {
     let divided = target.divided.as_ref();
@@ -178,7 +182,7 @@ fn by_recording(
     for recording in dataset.recordings() {
         let bound = |row: usize| rows.partition_point(|own| *own < row);
         let own = bound(recording.rows().start)..bound(recording.rows().end);
-        let evaluation = passes.of_recording(dataset, predicted, (rows, own.clone()), jobs)?;
+        let evaluation = passes.of_recording(dataset, predicted, rows, own.clone(), jobs)?;
         let evaluation = match target.is_seen() {
             true => evaluation.of_seen_samples(),
             false => evaluation,

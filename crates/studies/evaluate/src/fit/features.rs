@@ -92,7 +92,7 @@ impl FitPlan<'_> {
     ) -> Result<Vec<f64>, EvaluateError> {
         let seen = self.see(spec, work)?;
         let left_out = seen.features.select(&parts.left_out);
-        let model = self.learn(estimator, (seen, None), &parts.learnt, work)?;
+        let model = self.learn(estimator, seen, None, &parts.learnt, work)?;
         self.losses(&model, &left_out, parts)
     }
 
@@ -137,7 +137,7 @@ impl FitPlan<'_> {
         let found = model.predict(left_out)?;
         let rows: Vec<usize> = parts.left_out.iter().map(|&at| self.train[at]).collect();
         let (labels, all) = (self.labels(&rows), self.labels(&self.train));
-        Ok(losses((&found, &labels), &all, self.channels.len()))
+        Ok(losses(&found, &labels, &all, self.channels.len()))
     }
 }
 
@@ -145,7 +145,7 @@ impl FitPlan<'_> {
 ///
 /// # Shapes
 /// `[samples, channels]` each; the result `[samples]`.
-fn losses((found, labels): (&[f64], &[f64]), all: &[f64], channels: usize) -> Vec<f64> {
+fn losses(found: &[f64], labels: &[f64], all: &[f64], channels: usize) -> Vec<f64> {
     let mut losses = vec![0.0; labels.len() / channels];
     let mut varying = 0.0_f64;
     for channel in 0..channels {
@@ -188,8 +188,8 @@ mod tests {
         let all: Vec<f64> = (0..102).flat_map(|row| [f64::from(row % 2), 0.1]).collect();
         let labels = [0.0, 0.1, 1.0, 0.1];
         let found = [0.5, 0.1 + 1e-14, 1.0, 0.1];
-        assert_eq!(losses((&found, &labels), &all, 2), [1.0, 0.0]);
-        let nothing = losses((&[0.1], &[0.1]), &[0.1; 7], 1);
+        assert_eq!(losses(&found, &labels, &all, 2), [1.0, 0.0]);
+        let nothing = losses(&[0.1], &[0.1], &[0.1; 7], 1);
         assert_eq!(nothing, [0.0]);
     }
 }

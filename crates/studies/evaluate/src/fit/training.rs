@@ -35,7 +35,7 @@ impl FitPlan<'_> {
         let whole: Vec<usize> = (0..self.train.len()).collect();
         let seen = self.see(self.features, work)?;
         let closer = self.closer.map(|spec| self.see(spec, work)).transpose()?;
-        let learnt = self.learn(&*self.estimator, (seen, closer), &whole, work)?;
+        let learnt = self.learn(&*self.estimator, seen, closer, &whole, work)?;
         let model = match choice {
             Some(choice) => learnt.with_features_chosen(choice),
             None => learnt,
@@ -79,7 +79,8 @@ impl FitPlan<'_> {
     pub(super) fn learn(
         &self,
         estimator: &dyn ModelEstimator,
-        (seen, closer): (Seen, Option<Seen>),
+        seen: Seen,
+        closer: Option<Seen>,
         positions: &[usize],
         work: Work<'_>,
     ) -> Result<Model, EvaluateError> {

@@ -260,7 +260,8 @@ impl Raced {
             dataset,
             asked.asked(),
             behind,
-            (&target, &predicted),
+            &target,
+            &predicted,
             work.jobs,
         )?;
         let report = &scored.report;

@@ -51,14 +51,14 @@ impl PredictedSpacings {
                 match classifier {
                     SpacingClassifier::Spectrum => {
                         let by = ByFold::Discriminants;
-                        spectrum::classify(dataset, presses, (by, work), &mut predicted)?
+                        spectrum::classify(dataset, presses, by, &mut predicted, work)?
                     }
                     SpacingClassifier::Model(model) => {
                         let by = ByFold::Model(model);
-                        spectrum::classify(dataset, presses, (by, work), &mut predicted)?
+                        spectrum::classify(dataset, presses, by, &mut predicted, work)?
                     }
                     SpacingClassifier::Network(network) => {
-                        network::classify(dataset, presses, (network, work), &mut predicted)?;
+                        network::classify(dataset, presses, network, &mut predicted, work)?;
                     }
                 }
             }

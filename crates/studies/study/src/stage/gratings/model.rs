@@ -11,7 +11,8 @@ use taceva_evaluate::Work;
 /// The spacings of the spectra `asked`, by a model of `known` spectra with their spacings.
 pub(super) fn predict(
     classifier: &ModelClassifier,
-    (known, spacings): (&[Vec<f64>], &[Nanometre]),
+    known: &[Vec<f64>],
+    spacings: &[Nanometre],
     asked: &[Vec<f64>],
     work: Work<'_>,
 ) -> Result<Vec<Nanometre>, EvaluateError> {

@@ -13,8 +13,9 @@ use taceva_evaluate::{extract, extractor};
 pub(super) fn classify(
     dataset: &Dataset,
     presses: &[(usize, Nanometre)],
-    (classifier, work): (&NetworkClassifier, Work<'_>),
+    classifier: &NetworkClassifier,
     predicted: &mut SpacingOfRow,
+    work: Work<'_>,
 ) -> Result<(), EvaluateError> {
     let rows: Vec<usize> = presses.iter().map(|(row, _)| *row).collect();
     let extractor = |recording: &Dataset| extractor(recording, classifier.features);

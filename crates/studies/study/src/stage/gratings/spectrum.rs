@@ -20,12 +20,13 @@ pub(super) enum ByFold<'a> {
 pub(super) fn classify(
     dataset: &Dataset,
     presses: &[(usize, Nanometre)],
-    (by, work): (ByFold<'_>, Work<'_>),
+    by: ByFold<'_>,
     predicted: &mut SpacingOfRow,
+    work: Work<'_>,
 ) -> Result<(), EvaluateError> {
     let seen = Pictures::new(dataset, presses, work)?.seen()?;
     for fold in 0..FOLDS {
-        classify_fold(&seen, fold, (by, work), predicted)?;
+        classify_fold(&seen, fold, by, predicted, work)?;
     }
     Ok(())
 }
@@ -128,8 +129,9 @@ impl<'a> Pictures<'a> {
 fn classify_fold(
     seen: &[Seen],
     fold: usize,
-    (by, work): (ByFold<'_>, Work<'_>),
+    by: ByFold<'_>,
     predicted: &mut SpacingOfRow,
+    work: Work<'_>,
 ) -> Result<(), EvaluateError> {
     let (asked, taught): (Vec<&Seen>, Vec<&Seen>) = seen.iter().partition(|seen| seen.fold == fold);
     if asked.is_empty() || taught.is_empty() {
@@ -141,7 +143,7 @@ fn classify_fold(
             spectra.map(|seen| seen.spectra[fold].clone()).collect()
         };
         let spacings: Vec<Nanometre> = taught.iter().map(|seen| seen.spacing).collect();
-        let found = model::predict(classifier, (&of(&taught), &spacings), &of(&asked), work)?;
+        let found = model::predict(classifier, &of(&taught), &spacings, &of(&asked), work)?;
         predicted.extend(asked.iter().map(|seen| seen.row).zip(found));
         return Ok(());
     }
