@@ -155,9 +155,17 @@ impl fmt::Display for JoinSummary {
             ", {} unmatched; {} of its rows unused",
             self.unmatched, self.unused
         )?;
-        match self.skipped {
-            0 => Ok(()),
-            skipped => write!(f, ", {skipped} skipped"),
+        if self.skipped > 0 {
+            write!(f, ", {} skipped", self.skipped)?;
+        }
+        match &self.frame_id {
+            None => Ok(()),
+            Some(frame) => write!(
+                f,
+                ", {} in other frames than {} left out",
+                self.in_other_frames,
+                shown(frame)
+            ),
         }
     }
 }

@@ -8,6 +8,7 @@ use std::path::Path;
 
 use super::classes::holds_integers;
 use super::columns::{base_of, mentioned};
+use super::coordinate_frame;
 use super::times::TextTimes;
 use super::unit_statement::{self, Of, Reading};
 use super::{Sources, cell_of};
@@ -36,12 +37,35 @@ pub(super) struct Joined<'a> {
 struct Candidates {
     table: ForeignTable,
     rows: Vec<usize>,
+    /// How many rows are given in another frame than the map takes.
+    in_other_frames: usize,
     /// Of a join by columns: the rows that hold each key.
     by_key: HashMap<Vec<String>, Vec<usize>>,
     /// Of a join by time: each row with its time, s, in order.
     by_time: Vec<(f64, usize)>,
     /// Of a join up to a number: each row with its number, in order.
     until: Vec<(u64, usize)>,
+}
+
+/// A row of a joined table that a row of the main one takes its cells from.
+pub(super) struct TakenRow<'a> {
+    candidates: &'a Candidates,
+    /// Which of the joined tables it is of.
+    pub(super) at: usize,
+    pub(super) row: usize,
+}
+
+impl<'a> TakenRow<'a> {
+    pub(super) fn table(&self) -> &'a ForeignTable {
+        &self.candidates.table
+    }
+
+    /// Its time, s, of a join by time.
+    pub(super) fn time_s(&self) -> Option<f64> {
+        let mut times = self.candidates.by_time.iter();
+        let found = times.find(|(_, row)| *row == self.row);
+        found.map(|(time_s, _)| *time_s)
+    }
 }
 
 /// What belongs to a row of the main table.
@@ -72,8 +96,16 @@ impl<'a> Joined<'a> {
                 None => {
                     let path = folder.file(folder.path(), &file)?;
                     let table = ForeignTable::read(&path, &map.form)?;
-                    table.read_ahead(&own_columns(&mentioned(sources.map), &map.name))?;
-                    joined.tables.push(Candidates::new(map, table)?);
+                    let labels = sources.labels(Some(&map.name));
+                    let of_frames = match labels.is_empty() {
+                        true => Vec::new(),
+                        false => coordinate_frame::columns(&table),
+                    };
+                    let names = mentioned(sources.map);
+                    let mut ahead = own_columns(&names, &map.name);
+                    ahead.extend(of_frames.iter().map(String::as_str));
+                    table.read_ahead(&ahead)?;
+                    joined.tables.push(Candidates::new(map, table, &labels)?);
                     known.insert(file, joined.tables.len() - 1);
                     joined.tables.len() - 1
                 }
@@ -156,6 +188,23 @@ impl<'a> Joined<'a> {
         }
     }
 
+    /// The rows of joined tables that the cells of `row` are taken from.
+    pub(super) fn rows_of(&self, row: usize) -> impl Iterator<Item = TakenRow<'_>> {
+        let Match { table: at, at: of } = self.matches[row];
+        let candidates = &self.tables[at];
+        let (first, second) = match of {
+            At::Nowhere => (None, None),
+            At::Row(row) => (Some(row), None),
+            At::Between([before, after], _) => (Some(before), Some(after)),
+        };
+        let rows = first.into_iter().chain(second);
+        rows.map(move |row| TakenRow {
+            candidates,
+            at,
+            row,
+        })
+    }
+
     /// A cell of the joined tables whose point may group digits, and how many there are.
     pub(super) fn grouped_digits(&self, column: &str) -> Option<(String, u64)> {
         let mut tables = self.tables.iter();
@@ -196,13 +245,15 @@ impl<'a> Joined<'a> {
             let table = &candidates.table;
             let uses = TableUses {
                 candidates: candidates.rows.len(),
-                skipped: table.rows() - candidates.rows.len(),
+                skipped: table.rows() - candidates.rows.len() - candidates.in_other_frames,
+                in_other_frames: candidates.in_other_frames,
                 used,
             };
             (table.path().to_owned(), uses)
         });
         JoinMatches {
             name: self.map.name.clone(),
+            frame_id: self.map.frame_id.clone(),
             counted_by: match &self.map.by {
                 JoinBy::Row => Some("`on = \"row\"`"),
                 JoinBy::Until(_) => Some("`until`"),
@@ -306,9 +357,21 @@ fn own_columns<'n>(names: &'n [String], join: &str) -> Vec<&'n str> {
 }
 
 impl Candidates {
-    fn new(map: &JoinMap, table: ForeignTable) -> Result<Candidates, DatasetError> {
+    fn new(
+        map: &JoinMap,
+        table: ForeignTable,
+        labels: &[&str],
+    ) -> Result<Candidates, DatasetError> {
+        let frame = map.frame_id.as_deref();
+        let in_frame = frame.map(|frame| coordinate_frame::rows_in(&table, labels, frame));
+        let in_frame = in_frame.transpose()?;
+        let mut in_other_frames = 0;
         let mut rows = Vec::new();
         for row in 0..table.rows() {
+            if in_frame.as_ref().is_some_and(|rows| !rows.contains(&row)) {
+                in_other_frames += 1;
+                continue;
+            }
             let mut is_skipped = false;
             for (column, number) in &map.skip {
                 let cell = cell_of(&table, row, column)?;
@@ -321,6 +384,7 @@ impl Candidates {
         let mut candidates = Candidates {
             table,
             rows,
+            in_other_frames,
             by_key: HashMap::new(),
             by_time: Vec::new(),
             until: Vec::new(),
@@ -331,6 +395,7 @@ impl Candidates {
             by_key,
             by_time,
             until,
+            ..
         } = &mut candidates;
         match &map.by {
             JoinBy::Row | JoinBy::All => {}
