@@ -18,7 +18,7 @@ use taceva_core::Clock;
 
 use super::map::{FrameNames, ImportMap, OWN_ROW};
 use super::warning::ImportWarning;
-use crate::foreign::{ForeignTable, cell_list};
+use crate::foreign::{ForeignTable, TableForm, cell_list};
 use crate::source_folder::SourceFolder;
 use columns::{base_of, mentioned};
 use join::Joined;
@@ -49,6 +49,8 @@ pub(super) struct Resolved {
     /// What the cells of each class are.
     pub(super) class_cells: Vec<ClassCells>,
     pub(super) warnings: Vec<ImportWarning>,
+    /// Topics of the recording that are not read, each with the reason.
+    pub(super) unread_topics: Vec<String>,
     /// The frames that labels are given in.
     pub(super) coordinate_frames: CoordinateFrames,
     /// The folders of joined tables that name files.
@@ -142,6 +144,10 @@ pub(super) fn resolve(
         signals: signals.transpose()?,
         class_cells,
         coordinate_frames,
+        unread_topics: match map.form {
+            TableForm::Messages { .. } => sources.main.unread(),
+            _ => Vec::new(),
+        },
         absent_chunks,
         unmentioned: sources.unmentioned(&table),
         joins: sources

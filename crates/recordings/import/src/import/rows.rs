@@ -29,6 +29,8 @@ pub(super) struct MappedTable<'a> {
     unmentioned: Vec<String>,
     pub(super) joins: Vec<JoinMatches>,
     pub(super) warnings: Vec<ImportWarning>,
+    /// Topics of the recording that are not read, each with the reason.
+    pub(super) unread_topics: Vec<String>,
     /// The frames that labels are given in.
     pub(super) coordinate_frames: CoordinateFrames,
     /// Chunks that were never written of the arrays that are read, by file and array.
@@ -150,6 +152,7 @@ impl<'a> MappedTable<'a> {
             joins: found.joins,
             warnings: found.warnings,
             coordinate_frames: found.coordinate_frames,
+            unread_topics: found.unread_topics,
             absent_chunks: found.absent_chunks,
             class_cells: found.class_cells,
             named_by: found.named_by,

@@ -65,6 +65,8 @@ pub struct ImportSummary {
     pub absent_chunks: BTreeMap<String, u64>,
     /// Columns of the tables that the map does not mention, sorted.
     pub unmentioned_columns: BTreeSet<String>,
+    /// Topics of recordings that are not read, each with the reason.
+    pub unread_topics: BTreeSet<String>,
     /// Channels whose numbers look like those of another unit.
     pub suspicions: Vec<Suspicion>,
     /// Warnings about the map and what it reads, sorted.

@@ -83,7 +83,7 @@ fn the_frame_that_the_map_names_is_taken_alone_and_the_rest_is_counted() {
     let one = map_of(CASE).replace("name = \"ft\"", "name = \"ft\"\nframe_id = \"tool0\"");
     let summary = summary(&folder, &one);
     let counts = (summary.rows_kept, summary.joins[0].in_other_frames);
-    assert_eq!(counts.0, 21, "{summary}");
+    assert_eq!(counts.0, 22, "{summary}");
     assert!(counts.1 > 100, "{summary}");
     assert!(
         summary

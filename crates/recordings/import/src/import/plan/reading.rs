@@ -97,6 +97,8 @@ impl<'a> Reading<'a> {
             }
         }
         self.absent_chunks.append(&mut rows.absent_chunks);
+        let unread = std::mem::take(&mut rows.unread_topics);
+        self.summary.unread_topics.extend(unread);
         self.summary
             .warnings
             .extend(std::mem::take(&mut rows.warnings));
