@@ -62,7 +62,7 @@ fn a_folder_without_any_table_or_picture_has_no_draft() {
     bench.write("lab/notes.txt", "pressed on Monday");
     bench.refused("import --draft lab", 3, "no table and no picture is in it");
     bench.write("lab/run.bag", "#ROSBAG V2.0");
-    bench.refused("import --draft lab", 3, "mcap convert");
+    bench.refused("import --draft lab", 3, "cut short");
 }
 
 #[test]
@@ -108,7 +108,7 @@ fn a_clip_that_nothing_at_hand_decodes_names_its_codec_and_what_mends_it() {
 }
 
 #[test]
-fn workbooks_and_bags_name_the_command_that_converts_them() {
+fn workbooks_and_packed_recordings_name_the_command_that_converts_them() {
     let bench = Bench::new();
     let rest = "[time]\nclock = \"unknown\"\n[columns]\nFz = { from = \"Fz\", unit = \"N\" }\n[sensor]\nmodel = \"m\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = true\n";
     for (table, command) in [
@@ -116,8 +116,8 @@ fn workbooks_and_bags_name_the_command_that_converts_them() {
             "labels.xlsx",
             "libreoffice --headless --convert-to csv labels.xlsx",
         ),
-        ("run.db3", "mcap convert run.db3 run.mcap"),
-        ("run.bag", "mcap convert run.bag run.mcap"),
+        ("run.db3.zstd", "zstd -d run.db3.zstd -o run.db3"),
+        ("run.mcap.zst", "zstd -d run.mcap.zst -o run.mcap"),
     ] {
         bench.write(&format!("lab/{table}"), "x");
         bench.write(

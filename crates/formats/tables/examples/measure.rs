@@ -9,7 +9,7 @@
 use std::path::Path;
 
 use rustix::time::{ClockId, clock_gettime};
-use taceva_tables::{ColumnKind, Mcap, ParquetTable, Picture, TableError};
+use taceva_tables::{ColumnKind, ParquetTable, Picture, Recording, TableError};
 
 fn main() -> Result<(), TableError> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -38,7 +38,7 @@ fn main() -> Result<(), TableError> {
             })?;
         }
         [topic, ..] => {
-            let table = Mcap::open(Path::new(file))?.table(topic)?;
+            let table = Recording::open(Path::new(file))?.table(topic)?;
             if !table.topic().schema.ends_with("Image") {
                 for cell in table.column(column)? {
                     count(cell.text().len())?;

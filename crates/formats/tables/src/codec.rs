@@ -207,6 +207,17 @@ fn zstd(packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
     Ok(unpacked)
 }
 
+/// A message that is one frame of Zstandard, of at most `most` bytes.
+///
+/// # Errors
+/// What is wrong, in words.
+pub(crate) fn zstandard_message(packed: &[u8], most: u64) -> Result<Vec<u8>, String> {
+    let mut unpacked = Vec::new();
+    let decoded = decompressor(most)?.decompress_into(packed, &mut unpacked);
+    decoded.map_err(|error| not_whole(&error).to_string())?;
+    Ok(unpacked)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

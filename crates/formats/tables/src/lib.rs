@@ -8,18 +8,24 @@ mod error;
 mod lerobot;
 mod limits;
 mod mcap;
+mod message;
 mod parquet;
 mod path;
+mod protobuf;
+mod recording;
 mod ros;
+mod rosbag1;
+mod rosbag2;
 mod rows;
 mod snappy;
 mod source;
+mod sqlite;
 
 pub use cell::Cell;
 pub use error::{Place, TableError};
 pub use lerobot::{Feature, FeatureStats, LeRobot, LeRobotWriter, VideoFrames, WrittenFeature};
-pub use mcap::{Mcap, McapTable, Topic};
 pub use parquet::{
     ColumnKind, ParquetTable, ParquetWriter, WrittenColumn, WrittenKind, huggingface_features,
 };
+pub use recording::{Recording, Topic, TopicTable};
 pub use ros::{Picture, SampleForm, Samples};

@@ -3,107 +3,130 @@
 mod chunks;
 mod contents;
 mod index;
-mod json;
 mod record;
-mod table;
 
-use std::collections::BTreeMap;
-use std::path::Path;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
+use self::chunks::Chunks;
 use self::contents::Contents;
-use crate::error::TableError;
+use self::record::code;
+use crate::bytes::Bytes;
+use crate::error::{Place, TableError};
+use crate::message::{Channel, Entry, Message, MessageReader, MessageStore};
 use crate::source::Source;
 
-pub use self::table::McapTable;
+/// The first and the last eight bytes of a file.
+pub(crate) use self::record::MAGIC;
 
-/// A recording in an MCAP file: topics, each a table of its messages.
-///
-/// Opening reads the summary, or walks over the records of a file that has none. The sums of the data, the summary and of every chunk
-/// that is read are checked, where the file has them; attachments are not looked at. Chunks may be compressed by LZ4 or Zstandard.
-///
-/// ```
-/// use taceva_tables::Mcap;
-/// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/presses.mcap");
-/// let recording = Mcap::open(path.as_ref())?;
-/// let topics: Vec<_> = recording.topics().iter().map(|topic| (topic.name.as_str(), topic.count)).collect();
-/// assert_eq!(topics, [("/ft/wrench", 3), ("/tactile/image_raw", 1)]);
-/// # Ok::<(), taceva_tables::TableError>(())
-/// ```
-#[derive(Clone, Debug)]
-pub struct Mcap {
-    inner: Arc<Inner>,
-    topics: Vec<Topic>,
-}
-
+/// An MCAP file: what its summary says, or a walk over the records of a file that has none.
 #[derive(Debug)]
-struct Inner {
+pub(crate) struct McapFile {
     source: Source,
     contents: Contents,
+    channels: BTreeMap<u32, Channel>,
 }
 
-/// A topic of a recording.
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct Topic {
-    /// Its name, as `/ft/wrench`.
-    pub name: String,
-    /// The name of the schema of its messages, as `geometry_msgs/msg/WrenchStamped`; empty where there is none.
-    pub schema: String,
-    /// How its messages are written, as `cdr`.
-    pub encoding: String,
-    /// How many messages there are.
-    pub count: u64,
-}
-
-impl Mcap {
-    /// The recording at `path`.
+impl McapFile {
+    /// The recording in `source`.
     ///
     /// # Errors
-    /// [`TableError::Io`] if the file cannot be read, [`TableError::Damaged`] if it is no MCAP file, is cut short or has another sum than
-    /// it states, [`TableError::TooLarge`] if its summary is larger than is accepted.
-    pub fn open(path: &Path) -> Result<Mcap, TableError> {
-        let source = Source::new(path)?;
+    /// [`TableError::Damaged`] if it is no MCAP file, is cut short or has another sum than it states, [`TableError::TooLarge`] if its summary
+    /// is larger than is accepted.
+    pub(crate) fn open(source: Source) -> Result<McapFile, TableError> {
         let contents = contents::read(&source)?;
-        let mut topics: BTreeMap<&str, Topic> = BTreeMap::new();
-        for (id, channel) in &contents.channels {
-            let schema = contents.schemas.get(&channel.schema);
-            let topic = topics.entry(&channel.topic).or_insert_with(|| Topic {
-                name: channel.topic.clone(),
-                schema: schema.map_or_else(String::new, |schema| schema.name.clone()),
+        let schemas: BTreeMap<u16, Arc<_>> = contents
+            .schemas
+            .iter()
+            .map(|(id, schema)| (*id, Arc::new(schema.clone())))
+            .collect();
+        let channels = contents.channels.iter().map(|(id, channel)| {
+            let described = Channel {
+                topic: channel.topic.clone(),
                 encoding: channel.encoding.clone(),
-                count: 0,
-            });
-            let more = contents.counts.get(id).copied().unwrap_or(0);
-            topic.count = topic.count.saturating_add(more);
-        }
-        let topics = topics.into_values().collect();
-        let inner = Arc::new(Inner { source, contents });
-        Ok(Mcap { inner, topics })
+                schema: schemas.get(&channel.schema).map(Arc::clone),
+                count: contents.counts.get(id).copied().unwrap_or(0),
+            };
+            (u32::from(*id), described)
+        });
+        Ok(McapFile {
+            channels: channels.collect(),
+            source,
+            contents,
+        })
+    }
+}
+
+impl MessageStore for McapFile {
+    fn source(&self) -> &Source {
+        &self.source
     }
 
-    /// The file.
-    pub fn path(&self) -> &Path {
-        self.inner.source.path()
+    fn channels(&self) -> &BTreeMap<u32, Channel> {
+        &self.channels
     }
 
-    /// The topics, by name.
-    pub fn topics(&self) -> &[Topic] {
-        &self.topics
+    fn index(&self, channels: &BTreeSet<u32>) -> Result<Vec<Entry>, TableError> {
+        let channels = channels.iter().filter_map(|id| u16::try_from(*id).ok());
+        index::index(&self.source, &self.contents, &channels.collect())
     }
 
-    /// The messages of the topic called `name`.
-    ///
-    /// # Errors
-    /// [`TableError::Missing`] if there is no such topic, [`TableError::Unsupported`] if its messages are in another encoding than CDR of
-    /// ROS 2 or JSON, or their schema leaves something out; [`TableError::Damaged`] if the file holds other messages than it states.
-    pub fn table(&self, name: &str) -> Result<McapTable, TableError> {
-        match self.topics.iter().find(|topic| topic.name == name) {
-            Some(topic) => McapTable::new(&self.inner, topic.clone()),
-            None => {
-                let known = self.topics.iter().map(|topic| topic.name.clone()).collect();
-                Err(self.inner.source.missing(name, known))
+    fn reader(&self) -> Result<Box<dyn MessageReader + '_>, TableError> {
+        Ok(Box::new(Records {
+            source: &self.source,
+            chunks: Chunks::new(&self.source)?,
+        }))
+    }
+}
+
+/// Messages of a file through one cursor.
+struct Records<'a> {
+    source: &'a Source,
+    chunks: Chunks<'a>,
+}
+
+impl MessageReader for Records<'_> {
+    fn message(&mut self, entry: &Entry) -> Result<Message, TableError> {
+        let damaged = |problem: &str| {
+            let place = Place::byte(entry.chunk.unwrap_or(entry.at));
+            let problem = match entry.chunk {
+                Some(_) => format!("message at byte {} of the chunk: {problem}", entry.at),
+                None => problem.to_owned(),
+            };
+            self.source.damaged(place, problem)
+        };
+        let (held, begin) = match entry.chunk {
+            Some(chunk) => {
+                let held = self.chunks.unpacked(chunk)?;
+                let at = usize::try_from(entry.at)
+                    .ok()
+                    .filter(|at| *at <= held.len());
+                let at = at.ok_or_else(|| damaged("its index leads to no message"))?;
+                let mut bytes = Bytes::new(held.get(at..).unwrap_or_default());
+                let found = record::next(&mut bytes);
+                let Some((code::MESSAGE, fields)) = found else {
+                    return Err(damaged("its index leads to no message"));
+                };
+                let end = at + bytes.at();
+                let fields = end - fields.len()..end;
+                (held, fields)
             }
-        }
+            None => {
+                let fields = self.chunks.fields(entry.at, code::MESSAGE, u64::MAX)?;
+                let all = 0..fields.len();
+                (Arc::new(fields), all)
+            }
+        };
+        let fields = held.get(begin.clone()).unwrap_or_default();
+        let (head, body) = record::message(fields).ok_or_else(|| damaged("it is cut short"))?;
+        let range = begin.end - body.len()..begin.end;
+        let channel = u32::from(head.channel);
+        Ok(Message::new(
+            channel,
+            head.log_time,
+            head.publish_time,
+            held,
+            range,
+        ))
     }
 }

@@ -1,11 +1,13 @@
-//! Messages of ROS 2: their definitions, their encoding, and what is read of them.
+//! Messages of ROS 1 and 2: their definitions, their encodings, and what is read of them.
 
 mod cdr;
+mod definitions;
 mod fields;
 mod picture;
 mod schema;
 
+pub(crate) use definitions::known_definition;
 pub(crate) use fields::{Fields, names, seconds};
-pub(crate) use picture::PictureField;
 pub use picture::{Picture, SampleForm, Samples};
-pub(crate) use schema::RosSchema;
+pub(crate) use picture::{PictureField, RawPicture};
+pub(crate) use schema::{Dialect, RosSchema};

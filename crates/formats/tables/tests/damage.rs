@@ -6,7 +6,7 @@ use std::path::Path;
 
 use recordings::damage::{Endings, attempt, damage, peak_bytes};
 use recordings::recording;
-use taceva_tables::{Cell, LeRobot, Mcap, ParquetTable, TableError};
+use taceva_tables::{Cell, LeRobot, ParquetTable, Recording, TableError};
 
 /// What damaged files of at most 100 KB may take.
 const BYTES: u64 = 512 << 20;
@@ -89,7 +89,7 @@ fn damaged_parquet_files_are_refused_or_read() {
 
 /// All columns and pictures of all topics; what one topic lacks does not keep the others from being read.
 fn every_topic(path: &Path) -> Result<usize, TableError> {
-    let recording = Mcap::open(path)?;
+    let recording = Recording::open(path)?;
     let mut read = 0;
     let mut first = None;
     for topic in recording.topics() {
@@ -208,7 +208,7 @@ fn no_changed_byte_of_data_with_a_sum_goes_unnoticed() {
         let mut changed = bytes.clone();
         changed[at] ^= 1 << (at % 8);
         std::fs::write(&copy, &changed).expect("written");
-        let problem = Mcap::open(&copy).expect_err("changed").to_string();
+        let problem = Recording::open(&copy).expect_err("changed").to_string();
         assert!(
             problem.contains("the checksum of the data") || at < 8,
             "byte {at}: {problem}"

@@ -8,7 +8,7 @@ use parquet::column::writer::ColumnWriter;
 use parquet::data_type::ByteArray;
 use recordings::damage::peak_bytes;
 use recordings::parquet_file::parquet_file;
-use taceva_tables::{Cell, Mcap, ParquetTable, TableError};
+use taceva_tables::{Cell, ParquetTable, Recording, TableError};
 
 /// Writes `bytes` into a folder that lasts as long as what is returned.
 fn file(name: &str, bytes: &[u8]) -> (tempfile::TempDir, PathBuf) {
@@ -93,7 +93,7 @@ fn mcap(records: &[Vec<u8>]) -> Vec<u8> {
 /// The first error of reading all of `/x`.
 fn problem(records: &[Vec<u8>]) -> String {
     let (_folder, path) = file("x.mcap", &mcap(records));
-    let result = Mcap::open(&path).and_then(|recording| {
+    let result = Recording::open(&path).and_then(|recording| {
         let table = recording.table("/x")?;
         let names = table.names()?;
         table.columns(&names.iter().map(String::as_str).collect::<Vec<_>>())
@@ -188,7 +188,7 @@ fn encodings_that_are_not_read_are_refused_by_name() {
     }
     let whole = mcap(&[]);
     let (_folder, path) = file("open.mcap", &whole[..whole.len() - 10]);
-    let message = Mcap::open(&path).expect_err("cut").to_string();
+    let message = Recording::open(&path).expect_err("cut").to_string();
     let expected = "`mcap recover` writes a file of what is whole";
     assert!(message.contains(expected), "{message}");
 }
@@ -206,7 +206,7 @@ fn messages_are_in_the_order_of_their_times_and_at_one_time_in_that_of_the_file(
         value(2, 20, 4),
     ];
     let (_folder, path) = file("x.mcap", &mcap(&records));
-    let table = Mcap::open(&path)
+    let table = Recording::open(&path)
         .expect("opens")
         .table("/x")
         .expect("a topic");

@@ -11,6 +11,7 @@ mod tables;
 
 use std::path::Path;
 
+use crate::foreign::is_recording;
 use crate::layouts::Preset;
 use crate::source_folder::SourceFolder;
 use survey::FileGroup;
@@ -52,7 +53,7 @@ impl MapDraft {
             .filter(|group| !frames::is_clip(&group.ending))
             .take(TABLES)
         {
-            if group.ending == "mcap" {
+            if is_recording(&group.ending) {
                 match SeenTable::of_messages(&source, group) {
                     Ok(topics) => tables.extend(topics),
                     Err(problem) => notes.push(format!("not read: {problem}")),

@@ -39,7 +39,7 @@ pub(crate) use delimited::DelimitedTable;
 pub(crate) use file_series::SeveralPictures;
 pub(crate) use files::FileRows;
 pub(crate) use json::JsonRows;
-pub(crate) use messages::topics;
+pub(crate) use messages::{is_recording, topics};
 pub(crate) use pictures::{Picture, Pictures};
 
 /// A table of any form.
@@ -72,7 +72,7 @@ pub(crate) enum TableForm {
         is_whole: bool,
     },
     Parquet,
-    /// The messages of a topic of an MCAP recording.
+    /// The messages of a topic of a recording: MCAP, rosbag2 or a bag of ROS 1.
     Messages {
         topic: Option<String>,
     },

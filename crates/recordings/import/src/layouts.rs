@@ -277,14 +277,14 @@ mod tests {
             "{message}"
         );
         let bags = tempfile::tempdir().expect("a folder");
-        std::fs::write(bags.path().join("run_0.db3"), "x").expect("written");
+        std::fs::write(bags.path().join("run_0.mcap.zstd"), "x").expect("written");
         let folder = SourceFolder::open(bags.path()).expect("opens");
         let message = Preset::from_name("rosbag")
             .expect("a preset")
             .check(&folder)
             .expect_err("no MCAP")
             .to_string();
-        let command = "`mcap convert run_0.db3 run_0.mcap`";
+        let command = "`zstd -d run_0.mcap.zstd -o run_0.mcap`";
         assert!(message.contains(command), "{message}");
     }
 }

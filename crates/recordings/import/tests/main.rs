@@ -3,6 +3,7 @@
 mod bad_forms;
 mod bad_images;
 mod bad_tables;
+mod bags;
 mod damage;
 mod exported;
 mod extended_maps;

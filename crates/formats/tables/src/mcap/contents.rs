@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 use std::io::Read;
 
 use super::chunks::Chunks;
-use super::record::{self, Channel, ChunkIndex, FOOTER, HEAD, MAGIC, Schema, Statistics, code};
+use super::record::{self, Channel, ChunkIndex, FOOTER, HEAD, MAGIC, Statistics, code};
 use crate::bytes::Bytes;
 use crate::error::{Place, TableError};
 use crate::limits;
+use crate::message::Schema;
 use crate::source::Source;
 
 /// What is wrong with a record that its length does not hold.

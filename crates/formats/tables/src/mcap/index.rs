@@ -8,15 +8,8 @@ use super::record::{self, code};
 use crate::bytes::Bytes;
 use crate::error::{Place, TableError};
 use crate::limits;
+use crate::message::Entry;
 use crate::source::Source;
-
-/// Where a message lies: its time, the chunk (none outside chunks), and the place of its record in the chunk or the file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Entry {
-    pub(super) log_time: u64,
-    pub(super) chunk: Option<u64>,
-    pub(super) at: u64,
-}
 
 /// All messages of `channels`, by time and, at the same time, as they lie in the file.
 ///

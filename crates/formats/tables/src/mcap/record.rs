@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 
 use crate::bytes::Bytes;
+use crate::message::Schema;
 
 /// The first and the last eight bytes of a file.
-pub(super) const MAGIC: [u8; 8] = *b"\x89MCAP0\r\n";
+pub(crate) const MAGIC: [u8; 8] = *b"\x89MCAP0\r\n";
 /// Bytes before the fields of a record: its code and its length.
 pub(super) const HEAD: u64 = 9;
 /// A footer as a whole.
@@ -22,14 +23,6 @@ pub(super) mod code {
     pub(in crate::mcap) const CHUNK_INDEX: u8 = 0x08;
     pub(in crate::mcap) const STATISTICS: u8 = 0x0b;
     pub(in crate::mcap) const DATA_END: u8 = 0x0f;
-}
-
-/// What describes the messages of channels.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Schema {
-    pub(super) name: String,
-    pub(super) encoding: String,
-    pub(super) text: Vec<u8>,
 }
 
 /// What messages of one topic by one writer share.

@@ -1,6 +1,7 @@
-//! Messages in CDR, the encoding of ROS 2: numbers aligned to their own size, counted from behind the first four bytes.
+//! Messages in CDR, the encoding of ROS 2: numbers aligned to their own size, counted from behind the first four bytes. Those of ROS 1 lie one
+//! behind the other from the first byte on.
 
-use super::schema::{Count, Field, Kind, Message, RosSchema};
+use super::schema::{Count, Dialect, Field, Kind, Message, RosSchema};
 use crate::cell::Cell;
 use crate::limits;
 
@@ -23,13 +24,23 @@ pub(crate) struct Cdr<'a> {
     bytes: &'a [u8],
     at: usize,
     is_big_endian: bool,
+    dialect: Dialect,
     /// Cells that were made of this message.
     cells: usize,
 }
 
 impl<'a> Cdr<'a> {
-    /// The body of `message`, behind the four bytes that say how it is encoded.
-    pub(crate) fn new(message: &'a [u8]) -> Result<Cdr<'a>, String> {
+    /// The body of `message`, of ROS 2 behind the four bytes that say how it is encoded.
+    pub(crate) fn new(message: &'a [u8], dialect: Dialect) -> Result<Cdr<'a>, String> {
+        if dialect == Dialect::Ros1 {
+            return Ok(Cdr {
+                bytes: message,
+                at: 0,
+                is_big_endian: false,
+                dialect,
+                cells: 0,
+            });
+        }
         let Some((head, bytes)) = message.split_first_chunk::<4>() else {
             return Err(format!(
                 "a message of {} bytes has no CDR header",
@@ -55,6 +66,7 @@ impl<'a> Cdr<'a> {
             bytes,
             at: 0,
             is_big_endian,
+            dialect,
             cells: 0,
         })
     }
@@ -76,7 +88,7 @@ impl<'a> Cdr<'a> {
         want: &Want,
         slots: &mut [Cell],
     ) -> Result<(), String> {
-        if message.fields.is_empty() {
+        if message.fields.is_empty() && self.dialect == Dialect::Ros2 {
             // ROS 2 gives a message without fields one byte.
             self.take(1)?;
         }
@@ -188,7 +200,7 @@ impl<'a> Cdr<'a> {
             Kind::Text => Cell::Text(self.text()?.to_owned()),
             Kind::Message(place) => {
                 let message = schema.message(place);
-                if message.fields.is_empty() {
+                if message.fields.is_empty() && self.dialect == Dialect::Ros2 {
                     self.take(1)?;
                 }
                 let mut members = Vec::with_capacity(message.fields.len());
@@ -245,7 +257,9 @@ impl<'a> Cdr<'a> {
     }
 
     fn align(&mut self, size: usize) {
-        self.at = self.at.next_multiple_of(size);
+        if self.dialect == Dialect::Ros2 {
+            self.at = self.at.next_multiple_of(size);
+        }
     }
 
     fn take(&mut self, count: usize) -> Result<&'a [u8], String> {

@@ -51,7 +51,7 @@ impl Fields {
     /// The cells of one message, a column each; `Err` says what is wrong with the message.
     pub(crate) fn read(&self, schema: &RosSchema, message: &[u8]) -> Result<Vec<Cell>, String> {
         let mut slots = vec![Cell::Null; self.slots];
-        Cdr::new(message)?.read(schema, &self.want, &mut slots)?;
+        Cdr::new(message, schema.dialect())?.read(schema, &self.want, &mut slots)?;
         self.picks
             .iter()
             .map(|pick| {
@@ -219,6 +219,7 @@ pub(crate) fn seconds(seconds: i128, nanoseconds: i128) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ros::Dialect;
 
     const JOINTS: &str = "std_msgs/Header header\nstring[] name\nfloat64[] position\nPair[2] pairs\n\
         ===\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n===\nMSG: a/Pair\nuint8 low\nint16 high";
@@ -259,7 +260,7 @@ mod tests {
 
     #[test]
     fn fields_are_found_in_messages_of_both_orders_of_bytes() {
-        let schema = RosSchema::parse("a/msg/Joints", JOINTS).expect("parses");
+        let schema = RosSchema::parse("a/msg/Joints", JOINTS, Dialect::Ros2).expect("parses");
         let columns = [
             ("header.stamp.ns", "1700000000250000000"),
             ("header.stamp", "1700000000.25"),
@@ -304,7 +305,7 @@ mod tests {
 
     #[test]
     fn a_name_that_is_no_field_is_given_back() {
-        let schema = RosSchema::parse("a/msg/Joints", JOINTS).expect("parses");
+        let schema = RosSchema::parse("a/msg/Joints", JOINTS, Dialect::Ros2).expect("parses");
         for name in [
             "stamp",
             "header.stamp.seconds",
@@ -330,7 +331,8 @@ mod tests {
 
     #[test]
     fn lists_longer_than_their_message_are_refused_before_anything_is_allocated() {
-        let schema = RosSchema::parse("a/msg/Long", "float64[] a\nstring[] b").expect("parses");
+        let schema = RosSchema::parse("a/msg/Long", "float64[] a\nstring[] b", Dialect::Ros2)
+            .expect("parses");
         let fields = Fields::new(&schema, &["a", "b"]).expect("known");
         let bytes = [0, 1, 0, 0, 0xff, 0xff, 0xff, 0xff, 0, 0, 0, 0];
         let problem = fields.read(&schema, &bytes).expect_err("too long");

@@ -8,9 +8,9 @@ use crate::limits;
 /// A picture of a message.
 ///
 /// ```
-/// use taceva_tables::{Mcap, Picture, TableError};
+/// use taceva_tables::{Picture, Recording, TableError};
 /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/presses.mcap");
-/// let table = Mcap::open(path.as_ref())?.table("/tactile/image_raw")?;
+/// let table = Recording::open(path.as_ref())?.table("/tactile/image_raw")?;
 /// table.visit_pictures::<TableError>("data", &[0], &mut |_, picture| {
 ///     let Picture::Samples(samples) = picture else { unreachable!() };
 ///     assert_eq!((samples.width, samples.height, samples.bytes.len()), (4, 3, 36));
@@ -140,13 +140,13 @@ impl PictureField {
     /// The picture of `message`; `Err` says what is wrong with it.
     pub(crate) fn read(&self, schema: &RosSchema, message: &[u8]) -> Result<Picture, String> {
         let mut slots = vec![Cell::Null; SLOTS];
-        Cdr::new(message)?.read(schema, &self.want, &mut slots)?;
+        Cdr::new(message, schema.dialect())?.read(schema, &self.want, &mut slots)?;
         let data = match std::mem::replace(&mut slots[DATA], Cell::Null) {
             Cell::Bytes(bytes) => bytes,
             _ => return Err("the message has no bytes".to_owned()),
         };
         if self.is_raw {
-            return samples(&slots, data).map(Picture::Samples);
+            return raw(&slots, data)?.samples().map(Picture::Samples);
         }
         if slots[FORMAT].text().contains("compressedDepth") {
             return Err(
@@ -162,62 +162,93 @@ fn position(message: &Message, name: &str) -> Option<usize> {
     message.fields.iter().position(|field| field.name == name)
 }
 
-fn samples(slots: &[Cell], data: Vec<u8>) -> Result<Samples, String> {
+fn raw(slots: &[Cell], data: Vec<u8>) -> Result<RawPicture, String> {
     let number = |slot: usize| match slots[slot] {
         Cell::Integer(value) => u32::try_from(value).map_err(|_| format!("a size of {value}")),
         _ => Err("a size that is no number".to_owned()),
     };
-    let (width, height, step) = (number(WIDTH)?, number(HEIGHT)?, number(STEP)?);
-    let encoding = slots[ENCODING].text();
-    let form = match &*encoding {
-        "mono8" | "8UC1" => SampleForm::Mono8,
-        "mono16" | "16UC1" => SampleForm::Mono16,
-        "rgb8" => SampleForm::Rgb8,
-        "bgr8" => SampleForm::Bgr8,
-        other => {
-            let other = crate::error::shown(other);
+    Ok(RawPicture {
+        width: number(WIDTH)?,
+        height: number(HEIGHT)?,
+        step: number(STEP)?,
+        encoding: slots[ENCODING].text().into_owned(),
+        is_big_endian: !matches!(slots[IS_BIG_ENDIAN], Cell::Integer(0) | Cell::Bool(false)),
+        data,
+    })
+}
+
+/// A picture as its message describes it, nothing of it checked yet.
+#[derive(Clone, Debug)]
+pub(crate) struct RawPicture {
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+    /// Bytes of a row.
+    pub(crate) step: u32,
+    pub(crate) encoding: String,
+    pub(crate) is_big_endian: bool,
+    pub(crate) data: Vec<u8>,
+}
+
+impl RawPicture {
+    /// The picture without padding, its numbers with the lower byte first; `Err` says why it is none that is read.
+    pub(crate) fn samples(self) -> Result<Samples, String> {
+        let RawPicture {
+            width,
+            height,
+            step,
+            encoding,
+            is_big_endian,
+            data,
+        } = self;
+        let form = match &*encoding {
+            "mono8" | "8UC1" => SampleForm::Mono8,
+            "mono16" | "16UC1" => SampleForm::Mono16,
+            "rgb8" => SampleForm::Rgb8,
+            "bgr8" => SampleForm::Bgr8,
+            other => {
+                let other = crate::error::shown(other);
+                return Err(format!(
+                    "the encoding is `{other}`, expected mono8, mono16, rgb8 or bgr8"
+                ));
+            }
+        };
+        let (step, rows) = (step as usize, height as usize);
+        let row = (width as usize).checked_mul(form.bytes());
+        let row = row.filter(|row| *row > 0 && rows > 0 && *row <= step);
+        let whole = step
+            .checked_mul(rows)
+            .filter(|whole| *whole as u64 <= limits::CELL_BYTES);
+        let (Some(row), Some(whole)) = (row, whole) else {
             return Err(format!(
-                "the encoding is `{other}`, expected mono8, mono16, rgb8 or bgr8"
+                "{width}×{height} pixels of {encoding}, {step} bytes a row"
+            ));
+        };
+        if data.len() != whole {
+            return Err(format!(
+                "{} bytes of samples, {height} rows of {step} take {whole}",
+                data.len()
             ));
         }
-    };
-    let (step, rows) = (step as usize, height as usize);
-    let row = (width as usize).checked_mul(form.bytes());
-    let row = row.filter(|row| *row > 0 && rows > 0 && *row <= step);
-    let whole = step
-        .checked_mul(rows)
-        .filter(|whole| *whole as u64 <= limits::CELL_BYTES);
-    let (Some(row), Some(whole)) = (row, whole) else {
-        return Err(format!(
-            "{width}×{height} pixels of {encoding}, {step} bytes a row"
-        ));
-    };
-    if data.len() != whole {
-        return Err(format!(
-            "{} bytes of samples, {height} rows of {step} take {whole}",
-            data.len()
-        ));
-    }
-    let mut bytes = data;
-    if row < step {
-        let mut packed = Vec::with_capacity(row * rows);
-        for line in bytes.chunks_exact(step) {
-            packed.extend_from_slice(&line[..row]);
+        let mut bytes = data;
+        if row < step {
+            let mut packed = Vec::with_capacity(row * rows);
+            for line in bytes.chunks_exact(step) {
+                packed.extend_from_slice(&line[..row]);
+            }
+            bytes = packed;
         }
-        bytes = packed;
+        if is_big_endian && form == SampleForm::Mono16 {
+            bytes
+                .chunks_exact_mut(2)
+                .for_each(|sample| sample.reverse());
+        }
+        Ok(Samples {
+            width,
+            height,
+            form,
+            bytes,
+        })
     }
-    let is_big_endian = !matches!(slots[IS_BIG_ENDIAN], Cell::Integer(0) | Cell::Bool(false));
-    if is_big_endian && form == SampleForm::Mono16 {
-        bytes
-            .chunks_exact_mut(2)
-            .for_each(|sample| sample.reverse());
-    }
-    Ok(Samples {
-        width,
-        height,
-        form,
-        bytes,
-    })
 }
 
 #[cfg(test)]
@@ -231,13 +262,15 @@ mod tests {
         is_big_endian: u8,
         data: &[u8],
     ) -> Result<Samples, String> {
-        let mut slots = vec![Cell::Null; SLOTS];
-        slots[WIDTH] = Cell::Integer(width.into());
-        slots[HEIGHT] = Cell::Integer(2);
-        slots[STEP] = Cell::Integer(step.into());
-        slots[ENCODING] = Cell::Text(encoding.to_owned());
-        slots[IS_BIG_ENDIAN] = Cell::Integer(is_big_endian.into());
-        samples(&slots, data.to_vec())
+        let raw = RawPicture {
+            width,
+            height: 2,
+            step,
+            encoding: encoding.to_owned(),
+            is_big_endian: is_big_endian != 0,
+            data: data.to_vec(),
+        };
+        raw.samples()
     }
 
     #[test]

@@ -3,13 +3,24 @@
 
 use std::collections::BTreeMap;
 
+use super::definitions::KNOWN;
 use crate::error::shown;
 use crate::limits;
+
+/// Which of both languages that are alike: their numbers lie otherwise, and some types are other ones.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Dialect {
+    /// Numbers one behind the other, the lowest byte first.
+    Ros1,
+    /// CDR.
+    Ros2,
+}
 
 /// The messages of a schema; the first is the one that the schema is of.
 #[derive(Clone, Debug)]
 pub(crate) struct RosSchema {
     messages: Vec<Message>,
+    dialect: Dialect,
 }
 
 #[derive(Clone, Debug)]
@@ -72,15 +83,15 @@ struct Written {
     count: Count,
 }
 
-/// Messages that some recorders leave out of schemas, since every machine knows them.
-const KNOWN: [(&str, &str); 2] = [
-    ("builtin_interfaces/Time", "int32 sec\nuint32 nanosec"),
-    ("builtin_interfaces/Duration", "int32 sec\nuint32 nanosec"),
+/// The types of times that are words of ROS 1, called as those of ROS 2 are.
+const OF_ROS_1: [(&str, &str); 2] = [
+    ("builtin_interfaces/Time", "uint32 sec\nuint32 nanosec"),
+    ("builtin_interfaces/Duration", "int32 sec\nint32 nanosec"),
 ];
 
 impl RosSchema {
     /// The schema of the message called `name`, as `sensor_msgs/msg/Image`; `Err` says what in `text` is not understood.
-    pub(crate) fn parse(name: &str, text: &str) -> Result<RosSchema, String> {
+    pub(crate) fn parse(name: &str, text: &str, dialect: Dialect) -> Result<RosSchema, String> {
         let mut parts = vec![(short(name), fields_of("")?)];
         let mut body = String::new();
         let mut is_head_next = false;
@@ -110,17 +121,22 @@ impl RosSchema {
             }
         }
         close(&mut parts, &mut body)?;
-        for (name, fields) in KNOWN {
-            parts.push((name.to_owned(), fields_of(fields)?));
+        // Messages that some recorders leave out of schemas, since every machine knows them.
+        let known: &[(&str, &str)] = match dialect {
+            Dialect::Ros1 => &OF_ROS_1,
+            Dialect::Ros2 => &KNOWN,
+        };
+        for (name, fields) in known {
+            parts.push(((*name).to_owned(), fields_of(fields)?));
         }
         if parts.len() > limits::NAMES {
             return Err(format!("a schema of {} messages", parts.len()));
         }
-        RosSchema::resolve(parts)
+        RosSchema::resolve(parts, dialect)
     }
 
     /// The schema with names of types replaced by places; of two messages of one name the first holds.
-    fn resolve(parts: Vec<(String, Vec<Written>)>) -> Result<RosSchema, String> {
+    fn resolve(parts: Vec<(String, Vec<Written>)>, dialect: Dialect) -> Result<RosSchema, String> {
         let mut places = BTreeMap::new();
         for (at, (name, _)) in parts.iter().enumerate() {
             places.entry(name.clone()).or_insert(at);
@@ -130,7 +146,7 @@ impl RosSchema {
             let mut fields = Vec::with_capacity(written.len());
             for field in written {
                 fields.push(Field {
-                    kind: kind(&field.kind, &name, &places).map_err(|problem| {
+                    kind: kind(&field.kind, &name, &places, dialect).map_err(|problem| {
                         format!("`{}` of {name}: {problem}", shown(&field.name))
                     })?,
                     name: field.name,
@@ -139,10 +155,15 @@ impl RosSchema {
             }
             messages.push(Message { name, fields });
         }
-        let schema = RosSchema { messages };
+        let schema = RosSchema { messages, dialect };
         let mut depths = vec![None; schema.messages.len()];
         schema.check_depth(0, &mut depths, 0)?;
         Ok(schema)
+    }
+
+    /// The language that messages of it are written in.
+    pub(crate) fn dialect(&self) -> Dialect {
+        self.dialect
     }
 
     /// The message that the schema is of.
@@ -240,8 +261,19 @@ fn counted(written: &str) -> Result<(&str, Count), String> {
     }
 }
 
-fn kind(written: &str, within: &str, places: &BTreeMap<String, usize>) -> Result<Kind, String> {
+fn kind(
+    written: &str,
+    within: &str,
+    places: &BTreeMap<String, usize>,
+    dialect: Dialect,
+) -> Result<Kind, String> {
     let plain = written.split("<=").next().unwrap_or(written);
+    let plain = match (dialect, plain) {
+        (Dialect::Ros1, "time") => "builtin_interfaces/Time",
+        (Dialect::Ros1, "duration") => "builtin_interfaces/Duration",
+        (Dialect::Ros1, "byte") => "int8",
+        (_, plain) => plain,
+    };
     Ok(match plain {
         "bool" => Kind::Bool,
         "int8" => Kind::I8,
@@ -273,7 +305,7 @@ fn kind(written: &str, within: &str, places: &BTreeMap<String, usize>) -> Result
 }
 
 /// `package/Name` of `package/msg/Name`.
-fn short(name: &str) -> String {
+pub(super) fn short(name: &str) -> String {
     let mut parts = name.split('/');
     match (parts.next(), parts.next_back()) {
         (Some(package), Some(name)) => format!("{package}/{name}"),
@@ -293,7 +325,8 @@ mod tests {
 
     #[test]
     fn names_are_found_in_their_package_and_known_messages_without_being_there() {
-        let schema = RosSchema::parse("geometry_msgs/msg/WrenchStamped", WRENCH).expect("parses");
+        let schema = RosSchema::parse("geometry_msgs/msg/WrenchStamped", WRENCH, Dialect::Ros2)
+            .expect("parses");
         let names = |message: &Message| {
             message
                 .fields
@@ -325,6 +358,7 @@ mod tests {
         let schema = RosSchema::parse(
             "a/msg/B",
             "float64[6] wrench\nuint8[] data\nint16[<=4] some\nstring<=3[2] names",
+            Dialect::Ros2,
         )
         .expect("parses");
         let counts: Vec<Count> = schema
@@ -356,7 +390,7 @@ mod tests {
                 "nests deeper",
             ),
         ] {
-            match RosSchema::parse("a/msg/B", text) {
+            match RosSchema::parse("a/msg/B", text, Dialect::Ros2) {
                 Err(problem) => assert!(
                     problem.contains(expected) && !expected.is_empty(),
                     "{problem}"

@@ -3,6 +3,7 @@
 #[path = "../recordings/mod.rs"]
 mod recordings;
 
+mod bags;
 mod lerobot;
 mod mcap;
 mod nested;

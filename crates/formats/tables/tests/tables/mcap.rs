@@ -2,7 +2,7 @@
 
 use crate::recordings::{at, digest, expected, number, picture_digest, recording};
 use serde_json::Value;
-use taceva_tables::{Cell, Mcap, McapTable, Picture, SampleForm, TableError};
+use taceva_tables::{Cell, Picture, Recording, SampleForm, TableError, TopicTable};
 
 const THREE: [u64; 3] = [0, 7, 23];
 const FIELDS: [(&str, &str); 6] = [
@@ -16,11 +16,11 @@ const FIELDS: [(&str, &str); 6] = [
 /// The same messages: in chunks with indices, outside chunks, without indices, without a summary.
 const WRITTEN: [&str; 4] = ["chunks", "loose", "no_index", "no_summary"];
 
-fn open(folder: &str, file: &str) -> Mcap {
-    Mcap::open(&recording(folder).join(file)).expect(file)
+fn open(folder: &str, file: &str) -> Recording {
+    Recording::open(&recording(folder).join(file)).expect(file)
 }
 
-fn numbers(table: &McapTable, name: &str) -> Vec<f64> {
+fn numbers(table: &TopicTable, name: &str) -> Vec<f64> {
     let column = table.column(name).expect(name);
     let number = |cell: &Cell| match cell {
         Cell::Number(value) => *value,

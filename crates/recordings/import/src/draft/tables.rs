@@ -95,24 +95,26 @@ impl<'g> SeenTable<'g> {
             .then(|| SeenTable::of_form(folder.path(), group, (".", form)))
     }
 
-    /// The topics of an MCAP recording that are read, those with pictures first.
+    /// The topics of a recording that are read, those with pictures first; the error says why none is.
     pub(super) fn of_messages(
         folder: &SourceFolder,
         group: &'g FileGroup,
     ) -> Result<Vec<SeenTable<'g>>, String> {
         let path = folder.path().join(group.first());
         let mut tables = Vec::new();
+        let mut problems = Vec::new();
         for topic in topics(&path)? {
             let form = TableForm::Messages {
                 topic: Some(topic.clone()),
             };
             let extra = format!("rows = {topic:?}");
-            // A topic whose messages are not read is none of the tables.
-            tables.extend(SeenTable::of_form(
-                &path,
-                group,
-                (group.pattern(), (form, extra)),
-            ));
+            match SeenTable::of_form(&path, group, (group.pattern(), (form, extra))) {
+                Ok(table) => tables.push(table),
+                Err(problem) => problems.push(problem),
+            }
+        }
+        if let (true, Some(problem)) = (tables.is_empty(), problems.first()) {
+            return Err(problem.clone());
         }
         tables.sort_by_key(|table| std::cmp::Reverse((table.pictures.len(), table.rows)));
         // Pictures that are not compressed stand beside those that are.

@@ -1,10 +1,10 @@
-//! The messages of one topic of an MCAP recording as a table.
+//! The messages of one topic of a recording as a table: MCAP, rosbag2, bags of ROS 1.
 
 use std::path::Path;
 use std::sync::Arc;
 
 use taceva_core::{Frame, FrameInfo, PixelFormat};
-use taceva_tables::{Cell, Mcap, McapTable, SampleForm};
+use taceva_tables::{Cell, Recording, SampleForm, TopicTable};
 
 use super::columns::{ColumnSource, PictureColumn, PictureKind};
 use super::pictures::{Ended, Picture, Pictures, Visit, damaged, guarded_visit};
@@ -13,27 +13,44 @@ use crate::frame_names::FrameNames;
 use taceva_dataset::internal::guarded;
 use taceva_dataset::{ChannelOrder, DatasetError};
 
-/// Messages of these types are pictures in their field `data`.
-const PICTURES: [&str; 2] = ["sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"];
+/// Messages of these types are pictures in their field `data`: of ROS 2, of ROS 1, of Foxglove.
+const PICTURES: [&str; 6] = [
+    "sensor_msgs/msg/Image",
+    "sensor_msgs/msg/CompressedImage",
+    "sensor_msgs/Image",
+    "sensor_msgs/CompressedImage",
+    "foxglove.RawImage",
+    "foxglove.CompressedImage",
+];
+
+/// What the names of recordings end with.
+const ENDINGS: [&str; 3] = ["mcap", "db3", "bag"];
+
+/// Whether files whose names end so are recordings.
+pub(crate) fn is_recording(ending: &str) -> bool {
+    ENDINGS.contains(&ending)
+}
 
 /// The messages of a topic, in the order in which they were logged.
 #[derive(Debug)]
 pub(super) struct MessageRows {
-    table: Arc<McapTable>,
+    table: Arc<TopicTable>,
     names: Vec<String>,
+    /// Topics of the recording that are not read, each with the reason.
+    unread: Vec<String>,
 }
 
 /// The pictures in one field of them.
 #[derive(Debug)]
 struct MessagePictures {
-    table: Arc<McapTable>,
+    table: Arc<TopicTable>,
     field: String,
 }
 
 /// The topics of the recording at `path`.
 pub(crate) fn topics(path: &Path) -> Result<Vec<String>, String> {
-    let opened =
-        guarded(|| Mcap::open(path)).and_then(|opened| opened.map_err(|error| said(path, &error)));
+    let opened = guarded(|| Recording::open(path))
+        .and_then(|opened| opened.map_err(|error| said(path, &error)));
     Ok(opened?
         .topics()
         .iter()
@@ -44,7 +61,7 @@ pub(crate) fn topics(path: &Path) -> Result<Vec<String>, String> {
 impl MessageRows {
     /// The messages of the topic, or of the only one.
     pub(super) fn open(path: &Path, topic: Option<&str>) -> Result<MessageRows, String> {
-        let recording = Mcap::open(path).map_err(|error| said(path, &error))?;
+        let recording = Recording::open(path).map_err(|error| said(path, &error))?;
         let topic = match (topic, recording.topics()) {
             (Some(topic), _) => topic.to_owned(),
             (None, [only]) => only.name.clone(),
@@ -61,9 +78,23 @@ impl MessageRows {
             .map_err(|error| said(path, &error))?;
         Ok(MessageRows {
             names: table.names().map_err(|error| said(path, &error))?,
+            unread: unread(&recording),
             table: Arc::new(table),
         })
     }
+}
+
+/// The topics of `recording` that are not read, each with the reason.
+fn unread(recording: &Recording) -> Vec<String> {
+    let topics = recording.topics().iter();
+    let unread = topics.filter_map(|topic| {
+        let reason = recording.why_unread(&topic.name)?;
+        Some(format!(
+            "topic {} ({} messages): {reason}",
+            topic.name, topic.count
+        ))
+    });
+    unread.collect()
 }
 
 impl MessageRows {
@@ -118,6 +149,10 @@ impl ColumnSource for MessageRows {
     fn holds_integers(&self, name: &str) -> bool {
         let columns = self.table.columns(&[name]);
         columns.is_ok_and(|columns| columns.iter().flatten().all(is_integer))
+    }
+
+    fn unread(&self) -> Vec<String> {
+        self.unread.clone()
     }
 
     fn picture_columns(&self) -> Vec<PictureColumn> {

@@ -48,6 +48,9 @@ impl fmt::Display for ImportSummary {
             )?;
         }
         self.write_unmentioned(f)?;
+        for topic in &self.unread_topics {
+            writeln!(f, "not read {}", shown(topic))?;
+        }
         let Some(order) = self.channel_order else {
             return self.write_suspicions(f);
         };
@@ -155,9 +158,17 @@ impl fmt::Display for JoinSummary {
             ", {} unmatched; {} of its rows unused",
             self.unmatched, self.unused
         )?;
-        match self.skipped {
-            0 => Ok(()),
-            skipped => write!(f, ", {skipped} skipped"),
+        if self.skipped > 0 {
+            write!(f, ", {} skipped", self.skipped)?;
+        }
+        match &self.frame_id {
+            None => Ok(()),
+            Some(frame) => write!(
+                f,
+                ", {} in other frames than {} left out",
+                self.in_other_frames,
+                shown(frame)
+            ),
         }
     }
 }

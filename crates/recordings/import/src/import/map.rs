@@ -85,6 +85,8 @@ pub struct ImportMap {
     pub facts: RecordingFacts,
     /// How the table is written.
     pub(crate) form: TableForm,
+    /// The coordinate frame whose rows of the table are taken alone.
+    pub(crate) frame_id: Option<String>,
     /// Labels in the path of the table, of the file of a row, or of a cell.
     pub(crate) path: Option<PathPattern>,
     pub(crate) joins: Vec<JoinMap>,
@@ -136,6 +138,7 @@ impl ImportMap {
             drop: DropRules::default(),
             facts,
             form: TableForm::Delimited(TextForm::new(true)),
+            frame_id: None,
             path: None,
             joins: Vec::new(),
             matrices: Vec::new(),

@@ -2,6 +2,7 @@
 
 mod classes;
 mod columns;
+mod coordinate_frame;
 mod join;
 mod matrix;
 mod naming_folder;
@@ -17,7 +18,7 @@ use taceva_core::Clock;
 
 use super::map::{FrameNames, ImportMap, OWN_ROW};
 use super::warning::ImportWarning;
-use crate::foreign::{ForeignTable, cell_list};
+use crate::foreign::{ForeignTable, TableForm, cell_list};
 use crate::source_folder::SourceFolder;
 use columns::{base_of, mentioned};
 use join::Joined;
@@ -25,6 +26,7 @@ use taceva_dataset::{DatasetError, Place};
 use times::TextTimes;
 
 pub(super) use classes::ClassCells;
+pub(super) use coordinate_frame::CoordinateFrames;
 pub(super) use join::JoinMatches;
 pub(super) use matrix::matrix_rows;
 pub(super) use naming_folder::NamedBy;
@@ -47,6 +49,10 @@ pub(super) struct Resolved {
     /// What the cells of each class are.
     pub(super) class_cells: Vec<ClassCells>,
     pub(super) warnings: Vec<ImportWarning>,
+    /// Topics of the recording that are not read, each with the reason.
+    pub(super) unread_topics: Vec<String>,
+    /// The frames that labels are given in.
+    pub(super) coordinate_frames: CoordinateFrames,
     /// The folders of joined tables that name files.
     pub(super) named_by: NamedBy,
 }
@@ -89,7 +95,12 @@ pub(super) fn resolve(
     let names = mentioned(map);
     let of_signals = map.signals.iter().flat_map(|signals| signals.columns());
     let bases = names.iter().chain(of_signals).map(|name| base_of(name));
-    let bases: Vec<&str> = bases.collect();
+    let mut bases: Vec<&str> = bases.collect();
+    let of_frames = match sources.labels(None).is_empty() {
+        true => Vec::new(),
+        false => coordinate_frame::columns(&sources.main),
+    };
+    bases.extend(of_frames.iter().map(String::as_str));
     sources.main.read_ahead(&bases)?;
     sources.capture()?;
     sources.read_times()?;
@@ -103,6 +114,7 @@ pub(super) fn resolve(
     // A joined table may have the column of the time.
     sources.read_times()?;
     sources.warn_of_grouped_digits();
+    let coordinate_frames = sources.coordinate_frames()?;
     let class_cells = classes::of(&sources)?;
     let rows = sources.main.rows();
     let mut cells = Vec::with_capacity(names.len());
@@ -131,6 +143,11 @@ pub(super) fn resolve(
     Ok(Resolved {
         signals: signals.transpose()?,
         class_cells,
+        coordinate_frames,
+        unread_topics: match map.form {
+            TableForm::Messages { .. } => sources.main.unread(),
+            _ => Vec::new(),
+        },
         absent_chunks,
         unmentioned: sources.unmentioned(&table),
         joins: sources

@@ -9,7 +9,9 @@ use std::sync::Arc;
 
 use super::frame_cells::{FrameCells, FrameName, filled};
 use super::map::{FrameNames, ImportMap};
-use super::resolve::{ClassCells, ColumnSignals, JoinMatches, NamedBy, ResolvedTable, resolve};
+use super::resolve::{
+    ClassCells, ColumnSignals, CoordinateFrames, JoinMatches, NamedBy, ResolvedTable, resolve,
+};
 use super::warning::ImportWarning;
 use crate::foreign::{Pictures, TableForm};
 use crate::source_folder::SourceFolder;
@@ -27,6 +29,10 @@ pub(super) struct MappedTable<'a> {
     unmentioned: Vec<String>,
     pub(super) joins: Vec<JoinMatches>,
     pub(super) warnings: Vec<ImportWarning>,
+    /// Topics of the recording that are not read, each with the reason.
+    pub(super) unread_topics: Vec<String>,
+    /// The frames that labels are given in.
+    pub(super) coordinate_frames: CoordinateFrames,
     /// Chunks that were never written of the arrays that are read, by file and array.
     pub(super) absent_chunks: BTreeMap<String, u64>,
     truth: Vec<usize>,
@@ -145,6 +151,8 @@ impl<'a> MappedTable<'a> {
             unmentioned: found.unmentioned,
             joins: found.joins,
             warnings: found.warnings,
+            coordinate_frames: found.coordinate_frames,
+            unread_topics: found.unread_topics,
             absent_chunks: found.absent_chunks,
             class_cells: found.class_cells,
             named_by: found.named_by,
@@ -186,6 +194,9 @@ impl<'a> MappedTable<'a> {
     pub(super) fn drop_reasons(&self, row: usize) -> Vec<String> {
         if let Some(join) = self.table.unmatched(row) {
             return vec![join.to_owned()];
+        }
+        if let Some(reason) = self.coordinate_frames.left_out.get(&row) {
+            return vec![reason.clone()];
         }
         let rules = &self.map.drop;
         let cell = self.flags.map_or("", |column| self.table.cell(row, column));

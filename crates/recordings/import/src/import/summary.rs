@@ -65,6 +65,8 @@ pub struct ImportSummary {
     pub absent_chunks: BTreeMap<String, u64>,
     /// Columns of the tables that the map does not mention, sorted.
     pub unmentioned_columns: BTreeSet<String>,
+    /// Topics of recordings that are not read, each with the reason.
+    pub unread_topics: BTreeSet<String>,
     /// Channels whose numbers look like those of another unit.
     pub suspicions: Vec<Suspicion>,
     /// Warnings about the map and what it reads, sorted.
@@ -96,6 +98,10 @@ pub struct JoinSummary {
     pub unused: u64,
     /// Rows of the other table that `skip` says are no candidates.
     pub skipped: u64,
+    /// The coordinate frame whose rows the map takes, where it names one.
+    pub frame_id: Option<String>,
+    /// Rows of the other table that are given in other frames than `frame_id`.
+    pub in_other_frames: u64,
     /// The greatest distance in time of what was matched, s; `None` of a join by anything else.
     pub greatest_gap_s: Option<f64>,
 }
@@ -114,7 +120,7 @@ impl ImportSummary {
         left_out.columns = columns as u64;
         left_out.rows = self.dropped.clone();
         left_out.joined_rows = of_joins(|join| join.unused);
-        left_out.skipped_rows = of_joins(|join| join.skipped);
+        left_out.skipped_rows = of_joins(|join| join.skipped + join.in_other_frames);
         left_out.frames = self.unused_frames.clone();
         left_out.absent_chunks = self.absent_chunks.clone();
         left_out

@@ -9,6 +9,9 @@ use taceva_dataset::DatasetError;
 pub(super) fn text(comments: &str, source: &Path) -> Result<String, DatasetError> {
     let draft = MapDraft::of(source)?;
     let mut text = format!("{}\n", comments.trim_end());
+    let mut all = draft.text().lines();
+    let has_channel =
+        all.any(|line| line.contains("{ from = \"") && !line.contains("{ from = \"?\""));
     let lines = draft.text().lines();
     let lines = lines.skip_while(|line| line.starts_with('#'));
     // That there is such a preset is known here.
@@ -21,6 +24,11 @@ pub(super) fn text(comments: &str, source: &Path) -> Result<String, DatasetError
         let line = match line.starts_with("model = ") {
             true => line.replace("\"?\"", "\"unknown\""),
             false => line.replace("unit = \"?\"", &format!("unit = {unit}")),
+        };
+        // A channel of which nothing is sure is left out, as long as there is another.
+        let line = match line.contains("{ from = \"?\"") && has_channel {
+            true => format!("# Left out: {}", line.replace("\"?\"", "?")),
+            false => line,
         };
         text += &line;
         text.push('\n');

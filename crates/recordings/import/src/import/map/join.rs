@@ -14,6 +14,8 @@ pub(crate) struct JoinMap {
     pub(crate) unmatched: Unmatched,
     /// Rows that are no candidates: column, and the number that it has there.
     pub(crate) skip: Vec<(String, f64)>,
+    /// The coordinate frame whose rows are candidates alone.
+    pub(crate) frame_id: Option<String>,
 }
 
 /// Which row of a joined table belongs to a row.

@@ -24,6 +24,7 @@ use taceva_dataset::{DatasetError, Footprint, RecordingFacts, SensorFacts, Sourc
 struct WrittenMap {
     map_version: Spanned<u32>,
     table: Spanned<WrittenTable>,
+    frame_id: Option<String>,
     #[serde(default)]
     source: Source,
     frame: Option<Spanned<WrittenFrame>>,
@@ -152,6 +153,7 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
         origin: written.origin.map(Spanned::into_inner),
         table,
         form,
+        frame_id: written.frame_id,
         matrices,
         channels,
         columns,

@@ -34,6 +34,7 @@ pub(super) struct WrittenJoin {
     unmatched: Option<Unmatched>,
     #[serde(default)]
     skip: BTreeMap<String, f64>,
+    frame_id: Option<String>,
 }
 
 #[derive(Deserialize)]
@@ -170,6 +171,7 @@ impl Check<'_> {
             by,
             unmatched: written.unmatched.unwrap_or(Unmatched::Refuse),
             skip: written.skip.into_iter().collect(),
+            frame_id: written.frame_id,
         })
     }
 

@@ -8,7 +8,7 @@ use toml::Spanned;
 
 use super::check::Check;
 use crate::csv_table::text_form::TextForm;
-use crate::foreign::TableForm;
+use crate::foreign::{TableForm, is_recording};
 use taceva_dataset::DatasetError;
 
 /// A table: its path, or what more there is to say of it.
@@ -101,7 +101,8 @@ fn form_of(path: &str, format: Option<Format>) -> TableForm {
         (Some(Format::Parquet), _) | (None, Some("parquet")) => TableForm::Parquet,
         (Some(Format::Lerobot), _) => TableForm::LeRobot,
         (Some(Format::Webdataset), _) | (None, Some("tar")) => TableForm::WebDataset,
-        (Some(Format::Mcap), _) | (None, Some("mcap")) => TableForm::Messages { topic: None },
+        (Some(Format::Mcap), _) => TableForm::Messages { topic: None },
+        (None, Some(ending)) if is_recording(ending) => TableForm::Messages { topic: None },
         (Some(Format::Jsonl), _) | (None, Some("jsonl" | "ndjson")) => TableForm::JsonLines,
         _ => TableForm::Delimited(TextForm::new(true)),
     }
@@ -118,9 +119,7 @@ pub(crate) fn converter(path: &str) -> Option<String> {
         "xlsx" | "xls" | "ods" => {
             format!("`libreoffice --headless --convert-to csv {file}` writes a table that is")
         }
-        "db3" | "bag" => format!(
-            "`mcap convert {file} {stem}.mcap` of the mcap command line writes a recording that is"
-        ),
+        "zst" | "zstd" => format!("`zstd -d {file} -o {stem}` writes a file that is"),
         _ => return None,
     })
 }
@@ -205,7 +204,10 @@ impl Check<'_> {
             (form, None, None) => form,
             (_, Some(_), _) => return Err(self.at(offset, "`header` is for CSV and TSV alone")),
             (_, _, Some(_)) => {
-                return Err(self.at(offset, "`rows` is for JSON, files of arrays and MCAP"));
+                return Err(self.at(
+                    offset,
+                    "`rows` is for JSON, files of arrays and recordings of messages",
+                ));
             }
         };
         Ok((file, form))

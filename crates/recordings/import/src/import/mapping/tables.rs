@@ -32,9 +32,10 @@ pub(super) fn join(map: &JoinMap) -> MappedJoin {
         }
     };
     let skip = map.skip.iter();
-    let skip: Vec<String> = skip
-        .map(|(column, number)| format!("{column} = {number}"))
-        .collect();
+    let skip = skip.map(|(column, number)| format!("{column} = {number}"));
+    let frame = map.frame_id.iter();
+    let frame = frame.map(|frame| format!("frame_id other than {}", short_name(frame)));
+    let skip: Vec<String> = skip.chain(frame).collect();
     join.skip = short(&skip);
     map.unmatched.name().clone_into(&mut join.unmatched);
     join

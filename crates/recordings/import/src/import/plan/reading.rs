@@ -11,7 +11,7 @@ use crate::import::frame_cells::FrameName;
 use crate::import::frame_plan::{FrameSource, PlannedFrame};
 use crate::import::map::ImportMap;
 use crate::import::references::References;
-use crate::import::resolve::JoinMatches;
+use crate::import::resolve::{CoordinateFrames, JoinMatches};
 use crate::import::rows::{MappedTable, SIGNAL_PLACEHOLDERS};
 use crate::import::signals::FoundSignals;
 use crate::import::summary::ImportSummary;
@@ -38,6 +38,8 @@ pub(super) struct Reading<'a> {
     pub(super) unequal: Option<DatasetError>,
     pub(super) references: References,
     pub(super) joins: Vec<JoinMatches>,
+    /// The frames that labels of all tables are given in.
+    pub(super) coordinate_frames: CoordinateFrames,
     /// Chunks that were never written, by file and array.
     pub(super) absent_chunks: BTreeMap<String, u64>,
     pub(super) samples: HashSet<String>,
@@ -70,6 +72,7 @@ impl<'a> Reading<'a> {
             unequal: None,
             references: References::default(),
             joins: Vec::new(),
+            coordinate_frames: CoordinateFrames::default(),
             absent_chunks: BTreeMap::new(),
             samples: HashSet::new(),
             named: BTreeSet::new(),
@@ -94,6 +97,8 @@ impl<'a> Reading<'a> {
             }
         }
         self.absent_chunks.append(&mut rows.absent_chunks);
+        let unread = std::mem::take(&mut rows.unread_topics);
+        self.summary.unread_topics.extend(unread);
         self.summary
             .warnings
             .extend(std::mem::take(&mut rows.warnings));
@@ -106,6 +111,8 @@ impl<'a> Reading<'a> {
         for row in 0..rows.rows() {
             self.read_row(&rows, row, &base)?;
         }
+        self.coordinate_frames
+            .add(std::mem::take(&mut rows.coordinate_frames))?;
         if rows.rows() == 0 || rows.named_by.frame(0).is_none() {
             self.bases.insert(base);
         }

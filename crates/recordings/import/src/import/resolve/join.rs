@@ -1,20 +1,22 @@
 //! Which row of another table belongs to each row of the main one.
 
+mod candidates;
 mod matches;
 mod matching;
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use super::classes::holds_integers;
 use super::columns::{base_of, mentioned};
-use super::times::TextTimes;
-use super::unit_statement::{self, Of, Reading};
+use super::coordinate_frame;
+use super::unit_statement::{self, Reading};
 use super::{Sources, cell_of};
 use crate::csv_table::number;
 use crate::foreign::ForeignTable;
 use crate::import::map::{JoinBy, JoinMap, Unmatched};
 use crate::source_folder::SourceFolder;
+use candidates::{Candidates, TakenRow};
 use matches::TableUses;
 use matching::{At, about, comparable, seconds};
 use taceva_dataset::internal::shown;
@@ -30,18 +32,6 @@ pub(super) struct Joined<'a> {
     matches: Vec<Match>,
     /// The greatest distance in time of what was matched, s.
     greatest_gap_s: Option<f64>,
-}
-
-/// A table, and the rows of it that may be matched.
-struct Candidates {
-    table: ForeignTable,
-    rows: Vec<usize>,
-    /// Of a join by columns: the rows that hold each key.
-    by_key: HashMap<Vec<String>, Vec<usize>>,
-    /// Of a join by time: each row with its time, s, in order.
-    by_time: Vec<(f64, usize)>,
-    /// Of a join up to a number: each row with its number, in order.
-    until: Vec<(u64, usize)>,
 }
 
 /// What belongs to a row of the main table.
@@ -72,8 +62,16 @@ impl<'a> Joined<'a> {
                 None => {
                     let path = folder.file(folder.path(), &file)?;
                     let table = ForeignTable::read(&path, &map.form)?;
-                    table.read_ahead(&own_columns(&mentioned(sources.map), &map.name))?;
-                    joined.tables.push(Candidates::new(map, table)?);
+                    let labels = sources.labels(Some(&map.name));
+                    let of_frames = match labels.is_empty() {
+                        true => Vec::new(),
+                        false => coordinate_frame::columns(&table),
+                    };
+                    let names = mentioned(sources.map);
+                    let mut ahead = own_columns(&names, &map.name);
+                    ahead.extend(of_frames.iter().map(String::as_str));
+                    table.read_ahead(&ahead)?;
+                    joined.tables.push(Candidates::new(map, table, &labels)?);
                     known.insert(file, joined.tables.len() - 1);
                     joined.tables.len() - 1
                 }
@@ -156,6 +154,23 @@ impl<'a> Joined<'a> {
         }
     }
 
+    /// The rows of joined tables that the cells of `row` are taken from.
+    pub(super) fn rows_of(&self, row: usize) -> impl Iterator<Item = TakenRow<'_>> {
+        let Match { table: at, at: of } = self.matches[row];
+        let candidates = &self.tables[at];
+        let (first, second) = match of {
+            At::Nowhere => (None, None),
+            At::Row(row) => (Some(row), None),
+            At::Between([before, after], _) => (Some(before), Some(after)),
+        };
+        let rows = first.into_iter().chain(second);
+        rows.map(move |row| TakenRow {
+            candidates,
+            at,
+            row,
+        })
+    }
+
     /// A cell of the joined tables whose point may group digits, and how many there are.
     pub(super) fn grouped_digits(&self, column: &str) -> Option<(String, u64)> {
         let mut tables = self.tables.iter();
@@ -196,13 +211,15 @@ impl<'a> Joined<'a> {
             let table = &candidates.table;
             let uses = TableUses {
                 candidates: candidates.rows.len(),
-                skipped: table.rows() - candidates.rows.len(),
+                skipped: table.rows() - candidates.rows.len() - candidates.in_other_frames,
+                in_other_frames: candidates.in_other_frames,
                 used,
             };
             (table.path().to_owned(), uses)
         });
         JoinMatches {
             name: self.map.name.clone(),
+            frame_id: self.map.frame_id.clone(),
             counted_by: match &self.map.by {
                 JoinBy::Row => Some("`on = \"row\"`"),
                 JoinBy::Until(_) => Some("`until`"),
@@ -303,104 +320,4 @@ fn own_columns<'n>(names: &'n [String], join: &str) -> Vec<&'n str> {
         (prefix == join).then(|| base_of(column))
     });
     own.collect()
-}
-
-impl Candidates {
-    fn new(map: &JoinMap, table: ForeignTable) -> Result<Candidates, DatasetError> {
-        let mut rows = Vec::new();
-        for row in 0..table.rows() {
-            let mut is_skipped = false;
-            for (column, number) in &map.skip {
-                let cell = cell_of(&table, row, column)?;
-                is_skipped |= number::number(&cell).ok().flatten() == Some(*number);
-            }
-            if !is_skipped {
-                rows.push(row);
-            }
-        }
-        let mut candidates = Candidates {
-            table,
-            rows,
-            by_key: HashMap::new(),
-            by_time: Vec::new(),
-            until: Vec::new(),
-        };
-        let Candidates {
-            table,
-            rows,
-            by_key,
-            by_time,
-            until,
-        } = &mut candidates;
-        match &map.by {
-            JoinBy::Row | JoinBy::All => {}
-            JoinBy::Until(column) => {
-                for row in rows.iter() {
-                    let cell = cell_of(table, *row, column)?;
-                    let end = cell.trim().parse::<u64>();
-                    let end = end
-                        .ok()
-                        .filter(|end| until.last().is_none_or(|(last, _)| last <= end));
-                    let end = end.ok_or_else(|| DatasetError::Table {
-                        place: table.place(*row, column),
-                        problem: format!(
-                            "`{}`: expected a whole number that is not below the one before it, where join `{}` counts through",
-                            shown(&cell),
-                            map.name
-                        ),
-                    })?;
-                    until.push((end, *row));
-                }
-            }
-            JoinBy::Columns(columns) => {
-                for row in rows.iter() {
-                    let cells = columns.iter().map(|(_, other)| cell_of(table, *row, other));
-                    let key: Result<Vec<String>, DatasetError> =
-                        cells.map(|cell| Ok(comparable(&cell?))).collect();
-                    let key = key?;
-                    if !key.iter().any(String::is_empty) {
-                        by_key.entry(key).or_default().push(*row);
-                    }
-                }
-            }
-            JoinBy::Time(join) => {
-                let reading = Reading {
-                    unit: &join.time.unit,
-                    is_moved: false,
-                    of: Of::Others,
-                };
-                unit_statement::check(table, &join.time.column, reading)?;
-                let cells: Result<Vec<String>, DatasetError> = rows
-                    .iter()
-                    .map(|row| cell_of(table, *row, &join.time.column))
-                    .collect();
-                let cells = cells?;
-                let texts = TextTimes::of(&cells, &join.time);
-                let texts = texts.map_err(|(at, problem)| DatasetError::Table {
-                    place: table
-                        .place(rows.get(at).copied().unwrap_or_default(), &join.time.column),
-                    problem,
-                })?;
-                let cells = texts.map_or(cells, |texts| texts.seconds);
-                for (row, cell) in rows.iter().zip(&cells) {
-                    let place = || table.place(*row, &join.time.column);
-                    by_time.extend(seconds(cell, &join.time, place)?.map(|time| (time, *row)));
-                }
-                let back = by_time.windows(2).find(|pair| pair[1].0 < pair[0].0);
-                let back = back.map(<[_]>::to_vec);
-                // Of several at one time the first.
-                by_time.dedup_by(|later, first| later.0.total_cmp(&first.0).is_eq());
-                if let Some([_, (_, row)]) = back.as_deref() {
-                    return Err(DatasetError::Table {
-                        place: table.place(*row, &join.time.column),
-                        problem: format!(
-                            "the time of join `{}` goes back here, so that it is no time to join by: cut the table where its clock was set",
-                            map.name
-                        ),
-                    });
-                }
-            }
-        }
-        Ok(candidates)
-    }
 }

@@ -10,6 +10,8 @@ use taceva_dataset::{DatasetError, Place};
 /// What one main table found in a joined one.
 pub(in crate::import) struct JoinMatches {
     pub(super) name: String,
+    /// The frame that the map takes the rows of.
+    pub(super) frame_id: Option<String>,
     /// The key of the map by which rows belong to those of the same number in each main table, if they do.
     pub(super) counted_by: Option<&'static str>,
     pub(super) matched: u64,
@@ -23,6 +25,7 @@ pub(in crate::import) struct JoinMatches {
 pub(super) struct TableUses {
     pub(super) candidates: usize,
     pub(super) skipped: usize,
+    pub(super) in_other_frames: usize,
     pub(super) used: BTreeSet<usize>,
 }
 
@@ -93,6 +96,8 @@ impl JoinMatches {
             unmatched: self.unmatched,
             unused: sum(|uses| uses.candidates.saturating_sub(uses.used.len())),
             skipped: sum(|uses| uses.skipped),
+            frame_id: self.frame_id.clone(),
+            in_other_frames: sum(|uses| uses.in_other_frames),
             greatest_gap_s: self.greatest_gap_s,
         }
     }

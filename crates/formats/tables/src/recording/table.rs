@@ -4,18 +4,16 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::chunks::Chunks;
-use super::contents::Contents;
-use super::index::{Entry, index};
+use super::Topic;
 use super::json;
-use super::record::{self, MessageHead, code};
-use super::{Inner, Topic};
-use crate::bytes::Bytes;
+use super::language::{self, Language, Reader};
 use crate::cell::Cell;
 use crate::error::{Place, TableError};
 use crate::limits;
-use crate::ros::{self, Fields, Picture, PictureField, RosSchema};
+use crate::message::{Entry, Message, MessageReader, MessageStore};
+use crate::ros::{self, Picture};
 use crate::rows::check_sorted;
+use crate::source::Source;
 
 /// The messages of one topic, in the order in which they were logged; at the same time, as they lie in the file.
 ///
@@ -24,9 +22,9 @@ use crate::rows::check_sorted;
 /// time is one number too: `header.stamp` in seconds, `header.stamp.ns` in nanoseconds, with `sec` and `nanosec` inside.
 ///
 /// ```
-/// use taceva_tables::{Cell, Mcap};
+/// use taceva_tables::{Cell, Recording};
 /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/presses.mcap");
-/// let force = Mcap::open(path.as_ref())?.table("/ft/wrench")?;
+/// let force = Recording::open(path.as_ref())?.table("/ft/wrench")?;
 /// assert_eq!(force.rows(), 3);
 /// let columns = force.columns(&["header.stamp.ns", "wrench.force.z"])?;
 /// assert_eq!(columns[0][1], Cell::Integer(1_700_000_000_500_000_000));
@@ -34,34 +32,28 @@ use crate::rows::check_sorted;
 /// # Ok::<(), taceva_tables::TableError>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct McapTable {
-    inner: Arc<Inner>,
+pub struct TopicTable {
+    store: Arc<dyn MessageStore>,
     topic: Topic,
-    channels: BTreeSet<u16>,
+    channels: BTreeSet<u32>,
     language: Language,
     entries: Arc<Vec<Entry>>,
 }
 
-/// What messages are written in.
-#[derive(Clone, Debug)]
-enum Language {
-    Ros(Arc<RosSchema>),
-    Json,
-}
-
-impl McapTable {
-    pub(super) fn new(inner: &Arc<Inner>, topic: Topic) -> Result<McapTable, TableError> {
-        let contents = &inner.contents;
-        let channels: BTreeSet<u16> = contents
-            .channels
-            .iter()
-            .filter(|(_, channel)| channel.topic == topic.name)
-            .map(|(id, _)| *id)
-            .collect();
-        let language = language(inner, &topic, contents, &channels)?;
-        let entries = index(&inner.source, contents, &channels)?;
-        Ok(McapTable {
-            inner: Arc::clone(inner),
+impl TopicTable {
+    pub(super) fn new(
+        store: &Arc<dyn MessageStore>,
+        topic: Topic,
+    ) -> Result<TopicTable, TableError> {
+        let language = language::of_topic(&**store, &topic);
+        let language = language.map_err(|problem| {
+            let place = Place::of(&topic.name);
+            store.source().unsupported(place, problem)
+        })?;
+        let channels = language::channels(&**store, &topic);
+        let entries = store.index(&channels)?;
+        Ok(TopicTable {
+            store: Arc::clone(store),
             topic,
             channels,
             language,
@@ -69,9 +61,13 @@ impl McapTable {
         })
     }
 
+    fn source(&self) -> &Source {
+        self.store.source()
+    }
+
     /// The file.
     pub fn path(&self) -> &Path {
-        self.inner.source.path()
+        self.source().path()
     }
 
     /// The topic.
@@ -90,21 +86,15 @@ impl McapTable {
     /// [`TableError::Unsupported`] if the schema has more fields than are accepted; of JSON as [`columns`](Self::columns).
     pub fn names(&self) -> Result<Vec<String>, TableError> {
         let mut names: Vec<String> = TIMES.iter().map(|(name, _)| (*name).to_owned()).collect();
-        match &self.language {
-            Language::Ros(schema) => {
-                let fields = ros::names(schema);
-                names.extend(fields.map_err(|problem| self.unsupported(problem))?);
-            }
-            Language::Json => {
-                if let Some(first) = self.entries.first() {
-                    let mut chunks = Chunks::new(&self.inner.source)?;
-                    self.message(&mut chunks, first, |_, message| {
-                        let cell = json::cell(message)?;
-                        json::add_names(&cell, "", &mut names);
-                        Ok(())
-                    })?;
-                }
-            }
+        let fields = language::names(&self.language);
+        names.extend(fields.map_err(|problem| self.unsupported(problem))?);
+        if let (Language::Json, Some(first)) = (&self.language, self.entries.first()) {
+            let mut reader = self.store.reader()?;
+            self.message(&mut *reader, first, |message| {
+                let cell = json::cell(message.bytes())?;
+                json::add_names(&cell, "", &mut names);
+                Ok(())
+            })?;
         }
         Ok(names)
     }
@@ -127,8 +117,7 @@ impl McapTable {
                 "more than {} bytes in memory; ask for fewer fields",
                 limits::COLUMN_BYTES
             );
-            self.inner
-                .source
+            self.source()
                 .too_large(Place::of(&self.topic.name), problem)
         };
         let least = (names.len() as u64)
@@ -147,17 +136,17 @@ impl McapTable {
                 self.entries[*row].at,
             )
         });
-        let mut chunks = Chunks::new(&self.inner.source)?;
+        let mut reader = self.store.reader()?;
         for row in order {
-            self.message(&mut chunks, &self.entries[row], |head, message| {
+            self.message(&mut *reader, &self.entries[row], |message| {
                 let mut cells = match of_message.is_empty() {
                     true => Vec::new(),
-                    false => read(message)?,
+                    false => read(message.bytes())?,
                 }
                 .into_iter();
                 for (column, name) in columns.iter_mut().zip(names) {
                     let cell = match TIMES.iter().find(|(time, _)| time == name) {
-                        Some((_, time)) => Some(time(&head)),
+                        Some((_, time)) => Some(time(message)),
                         None => cells.next(),
                     };
                     let cell = cell.unwrap_or(Cell::Null);
@@ -196,16 +185,11 @@ impl McapTable {
         sorted: &[u64],
         each: &mut dyn FnMut(u64, Picture) -> Result<(), E>,
     ) -> Result<(), E> {
-        let source = &self.inner.source;
-        let Language::Ros(schema) = &self.language else {
-            return Err(source
-                .mismatch(name, "messages of JSON hold no pictures that are read")
-                .into());
-        };
-        let field =
-            PictureField::new(schema, name).map_err(|problem| source.mismatch(name, problem))?;
+        let source = self.source();
+        let read = self.language.pictures(name);
+        let read = read.map_err(|problem| source.mismatch(name, problem))?;
         check_sorted(source, name, sorted, self.rows())?;
-        let mut chunks = Chunks::new(source)?;
+        let mut reader = self.store.reader()?;
         for row in sorted {
             let entry = usize::try_from(*row)
                 .ok()
@@ -213,90 +197,50 @@ impl McapTable {
             let Some(entry) = entry else {
                 return Err(source.mismatch(name, format!("no row {row}")).into());
             };
-            let picture =
-                self.message(&mut chunks, entry, |_, message| field.read(schema, message))?;
+            let picture = self.message(&mut *reader, entry, |message| read(message.bytes()))?;
             each(*row, picture)?;
         }
         Ok(())
     }
 
     /// What reads the fields called `names` out of a message.
-    #[expect(
-        clippy::type_complexity,
-        reason = "a closure over one of two languages"
-    )]
-    fn reader(
-        &self,
-        names: &[&str],
-    ) -> Result<Box<dyn Fn(&[u8]) -> Result<Vec<Cell>, String> + '_>, TableError> {
-        match &self.language {
-            Language::Ros(schema) => {
-                let fields = match Fields::new(schema, names) {
-                    Ok(fields) => fields,
-                    Err(name) => return Err(self.inner.source.missing(name, self.names()?)),
-                };
-                Ok(Box::new(move |message| fields.read(schema, message)))
-            }
-            Language::Json => {
-                let names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
-                Ok(Box::new(move |message| {
-                    let cell = json::cell(message)?;
-                    let found = |name: &String| cell.at(name).cloned().unwrap_or(Cell::Null);
-                    Ok(names.iter().map(found).collect())
-                }))
-            }
+    fn reader<'a>(&'a self, names: &[&'a str]) -> Result<Reader<'a>, TableError> {
+        match self.language.reader(names) {
+            Ok(reader) => Ok(reader),
+            Err(name) => Err(self.source().missing(name, self.names()?)),
         }
     }
 
     /// Hands the message at `entry` to `read`.
     fn message<T>(
         &self,
-        chunks: &mut Chunks<'_>,
+        reader: &mut dyn MessageReader,
         entry: &Entry,
-        read: impl FnOnce(MessageHead, &[u8]) -> Result<T, String>,
+        read: impl FnOnce(&Message) -> Result<T, String>,
     ) -> Result<T, TableError> {
-        let source = &self.inner.source;
         let damaged = |problem: String| {
             let place = Place::byte(entry.chunk.unwrap_or(entry.at)).in_name(&self.topic.name);
             let problem = match entry.chunk {
                 Some(_) => format!("message at byte {} of the chunk: {problem}", entry.at),
                 None => problem,
             };
-            source.damaged(place, problem)
+            self.source().damaged(place, problem)
         };
-        let (held, loose);
-        let fields = match entry.chunk {
-            Some(chunk) => {
-                held = chunks.unpacked(chunk)?;
-                let record = usize::try_from(entry.at).ok().and_then(|at| held.get(at..));
-                let mut bytes = Bytes::new(record.unwrap_or_default());
-                match record::next(&mut bytes) {
-                    Some((code::MESSAGE, fields)) => fields,
-                    _ => return Err(damaged("its index leads to no message".to_owned())),
-                }
-            }
-            None => {
-                loose = chunks.fields(entry.at, code::MESSAGE, u64::MAX)?;
-                &loose[..]
-            }
-        };
-        let (head, message) =
-            record::message(fields).ok_or_else(|| damaged("it is cut short".to_owned()))?;
-        if !self.channels.contains(&head.channel) || head.log_time != entry.log_time {
+        let message = reader.message(entry)?;
+        if !self.channels.contains(&message.channel) || message.log_time != entry.log_time {
             return Err(damaged("its index leads to another message".to_owned()));
         }
-        read(head, message).map_err(damaged)
+        read(&message).map_err(damaged)
     }
 
     fn unsupported(&self, problem: String) -> TableError {
-        self.inner
-            .source
-            .unsupported(Place::of(&self.topic.name), problem)
+        let place = Place::of(&self.topic.name);
+        self.source().unsupported(place, problem)
     }
 }
 
-/// A column that a message's head gives.
-type OfHead = fn(&MessageHead) -> Cell;
+/// A column that every message has.
+type OfHead = fn(&Message) -> Cell;
 
 /// The columns that every topic has.
 const TIMES: [(&str, OfHead); 4] = [
@@ -314,46 +258,4 @@ fn seconds(nanoseconds: u64) -> Cell {
         (nanoseconds / NANO).into(),
         (nanoseconds % NANO).into(),
     ))
-}
-
-/// What the messages of `channels` are written in: one language, by one schema.
-fn language(
-    inner: &Inner,
-    topic: &Topic,
-    contents: &Contents,
-    channels: &BTreeSet<u16>,
-) -> Result<Language, TableError> {
-    let unsupported = |problem: String| inner.source.unsupported(Place::of(&topic.name), problem);
-    let mut schemas = channels
-        .iter()
-        .filter_map(|channel| contents.channels.get(channel))
-        .map(|channel| (&channel.encoding, contents.schemas.get(&channel.schema)));
-    let Some((encoding, schema)) = schemas.next() else {
-        return Err(unsupported("no channel has this topic".to_owned()));
-    };
-    if schemas.any(|other| other != (encoding, schema)) {
-        return Err(unsupported(
-            "its channels have different schemas".to_owned(),
-        ));
-    }
-    match (encoding.as_str(), schema) {
-        ("json", _) => Ok(Language::Json),
-        ("cdr", Some(schema)) if schema.encoding == "ros2msg" => {
-            let text = std::str::from_utf8(&schema.text)
-                .map_err(|_| unsupported("its schema is no text".to_owned()))?;
-            let parsed = RosSchema::parse(&schema.name, text);
-            let parsed = parsed.map_err(|problem| {
-                unsupported(format!("the schema of {}: {problem}", topic.schema))
-            })?;
-            Ok(Language::Ros(Arc::new(parsed)))
-        }
-        (encoding, schema) => {
-            let schema = schema.map_or("none", |schema| schema.encoding.as_str());
-            Err(unsupported(format!(
-                "messages in `{}` by a schema in `{}`, expected `cdr` by `ros2msg`, or `json`",
-                crate::error::shown(encoding),
-                crate::error::shown(schema)
-            )))
-        }
-    }
 }

@@ -1,0 +1,88 @@
+//! Messages of a recording by topics, whatever form of file they lie in.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
+use std::ops::Range;
+use std::sync::Arc;
+
+use crate::error::TableError;
+use crate::source::Source;
+
+/// What describes the messages of channels.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Schema {
+    pub(crate) name: String,
+    pub(crate) encoding: String,
+    pub(crate) text: Vec<u8>,
+}
+
+/// What messages of one topic by one writer share.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Channel {
+    pub(crate) topic: String,
+    pub(crate) encoding: String,
+    pub(crate) schema: Option<Arc<Schema>>,
+    /// How many messages it has.
+    pub(crate) count: u64,
+}
+
+/// Where a message lies: its time, the chunk or page (none of what lies in the file itself), and the place of it there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Entry {
+    pub(crate) log_time: u64,
+    pub(crate) chunk: Option<u64>,
+    pub(crate) at: u64,
+}
+
+/// A message: whose it is, when it was logged and published, ns, and what it says.
+#[derive(Clone, Debug)]
+pub(crate) struct Message {
+    pub(crate) channel: u32,
+    pub(crate) log_time: u64,
+    pub(crate) publish_time: u64,
+    held: Arc<Vec<u8>>,
+    range: Range<usize>,
+}
+
+impl Message {
+    /// The message of `channel` at `range` of the bytes that `held` shares.
+    pub(crate) fn new(
+        channel: u32,
+        log_time: u64,
+        publish_time: u64,
+        held: Arc<Vec<u8>>,
+        range: Range<usize>,
+    ) -> Message {
+        Message {
+            channel,
+            log_time,
+            publish_time,
+            held,
+            range,
+        }
+    }
+
+    pub(crate) fn bytes(&self) -> &[u8] {
+        self.held.get(self.range.clone()).unwrap_or_default()
+    }
+}
+
+/// A file of messages.
+pub(crate) trait MessageStore: fmt::Debug + Send + Sync {
+    fn source(&self) -> &Source;
+
+    /// The channels, by number.
+    fn channels(&self) -> &BTreeMap<u32, Channel>;
+
+    /// All messages of `channels`, by time and, at the same time, as they lie in the file.
+    fn index(&self, channels: &BTreeSet<u32>) -> Result<Vec<Entry>, TableError>;
+
+    /// What reads messages through one cursor.
+    fn reader(&self) -> Result<Box<dyn MessageReader + '_>, TableError>;
+}
+
+/// Messages through one cursor.
+pub(crate) trait MessageReader {
+    /// The message at `entry`.
+    fn message(&mut self, entry: &Entry) -> Result<Message, TableError>;
+}

@@ -1,0 +1,135 @@
+//! Recordings of messages by topics: MCAP, the databases of rosbag2, the bags of ROS 1.
+
+mod json;
+mod language;
+mod table;
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::Arc;
+
+use crate::error::{Place, TableError};
+use crate::message::MessageStore;
+use crate::source::Source;
+use crate::{mcap, rosbag1, rosbag2, sqlite};
+
+pub use self::table::TopicTable;
+
+/// A recording of messages: topics, each a table of its messages.
+///
+/// It is an MCAP file, a database of rosbag2 (`.db3`) or a bag of ROS 1 (`.bag`), by its first bytes. Opening reads what describes it, or walks
+/// over the records of a file without that. Sums are checked where the file has them; attachments are not looked at. Chunks may be compressed
+/// by LZ4 or Zstandard, messages of rosbag2 by Zstandard.
+///
+/// ```
+/// use taceva_tables::Recording;
+/// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/presses.mcap");
+/// let recording = Recording::open(path.as_ref())?;
+/// let topics: Vec<_> = recording.topics().iter().map(|topic| (topic.name.as_str(), topic.count)).collect();
+/// assert_eq!(topics, [("/ft/wrench", 3), ("/tactile/image_raw", 1)]);
+/// # Ok::<(), taceva_tables::TableError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Recording {
+    store: Arc<dyn MessageStore>,
+    topics: Vec<Topic>,
+}
+
+/// A topic of a recording.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Topic {
+    /// Its name, as `/ft/wrench`.
+    pub name: String,
+    /// The name of the schema of its messages, as `geometry_msgs/msg/WrenchStamped`; empty where there is none.
+    pub schema: String,
+    /// How its messages are written, as `cdr`.
+    pub encoding: String,
+    /// How many messages there are.
+    pub count: u64,
+}
+
+impl Recording {
+    /// The recording at `path`.
+    ///
+    /// # Errors
+    /// [`TableError::Io`] if the file cannot be read, [`TableError::Damaged`] if it is no recording, is cut short or has another sum than
+    /// it states, [`TableError::Unsupported`] if it is of a later version, compressed as a whole, or a log beside it holds messages that are not
+    /// in it yet, [`TableError::TooLarge`] if what describes it is larger than is accepted.
+    pub fn open(path: &Path) -> Result<Recording, TableError> {
+        let store = store(Source::new(path)?)?;
+        let mut topics: BTreeMap<&str, Topic> = BTreeMap::new();
+        for channel in store.channels().values() {
+            let schema = channel.schema.as_ref();
+            let topic = topics.entry(&channel.topic).or_insert_with(|| Topic {
+                name: channel.topic.clone(),
+                schema: schema.map_or_else(String::new, |schema| schema.name.clone()),
+                encoding: channel.encoding.clone(),
+                count: 0,
+            });
+            topic.count = topic.count.saturating_add(channel.count);
+        }
+        let topics = topics.into_values().collect();
+        Ok(Recording { store, topics })
+    }
+
+    /// The file.
+    pub fn path(&self) -> &Path {
+        self.store.source().path()
+    }
+
+    /// The topics, by name.
+    pub fn topics(&self) -> &[Topic] {
+        &self.topics
+    }
+
+    /// The messages of the topic called `name`.
+    ///
+    /// # Errors
+    /// [`TableError::Missing`] if there is no such topic, [`TableError::Unsupported`] if its messages are in another encoding than those of
+    /// ROS 1 and 2, JSON or pictures of Foxglove, or their schema leaves something out; [`TableError::Damaged`] if the file holds other messages
+    /// than it states.
+    pub fn table(&self, name: &str) -> Result<TopicTable, TableError> {
+        match self.topics.iter().find(|topic| topic.name == name) {
+            Some(topic) => TopicTable::new(&self.store, topic.clone()),
+            None => {
+                let known = self.topics.iter().map(|topic| topic.name.clone()).collect();
+                Err(self.store.source().missing(name, known))
+            }
+        }
+    }
+
+    /// Why the messages of the topic called `name` are not read; none if they are. No message is looked at.
+    pub fn why_unread(&self, name: &str) -> Option<String> {
+        let topic = self.topics.iter().find(|topic| topic.name == name)?;
+        language::of_topic(&*self.store, topic).err()
+    }
+}
+
+/// What reads the file, by its first bytes.
+fn store(source: Source) -> Result<Arc<dyn MessageStore>, TableError> {
+    const ZSTANDARD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
+    let mut file = source.open()?;
+    let begin = source.bytes(&mut file, 0, source.length().min(16), 16)?;
+    let begins = |mark: &[u8]| begin.starts_with(mark);
+    if begins(&sqlite::MAGIC) {
+        return Ok(Arc::new(rosbag2::Rosbag2::open(source)?));
+    }
+    if begins(&rosbag1::MAGIC) {
+        return Ok(Arc::new(rosbag1::Rosbag1::open(source)?));
+    }
+    if begins(b"#ROSBAG V") {
+        let problem = "a bag of another version than 2.0: `rosbag fix FILE OUT.bag` of ROS 1 writes one of it";
+        return Err(source.unsupported(Place::byte(0), problem));
+    }
+    if begins(&ZSTANDARD) {
+        let problem =
+            "compressed as a whole by Zstandard: `zstd -d FILE` writes the recording that is read";
+        return Err(source.unsupported(Place::byte(0), problem));
+    }
+    if !begins(&mcap::MAGIC) {
+        let problem = "no recording: it begins neither as MCAP nor as SQLite nor as a bag of ROS 1";
+        return Err(source.damaged(Place::byte(0), problem));
+    }
+    Ok(Arc::new(mcap::McapFile::open(source)?))
+}

@@ -1,0 +1,154 @@
+//! What the messages of a topic are written in.
+
+use std::borrow::Cow;
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use super::Topic;
+use super::json;
+use crate::cell::Cell;
+use crate::codec;
+use crate::error::shown;
+use crate::limits;
+use crate::message::MessageStore;
+use crate::protobuf::{self, ProtobufMessage};
+use crate::ros::{self, Dialect, Fields, Picture, PictureField, RosSchema};
+
+/// How messages of rosbag2 begin that are compressed one by one; no message of CDR does.
+const ZSTANDARD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
+
+/// What messages are written in.
+#[derive(Clone, Debug)]
+pub(super) enum Language {
+    Ros(Arc<RosSchema>),
+    Json,
+    Protobuf(&'static ProtobufMessage),
+}
+
+/// What reads the fields that were asked for out of a message.
+pub(super) type Reader<'a> = Box<dyn Fn(&[u8]) -> Result<Vec<Cell>, String> + 'a>;
+
+impl Language {
+    /// What reads the fields called `names`; the error is the first of them that there is not.
+    pub(super) fn reader<'a>(&'a self, names: &[&'a str]) -> Result<Reader<'a>, &'a str> {
+        match self {
+            Language::Ros(schema) => {
+                let fields = Fields::new(schema, names)?;
+                Ok(Box::new(move |message| {
+                    fields.read(schema, &unpacked(message)?)
+                }))
+            }
+            Language::Protobuf(schema) => {
+                let fields = schema.fields(names)?;
+                Ok(Box::new(move |message| schema.read(&fields, message)))
+            }
+            Language::Json => {
+                let names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
+                Ok(Box::new(move |message| {
+                    let cell = json::cell(message)?;
+                    let found = |name: &String| cell.at(name).cloned().unwrap_or(Cell::Null);
+                    Ok(names.iter().map(found).collect())
+                }))
+            }
+        }
+    }
+
+    /// What reads the pictures in the field called `name`; the error says why it holds none.
+    #[expect(
+        clippy::type_complexity,
+        reason = "a closure over one of the languages"
+    )]
+    pub(super) fn pictures<'a>(
+        &'a self,
+        name: &str,
+    ) -> Result<Box<dyn Fn(&[u8]) -> Result<Picture, String> + 'a>, String> {
+        match self {
+            Language::Json => Err("messages of JSON hold no pictures that are read".to_owned()),
+            Language::Protobuf(schema) => {
+                schema.check_picture(name)?;
+                Ok(Box::new(|message| schema.picture(message)))
+            }
+            Language::Ros(schema) => {
+                let field = PictureField::new(schema, name)?;
+                Ok(Box::new(move |message| {
+                    field.read(schema, &unpacked(message)?)
+                }))
+            }
+        }
+    }
+}
+
+/// A message of ROS, unpacked where the recorder compressed each message.
+fn unpacked(message: &[u8]) -> Result<Cow<'_, [u8]>, String> {
+    match message.starts_with(&ZSTANDARD) {
+        false => Ok(Cow::Borrowed(message)),
+        true => codec::zstandard_message(message, limits::PAGE_BYTES).map(Cow::Owned),
+    }
+}
+
+/// What the messages of `topic` are written in: one language, by one schema.
+pub(super) fn of_topic(store: &dyn MessageStore, topic: &Topic) -> Result<Language, String> {
+    let channels = store.channels().values();
+    let channels = channels.filter(|channel| channel.topic == topic.name);
+    let mut schemas = channels.map(|channel| (&channel.encoding, &channel.schema));
+    let Some((encoding, schema)) = schemas.next() else {
+        return Err("no channel has this topic".to_owned());
+    };
+    if schemas.any(|other| other != (encoding, schema)) {
+        return Err("its channels have different schemas".to_owned());
+    }
+    let schema = schema.as_deref();
+    let written = schema.map_or("none", |schema| schema.encoding.as_str());
+    let dialect = match (encoding.as_str(), written) {
+        ("json", _) => return Ok(Language::Json),
+        ("cdr", "ros2msg") => Dialect::Ros2,
+        ("ros1", "ros1msg") => Dialect::Ros1,
+        ("protobuf", _) => {
+            return match protobuf::known(&topic.schema) {
+                Some(known) => Ok(Language::Protobuf(known)),
+                None => Err(format!(
+                    "messages of protobuf by `{}`, of which {} are read: write it as JSON or as a message of ROS 2",
+                    shown(&topic.schema),
+                    protobuf::names().join(" and ")
+                )),
+            };
+        }
+        ("cdr", "") => {
+            return Err(format!(
+                "the file does not say what `{}` is, as rosbag2 wrote no definitions before ROS 2 Iron: `ros2 bag convert` into `storage_id: mcap`, where its \
+                 package is installed, writes a recording that does",
+                shown(&topic.schema)
+            ));
+        }
+        (encoding, written) => {
+            return Err(format!(
+                "messages in `{}` by a schema in `{}`, expected `cdr` by `ros2msg`, `ros1` by `ros1msg`, `protobuf` or `json`",
+                shown(encoding),
+                shown(written)
+            ));
+        }
+    };
+    let text = schema.map(|schema| std::str::from_utf8(&schema.text));
+    let Some(Ok(text)) = text else {
+        return Err("its schema is no text".to_owned());
+    };
+    let parsed = RosSchema::parse(&topic.schema, text, dialect);
+    let parsed = parsed.map_err(|problem| format!("the schema of {}: {problem}", topic.schema))?;
+    Ok(Language::Ros(Arc::new(parsed)))
+}
+
+/// The names of the fields of messages of ROS and protobuf.
+pub(super) fn names(language: &Language) -> Result<Vec<String>, String> {
+    match language {
+        Language::Ros(schema) => ros::names(schema),
+        Language::Protobuf(schema) => Ok(schema.names()),
+        Language::Json => Ok(Vec::new()),
+    }
+}
+
+/// The channels of `topic`, by number.
+pub(super) fn channels(store: &dyn MessageStore, topic: &Topic) -> BTreeSet<u32> {
+    let channels = store.channels().iter();
+    let channels = channels.filter(|(_, channel)| channel.topic == topic.name);
+    channels.map(|(id, _)| *id).collect()
+}

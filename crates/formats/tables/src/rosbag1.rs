@@ -1,0 +1,351 @@
+//! Recordings of ROS 1 (`.bag`, version 2.0): <http://wiki.ros.org/Bags/Format/2.0>.
+
+mod record;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs::File;
+use std::sync::Arc;
+
+use crate::bytes::Bytes;
+use crate::codec::{Codec, unpack};
+use crate::error::{Place, TableError, shown};
+use crate::limits;
+use crate::message::{Channel, Entry, Message, MessageReader, MessageStore, Schema};
+use crate::source::Source;
+use record::{Head, op};
+
+/// The first line of a bag.
+pub(crate) const MAGIC: [u8; 13] = *b"#ROSBAG V2.0\n";
+/// Nanoseconds of a second.
+const NANO: u64 = 1_000_000_000;
+
+/// A bag of ROS 1.
+#[derive(Debug)]
+pub(crate) struct Rosbag1 {
+    source: Source,
+    channels: BTreeMap<u32, Channel>,
+    /// Where the indices of the messages of each connection lie, and the chunk that each is of.
+    indices: BTreeMap<u32, Vec<(u64, u64)>>,
+}
+
+impl Rosbag1 {
+    /// The recording in `source`: the heads of all its records are read, and no chunk.
+    ///
+    /// # Errors
+    /// [`TableError::Damaged`] if it is cut short, was not closed, or holds other records than it announces.
+    pub(crate) fn open(source: Source) -> Result<Rosbag1, TableError> {
+        let mut records = Records::new(&source)?;
+        let mut bag = Rosbag1 {
+            channels: BTreeMap::new(),
+            indices: BTreeMap::new(),
+            source: source.clone(),
+        };
+        let begin = MAGIC.len() as u64;
+        let first = records.head(begin)?;
+        let announced = first.number::<8>("index_pos").map(u64::from_le_bytes);
+        let of_chunks = first.number::<4>("chunk_count").map(u32::from_le_bytes);
+        let of_connections = first.number::<4>("conn_count").map(u32::from_le_bytes);
+        let (Some(op::BAG), Some(index), Some(of_chunks), Some(of_connections)) =
+            (first.op(), announced, of_chunks, of_connections)
+        else {
+            return Err(source.damaged(
+                Place::byte(begin),
+                "no bag: its first record is not that of a bag",
+            ));
+        };
+        let reindex = "`rosbag reindex FILE` writes a bag of what is whole";
+        if index == 0 {
+            let problem = format!(
+                "the recorder did not close it, so that it is cut where it ended: {reindex}"
+            );
+            return Err(source.damaged(Place::byte(begin), problem));
+        }
+        if index > source.length() {
+            let problem = format!(
+                "its index is said to begin at byte {index}, the file has {}: it is cut short; {reindex}",
+                source.length()
+            );
+            return Err(source.damaged(Place::byte(begin), problem));
+        }
+        let (mut chunk, mut chunks) = (None, 0_u32);
+        let mut described = 0_u64;
+        let mut at = first.end;
+        while at < source.length() {
+            let head = records.head(at)?;
+            match head.op() {
+                Some(op::CHUNK) => {
+                    chunk = Some(at);
+                    chunks += 1;
+                }
+                Some(op::INDEX) => {
+                    let connection = head.number::<4>("conn").map(u32::from_le_bytes);
+                    let (Some(connection), Some(chunk)) = (connection, chunk) else {
+                        return Err(source.damaged(
+                            Place::byte(at),
+                            "an index of no connection or before any chunk",
+                        ));
+                    };
+                    bag.indices.entry(connection).or_default().push((chunk, at));
+                }
+                Some(op::CONNECTION) => {
+                    described = described.saturating_add(head.end - at);
+                    if described > limits::DESCRIPTION_BYTES {
+                        return Err(
+                            source.too_large(Place::byte(at), "more connections than are accepted")
+                        );
+                    }
+                    let data = records.data(&head)?;
+                    let read = connection(&head, &data);
+                    let (number, channel) = read.ok_or_else(|| {
+                        source.damaged(Place::byte(at), "a connection without a number or a type")
+                    })?;
+                    bag.channels.insert(number, channel);
+                }
+                // Of a chunk, and of messages outside chunks no bag of version 2.0 has any.
+                Some(op::CHUNK_INFO) => {}
+                other => {
+                    let other =
+                        other.map_or_else(|| "none".to_owned(), |code| format!("{code:#04x}"));
+                    let problem = format!(
+                        "a record of code {other}, expected a chunk, an index or a connection"
+                    );
+                    return Err(source.damaged(Place::byte(at), problem));
+                }
+            }
+            at = head.end;
+        }
+        if chunks != of_chunks || bag.channels.len() != of_connections as usize {
+            let problem = format!(
+                "{chunks} chunks and {} connections, it announces {of_chunks} and {of_connections}: it is cut short or was changed; {reindex}",
+                bag.channels.len()
+            );
+            return Err(source.damaged(Place::byte(begin), problem));
+        }
+        bag.count(&mut records)?;
+        Ok(bag)
+    }
+
+    /// Counts the messages of each connection by their indices.
+    fn count(&mut self, records: &mut Records<'_>) -> Result<(), TableError> {
+        for (connection, indices) in &self.indices {
+            let Some(channel) = self.channels.get_mut(connection) else {
+                let problem =
+                    format!("messages of connection {connection}, which nothing describes");
+                return Err(self.source.damaged(Place::default(), problem));
+            };
+            for (_, at) in indices {
+                let count = records
+                    .head(*at)?
+                    .number::<4>("count")
+                    .map(u32::from_le_bytes);
+                channel.count = channel.count.saturating_add(u64::from(count.unwrap_or(0)));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl MessageStore for Rosbag1 {
+    fn source(&self) -> &Source {
+        &self.source
+    }
+
+    fn channels(&self) -> &BTreeMap<u32, Channel> {
+        &self.channels
+    }
+
+    fn index(&self, channels: &BTreeSet<u32>) -> Result<Vec<Entry>, TableError> {
+        let mut records = Records::new(&self.source)?;
+        let mut entries: Vec<Entry> = Vec::new();
+        for (_, indices) in self
+            .indices
+            .iter()
+            .filter(|(number, _)| channels.contains(number))
+        {
+            for (chunk, at) in indices {
+                let head = records.head(*at)?;
+                let count = head.number::<4>("count").map(u32::from_le_bytes);
+                let data = records.data(&head)?;
+                let mut bytes = Bytes::new(&data);
+                let wrong = || {
+                    self.source.damaged(
+                        Place::byte(*at),
+                        "an index of another length than it announces",
+                    )
+                };
+                if entries.len() + data.len() / 12 > limits::MESSAGES {
+                    let problem = format!("more than {} messages of one topic", limits::MESSAGES);
+                    return Err(self.source.too_large(Place::byte(*at), problem));
+                }
+                for _ in 0..count.unwrap_or(0) {
+                    let (Some(seconds), Some(nanoseconds), Some(place)) =
+                        (bytes.u32(), bytes.u32(), bytes.u32())
+                    else {
+                        return Err(wrong());
+                    };
+                    entries.push(Entry {
+                        log_time: u64::from(seconds) * NANO + u64::from(nanoseconds),
+                        chunk: Some(*chunk),
+                        at: u64::from(place),
+                    });
+                }
+                if !bytes.rest().is_empty() {
+                    return Err(wrong());
+                }
+            }
+        }
+        entries.sort_unstable_by_key(|entry| (entry.log_time, entry.chunk, entry.at));
+        Ok(entries)
+    }
+
+    fn reader(&self) -> Result<Box<dyn MessageReader + '_>, TableError> {
+        Ok(Box::new(Records::new(&self.source)?))
+    }
+}
+
+/// Records of a bag through one cursor; the chunk that was read last is kept.
+struct Records<'a> {
+    source: &'a Source,
+    file: File,
+    kept: Option<(u64, Arc<Vec<u8>>)>,
+}
+
+impl<'a> Records<'a> {
+    fn new(source: &'a Source) -> Result<Records<'a>, TableError> {
+        Ok(Records {
+            source,
+            file: source.open()?,
+            kept: None,
+        })
+    }
+
+    /// The head of the record at `at`, whose data lies within the file.
+    fn head(&mut self, at: u64) -> Result<Head, TableError> {
+        let cut = |problem: &str| {
+            let problem = format!(
+                "{problem}: the bag is cut short here; `rosbag reindex FILE` writes a bag of what is whole"
+            );
+            self.source.damaged(Place::byte(at), problem)
+        };
+        let four = |records: &mut File, at: u64| -> Result<u64, TableError> {
+            let bytes = self
+                .source
+                .bytes(records, at, 4, 4)
+                .map_err(|_| cut("a record of less than 4 bytes"))?;
+            let length = Bytes::new(&bytes).u32().unwrap_or(0);
+            Ok(u64::from(length))
+        };
+        let length = four(&mut self.file, at)?;
+        let begin = at + 4;
+        if begin + length + 4 > self.source.length() {
+            return Err(cut(&format!(
+                "a record with a head of {length} bytes, beyond the end of the file"
+            )));
+        }
+        let fields = self
+            .source
+            .bytes(&mut self.file, begin, length, limits::DESCRIPTION_BYTES)?;
+        let data = four(&mut self.file, begin + length)?;
+        let data_at = begin + length + 4;
+        if data_at + data > self.source.length() {
+            return Err(cut(&format!(
+                "a record of {data} bytes, beyond the end of the file"
+            )));
+        }
+        let head = Head::new(fields, data_at, data_at + data);
+        head.ok_or_else(|| {
+            self.source
+                .damaged(Place::byte(at), "a head whose fields are longer than it")
+        })
+    }
+
+    /// The data of the record with this head.
+    fn data(&mut self, head: &Head) -> Result<Vec<u8>, TableError> {
+        let length = head.end - head.data_at;
+        self.source
+            .bytes(&mut self.file, head.data_at, length, limits::PAGE_BYTES)
+    }
+
+    /// The records in the chunk at `at`.
+    fn unpacked(&mut self, at: u64) -> Result<Arc<Vec<u8>>, TableError> {
+        if let Some((kept, bytes)) = &self.kept
+            && *kept == at
+        {
+            return Ok(Arc::clone(bytes));
+        }
+        self.kept = None;
+        let head = self.head(at)?;
+        let place = || Place::byte(at).in_name("chunk");
+        let size = head.number::<4>("size").map(u32::from_le_bytes);
+        let (Some(op::CHUNK), Some(size)) = (head.op(), size) else {
+            return Err(self.source.damaged(place(), "no chunk, or one of no size"));
+        };
+        if u64::from(size) > limits::PAGE_BYTES {
+            let problem = format!(
+                "{size} bytes unpacked, at most {} are accepted",
+                limits::PAGE_BYTES
+            );
+            return Err(self.source.too_large(place(), problem));
+        }
+        let codec = match head.text("compression").as_deref() {
+            Some("none") => Codec::Plain,
+            Some("lz4") => Codec::Lz4Frame,
+            other => {
+                let problem = format!(
+                    "compressed by `{}`, expected none or lz4: `rosbag decompress FILE` writes it without, and so does `rosbags-convert --src FILE --dst OUT` \
+                     without ROS",
+                    shown(other.unwrap_or_default())
+                );
+                return Err(self.source.unsupported(place(), problem));
+            }
+        };
+        let packed = self.data(&head)?;
+        let unpacked = unpack(codec, &packed, size as usize);
+        let bytes = Arc::new(unpacked.map_err(|problem| self.source.damaged(place(), problem))?);
+        self.kept = Some((at, Arc::clone(&bytes)));
+        Ok(bytes)
+    }
+}
+
+impl MessageReader for Records<'_> {
+    fn message(&mut self, entry: &Entry) -> Result<Message, TableError> {
+        let chunk = entry.chunk.unwrap_or(0);
+        let held = self.unpacked(chunk)?;
+        let damaged = |problem: &str| {
+            let problem = format!("message at byte {} of the chunk: {problem}", entry.at);
+            self.source
+                .damaged(Place::byte(chunk).in_name("chunk"), problem)
+        };
+        let at = usize::try_from(entry.at).unwrap_or(usize::MAX);
+        let found = record::within(&held, at);
+        let (head, range) = found.ok_or_else(|| damaged("its index leads to no whole record"))?;
+        let connection = head.number::<4>("conn").map(u32::from_le_bytes);
+        let (Some(op::MESSAGE), Some(channel), Some(time)) =
+            (head.op(), connection, head.number::<8>("time"))
+        else {
+            return Err(damaged("its index leads to no message"));
+        };
+        let [a, b, c, d, rest @ ..] = time;
+        let seconds = u64::from(u32::from_le_bytes([a, b, c, d]));
+        let log_time = seconds * NANO + u64::from(u32::from_le_bytes(rest));
+        Ok(Message::new(channel, log_time, log_time, held, range))
+    }
+}
+
+/// The number of a connection and what its messages are.
+fn connection(head: &Head, data: &[u8]) -> Option<(u32, Channel)> {
+    let number = head.number::<4>("conn").map(u32::from_le_bytes)?;
+    let said = Head::new(data.to_vec(), 0, 0)?;
+    let schema = Schema {
+        name: said.text("type")?,
+        encoding: "ros1msg".to_owned(),
+        text: said.bytes("message_definition")?.to_vec(),
+    };
+    let channel = Channel {
+        topic: head.text("topic")?,
+        encoding: "ros1".to_owned(),
+        schema: Some(Arc::new(schema)),
+        count: 0,
+    };
+    Some((number, channel))
+}

@@ -1,0 +1,86 @@
+//! Records of a bag: a head of named fields, then data.
+
+use std::ops::Range;
+
+use crate::bytes::Bytes;
+
+/// The codes of records.
+pub(super) mod op {
+    pub(in crate::rosbag1) const MESSAGE: u8 = 0x02;
+    pub(in crate::rosbag1) const BAG: u8 = 0x03;
+    pub(in crate::rosbag1) const INDEX: u8 = 0x04;
+    pub(in crate::rosbag1) const CHUNK: u8 = 0x05;
+    pub(in crate::rosbag1) const CHUNK_INFO: u8 = 0x06;
+    pub(in crate::rosbag1) const CONNECTION: u8 = 0x07;
+}
+
+/// The head of a record.
+#[derive(Debug)]
+pub(super) struct Head {
+    fields: Vec<u8>,
+    /// Where the data begins.
+    pub(super) data_at: u64,
+    /// Where the record ends.
+    pub(super) end: u64,
+}
+
+impl Head {
+    /// The head whose fields are `fields`, each its length, its name, `=` and its value; none if they do not fill it.
+    pub(super) fn new(fields: Vec<u8>, data_at: u64, end: u64) -> Option<Head> {
+        let mut bytes = Bytes::new(&fields);
+        while !bytes.rest().is_empty() {
+            next(&mut bytes)?;
+        }
+        Some(Head {
+            fields,
+            data_at,
+            end,
+        })
+    }
+
+    /// The value of the field called `name`.
+    pub(super) fn bytes(&self, name: &str) -> Option<&[u8]> {
+        let mut bytes = Bytes::new(&self.fields);
+        while !bytes.rest().is_empty() {
+            let (known, value) = next(&mut bytes)?;
+            if known == name.as_bytes() {
+                return Some(value);
+            }
+        }
+        None
+    }
+
+    /// The bytes of a number in the field called `name`, the lowest first.
+    pub(super) fn number<const N: usize>(&self, name: &str) -> Option<[u8; N]> {
+        self.bytes(name)?.try_into().ok()
+    }
+
+    /// The text in the field called `name`.
+    pub(super) fn text(&self, name: &str) -> Option<String> {
+        String::from_utf8(self.bytes(name)?.to_vec()).ok()
+    }
+
+    /// The code of the record.
+    pub(super) fn op(&self) -> Option<u8> {
+        self.number::<1>("op").map(|[code]| code)
+    }
+}
+
+/// The name and the value of the next field.
+fn next<'b>(bytes: &mut Bytes<'b>) -> Option<(&'b [u8], &'b [u8])> {
+    let length = usize::try_from(bytes.u32()?).ok()?;
+    let field = bytes.take(length)?;
+    let end = field.iter().position(|byte| *byte == b'=')?;
+    Some((&field[..end], &field[end + 1..]))
+}
+
+/// The head of the record at `at` of the bytes of a chunk, and where its data lies.
+pub(super) fn within(held: &[u8], at: usize) -> Option<(Head, Range<usize>)> {
+    let mut bytes = Bytes::new(held.get(at..)?);
+    let length = usize::try_from(bytes.u32()?).ok()?;
+    let fields = bytes.take(length)?.to_vec();
+    let data = usize::try_from(bytes.u32()?).ok()?;
+    let begin = at + bytes.at();
+    bytes.take(data)?;
+    Some((Head::new(fields, 0, 0)?, begin..begin + data))
+}

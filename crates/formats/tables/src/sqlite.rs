@@ -1,0 +1,234 @@
+//! Tables of an SQLite 3 database, read without changing a byte of it: <https://www.sqlite.org/fileformat2.html>.
+//!
+//! Only B-trees of tables are followed. Indices, triggers and views are passed over; nothing is searched for.
+
+mod columns;
+mod page;
+mod record;
+mod tree;
+
+use std::path::{Path, PathBuf};
+
+use crate::error::{Place, TableError};
+use crate::limits;
+use crate::source::Source;
+use columns::{Columns, columns};
+pub(crate) use page::Pages;
+pub(crate) use record::{Record, Value};
+use tree::walk;
+
+/// The first bytes of a database.
+pub(crate) const MAGIC: [u8; 16] = *b"SQLite format 3\0";
+/// Bytes of the header of a file.
+const HEADER: u64 = 100;
+/// The first bytes of a journal that is to be rolled back.
+const JOURNAL: [u8; 8] = [0xd9, 0xd5, 0x05, 0xf9, 0x20, 0xa1, 0x63, 0xd7];
+
+/// A database: its tables.
+#[derive(Debug)]
+pub(crate) struct Database {
+    source: Source,
+    /// Bytes of a page.
+    page_bytes: u32,
+    /// Bytes of a page that hold something.
+    usable: u32,
+    pages: u32,
+    tables: Vec<SqliteTable>,
+}
+
+/// A table of a database.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct SqliteTable {
+    pub(crate) name: String,
+    root: u32,
+    /// The names of its columns.
+    pub(crate) columns: Vec<String>,
+    /// The column whose value is the number of the row.
+    id: Option<usize>,
+}
+
+/// Where a row lies: its page and its place among the cells of that.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct RowPlace {
+    pub(crate) page: u32,
+    pub(crate) cell: u16,
+}
+
+impl Database {
+    /// The database in `source`.
+    ///
+    /// # Errors
+    /// [`TableError::Unsupported`] if a log beside it holds what is not in it yet; [`TableError::Damaged`] if it is no database or cut short.
+    pub(crate) fn open(source: Source) -> Result<Database, TableError> {
+        check_logs(&source)?;
+        let mut file = source.open()?;
+        let head = source.bytes(&mut file, 0, HEADER.min(source.length()), HEADER)?;
+        let begin = Place::byte(0).in_name("header");
+        let damaged = |problem: String| source.damaged(begin.clone(), problem);
+        if head.get(..16) != Some(&MAGIC) {
+            return Err(damaged(
+                "no SQLite database: it does not begin with its mark".to_owned(),
+            ));
+        }
+        let Some(head) = head.first_chunk::<100>() else {
+            return Err(damaged("cut short".to_owned()));
+        };
+        let four =
+            |at: usize| u32::from_be_bytes([head[at], head[at + 1], head[at + 2], head[at + 3]]);
+        let page_bytes = match u16::from_be_bytes([head[16], head[17]]) {
+            1 => 65_536,
+            other => u32::from(other),
+        };
+        let usable = page_bytes.saturating_sub(u32::from(head[20]));
+        if !page_bytes.is_power_of_two() || page_bytes < 512 || usable < 480 {
+            return Err(damaged(format!(
+                "pages of {page_bytes} bytes, {} of them kept free",
+                head[20]
+            )));
+        }
+        if head[21..24] != [64, 32, 32] {
+            return Err(damaged(
+                "shares of a page that no version of SQLite writes".to_owned(),
+            ));
+        }
+        if head[19] > 2 || four(44) > 4 {
+            let problem = format!(
+                "written for a later version of SQLite (read version {}, schema format {}): `sqlite3 FILE \".backup OUT.db3\"` of that version writes \
+                 one that is read",
+                head[19],
+                four(44)
+            );
+            return Err(source.unsupported(begin, problem));
+        }
+        if !matches!(four(56), 0 | 1) {
+            return Err(source.unsupported(begin, "texts in UTF-16, expected UTF-8"));
+        }
+        let whole = u32::try_from(source.length() / u64::from(page_bytes)).unwrap_or(u32::MAX);
+        // The number in the header counts only where the version that wrote it also wrote the change.
+        let stated = Some(four(28)).filter(|pages| *pages > 0 && four(24) == four(92));
+        let pages = stated.unwrap_or(whole);
+        if pages > whole {
+            return Err(damaged(format!(
+                "{pages} pages of {page_bytes} bytes are announced, the file has {}: it is cut short",
+                source.length()
+            )));
+        }
+        let mut database = Database {
+            source,
+            page_bytes,
+            usable,
+            pages,
+            tables: Vec::new(),
+        };
+        database.tables = database.read_tables()?;
+        Ok(database)
+    }
+
+    pub(crate) fn source(&self) -> &Source {
+        &self.source
+    }
+
+    /// The tables, as they were made.
+    pub(crate) fn tables(&self) -> &[SqliteTable] {
+        &self.tables
+    }
+
+    /// Hands every row of `table` to `each`, by its number, with its place.
+    pub(crate) fn each_row(
+        &self,
+        table: &SqliteTable,
+        each: &mut dyn FnMut(RowPlace, &mut Record<'_, '_>) -> Result<(), TableError>,
+    ) -> Result<(), TableError> {
+        let mut pages = Pages::new(self)?;
+        walk(&mut pages, table, each)
+    }
+
+    /// The tables by the first page, which lists them with the texts that made them.
+    fn read_tables(&self) -> Result<Vec<SqliteTable>, TableError> {
+        let master = SqliteTable {
+            name: "sqlite_schema".to_owned(),
+            root: 1,
+            columns: ["type", "name", "tbl_name", "rootpage", "sql"]
+                .map(str::to_owned)
+                .to_vec(),
+            id: None,
+        };
+        let mut tables = Vec::new();
+        let mut described = 0_u64;
+        self.each_row(&master, &mut |_, record| {
+            described = described.saturating_add(record.bytes());
+            if described > limits::DESCRIPTION_BYTES {
+                let place = Place::of(&master.name);
+                return Err(self
+                    .source
+                    .too_large(place, "more tables than are accepted"));
+            }
+            let (kind, name) = (record.text(0)?, record.text(1)?);
+            let (root, sql) = (record.value(3)?, record.text(4)?);
+            let root = match root {
+                Value::Integer(root) => u32::try_from(root).unwrap_or(0),
+                _ => 0,
+            };
+            // Tables of the database itself, and what is no table of rows.
+            if kind != "table" || name.starts_with("sqlite_") || root == 0 {
+                return Ok(());
+            }
+            if let Some(Columns { names, id }) = columns(&sql) {
+                tables.push(SqliteTable {
+                    name,
+                    root,
+                    columns: names,
+                    id,
+                });
+            }
+            Ok(())
+        })?;
+        Ok(tables)
+    }
+}
+
+impl SqliteTable {
+    /// Where the column called `name` stands.
+    pub(crate) fn position(&self, name: &str) -> Option<usize> {
+        self.columns.iter().position(|column| column == name)
+    }
+}
+
+/// The file called as `path` with `ending` behind it.
+fn beside(path: &Path, ending: &str) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(ending);
+    PathBuf::from(name)
+}
+
+/// Refuses a database beside which a log holds messages that are not in it yet, or changes that are to be taken back.
+fn check_logs(source: &Source) -> Result<(), TableError> {
+    let refuse = |log: &Path, what: &str| {
+        let name = log
+            .file_name()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned();
+        let problem = format!(
+            "`{name}` beside it holds {what}: the recorder did not close it. `sqlite3 FILE \"PRAGMA journal_mode = DELETE\"` on a copy of both files brings \
+             them into one"
+        );
+        Err(source.unsupported(Place::default(), problem))
+    };
+    let log = beside(source.path(), "-wal");
+    if log.metadata().is_ok_and(|facts| facts.len() > 0) {
+        return refuse(
+            &log,
+            "a write-ahead log with messages that are not in this file yet",
+        );
+    }
+    let journal = beside(source.path(), "-journal");
+    if let Ok(other) = Source::new(&journal)
+        && let Ok(mut file) = other.open()
+        && let Ok(begin) = other.bytes(&mut file, 0, 8, 8)
+        && begin == JOURNAL
+    {
+        return refuse(&journal, "a journal of changes that are to be taken back");
+    }
+    Ok(())
+}

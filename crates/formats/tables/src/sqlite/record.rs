@@ -1,0 +1,264 @@
+//! Rows: a number, and values behind a head that says what each is. What does not fit a page goes on in others.
+
+use std::collections::HashSet;
+use std::ops::Range;
+
+use super::page::Pages;
+use super::tree::Head;
+use super::{RowPlace, SqliteTable};
+use crate::error::TableError;
+use crate::limits;
+
+/// A value of a row.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Value {
+    Null,
+    Integer(i64),
+    Real(f64),
+    Text(String),
+    /// Where its bytes lie in those of the row.
+    Blob(Range<usize>),
+}
+
+/// A row, of which as much is read as its values ask for.
+pub(crate) struct Record<'p, 'd> {
+    pages: &'p mut Pages<'d>,
+    page: u32,
+    id: Option<usize>,
+    number: i64,
+    /// The type and the place of each value.
+    values: Vec<(u64, Range<usize>)>,
+    /// What of the row was read.
+    read: Vec<u8>,
+    /// Bytes of the whole row.
+    length: usize,
+    /// The page that the row goes on in.
+    next: u32,
+}
+
+impl<'p, 'd> Record<'p, 'd> {
+    /// The row at `place`, of which what lies in its own page is read.
+    pub(crate) fn read(
+        pages: &'p mut Pages<'d>,
+        table: &SqliteTable,
+        place: RowPlace,
+    ) -> Result<Record<'p, 'd>, TableError> {
+        let page = pages.page(place.page)?;
+        let beyond = "a cell beyond its end";
+        let head = Head::of(place.page, &page).filter(Head::is_leaf);
+        let cell = head.and_then(|head| head.cell(&page, place.cell));
+        let cell = cell.ok_or_else(|| pages.damaged(place.page, beyond))?;
+        let (length, rest) = varint(cell).ok_or_else(|| pages.damaged(place.page, beyond))?;
+        let (number, rest) = varint(rest).ok_or_else(|| pages.damaged(place.page, beyond))?;
+        let source = &pages.database.source;
+        if length > source.length() {
+            let problem = format!("a row of {length} bytes, the file has {}", source.length());
+            return Err(pages.damaged(place.page, problem));
+        }
+        if length > limits::CELL_BYTES {
+            let problem = format!(
+                "a row of {length} bytes, at most {} are accepted",
+                limits::CELL_BYTES
+            );
+            return Err(source.too_large(crate::error::Place::of(&table.name), problem));
+        }
+        let length = usize::try_from(length).unwrap_or(usize::MAX);
+        let local = in_page(length, pages.database.usable as usize);
+        let read = rest
+            .get(..local)
+            .ok_or_else(|| pages.damaged(place.page, beyond))?;
+        let next = match local < length {
+            false => 0,
+            true => {
+                let next = rest.get(local..).and_then(|rest| rest.first_chunk::<4>());
+                u32::from_be_bytes(*next.ok_or_else(|| pages.damaged(place.page, beyond))?)
+            }
+        };
+        let mut record = Record {
+            read: read.to_vec(),
+            values: Vec::new(),
+            id: table.id,
+            // The bits of a negative number fill the variable one.
+            number: i64::from_ne_bytes(number.to_ne_bytes()),
+            page: place.page,
+            length,
+            next,
+            pages,
+        };
+        record.read_head()?;
+        Ok(record)
+    }
+
+    /// Bytes of the whole row.
+    pub(crate) fn bytes(&self) -> u64 {
+        self.length as u64
+    }
+
+    /// What was read of the row: after a value of it at least the bytes of that.
+    pub(crate) fn into_bytes(self) -> Vec<u8> {
+        self.read
+    }
+
+    /// The value in the column at `position`, from 0; null where the row was written before there was such a column.
+    pub(crate) fn value(&mut self, position: usize) -> Result<Value, TableError> {
+        let Some((kind, range)) = self.values.get(position).cloned() else {
+            return Ok(Value::Null);
+        };
+        if kind == 0 && self.id == Some(position) {
+            return Ok(Value::Integer(self.number));
+        }
+        self.read_to(range.end)?;
+        let bytes = self.read.get(range.clone()).unwrap_or_default();
+        Ok(match kind {
+            0 => Value::Null,
+            1..=6 => {
+                let is_negative = bytes.first().is_some_and(|first| first & 0x80 != 0);
+                let first = if is_negative { -1_i64 } else { 0 };
+                let number = bytes
+                    .iter()
+                    .fold(first, |sum, byte| (sum << 8) | i64::from(*byte));
+                Value::Integer(number)
+            }
+            7 => {
+                let bytes = bytes.first_chunk::<8>().copied().unwrap_or_default();
+                Value::Real(f64::from_be_bytes(bytes))
+            }
+            8 => Value::Integer(0),
+            9 => Value::Integer(1),
+            kind if kind % 2 == 0 => Value::Blob(range),
+            _ => match std::str::from_utf8(bytes) {
+                Ok(text) => Value::Text(text.to_owned()),
+                Err(_) => return Err(self.pages.damaged(self.page, "a text that is no UTF-8")),
+            },
+        })
+    }
+
+    /// The text in the column at `position`; empty of null.
+    pub(crate) fn text(&mut self, position: usize) -> Result<String, TableError> {
+        match self.value(position)? {
+            Value::Text(text) => Ok(text),
+            Value::Null => Ok(String::new()),
+            other => {
+                let problem = format!("{other:?}, expected a text");
+                Err(self.pages.damaged(self.page, problem))
+            }
+        }
+    }
+
+    /// Reads the types of the values.
+    fn read_head(&mut self) -> Result<(), TableError> {
+        let head = varint(&self.read).map(|(size, _)| size);
+        let size = head.and_then(|size| usize::try_from(size).ok());
+        let size = size.filter(|size| *size <= self.length && *size <= limits::NAMES);
+        let wrong = "the head of a row is longer than the row";
+        let size = size.ok_or_else(|| self.pages.damaged(self.page, wrong))?;
+        self.read_to(size)?;
+        let mut rest = self.read.get(..size).unwrap_or_default();
+        rest = varint(rest).map_or(&[][..], |(_, rest)| rest);
+        let mut at = size;
+        while !rest.is_empty() {
+            let parsed = varint(rest);
+            let sized = parsed.and_then(|(kind, after)| {
+                let bytes = match kind {
+                    0 | 8 | 9 => 0,
+                    1..=4 => kind,
+                    5 => 6,
+                    6 | 7 => 8,
+                    10 | 11 => return None,
+                    kind => (kind - 12) / 2,
+                };
+                let end = at.checked_add(usize::try_from(bytes).ok()?)?;
+                (end <= self.length).then_some((kind, end, after))
+            });
+            let Some((kind, end, after)) = sized else {
+                return Err(self
+                    .pages
+                    .damaged(self.page, "values beyond the end of their row"));
+            };
+            self.values.push((kind, at..end));
+            (at, rest) = (end, after);
+        }
+        Ok(())
+    }
+
+    /// Reads on to byte `end` of the row.
+    fn read_to(&mut self, end: usize) -> Result<(), TableError> {
+        if self.read.len() >= end {
+            return Ok(());
+        }
+        let mut seen = HashSet::new();
+        let usable = self.pages.database.usable as usize;
+        while self.read.len() < self.length {
+            if !seen.insert(self.next) {
+                return Err(self.pages.damaged(self.next, "a row goes on in it twice"));
+            }
+            let page = self.pages.read(self.next)?;
+            let Some((next, bytes)) = page
+                .get(..usable)
+                .and_then(|page| page.split_first_chunk::<4>())
+            else {
+                return Err(self.pages.damaged(self.next, "cut short"));
+            };
+            let count = bytes.len().min(self.length - self.read.len());
+            self.read.extend_from_slice(&bytes[..count]);
+            self.next = u32::from_be_bytes(*next);
+        }
+        Ok(())
+    }
+}
+
+/// How many bytes of a row of `length` lie in its own page, of which `usable` can be used.
+fn in_page(length: usize, usable: usize) -> usize {
+    let most = usable - 35;
+    if length <= most {
+        return length;
+    }
+    let least = (usable - 12) * 32 / 255 - 23;
+    let even = least + (length - least) % (usable - 4);
+    if even <= most { even } else { least }
+}
+
+/// A number of one to nine bytes, the highest first, and what follows it.
+fn varint(bytes: &[u8]) -> Option<(u64, &[u8])> {
+    let mut number = 0_u64;
+    for at in 0..8 {
+        let byte = *bytes.get(at)?;
+        number = (number << 7) | u64::from(byte & 0x7f);
+        if byte & 0x80 == 0 {
+            return Some((number, bytes.get(at + 1..)?));
+        }
+    }
+    let last = *bytes.get(8)?;
+    Some(((number << 8) | u64::from(last), bytes.get(9..)?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_take_one_to_nine_bytes() {
+        for (bytes, number) in [
+            (&[0x7f][..], 0x7f),
+            (&[0x81, 0x00], 0x80),
+            (&[0xff; 9], u64::MAX),
+            (&[0x81, 0x80, 0x01], 0x4001),
+        ] {
+            assert_eq!(varint(bytes), Some((number, &[][..])), "{bytes:?}");
+            assert_eq!(varint(&bytes[..bytes.len() - 1]), None, "{bytes:?}");
+        }
+    }
+
+    #[test]
+    fn a_row_fills_its_last_page_of_others_where_that_leaves_enough_here() {
+        for (length, usable, expected) in [
+            (4061, 4096, 4061),
+            (4062, 4096, 489),
+            (5000, 4096, 908),
+            (477, 512, 477),
+            (478, 512, 39),
+        ] {
+            assert_eq!(in_page(length, usable), expected, "{length} of {usable}");
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! B-trees of tables: inner pages lead to others, leaves hold rows in the order of their numbers.
+
+use std::collections::HashSet;
+
+use super::page::Pages;
+use super::record::Record;
+use super::{RowPlace, SqliteTable};
+use crate::error::TableError;
+
+/// Kinds of pages of a table.
+const INNER: u8 = 5;
+const LEAF: u8 = 13;
+/// How deep a tree may be: of pages that hold two each, all that there can be.
+const DEPTH: usize = 40;
+
+/// The head of a page of a table.
+pub(super) struct Head {
+    kind: u8,
+    cells: u16,
+    /// The last child of an inner page.
+    last: u32,
+    /// Where the places of the cells begin.
+    places: usize,
+}
+
+impl Head {
+    /// The head of the page of this number.
+    pub(super) fn of(number: u32, page: &[u8]) -> Option<Head> {
+        // The header of the file stands before that of the first page.
+        let at = if number == 1 { 100 } else { 0 };
+        let head = page.get(at..)?.first_chunk::<12>()?;
+        let is_inner = head[0] == INNER;
+        Some(Head {
+            kind: head[0],
+            cells: u16::from_be_bytes([head[3], head[4]]),
+            last: u32::from_be_bytes([head[8], head[9], head[10], head[11]]),
+            places: at + if is_inner { 12 } else { 8 },
+        })
+    }
+
+    /// Where the cell of this number begins in the page.
+    pub(super) fn cell<'p>(&self, page: &'p [u8], cell: u16) -> Option<&'p [u8]> {
+        if cell >= self.cells {
+            return None;
+        }
+        let at = self.places + 2 * usize::from(cell);
+        let place = page.get(at..at + 2)?;
+        page.get(usize::from(u16::from_be_bytes([place[0], place[1]]))..)
+    }
+
+    /// Whether rows lie in it.
+    pub(super) fn is_leaf(&self) -> bool {
+        self.kind == LEAF
+    }
+}
+
+/// Hands every row of `table` to `each`.
+pub(super) fn walk(
+    pages: &mut Pages<'_>,
+    table: &SqliteTable,
+    each: &mut dyn FnMut(RowPlace, &mut Record<'_, '_>) -> Result<(), TableError>,
+) -> Result<(), TableError> {
+    let mut seen = HashSet::new();
+    // Pages that are still to be read, the next one last, each with its depth.
+    let mut open = vec![(table.root, 0)];
+    while let Some((number, depth)) = open.pop() {
+        if !seen.insert(number) || depth > DEPTH {
+            return Err(pages.damaged(number, "its B-tree leads to it twice"));
+        }
+        let page = pages.page(number)?;
+        let Some(head) = Head::of(number, &page) else {
+            return Err(pages.damaged(number, "cut short"));
+        };
+        match head.kind {
+            LEAF => {
+                for cell in 0..head.cells {
+                    let place = RowPlace { page: number, cell };
+                    each(place, &mut Record::read(pages, table, place)?)?;
+                }
+            }
+            INNER => {
+                let mut children = Vec::with_capacity(usize::from(head.cells) + 1);
+                for cell in 0..head.cells {
+                    let found = head
+                        .cell(&page, cell)
+                        .and_then(|bytes| bytes.first_chunk::<4>());
+                    let child =
+                        found.ok_or_else(|| pages.damaged(number, "a cell beyond its end"))?;
+                    children.push((u32::from_be_bytes(*child), depth + 1));
+                }
+                children.push((head.last, depth + 1));
+                open.extend(children.into_iter().rev());
+            }
+            other => {
+                return Err(pages.damaged(
+                    number,
+                    format!("of kind {other}, expected a page of a table"),
+                ));
+            }
+        }
+    }
+    Ok(())
+}

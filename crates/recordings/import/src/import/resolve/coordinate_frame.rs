@@ -1,0 +1,382 @@
+//! Coordinate frames that wrenches and poses are given in: one frame a column, whatever the rows.
+
+use std::collections::btree_map::Entry;
+use std::collections::{BTreeMap, BTreeSet};
+
+use taceva_core::Unit;
+
+use super::columns::base_of;
+use super::{Sources, cell_of};
+use crate::csv_table::number;
+use crate::foreign::ForeignTable;
+use crate::import::map::{FrameNames, ImportMap};
+use taceva_dataset::internal::shown;
+use taceva_dataset::{DatasetError, Place};
+
+/// What a column ends with that names a coordinate frame: `header.frame_id`, `/header/frame_id`, `frame_id`.
+const ENDING: &str = "frame_id";
+/// Rows from which on a column with another text in each of them names pictures.
+const NAMES_OF_PICTURES: usize = 8;
+/// How many frames a message names.
+const LISTED: usize = 8;
+
+/// The coordinate frames of a main table and of those that are joined to it.
+#[derive(Default)]
+pub(in crate::import) struct CoordinateFrames {
+    stated: BTreeMap<FrameColumn, StatedFrame>,
+    /// Why rows of the main table are left out: they are given in another frame than the map takes.
+    pub(in crate::import) left_out: BTreeMap<usize, String>,
+}
+
+/// A frame and the first row that is given in it.
+struct StatedFrame {
+    name: String,
+    place: Place,
+    /// When, s, where the time of the row is known.
+    time_s: Option<f64>,
+}
+
+/// A column that names frames: of a joined table, or of the main one.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct FrameColumn {
+    join: Option<String>,
+    name: String,
+}
+
+impl CoordinateFrames {
+    /// Checks that another main table is given in the same frames as those before it.
+    pub(in crate::import) fn add(&mut self, other: CoordinateFrames) -> Result<(), DatasetError> {
+        for (column, stated) in other.stated {
+            let name = stated.name.clone();
+            self.take(column, &name, || stated)?;
+        }
+        Ok(())
+    }
+
+    /// Takes the frame called `name` of a row; another one than that of the rows before it is refused.
+    fn take(
+        &mut self,
+        column: FrameColumn,
+        name: &str,
+        stated: impl FnOnce() -> StatedFrame,
+    ) -> Result<(), DatasetError> {
+        match self.stated.get(&column) {
+            Some(known) if known.name != name => Err(changed(&column, known, &stated())),
+            Some(_) => Ok(()),
+            None => {
+                self.stated.insert(column, stated());
+                Ok(())
+            }
+        }
+    }
+}
+
+fn changed(column: &FrameColumn, known: &StatedFrame, found: &StatedFrame) -> DatasetError {
+    let at = found.time_s.map(|time_s| format!(", at {time_s} s"));
+    let (first, second) = (shown(&known.name), shown(&found.name));
+    let (name, whose) = match &column.join {
+        Some(join) => {
+            let join = shown(join);
+            (
+                format!("{join}.{}", column.name),
+                format!("in the [[join]] `{join}`"),
+            )
+        }
+        None => (column.name.clone(), "below `table` of the map".to_owned()),
+    };
+    DatasetError::Table {
+        place: found.place.clone(),
+        problem: format!(
+            "`{}` has 2 frames: `{second}` here{}, `{first}` before ({}). Numbers of two frames are never one channel: \
+             `frame_id = {first:?}` {whose} takes the rows of that frame alone and counts the others",
+            shown(&name),
+            at.unwrap_or_default(),
+            known.place
+        ),
+    }
+}
+
+/// The columns of `table` that may name frames, by their names.
+pub(super) fn columns(table: &ForeignTable) -> Vec<String> {
+    let mut names = table.columns();
+    names.extend(table.names());
+    names.retain(|name| name.to_ascii_lowercase().ends_with(ENDING));
+    names.sort_unstable();
+    names.dedup();
+    names
+}
+
+/// What stands before the name of a frame in `column`, and before the numbers that are given in it: nothing, `wrench.`.
+fn prefix(column: &str) -> &str {
+    let mut prefix = &column[..column.len() - ENDING.len()];
+    for part in ["child_", "header.", "header/", "header_"] {
+        let split = prefix.len().checked_sub(part.len());
+        let split = split.filter(|split| prefix.is_char_boundary(*split));
+        if let Some((before, found)) = split.map(|split| prefix.split_at(split))
+            && found.eq_ignore_ascii_case(part)
+        {
+            prefix = before;
+        }
+    }
+    prefix
+}
+
+/// A name as frames are compared: ROS 1 writes `/tool0` for `tool0`.
+fn comparable(cell: &str) -> &str {
+    let cell = cell.trim();
+    cell.strip_prefix('/').unwrap_or(cell)
+}
+
+/// The columns with labels of the table that `join` names, of the main one without; they are called as that table calls them.
+fn labels<'m>(map: &'m ImportMap, main: &ForeignTable, join: Option<&str>) -> Vec<&'m str> {
+    let in_space = [
+        Unit::Newton,
+        Unit::NewtonMillimetre,
+        Unit::Millimetre,
+        Unit::Degree,
+    ];
+    let columns = map.channels.iter().zip(&map.columns);
+    let columns = columns.filter(|(channel, _)| in_space.contains(&channel.unit()));
+    let columns = columns.map(|(_, column)| column.from.as_str());
+    let given = |name: &&str| {
+        let mut matrices = map.matrices.iter();
+        !matrices.any(|matrix| (0..matrix.gives.len()).any(|at| matrix.column(at) == **name))
+    };
+    let of_matrices = map.matrices.iter().flat_map(|matrix| matrix.from.iter());
+    let names = columns.filter(given).chain(of_matrices.map(String::as_str));
+    let own = names.filter_map(|name| {
+        let split = name.split_once('.').filter(|(prefix, _)| {
+            let mut joins = map.joins.iter();
+            !main.has(name) && joins.any(|known| known.name == *prefix)
+        });
+        match (join, split) {
+            (None, None) if !name.starts_with("path.") => Some(name),
+            (Some(join), Some((prefix, column))) if prefix == join => Some(column),
+            _ => None,
+        }
+    });
+    own.collect()
+}
+
+/// Whether the map reads `column` as what it is: a name of pictures or of samples.
+fn is_name(map: &ImportMap, column: &str) -> bool {
+    let of_frames = match map.frame.as_ref().map(|frame| &frame.names) {
+        Some(FrameNames::Column(name)) => Some(name),
+        Some(FrameNames::Array(array)) => Some(&array.index),
+        Some(FrameNames::Video(video)) => Some(&video.index),
+        _ => None,
+    };
+    let known = of_frames.into_iter().chain(&map.ids.sample);
+    known.into_iter().any(|known| known == column)
+}
+
+/// The columns of `table` that name the frames of the numbers in `labels`; counters and names of pictures are none.
+fn naming(table: &ForeignTable, labels: &[&str]) -> Result<Vec<String>, DatasetError> {
+    let mut found = Vec::new();
+    if labels.is_empty() {
+        return Ok(found);
+    }
+    for column in columns(table) {
+        let prefix = prefix(&column);
+        if !labels
+            .iter()
+            .any(|label| base_of(label).starts_with(prefix))
+        {
+            continue;
+        }
+        let mut names = BTreeSet::new();
+        let mut rows = 0_usize;
+        let mut has_number = false;
+        for row in 0..table.rows() {
+            let cell = cell_of(table, row, &column)?;
+            if cell.trim().is_empty() {
+                continue;
+            }
+            rows += 1;
+            has_number |= matches!(number::number(&cell), Ok(Some(_)));
+            names.insert(comparable(&cell).to_owned());
+        }
+        let is_frame = !has_number && (rows < NAMES_OF_PICTURES || names.len() < rows);
+        if is_frame && !names.is_empty() {
+            found.push(column);
+        }
+    }
+    Ok(found)
+}
+
+/// The rows of `table` that are given in the frame called `frame`, which the map takes; all without one.
+pub(super) fn rows_in(
+    table: &ForeignTable,
+    labels: &[&str],
+    frame: &str,
+) -> Result<BTreeSet<usize>, DatasetError> {
+    let columns = naming(table, labels)?;
+    let refuse = |problem: String| {
+        Err(DatasetError::Table {
+            place: Place::file(table.path()),
+            problem: format!("`frame_id = {frame:?}`: {problem}"),
+        })
+    };
+    if columns.is_empty() {
+        return refuse(
+            "no column of it names frames, as `frame_id` or `header.frame_id` does".to_owned(),
+        );
+    }
+    let mut rows = BTreeSet::new();
+    let mut names = BTreeSet::new();
+    for row in 0..table.rows() {
+        for column in &columns {
+            let cell = cell_of(table, row, column)?;
+            if comparable(&cell) == comparable(frame) {
+                rows.insert(row);
+            } else if names.len() < LISTED {
+                names.insert(format!("`{}`", shown(comparable(&cell))));
+            }
+        }
+    }
+    match rows.is_empty() {
+        false => Ok(rows),
+        true => {
+            let names: Vec<String> = names.into_iter().collect();
+            refuse(format!("its frames are {}", names.join(", ")))
+        }
+    }
+}
+
+impl Sources<'_> {
+    /// The columns of the table that `join` names, of the main one without, whose numbers are given in a frame.
+    pub(super) fn labels(&self, join: Option<&str>) -> Vec<&str> {
+        labels(self.map, &self.main, join)
+    }
+
+    /// The frame of every column of labels, each the same in all rows that have a number.
+    pub(super) fn coordinate_frames(&self) -> Result<CoordinateFrames, DatasetError> {
+        let mut frames = CoordinateFrames::default();
+        let labels = self.labels(None);
+        if let Some(frame) = self.map.frame_id.as_deref() {
+            let rows = rows_in(&self.main, &labels, frame)?;
+            let others = (0..self.main.rows()).filter(|row| !rows.contains(row));
+            let reason = format!("frame_id other than {}", shown(frame));
+            frames.left_out = others.map(|row| (row, reason.clone())).collect();
+        }
+        let is_kept = |row: usize, frames: &CoordinateFrames| {
+            let mut joined = self.joined.iter();
+            joined.all(|joined| joined.is_matched(row)) && !frames.left_out.contains_key(&row)
+        };
+        for column in naming(&self.main, &labels)? {
+            if is_name(self.map, &column) {
+                continue;
+            }
+            for row in 0..self.main.rows() {
+                if !is_kept(row, &frames) {
+                    continue;
+                }
+                let given = Given {
+                    table: &self.main,
+                    join: None,
+                    row,
+                    column: &column,
+                };
+                given.take(&mut frames, &labels, || self.time_s(row))?;
+            }
+        }
+        for joined in &self.joined {
+            let labels = self.labels(Some(joined.name()));
+            let mut columns: BTreeMap<usize, Vec<String>> = BTreeMap::new();
+            for row in 0..self.main.rows() {
+                if !is_kept(row, &frames) {
+                    continue;
+                }
+                for taken in joined.rows_of(row) {
+                    let columns = match columns.entry(taken.at) {
+                        Entry::Occupied(known) => known.into_mut(),
+                        Entry::Vacant(empty) => empty.insert(naming(taken.table(), &labels)?),
+                    };
+                    for column in columns.iter() {
+                        let given = Given {
+                            table: taken.table(),
+                            join: Some(joined.name()),
+                            row: taken.row,
+                            column,
+                        };
+                        given.take(&mut frames, &labels, || taken.time_s())?;
+                    }
+                }
+            }
+        }
+        Ok(frames)
+    }
+
+    /// When a row of the main table was recorded, s.
+    fn time_s(&self, row: usize) -> Option<f64> {
+        let time = self.map.time.as_ref()?;
+        let cell = self.cell_in_seconds(row, &time.column).ok()?;
+        match &self.times {
+            Some(_) => cell.trim().parse().ok(),
+            None => number::number_in_unit(&cell, &time.unit).ok()?,
+        }
+    }
+}
+
+/// A row of a table, and the column that says in which frame it is given.
+struct Given<'a> {
+    table: &'a ForeignTable,
+    join: Option<&'a str>,
+    row: usize,
+    column: &'a str,
+}
+
+impl Given<'_> {
+    /// Takes the frame of the row, if one of the labels has a number there.
+    fn take(
+        &self,
+        frames: &mut CoordinateFrames,
+        labels: &[&str],
+        time_s: impl FnOnce() -> Option<f64>,
+    ) -> Result<(), DatasetError> {
+        let prefix = prefix(self.column);
+        let is_there = |label: &&&str| {
+            let is_column = self.table.has(label) || self.table.has(base_of(label));
+            is_column && label.starts_with(prefix)
+        };
+        let mut has_number = false;
+        for label in labels.iter().filter(is_there) {
+            has_number |= !cell_of(self.table, self.row, label)?.trim().is_empty();
+        }
+        if !has_number {
+            return Ok(());
+        }
+        let cell = cell_of(self.table, self.row, self.column)?;
+        let column = FrameColumn {
+            join: self.join.map(str::to_owned),
+            name: self.column.to_owned(),
+        };
+        let name = comparable(&cell);
+        frames.take(column, name, || StatedFrame {
+            name: name.to_owned(),
+            place: self.table.place(self.row, self.column),
+            time_s: time_s(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_stands_before_the_name_of_a_frame_is_what_its_numbers_begin_with() {
+        for (column, expected) in [
+            ("header.frame_id", ""),
+            ("frame_id", ""),
+            ("child_frame_id", ""),
+            ("/header/frame_id", "/"),
+            ("wrench.header.frame_id", "wrench."),
+            ("pose.child_frame_id", "pose."),
+            ("ft_frame_id", "ft_"),
+            ("é.frame_id", "é."),
+        ] {
+            assert_eq!(prefix(column), expected, "{column}");
+        }
+    }
+}

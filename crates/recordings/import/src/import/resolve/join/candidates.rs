@@ -1,0 +1,162 @@
+//! Rows of a joined table that may belong to one of the main table, by what they are found by.
+
+use std::collections::HashMap;
+
+use super::matching::{comparable, seconds};
+use crate::csv_table::number;
+use crate::foreign::ForeignTable;
+use crate::import::map::{JoinBy, JoinMap};
+use crate::import::resolve::times::TextTimes;
+use crate::import::resolve::unit_statement::{self, Of, Reading};
+use crate::import::resolve::{cell_of, coordinate_frame};
+use taceva_dataset::DatasetError;
+use taceva_dataset::internal::shown;
+
+/// A table, and the rows of it that may be matched.
+pub(super) struct Candidates {
+    pub(super) table: ForeignTable,
+    pub(super) rows: Vec<usize>,
+    /// How many rows are given in another frame than the map takes.
+    pub(super) in_other_frames: usize,
+    /// Of a join by columns: the rows that hold each key.
+    pub(super) by_key: HashMap<Vec<String>, Vec<usize>>,
+    /// Of a join by time: each row with its time, s, in order.
+    pub(super) by_time: Vec<(f64, usize)>,
+    /// Of a join up to a number: each row with its number, in order.
+    pub(super) until: Vec<(u64, usize)>,
+}
+
+/// A row of a joined table that a row of the main one takes its cells from.
+pub(in crate::import::resolve) struct TakenRow<'a> {
+    pub(super) candidates: &'a Candidates,
+    /// Which of the joined tables it is of.
+    pub(in crate::import::resolve) at: usize,
+    pub(in crate::import::resolve) row: usize,
+}
+
+impl<'a> TakenRow<'a> {
+    pub(in crate::import::resolve) fn table(&self) -> &'a ForeignTable {
+        &self.candidates.table
+    }
+
+    /// Its time, s, of a join by time.
+    pub(in crate::import::resolve) fn time_s(&self) -> Option<f64> {
+        let mut times = self.candidates.by_time.iter();
+        let found = times.find(|(_, row)| *row == self.row);
+        found.map(|(time_s, _)| *time_s)
+    }
+}
+
+impl Candidates {
+    pub(super) fn new(
+        map: &JoinMap,
+        table: ForeignTable,
+        labels: &[&str],
+    ) -> Result<Candidates, DatasetError> {
+        let frame = map.frame_id.as_deref();
+        let in_frame = frame.map(|frame| coordinate_frame::rows_in(&table, labels, frame));
+        let in_frame = in_frame.transpose()?;
+        let mut in_other_frames = 0;
+        let mut rows = Vec::new();
+        for row in 0..table.rows() {
+            if in_frame.as_ref().is_some_and(|rows| !rows.contains(&row)) {
+                in_other_frames += 1;
+                continue;
+            }
+            let mut is_skipped = false;
+            for (column, number) in &map.skip {
+                let cell = cell_of(&table, row, column)?;
+                is_skipped |= number::number(&cell).ok().flatten() == Some(*number);
+            }
+            if !is_skipped {
+                rows.push(row);
+            }
+        }
+        let mut candidates = Candidates {
+            table,
+            rows,
+            in_other_frames,
+            by_key: HashMap::new(),
+            by_time: Vec::new(),
+            until: Vec::new(),
+        };
+        let Candidates {
+            table,
+            rows,
+            by_key,
+            by_time,
+            until,
+            ..
+        } = &mut candidates;
+        match &map.by {
+            JoinBy::Row | JoinBy::All => {}
+            JoinBy::Until(column) => {
+                for row in rows.iter() {
+                    let cell = cell_of(table, *row, column)?;
+                    let end = cell.trim().parse::<u64>();
+                    let end = end
+                        .ok()
+                        .filter(|end| until.last().is_none_or(|(last, _)| last <= end));
+                    let end = end.ok_or_else(|| DatasetError::Table {
+                        place: table.place(*row, column),
+                        problem: format!(
+                            "`{}`: expected a whole number that is not below the one before it, where join `{}` counts through",
+                            shown(&cell),
+                            map.name
+                        ),
+                    })?;
+                    until.push((end, *row));
+                }
+            }
+            JoinBy::Columns(columns) => {
+                for row in rows.iter() {
+                    let cells = columns.iter().map(|(_, other)| cell_of(table, *row, other));
+                    let key: Result<Vec<String>, DatasetError> =
+                        cells.map(|cell| Ok(comparable(&cell?))).collect();
+                    let key = key?;
+                    if !key.iter().any(String::is_empty) {
+                        by_key.entry(key).or_default().push(*row);
+                    }
+                }
+            }
+            JoinBy::Time(join) => {
+                let reading = Reading {
+                    unit: &join.time.unit,
+                    is_moved: false,
+                    of: Of::Others,
+                };
+                unit_statement::check(table, &join.time.column, reading)?;
+                let cells: Result<Vec<String>, DatasetError> = rows
+                    .iter()
+                    .map(|row| cell_of(table, *row, &join.time.column))
+                    .collect();
+                let cells = cells?;
+                let texts = TextTimes::of(&cells, &join.time);
+                let texts = texts.map_err(|(at, problem)| DatasetError::Table {
+                    place: table
+                        .place(rows.get(at).copied().unwrap_or_default(), &join.time.column),
+                    problem,
+                })?;
+                let cells = texts.map_or(cells, |texts| texts.seconds);
+                for (row, cell) in rows.iter().zip(&cells) {
+                    let place = || table.place(*row, &join.time.column);
+                    by_time.extend(seconds(cell, &join.time, place)?.map(|time| (time, *row)));
+                }
+                let back = by_time.windows(2).find(|pair| pair[1].0 < pair[0].0);
+                let back = back.map(<[_]>::to_vec);
+                // Of several at one time the first.
+                by_time.dedup_by(|later, first| later.0.total_cmp(&first.0).is_eq());
+                if let Some([_, (_, row)]) = back.as_deref() {
+                    return Err(DatasetError::Table {
+                        place: table.place(*row, &join.time.column),
+                        problem: format!(
+                            "the time of join `{}` goes back here, so that it is no time to join by: cut the table where its clock was set",
+                            map.name
+                        ),
+                    });
+                }
+            }
+        }
+        Ok(candidates)
+    }
+}

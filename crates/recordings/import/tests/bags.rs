@@ -1,0 +1,139 @@
+//! Recordings of ROS in databases and bags, and pictures of Foxglove, drafted and imported by preset.
+
+use std::fs;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+use taceva_core::SilentProgress;
+use taceva_dataset::Dataset;
+use taceva_import::{ImportMap, ImportPlan, MapDraft, Preset};
+
+fn data(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../formats/tables/tests/data")
+        .join(name)
+}
+
+/// A folder with the recording `name`, as `ros2 bag record` lays it out where it is one of rosbag2.
+fn lab(name: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = Path::new(name).file_name().expect("a name");
+    fs::copy(data(name), folder.path().join(file)).expect("copied");
+    fs::write(
+        folder.path().join("metadata.yaml"),
+        "rosbag2_bagfile_information:\n  version: 9\n  storage_identifier: sqlite3\n",
+    )
+    .expect("written");
+    folder
+}
+
+/// The numbers that an import by the preset of ROS keeps of `columns`, and its summary.
+fn by_preset(folder: &Path, columns: &[&str]) -> (Vec<Vec<f64>>, String) {
+    let preset = Preset::from_name("rosbag").expect("known");
+    let text = preset
+        .text(folder)
+        .unwrap_or_else(|error| panic!("{error}"));
+    assert!(!text.contains("\"?\""), "{text}");
+    let map = preset
+        .map(folder)
+        .unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let plan = ImportPlan::new(folder, &map).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let summary = plan.summary().to_string();
+    let target = tempfile::tempdir().expect("a folder");
+    let target = target.path().join("dataset");
+    plan.run(&target, NonZeroUsize::MIN, &SilentProgress)
+        .expect("imported");
+    let dataset = Dataset::open(&target).expect("a dataset");
+    let numbers = columns.iter().map(|column| {
+        let cells = dataset.table().as_text(column);
+        let cells = cells.unwrap_or_else(|| panic!("no {column}: {text}"));
+        let cells = cells.into_iter().flatten();
+        cells.map(|cell| cell.parse().expect("a number")).collect()
+    });
+    (numbers.collect(), summary)
+}
+
+#[test]
+fn databases_of_rosbag2_and_bags_of_ros_1_are_drafted_and_imported_by_preset() {
+    for file in [
+        "iron.db3",
+        "small_pages.db3",
+        "messages.db3",
+        "humble.db3",
+        "none.bag",
+        "lz4.bag",
+    ] {
+        let folder = lab(&format!("bags/{file}"));
+        let draft = MapDraft::of(folder.path()).expect(file).text().to_owned();
+        for line in [
+            "# This looks like the layout of `--preset rosbag`",
+            "rows = \"/gel/image\"",
+            "channel_order = \"bgr\"",
+            "Fz = { from = \"ft.wrench.force.z\", unit = \"N\" }",
+        ] {
+            assert!(draft.contains(line), "{file}: no `{line}` in\n{draft}");
+        }
+        let (numbers, summary) = by_preset(folder.path(), &["Fx", "Fz", "t_s"]);
+        assert_eq!(numbers[0], [0.0, 0.25, 0.5, 0.75], "{file}");
+        assert_eq!(numbers[1], [0.0, 1.5, 3.0, 4.5], "{file}");
+        assert_eq!(numbers[2].first(), Some(&1_700_000_000.0), "{file}");
+        assert!(summary.contains("4 read, 4 kept"), "{file}: {summary}");
+        let is_unread = summary.contains("not read topic /press (4 messages): ");
+        assert_eq!(is_unread, file == "humble.db3", "{file}: {summary}");
+        assert_eq!(
+            draft.contains("# Not read: topic /press"),
+            is_unread,
+            "{draft}"
+        );
+    }
+}
+
+#[test]
+fn pictures_of_foxglove_in_protobuf_are_joined_with_forces_in_json() {
+    let folder = lab("mcap/foxglove.mcap");
+    let (numbers, summary) = by_preset(folder.path(), &["Fz"]);
+    let expected: Vec<f64> = (0..24).map(f64::from).collect();
+    assert_eq!(numbers[0], expected, "{summary}");
+    assert!(summary.contains("frames   24 of them"), "{summary}");
+}
+
+#[test]
+fn a_bag_whose_frames_change_and_one_that_is_cut_are_refused_with_the_remedy() {
+    let folder = lab("bags/none.bag");
+    let path = folder.path().join("none.bag");
+    let mut bytes = fs::read(&path).expect("there");
+    // The name of the frame in the last messages, between its length and what follows.
+    let places: Vec<usize> = (0..bytes.len() - 7)
+        .filter(|at| bytes[*at..*at + 7] == *b"\x03\0\0\0gel")
+        .collect();
+    assert_eq!(places.len(), 16);
+    for place in &places[8..] {
+        bytes[place + 4..place + 7].copy_from_slice(b"arm");
+    }
+    fs::write(&path, &bytes).expect("written");
+    let map = Preset::from_name("rosbag")
+        .expect("known")
+        .map(folder.path());
+    let problem = ImportPlan::new(folder.path(), &map.expect("a map"));
+    let problem = problem.expect_err("two frames").to_string();
+    for word in ["`arm`", "`gel`", "frame_id = \"gel\""] {
+        assert!(problem.contains(word), "no `{word}` in {problem}");
+    }
+
+    fs::write(&path, &bytes[..bytes.len() / 2]).expect("written");
+    let problem = MapDraft::of(folder.path()).expect_err("cut").to_string();
+    assert!(
+        problem.contains("cut short") && problem.contains("rosbag reindex"),
+        "{problem}"
+    );
+    let map = "map_version = 2\ntable = { file = \"none.bag\", rows = \"/ft\" }\n[columns]\nFz = { from = \"wrench.force.z\", unit = \"N\" }\n[time]\nclock = \"unknown\"\n\
+               [sensor]\nmodel = \"m\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = \"unknown\"\n";
+    let map = ImportMap::parse("map.toml".as_ref(), map).expect("a map");
+    let problem = ImportPlan::new(folder.path(), &map)
+        .expect_err("cut")
+        .to_string();
+    assert!(
+        problem.contains("none.bag") && problem.contains("rosbag reindex"),
+        "{problem}"
+    );
+}
