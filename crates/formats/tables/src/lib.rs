@@ -1,10 +1,12 @@
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
+mod arrow;
 mod bytes;
 mod cell;
 mod codec;
 mod error;
+mod flatbuffer;
 mod lerobot;
 mod limits;
 mod mcap;
@@ -12,12 +14,16 @@ mod parquet;
 mod path;
 mod ros;
 mod rows;
+mod scalar;
 mod snappy;
 mod source;
 
+pub use arrow::ArrowTable;
 pub use cell::Cell;
 pub use error::{Place, TableError};
-pub use lerobot::{Feature, FeatureStats, LeRobot, LeRobotWriter, VideoFrames, WrittenFeature};
+pub use lerobot::{
+    DepthCodes, Feature, FeatureStats, LeRobot, LeRobotWriter, VideoFrames, WrittenFeature,
+};
 pub use mcap::{Mcap, McapTable, Topic};
 pub use parquet::{
     ColumnKind, ParquetTable, ParquetWriter, WrittenColumn, WrittenKind, huggingface_features,

@@ -3,6 +3,7 @@
 #[path = "../recordings/mod.rs"]
 mod recordings;
 
+mod arrow;
 mod lerobot;
 mod mcap;
 mod nested;

@@ -11,7 +11,7 @@ use super::frame_cells::{FrameCells, FrameName, filled};
 use super::map::{FrameNames, ImportMap};
 use super::resolve::{ClassCells, ColumnSignals, JoinMatches, NamedBy, ResolvedTable, resolve};
 use super::warning::ImportWarning;
-use crate::foreign::{Pictures, TableForm};
+use crate::foreign::{DepthPixels, Pictures, TableForm};
 use crate::source_folder::SourceFolder;
 use taceva_dataset::internal::shown;
 use taceva_dataset::{DatasetError, Place, Row};
@@ -54,6 +54,8 @@ pub(super) struct MappedTable<'a> {
     reference: Option<usize>,
     /// The pictures that the table itself holds.
     pub(super) pictures: Option<Arc<dyn Pictures>>,
+    /// The pixels of a depth map that its clips are.
+    pub(super) depth: Option<DepthPixels>,
     /// The numbers of taxels of every row, where they are in columns.
     signals: Option<ColumnSignals>,
     /// The folders of joined tables that name files.
@@ -74,6 +76,23 @@ impl<'a> MappedTable<'a> {
         let clips = match (&map.form, names) {
             (TableForm::LeRobot, Some(FrameNames::Video(video))) => {
                 Some(found.main.clips(&video.file)?)
+            }
+            _ => None,
+        };
+        let depth = match names {
+            Some(FrameNames::Video(video)) => {
+                let depth = match (found.main.depth(&video.file), video.range) {
+                    (Some(codes), range) => DepthPixels::new(codes, range).map(Some),
+                    (None, None) => Ok(None),
+                    (None, Some(_)) => Err(format!(
+                        "`range` and `bits` are for an `array`, and for a depth map of LeRobot, which `{}` is not",
+                        shown(&video.file)
+                    )),
+                };
+                depth.map_err(|problem| DatasetError::Table {
+                    place: Place::file(path),
+                    problem,
+                })?
             }
             _ => None,
         };
@@ -141,6 +160,7 @@ impl<'a> MappedTable<'a> {
                 .map(find)
                 .transpose()?,
             pictures,
+            depth,
             signals: found.signals,
             unmentioned: found.unmentioned,
             joins: found.joins,
