@@ -61,7 +61,8 @@ fn latex(text: &str, whence: &str) -> usize {
         let id = name.replace("\\_", "_");
         // What a sensor stands at most is a property of it, and no metric.
         // The symbol of the sensitivity, which only describes.
-        let is_descriptive = id.starts_with("$S$") || sign(&id).is_none() && Better::of(&id).is_some();
+        let is_descriptive =
+            id.starts_with("$S$") || sign(&id).is_none() && Better::of(&id).is_some();
         id == "greatest" || is_descriptive
     };
     for name in names.filter(|name| !name.is_empty() && !describes(name)) {

@@ -4,6 +4,7 @@ mod attribute;
 mod element;
 mod element_type;
 mod heap;
+mod layout_version;
 mod link;
 mod lookup3;
 mod soft_links;
@@ -345,6 +346,12 @@ impl Source for Shared {
         }
         Ok(())
     }
+
+    fn read_metadata_at(&self, offset: u64, length: usize) -> Result<Vec<u8>, FormatError> {
+        let mut block = self.read_exact_at(offset, length)?;
+        layout_version::lower(&mut block);
+        Ok(block)
+    }
 }
 
 /// Bytes of a block, if they fit 64 bits.
@@ -363,9 +370,18 @@ pub(crate) fn problem(error: hdf5_pure::Error) -> Problem {
             source,
         },
         Error::Format(FormatError::InvalidLayoutVersion(version)) => Problem::unsupported(
-            format!("data layout version {version} of HDF5 2.0, which `libver='latest'` writes"),
+            format!("data layout version {version}, which is newer than HDF5 2.0"),
             "write it with `h5py.File(path, 'w', libver='v114')`, or copy it with h5py into such a file",
         ),
+        // The crate has no kind of its own for it.
+        Error::Format(FormatError::ChunkedReadError(words))
+            if words.contains("version 2 B-tree") =>
+        {
+            Problem::unsupported(
+                "chunks of an array with two axes that grow (`maxshape=(None, None)`) in the newer file format",
+                "let one axis grow, or write the file with `h5py.File(path, 'w', libver=('earliest', 'v108'))`",
+            )
+        }
         Error::Format(FormatError::SignatureNotFound) => {
             Problem::damaged(0, "no file of HDF5", "`\\x89HDF`")
         }

@@ -1,5 +1,6 @@
 //! Folders of LeRobot.
 
+mod depth;
 mod episodes;
 mod feature;
 mod files;
@@ -24,6 +25,7 @@ use crate::parquet::{ColumnKind, ParquetTable};
 use crate::rows::check_sorted;
 use crate::source::Source;
 
+pub use self::depth::DepthCodes;
 pub use self::feature::WrittenFeature;
 pub use self::info::Feature;
 pub use self::stats::FeatureStats;

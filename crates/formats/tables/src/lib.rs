@@ -1,10 +1,12 @@
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
+mod arrow;
 mod bytes;
 mod cell;
 mod codec;
 mod error;
+mod flatbuffer;
 mod lerobot;
 mod limits;
 mod mcap;
@@ -17,13 +19,17 @@ mod ros;
 mod rosbag1;
 mod rosbag2;
 mod rows;
+mod scalar;
 mod snappy;
 mod source;
 mod sqlite;
 
+pub use arrow::ArrowTable;
 pub use cell::Cell;
 pub use error::{Place, TableError};
-pub use lerobot::{Feature, FeatureStats, LeRobot, LeRobotWriter, VideoFrames, WrittenFeature};
+pub use lerobot::{
+    DepthCodes, Feature, FeatureStats, LeRobot, LeRobotWriter, VideoFrames, WrittenFeature,
+};
 pub use parquet::{
     ColumnKind, ParquetTable, ParquetWriter, WrittenColumn, WrittenKind, huggingface_features,
 };

@@ -22,15 +22,15 @@ use parquet::file::metadata::{ParquetMetaData, ParquetMetaDataReader, RowGroupMe
 
 use self::assembly::Assembly;
 use self::cells::Cells;
-use self::column_path::Found;
-use self::schema::Node;
 use crate::cell::Cell;
 use crate::error::{Place, TableError};
 use crate::limits;
 use crate::source::Source;
 
+pub(crate) use self::column_path::{Found, names};
 pub use self::column_writer::{WrittenColumn, WrittenKind, huggingface_features};
 pub use self::kind::ColumnKind;
+pub(crate) use self::schema::{LeafForm, Node, NodeKind};
 pub use self::writer::ParquetWriter;
 
 /// Rows that are decoded at once.
@@ -112,7 +112,7 @@ impl ParquetTable {
 
     /// The columns in the order of the schema; of a structure the members, as `pose.x`.
     pub fn names(&self) -> Vec<String> {
-        column_path::names(&self.columns)
+        names(&self.columns)
     }
 
     /// What a writer put beside the table under `key`, such as `huggingface`, where the names of classes stand in JSON.

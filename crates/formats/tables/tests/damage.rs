@@ -6,7 +6,7 @@ use std::path::Path;
 
 use recordings::damage::{Endings, attempt, damage, peak_bytes};
 use recordings::recording;
-use taceva_tables::{Cell, LeRobot, ParquetTable, Recording, TableError};
+use taceva_tables::{ArrowTable, Cell, LeRobot, ParquetTable, Recording, TableError};
 
 /// What damaged files of at most 100 KB may take.
 const BYTES: u64 = 512 << 20;
@@ -84,6 +84,32 @@ fn damaged_parquet_files_are_refused_or_read() {
     }
     assert_eq!(endings.read + endings.refused + endings.panicked, 11 * 46);
     assert!(endings.refused > 11 * 6, "{endings:?}");
+    check_memory();
+}
+
+#[test]
+fn damaged_files_of_arrow_are_refused_or_read() {
+    let mut endings = Endings::default();
+    let every_column = |path: &Path| -> Result<usize, TableError> {
+        let table = ArrowTable::open(path)?;
+        let rows: Vec<u64> = (0..table.rows()).step_by(7).collect();
+        table.visit_bytes::<TableError>("bytes", &rows, &mut |_, _| Ok(()))?;
+        let names = table.names();
+        let columns = names.iter().map(|name| table.column(name));
+        columns.map(|column| Ok(column?.len())).sum()
+    };
+    let root = recording("arrow");
+    for file in ["stream.arrow", "zstd.arrow", "lz4.feather"] {
+        damage(&root, &root.join(file), &mut endings, |copy| {
+            every_column(&copy.join(file))
+        });
+    }
+    assert_eq!(
+        (endings.read + endings.refused, endings.panicked),
+        (3 * 46, 0),
+        "{endings:?}"
+    );
+    assert!(endings.refused > 3 * 6, "{endings:?}");
     check_memory();
 }
 

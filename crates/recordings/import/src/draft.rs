@@ -77,6 +77,7 @@ impl MapDraft {
                 Err(problem) => notes.push(format!("not read: {problem}")),
             }
         }
+        let clips = groups.iter().find(|group| frames::is_clip(&group.ending));
         let most = pictures.iter().max_by_key(|group| group.paths.len());
         let main = main_table(&source, &tables);
         let array = main.filter(|main| most.is_some_and(|most| are_beside(&source, main, most)));
@@ -88,9 +89,12 @@ impl MapDraft {
                 None => {
                     return Err(DatasetError::Request {
                         path: folder.to_owned(),
-                        problem: match notes.first() {
-                            Some(note) => format!("nothing here can be read as a table: {note}"),
-                            None => "no table and no picture is in it".to_owned(),
+                        problem: match (notes.first(), clips) {
+                            (Some(note), _) => {
+                                format!("nothing here can be read as a table: {note}")
+                            }
+                            (None, Some(clips)) => map_text::bare_clips(clips),
+                            (None, None) => "no table and no picture is in it".to_owned(),
                         },
                     });
                 }

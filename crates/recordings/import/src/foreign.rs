@@ -6,13 +6,14 @@ pub(crate) mod cell_list;
 mod clips;
 mod columns;
 mod delimited;
+mod depth_pixels;
 mod file_series;
 mod files;
 mod json;
 mod lerobot;
 mod members;
 mod messages;
-mod parquet;
+mod nested_tables;
 mod pictures;
 pub(crate) mod tar;
 mod webdataset;
@@ -31,11 +32,13 @@ use crate::source_folder::SourceFolder;
 use taceva_core::nearest;
 use taceva_dataset::internal::{listed, shown};
 use taceva_dataset::{DatasetError, Place};
+use taceva_tables::{ArrowTable, DepthCodes, ParquetTable};
 
 pub(crate) use arrays::{ArrayPictures, stated};
 pub(crate) use clips::ClipPictures;
 pub(crate) use columns::{ColumnTable, PictureColumn, PictureKind, Stated};
 pub(crate) use delimited::DelimitedTable;
+pub(crate) use depth_pixels::DepthPixels;
 pub(crate) use file_series::SeveralPictures;
 pub(crate) use files::FileRows;
 pub(crate) use json::JsonRows;
@@ -72,6 +75,8 @@ pub(crate) enum TableForm {
         is_whole: bool,
     },
     Parquet,
+    /// A stream or a file of Arrow.
+    Arrow,
     /// The messages of a topic of a recording: MCAP, rosbag2 or a bag of ROS 1.
     Messages {
         topic: Option<String>,
@@ -100,7 +105,10 @@ impl ForeignTable {
             TableForm::JsonLines => ForeignTable::Json(JsonRows::read_lines(path)?),
             TableForm::Files => ForeignTable::Files(FileRows::one(path)),
             TableForm::Parquet => ForeignTable::Columns(ColumnTable::open(path, || {
-                parquet::ParquetRows::open(path)
+                nested_tables::NestedRows::<ParquetTable>::open(path)
+            })?),
+            TableForm::Arrow => ForeignTable::Columns(ColumnTable::open(path, || {
+                nested_tables::NestedRows::<ArrowTable>::open(path)
             })?),
             TableForm::LeRobot => ForeignTable::Columns(ColumnTable::open(path, || {
                 lerobot::LeRobotRows::open(path)
@@ -253,6 +261,14 @@ impl ForeignTable {
         match self {
             ForeignTable::Columns(table) => table.clips(key),
             _ => Ok(Vec::new()),
+        }
+    }
+
+    /// The distances of the codes of `key`, where it is a depth map.
+    pub(crate) fn depth(&self, key: &str) -> Option<DepthCodes> {
+        match self {
+            ForeignTable::Columns(table) => table.depth(key),
+            _ => None,
         }
     }
 

@@ -202,7 +202,7 @@ impl ArrayFrames {
 /// let names = FrameNames::Video(VideoFrames::new("clip_{run}.mp4", "row"));
 /// assert!(matches!(names, FrameNames::Video(video) if video.index == "row"));
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct VideoFrames {
     /// The clip, relative to the source folder, in which `{column}` stands for the cell of that column; of a LeRobot dataset the name of
@@ -210,6 +210,8 @@ pub struct VideoFrames {
     pub file: String,
     /// The column that holds the number of the frame in the order in which they are shown, from 0; `row` is the number of the row.
     pub index: String,
+    /// The distances of black and of full in a depth map, mm; `None` of pictures, and of a depth map in whole millimetres.
+    pub range: Option<PixelRange>,
 }
 
 impl VideoFrames {
@@ -218,6 +220,7 @@ impl VideoFrames {
         VideoFrames {
             file: file.into(),
             index: index.into(),
+            range: None,
         }
     }
 }

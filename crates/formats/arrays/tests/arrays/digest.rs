@@ -6,11 +6,14 @@ use sha2::{Digest, Sha256};
 use taceva_arrays::{ArrayFile, ArrayValues};
 
 /// The recordings that all crates share of which these tests read files.
-pub(crate) const SHARED: [&str; 12] = [
+pub(crate) const SHARED: [&str; 15] = [
     "hdf5-fletcher-earliest",
+    "hdf5-fletcher-latest",
     "hdf5-groups",
     "hdf5-gzip-shuffle-earliest",
+    "hdf5-gzip-shuffle-latest",
     "hdf5-lzf-earliest",
+    "hdf5-lzf-latest",
     "hdf5-vlen-compound",
     "npy-fortran",
     "npz-deflated",

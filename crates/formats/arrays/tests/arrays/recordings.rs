@@ -26,8 +26,11 @@ const RECORDINGS: &[(&str, &str, &str, &str, &str)] = &[
 #[cfg(feature = "hdf5")]
 const HDF5: &[&str] = &[
     "hdf5-gzip-shuffle-earliest",
+    "hdf5-gzip-shuffle-latest",
     "hdf5-lzf-earliest",
+    "hdf5-lzf-latest",
     "hdf5-fletcher-earliest",
+    "hdf5-fletcher-latest",
 ];
 #[cfg(not(feature = "hdf5"))]
 const HDF5: &[&str] = &[];

@@ -9,8 +9,8 @@ import hashlib, json, pickle, shutil, struct, sys
 from pathlib import Path
 import numpy as np
 HERE = Path(__file__).parent
-RECORDINGS = HERE.parents[2] / "tests" / "recordings"
-SHARED = "hdf5-fletcher-earliest hdf5-groups hdf5-gzip-shuffle-earliest hdf5-lzf-earliest hdf5-vlen-compound npy-fortran npz-deflated npz-stored pickle taxels-npy zarr-v2 zarr-v3".split()
+RECORDINGS = HERE.parents[4] / "tests" / "recordings"
+SHARED = "hdf5-fletcher-earliest hdf5-fletcher-latest hdf5-groups hdf5-gzip-shuffle-earliest hdf5-gzip-shuffle-latest hdf5-lzf-earliest hdf5-lzf-latest hdf5-vlen-compound npy-fortran npz-deflated npz-stored pickle taxels-npy zarr-v2 zarr-v3".split()
 
 def fresh(name):
     folder = HERE / name
@@ -109,12 +109,34 @@ def write_hdf5():
         f["plain/deeper/still/x"] = np.arange(3)
     with h5py.File(folder / "userblock.h5", "w", userblock_size=1024) as f: f["texts"] = ["a", "bc"]; f["x"] = np.arange(12.0).reshape(4, 3)
     refused = HERE / "refused"; refused.mkdir(exist_ok=True)
-    with h5py.File(refused / "layout-5.h5", "w", libver="latest") as f: f.create_dataset("rgb", data=numbers((6, 40), "u1", 304), chunks=(2, 40), compression="gzip"); f["t"] = np.arange(6.0)
     with h5py.File(refused / "kinds.h5", "w") as f:
         f["complex"] = np.ones(3, "c8"); f.create_dataset("lists", (3,), dtype=h5py.vlen_dtype(np.float32)); f["reference"] = f["complex"].ref; f["x"] = np.arange(4)
         f.create_dataset("elsewhere", (4,), "f8", external=[("../../secret.bin", 0, 32)])
         f.create_virtual_dataset("virtual", h5py.VirtualLayout((4,), "f8"))
     with h5py.File(refused / "cycle.h5", "w") as f: f["a/b/x"] = np.arange(2); f["a/b/up"] = f["a"]; f["a/b/root"] = f["/"]
+
+def write_latest():
+    """Data layout version 5 of HDF5 2.0 with every kind of index but one: that of two axes that grow, which is refused."""
+    import h5py
+    folder = HERE / "hdf5"; folder.mkdir(exist_ok=True)
+    for name in ("latest", "latest-ordered"):
+        # Headers in order have messages with another head.
+        h5py.get_config().track_order = name == "latest-ordered"
+        with h5py.File(folder / f"{name}.h5", "w", libver="latest") as f:
+            f.create_dataset("rgb", data=numbers((6, 40), "u1", 304), chunks=(2, 40), compression="gzip"); f["t"] = np.arange(6.0)
+            f.create_dataset("whole", data=numbers((6, 40), "<f4", 305), chunks=(6, 40), compression="gzip", shuffle=True)
+            f.create_dataset("grows", data=numbers((37, 3), "<f8", 306), chunks=(2, 3), maxshape=(None, 3), compression="lzf")
+            f.create_dataset("grows-plain", data=numbers((37, 3), "<i2", 307), chunks=(5, 3), maxshape=(None, 3))
+            # More chunks than a page of the index has, and chunks that are not there.
+            x = f.create_dataset("pages", (1100, 3), "<u2", chunks=(1, 3), fletcher32=True, fillvalue=7); x[::5] = numbers((220, 3), "<u2", 308)
+            f.create_dataset("unfiltered", data=numbers((7, 5), ">i4", 309), chunks=(2, 2))
+            f["group/deeper/half"] = numbers((5, 3), "<f2", 310)
+            f.create_dataset("group/texts", data=["gel", "", "ü中"]); f.create_dataset("group/record", data=np.array([(1, 2.5), (3, 4.5)], [("n", "<i4"), ("Fz", "<f8")]), chunks=(1,), compression="gzip")
+            # So many that the header goes on elsewhere.
+            for k in range(7): f["whole"].attrs[f"note{k}"] = "x" * 90
+    h5py.get_config().track_order = False
+    with h5py.File(HERE / "refused" / "two-growing-axes.h5", "w", libver="latest") as f:
+        f.create_dataset("rgb", data=numbers((6, 40), "u1", 311), chunks=(2, 40), maxshape=(None, None), compression="gzip"); f["t"] = np.arange(6.0)
 
 def write_links():
     """Soft links in the default layout, one that leads nowhere, and links in the newer layout, which are refused by their name."""

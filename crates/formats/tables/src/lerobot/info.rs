@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 
+use super::depth::{self, DepthCodes};
 use super::pattern::Pattern;
 use crate::error::{Place, TableError, shown};
 use crate::source::Source;
@@ -29,8 +30,10 @@ pub struct Feature {
     pub names: Vec<String>,
     /// Frames a second of a video: its own where it states them, else those of the dataset.
     pub fps: f64,
-    /// True of a video of depths: codes of 12 bits, which are no brightness.
+    /// True of a depth map: codes of 12 bits, which are no brightness.
     pub is_depth: bool,
+    /// The distances of its codes; none where the feature does not state them, or is no depth map.
+    pub depth: Option<DepthCodes>,
 }
 
 #[derive(Debug)]
@@ -40,6 +43,8 @@ pub(super) struct Info {
     pub(super) video: Option<Pattern>,
     pub(super) chunks_size: u64,
     pub(super) features: Vec<Feature>,
+    /// Depth maps whose codes are not known, each with the reason.
+    pub(super) unknown_depths: Vec<(String, String)>,
 }
 
 /// What the file at `source` says.
@@ -72,6 +77,7 @@ pub(super) fn parse(source: &Source, json: &Value) -> Result<Info, TableError> {
     let listed = json.get("features").and_then(Value::as_object);
     let listed = listed.ok_or_else(|| wrong("features", "expected an object".to_owned()))?;
     let mut features = Vec::with_capacity(listed.len());
+    let mut unknown_depths = Vec::new();
     for (name, feature) in listed {
         let dtype = feature.get("dtype").and_then(Value::as_str);
         let dtype = dtype.ok_or_else(|| wrong(name, "a feature without a dtype".to_owned()))?;
@@ -84,6 +90,10 @@ pub(super) fn parse(source: &Source, json: &Value) -> Result<Info, TableError> {
             let says = |name: &str| info.and_then(|info| info.get(name)?.as_bool()) == Some(true);
             says("is_depth_map") || says("video.is_depth_map")
         });
+        let codes = is_depth.then(|| depth::codes(feature)).transpose();
+        if let Err(problem) = &codes {
+            unknown_depths.push((name.clone(), problem.clone()));
+        }
         features.push(Feature {
             name: name.clone(),
             dtype: dtype.to_owned(),
@@ -95,6 +105,7 @@ pub(super) fn parse(source: &Source, json: &Value) -> Result<Info, TableError> {
             names: feature.get("names").map(names).unwrap_or_default(),
             fps: own.filter(|fps| is_rate(*fps)).unwrap_or(fps),
             is_depth,
+            depth: codes.unwrap_or_default(),
         });
     }
     Ok(Info {
@@ -107,6 +118,7 @@ pub(super) fn parse(source: &Source, json: &Value) -> Result<Info, TableError> {
             .unwrap_or(1000)
             .max(1),
         features,
+        unknown_depths,
     })
 }
 

@@ -55,9 +55,9 @@ pub(super) fn frames(dataset: &LeRobot, key: &str) -> Result<VideoFrames, TableE
         let known = videos().map(|feature| feature.name.clone());
         return Err(dataset.source.missing(key, known.collect()));
     };
-    if feature.is_depth {
-        let problem = "depths, as logarithmic codes of 12 bits that are no brightness: read them by `lerobot` in mm, and write their numbers as a feature or as `.npy`";
-        return Err(dataset.source.unsupported(Place::of(key), problem));
+    let mut unknown = dataset.info.unknown_depths.iter();
+    if let Some((_, problem)) = unknown.find(|(name, _)| name == key) {
+        return Err(dataset.source.unsupported(Place::of(key), problem.clone()));
     }
     let mut files = Files {
         key,

@@ -9,6 +9,7 @@ use base64::prelude::BASE64_STANDARD;
 
 use super::kind::ColumnKind;
 use super::schema::{LeafForm, Node, NodeKind};
+use crate::flatbuffer::Table;
 
 /// The type of a field that is a duration.
 const DURATION: u8 = 18;
@@ -77,98 +78,7 @@ fn duration(field: Table<'_>) -> Option<&'static str> {
 /// The table of a message: behind its length, which newer writers mark.
 fn message(bytes: &[u8]) -> Option<Table<'_>> {
     let begin = if bytes.get(..4)? == [0xff; 4] { 8 } else { 4 };
-    let bytes = bytes.get(begin..)?;
-    let at = unsigned(bytes, 0)?;
-    Some(Table { bytes, at })
-}
-
-/// A FlatBuffers table: what is at a place of it is found by the list of offsets that it names.
-#[derive(Clone, Copy)]
-struct Table<'b> {
-    bytes: &'b [u8],
-    at: usize,
-}
-
-/// A vector of tables.
-#[derive(Clone, Copy)]
-struct Tables<'b> {
-    bytes: &'b [u8],
-    at: usize,
-    length: usize,
-}
-
-impl<'b> Table<'b> {
-    /// Where the field of that number begins.
-    fn field(self, number: usize) -> Option<usize> {
-        let back = unsigned(self.bytes, self.at)?;
-        let back = i32::from_le_bytes(u32::try_from(back).ok()?.to_le_bytes());
-        let list = i64::try_from(self.at).ok()? - i64::from(back);
-        let list = usize::try_from(list).ok()?;
-        let place = 4 + 2 * number;
-        let has_place = place + 2 <= usize::from(short(self.bytes, list)?);
-        let offset = has_place.then(|| short(self.bytes, list.checked_add(place)?));
-        match offset.flatten()? {
-            0 => None,
-            offset => self.at.checked_add(usize::from(offset)),
-        }
-    }
-
-    fn byte(self, number: usize) -> Option<u8> {
-        self.bytes.get(self.field(number)?).copied()
-    }
-
-    fn short(self, number: usize) -> Option<u16> {
-        short(self.bytes, self.field(number)?)
-    }
-
-    /// Where what the field leads to begins.
-    fn lead(self, number: usize) -> Option<usize> {
-        let at = self.field(number)?;
-        at.checked_add(unsigned(self.bytes, at)?)
-    }
-
-    fn table(self, number: usize) -> Option<Table<'b>> {
-        let at = self.lead(number)?;
-        Some(Table { at, ..self })
-    }
-
-    fn text(self, number: usize) -> Option<&'b [u8]> {
-        let at = self.lead(number)?;
-        let begin = at.checked_add(4)?;
-        let end = begin.checked_add(unsigned(self.bytes, at)?)?;
-        self.bytes.get(begin..end)
-    }
-
-    fn tables(self, number: usize) -> Option<Tables<'b>> {
-        let at = self.lead(number)?;
-        Some(Tables {
-            bytes: self.bytes,
-            at: at.checked_add(4)?,
-            length: unsigned(self.bytes, at)?,
-        })
-    }
-}
-
-impl<'b> Tables<'b> {
-    fn at(self, position: usize) -> Option<Table<'b>> {
-        let place = position.checked_mul(4)?.checked_add(self.at)?;
-        let is_there = position < self.length;
-        let at = is_there.then(|| place.checked_add(unsigned(self.bytes, place)?));
-        Some(Table {
-            bytes: self.bytes,
-            at: at.flatten()?,
-        })
-    }
-}
-
-fn short(bytes: &[u8], at: usize) -> Option<u16> {
-    let own = bytes.get(at..at.checked_add(2)?)?;
-    Some(u16::from_le_bytes(own.try_into().ok()?))
-}
-
-fn unsigned(bytes: &[u8], at: usize) -> Option<usize> {
-    let own = bytes.get(at..at.checked_add(4)?)?;
-    usize::try_from(u32::from_le_bytes(own.try_into().ok()?)).ok()
+    Table::root(bytes.get(begin..)?)
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use crate::path::{indices, longest};
 use crate::source::Source;
 
 /// A column and the place in its cells that was asked for.
-pub(super) struct Found {
+pub(crate) struct Found {
     column: Node,
     name: String,
     rest: String,
@@ -16,7 +16,7 @@ pub(super) struct Found {
 
 impl Found {
     /// The column that `name` begins with, without the members of structures that it does not lead to.
-    pub(super) fn new(source: &Source, columns: &[Node], name: &str) -> Result<Found, TableError> {
+    pub(crate) fn new(source: &Source, columns: &[Node], name: &str) -> Result<Found, TableError> {
         let top = longest(name, columns.iter().map(|node| node.name.as_str()));
         let found = top.and_then(|(at, rest)| Some((narrow(&columns[at], rest)?, rest)));
         match found {
@@ -29,26 +29,26 @@ impl Found {
         }
     }
 
-    pub(super) fn column(&self) -> &Node {
+    pub(crate) fn column(&self) -> &Node {
         &self.column
     }
 
     /// What the part of the cells that was asked for is.
-    pub(super) fn kind(&self) -> Option<ColumnKind> {
+    pub(crate) fn kind(&self) -> Option<ColumnKind> {
         inside(&self.column, &self.rest).map(ColumnKind::of)
     }
 
-    pub(super) fn name(&self) -> &str {
+    pub(crate) fn name(&self) -> &str {
         &self.name
     }
 
     /// The leaf that was asked for, if its cells are bytes as they are and no list is on the way.
-    pub(super) fn leaf_of_bytes(&self) -> Option<usize> {
+    pub(crate) fn leaf_of_bytes(&self) -> Option<usize> {
         leaf_of_bytes(&self.column, &self.rest)
     }
 
     /// The part of `cell` that was asked for; null where a structure or a list on the way is.
-    pub(super) fn inside(
+    pub(crate) fn inside(
         &self,
         source: &Source,
         row: usize,
@@ -155,7 +155,7 @@ fn narrow(node: &Node, rest: &str) -> Option<Node> {
 }
 
 /// The names of all columns; of a structure those of its members.
-pub(super) fn names(columns: &[Node]) -> Vec<String> {
+pub(crate) fn names(columns: &[Node]) -> Vec<String> {
     let mut names = Vec::new();
     for node in columns {
         add_names(node, &node.name, &mut names);

@@ -38,7 +38,7 @@ pub enum ColumnKind {
 }
 
 impl ColumnKind {
-    pub(super) fn of_leaf(physical: Physical, form: LeafForm) -> ColumnKind {
+    pub(crate) fn of_leaf(physical: Physical, form: LeafForm) -> ColumnKind {
         match form {
             LeafForm::Text => ColumnKind::Text,
             LeafForm::Unsigned => ColumnKind::Integer,
@@ -54,7 +54,7 @@ impl ColumnKind {
         }
     }
 
-    pub(super) fn of(node: &Node) -> ColumnKind {
+    pub(crate) fn of(node: &Node) -> ColumnKind {
         match &node.kind {
             NodeKind::Leaf { kind, .. } => kind.clone(),
             NodeKind::Struct(_) => ColumnKind::Struct,

@@ -12,6 +12,7 @@ use super::pages::Pages;
 use super::schema::LeafForm;
 use crate::cell::Cell;
 use crate::error::{Place, TableError};
+use crate::scalar::{decimal, half, nanoseconds_in};
 use crate::source::Source;
 
 /// A leaf in one group of rows, read some rows at a time.
@@ -267,26 +268,6 @@ impl Leaf {
     }
 }
 
-/// `value` / 10^`scale`, rounded once: the decimal text is read as any number is.
-fn decimal(value: i128, scale: i32) -> Cell {
-    let text = format!("{value}e-{scale}");
-    Cell::Number(
-        text.parse()
-            .expect("digits and a power of ten are a number"),
-    )
-}
-
-/// The nanoseconds in a unit that a leaf counts times in; 64 bits of the longest, days, are far from the end of 128.
-fn nanoseconds_in(unit: &str) -> i128 {
-    match unit {
-        "ns" => 1,
-        "us" => 1_000,
-        "ms" => 1_000_000,
-        "s" => 1_000_000_000,
-        _ => 86_400_000_000_000,
-    }
-}
-
 /// A time stamp of 12 bytes: nanoseconds of the day and the Julian day, in nanoseconds since 1970.
 fn nanoseconds(value: &Int96) -> i128 {
     let [low, high, day] = [value.data()[0], value.data()[1], value.data()[2]];
@@ -294,43 +275,9 @@ fn nanoseconds(value: &Int96) -> i128 {
     (i128::from(day) - 2_440_588) * 86_400_000_000_000 + of_day
 }
 
-/// A number of half precision in double precision, exactly.
-fn half(bits: u16) -> f64 {
-    let sign = if bits & 0x8000 == 0 { 1.0 } else { -1.0 };
-    let exponent = i32::from((bits >> 10) & 0x1f);
-    let fraction = f64::from(bits & 0x3ff);
-    sign * match exponent {
-        0 => fraction * 2_f64.powi(-24),
-        31 if fraction == 0.0 => f64::INFINITY,
-        31 => f64::NAN,
-        _ => (1024.0 + fraction) * 2_f64.powi(exponent - 25),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn numbers_of_half_precision_are_exact() {
-        for (bits, value) in [
-            (0x3c00, 1.0),
-            (0xc000, -2.0),
-            (0x7bff, 65_504.0),
-            (0x0001, 2_f64.powi(-24)),
-            (0x3555, 0.333_251_953_125),
-        ] {
-            assert!((half(bits) - value).abs() < f64::MIN_POSITIVE, "{bits:x}");
-        }
-        assert!(half(0x7e00).is_nan());
-        assert!(half(0xfc00).is_infinite());
-    }
-
-    #[test]
-    fn decimals_are_the_nearest_number() {
-        assert_eq!(decimal(-12_345, 2), Cell::Number(-123.45));
-        assert_eq!(decimal(1, 38), Cell::Number(1e-38));
-    }
 
     #[test]
     fn old_time_stamps_count_from_1970() {

@@ -8,15 +8,15 @@ use crate::limits;
 
 /// A column or a part of one.
 #[derive(Clone, Debug)]
-pub(super) struct Node {
-    pub(super) name: String,
+pub(crate) struct Node {
+    pub(crate) name: String,
     /// The definition level from which this is not null.
-    pub(super) definition: i16,
-    pub(super) kind: NodeKind,
+    pub(crate) definition: i16,
+    pub(crate) kind: NodeKind,
 }
 
 #[derive(Clone, Debug)]
-pub(super) enum NodeKind {
+pub(crate) enum NodeKind {
     Leaf {
         column: usize,
         form: LeafForm,
@@ -33,7 +33,7 @@ pub(super) enum NodeKind {
 
 /// What the bits of a leaf mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum LeafForm {
+pub(crate) enum LeafForm {
     /// What the physical type says.
     Plain,
     Text,
@@ -48,7 +48,7 @@ pub(super) enum LeafForm {
 }
 
 /// The top-level columns of a schema; `Err` says what is not understood.
-pub(super) fn columns(schema: &SchemaDescriptor) -> Result<Vec<Node>, String> {
+pub(crate) fn columns(schema: &SchemaDescriptor) -> Result<Vec<Node>, String> {
     let mut leaves = 0;
     let nodes = schema
         .root_schema()

@@ -1,6 +1,6 @@
 """Writes the small files that are not among the shared recordings, by pyarrow, and what pyarrow reads back of them as JSON.
 
-    python make.py [KIND ...]      kinds: nested plain times mcap lerobot
+    python make.py [KIND ...]      kinds: nested arrow plain times mcap lerobot
 
 pyarrow 26, numpy, mcap 1.6, mcap-ros2-support 0.6, pillow. Numbers are drawn in closed form."""
 import datetime, decimal, json, sys
@@ -73,6 +73,38 @@ def nested():
         assert pq.read_table(folder / f"{name}.parquet").num_rows == rows
     keep = [0, 3, 5, 8, 17, 24, 299, 300, 511, 699]
     (folder / "expected.json").write_text(json.dumps({str(k): {name: column[k] for name, column in read.items()} for k in keep}, indent=1, ensure_ascii=False) + "\n")
+
+
+def arrow():
+    """The first rows of `nested` and columns of types that Parquet has not, as a stream and as files with a footer; and the example of the documentation."""
+    rows = 300
+    table = pq.read_table(HERE / "nested" / "plain.parquet").slice(0, rows)
+    table = table.set_column(table.schema.get_field_index("kind"), "kind", table["kind"].cast(pa.string()))
+    some = lambda k, value: None if k % 5 == 2 else value
+    more = {
+        "wide.text": pa.array([some(k, "é" * (k % 3)) for k in range(rows)], pa.large_string()),
+        "wide.bytes": pa.array([some(k, bytes([k % 256]) * (k % 4)) for k in range(rows)], pa.large_binary()),
+        "wide.list": pa.array([some(k, list(range(k % 4))) for k in range(rows)], pa.large_list(pa.int16())),
+        "nothing": pa.nulls(rows),
+        "date": pa.array([some(k, k) for k in range(rows)], pa.int32()).cast(pa.date32()),
+        "time": pa.array([some(k, k) for k in range(rows)], pa.time64("us")),
+        "lasts": pa.array([some(k, k) for k in range(rows)], pa.duration("ms")),
+        "seconds": pa.array([some(k, k) for k in range(rows)], pa.timestamp("s")),
+        "half.list": pa.array([some(k, [k / 8, None]) for k in range(rows)], pa.list_(pa.float16(), 2)),
+    }
+    for name, column in more.items(): table = table.append_column(name, column)
+    folder = HERE / "arrow"; folder.mkdir(exist_ok=True)
+    def write(path, form, table, **options):
+        with form(path, table.schema, options=pa.ipc.IpcWriteOptions(**options)) as sink:
+            for batch in table.to_batches(max_chunksize=130): sink.write_batch(batch)
+    write(folder / "stream.arrow", pa.ipc.new_stream, table)
+    write(folder / "zstd.arrow", pa.ipc.new_file, table, compression="zstd")
+    write(folder / "lz4.feather", pa.ipc.new_file, table, compression="lz4")
+    for name, column in (("dictionary", pa.array(["a", "b"]).dictionary_encode()), ("view", pa.array(["a"], pa.string_view())), ("union", pa.UnionArray.from_sparse(pa.array([0], pa.int8()), [pa.array([1])]))):
+        write(folder / f"{name}.arrow", pa.ipc.new_stream, pa.table({"Fz": pa.array([1.0] * len(column)), "odd": column}))
+    picture = pa.struct([("bytes", pa.binary()), ("path", pa.string())])
+    presses = pa.table({"t": [0.0, 0.5], "ft": pa.array([[0.0, 0.25, 2.0], [0.5, 0.25, 3.5]], pa.list_(pa.float32())), "image": pa.array([{"bytes": b"\x89PNG", "path": "0.png"}, None], picture)})
+    write(HERE.parents[1] / "examples" / "presses.arrow", pa.ipc.new_stream, presses)
 
 
 def plain():
@@ -312,5 +344,5 @@ def lerobot():
 
 
 if __name__ == "__main__":
-    for kind in sys.argv[1:] or ["nested", "plain", "times", "mcap", "lerobot"]:
+    for kind in sys.argv[1:] or ["nested", "arrow", "plain", "times", "mcap", "lerobot"]:
         globals()[kind]()

@@ -3,6 +3,7 @@
 #[path = "../recordings/mod.rs"]
 mod recordings;
 
+mod arrow;
 mod bags;
 mod lerobot;
 mod mcap;

@@ -5,7 +5,7 @@ use serde_json::Value;
 use taceva_tables::{Cell, ColumnKind, ParquetTable, TableError};
 
 /// A cell as `make.py` writes it.
-fn plain(cell: &Cell) -> Value {
+pub(crate) fn plain(cell: &Cell) -> Value {
     match cell {
         Cell::Null => Value::Null,
         Cell::Bool(value) => Value::from(*value),

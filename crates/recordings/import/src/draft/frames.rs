@@ -1,12 +1,14 @@
 //! Where the frames of a table seem to be.
 
+mod picture_lines;
+
 use std::path::Path;
 
 use super::roles::Role;
 use super::survey::FileGroup;
 use super::tables::{SeenColumn, SeenTable};
-use crate::foreign::{PictureColumn, PictureKind};
 use crate::source_folder::SourceFolder;
+use picture_lines::in_array;
 use taceva_dataset::ChannelOrder;
 use taceva_dataset::internal::{decode, limits, read_capped};
 
@@ -191,6 +193,10 @@ pub(super) fn of(
         let beside = Beside::of(main.group, table.group);
         return Some(in_array(&table.pictures[0], Some(beside), &[]));
     }
+    // Clips of LeRobot are named by their features: one that is not among them is no picture.
+    if main.group.first() == "meta/info.json" {
+        return None;
+    }
     let clips = groups.iter().find(|group| is_clip(&group.ending))?;
     let index = main
         .columns
@@ -280,76 +286,9 @@ fn is_gray(path: &Path) -> bool {
     bytes.is_ok_and(|bytes| decode(&bytes, ChannelOrder::Gray).is_ok())
 }
 
-fn in_array(
-    picture: &PictureColumn,
-    beside: Option<Beside>,
-    others: &[PictureColumn],
-) -> FrameLines {
-    let name = &picture.name;
-    let mut lines: Vec<String> = match others {
-        [] => Vec::new(),
-        others => {
-            let others: Vec<&str> = others.iter().map(|other| other.name.as_str()).collect();
-            vec![format!("# or: {}", others.join(", "))]
-        }
-    };
-    let mut is_gray = false;
-    match (&picture.kind, beside) {
-        (PictureKind::Clip, _) => lines.push(format!("video = {name:?}")),
-        (PictureKind::Encoded, _) => lines.push(format!("bytes = {name:?}")),
-        (PictureKind::Array { .. }, None) => lines.push(format!("array = {name:?}")),
-        (PictureKind::Array { .. }, Some(beside)) => {
-            lines.extend(beside.comment);
-            lines.push(format!("array = {{ file = {:?} }}", beside.file));
-            lines.extend(beside.index);
-        }
-    }
-    if let PictureKind::Array {
-        is_gray: gray,
-        is_planar,
-        range,
-    } = &picture.kind
-    {
-        is_gray = *gray;
-        if *is_planar {
-            lines.push("layout = \"nchw\"".to_owned());
-        }
-        if let Some([least, greatest]) = range {
-            let (black, full) = guessed_range(*least, *greatest);
-            lines.push(format!("# The first frames have numbers from {least} to {greatest}: which is black, which is full?"));
-            lines.push(format!("range = [{black}, {full}]"));
-            lines.push("bits = 8".to_owned());
-        }
-    }
-    FrameLines {
-        lines,
-        is_gray,
-        order: picture.order,
-        ..FrameLines::default()
-    }
-}
-
-/// The range that pictures of such numbers mostly have: 0 to 1, −1 to 1 or 0 to 255.
-fn guessed_range(least: f64, greatest: f64) -> (f64, f64) {
-    match (least, greatest) {
-        (least, greatest) if least >= 0.0 && greatest <= 1.0 => (0.0, 1.0),
-        (least, greatest) if least >= -1.0 && greatest <= 1.0 => (-1.0, 1.0),
-        (least, greatest) if least >= 0.0 && greatest <= 255.0 => (0.0, 255.0),
-        other => other,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_range_is_guessed_by_what_pictures_are_mostly_kept_in() {
-        assert_eq!(guessed_range(0.1, 0.9), (0.0, 1.0));
-        assert_eq!(guessed_range(-0.5, 0.9), (-1.0, 1.0));
-        assert_eq!(guessed_range(3.0, 250.0), (0.0, 255.0));
-        assert_eq!(guessed_range(-2048.0, 2032.0), (-2048.0, 2032.0));
-    }
 
     fn group(paths: &[&str]) -> FileGroup {
         FileGroup {

@@ -30,6 +30,15 @@ pub(super) fn refused_form(group: &FileGroup) -> Option<String> {
     Some(format!("{} is not read: {remedy}", group.first()))
 }
 
+/// Advice for clips beside which no table lies.
+pub(super) fn bare_clips(clips: &FileGroup) -> String {
+    let clip = clips.first();
+    format!(
+        "{clip} has frames and nothing here has labels: write a table beside it, such as labels.csv with the columns `frame` (from 0) and `Fz`, and \
+         draft again (`video = {clip:?}`, `index = \"frame\"`); `ffmpeg -i {clip} %06d.png` writes its frames as pictures, which need no table"
+    )
+}
+
 /// That a preset is made for what lies here.
 pub(super) fn known_layout(preset: &str) -> String {
     format!(

@@ -41,7 +41,7 @@ impl FileGroup {
     }
 }
 
-/// The groups of files below `folder`. A zarr store counts as a file; hidden files, maps and links are not looked at.
+/// The groups of files below `folder`. A store of zarr or Lance counts as a file; hidden files, maps and links are not looked at.
 pub(super) fn groups(folder: &SourceFolder) -> Result<Vec<FileGroup>, DatasetError> {
     let mut files = Vec::new();
     let mut folders = vec![String::new()];
@@ -64,7 +64,7 @@ pub(super) fn groups(folder: &SourceFolder) -> Result<Vec<FileGroup>, DatasetErr
             let is_store = kind.is_dir()
                 && Path::new(&name)
                     .extension()
-                    .is_some_and(|ending| ending == "zarr");
+                    .is_some_and(|ending| ending == "zarr" || ending == "lance");
             // A dataset that was made here is no part of what the lab recorded.
             if kind.is_dir() && entry.path().join("dataset.toml").is_file() {
                 continue;

@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
 
-use taceva_tables::{Cell, ColumnKind, LeRobot, ParquetTable, TableError};
+use taceva_tables::{ArrowTable, Cell, ColumnKind, LeRobot, ParquetTable, TableError};
 
 use super::pictures::{Ended, Picture, Pictures, Visit, damaged, guarded_visit};
 use super::said;
@@ -62,7 +62,7 @@ pub(super) trait ByteColumns: Sized + fmt::Debug + Send + Sync {
     }
 }
 
-/// The readers of both forms have the same methods, but for the name of the one that says where the table is.
+/// The readers of all forms have the same methods, but for the name of the one that says where the table is.
 macro_rules! byte_columns {
     ($table:ty, $place:ident $(, $present:item)?) => {
         impl ByteColumns for $table {
@@ -97,6 +97,7 @@ macro_rules! byte_columns {
 }
 
 byte_columns!(ParquetTable, path);
+byte_columns!(ArrowTable, path);
 byte_columns!(
     LeRobot,
     folder,

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use taceva_core::{Frame, FrameInfo, PixelFormat};
 use taceva_video::{Colours, Decoders, Video, VisitError};
 
+use super::depth_pixels::DepthPixels;
 use super::pictures::{Ended, Picture, Pictures, Visit, damaged, guarded_visit};
 use super::said;
 use taceva_dataset::internal::guarded;
@@ -17,11 +18,17 @@ pub(crate) struct ClipPictures {
     decoders: Decoders,
     count: u64,
     codec: FrameCodec,
+    /// Those of a depth map, whose numbers are no brightness.
+    depth: Option<DepthPixels>,
 }
 
 impl ClipPictures {
-    /// The clip at `path`.
-    pub(crate) fn open(path: &Path, decoders: &Decoders) -> Result<ClipPictures, DatasetError> {
+    /// The clip at `path`, a depth map where it has such pixels.
+    pub(crate) fn open(
+        path: &Path,
+        decoders: &Decoders,
+        depth: Option<DepthPixels>,
+    ) -> Result<ClipPictures, DatasetError> {
         let video = open(path, decoders)?;
         let info = video.info();
         let mut codec = FrameCodec::new(&info.codec, &info.pixel_format);
@@ -32,6 +39,7 @@ impl ClipPictures {
             path: path.to_owned(),
             decoders: decoders.clone(),
             count: video.info().frames,
+            depth,
         })
     }
 }
@@ -64,14 +72,19 @@ impl Pictures for ClipPictures {
         let video = open(&self.path, &self.decoders)?;
         let (colours, format) = match order {
             ChannelOrder::Gray => (Colours::Luma, PixelFormat::Gray8),
+            _ if self.depth.is_some() => {
+                let problem = "a depth map has no colours: `channel_order = \"gray\"`";
+                return Err(damaged(&self.path, problem.to_owned()));
+            }
             _ => (Colours::Rgb, PixelFormat::Rgb8),
         };
         guarded_visit(&self.path, || {
             let outcome = video.visit(sorted, colours, &mut |index, picture| {
-                each(
-                    index,
-                    kept(picture, format).map_err(|problem| damaged(&self.path, problem))?,
-                )
+                let kept = match &self.depth {
+                    None => kept(picture, format),
+                    Some(depth) => of_depth(&picture, depth),
+                };
+                each(index, kept.map_err(|problem| damaged(&self.path, problem))?)
             });
             outcome.map_err(|ended| match ended {
                 VisitError::Video(error) => Ended::File(error),
@@ -79,6 +92,40 @@ impl Pictures for ClipPictures {
             })
         })
     }
+}
+
+/// The distances in a picture of a depth map.
+fn of_depth(picture: &taceva_video::Picture, depth: &DepthPixels) -> Result<Picture, String> {
+    let taceva_video::Picture::Deep {
+        width,
+        height,
+        bits,
+        samples,
+    } = picture
+    else {
+        return Err(format!(
+            "{picture:?} where a depth map has codes of 12 bits (gray12le): the clip was coded anew, or another program wrote it"
+        ));
+    };
+    let pixels = depth.of(samples, *bits)?.into_iter();
+    let (format, bytes) = match depth.bits() {
+        8 => (
+            PixelFormat::Gray8,
+            pixels.map(|pixel| pixel.to_le_bytes()[0]).collect(),
+        ),
+        _ => (
+            PixelFormat::Gray16,
+            pixels.flat_map(u16::to_le_bytes).collect(),
+        ),
+    };
+    framed(
+        FrameInfo {
+            width: *width,
+            height: *height,
+            format,
+        },
+        bytes,
+    )
 }
 
 /// The picture as it is kept: a packet of Motion JPEG as it came, numbers of more than 8 bits as they are in 16.
@@ -105,11 +152,17 @@ fn kept(picture: taceva_video::Picture, format: PixelFormat) -> Result<Picture, 
             ));
         }
     };
-    let info = FrameInfo {
-        width,
-        height,
-        format,
-    };
+    framed(
+        FrameInfo {
+            width,
+            height,
+            format,
+        },
+        bytes,
+    )
+}
+
+fn framed(info: FrameInfo, bytes: Vec<u8>) -> Result<Picture, String> {
     let frame = Frame::new(info, bytes).map_err(|error| error.to_string())?;
     Ok(Picture::Pixels(frame))
 }

@@ -9,6 +9,7 @@ use super::pictures::Pictures;
 use crate::frame_names::FrameNames;
 use taceva_dataset::internal::guarded;
 use taceva_dataset::{ChannelOrder, DatasetError, Place};
+use taceva_tables::DepthCodes;
 
 /// What a file says of the numbers in a column, in attributes of its array.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -86,6 +87,11 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
             "no clips belong to its rows that `{key}` could name"
         ))
     }
+
+    /// The distances of the codes of `key`, where it is a depth map.
+    fn depth(&self, _key: &str) -> Option<DepthCodes> {
+        None
+    }
 }
 
 /// A column that seems to hold pictures.
@@ -104,6 +110,8 @@ pub(crate) enum PictureKind {
     Encoded,
     /// Frames of clips beside the table.
     Clip,
+    /// The same of a depth map.
+    Depth(DepthCodes),
     Array {
         is_gray: bool,
         is_planar: bool,
@@ -239,6 +247,10 @@ impl ColumnTable {
     pub(super) fn clips(&self, key: &str) -> Result<Vec<(String, u64)>, DatasetError> {
         let clips = guarded(|| self.source.clips(key)).and_then(|found| found);
         clips.map_err(|problem| wrong(&self.path, problem))
+    }
+
+    pub(super) fn depth(&self, key: &str) -> Option<DepthCodes> {
+        self.source.depth(key)
     }
 
     /// The pictures that belong to the rows.

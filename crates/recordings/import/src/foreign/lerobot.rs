@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use taceva_tables::{ColumnKind, LeRobot};
+use taceva_tables::{ColumnKind, DepthCodes, LeRobot};
 
 use super::byte_pictures::{ByteColumns, EncodedPictures};
 use super::columns::{ColumnSource, PictureColumn, PictureKind};
@@ -51,13 +51,15 @@ impl ColumnSource for LeRobotRows {
         self.dataset.kind_within(name) == Some(ColumnKind::Integer)
     }
 
+    /// Pictures first, then depth maps whose codes are known.
     fn picture_columns(&self) -> Vec<PictureColumn> {
         let features = self.dataset.features().iter();
-        let features = features.filter(|feature| !feature.is_depth);
         let features = features.filter_map(|feature| {
-            let kind = match feature.dtype.as_str() {
-                "video" => PictureKind::Clip,
-                "image" => PictureKind::Encoded,
+            let kind = match (feature.dtype.as_str(), feature.is_depth, feature.depth) {
+                ("video", true, Some(codes)) => PictureKind::Depth(codes),
+                (_, true, _) => return None,
+                ("video", ..) => PictureKind::Clip,
+                ("image", ..) => PictureKind::Encoded,
                 _ => return None,
             };
             Some(PictureColumn {
@@ -66,17 +68,26 @@ impl ColumnSource for LeRobotRows {
                 order: None,
             })
         });
-        features.collect()
+        let mut columns: Vec<PictureColumn> = features.collect();
+        columns.sort_by_key(|column| matches!(column.kind, PictureKind::Depth(_)));
+        columns
     }
 
-    /// Depths, whose codes are no pictures.
+    /// Depth maps whose codes are not known.
     fn unread(&self) -> Vec<String> {
         let features = self.dataset.features().iter();
-        let depths = features.filter(|feature| feature.is_depth && feature.dtype == "video");
+        let depths = features.filter(|feature| {
+            feature.is_depth && feature.depth.is_none() && feature.dtype == "video"
+        });
         let refused = depths.filter_map(|feature| self.dataset.video(&feature.name).err());
         refused
             .map(|error| said(self.dataset.folder(), &error))
             .collect()
+    }
+
+    fn depth(&self, key: &str) -> Option<DepthCodes> {
+        let mut features = self.dataset.features().iter();
+        features.find(|feature| feature.name == key)?.depth
     }
 
     fn element_names(&self, column: &str) -> Vec<String> {

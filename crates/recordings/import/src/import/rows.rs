@@ -13,7 +13,7 @@ use super::resolve::{
     ClassCells, ColumnSignals, CoordinateFrames, JoinMatches, NamedBy, ResolvedTable, resolve,
 };
 use super::warning::ImportWarning;
-use crate::foreign::{Pictures, TableForm};
+use crate::foreign::{DepthPixels, Pictures, TableForm};
 use crate::source_folder::SourceFolder;
 use taceva_dataset::internal::shown;
 use taceva_dataset::{DatasetError, Place, Row};
@@ -60,6 +60,8 @@ pub(super) struct MappedTable<'a> {
     reference: Option<usize>,
     /// The pictures that the table itself holds.
     pub(super) pictures: Option<Arc<dyn Pictures>>,
+    /// The pixels of a depth map that its clips are.
+    pub(super) depth: Option<DepthPixels>,
     /// The numbers of taxels of every row, where they are in columns.
     signals: Option<ColumnSignals>,
     /// The folders of joined tables that name files.
@@ -80,6 +82,23 @@ impl<'a> MappedTable<'a> {
         let clips = match (&map.form, names) {
             (TableForm::LeRobot, Some(FrameNames::Video(video))) => {
                 Some(found.main.clips(&video.file)?)
+            }
+            _ => None,
+        };
+        let depth = match names {
+            Some(FrameNames::Video(video)) => {
+                let depth = match (found.main.depth(&video.file), video.range) {
+                    (Some(codes), range) => DepthPixels::new(codes, range).map(Some),
+                    (None, None) => Ok(None),
+                    (None, Some(_)) => Err(format!(
+                        "`range` and `bits` are for an `array`, and for a depth map of LeRobot, which `{}` is not",
+                        shown(&video.file)
+                    )),
+                };
+                depth.map_err(|problem| DatasetError::Table {
+                    place: Place::file(path),
+                    problem,
+                })?
             }
             _ => None,
         };
@@ -147,6 +166,7 @@ impl<'a> MappedTable<'a> {
                 .map(find)
                 .transpose()?,
             pictures,
+            depth,
             signals: found.signals,
             unmentioned: found.unmentioned,
             joins: found.joins,

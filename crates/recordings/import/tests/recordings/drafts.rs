@@ -55,11 +55,7 @@ fn finished_draft(name: &str) -> Result<String, String> {
 }
 
 /// Folders whose drafts leave more open than units and signs.
-const MORE_OPEN: [&str; 11] = [
-    // Not read at all: data layout version 5.
-    "hdf5-fletcher-latest",
-    "hdf5-gzip-shuffle-latest",
-    "hdf5-lzf-latest",
+const MORE_OPEN: [&str; 8] = [
     // How much later one clock shows the same instant stands nowhere.
     "join-time",
     // That the columns are volts, of which a matrix beside them makes forces.
@@ -76,8 +72,9 @@ const MORE_OPEN: [&str; 11] = [
 ];
 
 /// Clips that ffmpeg alone decodes here: AV1 has a child of the program for it otherwise.
-const DECODED_BY_FFMPEG: [&str; 5] = [
+const DECODED_BY_FFMPEG: [&str; 6] = [
     "lerobot-v3-av1",
+    "lerobot-v3-depth",
     "mkv-ffv1",
     "mp4-av1",
     "mp4-h264-444",

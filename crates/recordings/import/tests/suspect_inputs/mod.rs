@@ -1,5 +1,6 @@
 //! Folders on which a wrong number would go in, or a good file would be refused: each is right, refused with the remedy, or warned of.
 
+mod converters;
 mod coordinate_frames;
 mod drafts;
 mod numbers;

@@ -55,6 +55,7 @@ pub(super) fn form_of(path: &Path, group: &FileGroup) -> Option<(TableForm, Stri
         }
         "jsonl" | "ndjson" => plain(TableForm::JsonLines),
         "parquet" => plain(TableForm::Parquet),
+        "arrow" | "feather" => plain(TableForm::Arrow),
         "tar" => plain(TableForm::WebDataset),
         _ => {
             let format = ArrayFormat::of(path)?;

@@ -82,8 +82,10 @@ impl Check<'_> {
         let index = written
             .index
             .map_or_else(|| OWN_ROW.to_owned(), ColumnName::into_name);
-        if written.array.is_none() && (written.layout.is_some() || range.is_some()) {
-            return Err(self.at(offset, "`layout`, `range` and `bits` are for an `array`"));
+        if written.array.is_none()
+            && (written.layout.is_some() || written.video.is_none() && range.is_some())
+        {
+            return Err(self.at(offset, "`layout` is for an `array`, `range` and `bits` for one or for a depth map as `video`"));
         }
         let given = (
             written.column,
@@ -120,7 +122,7 @@ impl Check<'_> {
             }
             (None, None, None, None, Some(file)) => {
                 self.relative(&file, offset)?;
-                FrameNames::Video(VideoFrames { file, index })
+                FrameNames::Video(VideoFrames { file, index, range })
             }
             _ => {
                 return Err(self.at(

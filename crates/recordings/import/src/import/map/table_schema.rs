@@ -54,6 +54,7 @@ enum Format {
     Mat,
     Pickle,
     Parquet,
+    Arrow,
     Mcap,
     Lerobot,
     Webdataset,
@@ -67,6 +68,7 @@ impl Format {
             | Format::Json
             | Format::Jsonl
             | Format::Parquet
+            | Format::Arrow
             | Format::Mcap
             | Format::Lerobot
             | Format::Webdataset => return None,
@@ -99,6 +101,7 @@ fn form_of(path: &str, format: Option<Format>) -> TableForm {
     match (format, ending.as_deref()) {
         (Some(Format::Json), _) | (None, Some("json")) => TableForm::Json { rows: None },
         (Some(Format::Parquet), _) | (None, Some("parquet")) => TableForm::Parquet,
+        (Some(Format::Arrow), _) | (None, Some("arrow" | "feather")) => TableForm::Arrow,
         (Some(Format::Lerobot), _) => TableForm::LeRobot,
         (Some(Format::Webdataset), _) | (None, Some("tar")) => TableForm::WebDataset,
         (Some(Format::Mcap), _) => TableForm::Messages { topic: None },
@@ -110,6 +113,14 @@ fn form_of(path: &str, format: Option<Format>) -> TableForm {
 
 /// The command that makes a table which is read of one that is not, by what its name ends with.
 pub(crate) fn converter(path: &str) -> Option<String> {
+    // A table of Lance is a folder.
+    if let Some((table, _)) = format!("{path}/").split_once(".lance/") {
+        let (folder, name) = table.rsplit_once('/').unwrap_or((".", table));
+        return Some(format!(
+            "in Python `pyarrow.parquet.write_table(lancedb.connect({folder:?}).open_table({name:?}).to_arrow(), \"{name}.parquet\")` \
+             of the package lancedb writes a table that is"
+        ));
+    }
     let (stem, ending) = path.rsplit_once('.')?;
     let (stem, file) = match stem.contains('*') {
         true => ("OUT", "FILE"),
@@ -120,6 +131,11 @@ pub(crate) fn converter(path: &str) -> Option<String> {
             format!("`libreoffice --headless --convert-to csv {file}` writes a table that is")
         }
         "zst" | "zstd" => format!("`zstd -d {file} -o {stem}` writes a file that is"),
+        "rrd" => format!(
+            "in Python `t = pyarrow.Table.from_batches(rerun.server.Server(datasets={{\"d\": [{file:?}]}}).client().get_dataset(name=\"d\")\
+             .reader(index=\"frame\").collect())` of `rerun-sdk[catalog]`, and `pyarrow.parquet.write_table(t, \"{stem}.parquet\")` of its columns \
+             without tensors, write a table that is"
+        ),
         _ => return None,
     })
 }

@@ -51,6 +51,8 @@ pub(super) fn pictures(map: &FrameMap) -> MappedPictures {
         FrameNames::Video(video) => {
             let mut pictures = of("video", &video.file);
             pictures.index = index(&video.index);
+            pictures.range = video.range.map(|range| range.ends());
+            pictures.bits = video.range.map(|range| range.bits());
             pictures
         }
         FrameNames::Array(array) => {

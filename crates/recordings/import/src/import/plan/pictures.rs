@@ -147,7 +147,10 @@ impl Reading<'_> {
             Some(names @ FrameNames::Array(array)) => {
                 Arc::new(ArrayPictures::open(path, names, array)?)
             }
-            Some(FrameNames::Video(_)) => Arc::new(ClipPictures::open(path, self.decoders)?),
+            Some(FrameNames::Video(_)) => {
+                let depth = self.depth.clone();
+                Arc::new(ClipPictures::open(path, self.decoders, depth)?)
+            }
             _ => {
                 return Err(DatasetError::Path {
                     place: None,

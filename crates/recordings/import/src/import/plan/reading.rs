@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use taceva_video::Decoders;
 
-use crate::foreign::{Pictures, TableForm};
+use crate::foreign::{DepthPixels, Pictures, TableForm};
 use crate::import::frame_cells::FrameName;
 use crate::import::frame_plan::{FrameSource, PlannedFrame};
 use crate::import::map::ImportMap;
@@ -27,6 +27,8 @@ pub(super) struct Reading<'a> {
     pub(super) count: usize,
     /// The table that is being read.
     pub(super) current: PathBuf,
+    /// The pixels of a depth map that the clips of that table are.
+    pub(super) depth: Option<DepthPixels>,
     pub(super) table: Table,
     /// The files with pictures in them that rows named.
     pub(super) opened: BTreeMap<PathBuf, Arc<dyn Pictures>>,
@@ -64,6 +66,7 @@ impl<'a> Reading<'a> {
             decoders,
             count: 0,
             current: PathBuf::new(),
+            depth: None,
             opened: BTreeMap::new(),
             counted: BTreeMap::new(),
             table: Table::new(map.channels.clone(), attributes),
@@ -84,6 +87,7 @@ impl<'a> Reading<'a> {
     pub(super) fn read(&mut self, path: &Path) -> Result<(), DatasetError> {
         let mut rows = MappedTable::open(self.map, self.folder, path)?;
         path.clone_into(&mut self.current);
+        self.depth = rows.depth.take();
         self.summary.unmentioned_columns.extend(rows.unmentioned());
         for join in std::mem::take(&mut rows.joins) {
             let mut joins = self.joins.iter_mut();

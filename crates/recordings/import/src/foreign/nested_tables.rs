@@ -1,10 +1,10 @@
-//! Parquet as a table, pictures in its cells too.
+//! Parquet and Arrow as tables, with nested cells and pictures in them.
 
 use std::path::Path;
 use std::sync::Arc;
 
 use serde_json::Value;
-use taceva_tables::{ColumnKind, ParquetTable, TableError};
+use taceva_tables::{ArrowTable, ColumnKind, ParquetTable, TableError};
 
 use super::byte_pictures::{ByteColumns, EncodedPictures};
 use super::columns::{ColumnSource, PictureColumn, PictureKind};
@@ -13,32 +13,61 @@ use super::said;
 use crate::frame_names::FrameNames;
 use taceva_dataset::internal::ImageKind;
 
-/// The rows of a Parquet file.
-#[derive(Debug)]
-pub(super) struct ParquetRows {
-    table: Arc<ParquetTable>,
+/// A table of one of these forms: the readers of both have the same methods.
+pub(super) trait NestedTable: ByteColumns + 'static {
+    fn of_file(path: &Path) -> Result<Self, TableError>;
+    fn all_names(&self) -> Vec<String>;
+    /// The text that a writer put beside the schema.
+    fn beside(&self, key: &str) -> Option<&str>;
 }
 
-impl ParquetRows {
-    pub(super) fn open(path: &Path) -> Result<ParquetRows, String> {
-        let table = ParquetTable::open(path).map_err(|error| said(path, &error))?;
-        Ok(ParquetRows {
+macro_rules! nested_table {
+    ($table:ty) => {
+        impl NestedTable for $table {
+            fn of_file(path: &Path) -> Result<Self, TableError> {
+                Self::open(path)
+            }
+
+            fn all_names(&self) -> Vec<String> {
+                self.names()
+            }
+
+            fn beside(&self, key: &str) -> Option<&str> {
+                self.metadata(key)
+            }
+        }
+    };
+}
+
+nested_table!(ParquetTable);
+nested_table!(ArrowTable);
+
+/// The rows of such a table.
+#[derive(Debug)]
+pub(super) struct NestedRows<T> {
+    table: Arc<T>,
+}
+
+impl<T: NestedTable> NestedRows<T> {
+    pub(super) fn open(path: &Path) -> Result<NestedRows<T>, String> {
+        let table = T::of_file(path).map_err(|error| said(path, &error))?;
+        Ok(NestedRows {
             table: Arc::new(table),
         })
     }
 }
 
-impl ColumnSource for ParquetRows {
+impl<T: NestedTable> ColumnSource for NestedRows<T> {
     fn rows(&self) -> usize {
-        usize::try_from(self.table.rows()).unwrap_or(usize::MAX)
+        usize::try_from(self.table.count()).unwrap_or(usize::MAX)
     }
 
     fn names(&self) -> Vec<String> {
-        self.table.names()
+        self.table.all_names()
     }
 
     fn has(&self, name: &str) -> bool {
-        self.table.names().iter().any(|known| known == name)
+        self.table.all_names().iter().any(|known| known == name)
     }
 
     fn columns(&self, names: &[&str]) -> Result<Vec<Vec<String>>, String> {
@@ -56,9 +85,9 @@ impl ColumnSource for ParquetRows {
     fn picture_columns(&self) -> Vec<PictureColumn> {
         let is_encoded = |name: &String| {
             let mut is_encoded = false;
-            let _ = self.table.visit_bytes(name, &[0], &mut |_, bytes| {
+            let _ = self.table.visit(name, &[0], &mut |_, bytes| {
                 is_encoded = bytes.is_some_and(|bytes| ImageKind::of(&bytes).is_some());
-                Ok::<(), TableError>(())
+                Ok(())
             });
             is_encoded
         };
@@ -74,7 +103,7 @@ impl ColumnSource for ParquetRows {
 
     /// As Hugging Face writes them: `{"info": {"features": {"label": {"names": […]}}}}`.
     fn classes(&self) -> Vec<(String, Vec<String>)> {
-        let stated = self.table.metadata("huggingface");
+        let stated = self.table.beside("huggingface");
         let stated: Option<Value> = stated.and_then(|text| serde_json::from_str(text).ok());
         let features = stated
             .as_ref()
@@ -93,7 +122,8 @@ impl ColumnSource for ParquetRows {
     fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, String> {
         let FrameNames::Bytes(column) = names else {
             return Err(
-                "pictures in a Parquet file are encoded: `bytes` names their column".to_owned(),
+                "pictures in a table of this form are encoded: `bytes` names their column"
+                    .to_owned(),
             );
         };
         if !self.has(column) {

@@ -1,0 +1,144 @@
+//! Messages of a stream, and the places of the buffers of a batch of rows.
+
+use std::fs::File;
+
+use crate::codec::Codec;
+use crate::error::{Place, TableError};
+use crate::flatbuffer::Table;
+use crate::limits;
+use crate::source::Source;
+
+/// The kinds of messages that are read.
+pub(super) const SCHEMA: u8 = 1;
+pub(super) const RECORDS: u8 = 3;
+/// The four bytes before the length of a message, since Arrow 0.15.
+const CONTINUED: u32 = u32::MAX;
+
+/// A message: its metadata, and the place of the bytes behind it.
+pub(super) struct Message {
+    /// Its place in the file.
+    pub(super) at: u64,
+    pub(super) kind: u8,
+    metadata: Vec<u8>,
+    body: u64,
+    body_bytes: u64,
+}
+
+impl Message {
+    /// The message at `at`, which is moved behind it; `None` at the mark of the end.
+    pub(super) fn next(
+        source: &Source,
+        file: &mut File,
+        at: &mut u64,
+    ) -> Result<Option<Message>, TableError> {
+        let begin = *at;
+        if begin >= source.length() {
+            let problem = "a stream of Arrow without the mark of its end: it was cut short, or its writer was not closed";
+            return Err(source.damaged(Place::byte(begin), problem));
+        }
+        let mut word = |at: u64| {
+            let word = source.bytes(file, at, 4, 4)?;
+            Ok::<u32, TableError>(word.first_chunk().copied().map_or(0, u32::from_le_bytes))
+        };
+        let (length, start) = match word(begin)? {
+            CONTINUED => (word(begin + 4)?, begin + 8),
+            length => (length, begin + 4),
+        };
+        if length == 0 {
+            return Ok(None);
+        }
+        let length = u64::from(length);
+        let metadata = source.bytes(file, start, length, limits::DESCRIPTION_BYTES)?;
+        let read = Table::root(&metadata).and_then(|message| {
+            let bytes = message.long(3).unwrap_or(0);
+            Some((message.byte(1)?, u64::try_from(bytes).ok()?))
+        });
+        let Some((kind, body_bytes)) = read else {
+            let problem = "no message of Arrow";
+            return Err(source.damaged(Place::byte(begin), problem));
+        };
+        let body = start + length;
+        let end = body.checked_add(body_bytes);
+        let Some(end) = end.filter(|end| *end <= source.length()) else {
+            let problem = format!(
+                "a batch of {body_bytes} bytes, the file ends {} bytes behind its beginning",
+                source.length() - body
+            );
+            return Err(source.damaged(Place::byte(begin), problem));
+        };
+        *at = end;
+        Ok(Some(Message {
+            at: begin,
+            kind,
+            metadata,
+            body,
+            body_bytes,
+        }))
+    }
+
+    pub(super) fn header(&self) -> Result<Table<'_>, String> {
+        let header = Table::root(&self.metadata).and_then(|message| message.table(2));
+        header.ok_or_else(|| "a message without its header".to_owned())
+    }
+}
+
+/// Rows whose columns lie one behind the other.
+#[derive(Debug)]
+pub(super) struct Batch {
+    /// The number of its first row in the table.
+    pub(super) first: u64,
+    pub(super) rows: u64,
+    /// Places of buffers in the file, and their lengths.
+    pub(super) buffers: Vec<Buffer>,
+    pub(super) codec: Option<Codec>,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Buffer {
+    pub(super) at: u64,
+    pub(super) bytes: u64,
+}
+
+impl Batch {
+    /// The batch in a message, whose schema asks for `buffers` buffers.
+    pub(super) fn new(message: &Message, first: u64, buffers: usize) -> Result<Batch, String> {
+        let header = message.header()?;
+        let rows =
+            u64::try_from(header.long(0).unwrap_or(0)).map_err(|_| "a negative number of rows")?;
+        let written = header.elements(2, 16).unwrap_or_default();
+        let written = written.chunks_exact(16).map(|buffer| {
+            let number = |at: usize| buffer[at..].first_chunk().copied().map(u64::from_le_bytes);
+            let (offset, bytes) = number(0).zip(number(8)).unwrap_or_default();
+            let end = offset.checked_add(bytes);
+            match end.is_some_and(|end| end <= message.body_bytes) {
+                true => Ok(Buffer {
+                    at: message.body + offset,
+                    bytes,
+                }),
+                false => Err(format!(
+                    "a buffer of {bytes} bytes from byte {offset} of {}",
+                    message.body_bytes
+                )),
+            }
+        });
+        let written = written.collect::<Result<Vec<Buffer>, String>>()?;
+        if written.len() != buffers {
+            return Err(format!(
+                "{} buffers, its schema asks for {buffers}",
+                written.len()
+            ));
+        }
+        let codec = match header.table(3).map(|packed| packed.byte(0).unwrap_or(0)) {
+            None => None,
+            Some(0) => Some(Codec::Lz4Frame),
+            Some(1) => Some(Codec::Zstd),
+            Some(other) => return Err(format!("compression {other}, expected 0 or 1")),
+        };
+        Ok(Batch {
+            first,
+            rows,
+            buffers: written,
+            codec,
+        })
+    }
+}

@@ -1,0 +1,86 @@
+//! The lines of pictures in cells, arrays and clips of a table.
+
+use super::{Beside, FrameLines};
+use crate::foreign::{PictureColumn, PictureKind};
+
+/// The lines of `picture`, and of the `others` in the same table.
+pub(super) fn in_array(
+    picture: &PictureColumn,
+    beside: Option<Beside>,
+    others: &[PictureColumn],
+) -> FrameLines {
+    let name = &picture.name;
+    let mut lines: Vec<String> = match others {
+        [] => Vec::new(),
+        others => {
+            let others: Vec<&str> = others.iter().map(|other| other.name.as_str()).collect();
+            vec![format!("# or: {}", others.join(", "))]
+        }
+    };
+    let mut is_gray = false;
+    match (&picture.kind, beside) {
+        (PictureKind::Clip, _) => lines.push(format!("video = {name:?}")),
+        (PictureKind::Depth(codes), _) => {
+            is_gray = true;
+            let [least, greatest] = codes.ends_mm();
+            lines.push(format!("video = {name:?}   # a depth map: distances from {least} mm to {greatest} mm, in whole millimetres"));
+            if codes.is_finer_than_millimetres() || greatest > 65_535.0 {
+                lines.push(format!("range = [{least}, {greatest}]   # mm: its codes are finer than millimetres, or go further than 16 bits"));
+                lines.push("bits = 16".to_owned());
+            }
+        }
+        (PictureKind::Encoded, _) => lines.push(format!("bytes = {name:?}")),
+        (PictureKind::Array { .. }, None) => lines.push(format!("array = {name:?}")),
+        (PictureKind::Array { .. }, Some(beside)) => {
+            lines.extend(beside.comment);
+            lines.push(format!("array = {{ file = {:?} }}", beside.file));
+            lines.extend(beside.index);
+        }
+    }
+    if let PictureKind::Array {
+        is_gray: gray,
+        is_planar,
+        range,
+    } = &picture.kind
+    {
+        is_gray = *gray;
+        if *is_planar {
+            lines.push("layout = \"nchw\"".to_owned());
+        }
+        if let Some([least, greatest]) = range {
+            let (black, full) = guessed_range(*least, *greatest);
+            lines.push(format!("# The first frames have numbers from {least} to {greatest}: which is black, which is full?"));
+            lines.push(format!("range = [{black}, {full}]"));
+            lines.push("bits = 8".to_owned());
+        }
+    }
+    FrameLines {
+        lines,
+        is_gray,
+        order: picture.order,
+        ..FrameLines::default()
+    }
+}
+
+/// The range that pictures of such numbers mostly have: 0 to 1, −1 to 1 or 0 to 255.
+fn guessed_range(least: f64, greatest: f64) -> (f64, f64) {
+    match (least, greatest) {
+        (least, greatest) if least >= 0.0 && greatest <= 1.0 => (0.0, 1.0),
+        (least, greatest) if least >= -1.0 && greatest <= 1.0 => (-1.0, 1.0),
+        (least, greatest) if least >= 0.0 && greatest <= 255.0 => (0.0, 255.0),
+        other => other,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_range_is_guessed_by_what_pictures_are_mostly_kept_in() {
+        assert_eq!(guessed_range(0.1, 0.9), (0.0, 1.0));
+        assert_eq!(guessed_range(-0.5, 0.9), (-1.0, 1.0));
+        assert_eq!(guessed_range(3.0, 250.0), (0.0, 255.0));
+        assert_eq!(guessed_range(-2048.0, 2032.0), (-2048.0, 2032.0));
+    }
+}
