@@ -1,6 +1,7 @@
 //! A first map for a folder that nobody has described: what is sure, what is guessed, what only its lab knows.
 
 mod channels;
+mod clips;
 mod frames;
 mod joins;
 mod map_text;
@@ -49,7 +50,7 @@ impl MapDraft {
         let mut notes = Vec::new();
         for group in others
             .iter()
-            .filter(|group| !frames::is_clip(&group.ending))
+            .filter(|group| !clips::is_clip(&group.ending))
             .take(TABLES)
         {
             if group.ending == "mcap" {

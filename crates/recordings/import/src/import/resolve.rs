@@ -5,6 +5,7 @@ mod columns;
 mod join;
 mod matrix;
 mod naming_folder;
+mod rotation;
 mod signals;
 mod table;
 mod times;
@@ -120,6 +121,9 @@ pub(super) fn resolve(
         joined.count_absent_chunks(folder, &names, &mut absent_chunks)?;
     }
     let mut table = ResolvedTable::new(&sources, names, cells);
+    for rotation in &map.rotations {
+        rotation::apply(rotation, &mut table)?;
+    }
     for map in &map.matrices {
         matrix::apply(map, folder, &mut table)?;
     }
