@@ -168,6 +168,50 @@ impl Batch {
         }
     }
 
+    /// The batch with angles that have a period moved by whole periods: each prediction nearest to its truth, each truth nearest to the centre of
+    /// its channel, by name, where `centres` has one.
+    ///
+    /// `None` if no channel has a period: the batch is right as it is.
+    ///
+    /// ```
+    /// use std::collections::BTreeMap;
+    /// use taceva_core::{Batch, Channel, Channels, Column, Unit};
+    /// let yaw = Channel::named("yaw", Unit::Degree)?.with_period(360)?;
+    /// let channels = Channels::new([yaw])?;
+    /// let [truth, prediction] = [vec![179.0], vec![-178.0]].map(Column::full);
+    /// let batch = Batch::from_columns(channels, vec![truth], vec![prediction], None);
+    /// let moved = batch.unwrapped(&BTreeMap::new()).ok_or("no period")?;
+    /// assert_eq!(moved.prediction(0).get(0), Some(182.0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn unwrapped(&self, centres: &BTreeMap<String, f64>) -> Option<Batch> {
+        let mut channels = self.channels.iter();
+        if channels.all(|channel| channel.period().is_none()) {
+            return None;
+        }
+        let mut moved = self.clone();
+        for (position, channel) in self.channels.iter().enumerate() {
+            if channel.period().is_none() {
+                continue;
+            }
+            let beside = |column: &Column, reference: &dyn Fn(usize) -> Option<f64>| -> Column {
+                let cells = (0..column.len()).map(|row| {
+                    let value = column.get(row)?;
+                    Some(match reference(row) {
+                        Some(reference) => channel.nearest(value, reference),
+                        None => value,
+                    })
+                });
+                cells.collect()
+            };
+            let centre = centres.get(channel.name()).copied();
+            let truth = beside(&self.truth[position], &|_| centre);
+            moved.prediction[position] = beside(&self.prediction[position], &|row| truth.get(row));
+            moved.truth[position] = truth;
+        }
+        Some(moved)
+    }
+
     /// Number of samples.
     pub fn rows(&self) -> usize {
         self.rows

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::fmt;
+use std::num::NonZeroU16;
 
 use crate::unit::Unit;
 
@@ -21,6 +22,7 @@ use crate::unit::Unit;
 pub struct Channel {
     name: Cow<'static, str>,
     unit: Unit,
+    period: Option<NonZeroU16>,
 }
 
 impl Channel {
@@ -53,6 +55,7 @@ impl Channel {
         Channel {
             name: Cow::Borrowed(name),
             unit,
+            period: None,
         }
     }
 
@@ -88,7 +91,34 @@ impl Channel {
         Ok(Channel {
             name: Cow::Owned(name.to_owned()),
             unit,
+            period: None,
         })
+    }
+
+    /// The channel as an angle whose values repeat after `degrees`, from 1 to 360.
+    ///
+    /// # Errors
+    /// [`ChannelError::Period`] if the channel is not in degrees, or `degrees` is 0 or above 360.
+    ///
+    /// ```
+    /// use taceva_core::{Channel, Unit};
+    /// let yaw = Channel::named("yaw", Unit::Degree)?.with_period(360)?;
+    /// assert_eq!(yaw.nearest(-179.0, 178.0), 181.0);
+    /// assert!(Channel::FZ.with_period(360).is_err());
+    /// # Ok::<(), taceva_core::ChannelError>(())
+    /// ```
+    pub fn with_period(self, degrees: u16) -> Result<Channel, ChannelError> {
+        let period = NonZeroU16::new(degrees).filter(|degrees| degrees.get() <= 360);
+        match period {
+            Some(period) if self.unit == Unit::Degree => Ok(Channel {
+                period: Some(period),
+                ..self
+            }),
+            _ => Err(ChannelError::Period {
+                name: self.name.into_owned(),
+                degrees,
+            }),
+        }
     }
 
     /// The name as it stands in tables, maps and reports.
@@ -99,6 +129,25 @@ impl Channel {
     /// The unit its values are kept in.
     pub fn unit(&self) -> Unit {
         self.unit
+    }
+
+    /// Degrees after which its values repeat; `None` of a channel that is no angle, or of which nothing is declared.
+    pub fn period(&self) -> Option<u16> {
+        self.period.map(NonZeroU16::get)
+    }
+
+    /// The number nearest to `reference` that says the same as `value`: `value` itself without a period, else `value` and a multiple of it.
+    ///
+    /// A value at most half a period away is returned as it is, to the bit.
+    pub fn nearest(&self, value: f64, reference: f64) -> f64 {
+        let Some(period) = self.period.map(|period| f64::from(period.get())) else {
+            return value;
+        };
+        let turns = ((value - reference) / period).round();
+        match turns.abs() >= 1.0 && (value - reference).abs() > period / 2.0 {
+            true => value - turns * period,
+            false => value,
+        }
     }
 }
 
@@ -204,6 +253,13 @@ pub enum ChannelError {
         /// The unit that was given.
         found: Unit,
     },
+    /// A period of a channel that is not in degrees, or one outside 1 to 360.
+    Period {
+        /// The channel.
+        name: String,
+        /// The period as given, degrees.
+        degrees: u16,
+    },
     /// The same channel twice.
     Twice {
         /// The channel.
@@ -228,6 +284,11 @@ impl fmt::Display for ChannelError {
                 let name = crate::shown(name);
                 write!(f, "channel `{name}` is kept in {expected}, not in {found}")
             }
+            ChannelError::Period { name, degrees } => write!(
+                f,
+                "channel `{}` has no period of {degrees} degrees: expected an angle, in deg or rad, and 1 to 360",
+                crate::shown(name)
+            ),
             ChannelError::Twice { name } => {
                 write!(f, "channel `{}` is given twice", crate::shown(name))
             }
@@ -257,6 +318,29 @@ mod tests {
     fn a_force_in_millimetres_is_refused() {
         let error = Channel::named("Fz", Unit::Millimetre).expect_err("Fz is in N");
         assert_eq!(error.to_string(), "channel `Fz` is kept in N, not in mm");
+    }
+
+    #[test]
+    fn an_angle_is_compared_by_the_shortest_way_and_other_channels_as_they_are() {
+        let angle = Channel::named("Rz", Unit::Degree).expect("a plain name");
+        let whole = angle.clone().with_period(360).expect("an angle");
+        for (value, reference, nearest) in [
+            (-179.0, 179.0, 181.0),
+            (179.0, -179.0, -181.0),
+            (180.0, 0.0, 180.0),
+            (730.0, 5.0, 10.0),
+            (0.1, 0.0, 0.1),
+        ] {
+            assert!((whole.nearest(value, reference) - nearest).abs() < 1e-12);
+        }
+        let half = angle.clone().with_period(180).expect("an angle");
+        assert!((half.nearest(89.0, -89.0) + 91.0).abs() < 1e-12);
+        assert!((angle.nearest(-179.0, 179.0) + 179.0).abs() < 1e-12);
+        assert_ne!(angle, whole);
+        for degrees in [0, 361] {
+            let refused = angle.clone().with_period(degrees);
+            assert!(matches!(refused, Err(ChannelError::Period { .. })));
+        }
     }
 
     #[test]

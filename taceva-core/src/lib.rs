@@ -18,6 +18,7 @@ mod magnitude;
 mod model;
 mod nanometre;
 mod needs;
+mod orientation;
 mod outcome;
 mod panic;
 mod phase;
@@ -63,6 +64,7 @@ pub use model::{
 };
 pub use nanometre::{Nanometre, NanometreError};
 pub use needs::Needs;
+pub use orientation::Orientation;
 pub use outcome::{Limit, PressOutcome};
 pub use panic::{caught, contained};
 pub use phase::Phase;

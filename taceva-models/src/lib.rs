@@ -46,8 +46,9 @@ pub use split::{
     SplitError, SplitInput, SplitKind, SplitManifest, SplitSpec,
 };
 pub use training::card::{
-    AutoCard, AutoTrial, ChannelCard, Form, LibraryCard, ModelCard, NetworkCard, PluginCard,
-    Provenance, SampleCounts, Source, SplitCard, Untried, ValidationCard, ValidationScore,
+    AngleCard, AutoCard, AutoTrial, ChannelCard, Form, LibraryCard, ModelCard, NetworkCard,
+    PluginCard, Provenance, SampleCounts, Source, SplitCard, Untried, ValidationCard,
+    ValidationScore,
 };
 pub use training::checkpoint::{CheckpointError, Checkpoints, Foreign};
 pub use training::choice::{ChannelChoice, Choice, ChosenBy};

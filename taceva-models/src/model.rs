@@ -1,5 +1,6 @@
 //! A fitted model with all that is needed to use it and to know where it comes from.
 
+mod angles;
 mod bounds;
 mod card;
 mod finer_features;
@@ -7,9 +8,10 @@ mod input;
 
 use taceva_core::{
     Channel, Channels, ErrorKind, Features, Input, InputInfo, ModelError, Progress, Regressor,
-    TrainingSet,
+    Targets, TrainingSet, Unit,
 };
 
+pub(crate) use self::angles::LearntChannels;
 pub use self::bounds::LabelBounds;
 pub use self::finer_features::CloserFeatures;
 pub use self::input::FitInput;
@@ -17,7 +19,7 @@ use crate::features::choice::FeatureChoice;
 use crate::features::signals::{divided, spread};
 use crate::features::{Extractor, FeatureError, Pca};
 use crate::linalg::invalid;
-use crate::training::card::{ChannelCard, ModelCard, ValidationCard};
+use crate::training::card::{AngleCard, ChannelCard, ModelCard, ValidationCard};
 use crate::training::regressor::ModelRegressor;
 
 /// A fitted model: from pixels, or from signals, to the channels, in their units.
@@ -28,14 +30,51 @@ use crate::training::regressor::ModelRegressor;
 pub struct Model {
     pub(crate) card: ModelCard,
     pub(crate) regressor: ModelRegressor,
+    pub(crate) channels: LearntChannels,
 }
 
 impl Model {
     /// Fits `input.estimator`, and the principal components before it, if any are asked for.
     ///
+    /// Of an angle with a period sine and cosine are learnt; predictions are angles again.
+    ///
     /// # Errors
     /// [`ModelError`] if the parts do not fit each other, nothing can be learnt from them, or `progress` was cancelled.
     pub fn fit(input: FitInput<'_>, progress: &dyn Progress) -> Result<Model, ModelError> {
+        let targets = input.training.targets;
+        let asked = targets.channels;
+        if targets.values.len() % asked.len().max(1) != 0 {
+            return Model::fit_learnt(input, Vec::new(), asked, progress);
+        }
+        let angles = AngleCard::of_labels(asked, targets.values);
+        if angles.is_empty() {
+            return Model::fit_learnt(input, angles, asked, progress);
+        }
+        let channels = LearntChannels::new(asked, &angles);
+        let channels = channels.map_err(|error| {
+            invalid("an angle with a period is learnt as NAME_sin and NAME_cos: rename the channel")
+                .because(error)
+        })?;
+        let values = channels.labels(targets.values);
+        let held = input
+            .validation
+            .map(|set| channels.labels(set.targets.values));
+        // Of a shorter life, as the labels are.
+        let mut input = input;
+        input.training.targets = Targets::new(&channels.learnt, &values);
+        if let Some((set, held)) = input.validation.as_mut().zip(held.as_ref()) {
+            set.targets = Targets::new(&channels.learnt, held);
+        }
+        Model::fit_learnt(input, angles, asked, progress)
+    }
+
+    /// Fits the channels of `input`, of which the asked ones follow.
+    fn fit_learnt(
+        input: FitInput<'_>,
+        angles: Vec<AngleCard>,
+        asked: &Channels,
+        progress: &dyn Progress,
+    ) -> Result<Model, ModelError> {
         let shape = input.features.shape();
         if input.training.features.shape() != shape {
             return Err(invalid(format!(
@@ -86,8 +125,15 @@ impl Model {
             Some(pca) => fit.regressor.clone().through(pca)?,
         };
         let auto = chosen.as_ref().map(|chosen| chosen.card.clone());
-        let card = ModelCard::new(&input, &fit, estimator.name(), auto, kept, spread);
-        Ok(Model { card, regressor })
+        let mut card = ModelCard::new(&input, &fit, estimator.name(), auto, kept, spread);
+        let channels = LearntChannels::new(asked, &angles)
+            .map_err(|error| invalid(error.to_string()).because(error))?;
+        card.angles = angles;
+        Ok(Model {
+            card,
+            regressor,
+            channels,
+        })
     }
 
     /// What it is and where it comes from.
@@ -111,10 +157,19 @@ impl Model {
 
     /// What it predicts.
     pub fn channels(&self) -> &Channels {
-        self.regressor.channels()
+        &self.channels.asked
     }
 
-    /// What predicts the channels from the features of pixels, or from signals that are divided by their spread.
+    /// The best constant answer of each channel: the mean label of the training part, of an angle with a period the mean direction.
+    pub fn constants(&self) -> impl Iterator<Item = (&str, f64)> {
+        let learnt = self.card.channels.iter();
+        let means = learnt.map(|channel| (channel.name.as_str(), channel.mean));
+        let means = means.filter(|(name, _)| self.channels.asked.position(name).is_some());
+        let angles = self.card.angles.iter();
+        means.chain(angles.map(|angle| (angle.name.as_str(), angle.mean)))
+    }
+
+    /// What predicts the learnt channels from the features of pixels, or from signals that are divided by their spread.
     pub fn regressor(&self) -> &ModelRegressor {
         &self.regressor
     }
@@ -170,10 +225,18 @@ impl Model {
     /// # Errors
     /// As [`predict`](Model::predict).
     pub fn predict_unbounded(&self, features: &Features) -> Result<Vec<f64>, ModelError> {
-        let mut predictions = vec![0.0; features.samples() * self.channels().len()];
         let even = self.even(features)?;
-        self.regressor
-            .predict(even.as_ref().unwrap_or(features), &mut predictions)?;
+        let learnt = self.learnt(even.as_ref().unwrap_or(features))?;
+        Ok(match self.card.angles.is_empty() {
+            true => learnt,
+            false => self.channels.answers(&learnt),
+        })
+    }
+
+    /// The prediction of the learnt channels.
+    fn learnt(&self, features: &Features) -> Result<Vec<f64>, ModelError> {
+        let mut predictions = vec![0.0; features.samples() * self.channels.learnt.len()];
+        self.regressor.predict(features, &mut predictions)?;
         Ok(predictions)
     }
 
@@ -187,7 +250,14 @@ impl Model {
     /// [`ModelError`] if the features are of another shape.
     pub fn deviations(&self, features: &Features) -> Result<Option<Vec<f64>>, ModelError> {
         let even = self.even(features)?;
-        self.regressor.deviations(even.as_ref().unwrap_or(features))
+        let features = even.as_ref().unwrap_or(features);
+        let Some(found) = self.regressor.deviations(features)? else {
+            return Ok(None);
+        };
+        Ok(Some(match self.card.angles.is_empty() {
+            true => found,
+            false => self.channels.deviations(&found, &self.learnt(features)?),
+        }))
     }
 
     /// Signals divided by their spread over the training part; `None` of frames, whose features are as they are.
@@ -209,6 +279,35 @@ impl Model {
 fn with_features<'s>(mut set: TrainingSet<'s>, features: Option<&'s Features>) -> TrainingSet<'s> {
     set.features = features.unwrap_or(set.features);
     set
+}
+
+/// The channels that a card lists as learnt, and those that follow from its angles.
+pub(crate) fn learnt_channels_of(
+    card: &ModelCard,
+    learnt: &Channels,
+) -> Result<LearntChannels, ModelError> {
+    let refuse =
+        |error| ModelError::new(ErrorKind::Protocol, "an angle of the card").because(error);
+    let is_part = |name: &str| {
+        let mut angles = card.angles.iter();
+        angles.any(|angle| angle.sine() == name || angle.cosine() == name)
+    };
+    let plain = learnt.iter().filter(|channel| !is_part(channel.name()));
+    let plain = plain.cloned().map(Ok);
+    let angles = card
+        .angles
+        .iter()
+        .map(|angle| Channel::named(&angle.name, Unit::Degree)?.with_period(angle.period));
+    let asked: Result<Vec<Channel>, _> = plain.chain(angles).collect();
+    let asked = asked.and_then(Channels::new).map_err(refuse)?;
+    let channels = LearntChannels::new(&asked, &card.angles).map_err(refuse)?;
+    match channels.learnt == *learnt {
+        true => Ok(channels),
+        false => Err(ModelError::new(
+            ErrorKind::Protocol,
+            "the angles of the card are not among its channels",
+        )),
+    }
 }
 
 /// The channels that a card lists.

@@ -1,5 +1,6 @@
 //! Promises of models: fits, predictions, files, splits and choices.
 
+mod angles;
 mod auto;
 mod blobs;
 mod checkpoints;

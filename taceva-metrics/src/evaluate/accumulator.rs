@@ -5,6 +5,8 @@ mod erased_sums;
 mod resampling;
 mod scores;
 
+use std::collections::BTreeMap;
+
 use taceva_core::{Batch, Channels};
 
 pub(crate) use self::any_family::{AnyFamily, erased};
@@ -32,12 +34,21 @@ pub(crate) struct Accumulator {
     clusters: Clusters<ErasedSums>,
     interval_method: IntervalMethod,
     clustered_by: ClusteredBy,
+    /// Parameters of states that say the periods of angles, and about which centre they were unwrapped.
+    periods: BTreeMap<String, String>,
 }
 
 impl Accumulator {
     /// The accumulators of `plan` without samples, one for all metrics of a family, in the order of the catalogue.
     pub(crate) fn of_plan(plan: &MetricPlan) -> Vec<Accumulator> {
         let mut accumulators: Vec<Accumulator> = Vec::new();
+        let periods = plan.channels().iter().filter_map(|channel| {
+            let period = channel.period()?;
+            let about = plan.constant(channel.name());
+            let about = about.map_or_else(String::new, |centre| format!(" about {centre}"));
+            Some((format!("period {channel}"), format!("{period}{about}")))
+        });
+        let periods: BTreeMap<String, String> = periods.collect();
         for kind in plan.families() {
             if let Some(family) = (kind.build)(plan) {
                 accumulators.push(Accumulator {
@@ -48,6 +59,7 @@ impl Accumulator {
                     kind,
                     family,
                     channels: plan.channels().clone(),
+                    periods: periods.clone(),
                     clusters: Clusters::default(),
                     interval_method: plan.interval_method(),
                     clustered_by: match kind.clusters_of_plan {
@@ -151,6 +163,7 @@ impl Accumulator {
     fn shape(&self) -> Shape {
         let mut parameters = self.family.parameters();
         parameters.insert("seed".to_owned(), self.clustering.seed.to_string());
+        parameters.extend(self.periods.clone());
         let clusters = match self.clustered_by {
             ClusteredBy::Point => None,
             ClusteredBy::Sample => Some("samples"),

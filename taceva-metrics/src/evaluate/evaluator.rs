@@ -82,6 +82,8 @@ impl Evaluator {
     /// # Errors
     /// [`MetricError::Channels`] if they are of other channels than the plan's; nothing is taken in then.
     pub fn update(&mut self, batch: &Batch) -> Result<(), MetricError> {
+        let moved = batch.unwrapped(self.plan.constants());
+        let batch = moved.as_ref().unwrap_or(batch);
         let seed = self.plan.seed();
         let by_point = self.accumulators.iter();
         let by_point = by_point.filter(|accumulator| accumulator.is_by_point());

@@ -74,6 +74,8 @@ impl ClusterSums {
     /// # Panics
     /// If the batch has no channel at `position`.
     pub fn update(&mut self, batch: &Batch, position: usize) -> Result<(), ComparisonError> {
+        let moved = batch.unwrapped(&BTreeMap::new());
+        let batch = moved.as_ref().unwrap_or(batch);
         let points = batch.points().ok_or(ComparisonError::NoClusters)?;
         let (estimates, references) = (batch.prediction(position), batch.truth(position));
         for row in 0..batch.rows() {

@@ -29,6 +29,7 @@ mod isa;
 mod merge_laws;
 #[cfg(feature = "serde")]
 mod paper_values;
+mod periods;
 mod ranges;
 mod scaling;
 mod standing;

@@ -7,7 +7,7 @@ use taceva_core::InputInfo;
 use super::bytes::check_sizes;
 use super::seal::check_seal;
 use crate::estimators::plugin::PluginRegressor;
-use crate::model::{Model, channels_of};
+use crate::model::{Model, channels_of, learnt_channels_of};
 use crate::models::Models;
 use crate::training::card::{LibraryCard, ModelCard};
 use crate::training::file::content::Stored;
@@ -57,6 +57,7 @@ impl Models {
         {
             return Err(FormatError::Card);
         }
+        let learnt = learnt_channels_of(&card, &channels)?;
         let stored = Stored {
             tensors: Tensors(opened),
             card: &card,
@@ -66,7 +67,11 @@ impl Models {
         if regressor.kind() != card.kind() {
             return Err(FormatError::Card);
         }
-        Ok(Model { card, regressor })
+        Ok(Model {
+            card,
+            regressor,
+            channels: learnt,
+        })
     }
 
     /// What the plugin, or the row of the registry, that the card names makes of the file.

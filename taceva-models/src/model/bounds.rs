@@ -92,10 +92,10 @@ impl LabelBounds {
 }
 
 impl Model {
-    /// The bounds of its predictions.
+    /// The bounds of its predictions; an angle with a period has none.
     pub fn label_bounds(&self) -> LabelBounds {
-        let channels = self.card.channels.iter();
-        let bounds = channels.map(|channel| {
+        let bounds = self.channels.as_they_are().map(|position| {
+            let channel = &self.card.channels[position?];
             let varies = !channel.constant_label;
             Some(ChannelBounds::new(
                 channel.minimum,

@@ -42,6 +42,7 @@ impl ModelCard {
                     constant_label: fit.scaling.is_constant(position),
                 })
                 .collect(),
+            angles: Vec::new(),
             samples: SampleCounts {
                 train: input.training.features.samples(),
                 validation: input.validation.map_or(0, |set| set.features.samples()),

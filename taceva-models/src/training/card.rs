@@ -45,8 +45,11 @@ pub struct ModelCard {
     pub spread: Option<Vec<f64>>,
     /// How far beyond the labels of the training part predictions may go, as a share of their range.
     pub margin: f64,
-    /// What it predicts.
+    /// What it learnt: each channel that it predicts, of an angle with a period its sine and cosine.
     pub channels: Vec<ChannelCard>,
+    /// The angles among what it predicts that have a period.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub angles: Vec<AngleCard>,
     /// How many samples it was fitted on.
     pub samples: SampleCounts,
     /// Where the samples come from.
@@ -121,6 +124,26 @@ pub struct ChannelCard {
     pub mean: f64,
     /// Whether every label of the training part is the same: the channel is predicted as that.
     pub constant_label: bool,
+}
+
+/// An angle with a period, which is learnt as the channels `NAME_sin` and `NAME_cos`.
+///
+/// ```
+/// let text = r#"{"name": "yaw", "period": 360, "from_zero": false, "mean": -12.5}"#;
+/// let angle: taceva_models::AngleCard = serde_json::from_str(text)?;
+/// assert_eq!((angle.name.as_str(), angle.period), ("yaw", 360));
+/// # Ok::<(), serde_json::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AngleCard {
+    /// The name.
+    pub name: String,
+    /// Degrees after which it repeats.
+    pub period: u16,
+    /// True if predictions run from 0 to the period, as the labels do, and not from minus half of it.
+    pub from_zero: bool,
+    /// The mean direction of the training part, degrees.
+    pub mean: f64,
 }
 
 /// Samples of each part.

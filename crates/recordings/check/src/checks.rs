@@ -1,5 +1,6 @@
 //! Every check: one file each, a pure function of the [`Evidence`](crate::Evidence) with a stable code.
 
+mod angle_jumps;
 pub(crate) mod blank;
 mod changed_rest;
 mod channel_order;
@@ -14,6 +15,7 @@ mod duplicate_frames;
 mod equal_channels;
 mod equal_taxels;
 mod implausible_depth;
+mod import_warnings;
 mod label_lag;
 mod label_outliers;
 pub(crate) mod leakage;
@@ -39,7 +41,7 @@ mod zero_shift;
 use crate::finding::Check;
 
 /// Every check, in the order of its code.
-pub static ALL: [&Check; 35] = [
+pub static ALL: [&Check; 37] = [
     &units::CHECK,
     &duplicate_frames::CHECK,
     &channel_order::CHECK,
@@ -75,4 +77,6 @@ pub static ALL: [&Check; 35] = [
     &equal_taxels::CHECK,
     &normalised_labels::CHECK,
     &implausible_depth::CHECK,
+    &angle_jumps::CHECK,
+    &import_warnings::CHECK,
 ];

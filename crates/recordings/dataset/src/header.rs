@@ -21,7 +21,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use taceva_core::{Channel, Channels, Clock, PressOutcome, Unit};
+use taceva_core::{Channel, ChannelError, Channels, Clock, PressOutcome, Unit};
 
 use crate::digest::Digest;
 use crate::error::DatasetError;
@@ -53,6 +53,26 @@ pub use stream::StreamFacts;
 struct ChannelInfo {
     name: String,
     unit: Unit,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    period: Option<u16>,
+}
+
+impl ChannelInfo {
+    fn of(channel: &Channel) -> ChannelInfo {
+        ChannelInfo {
+            name: channel.name().to_owned(),
+            unit: channel.unit(),
+            period: channel.period(),
+        }
+    }
+
+    fn channel(&self) -> Result<Channel, ChannelError> {
+        let channel = Channel::named(&self.name, self.unit)?;
+        match self.period {
+            Some(period) => channel.with_period(period),
+            None => Ok(channel),
+        }
+    }
 }
 
 /// The content of `dataset.toml`.
@@ -103,8 +123,12 @@ pub struct Header {
     pub pictures: Vec<MappedPictures>,
     /// The closed lists of classes, by every map that rows came by; likewise.
     pub classes: Vec<MappedClass>,
+    /// Channels that are the parts of one rotation: a rotation vector x, y, z or a quaternion x, y, z, w.
+    pub rotations: Vec<Vec<String>>,
     /// What an import left out; empty of a recording.
     pub left_out: LeftOut,
+    /// Warnings of the imports that the rows came by, in their words; empty of a recording.
+    pub warnings: Vec<String>,
     /// What all frames share; `None` if there is none.
     pub frames: Option<FramesInfo>,
     /// How many presses ended in which way, those without a sample too; empty where no protocol pressed.
@@ -133,6 +157,10 @@ struct Written {
     attributes: Vec<String>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     unmentioned_columns: Vec<String>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    rotations: Vec<Vec<String>>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    warnings: Vec<String>,
     digest: Digest,
     sensor: SensorFacts,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -199,7 +227,7 @@ impl Header {
         let channels = written
             .channels
             .iter()
-            .map(|channel| Channel::named(&channel.name, channel.unit))
+            .map(ChannelInfo::channel)
             .collect::<Result<Vec<_>, _>>()
             .and_then(Channels::new)
             .map_err(|error| toml_error(path, None, &error.to_string()))?;
@@ -219,7 +247,9 @@ impl Header {
             joins: written.joins,
             pictures: written.pictures,
             classes: written.classes,
+            rotations: written.rotations,
             left_out: written.left_out,
+            warnings: written.warnings,
             frames: written.frames,
             presses: written.presses,
             stream: written.stream,
@@ -249,6 +279,7 @@ impl Header {
             joins: self.joins.clone(),
             pictures: self.pictures.clone(),
             classes: self.classes.clone(),
+            rotations: self.rotations.clone(),
         }
     }
 
@@ -265,6 +296,8 @@ impl Header {
             clock: self.clock,
             attributes: self.attributes.clone(),
             unmentioned_columns: self.unmentioned_columns.clone(),
+            rotations: self.rotations.clone(),
+            warnings: self.warnings.clone(),
             digest: self.digest,
             sensor: self.sensor.clone(),
             footprint: self.footprint,
@@ -276,14 +309,7 @@ impl Header {
             left_out: self.left_out.clone(),
             table: self.table,
             extended: self.extended.clone(),
-            channels: self
-                .channels
-                .iter()
-                .map(|channel| ChannelInfo {
-                    name: channel.name().to_owned(),
-                    unit: channel.unit(),
-                })
-                .collect(),
+            channels: self.channels.iter().map(ChannelInfo::of).collect(),
             columns: self.columns.clone(),
             joins: self.joins.clone(),
             pictures: self.pictures.clone(),

@@ -30,6 +30,8 @@ pub struct Beside {
     pub mapping: Mapping,
     /// What an import left out.
     pub left_out: LeftOut,
+    /// Warnings of an import.
+    pub warnings: Vec<String>,
     /// What was lost of a stream.
     pub stream: Option<StreamFacts>,
     /// The file of signals, which is written already.
@@ -69,7 +71,9 @@ pub fn write_table_and_header(
         joins: beside.mapping.joins,
         pictures: beside.mapping.pictures,
         classes: beside.mapping.classes,
+        rotations: beside.mapping.rotations,
         left_out: beside.left_out,
+        warnings: beside.warnings,
         digest: dataset_digest(
             table_digest,
             frames.as_ref(),

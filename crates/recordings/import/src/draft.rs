@@ -1,6 +1,7 @@
 //! A first map for a folder that nobody has described: what is sure, what is guessed, what only its lab knows.
 
 mod channels;
+mod clips;
 mod frames;
 mod joins;
 mod map_text;
@@ -50,7 +51,7 @@ impl MapDraft {
         let mut notes = Vec::new();
         for group in others
             .iter()
-            .filter(|group| !frames::is_clip(&group.ending))
+            .filter(|group| !clips::is_clip(&group.ending))
             .take(TABLES)
         {
             if is_recording(&group.ending) {
@@ -77,7 +78,7 @@ impl MapDraft {
                 Err(problem) => notes.push(format!("not read: {problem}")),
             }
         }
-        let clips = groups.iter().find(|group| frames::is_clip(&group.ending));
+        let bare = groups.iter().find(|group| clips::is_clip(&group.ending));
         let most = pictures.iter().max_by_key(|group| group.paths.len());
         let main = main_table(&source, &tables);
         let array = main.filter(|main| most.is_some_and(|most| are_beside(&source, main, most)));
@@ -89,11 +90,11 @@ impl MapDraft {
                 None => {
                     return Err(DatasetError::Request {
                         path: folder.to_owned(),
-                        problem: match (notes.first(), clips) {
+                        problem: match (notes.first(), bare) {
                             (Some(note), _) => {
                                 format!("nothing here can be read as a table: {note}")
                             }
-                            (None, Some(clips)) => map_text::bare_clips(clips),
+                            (None, Some(bare)) => map_text::bare_clips(bare),
                             (None, None) => "no table and no picture is in it".to_owned(),
                         },
                     });

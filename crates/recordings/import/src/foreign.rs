@@ -3,6 +3,7 @@
 mod arrays;
 mod byte_pictures;
 pub(crate) mod cell_list;
+mod clip_rows;
 mod clips;
 mod columns;
 mod delimited;
@@ -55,7 +56,7 @@ pub(crate) enum ForeignTable {
 }
 
 /// How a table is written.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) enum TableForm {
     /// Cells between separators.
     Delimited(TextForm),
@@ -85,6 +86,11 @@ pub(crate) enum TableForm {
     LeRobot,
     /// A shard of WebDataset.
     WebDataset,
+    /// The frames of a clip: so many a second, the first at a time in seconds.
+    Clip {
+        rate: f64,
+        start_s: f64,
+    },
 }
 
 /// The message of an error about the file at `path`, without the path: the error around it names that.
@@ -113,6 +119,11 @@ impl ForeignTable {
             TableForm::LeRobot => ForeignTable::Columns(ColumnTable::open(path, || {
                 lerobot::LeRobotRows::open(path)
             })?),
+            TableForm::Clip { rate, start_s } => {
+                ForeignTable::Columns(ColumnTable::open(path, || {
+                    clip_rows::ClipRows::open(path, *rate, *start_s)
+                })?)
+            }
             TableForm::WebDataset => {
                 ForeignTable::Columns(ColumnTable::open(path, || webdataset::Shard::open(path))?)
             }

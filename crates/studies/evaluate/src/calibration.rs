@@ -33,11 +33,13 @@ pub fn calibration(
             &predicted.truth()[channel],
             &predicted.prediction()[channel],
         );
+        let known = &predicted.channels().as_slice()[channel];
         let (mut own, mut zero) = (Column::default(), Column::default());
         for (at, row) in rows.iter().enumerate() {
             let pair = truth.get(at).zip(found.get(at));
             let inside = pair.filter(|_| counts(*row)).zip(deviations.get(at)).map(
                 |((truth, found), deviation)| {
+                    let found = known.nearest(found, truth);
                     f64::from((found - truth).abs() <= NORMAL_95 * deviation)
                 },
             );

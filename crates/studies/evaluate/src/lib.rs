@@ -23,6 +23,7 @@ mod predict;
 mod provenance;
 mod recordings;
 mod report;
+mod rotation;
 mod row_ledger;
 mod rows;
 mod run_layout;

@@ -54,6 +54,24 @@ pub enum Note {
         /// The frames as they were kept.
         frames: FramesInfo,
     },
+    /// A warning of the import that made a recording, or what it took from labels.
+    Imported {
+        /// The recording, where several were joined.
+        recording: Option<String>,
+        /// The words of the import.
+        words: String,
+    },
+    /// Angles between predicted and true rotations.
+    Rotation {
+        /// The channels of the rotation.
+        channels: Vec<String>,
+        /// Samples with both.
+        samples: usize,
+        /// Mean angle, degrees.
+        mean: f64,
+        /// Angle that 95 % of the samples stay below, degrees.
+        most: f64,
+    },
     /// A scored part that the model was fitted on.
     Seen(&'static str),
     /// A model that was fitted on other data, with their digest.
@@ -229,6 +247,20 @@ impl fmt::Display for Note {
                     None => Ok(()),
                 }
             }
+            Note::Imported { recording, words } => {
+                write!(f, "{}import: {}", of(recording), shown(words))
+            }
+            Note::Rotation {
+                channels,
+                samples,
+                mean,
+                most,
+            } => write!(
+                f,
+                "rotation {}: predictions are turned from the truth by {mean:.2} degrees in the mean of {samples} samples, 95 % by less than {most:.2}; scores of \
+                 single parts depend on how the rotation is written",
+                channels.join(", ")
+            ),
             Note::Seen(part) => write!(
                 f,
                 "scored on the part `{part}`, which the model has seen: this is no test"

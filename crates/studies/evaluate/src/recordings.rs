@@ -140,6 +140,23 @@ pub(crate) fn extended(dataset: &Dataset) -> Vec<Note> {
     of_each(dataset, of)
 }
 
+/// Warnings of the imports that made the recordings, and what these took from labels.
+pub(crate) fn imported(dataset: &Dataset) -> Vec<Note> {
+    of_each(dataset, |recording, name| {
+        let header = recording.header();
+        let taken = header.columns.iter().flat_map(|column| {
+            let rules = [&column.zero, &column.gravity].into_iter().flatten();
+            rules.map(|rule| format!("{} less the {rule}", column.label))
+        });
+        let words = header.warnings.iter().cloned().chain(taken);
+        let notes = words.map(|words| Note::Imported {
+            recording: name.map(str::to_owned),
+            words,
+        });
+        notes.collect()
+    })
+}
+
 /// Recordings whose frames are not as the camera gave them.
 pub fn reduced(dataset: &Dataset) -> Vec<Note> {
     of_each(dataset, |recording, name| {

@@ -1,5 +1,6 @@
 //! Every check: a recording that triggers it, and one that must not.
 
+mod angles;
 mod doubles;
 mod forces;
 mod joins;

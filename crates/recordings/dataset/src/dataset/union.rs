@@ -308,6 +308,11 @@ fn joined_header(recordings: &[Dataset], table: &Table) -> Header {
         for (outcome, count) in &other.presses {
             *header.presses.entry(*outcome).or_default() += count;
         }
+        for warning in &other.warnings {
+            if !header.warnings.contains(warning) {
+                header.warnings.push(warning.clone());
+            }
+        }
         if let (Some(own), Some(theirs)) = (&mut header.frames, &other.frames) {
             own.count += theirs.count;
             if theirs.reference.is_none() {

@@ -37,6 +37,12 @@ pub struct MappedColumn {
     /// `place-first` or `channel-first`, of taxels.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub order: Option<String>,
+    /// The mean that is subtracted from it as its zero, in words.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub zero: Option<String>,
+    /// The weight that is subtracted from it, in words.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gravity: Option<String>,
 }
 
 /// What to do where a column was recorded otherwise.
@@ -54,6 +60,8 @@ impl MappedColumn {
             factors: Vec::new(),
             placeholder: None,
             order: None,
+            zero: None,
+            gravity: None,
         }
     }
 
@@ -63,6 +71,7 @@ impl MappedColumn {
         match (self.label.as_str(), word) {
             ("t_s", _) => format!("time.{word}"),
             ("signals", _) => format!("signals.{word}"),
+            (_, "zero" | "gravity") => word.to_owned(),
             (label, "placeholder") => format!("drop.placeholders.{label}"),
             (label, "unit") if is_matrix => format!("matrix.gives.{label}"),
             (_, "factors") if is_matrix => "matrix.by".to_owned(),
@@ -80,6 +89,8 @@ impl MappedColumn {
     fn differs_from(&self, known: &MappedColumn) -> Option<Misread> {
         let facts = |column: &MappedColumn| {
             let order = column.order.clone();
+            let [zero, gravity] = [&column.zero, &column.gravity]
+                .map(|rule| rule.clone().unwrap_or_else(|| "none".to_owned()));
             let facts = [
                 ("from", quoted(&column.from)),
                 ("unit", column.unit.clone()),
@@ -88,6 +99,8 @@ impl MappedColumn {
                 ("factors", numbers(&column.factors)),
                 ("placeholder", number(column.placeholder)),
                 ("order", order.unwrap_or_else(|| "none".to_owned())),
+                ("zero", zero),
+                ("gravity", gravity),
             ];
             facts.map(|(word, said)| (self.key(word), said)).to_vec()
         };

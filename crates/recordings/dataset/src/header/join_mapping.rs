@@ -37,6 +37,9 @@ pub struct MappedJoin {
     /// How much later the clock of this table shows the same instant, ms.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lag_ms: Option<f64>,
+    /// Where the lag differs by row: the column with it, or `file = ms` of each file.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub lag_by: Vec<String>,
     /// What becomes of a row of the main table to which none belongs: `drop` or `refuse`.
     pub unmatched: String,
     /// Rows that are no candidates: `column = number`.
@@ -56,6 +59,7 @@ impl MappedJoin {
             pick: None,
             tolerance_ms: None,
             lag_ms: None,
+            lag_by: Vec::new(),
             unmatched: "refuse".to_owned(),
             skip: Vec::new(),
         }
@@ -77,6 +81,7 @@ impl MappedJoin {
             (key("pick"), or_none(self.pick.as_deref())),
             (key("tolerance_ms"), number(self.tolerance_ms)),
             (key("lag_ms"), number(self.lag_ms)),
+            (key("lag_ms"), quoted(&self.lag_by)),
             (key("unmatched"), self.unmatched.clone()),
             (key("skip"), quoted(&self.skip)),
         ]

@@ -18,6 +18,8 @@ pub struct Mapping {
     pub pictures: Vec<MappedPictures>,
     /// Classes.
     pub classes: Vec<MappedClass>,
+    /// Channels that are the parts of one rotation.
+    pub rotations: Vec<Vec<String>>,
 }
 
 /// What to do where a join was recorded otherwise.
@@ -70,6 +72,7 @@ impl Mapping {
             joins: united(self.joins, &new.joins),
             pictures: united(self.pictures, &new.pictures),
             classes: united(self.classes, &new.classes),
+            rotations: united(self.rotations, &new.rotations),
         }
     }
 }

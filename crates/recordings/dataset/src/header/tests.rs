@@ -3,6 +3,11 @@ use taceva_core::{FrameInfo, Limit, PixelFormat};
 use super::*;
 use crate::decode::ChannelOrder;
 
+fn yaw() -> Channel {
+    let yaw = Channel::named("yaw", Unit::Degree).and_then(|yaw| yaw.with_period(360));
+    yaw.expect("an angle")
+}
+
 fn header() -> Header {
     Header {
         format: Version::CURRENT,
@@ -22,7 +27,7 @@ fn header() -> Header {
             depth_max_mm: Some(2.5),
         }),
         settings: BTreeMap::from([("exposure_ms".to_owned(), "15.7".to_owned())]),
-        channels: Channels::new([Channel::FZ, Channel::PZ]).expect("distinct"),
+        channels: Channels::new([Channel::FZ, Channel::PZ, yaw()]).expect("distinct"),
         attributes: vec!["video".to_owned()],
         columns: vec![MappedColumn {
             sign: -1,
@@ -45,7 +50,9 @@ fn header() -> Header {
             "path.class",
             vec!["smooth".to_owned(), "rough".to_owned()],
         )],
+        rotations: vec![["Rx", "Ry", "Rz"].map(str::to_owned).to_vec()],
         left_out: LeftOut::default(),
+        warnings: vec!["zone-unstated: `t` says no time zone".to_owned()],
         unmentioned_columns: vec!["quality_flags".to_owned()],
         frames: Some(FramesInfo {
             count: 3,

@@ -4,7 +4,6 @@ mod picture_lines;
 
 use std::path::Path;
 
-use super::roles::Role;
 use super::survey::FileGroup;
 use super::tables::{SeenColumn, SeenTable};
 use crate::source_folder::SourceFolder;
@@ -17,10 +16,6 @@ const LOOKED_UP: usize = 20;
 
 pub(super) fn is_picture(ending: &str) -> bool {
     matches!(ending, "png" | "jpg" | "jpeg" | "tif" | "tiff")
-}
-
-pub(super) fn is_clip(ending: &str) -> bool {
-    matches!(ending, "avi" | "mp4" | "mkv" | "mov" | "webm")
 }
 
 /// The lines of `[frame]`, with their comments.
@@ -157,10 +152,9 @@ fn by_end_of_path(folder: &SourceFolder, main: &SeenTable<'_>) -> Option<FrameLi
     })
 }
 
-/// Where the frames are.
+/// Where the frames are, but for clips.
 pub(super) fn of(
     folder: &SourceFolder,
-    groups: &[FileGroup],
     main: &SeenTable<'_>,
     tables: &[SeenTable<'_>],
 ) -> Option<FrameLines> {
@@ -189,42 +183,20 @@ pub(super) fn of(
     }
     let with_pictures =
         |table: &&SeenTable<'_>| table.is_single_array && !table.pictures.is_empty();
-    if let Some(table) = tables.iter().find(with_pictures) {
-        let beside = Beside::of(main.group, table.group);
-        return Some(in_array(&table.pictures[0], Some(beside), &[]));
-    }
-    // Clips of LeRobot are named by their features: one that is not among them is no picture.
-    if main.group.first() == "meta/info.json" {
-        return None;
-    }
-    let clips = groups.iter().find(|group| is_clip(&group.ending))?;
-    let index = main
-        .columns
-        .iter()
-        .find(|column| column.role == Role::Index);
-    let index = index.map_or("row", |column| column.name.as_str());
-    let (file, index) = match clips.paths.as_slice() {
-        [only] if main.group.paths.len() == 1 => (only.clone(), format!("index = {index:?}")),
-        [only] => (only.clone(), counted_through(main.group)),
-        // A clip a table.
-        _ if are_pairs(main.group, clips) => (clips.parts.of_table(), format!("index = {index:?}")),
-        _ => return None,
-    };
-    Some(FrameLines {
-        lines: vec![format!("video = {file:?}"), index],
-        ..FrameLines::default()
-    })
+    let table = tables.iter().find(with_pictures)?;
+    let beside = Beside::of(main.group, table.group);
+    Some(in_array(&table.pictures[0], Some(beside), &[]))
 }
 
 /// Whether there is one of `files` for each of `tables`: what varies in the names of both is the same.
-fn are_pairs(tables: &FileGroup, files: &FileGroup) -> bool {
+pub(super) fn are_pairs(tables: &FileGroup, files: &FileGroup) -> bool {
     tables.paths.len() > 1
         && files.paths.len() == tables.paths.len()
         && files.parts.names == tables.parts.names
 }
 
 /// The line of pictures in one file for several tables: each of these would begin with the first picture again.
-fn counted_through(tables: &FileGroup) -> String {
+pub(super) fn counted_through(tables: &FileGroup) -> String {
     format!(
         "index = \"?\"   # {} tables share it: the column that counts through its pictures",
         tables.paths.len()

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::channels::{self, Offered};
+use super::clips;
 use super::frames::{self, FrameLines};
 use super::joins::{self, SeenJoin};
 use super::path_parts::PathParts;
@@ -71,7 +72,8 @@ pub(super) fn of_table(
     tables: &[SeenTable<'_>],
     notes: &[String],
 ) -> String {
-    let frame = frames::of(folder, groups, main, tables);
+    let frame = frames::of(folder, main, tables);
+    let frame = frame.or_else(|| clips::of(folder, groups, main));
     let joins = joins::of(main, tables);
     let mut text = begun(notes);
     line(

@@ -111,6 +111,7 @@ impl ImportPlan {
                 unmentioned_columns: self.summary.columns_left_behind(),
                 mapping: self.mapping,
                 left_out: self.summary.left_out(),
+                warnings: self.summary.warnings_in_words(),
                 signals: signals.transpose()?,
                 ..Beside::default()
             },

@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::copy::ImportReport;
 use super::plan::ImportPlan;
-use super::summary::{Conversion, ImportSummary, JoinSummary};
+use super::summary::{Conversion, ImportSummary, JoinSummary, ZeroSummary};
 use taceva_dataset::internal::{shown, shown_path};
 use taceva_dataset::names_quality;
 
@@ -36,6 +36,12 @@ impl fmt::Display for ImportSummary {
                 "channel  {conversion}, {} absent",
                 self.rows_kept - conversion.present
             )?;
+        }
+        for zero in &self.zeros {
+            writeln!(f, "{zero}")?;
+        }
+        if let Some(gravity) = &self.gravity {
+            writeln!(f, "gravity  forces and torques less the {}", shown(gravity))?;
         }
         if let Some(info) = self.signals {
             writeln!(f, "signals  {} samples of {info}", self.rows_kept)?;
@@ -142,6 +148,21 @@ impl fmt::Display for Conversion {
             self.to,
             self.from.symbol(),
             self.present
+        )
+    }
+}
+
+impl fmt::Display for ZeroSummary {
+    /// `zero     Fz less -0.0210 to 1.5020: mean of the first 10 rows of each table, 2 of them`
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "zero     {} less {:.4} to {:.4}: {}, {} of them",
+            self.channel,
+            self.least,
+            self.greatest,
+            shown(&self.rule),
+            self.blocks
         )
     }
 }

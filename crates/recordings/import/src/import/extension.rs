@@ -299,6 +299,12 @@ fn write_header(
             unmentioned.push(column);
         }
     }
+    let mut warnings = header.warnings.clone();
+    for warning in plan.summary.warnings_in_words() {
+        if !warnings.contains(&warning) {
+            warnings.push(warning);
+        }
+    }
     let mut extended = header.extended.clone();
     extended.push(Extension::new(
         header.table.rows,
@@ -319,6 +325,7 @@ fn write_header(
             extended,
             mapping: header.mapping().and(&plan.mapping),
             left_out: header.left_out.clone().and(plan.summary.left_out()),
+            warnings,
             history: header.seal.history.clone(),
             ..Beside::default()
         },

@@ -8,12 +8,14 @@ mod frame_schema;
 mod join;
 mod matrix;
 mod path_pattern;
+mod rotation;
 mod schema;
 mod sections;
 mod signals;
 mod table_schema;
 #[cfg(test)]
 mod tests;
+mod zero;
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -27,11 +29,13 @@ use taceva_dataset::RecordingFacts;
 use taceva_dataset::internal::read_toml_text;
 
 pub(crate) use crate::frame_names::{OWN_ROW, REFERENCE_ATTRIBUTE};
-pub(crate) use join::{JoinBy, JoinMap, Pick, TimeJoin, Unmatched};
+pub(crate) use join::{JoinBy, JoinMap, Lag, Pick, TimeJoin, Unmatched};
 pub(crate) use matrix::{MatrixMap, MatrixRows};
 pub(crate) use path_pattern::PathPattern;
+pub(crate) use rotation::RotationMap;
 pub(crate) use signals::{SignalsFrom, SignalsMap};
 pub(crate) use table_schema::converter;
+pub(crate) use zero::{GravityMap, ZeroMap, ZeroRows};
 
 pub use crate::frame_names::{
     ArrayFrames, ArrayLayout, FrameMap, FrameNames, PixelRange, VideoFrames,
@@ -97,6 +101,12 @@ pub struct ImportMap {
     pub(crate) origin: Option<OriginMap>,
     /// Text columns whose values are of a closed list: name, column and list.
     pub(crate) classes: BTreeMap<String, ClassMap>,
+    /// Channels that are the parts of one rotation.
+    pub(crate) rotations: Vec<RotationMap>,
+    /// Rows that read zero force.
+    pub(crate) zero: Option<ZeroMap>,
+    /// Weight of a tool.
+    pub(crate) gravity: Option<GravityMap>,
 }
 
 /// A column whose values are of a closed list.
@@ -145,6 +155,9 @@ impl ImportMap {
             signals: None,
             origin: None,
             classes: BTreeMap::new(),
+            rotations: Vec::new(),
+            zero: None,
+            gravity: None,
         }
     }
 

@@ -24,6 +24,11 @@ pub(super) fn mapping(map: &ImportMap, folder: &SourceFolder) -> Result<Mapping,
         joins: map.joins.iter().map(tables::join).collect(),
         pictures: map.frame.iter().map(tables::pictures).collect(),
         classes: tables::classes(map),
+        rotations: map
+            .rotations
+            .iter()
+            .map(|rotation| rotation.channels.clone())
+            .collect(),
     })
 }
 

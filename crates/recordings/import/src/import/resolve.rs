@@ -6,6 +6,7 @@ mod coordinate_frame;
 mod join;
 mod matrix;
 mod naming_folder;
+mod rotation;
 mod signals;
 mod table;
 mod times;
@@ -132,6 +133,9 @@ pub(super) fn resolve(
         joined.count_absent_chunks(folder, &names, &mut absent_chunks)?;
     }
     let mut table = ResolvedTable::new(&sources, names, cells);
+    for rotation in &map.rotations {
+        rotation::apply(rotation, &mut table)?;
+    }
     for map in &map.matrices {
         matrix::apply(map, folder, &mut table)?;
     }

@@ -2,6 +2,7 @@
 
 mod labels;
 mod point;
+mod zero;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -17,6 +18,7 @@ use crate::foreign::{DepthPixels, Pictures, TableForm};
 use crate::source_folder::SourceFolder;
 use taceva_dataset::internal::shown;
 use taceva_dataset::{DatasetError, Place, Row};
+use zero::Zeros;
 
 /// The rule that leaves rows out in which a taxel measured nothing.
 pub(super) const SIGNAL_PLACEHOLDERS: &str = "placeholders of [signals]";
@@ -68,6 +70,8 @@ pub(super) struct MappedTable<'a> {
     pub(super) named_by: NamedBy,
     /// Whether the table has a column called `row`, so that the word is not the number of the row.
     pub(super) has_row_column: bool,
+    /// The zeros of forces, where the map says any.
+    pub(super) zeros: Option<Zeros>,
 }
 
 impl<'a> MappedTable<'a> {
@@ -109,8 +113,9 @@ impl<'a> MappedTable<'a> {
         let find_optional = |name: &Option<String>| name.as_ref().map(find).transpose();
         let ids = &map.ids;
         let has_flags = !map.drop.quality_flags.is_empty();
-        Ok(MappedTable {
+        let mut mapped = MappedTable {
             map,
+            zeros: None,
             truth: map
                 .columns
                 .iter()
@@ -178,7 +183,11 @@ impl<'a> MappedTable<'a> {
             named_by: found.named_by,
             has_row_column,
             table,
-        })
+        };
+        if let Some(zero) = &map.zero {
+            mapped.find_zeros(zero)?;
+        }
+        Ok(mapped)
     }
 
     /// The columns of the table that the map mentions nowhere.

@@ -44,6 +44,10 @@ pub struct ImportSummary {
     pub joins: Vec<JoinSummary>,
     /// How each channel is computed from its column, and how many values it has.
     pub conversions: Vec<Conversion>,
+    /// The zero that is subtracted from each force, where the map says one.
+    pub zeros: Vec<ZeroSummary>,
+    /// The weight that is subtracted from forces and torques, in words.
+    pub gravity: Option<String>,
     /// The grid and the unit of the signals; `None` without such.
     pub signals: Option<SignalInfo>,
     /// How the colours of the frames are stored; `None` without frames.
@@ -126,6 +130,13 @@ impl ImportSummary {
         left_out
     }
 
+    /// The warnings as the dataset keeps them.
+    pub(super) fn warnings_in_words(&self) -> Vec<String> {
+        let warnings = self.warnings.iter().map(ToString::to_string);
+        let suspicions = self.suspicions.iter().map(ToString::to_string);
+        warnings.chain(suspicions).collect()
+    }
+
     /// The columns that the map does not mention, as the dataset remembers them: those that rate their rows first.
     pub(super) fn columns_left_behind(&self) -> Vec<String> {
         let short = |name: &&String| name.len() <= REMEMBERED_BYTES;
@@ -139,6 +150,34 @@ impl ImportSummary {
         columns.truncate(REMEMBERED);
         columns
     }
+}
+
+/// The zero that is subtracted from one channel.
+///
+/// ```
+/// # use taceva_import::{ImportMap, ImportPlan};
+/// # let folder = tempfile::tempdir()?;
+/// std::fs::write(folder.path().join("labels.csv"), "force\n0.5\n2.5\n")?;
+/// let map = "map_version = 2\ntable = \"labels.csv\"\n[columns]\nFz = { from = \"force\", unit = \"N\" }\n[zero]\nfrom = \"first 1\"\n\
+///     [time]\nclock = \"unknown\"\n[sensor]\nmodel = \"my gel\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = true\n";
+/// let plan = ImportPlan::new(folder.path(), &ImportMap::parse("map.toml".as_ref(), map)?)?;
+/// let zero = &plan.summary().zeros[0];
+/// assert_eq!((zero.channel.as_str(), zero.least, zero.blocks), ("Fz", 0.5, 1));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct ZeroSummary {
+    /// The channel.
+    pub channel: String,
+    /// The rule of the map in words.
+    pub rule: String,
+    /// The least mean of a block, in the unit of the channel.
+    pub least: f64,
+    /// The greatest mean of a block, in the unit of the channel.
+    pub greatest: f64,
+    /// Number of blocks, each with a zero of its own.
+    pub blocks: u64,
 }
 
 /// How one channel is computed: unit(sign · scale · (cell − offset)).

@@ -42,16 +42,24 @@ pub enum ImportWarning {
         /// Number of midnights.
         days: u64,
     },
+    /// The rows that are taken for zero spread so much that contacts may be among them.
+    ZeroSpread {
+        /// The channel.
+        channel: String,
+        /// The rule of the map in words.
+        rule: String,
+    },
 }
 
 impl ImportWarning {
-    /// The code, for scripts: `column-twice`, `grouped-digits`, `zone-unstated` or `midnight`.
+    /// The code, for scripts: `column-twice`, `grouped-digits`, `zone-unstated`, `midnight` or `zero-spread`.
     pub fn code(&self) -> &'static str {
         match self {
             ImportWarning::ColumnTwice { .. } => "column-twice",
             ImportWarning::GroupedDigits { .. } => "grouped-digits",
             ImportWarning::ZoneUnstated { .. } => "zone-unstated",
             ImportWarning::Midnight { .. } => "midnight",
+            ImportWarning::ZeroSpread { .. } => "zero-spread",
         }
     }
 }
@@ -85,6 +93,10 @@ impl fmt::Display for ImportWarning {
                 f,
                 "`{}` holds times of day that pass midnight {days} times: later rows are taken for those of the next day",
                 taceva_core::shown(column)
+            ),
+            ImportWarning::ZeroSpread { channel, rule } => write!(
+                f,
+                "the rows taken for the zero of {channel} ({rule}) differ by more than a fifth of all its labels: contacts may be among them; correct `from` of [zero]"
             ),
         }
     }

@@ -1,13 +1,17 @@
 //! Folders on which a wrong number would go in, or a good file would be refused: each is right, refused with the remedy, or warned of.
 
+mod angles;
+mod clips;
 mod converters;
 mod coordinate_frames;
 mod drafts;
+mod lags;
 mod numbers;
 mod taxels;
 mod text_forms;
 mod times;
 mod units;
+mod zeros;
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};

@@ -19,6 +19,7 @@ use crate::note::{Division, Independence, Note};
 use crate::predict::{Predicted, Target};
 use crate::provenance::{self, choices};
 use crate::recordings::{self, Clusters};
+use crate::rotation::rotations;
 use crate::rows::Divided;
 use crate::samples;
 use crate::skill::with_skill;
@@ -108,6 +109,8 @@ pub fn score(
     notes.extend(few_points);
     notes.extend(recordings::extended(dataset));
     notes.extend(recordings::reduced(dataset));
+    notes.extend(recordings::imported(dataset));
+    notes.extend(rotations(dataset, predicted));
     notes.extend(target.notes(dataset, &behind.model));
     notes.extend(Note::left_out(target.part.name(), predicted.left_out));
     notes.extend(predicted.beyond());

@@ -21,11 +21,13 @@ pub struct Predictor {
 impl Predictor {
     /// A fitted model.
     pub fn of(model: &Model) -> Predictor {
-        let cards = model.card().channels.iter();
         Predictor {
             channels: model.channels().clone(),
             bounds: model.label_bounds(),
-            constants: cards.map(|card| (card.name.clone(), card.mean)).collect(),
+            constants: model
+                .constants()
+                .map(|(name, mean)| (name.to_owned(), mean))
+                .collect(),
             reads_frames: model.reads_frames(),
         }
     }

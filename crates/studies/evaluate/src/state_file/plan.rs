@@ -17,6 +17,9 @@ use crate::error::EvaluateError;
 pub(crate) struct WrittenPlan {
     metrics: Vec<String>,
     channels: Vec<(String, Unit)>,
+    /// Degrees after which the values of a channel repeat, by channel.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    periods: BTreeMap<String, u16>,
     fields: Vec<String>,
     seed: u64,
     footprint: Option<WrittenFootprint>,
@@ -66,6 +69,11 @@ impl WrittenPlan {
                 .iter()
                 .map(|channel| (channel.name().to_owned(), channel.unit()))
                 .collect(),
+            periods: plan
+                .channels()
+                .iter()
+                .filter_map(|channel| Some((channel.name().to_owned(), channel.period()?)))
+                .collect(),
             fields: plan
                 .available()
                 .iter()
@@ -107,7 +115,13 @@ impl WrittenPlan {
         let channels = self
             .channels
             .iter()
-            .map(|(name, unit)| Channel::named(name, *unit))
+            .map(|(name, unit)| {
+                let channel = Channel::named(name, *unit)?;
+                match self.periods.get(name) {
+                    Some(period) => channel.with_period(*period),
+                    None => Ok(channel),
+                }
+            })
             .collect::<Result<Vec<_>, _>>()
             .and_then(Channels::new)
             .map_err(|error| wrong(error.to_string()))?;

@@ -53,7 +53,10 @@ fn facts(header: &Header) -> [(&'static str, String); 7] {
     let mut channels: Vec<String> = header
         .channels
         .iter()
-        .map(|channel| format!("{channel} [{}]", channel.unit()))
+        .map(|channel| match channel.period() {
+            None => format!("{channel} [{}]", channel.unit()),
+            Some(period) => format!("{channel} [{}, period {period}]", channel.unit()),
+        })
         .collect();
     channels.sort();
     let frames = header.frames.as_ref();

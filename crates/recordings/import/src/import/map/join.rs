@@ -1,5 +1,7 @@
 //! Other tables whose rows belong to those of the main one.
 
+use std::collections::BTreeMap;
+
 use super::TimeMap;
 use crate::foreign::TableForm;
 
@@ -41,19 +43,24 @@ pub(crate) struct TimeJoin {
     pub(crate) pick: Pick,
     /// The greatest distance in time, ms.
     pub(crate) tolerance_ms: f64,
-    /// How much later the clock of the joined table shows the same instant, ms.
-    pub(crate) lag_ms: f64,
+    pub(crate) lag: Lag,
+}
+
+/// How much later the clock of the joined table shows the same instant, ms.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Lag {
+    /// The same in every row.
+    Fixed(f64),
+    /// By the path of the main table, or of the joined one.
+    Files(BTreeMap<String, f64>),
+    /// The number in this column of the main table.
+    Column(String),
 }
 
 impl TimeJoin {
     /// The greatest distance in time, s.
     pub(crate) fn tolerance_s(&self) -> f64 {
         self.tolerance_ms / 1e3
-    }
-
-    /// How much later the clock of the joined table shows the same instant, s.
-    pub(crate) fn lag_s(&self) -> f64 {
-        self.lag_ms / 1e3
     }
 }
 

@@ -10,9 +10,11 @@ use toml::Spanned;
 use super::REFERENCE_ATTRIBUTE;
 use super::check::{Check, ColumnName};
 use super::frame_schema::WrittenFrame;
+use super::rotation::WrittenRotations;
 use super::sections::{WrittenClass, WrittenJoin, WrittenMatrix, WrittenPath};
 use super::signals::WrittenSignals;
 use super::table_schema::WrittenTable;
+use super::zero::{WrittenGravity, WrittenZero};
 use crate::instant::zone_seconds;
 
 use super::{ColumnMap, DropRules, IdMap, ImportMap, MatrixMap, OriginMap, Placeholder, TimeMap};
@@ -27,6 +29,7 @@ struct WrittenMap {
     frame_id: Option<String>,
     #[serde(default)]
     source: Source,
+    rotation: Option<Spanned<WrittenRotations>>,
     frame: Option<Spanned<WrittenFrame>>,
     #[serde(default)]
     columns: BTreeMap<String, Spanned<WrittenColumn>>,
@@ -44,6 +47,8 @@ struct WrittenMap {
     signals: Option<Spanned<WrittenSignals>>,
     origin: Option<Spanned<OriginMap>>,
     time: WrittenTime,
+    zero: Option<WrittenZero>,
+    gravity: Option<Spanned<WrittenGravity>>,
     #[serde(default)]
     drop: WrittenDrop,
     sensor: SensorFacts,
@@ -59,6 +64,7 @@ struct WrittenColumn {
     sign: i64,
     offset: Option<f64>,
     scale: Option<f64>,
+    period: Option<f64>,
 }
 
 #[derive(Deserialize)]
@@ -139,7 +145,15 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
     }
     let mut facts = RecordingFacts::new(written.source, written.time.clock, written.sensor);
     facts.footprint = written.footprint.map(Spanned::into_inner);
+    let rotations = check.rotations(written.rotation, &channels, &columns)?;
+    let zero = written.zero.map(|zero| check.zero(zero, &channels));
+    let gravity = written
+        .gravity
+        .map(|gravity| check.gravity(gravity, &channels));
     Ok(ImportMap {
+        rotations,
+        zero: zero.transpose()?,
+        gravity: gravity.transpose()?,
         frame: written.frame.map(|frame| check.frame(frame)).transpose()?,
         time: check.time(&written.time)?,
         drop: check.drop(written.drop, &channels)?,
@@ -214,6 +228,10 @@ impl Check<'_> {
             }
             let channel = Channel::named(name, unit.unit())
                 .map_err(|error| self.at(offset, &error.to_string()))?;
+            let channel = match column.period {
+                Some(period) => self.periodic(channel, period, offset)?,
+                None => channel,
+            };
             let is_negated = match column.sign {
                 1 => false,
                 -1 => true,

@@ -8,7 +8,7 @@ use toml::Spanned;
 use super::check::{Check, ColumnName};
 use super::table_schema::WrittenTable;
 use super::{
-    ClassMap, JoinBy, JoinMap, MatrixMap, MatrixRows, PathPattern, Pick, TimeJoin, Unmatched,
+    ClassMap, JoinBy, JoinMap, Lag, MatrixMap, MatrixRows, PathPattern, Pick, TimeJoin, Unmatched,
 };
 use crate::foreign::TableForm;
 use taceva_dataset::DatasetError;
@@ -30,7 +30,7 @@ pub(super) struct WrittenJoin {
     until: Option<ColumnName>,
     pick: Option<Pick>,
     tolerance_ms: Option<f64>,
-    lag_ms: Option<f64>,
+    lag_ms: Option<WrittenLag>,
     unmatched: Option<Unmatched>,
     #[serde(default)]
     skip: BTreeMap<String, f64>,
@@ -45,6 +45,17 @@ pub(super) struct WrittenJoin {
 enum WrittenOn {
     Word(String),
     Columns(BTreeMap<String, ColumnName>),
+}
+
+#[derive(Deserialize)]
+#[serde(
+    untagged,
+    expecting = "a number of ms, { \"FILE\" = ms, … } or the name of a column with it"
+)]
+enum WrittenLag {
+    Fixed(f64),
+    Files(BTreeMap<String, f64>),
+    Column(String),
 }
 
 #[derive(Deserialize)]
@@ -148,15 +159,25 @@ impl Check<'_> {
                 }
                 _ => return Err(self.at(offset, "`on` is { column = \"column of the joined table\" }, \"row\" or \"all\"")),
             },
-            (None, Some(time), (pick, Some(tolerance_ms), Some(lag_ms))) => {
-                if !(tolerance_ms >= 0.0 && tolerance_ms.is_finite() && lag_ms.is_finite()) {
+            (None, Some(time), (pick, Some(tolerance_ms), Some(lag))) => {
+                let numbers: Vec<f64> = match &lag {
+                    WrittenLag::Fixed(lag) => vec![*lag],
+                    WrittenLag::Files(lags) => lags.values().copied().collect(),
+                    WrittenLag::Column(_) => Vec::new(),
+                };
+                let is_finite = numbers.iter().all(|lag| lag.is_finite());
+                if !(tolerance_ms >= 0.0 && tolerance_ms.is_finite() && is_finite) {
                     return Err(self.at(offset, "`tolerance_ms` is at least 0, and `lag_ms` a finite number"));
                 }
                 JoinBy::Time(TimeJoin {
                     time: self.time_of(time.column, &time.unit, time.zone.as_ref())?,
                     pick: pick.unwrap_or(Pick::Nearest),
                     tolerance_ms,
-                    lag_ms,
+                    lag: match lag {
+                        WrittenLag::Fixed(lag) => Lag::Fixed(lag),
+                        WrittenLag::Files(lags) => Lag::Files(lags),
+                        WrittenLag::Column(column) => Lag::Column(column),
+                    },
                 })
             }
             (None, Some(_), _) => {

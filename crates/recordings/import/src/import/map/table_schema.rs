@@ -15,7 +15,7 @@ use taceva_dataset::DatasetError;
 #[derive(Deserialize)]
 #[serde(
     untagged,
-    expecting = "the path of a table, { file = …, format = …, header = false, rows = …, decimal = \",\", thousands = \".\", comment = \"#\", skip_lines = 2, units_row = true }, or { files = … }"
+    expecting = "the path of a table, { file = …, format = …, header = false, rows = …, decimal = \",\", thousands = \".\", comment = \"#\", skip_lines = 2, units_row = true }, { file = \"clip.mp4\", format = \"clip\", rate = 30 }, or { files = … }"
 )]
 pub(super) enum WrittenTable {
     Path(String),
@@ -38,6 +38,8 @@ pub(super) struct WrittenForm {
     rows: Option<String>,
     #[serde(default)]
     whole: bool,
+    rate: Option<f64>,
+    start_s: Option<f64>,
 }
 
 #[derive(Clone, Copy, Deserialize)]
@@ -58,6 +60,7 @@ enum Format {
     Mcap,
     Lerobot,
     Webdataset,
+    Clip,
 }
 
 impl Format {
@@ -71,7 +74,8 @@ impl Format {
             | Format::Arrow
             | Format::Mcap
             | Format::Lerobot
-            | Format::Webdataset => return None,
+            | Format::Webdataset
+            | Format::Clip => return None,
             Format::Npy => ArrayFormat::Npy,
             Format::Npz => ArrayFormat::Npz,
             Format::Hdf5 => ArrayFormat::Hdf5,
@@ -192,6 +196,12 @@ impl Check<'_> {
                 ));
             }
         };
+        if matches!(described.format, Some(Format::Clip))
+            || described.rate.is_some()
+            || described.start_s.is_some()
+        {
+            return Ok((file, self.clip_form(described, offset)?));
+        }
         if described.has_text_keys() && !matches!(form, TableForm::Delimited(_)) {
             return Err(self.at(
                 offset,
@@ -227,6 +237,32 @@ impl Check<'_> {
             }
         };
         Ok((file, form))
+    }
+
+    /// The frames of a clip as a table.
+    fn clip_form(&self, described: &WrittenForm, offset: usize) -> Result<TableForm, DatasetError> {
+        let rate = described
+            .rate
+            .filter(|rate| rate.is_finite() && *rate > 0.0);
+        let start_s = described.start_s.unwrap_or(0.0);
+        match (described.format, rate) {
+            (Some(Format::Clip), Some(rate))
+                if start_s.is_finite()
+                    && described.rows.is_none()
+                    && described.header.is_none()
+                    && !described.has_text_keys() =>
+            {
+                Ok(TableForm::Clip {
+                    rate,
+                    start_s,
+                })
+            }
+            _ => Err(self.at(
+                offset,
+                "frames of a clip are a table by `format = \"clip\"`, `rate` (frames a second, above 0) and perhaps `start_s` (time of the first frame), and no \
+                 other key but `file`",
+            )),
+        }
     }
 
     fn text_form(&self, described: &WrittenForm, offset: usize) -> Result<TextForm, DatasetError> {

@@ -1,7 +1,7 @@
 //! How a map reads each label, as the header of the dataset keeps it.
 
 use super::short;
-use crate::import::map::{ImportMap, SignalsFrom};
+use crate::import::map::{GravityMap, ImportMap, SignalsFrom, ZeroMap};
 use crate::import::resolve::matrix_rows;
 use crate::source_folder::SourceFolder;
 use taceva_dataset::{DatasetError, MappedColumn};
@@ -56,6 +56,18 @@ pub(super) fn columns(
         };
         column.order = Some(order.to_owned());
         columns.push(column);
+    }
+    for (position, channel) in map.channels.iter().enumerate() {
+        let mut own = columns.iter_mut();
+        let Some(column) = own.find(|column| column.label == channel.name()) else {
+            continue;
+        };
+        let zero = map.zero.as_ref();
+        let zero = zero.filter(|zero| zero.channels.contains(&position));
+        column.zero = zero.map(ZeroMap::rule);
+        let gravity = map.gravity.as_ref();
+        let gravity = gravity.filter(|gravity| gravity.channels.contains(&Some(position)));
+        column.gravity = gravity.map(GravityMap::rule);
     }
     for column in &mut columns {
         let mut placeholders = map.drop.placeholders.iter();

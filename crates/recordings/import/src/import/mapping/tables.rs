@@ -1,7 +1,7 @@
 //! How a map joins tables, finds pictures and names classes, as the header of the dataset keeps it.
 
 use super::{short, short_name};
-use crate::import::map::{FrameMap, FrameNames, ImportMap, JoinBy, JoinMap, OWN_ROW};
+use crate::import::map::{FrameMap, FrameNames, ImportMap, JoinBy, JoinMap, Lag, OWN_ROW};
 use taceva_dataset::{MappedClass, MappedJoin, MappedPictures};
 
 pub(super) fn join(map: &JoinMap) -> MappedJoin {
@@ -27,7 +27,14 @@ pub(super) fn join(map: &JoinMap) -> MappedJoin {
             join.unit = Some(by.time.unit.symbol().to_owned());
             join.pick = Some(by.pick.name().to_owned());
             join.tolerance_ms = Some(by.tolerance_ms);
-            join.lag_ms = Some(by.lag_ms);
+            match &by.lag {
+                Lag::Fixed(lag) => join.lag_ms = Some(*lag),
+                Lag::Column(column) => join.lag_by = vec![short_name(column).into_owned()],
+                Lag::Files(lags) => {
+                    let lags = lags.iter().map(|(file, lag)| format!("{file} = {lag}"));
+                    join.lag_by = short(&lags.collect::<Vec<_>>());
+                }
+            }
             join
         }
     };

@@ -9,12 +9,12 @@ use taceva_video::Decoders;
 use crate::foreign::{DepthPixels, Pictures, TableForm};
 use crate::import::frame_cells::FrameName;
 use crate::import::frame_plan::{FrameSource, PlannedFrame};
-use crate::import::map::ImportMap;
+use crate::import::map::{GravityMap, ImportMap};
 use crate::import::references::References;
 use crate::import::resolve::{CoordinateFrames, JoinMatches};
 use crate::import::rows::{MappedTable, SIGNAL_PLACEHOLDERS};
 use crate::import::signals::FoundSignals;
-use crate::import::summary::ImportSummary;
+use crate::import::summary::{ImportSummary, ZeroSummary};
 use crate::source_folder::SourceFolder;
 use taceva_dataset::{DatasetError, Table};
 
@@ -106,6 +106,7 @@ impl<'a> Reading<'a> {
         self.summary
             .warnings
             .extend(std::mem::take(&mut rows.warnings));
+        self.note_zeros(&rows);
         let frame = self.map.frame.as_ref();
         let base = match frame.and_then(|frame| frame.folder.as_ref()) {
             Some(folder) => self.folder.path().join(folder),
@@ -121,6 +122,34 @@ impl<'a> Reading<'a> {
             self.bases.insert(base);
         }
         Ok(())
+    }
+
+    /// Notes what is taken from the forces of a table.
+    fn note_zeros(&mut self, rows: &MappedTable<'_>) {
+        let gravity = self.map.gravity.as_ref();
+        self.summary.gravity = gravity.map(GravityMap::rule);
+        let Some((map, zeros)) = self.map.zero.as_ref().zip(rows.zeros.as_ref()) else {
+            return;
+        };
+        for (at, channel) in map.channels.iter().enumerate() {
+            let channel = self.map.channels.as_slice()[*channel].name();
+            let ([least, greatest], blocks) = zeros.range(at);
+            let mut known = self.summary.zeros.iter_mut();
+            match known.find(|known| known.channel == channel) {
+                Some(known) => {
+                    known.least = known.least.min(least);
+                    known.greatest = known.greatest.max(greatest);
+                    known.blocks += blocks;
+                }
+                None => self.summary.zeros.push(ZeroSummary {
+                    channel: channel.to_owned(),
+                    rule: map.rule(),
+                    least,
+                    greatest,
+                    blocks,
+                }),
+            }
+        }
     }
 
     fn read_row(

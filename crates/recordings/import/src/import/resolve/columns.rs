@@ -50,6 +50,9 @@ pub(super) fn mentioned(map: &ImportMap) -> Vec<String> {
             .iter()
             .flat_map(|matrix| matrix.from.iter().cloned()),
     );
+    names.extend(map.zero.iter().flat_map(|zero| zero.columns().cloned()));
+    let gravity = map.gravity.iter();
+    names.extend(gravity.flat_map(|gravity| gravity.orientation.columns.iter().cloned()));
     if !map.drop.quality_flags.is_empty() {
         names.push(map.drop.flag_column.clone());
     }

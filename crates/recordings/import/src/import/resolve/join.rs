@@ -1,6 +1,7 @@
 //! Which row of another table belongs to each row of the main one.
 
 mod candidates;
+mod interpolation;
 mod matches;
 mod matching;
 
@@ -14,9 +15,10 @@ use super::unit_statement::{self, Reading};
 use super::{Sources, cell_of};
 use crate::csv_table::number;
 use crate::foreign::ForeignTable;
-use crate::import::map::{JoinBy, JoinMap, Unmatched};
+use crate::import::map::{JoinBy, JoinMap, Lag, TimeJoin, Unmatched};
 use crate::source_folder::SourceFolder;
 use candidates::{Candidates, TakenRow};
+use interpolation::{Gap, Interpolation};
 use matches::TableUses;
 use matching::{At, about, comparable, seconds};
 use taceva_dataset::internal::shown;
@@ -32,6 +34,8 @@ pub(super) struct Joined<'a> {
     matches: Vec<Match>,
     /// The greatest distance in time of what was matched, s.
     greatest_gap_s: Option<f64>,
+    /// Columns that are no plain numbers between two rows.
+    interpolations: Vec<Interpolation>,
 }
 
 /// What belongs to a row of the main table.
@@ -53,6 +57,7 @@ impl<'a> Joined<'a> {
             tables: Vec::new(),
             matches: Vec::new(),
             greatest_gap_s: None,
+            interpolations: Interpolation::of_join(sources.map, &map.name),
         };
         let mut known: BTreeMap<String, usize> = BTreeMap::new();
         for row in 0..sources.main.rows() {
@@ -117,7 +122,14 @@ impl<'a> Joined<'a> {
             JoinBy::Columns(columns) => columns.as_slice(),
             JoinBy::Row | JoinBy::All | JoinBy::Time(_) | JoinBy::Until(_) => &[],
         };
-        columns.iter().map(|(own, _)| own.as_str())
+        let lag = match &self.map.by {
+            JoinBy::Time(TimeJoin {
+                lag: Lag::Column(column),
+                ..
+            }) => Some(column.as_str()),
+            _ => None,
+        };
+        columns.iter().map(|(own, _)| own.as_str()).chain(lag)
     }
 
     /// What the row that belongs to `row` has in `column`; nothing where none belongs to it.
@@ -135,21 +147,7 @@ impl<'a> Joined<'a> {
             At::Row(row) if column == "row" && !table.has(column) => Ok(row.to_string()),
             At::Row(row) => cell_of(table, row, column),
             At::Between(rows, share) => {
-                let of = |row| -> Result<Option<f64>, DatasetError> {
-                    let cell = cell_of(table, row, column)?;
-                    number::number(&cell).map_err(|problem| DatasetError::Table {
-                        place: table.place(row, column),
-                        problem: format!(
-                            "`{}`: {problem}; `pick = \"linear\"` is for numbers",
-                            shown(&cell)
-                        ),
-                    })
-                };
-                let [before, after] = rows.map(of);
-                let ends = before?.zip(after?);
-                Ok(ends.map_or_else(String::new, |(before, after)| {
-                    format!("{:?}", before + share * (after - before))
-                }))
+                Gap { table, rows, share }.cell(column, &self.interpolations)
             }
         }
     }
@@ -237,6 +235,41 @@ impl<'a> Joined<'a> {
         }
     }
 
+    /// How much later the clock of the joined table shows the instant of `row`, ms.
+    fn lag_ms(&self, sources: &Sources<'_>, row: usize, lag: &Lag) -> Result<f64, DatasetError> {
+        match lag {
+            Lag::Fixed(lag) => Ok(*lag),
+            Lag::Files(lags) => {
+                let joined = sources.filled(row, &self.map.file)?;
+                let found = lags.get(&sources.relative).or_else(|| lags.get(&joined));
+                found.copied().ok_or_else(|| DatasetError::Table {
+                    place: Place::file(sources.main.path()),
+                    problem: format!(
+                        "`lag_ms` of join `{0}` names neither this table nor the joined one: add `\"{1}\" = …` or `\"{2}\" = …`, in ms",
+                        self.map.name,
+                        shown(&sources.relative),
+                        shown(&joined)
+                    ),
+                })
+            }
+            Lag::Column(column) => {
+                let cell = sources.cell(row, column)?;
+                let place = || sources.main.place(row, column);
+                let number = number::number(&cell).map_err(|problem| DatasetError::Table {
+                    place: place(),
+                    problem: format!("`{}`: {problem}", shown(&cell)),
+                })?;
+                number.ok_or_else(|| DatasetError::Table {
+                    place: place(),
+                    problem: format!(
+                        "empty, expected the lag of join `{}` in ms: `lag_ms` names this column",
+                        self.map.name
+                    ),
+                })
+            }
+        }
+    }
+
     fn find(
         &mut self,
         sources: &Sources<'_>,
@@ -302,7 +335,8 @@ impl<'a> Joined<'a> {
                 let Some(instant) = seconds(&cell, time, place)? else {
                     return Ok(At::Nowhere);
                 };
-                let found = about(&candidates.by_time, instant + join.lag_s(), join);
+                let lag_s = self.lag_ms(sources, row, &join.lag)? / 1e3;
+                let found = about(&candidates.by_time, instant + lag_s, join);
                 if let Some((_, gap_s)) = found {
                     self.greatest_gap_s =
                         Some(self.greatest_gap_s.map_or(gap_s, |most| most.max(gap_s)));

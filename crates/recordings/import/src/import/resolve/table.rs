@@ -105,6 +105,11 @@ impl ResolvedTable {
         number::number(cell).map_err(|problem| self.refuse(row, column, &problem))
     }
 
+    /// Writes another cell.
+    pub(super) fn set(&mut self, row: usize, column: usize, cell: String) {
+        self.cells[column][row] = cell;
+    }
+
     /// Adds a column.
     pub(super) fn push(&mut self, name: String, cells: Vec<String>) {
         self.names.push(name);

@@ -8,24 +8,29 @@ use crate::import::resolve::ClassCells;
 use taceva_dataset::DatasetError;
 
 impl MappedTable<'_> {
-    pub(super) fn truth(&self, row: usize) -> Result<Vec<Option<f64>>, DatasetError> {
+    /// The labels of a row, before a zero is taken from them.
+    pub(super) fn measured(&self, row: usize) -> Result<Vec<Option<f64>>, DatasetError> {
+        let mut labels = self.converted(row)?;
+        if let Some(gravity) = &self.map.gravity {
+            self.take_weight(row, gravity, &mut labels)?;
+        }
+        for (label, map) in labels.iter_mut().zip(&self.map.columns) {
+            // A difference from zero, so that no −0 appears where the sign of 0 is turned.
+            if map.is_negated {
+                *label = label.map(|number| 0.0 - number);
+            }
+        }
+        Ok(labels)
+    }
+
+    /// The numbers of a row in the units that they are kept in, with the signs of the table.
+    fn converted(&self, row: usize) -> Result<Vec<Option<f64>>, DatasetError> {
         self.truth
             .iter()
             .zip(&self.map.columns)
-            .map(|(column, map)| {
-                let number = match map.is_moved() {
-                    false => self.table.number_in_unit(row, *column, &map.unit)?,
-                    true => self.moved(row, *column, map)?,
-                };
-                let Some(converted) = number else {
-                    return Ok(None);
-                };
-                // A difference from zero, so that no −0 appears where the sign of 0 is turned.
-                Ok(Some(if map.is_negated {
-                    0.0 - converted
-                } else {
-                    converted
-                }))
+            .map(|(column, map)| match map.is_moved() {
+                false => self.table.number_in_unit(row, *column, &map.unit),
+                true => self.moved(row, *column, map),
             })
             .collect()
     }

@@ -76,13 +76,14 @@ mod tests {
     use taceva_core::SourceUnit;
 
     use super::*;
+    use crate::import::map::Lag;
 
     fn join(pick: Pick, tolerance_s: f64) -> TimeJoin {
         TimeJoin {
             time: TimeMap::new("t", SourceUnit::parse("s").expect("known")),
             pick,
             tolerance_ms: tolerance_s * 1e3,
-            lag_ms: 0.0,
+            lag: Lag::Fixed(0.0),
         }
     }
 

@@ -1,0 +1,53 @@
+//! TAC042: angles that jump by more than half a turn: they begin again, or are the parts of a rotation with two names.
+
+use taceva_core::{Channel, Unit};
+
+use crate::evidence::Evidence;
+use crate::finding::{Check, Found, Severity};
+
+pub(super) static CHECK: Check = Check {
+    code: "TAC042",
+    name: "angle-jumps",
+    looks_for: "angles of which neighbouring samples differ by more than half a turn, although neither a period nor a rotation is declared",
+    hint: "write `period = 360` in the channel of the map if the angle begins again, or `rotation = [\"Rx\", \"Ry\", \"Rz\"]` if it is a part of a rotation vector",
+    reads: None,
+    find,
+};
+
+/// Degrees that no angle turns between two samples.
+const HALF_TURN: f64 = 180.0;
+
+fn find(evidence: &Evidence<'_>) -> Vec<Found> {
+    let channels = evidence.table.channels().iter().enumerate();
+    let angles = channels.filter(|(_, channel)| {
+        let mut parts = evidence.header.rotations.iter().flatten();
+        channel.unit() == Unit::Degree
+            && channel.period().is_none()
+            && !parts.any(|part| part == channel.name())
+    });
+    angles
+        .filter_map(|(position, channel)| of_channel(evidence, position, channel))
+        .collect()
+}
+
+fn of_channel(evidence: &Evidence<'_>, position: usize, channel: &Channel) -> Option<Found> {
+    let column = evidence.table.truth(position);
+    let rows = (0..column.len()).filter_map(|row| Some((row, column.get(row)?)));
+    let rows: Vec<(usize, f64)> = rows.collect();
+    let jumps: Vec<(usize, f64)> = rows
+        .windows(2)
+        .map(|pair| (pair[1].0, (pair[1].1 - pair[0].1).abs()))
+        .filter(|(_, jump)| *jump > HALF_TURN)
+        .collect();
+    let greatest = jumps.iter().map(|(_, jump)| *jump).fold(0.0, f64::max);
+    let behind: Vec<usize> = jumps.iter().map(|(row, _)| *row).collect();
+    let first = behind.first()?;
+    let message = format!(
+        "{channel} jumps by more than half a turn between {} of {} neighbouring samples, by {greatest:.1} degrees at most, first in row {}",
+        jumps.len(),
+        rows.len() - 1,
+        first + 1
+    );
+    let names = evidence.names(&behind);
+    Some(Found::about(Severity::Note, message, names))
+}

@@ -1,0 +1,22 @@
+//! TAC043: warnings of the import that a recording came by.
+
+use taceva_core::shown;
+
+use crate::evidence::Evidence;
+use crate::finding::{Check, Found, Severity};
+
+pub(super) static CHECK: Check = Check {
+    code: "TAC043",
+    name: "import-warnings",
+    looks_for: "warnings of the imports that made the recording, as its header keeps them",
+    hint: "correct the map as the warning says and import again; an import without warnings clears them",
+    reads: None,
+    find,
+};
+
+fn find(evidence: &Evidence<'_>) -> Vec<Found> {
+    let warnings = evidence.header.warnings.iter();
+    warnings
+        .map(|warning| Found::overall(Severity::Warning, shown(warning).to_string()))
+        .collect()
+}

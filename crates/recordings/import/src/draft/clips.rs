@@ -1,0 +1,64 @@
+//! Clips beside the rows of a table.
+
+use std::path::Path;
+
+use taceva_video::{Decoders, Video};
+
+use super::frames::{FrameLines, are_pairs, counted_through};
+use super::roles::Role;
+use super::survey::FileGroup;
+use super::tables::SeenTable;
+use crate::source_folder::SourceFolder;
+
+pub(super) fn is_clip(ending: &str) -> bool {
+    matches!(ending, "avi" | "mp4" | "mkv" | "mov" | "webm")
+}
+
+/// The frames of the clips among `groups`, for the rows of `main`.
+pub(super) fn of(
+    folder: &SourceFolder,
+    groups: &[FileGroup],
+    main: &SeenTable<'_>,
+) -> Option<FrameLines> {
+    // Clips of LeRobot are named by their features: one that is not among them is no picture.
+    if main.group.first() == "meta/info.json" {
+        return None;
+    }
+    let clips = groups.iter().find(|group| is_clip(&group.ending))?;
+    let index = main
+        .columns
+        .iter()
+        .find(|column| column.role == Role::Index);
+    let index = index.map_or("row", |column| column.name.as_str());
+    let (file, index) = match clips.paths.as_slice() {
+        [only] if main.group.paths.len() == 1 => {
+            let open = match index {
+                "row" => other_length(&folder.path().join(only), main.rows),
+                _ => None,
+            };
+            let index = open.unwrap_or_else(|| format!("index = {index:?}"));
+            (only.clone(), index)
+        }
+        [only] => (only.clone(), counted_through(main.group)),
+        // A clip a table.
+        _ if are_pairs(main.group, clips) => (clips.parts.of_table(), format!("index = {index:?}")),
+        _ => return None,
+    };
+    Some(FrameLines {
+        lines: vec![format!("video = {file:?}"), index],
+        ..FrameLines::default()
+    })
+}
+
+/// The open line of a clip whose frames are not as many as the rows beside it; `None` where they are, or nothing here counts them.
+fn other_length(clip: &Path, rows: usize) -> Option<String> {
+    let video = Video::open(clip, &Decoders::default()).ok()?;
+    let frames = video.info().frames;
+    (frames != rows as u64).then(|| {
+        let name = clip.file_name().unwrap_or_default().to_string_lossy();
+        format!(
+            "index = \"?\"   # {frames} frames beside {rows} rows: the column with the number of the frame; or, of clocks of their own,\n\
+             # table = {{ file = {name:?}, format = \"clip\", rate = FRAMES_A_SECOND }} above, this table by [[join]] with `time`, and no `index`"
+        )
+    })
+}

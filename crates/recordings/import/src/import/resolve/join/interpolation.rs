@@ -1,0 +1,217 @@
+//! The cell between two rows of a joined table: numbers in proportion, angles the short way, rotations by the shortest turn.
+
+use taceva_core::Unit;
+
+use super::super::cell_of;
+use crate::csv_table::number;
+use crate::foreign::ForeignTable;
+use crate::import::map::{ImportMap, RotationMap};
+use taceva_dataset::DatasetError;
+use taceva_dataset::internal::shown;
+
+/// Reading of the cells of one column between two rows.
+pub(super) struct Interpolation {
+    /// The column of the joined table.
+    column: String,
+    by: Way,
+}
+
+enum Way {
+    /// An angle, of whose period nothing is declared.
+    Angle {
+        channel: String,
+        /// Half a turn, in the unit of the cells.
+        half_turn: f64,
+    },
+    /// An angle with a period, in the unit of the cells.
+    Periodic(f64),
+    /// A part of a rotation: its position in the columns, by their names in the joined table.
+    Rotation {
+        map: RotationMap,
+        columns: Vec<String>,
+        at: usize,
+    },
+}
+
+/// Two rotations further apart than this have no shortest way between them, degrees.
+const OPPOSITE_DEG: f64 = 179.0;
+
+impl Interpolation {
+    /// Those of the columns of the join `name`.
+    pub(super) fn of_join(map: &ImportMap, name: &str) -> Vec<Interpolation> {
+        let own = |from: &str| {
+            let (join, column) = from.split_once('.')?;
+            (join == name).then(|| column.to_owned())
+        };
+        let mut found = Vec::new();
+        let gravity = map.gravity.iter().map(|gravity| &gravity.orientation);
+        for rotation in map.rotations.iter().chain(gravity) {
+            let columns: Vec<String> = rotation
+                .columns
+                .iter()
+                .filter_map(|from| own(from))
+                .collect();
+            for (at, column) in columns.iter().enumerate() {
+                found.push(Interpolation {
+                    column: column.clone(),
+                    by: Way::Rotation {
+                        map: rotation.clone(),
+                        columns: columns.clone(),
+                        at,
+                    },
+                });
+            }
+        }
+        for (channel, mapped) in map.channels.iter().zip(&map.columns) {
+            let Some(column) = own(&mapped.from) else {
+                continue;
+            };
+            if channel.unit() != Unit::Degree {
+                continue;
+            }
+            let cells_a_degree =
+                1.0 / (mapped.unit.convert(1.0) * mapped.scale.unwrap_or(1.0)).abs();
+            found.push(Interpolation {
+                column,
+                by: match channel.period() {
+                    Some(period) => Way::Periodic(f64::from(period) * cells_a_degree),
+                    None => Way::Angle {
+                        channel: channel.name().to_owned(),
+                        half_turn: 180.0 * cells_a_degree,
+                    },
+                },
+            });
+        }
+        found
+    }
+}
+
+/// Two rows of a joined table with an instant between them.
+pub(super) struct Gap<'a> {
+    pub(super) table: &'a ForeignTable,
+    pub(super) rows: [usize; 2],
+    /// Weight of the second row, from 0 to 1.
+    pub(super) share: f64,
+}
+
+impl Gap<'_> {
+    /// The cell of `column` between the rows; empty where one of its ends is.
+    ///
+    /// # Errors
+    /// [`DatasetError::Table`] for a cell that is no number, and for angles and rotations between which there is no one way.
+    pub(super) fn cell(
+        &self,
+        column: &str,
+        known: &[Interpolation],
+    ) -> Result<String, DatasetError> {
+        let mut ways = known.iter().filter(|known| known.column == column);
+        let way = ways.next().map(|known| &known.by);
+        if let Some(Way::Rotation { map, columns, at }) = way {
+            return self.rotated(map, columns, *at);
+        }
+        let Some([before, after]) = self.ends(column)? else {
+            return Ok(String::new());
+        };
+        let number = match way {
+            Some(Way::Angle { channel, half_turn }) if (after - before).abs() > *half_turn => {
+                return Err(DatasetError::Table {
+                    place: self.table.place(self.rows[1], column),
+                    problem: format!(
+                        "{after} follows {before}, more than half a turn of `{channel}`, and `pick = \"linear\"` would invent angles between: write \
+                         `rotation = [\"Rx\", \"Ry\", \"Rz\"]` above the first [section] of the map if it is a part of a rotation vector, \
+                         `period = 360` in `{channel} = {{ … }}` if it is one angle that begins again, or `pick = \"nearest\"` in the join"
+                    ),
+                });
+            }
+            Some(Way::Periodic(period)) => wrapped(before, after, self.share, *period),
+            _ => before + self.share * (after - before),
+        };
+        Ok(format!("{number:?}"))
+    }
+
+    /// The numbers in both rows; `None` where one of them is empty.
+    fn ends(&self, column: &str) -> Result<Option<[f64; 2]>, DatasetError> {
+        let of = |row| -> Result<Option<f64>, DatasetError> {
+            let cell = cell_of(self.table, row, column)?;
+            number::number(&cell).map_err(|problem| DatasetError::Table {
+                place: self.table.place(row, column),
+                problem: format!(
+                    "`{}`: {problem}; `pick = \"linear\"` is for numbers",
+                    shown(&cell)
+                ),
+            })
+        };
+        let [before, after] = self.rows.map(of);
+        Ok(before?.zip(after?).map(|(before, after)| [before, after]))
+    }
+
+    /// Part `at` of the rotation between the rows.
+    fn rotated(
+        &self,
+        map: &RotationMap,
+        columns: &[String],
+        at: usize,
+    ) -> Result<String, DatasetError> {
+        let mut ends = [Vec::new(), Vec::new()];
+        for column in columns {
+            let Some(found) = self.ends(column)? else {
+                return Ok(String::new());
+            };
+            ends.iter_mut()
+                .zip(found)
+                .for_each(|(end, part)| end.push(part));
+        }
+        let orientation = |which: usize| {
+            map.orientation(&ends[which])
+                .ok_or_else(|| DatasetError::Table {
+                    place: self.table.place(self.rows[which], &columns[0]),
+                    problem: RotationMap::no_rotation(&ends[which]),
+                })
+        };
+        let (before, after) = (orientation(0)?, orientation(1)?);
+        let apart = before.angle_to(after).0;
+        if apart > OPPOSITE_DEG {
+            return Err(DatasetError::Table {
+                place: self.table.place(self.rows[1], &columns[0]),
+                problem: format!(
+                    "this rotation is {apart:.1} degrees from the one before, so that two ways lead from one to the other: write `pick = \"nearest\"` in the join"
+                ),
+            });
+        }
+        let cells = map.cells(before.toward(after, self.share));
+        Ok(format!("{:?}", cells[at]))
+    }
+}
+
+/// The angle at `share` of the short way, in the range that both ends lie in.
+fn wrapped(before: f64, after: f64, share: f64, period: f64) -> f64 {
+    let turns = ((after - before) / period).round();
+    let angle = before + share * (after - before - turns * period);
+    let lie_in = |low: f64, high: f64| [before, after].iter().all(|end| (low..=high).contains(end));
+    match turns.abs() >= 1.0 {
+        true if lie_in(-period / 2.0, period / 2.0) => angle - period * (angle / period).round(),
+        true if lie_in(0.0, period) => angle.rem_euclid(period),
+        _ => angle,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_angle_goes_the_short_way_and_stays_in_its_range() {
+        for (before, after, share, expected) in [
+            (170.0, -170.0, 0.25, 175.0),
+            (170.0, -170.0, 0.75, -175.0),
+            (350.0, 10.0, 0.75, 5.0),
+            (10.0, 350.0, 0.75, 355.0),
+            (30.0, 50.0, 0.5, 40.0),
+            // Counted through: it leaves no range.
+            (530.0, 550.0, 0.5, 540.0),
+        ] {
+            let found = wrapped(before, after, share, 360.0);
+            assert!((found - expected).abs() < 1e-9, "{found} for {expected}");
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! Rows of a rotation, written so that neighbours lie near each other.
+
+use super::table::ResolvedTable;
+use crate::import::map::RotationMap;
+use taceva_dataset::DatasetError;
+
+/// How much nearer other numbers for the same rotation are before they are taken, in the unit of the cells.
+const LEAST_GAIN: f64 = 1e-9;
+
+/// Writes each rotation by those of its numbers that are nearer to the row before: robots report half a turn by v and -v in turn.
+///
+/// # Errors
+/// [`DatasetError::Table`] naming the row for a quaternion whose norm is not 1.
+pub(super) fn apply(map: &RotationMap, table: &mut ResolvedTable) -> Result<(), DatasetError> {
+    let columns: Vec<usize> = map
+        .columns
+        .iter()
+        .filter_map(|name| table.find(name))
+        .collect();
+    let mut before: Option<Vec<f64>> = None;
+    for row in 0..table.rows() {
+        if table.unmatched(row).is_some() {
+            continue;
+        }
+        let cells: Result<Option<Vec<f64>>, DatasetError> = columns
+            .iter()
+            .map(|column| table.number(row, *column))
+            .collect();
+        let Some(cells) = cells? else {
+            continue;
+        };
+        if map.orientation(&cells).is_none() {
+            return Err(DatasetError::Table {
+                place: table.place(row, columns[0]),
+                problem: RotationMap::no_rotation(&cells),
+            });
+        }
+        let twin = before.as_ref().zip(map.twin(&cells));
+        let nearer = twin.filter(|(before, twin)| {
+            distance(before, twin) + LEAST_GAIN < distance(before, &cells)
+        });
+        before = Some(match nearer {
+            Some((_, twin)) => {
+                for (column, part) in columns.iter().zip(&twin) {
+                    table.set(row, *column, format!("{part:?}"));
+                }
+                twin
+            }
+            None => cells,
+        });
+    }
+    Ok(())
+}
+
+fn distance(one: &[f64], other: &[f64]) -> f64 {
+    let pairs = one.iter().zip(other);
+    pairs.map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
+}

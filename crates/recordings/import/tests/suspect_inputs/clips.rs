@@ -1,0 +1,99 @@
+//! Clips beside logs with clocks of their own.
+
+use std::path::Path;
+
+use taceva_video::{Decoders, Video};
+
+use super::{FACTS, draft, imported, lab, line, planned};
+
+const CLIP: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/../../../tests/recordings/mp4-h264-baseline/clip.mp4"
+);
+
+/// A force that grows by 1 N a second, at 10 Hz.
+fn log() -> String {
+    let rows = (0..40).map(|row| format!("{0:.1},{0:.1}\n", f64::from(row) * 0.1));
+    format!("t,fz\n{}", rows.collect::<String>())
+}
+
+fn folder(log: &str) -> tempfile::TempDir {
+    let folder = lab(&[("force.csv", log)]);
+    std::fs::copy(Path::new(CLIP), folder.path().join("clip.mp4")).expect("copied");
+    folder
+}
+
+fn map(form: &str, lag: &str) -> String {
+    format!(
+        "map_version = 2\ntable = {{ file = \"clip.mp4\", {form} }}\n[frame]\nvideo = \"clip.mp4\"\nchannel_order = \"gray\"\nreference = \"unknown\"\n[columns]\n\
+         Fz = {{ from = \"ft.fz\", unit = \"N\" }}\n[time]\ncolumn = \"t\"\nunit = \"s\"\nclock = \"monotonic\"\n[[join]]\nname = \"ft\"\ntable = \"force.csv\"\n\
+         time = {{ column = \"t\", unit = \"s\" }}\npick = \"linear\"\ntolerance_ms = 100\nlag_ms = {lag}\nunmatched = \"drop\"\n{FACTS}"
+    )
+}
+
+#[test]
+fn frames_of_a_clip_are_joined_to_a_log_by_their_rate_start_and_lag() {
+    let folder = folder(&log());
+    for (form, lag, rate, start) in [
+        ("format = \"clip\", rate = 30", "0", 30.0, 0.0),
+        (
+            "format = \"clip\", rate = 25, start_s = 0.5",
+            "0",
+            25.0,
+            0.5,
+        ),
+        ("format = \"clip\", rate = 12.5", "250", 12.5, 0.25),
+    ] {
+        let found = imported(folder.path(), &map(form, lag), "Fz");
+        assert!(found.len() > 10, "{form}");
+        for (frame, force) in (0..).zip(&found) {
+            let expected = start + f64::from(frame) / rate;
+            assert!(
+                (force - expected).abs() < 1e-9,
+                "{form}: {force} for {expected}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_clip_without_a_rate_or_with_keys_of_tables_is_refused() {
+    let folder = folder(&log());
+    for form in [
+        "format = \"clip\"",
+        "format = \"clip\", rate = 0",
+        "format = \"clip\", rate = 30, header = true",
+        "rate = 30",
+    ] {
+        let problem = planned(folder.path(), &map(form, "0")).map(|_| ());
+        let problem = problem.expect_err("refused");
+        assert!(
+            problem.contains("`rate` (frames a second, above 0)"),
+            "{problem}"
+        );
+    }
+    std::fs::write(folder.path().join("clip.mp4"), "no clip").expect("written");
+    let problem = planned(folder.path(), &map("format = \"clip\", rate = 30", "0")).map(|_| ());
+    assert!(problem.expect_err("refused").contains("clip.mp4"));
+}
+
+#[test]
+fn a_draft_pairs_frames_and_rows_by_their_number_only_where_there_are_as_many() {
+    let clip = Video::open(CLIP.as_ref(), &Decoders::default()).expect("a clip");
+    let frames = u32::try_from(clip.info().frames).expect("few");
+    let table = |rows: u32| {
+        let rows = (0..rows).map(|row| format!("{0:.1},{0:.1}\n", f64::from(row) * 0.1));
+        format!("t,fz\n{}", rows.collect::<String>())
+    };
+    for (rows, expected) in [
+        (frames, "index = \"row\""),
+        (frames / 3, "index = \"?\""),
+        (frames + 1, "index = \"?\""),
+    ] {
+        let draft = draft(folder(&table(rows)).path());
+        let found = line(&draft, "index = ");
+        assert!(found.starts_with(expected), "{draft}");
+        let says_form = draft.contains("format = \"clip\", rate = FRAMES_A_SECOND");
+        assert_eq!(says_form, rows != frames, "{draft}");
+    }
+}
