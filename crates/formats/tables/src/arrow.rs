@@ -110,7 +110,7 @@ impl ArrowTable {
         self.source.path()
     }
 
-    /// How many rows there are.
+    /// Number of rows.
     pub fn rows(&self) -> u64 {
         self.rows
     }

@@ -23,7 +23,7 @@ impl<'b> Table<'b> {
         Some(Table { bytes, at })
     }
 
-    /// Where the field of that number begins.
+    /// Place at which the field of that number begins.
     fn field(self, number: usize) -> Option<usize> {
         let back = unsigned(self.bytes, self.at)?;
         let back = i32::from_le_bytes(u32::try_from(back).ok()?.to_le_bytes());
@@ -66,7 +66,7 @@ impl<'b> Table<'b> {
         self.bytes.get(begin..begin.checked_add(bytes)?)
     }
 
-    /// Where what the field leads to begins.
+    /// Place to which the field leads.
     fn lead(self, number: usize) -> Option<usize> {
         let at = self.field(number)?;
         at.checked_add(unsigned(self.bytes, at)?)

@@ -16,7 +16,7 @@ const CONTINUED: u32 = u32::MAX;
 
 /// A message: its metadata, and the place of the bytes behind it.
 pub(super) struct Message {
-    /// Its place in the file.
+    /// Place of its first byte in the file.
     pub(super) at: u64,
     pub(super) kind: u8,
     metadata: Vec<u8>,

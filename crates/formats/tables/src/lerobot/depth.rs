@@ -76,7 +76,7 @@ impl DepthCodes {
         [self.least_m * 1000.0, self.greatest_m * 1000.0]
     }
 
-    /// Whether some neighbouring codes are less than a millimetre apart.
+    /// True if some neighbouring codes are less than a millimetre apart.
     pub fn is_finer_than_millimetres(&self) -> bool {
         // Logarithmic codes lie closest at their beginning.
         let first = self.millimetres(0).zip(self.millimetres(1));

@@ -18,7 +18,7 @@ pub(crate) struct ClipPictures {
     decoders: Decoders,
     count: u64,
     codec: FrameCodec,
-    /// Those of a depth map, whose numbers are no brightness.
+    /// Pixels of a depth map, whose numbers are no brightness.
     depth: Option<DepthPixels>,
 }
 
