@@ -4,6 +4,7 @@ use std::num::NonZeroUsize;
 
 use taceva_core::{Orientation, SilentProgress};
 use taceva_dataset::Dataset;
+use taceva_import::{ExportForm, ExportPlan};
 
 use super::{FACTS, assert_near, case, imported, lab, map_of, planned};
 
@@ -236,4 +237,36 @@ fn the_dataset_says_which_channels_are_rotations_and_which_begin_again() {
     let tool = header.channels.by_name("tool").expect("a channel");
     assert_eq!(tool.period(), Some(180));
     assert_eq!(dataset.table().channels().by_name("tool"), Some(tool));
+}
+
+#[test]
+fn an_exported_dataset_comes_back_with_its_periods_and_rotations() {
+    let folder = lab(&[(
+        "t.csv",
+        "t,x,y,z,yaw\n0,0.1,0,0,179\n1,0.2,0,0,-179\n2,0.3,0,0,-170\n",
+    )]);
+    let parts =
+        ["x", "y", "z"].map(|axis| format!("R{axis} = {{ from = \"{axis}\", unit = \"rad\" }}\n"));
+    let map = format!(
+        "map_version = 2\ntable = \"t.csv\"\nrotation = [\"Rx\", \"Ry\", \"Rz\"]\n[columns]\n{}yaw = {{ from = \"yaw\", unit = \"deg\", period = 360 }}\n\
+         [time]\nclock = \"monotonic\"\ncolumn = \"t\"\nunit = \"s\"\n{FACTS}",
+        parts.concat()
+    );
+    let dataset = folder.path().join("dataset");
+    let plan = planned(folder.path(), &map).expect("planned");
+    plan.run(&dataset, NonZeroUsize::MIN, &SilentProgress)
+        .expect("imported");
+    let opened = Dataset::open(&dataset).expect("a dataset");
+    let target = folder.path().join("exported");
+    let plan = ExportPlan::new(&opened, ExportForm::Csv).expect("planned");
+    plan.run(&target, NonZeroUsize::MIN, &SilentProgress)
+        .expect("exported");
+    let map = std::fs::read_to_string(target.join("map.toml")).expect("written");
+    let again = folder.path().join("again");
+    let plan = planned(&target, &map).expect("planned");
+    plan.run(&again, NonZeroUsize::MIN, &SilentProgress)
+        .expect("imported");
+    let again = Dataset::open(&again).expect("a dataset");
+    assert_eq!(again.header().rotations, opened.header().rotations);
+    assert_eq!(again.header().channels, opened.header().channels);
 }
