@@ -26,7 +26,7 @@ fn errors_of_an_angle_with_a_period_are_the_short_way_round() {
         .update_pairs(periodic, &TRUTH, &PREDICTION)
         .expect("taken in");
     // Errors of 3, -3, 2 and 1 degrees.
-    for (metric, expected) in [("mae", 2.25), ("bias", 0.75), ("rmse", 5.75_f64.sqrt())] {
+    for (metric, expected) in [("mae", 2.25), ("bias", -0.75), ("rmse", 5.75_f64.sqrt())] {
         let found = scalar(&mut evaluator, metric, "yaw");
         assert!((found - expected).abs() < 1e-12, "{metric} {found}");
     }

@@ -83,6 +83,14 @@ pub(super) fn text(exported: &Exported<'_>, written: &Written) -> String {
         written.table,
         table.rows()
     ));
+    let rotations = header.rotations.iter().map(|channels| {
+        let channels: Vec<String> = channels.iter().map(|name| quoted(name)).collect();
+        format!("[{}]", channels.join(", "))
+    });
+    let rotations: Vec<String> = rotations.collect();
+    if !rotations.is_empty() {
+        line(format_args!("rotation = [{}]", rotations.join(", ")));
+    }
     if let Some(frame) = &written.frame {
         let order = exported
             .pictures
@@ -113,8 +121,10 @@ pub(super) fn text(exported: &Exported<'_>, written: &Written) -> String {
             suffix.is_some_and(|suffix| suffix.contradiction(&unit).is_some())
         });
         let scale = if is_contradicted { ", scale = 1" } else { "" };
+        let period = channel.period();
+        let period = period.map_or_else(String::new, |period| format!(", period = {period}"));
         line(format_args!(
-            "{} = {{ from = {}, unit = {}{scale} }}",
+            "{} = {{ from = {}, unit = {}{scale}{period} }}",
             channel.name(),
             quoted(from),
             quoted(channel.unit().symbol())

@@ -4,6 +4,7 @@ use std::num::NonZeroUsize;
 
 use taceva_core::{Orientation, SilentProgress};
 use taceva_dataset::Dataset;
+use taceva_import::{ExportForm, ExportPlan};
 
 use super::{FACTS, assert_near, case, imported, lab, map_of, planned};
 
@@ -64,7 +65,7 @@ fn a_yaw_across_180_degrees_is_refused_and_with_a_period_goes_the_short_way() {
     let files = [
         ("\"r.csv\"", "r.csv", "t,a\n0,170\n1,-170\n"),
         (
-            "{ file = \"r.jsonl\", rows = \"/*\" }",
+            "\"r.jsonl\"",
             "r.jsonl",
             "{\"t\": 0, \"a\": 170}\n{\"t\": 1, \"a\": -170}\n",
         ),
@@ -72,6 +73,16 @@ fn a_yaw_across_180_degrees_is_refused_and_with_a_period_goes_the_short_way() {
     ];
     for (number, (other, name, text)) in files.into_iter().enumerate() {
         let folder = lab(&[("t.csv", TIMES), (name, text)]);
+        // Columns of JSON are pointers.
+        let joined = |other: &str, column: &str, above: &str| {
+            let map = joined(other, column, above);
+            match number {
+                1 => map
+                    .replace("\"rob.a\"", "\"rob./a\"")
+                    .replace("time = { column = \"t\"", "time = { column = \"/t\""),
+                _ => map,
+            }
+        };
         let column = "yaw = { from = \"rob.a\", unit = \"deg\" }\n";
         let problem = planned(folder.path(), &joined(other, column, "")).expect_err("refused");
         assert!(problem.contains("half a turn of `yaw`"), "{problem}");
@@ -95,7 +106,7 @@ fn radians_that_begin_again_and_a_scale_of_the_map_are_as_degrees() {
         ("r.csv", "t,a,steps\n0,3.0,1700\n1,-3.0,-1700\n"),
     ]);
     for (cells, expected) in [
-        ("from = \"rob.a\", unit = \"rad\"", 173.943_6),
+        ("from = \"rob.a\", unit = \"rad\"", 175.943_6),
         ("from = \"rob.steps\", unit = \"deg\", scale = 0.1", 175.0),
     ] {
         let map = |more: &str| joined("\"r.csv\"", &format!("a = {{ {cells}{more} }}\n"), "");
@@ -226,4 +237,36 @@ fn the_dataset_says_which_channels_are_rotations_and_which_begin_again() {
     let tool = header.channels.by_name("tool").expect("a channel");
     assert_eq!(tool.period(), Some(180));
     assert_eq!(dataset.table().channels().by_name("tool"), Some(tool));
+}
+
+#[test]
+fn an_exported_dataset_comes_back_with_its_periods_and_rotations() {
+    let folder = lab(&[(
+        "t.csv",
+        "t,x,y,z,yaw\n0,0.1,0,0,179\n1,0.2,0,0,-179\n2,0.3,0,0,-170\n",
+    )]);
+    let parts =
+        ["x", "y", "z"].map(|axis| format!("R{axis} = {{ from = \"{axis}\", unit = \"rad\" }}\n"));
+    let map = format!(
+        "map_version = 2\ntable = \"t.csv\"\nrotation = [\"Rx\", \"Ry\", \"Rz\"]\n[columns]\n{}yaw = {{ from = \"yaw\", unit = \"deg\", period = 360 }}\n\
+         [time]\nclock = \"monotonic\"\ncolumn = \"t\"\nunit = \"s\"\n{FACTS}",
+        parts.concat()
+    );
+    let dataset = folder.path().join("dataset");
+    let plan = planned(folder.path(), &map).expect("planned");
+    plan.run(&dataset, NonZeroUsize::MIN, &SilentProgress)
+        .expect("imported");
+    let opened = Dataset::open(&dataset).expect("a dataset");
+    let target = folder.path().join("exported");
+    let plan = ExportPlan::new(&opened, ExportForm::Csv).expect("planned");
+    plan.run(&target, NonZeroUsize::MIN, &SilentProgress)
+        .expect("exported");
+    let map = std::fs::read_to_string(target.join("map.toml")).expect("written");
+    let again = folder.path().join("again");
+    let plan = planned(&target, &map).expect("planned");
+    plan.run(&again, NonZeroUsize::MIN, &SilentProgress)
+        .expect("imported");
+    let again = Dataset::open(&again).expect("a dataset");
+    assert_eq!(again.header().rotations, opened.header().rotations);
+    assert_eq!(again.header().channels, opened.header().channels);
 }
