@@ -30,6 +30,8 @@ const NUMBERS: [&str; 6] = [
 ];
 /// Suffix of the name of a column of predictions.
 const PREDICTED: &str = "_predicted";
+/// Suffix of the name of a column of predictions that are not brought back to the bounds of the model.
+const UNBOUNDED: &str = "_predicted_unbounded";
 
 /// Samples, column by column: `sample`, covariates, and truth and prediction of each channel.
 ///
@@ -118,6 +120,11 @@ impl Samples {
         self.push_numbers(&format!("{}{PREDICTED}", channel.name()), numbers);
     }
 
+    /// Adds the predictions of `channel` as the model gives them, beyond its bounds too; without the column they are the predictions.
+    pub fn push_unbounded(&mut self, channel: &Channel, numbers: Column) {
+        self.push_numbers(&format!("{}{UNBOUNDED}", channel.name()), numbers);
+    }
+
     /// Reads a table with a head: `sample` (or `id`), covariates, and for each channel its truth under its name and its prediction under
     /// `<name>_predicted`.
     ///
@@ -204,6 +211,9 @@ impl Samples {
     pub fn channels(&self) -> Vec<SampleChannel<'_>> {
         let mut names: Vec<&str> = Vec::new();
         for (name, column) in &self.columns {
+            if name.ends_with(UNBOUNDED) {
+                continue;
+            }
             let name = name.strip_suffix(PREDICTED).unwrap_or(name);
             let is_channel = matches!(column, SampleColumn::Numbers(_)) && !NUMBERS.contains(&name);
             if is_channel && !names.contains(&name) {
@@ -374,6 +384,15 @@ mod tests {
         samples.write(&mut text).expect("written");
         assert_eq!(String::from_utf8(text).expect("text"), table);
         assert_eq!(samples.channels().len(), 1);
+    }
+
+    #[test]
+    fn predictions_beyond_the_bounds_of_a_model_are_no_channel_of_their_own() {
+        let table = "sample,Fz,Fz_predicted,Fz_predicted_unbounded\na,0.5,0.4,-0.3\n";
+        let samples = Samples::read(table).expect("samples");
+        let names: Vec<&str> = samples.channels().iter().map(|of| of.name).collect();
+        assert_eq!(names, ["Fz"]);
+        assert_eq!(samples.number("Fz_predicted_unbounded", 0), Some(-0.3));
     }
 
     #[test]
