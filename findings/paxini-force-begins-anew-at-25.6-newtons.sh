@@ -3,7 +3,7 @@
 #
 # A resultant has six bytes, two for each axis, but the decoder takes the low byte of each: 27.5 N is read as 1.9 N, and a shear
 # of +12.8 N as -12.8 N. The fall from 25.5 N to 0 within a press looks like a slip or a set zero; no flag says otherwise.
-# Seen: `Fz of 25.5, 25.6, 27.5 N is read as 25.5, 0.0, 1.9 N; Fx of 12.7, 12.8 N as 12.7, -12.8 N`.
+# Seen: `Fz of 25.5, 25.6, 27.5 N is read as [25.5, 0.0, 1.9] N; Fx of 12.7, 12.8 N as [12.7, -12.8] N`.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

@@ -4,7 +4,7 @@
 # Gray goes into H.264 with its values as they are, and the stream is marked neither full nor limited. Reading takes it for
 # limited range and stretches it: 20 becomes 5, 40 becomes 28, 230 becomes 249. Two clips, or a clip and a reference picture,
 # that are read by different calls differ by more than a light press changes a pixel.
-# Seen: `written 20 40 120 230: luma 20 40 120 230, gray 5 28 121 249`.
+# Seen: `written 20 40 120 230 luma 20 40 120 230 gray 5 28 121 249`.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

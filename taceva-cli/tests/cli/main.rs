@@ -22,6 +22,7 @@ mod plugin_journey;
 mod plugin_models;
 mod plugin_pack;
 mod presets;
+mod recomputed;
 mod refusals;
 mod report;
 mod rig;

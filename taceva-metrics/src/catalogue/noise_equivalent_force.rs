@@ -15,6 +15,8 @@ use crate::stats::noncentral::{critical_factor, detection_factor};
 
 /// k_α + k_β of Currie for risks of 5 % each where the deviation is known: 2 × 1.645.
 const KNOWN_DEVIATION: f64 = 3.29;
+/// The 97.5 % quantile of the normal distribution.
+const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;
 
 pub(crate) static NOISE_EQUIVALENT_FORCE: Metric = Metric {
     id: "noise_equivalent_force",
@@ -31,8 +33,10 @@ pub(crate) static NOISE_EQUIVALENT_FORCE: Metric = Metric {
                     contact, |true Fz| < 0.02 N, and δ the factor for n − 1 degrees of freedom. Of forces only, and from ten such \
                     samples on. It is no detection limit: that is not verified without light presses, which other places, \
                     other days and the error at zero (see zero_error) make worse. `critical` is the threshold that zero \
-                    exceeds in 5 % of cases; `known_deviation` is 3.29 s, as if s were known.",
+                    exceeds in 5 % of cases; `known_deviation` is 3.29 s, as if s were known. `independent_low` and \
+                    `independent_high` are its 95 % limits by the χ² distribution of s if samples are independent.",
     needs: IDLE_NEEDS,
+    forces_only: true,
     constants: gate,
     formula: Formula(&IdleFormula(noise_equivalent_force)),
     ..Metric::of(&IDLE)
@@ -57,9 +61,26 @@ fn noise_equivalent_force(predictions: &Moments, unit: Unit) -> Numbers {
         let deviation = predictions.deviation(1).unwrap_or_default();
         KNOWN_DEVIATION * deviation
     });
+    let limit = |normal: f64| -> Finished {
+        let freedom = number(predictions.n.saturating_sub(1));
+        Ok(times(detection_factor)? / chi_square_share(freedom, normal).sqrt())
+    };
+    let (low, high) = (limit(NORMAL_QUANTILE), limit(-NORMAL_QUANTILE));
     Numbers::of(times(detection_factor))
         .with("critical", unit, Range::Positive, times(critical_factor))
         .with("known_deviation", unit, Range::Positive, known)
+        .with("independent_low", unit, Range::Positive, low)
+        .with("independent_high", unit, Range::Positive, high)
+}
+
+/// χ²/ν at the quantile whose normal deviate is `normal`, for ν = `freedom` ≥ 9, to within 1 %.
+///
+/// # Reference
+/// Wilson and Hilferty, Proceedings of the National Academy of Sciences 17 (1931).
+fn chi_square_share(freedom: f64, normal: f64) -> f64 {
+    let variance = 2.0 / (9.0 * freedom);
+    let root = 1.0 - variance + normal * variance.sqrt();
+    root * root * root
 }
 
 fn number(count: u64) -> f64 {
@@ -69,4 +90,25 @@ fn number(count: u64) -> f64 {
     )]
     let number = count as f64;
     number
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantiles_of_chi_square_are_those_of_tables() {
+        // Quantiles of 97.5 % and 2.5 % for 9, 59 and 499 degrees of freedom.
+        for (freedom, [upper, lower]) in [
+            (9.0, [19.022_768, 2.700_389_5]),
+            (59.0, [82.117_406, 39.661_858]),
+            (499.0, [562.789_5, 438.998_0]),
+        ] {
+            for (normal, expected) in [(NORMAL_QUANTILE, upper), (-NORMAL_QUANTILE, lower)] {
+                let found = freedom * chi_square_share(freedom, normal);
+                let off = (found / expected - 1.0).abs();
+                assert!(off < 1e-2, "{freedom}: {found} for {expected}");
+            }
+        }
+    }
 }

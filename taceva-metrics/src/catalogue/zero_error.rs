@@ -25,6 +25,7 @@ pub(crate) static ZERO_ERROR: Metric = Metric {
     documentation: "The force that is predicted on average where nothing is touched, |true Fz| < 0.02 N: what a tare would take \
                     away. Of forces only, and from ten such samples on. It may exceed the noise-equivalent force.",
     needs: IDLE_NEEDS,
+    forces_only: true,
     constants: gate,
     formula: Formula(&IdleFormula(zero_error)),
     ..Metric::of(&IDLE)

@@ -54,6 +54,8 @@ pub struct Metric {
     pub(crate) constants: fn(Unit) -> Vec<Parameter>,
     /// Whether predictions enter as the model gives them, beyond its bounds too.
     pub(crate) reads_unbounded: bool,
+    /// Whether its values are of forces alone.
+    pub(crate) forces_only: bool,
     /// The variant by which verdicts go, where the value itself depends on noise or on how often presses were repeated.
     pub decided_by: Option<&'static str>,
     /// What decides whether its scores take part in verdicts.
@@ -85,6 +87,7 @@ impl Metric {
             facts: &[],
             constants: |_| Vec::new(),
             reads_unbounded: false,
+            forces_only: false,
             decided_by: None,
             verdict: VerdictRule::Channels,
             chance: None,
@@ -96,6 +99,11 @@ impl Metric {
     /// Whether predictions of channels enter it.
     pub fn reads_predictions(&self) -> bool {
         self.needs.fields.contains(Field::Prediction)
+    }
+
+    /// Whether its values are of forces alone, so that places need no prediction for it.
+    pub fn is_of_forces(&self) -> bool {
+        self.forces_only
     }
 
     /// Whether it reads predictions as the model gives them, and not brought back to the bounds of the model: robustness would be that of

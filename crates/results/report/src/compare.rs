@@ -13,7 +13,7 @@ pub use overview::{Decision, OVERVIEW_LINES, OVERVIEW_WIDTH};
 pub use render::COMPARISON_SCHEMA;
 pub use ties::ties;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use taceva_core::Unit;
 use taceva_metrics::{
@@ -21,6 +21,7 @@ use taceva_metrics::{
     decide,
 };
 
+use crate::names::listed;
 use crate::results::Study;
 use remarks::Remarks;
 use taceva_results::Score;
@@ -74,6 +75,8 @@ pub struct Answer {
     pub reason: Option<String>,
     /// Whether each score takes part in verdicts, and if not, why.
     pub standings: Sides<Standing>,
+    /// Whether each score is of one training of a model that draws, so that another seed would move it.
+    pub one_training: Sides<bool>,
 }
 
 impl Answer {
@@ -87,10 +90,14 @@ impl Answer {
                     b: &names[self.sides.b],
                 });
                 let unknown = self.unknown(names);
-                if unknown.is_empty() {
-                    words
-                } else {
-                    format!("{words}; skill unknown of {}", unknown.join(" and "))
+                let words = match unknown.is_empty() {
+                    true => words,
+                    false => format!("{words}; skill unknown of {}", unknown.join(" and ")),
+                };
+                let drawn = self.drawn(names);
+                match drawn.is_empty() || self.better().is_none() {
+                    true => words,
+                    false => format!("{words}; one training of {}", drawn.join(" and ")),
                 }
             }
         }
@@ -108,6 +115,16 @@ impl Answer {
         unknown.map(|(_, at)| names[at].as_str()).collect()
     }
 
+    /// The studies of which one training of a model that draws was scored.
+    fn drawn<'n>(&self, names: &'n [String]) -> Vec<&'n str> {
+        let sides = [
+            (self.one_training.a, self.sides.a),
+            (self.one_training.b, self.sides.b),
+        ];
+        let drawn = sides.into_iter().filter(|(is_drawn, _)| *is_drawn);
+        drawn.map(|(_, at)| names[at].as_str()).collect()
+    }
+
     /// The position of the study that is shown to be better.
     pub fn better(&self) -> Option<usize> {
         match self.verdict.better()? {
@@ -122,6 +139,8 @@ struct Pair<'a> {
     scores: Sides<&'a Score>,
     sides: Sides<usize>,
     difference: Result<Difference, String>,
+    /// The reason why two predictions of one truth were not compared in pairs, in words.
+    unpaired: Option<String>,
 }
 
 /// Compares every pair of `studies`.
@@ -137,16 +156,24 @@ pub fn compare(studies: &[Study], request: &CompareRequest) -> Comparison {
     let deciding: Vec<Study> = studies.iter().map(Study::deciding).collect();
     let studies = deciding.as_slice();
     let mut answers = Vec::new();
+    let mut unpaired: Vec<String> = Vec::new();
     for metric in metrics(studies, request) {
         let mut pairs = pairs(studies, &names, &metric, request);
         decide_together(&mut pairs);
-        answers.extend(pairs.into_iter().map(|pair| answer(pair, request)));
+        for reason in pairs.iter_mut().filter_map(|pair| pair.unpaired.take()) {
+            if !unpaired.contains(&reason) {
+                unpaired.push(reason);
+            }
+        }
+        answers.extend(pairs.into_iter().map(|pair| answer(pair, studies, request)));
     }
     Comparison {
         asides: asides(studies, &names, &answers),
         notes: comparability::notes(studies, &names)
             .into_iter()
             .chain(simulated(studies))
+            .chain(trainings(&names, &answers))
+            .chain(unpaired)
             .collect(),
         names,
         answers,
@@ -163,6 +190,19 @@ fn simulated(studies: &[Study]) -> Option<String> {
         }
         _ => Some("some of the samples are simulated and were not measured".to_owned()),
     }
+}
+
+/// Whose differences rest on one training of a model that draws, with the way to try others.
+fn trainings(names: &[String], answers: &[Answer]) -> Option<String> {
+    let shown = answers.iter().filter(|answer| answer.better().is_some());
+    let drawn: BTreeSet<&str> = shown.flat_map(|answer| answer.drawn(names)).collect();
+    let drawn: Vec<String> = drawn.into_iter().map(str::to_owned).collect();
+    (!drawn.is_empty()).then(|| {
+        format!(
+            "differences rest on one training of {}: another seed moves them, which no interval contains; repeat with --seeds 3",
+            listed(&drawn)
+        )
+    })
 }
 
 /// Remarks on the answers, by score.
@@ -217,14 +257,16 @@ fn pairs<'a>(
                     a: names[a].as_str(),
                     b: &names[b],
                 };
-                let difference = match comparability::barred(scores, of_both) {
-                    Some(reason) => Err(reason),
-                    None => difference(scores, Sides { a: study, b: other }, request.seed),
+                let of_studies = Sides { a: study, b: other };
+                let (difference, unpaired) = match comparability::barred(scores, of_both) {
+                    Some(reason) => (Err(reason), None),
+                    None => difference(scores, of_studies, of_both, request.seed),
                 };
                 pairs.push(Pair {
                     scores,
                     sides: Sides { a, b },
                     difference,
+                    unpaired,
                 });
             }
         }
@@ -232,20 +274,29 @@ fn pairs<'a>(
     pairs
 }
 
+/// The difference of two scores, with the reason why two predictions of one truth were not compared in pairs.
 fn difference(
     scores: Sides<&Score>,
     studies: Sides<&Study>,
+    names: Sides<&str>,
     seed: u64,
-) -> Result<Difference, String> {
+) -> (Result<Difference, String>, Option<String>) {
     let paired = match scores.a.metric.as_str() {
-        "mae" => paired::difference(scores, studies, seed),
-        _ => None,
+        "mae" => paired::difference(scores, studies, names, seed),
+        _ => Err(None),
     };
-    if let Some(paired) = paired {
-        return paired.map_err(|error| error.to_string());
-    }
-    let estimates = estimate::of_both(scores)?;
-    by_intervals(estimates).map_err(|error| error.to_string())
+    let unpaired = match paired {
+        Ok(paired) => return (paired.map_err(|error| error.to_string()), None),
+        Err(reason) => reason.map(|reason| {
+            format!(
+                "{} and {} are not compared in pairs, though both are of one truth: {reason}",
+                names.a, names.b
+            )
+        }),
+    };
+    let difference = estimate::of_both(scores)
+        .and_then(|both| by_intervals(both).map_err(|error| error.to_string()));
+    (difference, unpaired)
 }
 
 /// Decides about those pairs that were tested.
@@ -265,7 +316,7 @@ fn decide_together(pairs: &mut [Pair<'_>]) {
     }
 }
 
-fn answer(pair: Pair<'_>, request: &CompareRequest) -> Answer {
+fn answer(pair: Pair<'_>, studies: &[Study], request: &CompareRequest) -> Answer {
     let Score {
         metric, channel, ..
     } = pair.scores.a;
@@ -301,6 +352,10 @@ fn answer(pair: Pair<'_>, request: &CompareRequest) -> Answer {
         standings: Sides {
             a: pair.scores.a.standing,
             b: pair.scores.b.standing,
+        },
+        one_training: Sides {
+            a: studies[pair.sides.a].is_one_training(metric),
+            b: studies[pair.sides.b].is_one_training(metric),
         },
     }
 }

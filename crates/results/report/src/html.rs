@@ -17,6 +17,7 @@ mod studied;
 mod summary;
 mod tables;
 mod themes;
+mod training;
 mod triple;
 
 pub(crate) use document::Document;
@@ -64,11 +65,14 @@ pub fn report(report: &Report<'_>) -> String {
     let mut document = Document::new(report.title, badge(studies));
     let summary = html! {
         p.studied { (studied::studied(studies)) } "\n"
+        @for words in [training::demonstration(studies), published::order(studies)].into_iter().flatten() {
+            p.note { (words) } "\n"
+        }
         (triples(studies, report.triples))
         (summary::section(studies, &table))
     };
     document.section("summary", "Summary", summary);
-    if let Some(section) = glance::section(&table, &figures) {
+    if let Some(section) = glance::section(studies, &table, &figures) {
         document.section("glance", "At a glance", section);
     }
     let themes = themes::section(&table, &figures);

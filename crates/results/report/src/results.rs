@@ -9,6 +9,7 @@ pub use model_bench::{
 };
 pub(crate) use standing::by_published_r2;
 
+use taceva_metrics::catalogue;
 use taceva_results::{EvaluationReport, OverSeeds, ResultsError, Samples, Score, Skip};
 
 /// Definition of numbers that were published without one.
@@ -52,6 +53,8 @@ pub struct Made {
     pub samples: Vec<(String, u64)>,
     /// The number of presses of the recording, whatever their outcome; 0 where the result states none.
     pub presses: u64,
+    /// The digest of the table of truth, where two tables were scored.
+    pub truth: Option<String>,
 }
 
 impl From<EvaluationReport> for Study {
@@ -62,6 +65,7 @@ impl From<EvaluationReport> for Study {
         let made = Made {
             presses: presses.values().sum(),
             samples: samples.map(|(part, count)| (part, count as u64)).collect(),
+            truth: report.provenance.tables.get("truth").cloned(),
             ..match report.provenance.model {
                 Some(model) => Made {
                     model: Some(model.name),
@@ -115,6 +119,13 @@ impl Study {
     pub fn of_metric<'a>(&'a self, metric: &'a str) -> impl Iterator<Item = &'a Score> {
         let scores = self.scores.iter();
         scores.filter(move |score| score.metric == metric)
+    }
+
+    /// Whether scores of `metric` are of one training of a model that draws: with another seed they would be others.
+    pub(crate) fn is_one_training(&self, metric: &str) -> bool {
+        let reads = catalogue::find(metric).is_some_and(|metric| metric.reads_predictions());
+        let draws = self.made.settings.iter().any(|(key, _)| key == "seed");
+        reads && draws && self.over_seeds.is_none()
     }
 
     /// Whether its samples are simulated or synthetic, so that no real sensor was pressed.

@@ -1,6 +1,6 @@
 //! Ties: sensors that have the very same best value; of gratings, how fine that is.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use taceva_metrics::Better;
 
@@ -140,7 +140,46 @@ fn gratings(tied: &[&Rival<'_>], best: f64, channel: &str) -> String {
             false => format!("; without any error {}", listed(&words)),
         }
     });
-    format!("tie: {who} {said}{}", exact.unwrap_or_default())
+    let means: Vec<Option<String>> = tied
+        .iter()
+        .map(|one| meaning(one.study.samples.as_ref()?, channel, tolerance))
+        .collect();
+    let is_same = means.windows(2).all(|pair| pair[0] == pair[1]);
+    let means = means.into_iter().next().flatten().filter(|_| is_same);
+    format!(
+        "tie: {who} {said}{}{}",
+        means.unwrap_or_default(),
+        exact.unwrap_or_default()
+    )
+}
+
+/// The meaning of a prediction that is always the spacing of a board that was learnt: `, which is exactly right among 16 learnt boards at
+/// least 0.1 mm apart`; `None` where predictions lie between those spacings, or are not at hand.
+fn meaning(samples: &Samples, kind: &str, tolerance_mm: f64) -> Option<String> {
+    let nanometres = |mm: f64| (mm * NM).round();
+    let known: BTreeSet<u64> = boards(samples, kind)
+        .map(|mm| nanometres(mm).max(0.0).to_bits())
+        .collect();
+    let mut predicted = (0..samples.rows())
+        .filter(|row| samples.word("kind", *row) == Some(kind))
+        .filter_map(|row| samples.number("spacing_predicted_mm", row))
+        .map(|mm| nanometres(mm).max(0.0).to_bits())
+        .peekable();
+    predicted.peek()?;
+    if !predicted.all(|spacing| known.contains(&spacing)) {
+        return None;
+    }
+    let sorted: Vec<f64> = known.iter().map(|bits| f64::from_bits(*bits)).collect();
+    let steps = sorted.windows(2).map(|pair| pair[1] - pair[0]);
+    let step = steps.reduce(f64::min)?;
+    let count = known.len();
+    Some(match step > nanometres(tolerance_mm) {
+        true => format!(
+            ", which is exactly right among {count} learnt boards at least {} mm apart",
+            numeral(step / NM)
+        ),
+        false => format!(", each time as one of {count} learnt boards"),
+    })
 }
 
 /// The spacing of every grating of `kind` that was pressed.

@@ -30,6 +30,8 @@ const NUMBERS: [&str; 6] = [
 ];
 /// Suffix of the name of a column of predictions.
 const PREDICTED: &str = "_predicted";
+/// Suffix of the name of a column of predictions that are not brought back to the bounds of the model.
+const UNBOUNDED: &str = "_predicted_unbounded";
 
 /// Samples, column by column: `sample`, covariates, and truth and prediction of each channel.
 ///
@@ -118,6 +120,11 @@ impl Samples {
         self.push_numbers(&format!("{}{PREDICTED}", channel.name()), numbers);
     }
 
+    /// Adds the predictions of `channel` as the model gives them, beyond its bounds too; without the column they are the predictions.
+    pub fn push_unbounded(&mut self, channel: &Channel, numbers: Column) {
+        self.push_numbers(&format!("{}{UNBOUNDED}", channel.name()), numbers);
+    }
+
     /// Reads a table with a head: `sample` (or `id`), covariates, and for each channel its truth under its name and its prediction under
     /// `<name>_predicted`.
     ///
@@ -204,6 +211,9 @@ impl Samples {
     pub fn channels(&self) -> Vec<SampleChannel<'_>> {
         let mut names: Vec<&str> = Vec::new();
         for (name, column) in &self.columns {
+            if name.ends_with(UNBOUNDED) {
+                continue;
+            }
             let name = name.strip_suffix(PREDICTED).unwrap_or(name);
             let is_channel = matches!(column, SampleColumn::Numbers(_)) && !NUMBERS.contains(&name);
             if is_channel && !names.contains(&name) {
@@ -340,49 +350,4 @@ fn number(cell: &str, column: &str, line: u64) -> Result<Option<f64>, SamplesErr
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn samples_are_found_by_the_part_of_the_protocol() {
-        let table = "sample,protocol,scene\n1,calibration light-sweep,\n2,idle,S1\n";
-        let samples = Samples::read(table).expect("samples");
-        assert_eq!(samples.of_protocol("light-sweep"), [0]);
-        assert_eq!(samples.word("scene", 0), None);
-        assert_eq!(samples.word("scene", 1), Some("S1"));
-    }
-
-    #[test]
-    fn names_that_begin_like_a_formula_are_read_as_they_were() {
-        let table = "sample,point_id\n'=1+1,'=p\n'a,b\n";
-        let samples = Samples::read(table).expect("samples");
-        let words = |row: usize| {
-            (
-                samples.word(Samples::KEY, row),
-                samples.word("point_id", row),
-            )
-        };
-        assert_eq!(words(0), (Some("=1+1"), Some("=p")));
-        assert_eq!(words(1), (Some("'a"), Some("b")));
-    }
-
-    #[test]
-    fn a_table_is_written_as_it_was_read() {
-        let table = "sample,part,depth_step,Fz,Fz_predicted\n'=a,test,2.0,0.5,\nb,,,0.25,0.1\n";
-        let samples = Samples::read(table).expect("samples");
-        let mut text = Vec::new();
-        samples.write(&mut text).expect("written");
-        assert_eq!(String::from_utf8(text).expect("text"), table);
-        assert_eq!(samples.channels().len(), 1);
-    }
-
-    #[test]
-    fn what_is_no_number_is_refused_by_its_place() {
-        let error = Samples::read("id,Fz\na,1\nb,nan\n").expect_err("no number");
-        assert_eq!(
-            error.to_string(),
-            "samples, line 3, column `Fz`: expected a finite number, found `nan`"
-        );
-        assert!(matches!(Samples::read("Fz\n1\n"), Err(SamplesError::NoKey)));
-    }
-}
+mod tests;

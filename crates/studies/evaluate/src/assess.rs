@@ -1,7 +1,9 @@
 //! The one way from scores to a report, with what it is about and where it comes from.
 
 use taceva_metrics::{Evaluation, Evaluator};
-use taceva_results::{EvaluationReport, OverSeeds, Provenance, RecordingScores, Samples, Subject};
+use taceva_results::{
+    EvaluationReport, OverSeeds, Provenance, RecordingScores, Samples, Score, Subject,
+};
 
 use crate::bounded_share::Bounded;
 use crate::error::EvaluateError;
@@ -109,5 +111,11 @@ pub fn assess(
     report.by_recording = context.by_recording;
     report.over_seeds = context.over_seeds;
     report.samples = context.samples;
+    let has_noise =
+        |score: &Score| score.metric == "noise_equivalent_force" && score.value.number().is_some();
+    if report.scores.iter().any(has_noise) {
+        let notes = &mut report.provenance.notes;
+        notes.push(Note::DetectionLimit.to_string());
+    }
     Ok(Assessed { report, state })
 }

@@ -150,6 +150,17 @@ pub enum Note {
         /// Planned samples.
         of: usize,
     },
+    /// The unit that was measured, where metrics between units felt others too.
+    MeasuredUnit {
+        /// The serial number of the unit.
+        unit: String,
+        /// Metrics of several units.
+        metrics: Vec<&'static str>,
+        /// The serial numbers of all units.
+        of: Vec<String>,
+    },
+    /// The noise of untouched frames as a force, which is no detection limit.
+    DetectionLimit,
     /// The way in which spacings of gratings were predicted.
     Spacings(&'static str),
     /// The sessions on a real rig in which a recording was made.
@@ -344,6 +355,16 @@ impl fmt::Display for Note {
             Note::Untaken { count, of } => write!(
                 f,
                 "{count} of {of} planned samples were not taken: their presses met a limit of the gel, or no gel"
+            ),
+            Note::MeasuredUnit { unit, metrics, of } => write!(
+                f,
+                "every score is of unit {}, but {} of units {}",
+                shown(unit),
+                metrics.join(", "),
+                shown(&of.join(", "))
+            ),
+            Note::DetectionLimit => f.write_str(
+                "detection limit: not verified; noise_equivalent_force is of untouched frames alone, and only light presses at many places verify a limit",
             ),
             Note::Spacings(way) => f.write_str(way),
             Note::FramesRetried(count) => write!(

@@ -46,6 +46,8 @@ pub fn protocol(rows: &[usize], parts: &BTreeMap<&'static str, Vec<usize>>) -> V
 }
 
 /// Adds predictions of `of_rows`, which are some of `rows`, to the samples of `rows`.
+///
+/// Where one was brought back to the bounds of the model, a second column has what the model gives: some metrics read that.
 pub fn add_predictions(
     samples: &mut Samples,
     rows: &[usize],
@@ -56,11 +58,20 @@ pub fn add_predictions(
         .iter()
         .map(|row| of_rows.binary_search(row).ok())
         .collect();
-    for (channel, prediction) in predicted.channels().iter().zip(predicted.prediction()) {
+    let spread = |numbers: &Column| {
         let mut column = Column::default();
         at.iter()
-            .for_each(|at| column.push(at.and_then(|at| prediction.get(at))));
-        samples.push_prediction(channel, column);
+            .for_each(|at| column.push(at.and_then(|at| numbers.get(at))));
+        column
+    };
+    let both = predicted.prediction().iter().zip(predicted.unbounded());
+    for (channel, (bounded, unbounded)) in predicted.channels().iter().zip(both) {
+        let (bounded, unbounded) = (spread(bounded), spread(unbounded));
+        let is_cut = bounded != unbounded;
+        samples.push_prediction(channel, bounded);
+        if is_cut {
+            samples.push_unbounded(channel, unbounded);
+        }
     }
 }
 

@@ -124,11 +124,19 @@ pub(crate) fn assess(
     if let Some((predicted, of_rows)) = &predicted {
         add_predictions(&mut samples, &rows, predicted, of_rows);
     }
+    if let Some(spacings) = &spacings {
+        samples.push_numbers("spacing_predicted_mm", spacings.in_millimetres(&rows));
+    }
+    let mut subject = subject_of(dataset);
+    if let Some((unit, note)) = phase_rows.measured_unit() {
+        subject.serial = unit;
+        notes.push(note);
+    }
     let context = Context {
         notes,
         over_seeds,
         samples: Some(samples),
-        ..Context::new(subject_of(dataset), provenance)
+        ..Context::new(subject, provenance)
     };
     let rows = ScoredRows::Finished(Box::new(evaluation));
     Ok(taceva_evaluate::assess(rows, beyond, context)?.report)

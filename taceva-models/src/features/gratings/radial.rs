@@ -49,6 +49,11 @@ impl RadialSpectrum {
         }
     }
 
+    /// The size of a plane in memory, in bytes.
+    pub fn plane_bytes(&self) -> u64 {
+        (self.side * self.side * size_of::<Complex>()) as u64
+    }
+
     /// The Fourier plane of `frame`.
     ///
     /// # Errors

@@ -8,41 +8,50 @@ use crate::results::Study;
 use taceva_results::Score;
 use taceva_results::{SampleChannel, Samples};
 
-/// The difference of both mean absolute errors; `None` if the two do not predict the same samples of one recording.
+/// The difference of both mean absolute errors, or the reason why the two are not compared in pairs.
 ///
-/// They do if their results name the same dataset, or none, if each has the ids of the other with the same truth, bit by bit, and if the errors of
+/// They are if their results name the same truth, or none, if each has the ids of the other with the same truth, bit by bit, and if the errors of
 /// the samples have the mean that the score says: otherwise the table belongs to something else. Two sensors that press the same plan have ids and
 /// commanded places in common, and are not the same samples.
+///
+/// # Errors
+/// The reason in words where both results name the same truth; `None` where nothing says that they do.
 pub(super) fn difference(
     scores: Sides<&Score>,
     studies: Sides<&Study>,
+    names: Sides<&str>,
     seed: u64,
-) -> Option<Result<Difference, ComparisonError>> {
-    if dataset(studies.a) != dataset(studies.b) {
-        return None;
+) -> Result<Result<Difference, ComparisonError>, Option<String>> {
+    let truth = truth(studies.a);
+    if truth != self::truth(studies.b) {
+        return Err(None);
     }
-    let a = Errors::of(studies.a, scores.a)?;
-    let b = Errors::of(studies.b, scores.b)?;
-    let is_same = a.truths.len() == b.truths.len()
-        && a.truths
-            .iter()
-            .zip(&b.truths)
-            .all(|(left, right)| left == right);
-    if !is_same {
-        return None;
+    let told = |reason: String| truth.map(|_| reason);
+    let of = |study, score, name: &str| {
+        Errors::of(study, score).map_err(|reason| told(format!("{reason} of {name}")))
+    };
+    let a = of(studies.a, scores.a, names.a)?;
+    let b = of(studies.b, scores.b, names.b)?;
+    if a.truths != b.truths {
+        return Err(told(
+            "the two did not predict the same samples of it".to_owned(),
+        ));
     }
     let test = SignFlip::default().with_seed(seed);
-    Some(test.test(Sides {
+    Ok(test.test(Sides {
         a: &a.sums,
         b: &b.sums,
     }))
 }
 
-/// The digest of the dataset whose samples were predicted, where the result says so.
-fn dataset(study: &Study) -> Option<&str> {
+/// The digest of the truth: of the dataset whose samples were predicted, or of the table of truth, where the result says so.
+fn truth(study: &Study) -> Option<&str> {
     let mut provenance = study.provenance.iter();
     let dataset = provenance.find(|(term, _)| term == "dataset");
-    dataset.map(|(_, digest)| digest.as_str())
+    dataset
+        .map(|(_, digest)| digest)
+        .or(study.made.truth.as_ref())
+        .map(String::as_str)
 }
 
 /// |truth − prediction| of each sample, by contact point.
@@ -53,23 +62,47 @@ struct Errors<'a> {
 }
 
 impl<'a> Errors<'a> {
-    fn of(study: &'a Study, score: &Score) -> Option<Errors<'a>> {
-        let samples = study.samples.as_ref()?;
-        let channel = samples.channel(&score.channel)?;
-        let rows = scored(samples, channel, score.n)?;
+    /// The errors behind `score`, or in words the reason why they are not known.
+    fn of(study: &'a Study, score: &Score) -> Result<Errors<'a>, &'static str> {
+        let samples = study
+            .samples
+            .as_ref()
+            .ok_or("no table of samples is beside the result")?;
+        let strange = "the score does not follow from the table of samples";
+        let channel = samples.channel(&score.channel).ok_or(strange)?;
+        let rows = scored(samples, channel, score.n).ok_or(strange)?;
+        // Each sample is a point of its own only where the interval of the score says so too.
+        let is_alone = score
+            .interval
+            .as_ref()
+            .and_then(|interval| interval.method())
+            .is_some_and(|method| method.contains("samples taken as independent"));
         let mut truths = BTreeMap::new();
         let mut sums = ClusterSums::default();
         let (mut sum, mut count) = (0.0, 0.0);
         for row in rows {
-            let [truth, prediction] = channel.pair(row)?;
-            truths.insert(samples.word(Samples::KEY, row)?, truth.to_bits());
+            let [truth, prediction] = channel.pair(row).ok_or(strange)?;
+            let key = samples
+                .word(Samples::KEY, row)
+                .ok_or("no samples are named in the table of samples")?;
+            let point = match is_alone {
+                true => Some(key),
+                false => samples.word("point_id", row),
+            };
+            let point = point.ok_or("no contact points are in the table of samples")?;
+            if truths.insert(key, truth.to_bits()).is_some() {
+                return Err("a sample comes twice in the table of samples");
+            }
             let error = (truth - prediction).abs();
-            sums.try_add(samples.word("point_id", row)?, error).ok()?;
+            sums.try_add(point, error).map_err(|_| strange)?;
             sum += error;
             count += 1.0;
         }
-        let is_its_own = (sum / count - score.value.number()?).abs() <= 1e-9 * sum / count;
-        is_its_own.then_some(Errors { truths, sums })
+        let value = score.value.number().ok_or(strange)?;
+        match (sum / count - value).abs() <= 1e-9 * sum / count {
+            true => Ok(Errors { truths, sums }),
+            false => Err(strange),
+        }
     }
 }
 

@@ -4,16 +4,19 @@ use maud::{Markup, html};
 
 use super::figures::radars;
 use super::tables::table;
+use super::training::unequal_models;
 use crate::figure::Figure;
+use crate::results::Study;
 use crate::scores::{ScoreRow, ScoreTable};
 
 /// The main table and the radars; nothing where there is neither.
-pub(super) fn section(table: &ScoreTable, figures: &[Figure]) -> Option<Markup> {
+pub(super) fn section(studies: &[Study], table: &ScoreTable, figures: &[Figure]) -> Option<Markup> {
     let main = table.main();
     let rows: Vec<&ScoreRow> = main.rows.iter().collect();
     let radars = radars(figures);
     (!rows.is_empty() || radars.is_some()).then(|| {
         html! {
+            @if let Some(words) = unequal_models(studies) { p.note { (words) } "\n" }
             (self::table("main", "Main scores", &main.names, &rows))
             @if let Some(radars) = &radars { (radars) }
         }

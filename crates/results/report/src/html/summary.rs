@@ -2,6 +2,7 @@
 
 use maud::{Markup, html};
 
+use super::training::is_demonstration;
 use crate::compare::{Answer, QUESTIONS};
 use crate::light;
 use crate::markup::score_link;
@@ -116,6 +117,8 @@ fn verdict(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Mark
     };
     let verdict = if known.len() < 2 {
         format!("alone has a value{that_takes_part}")
+    } else if is_demonstration(studies, &row.metric) {
+        "has the best value, which is no verdict on sensors".to_owned()
     } else if rivals.is_empty() {
         format!("is shown to be better than every other sensor{that_takes_part}")
     } else {

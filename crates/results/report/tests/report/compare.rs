@@ -333,6 +333,139 @@ fn errors_are_compared_sample_by_sample_if_both_tables_are_of_the_same_samples_a
     assert_eq!(strange, other_truth);
 }
 
+/// The test and the notes of two studies whose results name these tables of truth.
+fn of_tables(mut a: Study, mut b: Study, truths: [&str; 2]) -> (String, Vec<String>) {
+    a.made.truth = Some(truths[0].to_owned());
+    b.made.truth = Some(truths[1].to_owned());
+    let comparison = of_metric(&[a, b], "mae");
+    let difference = comparison.answers[0].difference.clone();
+    (
+        difference.expect("tested").test.to_string(),
+        comparison.notes,
+    )
+}
+
+#[test]
+fn two_results_of_one_table_of_truth_are_compared_in_pairs_and_those_of_two_tables_are_not() {
+    let [one, other] = ["sha256:1", "sha256:2"];
+    let both = || (sampled("a", 0.0, 0.25), sampled("b", 0.0, 0.5));
+    let (a, b) = both();
+    let (test, notes) = of_tables(a, b, [one, one]);
+    assert!(test.contains("sign"), "{test}");
+    assert!(
+        !notes.iter().any(|note| note.contains("pairs")),
+        "{notes:?}"
+    );
+    // Two sensors have commanded places in common, bit by bit, in two tables.
+    let (a, b) = both();
+    let (test, notes) = of_tables(a, b, [one, other]);
+    assert!(test.contains("by the intervals of both"), "{test}");
+    assert!(
+        !notes.iter().any(|note| note.contains("pairs")),
+        "{notes:?}"
+    );
+}
+
+#[test]
+fn samples_of_one_truth_that_cannot_be_paired_are_said_to_be_none() {
+    let lost = |mut study: Study| {
+        study.samples = None;
+        study
+    };
+    let without_points = |mut study: Study| {
+        let table = "id,Fz,Fz_predicted\n";
+        let rows = (0..48).map(|row| format!("s{row},{row},{}\n", f64::from(row) + 0.5));
+        let table = format!("{table}{}", rows.collect::<String>());
+        study.samples = Some(Samples::read(&table).expect("samples"));
+        study
+    };
+    let twice = |mut study: Study| {
+        let table = "id,point_id,Fz,Fz_predicted\n";
+        let rows = (0..48).map(|row| format!("s{},p,{row},{}\n", row / 2, f64::from(row) + 0.5));
+        let table = format!("{table}{}", rows.collect::<String>());
+        study.samples = Some(Samples::read(&table).expect("samples"));
+        study
+    };
+    let b = || sampled("b", 0.0, 0.5);
+    for (b, reason) in [
+        (lost(b()), "no table of samples is beside the result of b"),
+        (
+            without_points(b()),
+            "no contact points are in the table of samples of b",
+        ),
+        (
+            twice(b()),
+            "a sample comes twice in the table of samples of b",
+        ),
+        (
+            sampled("b", 0.5, 0.5),
+            "the two did not predict the same samples of it",
+        ),
+    ] {
+        let (test, notes) = of_tables(sampled("a", 0.0, 0.25), b, ["sha256:1"; 2]);
+        assert!(test.contains("by the intervals of both"), "{test}");
+        let expected =
+            format!("a and b are not compared in pairs, though both are of one truth: {reason}");
+        assert!(notes.contains(&expected), "{notes:?}");
+    }
+}
+
+#[test]
+fn samples_that_are_taken_as_independent_are_paired_one_by_one() {
+    let alone = |sensor: &str, error: f64| {
+        let mut table = String::from("id,Fz,Fz_predicted\n");
+        for row in 0..48 {
+            let missed = error * (1.0 + f64::from(row % 5) / 8.0);
+            table += &format!("s{row},{row},{}\n", f64::from(row) + missed);
+        }
+        let mut study = sampled(sensor, 0.0, error);
+        let mut mae = score(study.scores[0].value.number().expect("a number"), 0.01, "N");
+        mae["n"] = 48.into();
+        mae["method"] = json!("jackknife, samples taken as independent, G=48, logarithmic");
+        study.scores = self::study(sensor, &[("mae", "Fz", mae)], &["Fz"]).scores;
+        study.samples = Some(Samples::read(&table).expect("samples"));
+        study
+    };
+    let (test, _) = of_tables(alone("a", 0.25), alone("b", 0.5), ["sha256:1"; 2]);
+    assert!(test.contains("sign"), "{test}");
+}
+
+#[test]
+fn a_difference_of_one_training_of_a_model_that_draws_says_so() {
+    let compared = |settings: [&[(&str, &str)]; 2], seeds: bool| {
+        let mut studies = errors(&[("Coarse", 0.75), ("Fine", 0.25)]);
+        for (study, of) in studies.iter_mut().zip(settings) {
+            let of = of.iter();
+            study.made.settings = of.map(|&(key, value)| (key.into(), value.into())).collect();
+            study.over_seeds = seeds.then(Default::default);
+        }
+        let comparison = of_metric(&studies, "mae");
+        let words = comparison.answers[0].words(&comparison.names);
+        let note = comparison
+            .notes
+            .iter()
+            .find(|note| note.contains("--seeds"));
+        (words, note.cloned())
+    };
+    let drawn: &[(&str, &str)] = &[("epochs", "24"), ("seed", "11")];
+    let (words, note) = compared([drawn, drawn], false);
+    assert!(
+        words.ends_with("; one training of Coarse and Fine"),
+        "{words}"
+    );
+    assert!(
+        note.expect("a note")
+            .contains("one training of Coarse and Fine")
+    );
+    let (words, _) = compared([&[], drawn], false);
+    assert!(words.ends_with("; one training of Fine"), "{words}");
+    // Ridge draws nothing, and several seeds are shown by themselves.
+    for (settings, seeds) in [([&[][..], &[]], false), ([drawn, drawn], true)] {
+        let (words, note) = compared(settings, seeds);
+        assert!(!words.contains("training") && note.is_none(), "{words}");
+    }
+}
+
 /// A study of one score of Fz whose variant `name` has another value and interval.
 fn with_variant(sensor: &str, metric: &str, value: f64, name: &str, variant: f64) -> Study {
     let mut drawn = score(value, 0.001, "N");

@@ -5,7 +5,7 @@ use std::fmt;
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 use taceva_core::{Field, SkipReason};
 
-use super::{Plan, PlannedPress};
+use super::{Plan, PlannedMetric, PlannedPress};
 use crate::reason::{PlanReason, PlanSkip, Subject};
 
 impl fmt::Display for Plan {
@@ -34,6 +34,12 @@ impl fmt::Display for Plan {
                 .map(|metric| metric.id.as_str())
                 .collect();
             writeln!(f, "run   metric  {}", metrics.join(", "))?;
+            if self.adds_skill() {
+                writeln!(
+                    f,
+                    "add   metric  {SKILL}: says whether predictions take part in verdicts"
+                )?;
+            }
         }
         for fit in &self.fits {
             writeln!(f, "fit   model   {} on {}", fit.field, fit.phase)?;
@@ -61,6 +67,17 @@ impl fmt::Display for Plan {
             writeln!(f, "{verb}  {subjects:<40} {reason}")?;
         }
         Ok(())
+    }
+}
+
+/// The metric that every study of predictions is given.
+const SKILL: &str = "skill";
+
+impl Plan {
+    /// Whether the skill of the model is computed although nobody asked for it, since a metric reads predictions.
+    fn adds_skill(&self) -> bool {
+        let reads = |metric: &PlannedMetric| metric.fields.contains(Field::Prediction);
+        self.metrics.iter().any(reads) && !self.metrics.iter().any(|metric| metric.id == SKILL)
     }
 }
 
@@ -152,12 +169,15 @@ impl Serialize for Plan {
                 reason: skip.reason.to_string(),
             })
             .collect();
-        let fields = 15 + usize::from(self.kept_frames.is_some());
+        let fields = 15 + usize::from(self.kept_frames.is_some()) + usize::from(self.adds_skill());
         let mut plan = serializer.serialize_struct("Plan", fields)?;
         plan.serialize_field("schema", "taceva.plan/1")?;
         plan.serialize_field("name", &self.name)?;
         plan.serialize_field("digest", &self.digest())?;
         plan.serialize_field("metrics", &metrics)?;
+        if self.adds_skill() {
+            plan.serialize_field("added_metrics", &[SKILL])?;
+        }
         plan.serialize_field("phases", &self.phases)?;
         plan.serialize_field("fits", &fits)?;
         plan.serialize_field("fields", &named(self.fields))?;

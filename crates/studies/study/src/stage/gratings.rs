@@ -18,6 +18,7 @@ use taceva_evaluate::{Need, usable};
 
 /// Parts of the presses of a board; each is predicted by a classifier fitted on the others.
 const FOLDS: usize = 3;
+const NM_A_MM: f64 = 1e6;
 
 /// What each row is taken for.
 type SpacingOfRow = BTreeMap<usize, Nanometre>;
@@ -68,18 +69,34 @@ impl PredictedSpacings {
             }
             Ok::<_, EvaluateError>(spacings)
         })?;
-        let presses: usize = boards.values().map(Vec::len).sum();
-        let times = match classifier {
-            // Once for the mean picture, once for each picture itself.
-            SpacingClassifier::Spectrum | SpacingClassifier::Model(_) => 2,
-            SpacingClassifier::Network(_) => 1,
-        };
-        let frames_decoded = times * presses as u64;
+        let presses = boards.values().map(|presses| {
+            let times = match classifier {
+                SpacingClassifier::Spectrum | SpacingClassifier::Model(_) => {
+                    spectrum::times_decoded(dataset, presses.len())
+                }
+                SpacingClassifier::Network(_) => 1,
+            };
+            times * presses.len() as u64
+        });
+        let frames_decoded = presses.sum();
         Ok(PredictedSpacings {
             rows,
             spacings,
             frames_decoded,
         })
+    }
+}
+
+impl PredictedSpacings {
+    /// The predicted spacing of each of `rows`, in mm; absent where none was predicted.
+    pub(super) fn in_millimetres(&self, rows: &[usize]) -> Column {
+        let mut column = Column::default();
+        for row in rows {
+            let at = self.rows.binary_search(row).ok();
+            let spacing = at.and_then(|at| self.spacings.get(at));
+            column.push(spacing.map(|nanometres| nanometres / NM_A_MM));
+        }
+        column
     }
 }
 

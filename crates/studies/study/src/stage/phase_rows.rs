@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use taceva_core::Field;
+use taceva_core::{Field, Unit};
 use taceva_dataset::Dataset;
 use taceva_metrics::{Metric, catalogue};
 use taceva_protocol::{PhaseKind, Plan, PlannedMetric};
@@ -91,8 +91,13 @@ impl<'a> PhaseRows<'a> {
         };
         let is_predicted = |channel: &&String| {
             let mut metrics = self.metrics();
+            let position = table.channels().position(channel);
+            let is_force =
+                position.is_some_and(|at| table.channels().as_slice()[at].unit() == Unit::Newton);
             metrics.any(|(planned, metric)| {
-                metric.reads_predictions() && planned.channels.contains(channel)
+                metric.reads_predictions()
+                    && planned.channels.contains(channel)
+                    && (is_force || !metric.is_of_forces())
             })
         };
         let channels = self.plan.channels.iter();
@@ -111,6 +116,38 @@ impl<'a> PhaseRows<'a> {
         }
         let rows = self.rows(PhaseKind::Calibration);
         Divided::within(dataset, &rows, Some("by-point"), request.seed)
+    }
+
+    /// The only unit that was measured outside the map of surfaces, with a note on the metrics of several units; `None` where those are all
+    /// units of the study, or several were measured.
+    pub(super) fn measured_unit(&self) -> Option<(String, Note)> {
+        let units = self.dataset.table().as_text(Field::UnitId.name())?;
+        let mut of: Vec<String> = units.iter().flatten().cloned().collect();
+        of.sort_unstable();
+        of.dedup();
+        let kinds = PhaseKind::ALL.into_iter();
+        let rows = kinds
+            .filter(|kind| *kind != PhaseKind::SurfaceMap)
+            .flat_map(|kind| self.rows(kind));
+        let measured: BTreeSet<&String> = rows.filter_map(|row| units[row].as_ref()).collect();
+        let metrics = self
+            .metrics()
+            .filter(|(planned, _)| planned.phase == PhaseKind::SurfaceMap)
+            .map(|(_, metric)| metric.id);
+        let metrics: Vec<&'static str> = metrics.collect();
+        let mut measured = measured.into_iter();
+        let (Some(unit), None) = (measured.next(), measured.next()) else {
+            return None;
+        };
+        (of.len() > 1 && !metrics.is_empty()).then(|| {
+            let unit = unit.clone();
+            let note = Note::MeasuredUnit {
+                unit: unit.clone(),
+                metrics,
+                of,
+            };
+            (unit, note)
+        })
     }
 
     /// A note if presses ended early.

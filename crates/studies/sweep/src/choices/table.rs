@@ -1,7 +1,7 @@
 //! The table of what was chosen for each question.
 
 use taceva_metrics::Repeats;
-use taceva_report::{Cell, Column, Table};
+use taceva_report::{Cell, Column, FormattedValue, Table};
 
 use super::{Choice, ends, number};
 use crate::analysis::Group;
@@ -41,9 +41,10 @@ pub(crate) fn table(groups: &[Group<'_>], choices: &[Choice]) -> Table {
         "among",
         "validation RMSE",
         "test MAE",
-        "95 % over contact points",
         "95 % over seeds",
         "seeds",
+        "MAE of one seed",
+        "95 % over contact points",
         "unit",
     ];
     let mut table = Table::new("The best of each question", columns.map(Column::new));
@@ -57,16 +58,20 @@ pub(crate) fn table(groups: &[Group<'_>], choices: &[Choice]) -> Table {
             Some((seed, result)) => (*seed, result.score("mae", &choice.channel)),
             None => (0, None),
         };
+        let of_first = first.and_then(|score| score.value.number());
         let over_points = first.and_then(|score| {
             let interval = score.interval.as_ref()?.ends()?;
-            Some(match group.results.len() {
-                1 => ends(score.value.number()?, interval),
-                _ => format!(
-                    "{} (seed {first_seed})",
-                    ends(score.value.number()?, interval)
-                ),
-            })
+            Some(ends(score.value.number()?, interval))
         });
+        let of_first = of_first.map_or_else(
+            || "none".to_owned(),
+            |value| {
+                format!(
+                    "{} (seed {first_seed})",
+                    FormattedValue::number(value, None).value
+                )
+            },
+        );
         table.push([
             Cell::text(group.dataset),
             Cell::text(group.split.unwrap_or("as recorded")),
@@ -80,12 +85,13 @@ pub(crate) fn table(groups: &[Group<'_>], choices: &[Choice]) -> Table {
             } else {
                 number(mean)
             },
-            Cell::text(over_points.unwrap_or_else(|| "none: too few contact points".to_owned())),
             Cell::text(over_seeds.map_or_else(
                 || "none: one seed".to_owned(),
                 |interval| ends(mean, interval),
             )),
             Cell::Number(values.len().to_string()),
+            Cell::text(of_first),
+            Cell::text(over_points.unwrap_or_else(|| "none: too few contact points".to_owned())),
             Cell::text(choice.unit.as_str()),
         ]);
     }
@@ -97,6 +103,6 @@ pub(crate) fn table(groups: &[Group<'_>], choices: &[Choice]) -> Table {
             silent.join("; ")
         ));
     }
-    table.note("The interval over contact points says how far the score would move with other presses and the same training; the one over seeds how far with other divisions and random numbers, on the same recording. They are not to be added.");
+    table.note("Test MAE is the mean over seeds, and the interval over seeds is of that mean: how far it would move with other divisions and random numbers, on the same recording. The interval over contact points is of the MAE of one seed beside it: how far that would move with other presses and the same training. They are not to be added.");
     table
 }

@@ -67,6 +67,28 @@ fn pictures_are_counted_where_some_are_taken_and_not_spoken_of_where_none_is() {
     assert!(seeing.to_string().contains(&counted), "{seeing}");
 }
 
+#[test]
+fn the_skill_that_nobody_asked_for_is_named_where_predictions_are_read_and_not_elsewhere() {
+    let line = "add   metric  skill";
+    for (want, is_added) in [
+        (&["noise_equivalent_force"][..], true),
+        (&["mae"], true),
+        (&["mae", "skill"], false),
+        (&["sensitivity"], false),
+    ] {
+        let catalogue = MetricNeeds::catalogue().into_iter();
+        let wanted = catalogue.filter(|needs| want.contains(&needs.id.as_str()));
+        let plan = planned_as(SMALL, whole(), &wanted.collect::<Vec<_>>());
+        assert_eq!(
+            plan.to_string().contains(line),
+            is_added,
+            "{want:?}\n{plan}"
+        );
+        let json = serde_json::to_value(&plan).expect("an object");
+        assert_eq!(json.get("added_metrics").is_some(), is_added, "{want:?}");
+    }
+}
+
 /// A robot whose tip may be in `workspace`.
 fn reaching(workspace: Workspace) -> Option<Descriptor> {
     let key = DriverKey::fixed("test/robot");

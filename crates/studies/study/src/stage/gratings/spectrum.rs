@@ -9,6 +9,19 @@ use crate::classifier::ModelClassifier;
 use taceva_evaluate::EvaluateError;
 use taceva_evaluate::Work;
 
+/// Bytes of planes that are held at once; presses that need more are decoded twice.
+const HELD_BYTES: u64 = 512 << 20;
+
+/// Passes over `presses` pictures of `dataset`: one where their planes are held, else one for the mean and one for the pictures.
+pub(super) fn times_decoded(dataset: &Dataset, presses: usize) -> u64 {
+    let info = dataset.header().frames.as_ref().map(|frames| frames.info);
+    let plane = info.map_or(0, |info| RadialSpectrum::new(info).plane_bytes());
+    match plane.saturating_mul(presses as u64) {
+        ..=HELD_BYTES => 1,
+        _ => 2,
+    }
+}
+
 /// What is fitted to the spectra of each fold.
 #[derive(Clone, Copy)]
 pub(super) enum ByFold<'a> {
@@ -75,33 +88,49 @@ impl<'a> Pictures<'a> {
 
     /// Every press with its spectra.
     fn seen(&self) -> Result<Vec<Seen>, EvaluateError> {
-        let backgrounds = self.backgrounds()?;
+        let is_held = times_decoded(self.dataset, self.rows.len()) == 1;
+        let mut held = Vec::new();
+        let backgrounds = self.backgrounds(|plane| {
+            if is_held {
+                held.push(plane);
+            }
+        })?;
         let mut seen = Vec::with_capacity(self.rows.len());
+        let mut push = |spectra| {
+            let (row, spacing) = self.presses[seen.len()];
+            seen.push(Seen {
+                row,
+                spacing,
+                fold: self.folds[seen.len()],
+                spectra,
+            });
+        };
         let spectra = |plane: &FourierPlane| {
             let backgrounds = backgrounds.iter();
             backgrounds
                 .map(|(sum, count)| self.spectra.beyond(plane, sum, *count))
                 .collect()
         };
-        self.dataset.map_frames(
-            self.pass(),
-            |_, frame| self.spectra.plane(&frame).map(|plane| spectra(&plane)),
-            |_, spectra| {
-                let (row, spacing) = self.presses[seen.len()];
-                seen.push(Seen {
-                    row,
-                    spacing,
-                    fold: self.folds[seen.len()],
-                    spectra: spectra?,
-                });
-                Ok(())
-            },
-        )?;
+        if is_held {
+            held.iter().for_each(|plane| push(spectra(plane)));
+        } else {
+            self.dataset.map_frames(
+                self.pass(),
+                |_, frame| self.spectra.plane(&frame).map(|plane| spectra(&plane)),
+                |_, spectra| {
+                    push(spectra?);
+                    Ok(())
+                },
+            )?;
+        }
         Ok(seen)
     }
 
-    /// For each fold, the sum of the planes of all other folds and how many they are.
-    fn backgrounds(&self) -> Result<Vec<(FourierPlane, f64)>, EvaluateError> {
+    /// For each fold, the sum of the planes of all other folds and their number; each plane is given to `keep` once.
+    fn backgrounds(
+        &self,
+        mut keep: impl FnMut(FourierPlane),
+    ) -> Result<Vec<(FourierPlane, f64)>, EvaluateError> {
         let mut backgrounds = vec![(FourierPlane::default(), 0.0); FOLDS];
         let mut folds = self.folds.iter();
         self.dataset.map_frames(
@@ -114,6 +143,7 @@ impl<'a> Pictures<'a> {
                     sum.add(&plane);
                     *count += 1.0;
                 }
+                keep(plane);
                 Ok(())
             },
         )?;

@@ -1,0 +1,146 @@
+//! Training behind the results of several sensors: places learnt, and unequal models.
+
+use std::collections::BTreeSet;
+
+use taceva_metrics::catalogue;
+
+use crate::names::{listed, names};
+use crate::results::Study;
+
+/// Contact places below which twice as many still halve errors, so that a comparison shows the training and not the sensors.
+pub(super) const LEAST_PLACES: usize = 200;
+
+/// The contact places of a study that its model was fitted on here; `None` where that is not known.
+fn places(study: &Study) -> Option<usize> {
+    let is_training = |(part, count): &(String, u64)| part == "train" && *count > 0;
+    let samples = study.samples.as_ref()?;
+    if !study.made.samples.iter().any(is_training) || !samples.has("protocol") {
+        return None;
+    }
+    let channels = samples.channels();
+    let is_learnt = |row: &usize| {
+        let mut channels = channels.iter();
+        channels.all(|channel| channel.prediction(*row).is_none())
+    };
+    let calibration = samples.of_protocol("calibration").into_iter();
+    let points: BTreeSet<&str> = calibration
+        .filter(is_learnt)
+        .filter_map(|row| samples.word("point_id", row))
+        .collect();
+    (!points.is_empty()).then_some(points.len())
+}
+
+/// The fewest places that a model of several sensors was fitted on, where they are too few for a verdict on sensors.
+fn too_few(studies: &[Study]) -> Option<usize> {
+    let fewest = studies.iter().filter_map(places).min()?;
+    (studies.len() > 1 && fewest < LEAST_PLACES).then_some(fewest)
+}
+
+/// Whether `metric` gives no verdict on sensors, since it reads predictions of models that learnt too little.
+pub(super) fn is_demonstration(studies: &[Study], metric: &str) -> bool {
+    let reads = catalogue::find(metric).is_some_and(|metric| metric.reads_predictions());
+    reads && too_few(studies).is_some()
+}
+
+/// A sentence for pages of models that learnt too little.
+pub(super) fn demonstration(studies: &[Study]) -> Option<String> {
+    let fewest = too_few(studies)?;
+    Some(format!(
+        "A demonstration: models learnt {fewest} contact places, fewer than {LEAST_PLACES}, so scores of predictions give no verdict on sensors."
+    ))
+}
+
+/// The models of the studies in a sentence, where they are unequal.
+pub(super) fn unequal_models(studies: &[Study]) -> Option<String> {
+    let made: Vec<(&str, &[(String, String)])> = studies
+        .iter()
+        .map(|study| Some((study.made.model.as_deref()?, study.made.settings.as_slice())))
+        .collect::<Option<_>>()?;
+    let first = made.first()?;
+    if made.iter().all(|other| other == first) {
+        return None;
+    }
+    let is_shared = |setting: &(String, String)| {
+        let mut all = made.iter();
+        all.all(|(_, settings)| settings.contains(setting))
+    };
+    let each = made
+        .iter()
+        .zip(names(studies))
+        .map(|((model, settings), name)| {
+            let own = settings.iter().filter(|setting| !is_shared(setting));
+            let own: Vec<String> = own.map(|(key, value)| format!("{key}={value}")).collect();
+            match own.is_empty() {
+                true => format!("{name} by {model}"),
+                false => format!("{name} by {model} {}", own.join(" ")),
+            }
+        });
+    let each: Vec<String> = each.collect();
+    Some(format!(
+        "Unequal models: {}. Differences between sensors are also those of their models.",
+        listed(&each)
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fmt::Write as _;
+    use taceva_results::Samples;
+
+    /// A study of a model that learnt `places` places.
+    fn study(sensor: &str, places: usize, settings: &[(&str, &str)]) -> Study {
+        let mut table = String::from("sample,protocol,point_id,Fz,Fz_predicted\n");
+        for place in 0..places {
+            writeln!(table, "l{place},calibration,p{place},1,").expect("a text");
+        }
+        table += "t,calibration,q,1,1.1\nu,spatial,r,1,\n";
+        let mut study = Study {
+            sensor: sensor.to_owned(),
+            samples: Some(Samples::read(&table).expect("samples")),
+            ..Study::default()
+        };
+        study.made.samples = vec![("train".to_owned(), 400)];
+        study.made.model = Some("cnn".to_owned());
+        let settings = settings.iter();
+        study.made.settings = settings
+            .map(|(key, value)| ((*key).to_owned(), (*value).to_owned()))
+            .collect();
+        study
+    }
+
+    #[test]
+    fn few_learnt_places_of_several_sensors_are_a_demonstration() {
+        let few = [study("a", 112, &[]), study("b", 300, &[])];
+        let words = demonstration(&few).expect("a demonstration");
+        assert!(
+            words.contains("112 contact places, fewer than 200"),
+            "{words}"
+        );
+        assert!(is_demonstration(&few, "mae") && is_demonstration(&few, "r2"));
+        // The gel alone is pressed as often as it is.
+        assert!(!is_demonstration(&few, "sensitivity"));
+        let many = [study("a", 200, &[]), study("b", 300, &[])];
+        assert_eq!(demonstration(&many), None);
+        assert_eq!(demonstration(&few[..1]), None);
+        // Nothing is known of a model that was not fitted here.
+        let mut opened = few;
+        opened[0].made.samples.clear();
+        assert_eq!(demonstration(&opened), None);
+    }
+
+    #[test]
+    fn unequal_models_are_named_with_what_differs() {
+        let same = [("size", "64x64"), ("epochs", "24")];
+        let equal = [study("a", 1, &same), study("b", 1, &same)];
+        assert_eq!(unequal_models(&equal), None);
+        let other = [("size", "64x64"), ("epochs", "100")];
+        let unequal = [study("a", 1, &same), study("b", 1, &other)];
+        assert_eq!(
+            unequal_models(&unequal).as_deref(),
+            Some(
+                "Unequal models: a by cnn epochs=24 and b by cnn epochs=100. Differences between sensors are also those of their models."
+            )
+        );
+    }
+}

@@ -1,0 +1,126 @@
+//! Numbers of a run that its own files give again, and the unit and the models that it names.
+
+use std::fs;
+
+use serde_json::Value;
+use taceva_results::Samples;
+
+use crate::support::Bench;
+
+/// Three boards of each relief, pressed four times, and the surfaces of two units.
+const SCENE: &str = r#"scene_version = 1
+name = "recomputed"
+seed = 7
+robot = { driver = "sim/robot" }
+force = { driver = "sim/force-transducer" }
+model = { name = "ridge", set = { size = "8x8" } }
+sensor = { driver = "sim/vitactip:reduction=16", units = ["0", "1"] }
+metrics = { want = ["sr", "inter_sensor", "noise_equivalent_force"] }
+protocol = { calibration = { points = 12, indentations = 2 }, gratings = { step_mm = 0.75, presses = 4 }, surface = { points = 6 }, idle = { frames = 12 } }
+"#;
+
+struct Run {
+    report: Value,
+    samples: Samples,
+}
+
+fn run(scene: &str) -> Run {
+    let bench = Bench::new();
+    bench.write("recomputed.toml", scene);
+    let plan = bench.ok("plan recomputed.toml -q");
+    assert!(plan.contains("add   metric  skill: "), "{plan}");
+    bench.ok("run recomputed.toml --out run -q");
+    let read = |name: &str| fs::read_to_string(bench.path(name)).expect("written");
+    let report = serde_json::from_str(&read("run/reports/1-recomputed.json")).expect("JSON");
+    let samples = Samples::read(&read("run/reports/1-recomputed.samples.csv")).expect("samples");
+    Run { report, samples }
+}
+
+#[test]
+fn shares_of_gratings_decoded_frames_and_the_unit_come_again_from_the_files_of_a_run() {
+    let Run { report, samples } = run(SCENE);
+    let nanometres = |mm: f64| (mm * 1e6).round();
+    for kind in ["line", "dot"] {
+        let (mut hits, mut n) = (0_u32, 0_u32);
+        for row in 0..samples.rows() {
+            let spacing = samples.number("spacing_mm", row);
+            let predicted = samples.number("spacing_predicted_mm", row);
+            let (Some(spacing), Some(predicted)) = (spacing, predicted) else {
+                continue;
+            };
+            if samples.word("kind", row) == Some(kind) {
+                n += 1;
+                let off = (nanometres(spacing) - nanometres(predicted)).abs();
+                hits += u32::from(off <= nanometres(0.05));
+            }
+        }
+        let score = &report["metrics"]["sr"][kind];
+        assert_eq!(score["n"], n, "{kind}");
+        let share = f64::from(hits) / f64::from(n);
+        let found = score["value"].as_f64().expect("a number");
+        assert!((found - share).abs() < 1e-15, "{kind}: {found} for {share}");
+    }
+    // Each picture once: those of gratings too, and none for a channel that no metric reads.
+    let frames = &report["provenance"]["frames_decoded"];
+    let seen = (0..samples.rows()).filter(|row| {
+        let protocol = samples.word("protocol", *row).unwrap_or_default();
+        protocol != "surface-map"
+    });
+    assert_eq!(frames.as_u64(), Some(seen.count() as u64));
+    let predicted: Vec<&str> = samples
+        .channels()
+        .into_iter()
+        .filter(|channel| channel.is_predicted())
+        .map(|channel| channel.name)
+        .collect();
+    assert_eq!(predicted, ["Fx", "Fy", "Fz"]);
+    assert_eq!(report["subject"]["serial"], "0");
+    let notes = report["provenance"]["notes"].to_string();
+    for words in [
+        "every score is of unit 0, but inter_sensor of units 0, 1",
+        "detection limit: not verified",
+    ] {
+        assert!(notes.contains(words), "{notes}");
+    }
+    let noise = &report["metrics"]["noise_equivalent_force"]["Fz"];
+    let [low, value, high] = [
+        &noise["independent_low"]["value"],
+        &noise["value"],
+        &noise["independent_high"]["value"],
+    ]
+    .map(|number| number.as_f64().expect("a number"));
+    assert!(low < value && value < high, "{noise}");
+}
+
+#[test]
+fn a_robustness_of_unbounded_predictions_comes_again_from_the_table_of_samples() {
+    // Two points are learnt: most predictions of other places lie beyond the labels.
+    let scene = SCENE
+        .replace(
+            r#""sr", "inter_sensor", "noise_equivalent_force""#,
+            r#""r_spatial""#,
+        )
+        .replace(
+            "points = 12, indentations = 2",
+            "points = 5, indentations = 2",
+        )
+        .replace(r#"units = ["0", "1"]"#, r#"units = ["0"]"#);
+    let Run { report, samples } = run(&scene);
+    let cut = ["Px", "Py", "Pz", "Fx", "Fy", "Fz"]
+        .into_iter()
+        .filter(|channel| samples.has(&format!("{channel}_predicted_unbounded")));
+    let cut: Vec<&str> = cut.collect();
+    assert!(!cut.is_empty(), "{}", report["provenance"]["notes"]);
+    for channel in cut {
+        let own = format!("{channel}_predicted_unbounded");
+        let of = samples.channel(channel).expect("a channel");
+        let differs = (0..samples.rows())
+            .filter(|row| of.prediction(*row) != samples.number(&own, *row))
+            .count();
+        let share = report["metrics"]["r_spatial"][channel]["bounded_share"].as_f64();
+        assert!(
+            differs > 0 && share.is_none_or(|share| share > 0.0),
+            "{channel}"
+        );
+    }
+}
