@@ -113,7 +113,7 @@ fn imported(lab: &Path, map: Option<String>) -> Result<String, Box<dyn Error>> {
         parts.push(format!("{frames} pictures"));
     }
     if let Some(signals) = &dataset.header().signals {
-        parts.push(format!("{} numbers of taxels", signals.info.len()));
+        parts.push(format!("{} numbers of taxels", signals.spec.info.len()));
     }
     Ok(format!("{}, {by}", parts.join(", ")))
 }
