@@ -97,7 +97,7 @@ fn types_that_parquet_has_not_are_their_numbers_texts_and_times() {
             Err(TableError::Mismatch { .. })
         ));
         assert!(matches!(
-            table.column("half"),
+            table.column("halves"),
             Err(TableError::Missing { .. })
         ));
     }

@@ -296,7 +296,7 @@ fn an_episode_of_other_rows_than_its_description_says_is_refused_with_both_count
 }
 
 #[test]
-fn a_video_of_depths_is_refused_as_pictures() {
+fn a_depth_map_without_parameters_is_refused_as_pictures() {
     for (from, to) in [
         (
             "\"video.is_depth_map\": false",
@@ -317,7 +317,7 @@ fn a_video_of_depths_is_refused_as_pictures() {
         assert_eq!(depths, [true]);
         let message = dataset.video(KEY).expect_err("depths").to_string();
         assert!(
-            message.contains("codes of 12 bits") && message.contains(KEY),
+            message.contains("`video.depth_min`") && message.contains(KEY),
             "{message}"
         );
     }
