@@ -84,9 +84,14 @@ fn imported(lab: &Path, map: Option<String>) -> Result<String, Box<dyn Error>> {
     } else {
         "by its draft"
     };
+    let mut open = Vec::new();
     let text = match map {
         Some(map) => map,
-        None => filled(MapDraft::of(lab)?.text()),
+        None => {
+            let draft = MapDraft::of(lab)?;
+            open = left_open(draft.text());
+            filled(draft.text())
+        }
     };
     let map = ImportMap::parse("map.toml".as_ref(), &text)?;
     let decoders = Decoders {
@@ -115,7 +120,20 @@ fn imported(lab: &Path, map: Option<String>) -> Result<String, Box<dyn Error>> {
     if let Some(signals) = &dataset.header().signals {
         parts.push(format!("{} numbers of taxels", signals.spec.info.len()));
     }
-    Ok(format!("{}, {by}", parts.join(", ")))
+    let open = match open.is_empty() {
+        true => String::new(),
+        false => format!(" ({} left open)", open.join(" ")),
+    };
+    Ok(format!("{}, {by}{open}", parts.join(", ")))
+}
+
+/// Channels of a draft whose column a lab is asked for.
+fn left_open(draft: &str) -> Vec<String> {
+    let open = draft
+        .lines()
+        .filter(|line| line.contains("from = \"?\"") && !line.starts_with('#'));
+    open.filter_map(|line| Some(line.split_once(" = ")?.0.to_owned()))
+        .collect()
 }
 
 /// A draft with what only a lab knows.
