@@ -8,7 +8,7 @@ use std::sync::Arc;
 use crate::error::TableError;
 use crate::source::Source;
 
-/// What describes the messages of channels.
+/// Description of the messages of channels.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Schema {
     pub(crate) name: String,
@@ -16,17 +16,17 @@ pub(crate) struct Schema {
     pub(crate) text: Vec<u8>,
 }
 
-/// What messages of one topic by one writer share.
+/// Facts that messages of one topic by one writer share.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Channel {
     pub(crate) topic: String,
     pub(crate) encoding: String,
     pub(crate) schema: Option<Arc<Schema>>,
-    /// How many messages it has.
+    /// Number of messages.
     pub(crate) count: u64,
 }
 
-/// Where a message lies: its time, the chunk or page (none of what lies in the file itself), and the place of it there.
+/// Place of a message: its time, the chunk or page (none in the file itself), and where it lies there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Entry {
     pub(crate) log_time: u64,
@@ -77,7 +77,7 @@ pub(crate) trait MessageStore: fmt::Debug + Send + Sync {
     /// All messages of `channels`, by time and, at the same time, as they lie in the file.
     fn index(&self, channels: &BTreeSet<u32>) -> Result<Vec<Entry>, TableError>;
 
-    /// What reads messages through one cursor.
+    /// Reader of messages through one cursor.
     fn reader(&self) -> Result<Box<dyn MessageReader + '_>, TableError>;
 }
 

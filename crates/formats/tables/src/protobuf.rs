@@ -111,7 +111,7 @@ impl ProtobufMessage {
         columns.iter().map(cell).collect()
     }
 
-    /// Whether the field called `name` holds pictures; the error says which does.
+    /// Checks that the field called `name` holds pictures; the error says which does.
     pub(crate) fn check_picture(&self, name: &str) -> Result<(), String> {
         match name {
             "data" => Ok(()),
@@ -178,7 +178,7 @@ impl ProtobufMessage {
     }
 }
 
-/// What a field holds; what is absent is 0 or empty.
+/// Value of a field; an absent one is 0 or empty.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Value<'m> {
     Absent,

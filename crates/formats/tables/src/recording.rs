@@ -17,7 +17,7 @@ pub use self::table::TopicTable;
 
 /// A recording of messages: topics, each a table of its messages.
 ///
-/// It is an MCAP file, a database of rosbag2 (`.db3`) or a bag of ROS 1 (`.bag`), by its first bytes. Opening reads what describes it, or walks
+/// An MCAP file, a database of rosbag2 (`.db3`) or a bag of ROS 1 (`.bag`) is told by its first bytes. Opening reads what describes it, or walks
 /// over the records of a file without that. Sums are checked where the file has them; attachments are not looked at. Chunks may be compressed
 /// by LZ4 or Zstandard, messages of rosbag2 by Zstandard.
 ///
@@ -39,13 +39,13 @@ pub struct Recording {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Topic {
-    /// Its name, as `/ft/wrench`.
+    /// Name, as `/ft/wrench`.
     pub name: String,
     /// The name of the schema of its messages, as `geometry_msgs/msg/WrenchStamped`; empty where there is none.
     pub schema: String,
-    /// How its messages are written, as `cdr`.
+    /// Encoding of its messages, as `cdr`.
     pub encoding: String,
-    /// How many messages there are.
+    /// Number of messages.
     pub count: u64,
 }
 
@@ -99,14 +99,14 @@ impl Recording {
         }
     }
 
-    /// Why the messages of the topic called `name` are not read; none if they are. No message is looked at.
+    /// Reason why the messages of the topic called `name` are not read; none if they are. No message is looked at.
     pub fn why_unread(&self, name: &str) -> Option<String> {
         let topic = self.topics.iter().find(|topic| topic.name == name)?;
         language::of_topic(&*self.store, topic).err()
     }
 }
 
-/// What reads the file, by its first bytes.
+/// Reader of the file, by its first bytes.
 fn store(source: Source) -> Result<Arc<dyn MessageStore>, TableError> {
     const ZSTANDARD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
     let mut file = source.open()?;

@@ -24,7 +24,7 @@ const NANO: u64 = 1_000_000_000;
 pub(crate) struct Rosbag1 {
     source: Source,
     channels: BTreeMap<u32, Channel>,
-    /// Where the indices of the messages of each connection lie, and the chunk that each is of.
+    /// Places of the indices of the messages of each connection, and the chunk that each is of.
     indices: BTreeMap<u32, Vec<(u64, u64)>>,
 }
 

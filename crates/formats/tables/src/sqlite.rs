@@ -47,7 +47,7 @@ pub(crate) struct SqliteTable {
     id: Option<usize>,
 }
 
-/// Where a row lies: its page and its place among the cells of that.
+/// Place of a row: its page, and its number among the cells of that.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct RowPlace {
     pub(crate) page: u32,
@@ -188,7 +188,7 @@ impl Database {
 }
 
 impl SqliteTable {
-    /// Where the column called `name` stands.
+    /// Position of the column called `name`.
     pub(crate) fn position(&self, name: &str) -> Option<usize> {
         self.columns.iter().position(|column| column == name)
     }

@@ -1,4 +1,4 @@
-//! What the messages of a topic are written in.
+//! Languages that the messages of a topic are written in.
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -14,10 +14,10 @@ use crate::message::MessageStore;
 use crate::protobuf::{self, ProtobufMessage};
 use crate::ros::{self, Dialect, Fields, Picture, PictureField, RosSchema};
 
-/// How messages of rosbag2 begin that are compressed one by one; no message of CDR does.
+/// Begin of messages of rosbag2 that are compressed one by one; no message of CDR begins so.
 const ZSTANDARD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
 
-/// What messages are written in.
+/// A language that messages are written in.
 #[derive(Clone, Debug)]
 pub(super) enum Language {
     Ros(Arc<RosSchema>),
@@ -25,11 +25,14 @@ pub(super) enum Language {
     Protobuf(&'static ProtobufMessage),
 }
 
-/// What reads the fields that were asked for out of a message.
+/// Reader of the fields that were asked for out of a message.
 pub(super) type Reader<'a> = Box<dyn Fn(&[u8]) -> Result<Vec<Cell>, String> + 'a>;
 
+/// Reader of the picture out of a message.
+pub(super) type PictureReader<'a> = Box<dyn Fn(&[u8]) -> Result<Picture, String> + 'a>;
+
 impl Language {
-    /// What reads the fields called `names`; the error is the first of them that there is not.
+    /// Reader of the fields called `names`; the error is the first of them that there is not.
     pub(super) fn reader<'a>(&'a self, names: &[&'a str]) -> Result<Reader<'a>, &'a str> {
         match self {
             Language::Ros(schema) => {
@@ -53,15 +56,8 @@ impl Language {
         }
     }
 
-    /// What reads the pictures in the field called `name`; the error says why it holds none.
-    #[expect(
-        clippy::type_complexity,
-        reason = "a closure over one of the languages"
-    )]
-    pub(super) fn pictures<'a>(
-        &'a self,
-        name: &str,
-    ) -> Result<Box<dyn Fn(&[u8]) -> Result<Picture, String> + 'a>, String> {
+    /// Reader of the pictures in the field called `name`; the error says why it holds none.
+    pub(super) fn pictures<'a>(&'a self, name: &str) -> Result<PictureReader<'a>, String> {
         match self {
             Language::Json => Err("messages of JSON hold no pictures that are read".to_owned()),
             Language::Protobuf(schema) => {
@@ -86,7 +82,7 @@ fn unpacked(message: &[u8]) -> Result<Cow<'_, [u8]>, String> {
     }
 }
 
-/// What the messages of `topic` are written in: one language, by one schema.
+/// Language of the messages of `topic`: one, by one schema.
 pub(super) fn of_topic(store: &dyn MessageStore, topic: &Topic) -> Result<Language, String> {
     let channels = store.channels().values();
     let channels = channels.filter(|channel| channel.topic == topic.name);

@@ -18,9 +18,9 @@ pub(super) mod op {
 #[derive(Debug)]
 pub(super) struct Head {
     fields: Vec<u8>,
-    /// Where the data begins.
+    /// Begin of the data.
     pub(super) data_at: u64,
-    /// Where the record ends.
+    /// End of the record.
     pub(super) end: u64,
 }
 

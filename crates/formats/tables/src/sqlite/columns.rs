@@ -44,7 +44,7 @@ pub(super) fn columns(sql: &str) -> Option<Columns> {
     (!names.is_empty()).then_some(Columns { names, id })
 }
 
-/// What commas separate outside brackets and quotes.
+/// Parts between commas outside brackets and quotes.
 fn parts(text: &str) -> Vec<&str> {
     let mut parts = Vec::new();
     let mut depth = 0_usize;

@@ -16,7 +16,7 @@ pub(crate) enum Value {
     Integer(i64),
     Real(f64),
     Text(String),
-    /// Where its bytes lie in those of the row.
+    /// Place of its bytes in those of the row.
     Blob(Range<usize>),
 }
 
@@ -28,7 +28,7 @@ pub(crate) struct Record<'p, 'd> {
     number: i64,
     /// The type and the place of each value.
     values: Vec<(u64, Range<usize>)>,
-    /// What of the row was read.
+    /// Bytes of the row that were read.
     read: Vec<u8>,
     /// Bytes of the whole row.
     length: usize,
@@ -94,7 +94,7 @@ impl<'p, 'd> Record<'p, 'd> {
         self.length as u64
     }
 
-    /// What was read of the row: after a value of it at least the bytes of that.
+    /// Bytes of the row that were read: after a value of it at least those of that.
     pub(crate) fn into_bytes(self) -> Vec<u8> {
         self.read
     }
@@ -207,7 +207,7 @@ impl<'p, 'd> Record<'p, 'd> {
     }
 }
 
-/// How many bytes of a row of `length` lie in its own page, of which `usable` can be used.
+/// Bytes of a row of `length` that lie in its own page, of which `usable` can be used.
 fn in_page(length: usize, usable: usize) -> usize {
     let most = usable - 35;
     if length <= most {

@@ -10,7 +10,7 @@ use crate::error::TableError;
 /// Kinds of pages of a table.
 const INNER: u8 = 5;
 const LEAF: u8 = 13;
-/// How deep a tree may be: of pages that hold two each, all that there can be.
+/// Greatest depth of a tree: of pages that hold two each, all that there can be.
 const DEPTH: usize = 40;
 
 /// The head of a page of a table.
@@ -19,7 +19,7 @@ pub(super) struct Head {
     cells: u16,
     /// The last child of an inner page.
     last: u32,
-    /// Where the places of the cells begin.
+    /// Begin of the places of the cells.
     places: usize,
 }
 
@@ -38,7 +38,7 @@ impl Head {
         })
     }
 
-    /// Where the cell of this number begins in the page.
+    /// Bytes from the begin of the cell of this number on.
     pub(super) fn cell<'p>(&self, page: &'p [u8], cell: u16) -> Option<&'p [u8]> {
         if cell >= self.cells {
             return None;
@@ -48,7 +48,7 @@ impl Head {
         page.get(usize::from(u16::from_be_bytes([place[0], place[1]]))..)
     }
 
-    /// Whether rows lie in it.
+    /// True if rows lie in it.
     pub(super) fn is_leaf(&self) -> bool {
         self.kind == LEAF
     }

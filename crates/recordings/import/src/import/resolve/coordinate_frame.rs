@@ -13,18 +13,18 @@ use crate::import::map::{FrameNames, ImportMap};
 use taceva_dataset::internal::shown;
 use taceva_dataset::{DatasetError, Place};
 
-/// What a column ends with that names a coordinate frame: `header.frame_id`, `/header/frame_id`, `frame_id`.
+/// End of the name of a column that names a coordinate frame: `header.frame_id`, `/header/frame_id`, `frame_id`.
 const ENDING: &str = "frame_id";
 /// Rows from which on a column with another text in each of them names pictures.
 const NAMES_OF_PICTURES: usize = 8;
-/// How many frames a message names.
+/// Number of frames that a message names.
 const LISTED: usize = 8;
 
 /// The coordinate frames of a main table and of those that are joined to it.
 #[derive(Default)]
 pub(in crate::import) struct CoordinateFrames {
     stated: BTreeMap<FrameColumn, StatedFrame>,
-    /// Why rows of the main table are left out: they are given in another frame than the map takes.
+    /// Reasons why rows of the main table are left out: they are given in another frame than the map takes.
     pub(in crate::import) left_out: BTreeMap<usize, String>,
 }
 
@@ -106,7 +106,7 @@ pub(super) fn columns(table: &ForeignTable) -> Vec<String> {
     names
 }
 
-/// What stands before the name of a frame in `column`, and before the numbers that are given in it: nothing, `wrench.`.
+/// Begin of `column` before the name of a frame, and of the columns that are given in it: nothing, `wrench.`.
 fn prefix(column: &str) -> &str {
     let mut prefix = &column[..column.len() - ENDING.len()];
     for part in ["child_", "header.", "header/", "header_"] {
@@ -158,7 +158,7 @@ fn labels<'m>(map: &'m ImportMap, main: &ForeignTable, join: Option<&str>) -> Ve
     own.collect()
 }
 
-/// Whether the map reads `column` as what it is: a name of pictures or of samples.
+/// True if the map reads `column` as a name of pictures or of samples.
 fn is_name(map: &ImportMap, column: &str) -> bool {
     let of_frames = match map.frame.as_ref().map(|frame| &frame.names) {
         Some(FrameNames::Column(name)) => Some(name),

@@ -16,7 +16,7 @@ use taceva_dataset::internal::shown;
 pub(super) struct Candidates {
     pub(super) table: ForeignTable,
     pub(super) rows: Vec<usize>,
-    /// How many rows are given in another frame than the map takes.
+    /// Number of rows that are given in another frame than the map takes.
     pub(super) in_other_frames: usize,
     /// Of a join by columns: the rows that hold each key.
     pub(super) by_key: HashMap<Vec<String>, Vec<usize>>,
@@ -29,7 +29,7 @@ pub(super) struct Candidates {
 /// A row of a joined table that a row of the main one takes its cells from.
 pub(in crate::import::resolve) struct TakenRow<'a> {
     pub(super) candidates: &'a Candidates,
-    /// Which of the joined tables it is of.
+    /// Number of the joined table.
     pub(in crate::import::resolve) at: usize,
     pub(in crate::import::resolve) row: usize,
 }
@@ -39,7 +39,7 @@ impl<'a> TakenRow<'a> {
         &self.candidates.table
     }
 
-    /// Its time, s, of a join by time.
+    /// Time, s, of a join by time.
     pub(in crate::import::resolve) fn time_s(&self) -> Option<f64> {
         let mut times = self.candidates.by_time.iter();
         let found = times.find(|(_, row)| *row == self.row);
