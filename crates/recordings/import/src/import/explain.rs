@@ -55,7 +55,7 @@ impl fmt::Display for ImportSummary {
         }
         self.write_unmentioned(f)?;
         for topic in &self.unread_topics {
-            writeln!(f, "not read {}", shown(topic))?;
+            writeln!(f, "not read {}", taceva_core::shown(topic))?;
         }
         let Some(order) = self.channel_order else {
             return self.write_suspicions(f);
