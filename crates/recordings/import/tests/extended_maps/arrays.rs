@@ -172,7 +172,11 @@ fn keys_of_frames_that_do_not_go_together_name_their_line() {
         ),
         (
             "column = \"value\"\nlayout = \"nchw\"",
-            "are for an `array`",
+            "`layout` is for an `array`",
+        ),
+        (
+            "bytes = \"value\"\nrange = [0, 1]\nbits = 8",
+            "for a depth map as `video`",
         ),
         (
             "bytes = \"value\"\nindex = \"row\"",
