@@ -1,5 +1,6 @@
 //! One table of the columns that a map names, which may stand in a cell of others, in the path of a file or in another table.
 
+mod cell;
 mod classes;
 mod columns;
 mod coordinate_frame;
@@ -19,8 +20,9 @@ use taceva_core::Clock;
 
 use super::map::{FrameNames, ImportMap, OWN_ROW};
 use super::warning::ImportWarning;
-use crate::foreign::{ForeignTable, TableForm, cell_list};
+use crate::foreign::{ForeignTable, TableForm};
 use crate::source_folder::SourceFolder;
+use cell::cell_of;
 use columns::{base_of, mentioned};
 use join::Joined;
 use taceva_dataset::{DatasetError, Place};
@@ -352,28 +354,4 @@ impl Sources<'_> {
         names.retain(|name| !is_named(name));
         names
     }
-}
-
-/// What a row of `table` has in the column `name`, or at its position in what the cell packs: `ft[2]`.
-fn cell_of(table: &ForeignTable, row: usize, name: &str) -> Result<String, DatasetError> {
-    if table.has(name) {
-        return Ok(cell_list::plain(&table.cell(row, name)?).to_owned());
-    }
-    let Some((base, index)) = columns::indexed(name) else {
-        return Err(table.no_column(name));
-    };
-    let cell = table.cell(row, base)?;
-    if cell.is_empty() {
-        return Ok(String::new());
-    }
-    let found = cell_list::value(&cell, &index);
-    found
-        .map(|found| match table {
-            ForeignTable::Columns(_) | ForeignTable::Json(_) if found.is_null() => String::new(),
-            _ => found.text.into_owned(),
-        })
-        .map_err(|problem| DatasetError::Table {
-            place: table.place(row, base),
-            problem,
-        })
 }

@@ -5,8 +5,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use taceva_core::Unit;
 
+use super::Sources;
+use super::cell::cell_of;
 use super::columns::base_of;
-use super::{Sources, cell_of};
 use crate::csv_table::number;
 use crate::foreign::ForeignTable;
 use crate::import::map::{FrameNames, ImportMap};

@@ -8,11 +8,12 @@ mod matching;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+use super::Sources;
+use super::cell::cell_of;
 use super::classes::holds_integers;
 use super::columns::{base_of, mentioned};
 use super::coordinate_frame;
 use super::unit_statement::{self, Reading};
-use super::{Sources, cell_of};
 use crate::csv_table::number;
 use crate::foreign::ForeignTable;
 use crate::import::map::{JoinBy, JoinMap, Lag, TimeJoin, Unmatched};

@@ -6,9 +6,10 @@ use super::matching::{comparable, seconds};
 use crate::csv_table::number;
 use crate::foreign::ForeignTable;
 use crate::import::map::{JoinBy, JoinMap};
+use crate::import::resolve::cell::cell_of;
+use crate::import::resolve::coordinate_frame;
 use crate::import::resolve::times::TextTimes;
 use crate::import::resolve::unit_statement::{self, Of, Reading};
-use crate::import::resolve::{cell_of, coordinate_frame};
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::shown;
 

@@ -2,10 +2,10 @@
 
 use taceva_core::Unit;
 
-use super::super::cell_of;
 use crate::csv_table::number;
 use crate::foreign::ForeignTable;
 use crate::import::map::{ImportMap, RotationMap};
+use crate::import::resolve::cell::cell_of;
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::shown;
 

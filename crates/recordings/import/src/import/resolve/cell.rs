@@ -1,0 +1,33 @@
+//! One cell of a table of any form.
+
+use super::columns::indexed;
+use crate::foreign::{ForeignTable, cell_list};
+use taceva_dataset::DatasetError;
+
+/// What a row of `table` has in the column `name`, or at its position in what the cell packs: `ft[2]`.
+pub(super) fn cell_of(
+    table: &ForeignTable,
+    row: usize,
+    name: &str,
+) -> Result<String, DatasetError> {
+    if table.has(name) {
+        return Ok(cell_list::plain(&table.cell(row, name)?).to_owned());
+    }
+    let Some((base, index)) = indexed(name) else {
+        return Err(table.no_column(name));
+    };
+    let cell = table.cell(row, base)?;
+    if cell.is_empty() {
+        return Ok(String::new());
+    }
+    let found = cell_list::value(&cell, &index);
+    found
+        .map(|found| match table {
+            ForeignTable::Columns(_) | ForeignTable::Json(_) if found.is_null() => String::new(),
+            _ => found.text.into_owned(),
+        })
+        .map_err(|problem| DatasetError::Table {
+            place: table.place(row, base),
+            problem,
+        })
+}
