@@ -62,9 +62,16 @@ fn ground(study: &Study) -> String {
     let split = of("split").map(|split| format!("split {split}"));
     let seed = of("seed").map(|seed| format!("seed {seed}"));
     let part = of("part").map(|part| format!("part {part}"));
-    let tables = of("tables").map(|tables| {
-        let short: String = tables.chars().take(TABLES).collect();
-        format!("of tables {short}…")
+    // Predictions differ in any case; the samples are those of the truth.
+    let truth = study.made.truth.as_ref().map(|digest| {
+        let short: String = digest.chars().take(SHORT).collect();
+        format!("of the truth {short}")
+    });
+    let tables = truth.or_else(|| {
+        of("tables").map(|tables| {
+            let short: String = tables.chars().take(TABLES).collect();
+            format!("of tables {short}…")
+        })
     });
     let all = [samples, data, tables, split, seed, part];
     all.into_iter().flatten().collect::<Vec<_>>().join(", ")

@@ -10,7 +10,7 @@ use crate::results::Study;
 /// Contact places below which twice as many still halve errors, so that a comparison shows the training and not the sensors.
 pub(super) const LEAST_PLACES: usize = 200;
 
-/// The contact places of a study that its model was fitted on here; `None` where that is not known.
+/// The contact places of a study that its model was fitted or chosen on here; `None` where that is not known.
 fn places(study: &Study) -> Option<usize> {
     let is_training = |(part, count): &(String, u64)| part == "train" && *count > 0;
     let samples = study.samples.as_ref()?;
@@ -30,7 +30,7 @@ fn places(study: &Study) -> Option<usize> {
     (!points.is_empty()).then_some(points.len())
 }
 
-/// The fewest places that a model of several sensors was fitted on, where they are too few for a verdict on sensors.
+/// The fewest places that a model of several sensors was fitted or chosen on, where they are too few for a verdict on sensors.
 fn too_few(studies: &[Study]) -> Option<usize> {
     let fewest = studies.iter().filter_map(places).min()?;
     (studies.len() > 1 && fewest < LEAST_PLACES).then_some(fewest)
@@ -46,15 +46,20 @@ pub(super) fn is_demonstration(studies: &[Study], metric: &str) -> bool {
 pub(super) fn demonstration(studies: &[Study]) -> Option<String> {
     let fewest = too_few(studies)?;
     Some(format!(
-        "A demonstration: models learnt {fewest} contact places, fewer than {LEAST_PLACES}, so scores of predictions give no verdict on sensors."
+        "A demonstration: models were fitted and chosen on {fewest} contact places, fewer than {LEAST_PLACES}, so scores of predictions give no verdict on sensors."
     ))
 }
 
 /// The models of the studies in a sentence, where they are unequal.
 pub(super) fn unequal_models(studies: &[Study]) -> Option<String> {
-    let made: Vec<(&str, &[(String, String)])> = studies
+    // The best epoch is found by each training, and features are told by size and colour.
+    let is_set = |setting: &&(String, String)| setting.0 != "epoch" && setting.0 != "features";
+    let settings = |study: &Study| -> Vec<(String, String)> {
+        study.made.settings.iter().filter(is_set).cloned().collect()
+    };
+    let made: Vec<(&str, Vec<(String, String)>)> = studies
         .iter()
-        .map(|study| Some((study.made.model.as_deref()?, study.made.settings.as_slice())))
+        .map(|study| Some((study.made.model.as_deref()?, settings(study))))
         .collect::<Option<_>>()?;
     let first = made.first()?;
     if made.iter().all(|other| other == first) {

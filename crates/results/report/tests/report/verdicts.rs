@@ -261,6 +261,25 @@ fn a_choice_by_values_alone_says_that_no_test_shows_the_difference() {
 }
 
 #[test]
+fn skill_that_was_shown_on_one_table_of_truth_was_shown_on_the_same_samples() {
+    let note = |truths: [&str; 2]| {
+        let mut studies = studies(&["one", "two"], |_, metrics| {
+            metrics["skill"]["Fz"] = json!({"value": 0.9, "unit": "1", "n": 80});
+        });
+        for (number, (study, truth)) in studies.iter_mut().zip(truths).enumerate() {
+            let tables = format!("prediction sha256:p{number}, truth {truth}");
+            study.provenance = vec![("tables".to_owned(), tables)];
+            study.made.truth = Some(truth.to_owned());
+        }
+        let mut notes = compared(&studies).notes.into_iter();
+        notes.find(|note| note.starts_with("skill is shown on different test parts"))
+    };
+    assert_eq!(note(["sha256:1", "sha256:1"]), None);
+    let apart = note(["sha256:1", "sha256:2"]).expect("two truths");
+    assert!(apart.contains("of the truth sha256:2"), "{apart}");
+}
+
+#[test]
 fn questions_without_room_are_counted_and_no_line_is_cut_away_from_a_terminal() {
     let long = "a sensor with a name that is much longer than any that a line has room for";
     let mut studies = studies(&["one", long], |_, _| ());
