@@ -6,14 +6,14 @@ use taceva_tests::structure::{
     sources, tuple_parameters, walks,
 };
 
-/// Most lines of product code, and of all `.rs` files.
-const MOST_LINES: (usize, usize) = (188_000, 357_000);
+/// Most lines of product code, and of all `.rs` files: readers of SQLite, bags, Arrow and protobuf, and angles, cost 6,000 and 11,000 of them.
+const MOST_LINES: (usize, usize) = (194_300, 368_500);
 
 /// Most parameters that are tuples.
-const MOST_TUPLES: usize = 115;
+const MOST_TUPLES: usize = 74;
 
 /// Most files that are named by participles.
-const MOST_PARTICIPLES: usize = 42;
+const MOST_PARTICIPLES: usize = 25;
 
 /// Most stops of one value between entry and end, and most returns to a file that it left.
 const MOST_STOPS: (usize, usize) = (12, 3);
@@ -21,30 +21,30 @@ const MOST_STOPS: (usize, usize) = (12, 3);
 /// Most doc comments of each package that begin with a clause, in per cent; other packages have none.
 const MOST_CLAUSES: &[(&str, f64)] = &[
     ("taceva-abi", 8.1),
-    ("taceva-acquire", 28.8),
-    ("taceva-arrays", 22.0),
-    ("taceva-check", 18.7),
+    ("taceva-acquire", 28.6),
+    ("taceva-arrays", 21.2),
+    ("taceva-check", 14.0),
     ("taceva-cli", 11.8),
-    ("taceva-conformance", 31.2),
-    ("taceva-core", 21.0),
+    ("taceva-conformance", 17.1),
+    ("taceva-core", 20.5),
     ("taceva-dataset", 24.8),
     ("taceva-drivers", 29.0),
-    ("taceva-evaluate", 26.7),
+    ("taceva-evaluate", 20.3),
     ("taceva-host", 31.9),
-    ("taceva-import", 28.5),
+    ("taceva-import", 21.9),
     ("taceva-live", 27.3),
-    ("taceva-metrics", 19.9),
-    ("taceva-models", 24.0),
+    ("taceva-metrics", 19.3),
+    ("taceva-models", 23.1),
     ("taceva-network", 21.9),
     ("taceva-plugin", 21.0),
     ("taceva-protocol", 26.9),
     ("taceva-python", 18.2),
-    ("taceva-report", 23.8),
+    ("taceva-report", 23.0),
     ("taceva-results", 3.9),
     ("taceva-sim", 25.0),
-    ("taceva-study", 25.5),
+    ("taceva-study", 25.2),
     ("taceva-sweep", 29.5),
-    ("taceva-tables", 23.2),
+    ("taceva-tables", 15.2),
     ("taceva-template", 15.6),
     ("taceva-video", 30.3),
 ];
