@@ -43,7 +43,7 @@ impl Model {
     pub fn fit(input: FitInput<'_>, progress: &dyn Progress) -> Result<Model, ModelError> {
         let targets = input.training.targets;
         let asked = targets.channels;
-        if targets.values.len() % asked.len().max(1) != 0 {
+        if !targets.values.len().is_multiple_of(asked.len().max(1)) {
             return Model::fit_learnt(input, Vec::new(), asked, progress);
         }
         let angles = AngleCard::of_labels(asked, targets.values);

@@ -23,7 +23,7 @@ fn errors_of_an_angle_with_a_period_are_the_short_way_round() {
     let periodic = yaw().with_period(360).expect("an angle");
     let mut evaluator = Evaluator::of_channels([periodic.clone()]).expect("a plan");
     evaluator
-        .update_pairs(periodic, &TRUTH, &PREDICTION)
+        .update_pairs(periodic, TRUTH, PREDICTION)
         .expect("taken in");
     // Errors of 3, -3, 2 and 1 degrees.
     for (metric, expected) in [("mae", 2.25), ("bias", -0.75), ("rmse", 5.75_f64.sqrt())] {
@@ -32,7 +32,7 @@ fn errors_of_an_angle_with_a_period_are_the_short_way_round() {
     }
     let mut plain = Evaluator::of_channels([yaw()]).expect("a plan");
     plain
-        .update_pairs(yaw(), &TRUTH, &PREDICTION)
+        .update_pairs(yaw(), TRUTH, PREDICTION)
         .expect("taken in");
     assert!(scalar(&mut plain, "mae", "yaw") > 200.0);
 }
@@ -44,10 +44,9 @@ fn other_channels_beside_an_angle_with_a_period_are_as_they_were_to_the_bit() {
     let answers = [0.15, 0.65, 1.9, 500.3];
     let of = |channel: Channel| {
         let mut evaluator = Evaluator::of_channels([Channel::FZ, channel.clone()]).expect("a plan");
-        let rows =
-            Rows::new()
-                .pairs(Channel::FZ, &forces, &answers)
-                .pairs(channel, &TRUTH, &PREDICTION);
+        let rows = Rows::new()
+            .pairs(Channel::FZ, forces, answers)
+            .pairs(channel, TRUTH, PREDICTION);
         evaluator.update_rows(rows).expect("taken in");
         ["mae", "rmse", "r2", "bias"].map(|metric| scalar(&mut evaluator, metric, "Fz").to_bits())
     };
@@ -62,7 +61,7 @@ fn an_angle_that_never_leaves_half_a_period_scores_as_without_one_to_the_bit() {
     let of = |channel: Channel| {
         let mut evaluator = Evaluator::of_channels([channel.clone()]).expect("a plan");
         evaluator
-            .update_pairs(channel, &truth, &prediction)
+            .update_pairs(channel, truth, prediction)
             .expect("taken in");
         ["mae", "rmse", "r2", "bias"].map(|metric| scalar(&mut evaluator, metric, "yaw").to_bits())
     };
@@ -94,7 +93,7 @@ fn the_spread_of_an_angle_about_a_known_mean_is_that_of_its_directions() {
     let plan = plan.with_constants(centre).expect("known channels");
     let mut evaluator = Evaluator::new(&plan);
     evaluator
-        .update_pairs(periodic, &truth, &prediction)
+        .update_pairs(periodic, truth, prediction)
         .expect("taken in");
     assert!((scalar(&mut evaluator, "mae", "yaw") - 3.5).abs() < 1e-12);
     // Errors 2, -2, 5, -5; truth -10, 10, -4, 4 about 180.
