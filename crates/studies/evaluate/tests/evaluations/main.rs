@@ -1,5 +1,6 @@
 //! Evaluations of whole recordings.
 
+mod angles;
 mod division;
 mod networks;
 mod pairing;
