@@ -94,10 +94,12 @@ fn databases_of_rosbag2_and_bags_of_ros_1_are_drafted_and_imported_by_preset() {
 #[test]
 fn pictures_of_foxglove_in_protobuf_are_joined_with_forces_in_json() {
     let folder = lab("mcap/foxglove.mcap");
-    // Its Fz counts up by one, which a draft takes for a counter.
-    let (numbers, summary) = by_preset(folder.path(), &["Fx"]);
+    // Its Fz counts up by one, as no counter in a wrench does.
+    let (numbers, summary) = by_preset(folder.path(), &["Fx", "Fz"]);
     let expected: Vec<f64> = (0..24).map(|press| 0.1 * f64::from(press)).collect();
     assert_eq!(numbers[0], expected, "{summary}");
+    let expected: Vec<f64> = (0..24).map(f64::from).collect();
+    assert_eq!(numbers[1], expected, "{summary}");
     assert!(summary.contains("frames   24 of them"), "{summary}");
 }
 

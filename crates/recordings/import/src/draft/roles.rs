@@ -112,6 +112,8 @@ fn of_numbers(name: &str, numbers: &[f64]) -> Role {
     match Named::new(name).candidate(String::new()) {
         Some(Ok(candidate)) => {
             let least = match candidate.reason {
+                // What stands in a wrench or a pose is no counter.
+                Reason::Parent => usize::MAX,
                 Reason::Name | Reason::NameWithUnit => COUNTED_BY_NAME,
                 _ => COUNTED,
             };
