@@ -118,6 +118,12 @@ fn store(source: Source) -> Result<Arc<dyn MessageStore>, TableError> {
     if begins(&rosbag1::MAGIC) {
         return Ok(Arc::new(rosbag1::Rosbag1::open(source)?));
     }
+    if begins(b"#ROSBAG V") && rosbag1::MAGIC.starts_with(&begin) {
+        return Err(source.damaged(
+            Place::byte(0),
+            "a bag of ROS 1 that is cut short in its first line",
+        ));
+    }
     if begins(b"#ROSBAG V") {
         let problem = "a bag of another version than 2.0: `rosbag fix FILE OUT.bag` of ROS 1 writes one of it";
         return Err(source.unsupported(Place::byte(0), problem));

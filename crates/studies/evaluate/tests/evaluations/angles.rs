@@ -22,7 +22,7 @@ fn table() -> String {
             _ => 0.1 * f64::from(number * 7 % 19),
         };
         let (sine, cosine) = yaw.to_radians().sin_cos();
-        let [rx, ry, rz] = [20.0 * cosine, 20.0 * sine, 5.0 * force];
+        let [rx, ry, rz] = [20.0 * cosine, 20.0 * sine, 2.0 * force * cosine];
         let _ = writeln!(
             text,
             "{cosine},{sine},{force},{},{yaw},{rx},{ry},{rz},{}",
