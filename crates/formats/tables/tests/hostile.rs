@@ -171,8 +171,7 @@ fn a_schema_of_another_message_is_noticed() {
 #[test]
 fn encodings_that_are_not_read_are_refused_by_name() {
     for (of_schema, of_message) in [
-        ("ros1msg", "ros1"),
-        ("protobuf", "protobuf"),
+        ("ros1msg", "cdr"),
         ("ros2idl", "cdr"),
         ("flatbuffer", "flatbuffer"),
     ] {
@@ -186,6 +185,15 @@ fn encodings_that_are_not_read_are_refused_by_name() {
         );
         assert!(message.contains(&expected), "{message}");
     }
+    let message = problem(&[
+        schema("protobuf", "int8 x"),
+        channel(1, "protobuf"),
+        message(1, 0, &[]),
+    ]);
+    assert!(
+        message.contains("messages of protobuf by `a/B`, of which"),
+        "{message}"
+    );
     let whole = mcap(&[]);
     let (_folder, path) = file("open.mcap", &whole[..whole.len() - 10]);
     let message = Recording::open(&path).expect_err("cut").to_string();
