@@ -26,14 +26,14 @@ pub(super) fn difference(
     if truth != self::truth(studies.b) {
         return Err(None);
     }
-    let told = |reason: String| truth.map(|_| reason);
+    let known = |reason: String| truth.map(|_| reason);
     let of = |study, score, name: &str| {
-        Errors::of(study, score).map_err(|reason| told(format!("{reason} of {name}")))
+        Errors::of(study, score).map_err(|reason| known(format!("{reason} of {name}")))
     };
     let a = of(studies.a, scores.a, names.a)?;
     let b = of(studies.b, scores.b, names.b)?;
     if a.truths != b.truths {
-        return Err(told(
+        return Err(known(
             "the two did not predict the same samples of it".to_owned(),
         ));
     }

@@ -28,20 +28,20 @@ pub(super) struct Candidates {
 }
 
 /// A row of a joined table that a row of the main one takes its cells from.
-pub(in crate::import::resolve) struct TakenRow<'a> {
+pub(crate) struct TakenRow<'a> {
     pub(super) candidates: &'a Candidates,
     /// Number of the joined table.
-    pub(in crate::import::resolve) at: usize,
-    pub(in crate::import::resolve) row: usize,
+    pub(crate) at: usize,
+    pub(crate) row: usize,
 }
 
 impl<'a> TakenRow<'a> {
-    pub(in crate::import::resolve) fn table(&self) -> &'a ForeignTable {
+    pub(crate) fn table(&self) -> &'a ForeignTable {
         &self.candidates.table
     }
 
     /// Time, s, of a join by time.
-    pub(in crate::import::resolve) fn time_s(&self) -> Option<f64> {
+    pub(crate) fn time_s(&self) -> Option<f64> {
         let mut times = self.candidates.by_time.iter();
         let found = times.find(|(_, row)| *row == self.row);
         found.map(|(time_s, _)| *time_s)
