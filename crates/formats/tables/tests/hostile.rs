@@ -191,7 +191,7 @@ fn encodings_that_are_not_read_are_refused_by_name() {
         message(1, 0, &[]),
     ]);
     assert!(
-        message.contains("messages of protobuf by `a/B`, of which"),
+        message.contains("messages of protobuf by `a/msg/B`, of which"),
         "{message}"
     );
     let whole = mcap(&[]);
