@@ -22,7 +22,7 @@ def test_every_block_of_the_documents_runs_as_it_is_pasted(tmp_path: Path, monke
     names: dict[str, object] = {}
     page = blocks(WORKSPACE / "docs" / "python.md")
     assert len(page) >= 4
-    for block in [*page, *blocks(WORKSPACE / "taceva-python" / "README.md")]:
+    for block in [*page, *blocks(WORKSPACE / "python" / "README.md")]:
         if "torch" in block:
             try:
                 import torch  # noqa: F401
