@@ -250,7 +250,7 @@ ARM_FAULTS = {
     "says_no_pose": ("return self.stands, tp.now()", "return 1.0", "pose returned a float, expected (taceva.plugin.Pose(x, y, z), time)", "robot/says"),
     "has_another_pose": ("return self.stands, tp.now()", "return (1.0, 2.0), tp.now()", "not 3 or 6 numbers", "robot/says"),
     "stands_nowhere": ("return self.stands, tp.now()", "return (1.0, 2.0, math.nan), tp.now()", "NaN", "robot/says"),
-    "ignores_halts": ("deadline.rest(", "import time; time.sleep(", "a move of 1 s in 20 ms", "robot/timeout"),
+    "ignores_halts": ("deadline.rest(", "import time; time.sleep(", "moving without time succeeded, expected `timeout`", "robot/timeout"),
     "cannot_be_stopped": ("pass", "raise ConnectionError('the cable')", "ConnectionError: the cable", "robot/halts-twice"),
     "moves_after_its_deadline": (
         "deadline.rest(",

@@ -84,7 +84,7 @@ def named_columns(table: Any, name: str) -> NamedColumns | None:
     """
     if isinstance(table, Mapping):
         return NamedColumns({str(key): np.asarray(column) for key, column in table.items()})
-    if isinstance(table, np.ndarray) and table.dtype.names:
+    if isinstance(table, np.ndarray) and table.dtype.names and table.ndim == 1:
         return NamedColumns({key: table[key] for key in table.dtype.names})
     if hasattr(table, "iloc") and hasattr(table, "index"):
         return _of_pandas(table, name)
