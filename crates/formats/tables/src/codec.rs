@@ -39,7 +39,7 @@ const ZSTD_WINDOW_BYTES: u64 = 8 << 20;
 /// `packed` unpacked, which must give `size` bytes.
 ///
 /// # Errors
-/// What is wrong, in words: other sizes, sums that do not match, bytes that the codec does not know.
+/// The fault in words: other sizes, sums that do not match, bytes that the codec does not know.
 pub(crate) fn unpack(codec: Codec, packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
     let unpacked = match codec {
         Codec::Plain => packed.to_vec(),
@@ -210,7 +210,7 @@ fn zstd(packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
 /// A message that is one frame of Zstandard, of at most `most` bytes.
 ///
 /// # Errors
-/// What is wrong, in words.
+/// The fault in words.
 pub(crate) fn zstandard_message(packed: &[u8], most: u64) -> Result<Vec<u8>, String> {
     let mut unpacked = Vec::new();
     let decoded = decompressor(most)?.decompress_into(packed, &mut unpacked);

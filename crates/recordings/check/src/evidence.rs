@@ -15,7 +15,7 @@ pub struct Evidence<'a> {
     pub header: &'a Header,
     /// Its labels.
     pub table: &'a Table,
-    /// Its division into parts.
+    /// Division of the recording into parts.
     pub divided: Option<&'a Divided>,
     /// A few numbers of each row's frame; empty if no check reads frames.
     pub frames: &'a [Option<FrameFacts>],

@@ -7,7 +7,7 @@ use super::definitions::KNOWN;
 use crate::error::shown;
 use crate::limits;
 
-/// Which of both languages that are alike: their numbers lie otherwise, and some types are other ones.
+/// Language of ROS 1 or ROS 2. Their schemas are alike; numbers lie otherwise, and some types differ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Dialect {
     /// Numbers one behind the other, the lowest byte first.

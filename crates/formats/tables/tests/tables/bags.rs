@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use taceva_tables::{Cell, Picture, Recording, SampleForm, TableError, TopicTable};
 
-/// Those with the definitions of their messages.
+/// Recordings with the definitions of their messages.
 const WHOLE: [&str; 5] = [
     "iron.db3",
     "small_pages.db3",

@@ -37,7 +37,7 @@ pub struct MappedJoin {
     /// How much later the clock of this table shows the same instant, ms.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lag_ms: Option<f64>,
-    /// Where the lag differs by row: the column with it, or `file = ms` of each file.
+    /// Source of a lag that differs by row: the column with it, or `file = ms` of each file.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub lag_by: Vec<String>,
     /// What becomes of a row of the main table to which none belongs: `drop` or `refuse`.

@@ -152,7 +152,7 @@ fn by_end_of_path(folder: &SourceFolder, main: &SeenTable<'_>) -> Option<FrameLi
     })
 }
 
-/// Where the frames are, but for clips.
+/// Place of the frames of `main`; clips have their own function.
 pub(super) fn of(
     folder: &SourceFolder,
     main: &SeenTable<'_>,

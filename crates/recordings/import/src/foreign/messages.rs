@@ -23,10 +23,10 @@ const PICTURES: [&str; 6] = [
     "foxglove.CompressedImage",
 ];
 
-/// What the names of recordings end with.
+/// Endings of the names of recordings.
 const ENDINGS: [&str; 3] = ["mcap", "db3", "bag"];
 
-/// Whether files whose names end so are recordings.
+/// True of the ending of a recording's name.
 pub(crate) fn is_recording(ending: &str) -> bool {
     ENDINGS.contains(&ending)
 }

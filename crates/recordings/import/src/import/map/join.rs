@@ -46,7 +46,7 @@ pub(crate) struct TimeJoin {
     pub(crate) lag: Lag,
 }
 
-/// How much later the clock of the joined table shows the same instant, ms.
+/// Delay of the clock of the joined table at one instant, ms.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Lag {
     /// The same in every row.

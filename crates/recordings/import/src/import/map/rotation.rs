@@ -33,7 +33,7 @@ impl RotationMap {
         }
     }
 
-    /// Why numbers are no quaternion.
+    /// The reason that `cells` are no quaternion.
     pub(crate) fn no_rotation(cells: &[f64]) -> String {
         let length = cells.iter().map(|cell| cell * cell).sum::<f64>().sqrt();
         format!(
