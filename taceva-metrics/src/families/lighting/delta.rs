@@ -1,8 +1,7 @@
-//! How far a robustness would move with other contact points: the delta method on the errors it is made of.
+//! Intervals of a robustness to lighting: the delta method on the errors that it is made of.
 
-use super::change::Change;
 use super::robustness::{changes, variant_of};
-use super::sums::{LightingSums, SceneSums};
+use super::sums::LightingSums;
 use crate::evaluate::family::Intervals;
 use crate::exact::merge::Merge;
 use crate::score::Interval;
@@ -10,11 +9,11 @@ use crate::score::range::Range;
 use crate::score::value::{Finished, UndefinedReason};
 use crate::stats::jackknife::{self, LeftOut};
 
-/// The intervals of one channel's scores, from the jackknife variances of ln MAE of each scene.
+/// The intervals of one channel's scores, by the jackknife of how errors move together.
 ///
-/// With v_c the variance of ln MAEc and s_c = ∂R_c / ∂ ln MAEc, a scene's variance is s_c² (v_c + v_o); the mean over C scenes
-/// has (Σ s_c² v_c + (Σ s_c)² v_o) / C², because all share the reference. The brightness counts as known: it is a mean
-/// over whole pictures. Presses at one place err alike under every light, which makes these intervals rather too wide.
+/// To first order a robustness moves by s_c (δ_c − δ_o): s_c = ∂R_c / ∂ ln MAEc, and δ the relative change of a scene's mean absolute error. A mean over
+/// C scenes moves by Σ s_c (δ_c − δ_o) / C. A contact point is left out of every scene at once, because presses at one place err alike under every
+/// light. The brightness counts as known: it is a mean over whole pictures.
 pub(super) fn intervals(
     total: &LightingSums,
     clusters: &[&LightingSums],
@@ -28,36 +27,36 @@ pub(super) fn intervals(
         Ok(changes) => changes,
         Err(reason) => return undefined(reason),
     };
-    let baseline = log_variance(total, clusters, reference);
+    let moves = Moves::new(total, clusters, reference);
     let mut variants = Vec::new();
     let mut terms = [Vec::new(), Vec::new()];
     for (scene, change) in &changes {
-        let own = log_variance(total, clusters, scene);
         let values = [change.robustness(), change.robustness_plus()];
         for ((plus, terms), value) in [false, true].into_iter().zip(&mut terms).zip(values) {
             if let Ok(value) = value {
-                terms.push(term(*change, value, plus, own));
+                terms.push(Term {
+                    scene,
+                    value,
+                    slope: change.slope(plus),
+                });
             }
         }
         if change.robustness().is_ok() {
             let last = terms[0].last().into_iter();
-            let interval = mean_interval(last.copied(), baseline, Range::Ratio);
+            let interval = moves.interval(last, Range::Ratio);
             variants.push((variant_of(scene), interval));
         }
     }
     let [plain, plus] = terms;
     // Where every error grew both are one quantity, and have one interval.
-    let values = |terms: &[Result<Term, UndefinedReason>]| -> Vec<Option<u64>> {
-        let values = terms.iter().map(|term| term.as_ref().ok());
-        values
-            .map(|term| term.map(|term| term.value.to_bits()))
-            .collect()
+    let values = |terms: &[Term<'_>]| -> Vec<u64> {
+        terms.iter().map(|term| term.value.to_bits()).collect()
     };
     let is_one = values(&plain) == values(&plus);
-    let plain = mean_interval(plain.into_iter(), baseline, Range::Ratio);
+    let plain = moves.interval(&plain, Range::Ratio);
     let plus = match is_one {
         true => plain,
-        false => mean_interval(plus.into_iter(), baseline, Range::RatioWithEnds),
+        false => moves.interval(&plus, Range::RatioWithEnds),
     };
     variants.push(("plus".to_owned(), plus));
     Intervals {
@@ -67,95 +66,93 @@ pub(super) fn intervals(
     }
 }
 
-/// A scene's share in an interval.
+/// A scene's share in a robustness.
 #[derive(Clone, Copy)]
-struct Term {
+struct Term<'a> {
+    scene: &'a str,
     value: f64,
-    slope: f64,
-    variance: Variance,
+    /// `None` where the robustness has no finite slope.
+    slope: Option<f64>,
 }
 
-/// The variance of a logarithm, and how many clusters it is from.
-#[derive(Clone, Copy)]
-struct Variance {
-    value: f64,
-    clusters: usize,
+/// The mean absolute errors of scenes, with each contact point left out.
+struct Moves<'a> {
+    total: &'a LightingSums,
+    reference: &'a str,
+    /// Samples of each contact point, and the sums of all others.
+    others: Vec<(u64, LightingSums)>,
+    clusters: &'a [&'a LightingSums],
 }
 
-fn term(
-    change: Change,
-    value: f64,
-    plus: bool,
-    own: Result<Variance, UndefinedReason>,
-) -> Result<Term, UndefinedReason> {
-    Ok(Term {
-        value,
-        slope: change.slope(plus).ok_or(UndefinedReason::Overflow)?,
-        variance: own?,
-    })
-}
+impl<'a> Moves<'a> {
+    fn new(
+        total: &'a LightingSums,
+        clusters: &'a [&'a LightingSums],
+        reference: &'a str,
+    ) -> Moves<'a> {
+        let others = clusters.iter().enumerate().map(|(left, cell)| {
+            let mut others = LightingSums::default();
+            let kept = clusters.iter().enumerate().filter(|(at, _)| *at != left);
+            kept.for_each(|(_, cell)| others.merge(cell));
+            (cell.n(), others)
+        });
+        Moves {
+            total,
+            reference,
+            others: others.filter(|(count, _)| *count > 0).collect(),
+            clusters,
+        }
+    }
 
-/// The interval of the mean of `terms` that share a reference.
-fn mean_interval(
-    terms: impl Iterator<Item = Result<Term, UndefinedReason>>,
-    baseline: Result<Variance, UndefinedReason>,
-    range: Range,
-) -> Interval {
-    let sum = || {
-        let baseline = baseline?;
-        let terms = terms.collect::<Result<Vec<Term>, _>>()?;
+    /// The interval of the mean of `terms`.
+    fn interval<'t>(
+        &self,
+        terms: impl IntoIterator<Item = &'t Term<'t>>,
+        range: Range,
+    ) -> Interval {
+        let terms: Vec<&Term<'_>> = terms.into_iter().collect();
         let count = terms.iter().fold(0.0, |count, _| count + 1.0);
         let value = terms.iter().map(|term| term.value).sum::<f64>() / count;
-        let slope: f64 = terms.iter().map(|term| term.slope).sum();
-        let own = terms
+        let left_out: Vec<LeftOut> = self
+            .others
             .iter()
-            .map(|term| term.slope * term.slope * term.variance.value);
-        let variance = (own.sum::<f64>() + slope * slope * baseline.value) / (count * count);
-        let clusters = terms.iter().map(|term| term.variance.clusters);
-        let clusters = clusters
-            .chain([baseline.clusters])
-            .min()
-            .unwrap_or_default();
-        Ok((value, variance, clusters))
-    };
-    match sum() {
-        Ok((value, variance, clusters)) => {
-            jackknife::delta_interval(value, range, variance, clusters)
+            .map(|(count, others)| LeftOut {
+                count: *count,
+                value: self.moved(&terms, others),
+            })
+            .collect();
+        let scenes = terms.iter().map(|term| term.scene).chain([self.reference]);
+        let clusters = scenes.map(|scene| self.clusters_of(scene)).min();
+        match jackknife::standard_error(0.0, &left_out) {
+            Ok(error) => {
+                jackknife::delta_interval(value, range, error * error, clusters.unwrap_or_default())
+            }
+            Err(reason) => Interval::Undefined(reason),
         }
-        Err(reason) => Interval::Undefined(reason),
     }
-}
 
-/// The jackknife variance of the scene's mean absolute error over its square.
-fn log_variance(
-    total: &LightingSums,
-    clusters: &[&LightingSums],
-    scene: &str,
-) -> Result<Variance, UndefinedReason> {
-    let mean = |sums: &SceneSums| -> Finished {
-        match sums.n {
-            0 => Err(UndefinedReason::Empty),
-            _ => Ok(sums.mean_error()),
+    fn clusters_of(&self, scene: &str) -> usize {
+        let with = self.clusters.iter();
+        with.filter(|cell| cell.scenes.get(scene).is_some()).count()
+    }
+
+    /// By how much the mean of `terms` moves where only `others` are there.
+    fn moved(&self, terms: &[&Term<'_>], others: &LightingSums) -> Finished {
+        let baseline = self.change_of(self.reference, others)?;
+        let mut sum = 0.0;
+        for term in terms {
+            let slope = term.slope.ok_or(UndefinedReason::Overflow)?;
+            sum += slope * (self.change_of(term.scene, others)? - baseline);
         }
-    };
-    let cells: Vec<&SceneSums> = clusters
-        .iter()
-        .filter_map(|cell| cell.scenes.get(scene))
-        .collect();
-    let left_out = cells.iter().enumerate().map(|(left, cell)| {
-        let mut others = SceneSums::default();
-        let kept = cells.iter().enumerate().filter(|(at, _)| *at != left);
-        kept.for_each(|(_, cell)| others.merge(cell));
-        LeftOut {
-            count: cell.n,
-            value: mean(&others),
-        }
-    });
-    let value = mean(total.scenes.get(scene).ok_or(UndefinedReason::Empty)?)?;
-    let left_out: Vec<LeftOut> = left_out.collect();
-    let relative = jackknife::standard_error(value, &left_out)? / value;
-    Ok(Variance {
-        value: relative * relative,
-        clusters: left_out.len(),
-    })
+        Ok(sum / terms.iter().fold(0.0, |count, _| count + 1.0))
+    }
+
+    /// The relative change of the mean absolute error of a scene.
+    fn change_of(&self, scene: &str, others: &LightingSums) -> Finished {
+        let mean = |sums: &LightingSums| match sums.scenes.get(scene) {
+            Some(sums) if sums.n > 0 => Ok(sums.mean_error()),
+            _ => Err(UndefinedReason::Empty),
+        };
+        Ok(mean(others)? / mean(self.total)? - 1.0)
+    }
 }

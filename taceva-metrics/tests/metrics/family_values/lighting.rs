@@ -28,15 +28,15 @@ fn scenes_without_a_reference_or_without_another_have_no_robustness() {
 
 #[test]
 fn robustness_to_lighting_by_hand() {
-    // Errors 1…5 and 2…10 over five places: means 3 and 6, both with a relative variance of 0.5 / 9. Light 100 → 300:
-    // a = 2, b = 1, R = 2/3; slope 2 × 2 / 9; variance (4/9)² × 2 × 0.5 / 9, standard error 4/27; t(4) = 2.776445105.
+    // Errors 1…5 and 10…2 over five places: means 3 and 6. Light 100 → 300: a = 2, b = 1, R = 2/3, slope 2 × 2 / 9. Without the place of
+    // error e the ratio of both means moves by (e − 3) / 6: variance (4/9)² × 4/5 × 10/36, standard error (4/9) × √2 / 3; t(4) = 2.776445105.
     let samples: Vec<Sample> = (1_u32..=5)
         .flat_map(|place| {
             let point = place as usize;
             let error = f64::from(place);
             [
                 lit(point, "normal", 100.0, error),
-                lit(point, "S1", 300.0, 2.0 * error),
+                lit(point, "S1", 300.0, 12.0 - 2.0 * error),
             ]
         })
         .collect();
@@ -49,7 +49,8 @@ fn robustness_to_lighting_by_hand() {
     );
     let [low, high] = score.interval.ends().expect("five places are enough");
     // The odds of 2/3 are 2; R (1 − R) = 2/9.
-    let factor = (2.776_445_105_f64 * 4.0 / 27.0 / (2.0 / 9.0)).exp();
+    let standard_error = 4.0 / 9.0 * 2.0_f64.sqrt() / 3.0;
+    let factor = (2.776_445_105_f64 * standard_error / (2.0 / 9.0)).exp();
     close(low, 2.0 / (2.0 + factor));
     close(high, 2.0 * factor / (1.0 + 2.0 * factor));
     let scene = score.variant("scene:S1").expect("a scene");
@@ -71,6 +72,28 @@ fn robustness_to_lighting_by_hand() {
     assert_eq!(plane.value, score.value);
     let of_mean_error = plane.variant("of_mean_error").expect("a variant");
     assert_eq!(of_mean_error.value, score.value);
+}
+
+#[test]
+fn places_that_err_alike_under_both_lights_make_the_interval_narrow() {
+    let width = |bright: [f64; 5]| {
+        let samples: Vec<Sample> = (0_usize..5)
+            .flat_map(|point| {
+                let error = [1.0, 2.0, 3.0, 4.0, 5.0][point];
+                [
+                    lit(point, "normal", 100.0, error),
+                    lit(point, "S1", 300.0, bright[point]),
+                ]
+            })
+            .collect();
+        let evaluation = evaluate(&["r_light"], &samples);
+        let score = evaluation.score("r_light", "Fz").expect("a score");
+        let [low, high] = score.interval.ends().expect("five places are enough");
+        high - low
+    };
+    let alike = width([2.1, 3.9, 6.0, 8.2, 9.8]);
+    let opposed = width([9.8, 8.2, 6.0, 3.9, 2.1]);
+    assert!(10.0 * alike < opposed, "{alike} {opposed}");
 }
 
 #[test]
