@@ -32,6 +32,7 @@ pub(crate) fn score_tables(
         truth,
         prediction,
         units: Vec::new(),
+        periods: Vec::new(),
         key: key.map(RowKey::from),
         is_independent: false,
         sensor,

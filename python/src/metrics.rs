@@ -1,5 +1,6 @@
 //! Exact sums over arrays.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -103,15 +104,22 @@ impl Sums {
 #[pymethods]
 impl Sums {
     /// Sums of `channels` with their units, for metrics and groups, and for the skill, without which no score claims anything; `is_independent` makes every sample a cluster of its own,
-    /// and every row will carry `fields`.
+    /// and every row will carry `fields`. Angles repeat after `periods`, in degrees.
     #[new]
     fn new(
         channels: Vec<(String, String)>,
         metrics: Vec<String>,
         is_independent: bool,
         fields: Vec<String>,
+        periods: BTreeMap<String, u16>,
     ) -> PyResult<Sums> {
         let channels = channels_of(&channels)?;
+        let with_period = |channel: &Channel| match periods.get(channel.name()) {
+            Some(period) => channel.clone().with_period(*period).map_err(value_error),
+            None => Ok(channel.clone()),
+        };
+        let channels: Vec<Channel> = channels.iter().map(with_period).collect::<PyResult<_>>()?;
+        let channels = Channels::new(channels).map_err(value_error)?;
         let wanted = catalogue::select(metrics.iter().map(String::as_str)).map_err(value_error)?;
         let mut available = FieldSet::PAIRS.with(Field::Point);
         for name in &fields {

@@ -33,6 +33,8 @@ class TactileMetrics:
         Metrics and groups by name: ``accuracy`` is all that truth and prediction allow.
     units
         Units of channels beside the six, such as ``{"Mz": "N mm"}``; ``1`` where none is given.
+    periods
+        Degrees after which angles say the same, such as ``{"yaw": 360}``: 359 and 1 are 2 apart. A channel named here alone is in degrees.
     independent
         Whether samples do not depend on each other; intervals are formed of samples then. Where this is not said and no points are given there
         are no intervals.
@@ -56,6 +58,7 @@ class TactileMetrics:
         metrics: str | Sequence[str] = "accuracy",
         *,
         units: Mapping[str, str] | None = None,
+        periods: Mapping[str, int] | None = None,
         independent: bool = False,
         fields: Sequence[str] = (),
     ) -> None:
@@ -64,13 +67,16 @@ class TactileMetrics:
                 raise TypeError(f"{name}: expected a list of names, found the text {listed!r}")
         if not channels:
             raise ValueError("no channels: expected the names of the columns")
+        periods = dict(periods or {})
         units = dict(units or {})
-        unknown = sorted(set(units) - set(channels))
-        if unknown:
-            raise ValueError(f"units of {', '.join(unknown)}, which are no channels: {', '.join(channels)}")
+        for said, names in (("units", units), ("periods", periods)):
+            unknown = sorted(set(names) - set(channels))
+            if unknown:
+                raise ValueError(f"{said} of {', '.join(unknown)}, which are no channels: {', '.join(channels)}")
+        units = dict.fromkeys(periods, "deg") | units
         with_units = [(name, units.get(name) or _taceva.unit_of(name) or "1") for name in channels]
         wanted = [metrics] if isinstance(metrics, str) else list(metrics)
-        self._asked = (with_units, wanted, independent, list(fields))
+        self._asked = (with_units, wanted, independent, list(fields), periods)
         self._sums = _taceva.Sums(*self._asked)
         self._paired: set[str] = set()
 
@@ -186,6 +192,7 @@ def score(
     channels: Sequence[str] | None = None,
     metrics: str | Sequence[str] = "accuracy",
     units: Mapping[str, str] | None = None,
+    periods: Mapping[str, int] | None = None,
     independent: bool = False,
     allow_invalid: bool = False,
     **fields: Any,
@@ -203,7 +210,7 @@ def score(
     """
     channels, both = pair(truth, prediction, channels)
     wanted = SIX if channels is None else channels
-    found = TactileMetrics(wanted, metrics, units=units, independent=independent, fields=list(fields))
+    found = TactileMetrics(wanted, metrics, units=units, periods=periods, independent=independent, fields=list(fields))
     points = beside(both.points if points is None else points, both.index, "points")
     fields = {name: beside(column, both.index, name) for name, column in fields.items()}
     found.update(both.truth, both.prediction, points, allow_invalid=allow_invalid, **fields)

@@ -42,7 +42,9 @@ class Buffer: ...
 
 @final
 class Sums:
-    def __new__(cls, channels: list[tuple[str, str]], metrics: list[str], is_independent: bool, fields: list[str]) -> Sums: ...
+    def __new__(
+        cls, channels: list[tuple[str, str]], metrics: list[str], is_independent: bool, fields: list[str], periods: dict[str, int]
+    ) -> Sums: ...
     def update(
         self,
         truth: Any,

@@ -105,6 +105,9 @@ pub(crate) struct Score {
     /// Units of channels beside the six, as NAME=UNIT, separated by commas [default: 1]
     #[arg(long, value_name = "NAME=UNIT", value_delimiter = ',')]
     pub(crate) units: Vec<String>,
+    /// Periods of angles in degrees, as NAME=360, separated by commas: values that differ by a period say the same
+    #[arg(long, value_name = "NAME=DEGREES", value_delimiter = ',')]
+    pub(crate) periods: Vec<String>,
     /// Pair rows by this column of both tables, or by `order` [default: by sample, id, sample_id or index, where both tables have it; else by order]
     #[arg(long, value_name = "NAME")]
     pub(crate) key: Option<RowKey>,

@@ -19,6 +19,11 @@ pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
             .iter()
             .map(|word| unit(word))
             .collect::<anyhow::Result<_>>()?,
+        periods: args
+            .periods
+            .iter()
+            .map(|word| period(word))
+            .collect::<anyhow::Result<_>>()?,
         key: args.key.clone(),
         is_independent: asked.independent,
         sensor: asked.sensor.clone(),
@@ -114,4 +119,17 @@ fn unit(word: &str) -> anyhow::Result<(String, Unit)> {
         ))
     })?;
     Ok((name.to_owned(), unit))
+}
+
+/// `NAME=DEGREES`: an angle whose values repeat.
+fn period(word: &str) -> anyhow::Result<(String, u16)> {
+    let parts = word.split_once('=');
+    let read = parts.and_then(|(name, degrees)| Some((name.to_owned(), degrees.parse().ok()?)));
+    read.with_context(|| {
+        format!(
+            "`{}`: expected NAME=DEGREES, such as yaw=360",
+            taceva_core::shown(word)
+        )
+    })
+    .map_err(|error| Usage::error(error.to_string()))
 }

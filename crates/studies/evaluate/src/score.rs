@@ -222,9 +222,9 @@ fn planned(
     prediction: &CsvTable,
 ) -> Result<ScorePlan, EvaluateError> {
     let wanted = catalogue::select(request.metrics.iter().map(String::as_str))?;
-    let is_declared = |name: &str| tables::is_declared(&request.units, name);
+    let is_declared = |name: &str| tables::is_declared(request, name);
     let keys = RowKeys::of(truth, prediction, request.key.as_ref(), is_declared)?;
-    let channels = tables::channels(truth, prediction, &request.units, &keys)?;
+    let channels = tables::channels(truth, prediction, request, &keys)?;
     let places = fields::places(truth, prediction)?;
     let sensor = request
         .sensor

@@ -23,7 +23,7 @@ pub(super) fn doubtful<'a>(
 ) -> impl Iterator<Item = &'a Channel> {
     plan.metrics.channels().iter().filter(|channel| {
         let is_six = Channel::SIX.iter().any(|six| six.name() == channel.name());
-        !is_six && !tables::is_declared(&request.units, channel.name())
+        !is_six && !tables::is_declared(request, channel.name())
     })
 }
 

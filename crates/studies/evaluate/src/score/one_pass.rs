@@ -241,6 +241,7 @@ mod tests {
             truth: write("truth.csv", truth),
             prediction: write("prediction.csv", prediction),
             units: Vec::new(),
+            periods: Vec::new(),
             key: None,
             is_independent: false,
             sensor: None,

@@ -16,6 +16,8 @@ pub struct ScoreRequest {
     pub prediction: PathBuf,
     /// Units of channels beside the six; those not named have the unit 1.
     pub units: Vec<(String, Unit)>,
+    /// Periods of angles, degrees: values that differ by one say the same. A channel named here alone is in degrees.
+    pub periods: Vec<(String, u16)>,
     /// The key by which rows are paired; found by its name if `None`.
     pub key: Option<RowKey>,
     /// True if samples do not depend on each other, so that each is a point of its own in intervals.

@@ -414,6 +414,7 @@ mod tests {
             truth,
             prediction,
             units: Vec::new(),
+            periods: Vec::new(),
             key: None,
             is_independent: false,
             sensor: None,

@@ -100,15 +100,16 @@ pub(super) fn input_of(digests: &BTreeMap<String, String>) -> String {
 pub(super) fn channels(
     truth: &CsvTable,
     prediction: &CsvTable,
-    units: &[(String, Unit)],
+    request: &ScoreRequest,
     keys: &RowKeys,
 ) -> Result<Channels, EvaluateError> {
+    let (units, periods) = (&request.units, &request.periods);
     let is_beside = |name: &str| {
         NOT_CHANNELS.contains(&name)
             || KEY_NAMES.contains(&name)
             || keys.names().any(|key| key == name)
     };
-    let is_channel = |name: &&String| is_declared(units, name) || !is_beside(name);
+    let is_channel = |name: &&String| is_declared(request, name) || !is_beside(name);
     let six = |name: &str| {
         Channel::SIX
             .into_iter()
@@ -125,12 +126,13 @@ pub(super) fn channels(
             .iter()
             .find(|(known, _)| known == name)
             .map(|(_, unit)| *unit);
-        let unit = declared
-            .or_else(|| six(name).map(|channel| channel.unit()))
-            .unwrap_or(Unit::One);
-        found.push(
-            Channel::named(name, unit).map_err(|error| wrong(prediction, error.to_string()))?,
-        );
+        let declared = declared.or_else(|| six(name).map(|channel| channel.unit()));
+        let channel = match periods.iter().find(|(known, _)| known == name) {
+            Some((_, period)) => Channel::named(name, declared.unwrap_or(Unit::Degree))
+                .and_then(|channel| channel.with_period(*period)),
+            None => Channel::named(name, declared.unwrap_or(Unit::One)),
+        };
+        found.push(channel.map_err(|error| wrong(prediction, error.to_string()))?);
     }
     let absent = truth
         .names()
@@ -143,9 +145,11 @@ pub(super) fn channels(
         );
         return Err(wrong(prediction, problem));
     }
-    if let Some((name, _)) = units.iter().find(|(name, _)| !prediction.has(name)) {
+    let units = units.iter().map(|(name, _)| ("unit", name));
+    let periods = periods.iter().map(|(name, _)| ("period", name));
+    if let Some((what, name)) = units.chain(periods).find(|(_, name)| !prediction.has(name)) {
         return Err(EvaluateError::Request(format!(
-            "a unit is given for `{name}`, which is no column of the predictions"
+            "a {what} is given for `{name}`, which is no column of the predictions"
         )));
     }
     if found.is_empty() {
@@ -157,8 +161,10 @@ pub(super) fn channels(
 }
 
 /// True if the unit of the column called `name` is declared, so that it is a channel.
-pub(super) fn is_declared(units: &[(String, Unit)], name: &str) -> bool {
-    units.iter().any(|(known, _)| known == name)
+pub(super) fn is_declared(request: &ScoreRequest, name: &str) -> bool {
+    let units = request.units.iter().map(|(known, _)| known);
+    let periods = request.periods.iter().map(|(known, _)| known);
+    units.chain(periods).any(|known| known == name)
 }
 
 /// Pairs the rows by the first of `keys` that pairs them all, else by order; returns the key.
