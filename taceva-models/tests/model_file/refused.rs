@@ -24,7 +24,7 @@ fn a_path_that_cannot_be_is_named() {
 }
 
 /// A card with a seal that holds, over the tensors of the file as well.
-fn sealed(card: &str, bytes: &[u8]) -> String {
+pub(crate) fn sealed(card: &str, bytes: &[u8]) -> String {
     use sha2::Digest as _;
     let file = safetensors::SafeTensors::deserialize(bytes).expect("a whole file");
     let digested = |(name, tensor): (String, safetensors::tensor::TensorView<'_>)| {

@@ -27,12 +27,14 @@ mod close;
 mod folder;
 mod frames;
 mod payload;
+mod predictions;
 mod press;
 mod replay;
 mod stream;
 
 use folder::{empty_folder, remove_journal};
 use payload::{WrittenFrame, WrittenSample, WrittenStart};
+use predictions::PredictedTable;
 use replay::ReplayError;
 pub use stream::Streamed;
 
@@ -117,6 +119,8 @@ pub struct Recorder {
     finished: HashSet<String>,
     presses: BTreeMap<String, PressOutcome>,
     stream: Option<StreamFacts>,
+    /// The table of what a model predicted, and what the header says of it.
+    predictions: Option<PredictedTable>,
     frame_info: Option<FrameInfo>,
     /// From what frames were reduced before they came here.
     reduced: Option<ReducedFrames>,
@@ -240,6 +244,7 @@ impl Recorder {
             finished: HashSet::new(),
             presses: BTreeMap::new(),
             stream: None,
+            predictions: None,
             frame_info: None,
             reduced: spec.reduced,
             reference: None,
