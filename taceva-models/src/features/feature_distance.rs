@@ -47,8 +47,8 @@ pub struct FeatureDistance {
     pub(crate) shape: FeatureShape,
     /// The mean of each averaged feature.
     pub(crate) mean: Vec<f64>,
-    /// Orthonormal directions, one after the other.
-    pub(crate) directions: Vec<f64>,
+    /// Orthonormal directions, one after the other, in single precision: half the file.
+    pub(crate) directions: Vec<f32>,
     /// The standard deviation along each.
     pub(crate) deviations: Vec<f64>,
     /// The limits that divide the two numbers.
@@ -195,7 +195,7 @@ impl DistanceLimits {
 /// The directions in which some samples vary.
 struct Span {
     mean: Vec<f64>,
-    directions: Vec<f64>,
+    directions: Vec<f32>,
     deviations: Vec<f64>,
     /// The root mean square of the features about their mean.
     spread: f64,
@@ -203,6 +203,10 @@ struct Span {
 
 impl Span {
     /// That of `seen`; `None` where nothing varies.
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "directions are kept in single precision"
+    )]
     fn of(seen: &Features, progress: &dyn Progress) -> Result<Option<Span>, ModelError> {
         let most = (seen.samples() / SAMPLES_PER_DIRECTION).clamp(1, DIRECTIONS_MOST);
         let pca = Pca::up_to(most, seen, progress)?;
@@ -211,7 +215,7 @@ impl Span {
         }
         let mut span = Span {
             mean: pca.mean().to_vec(),
-            directions: pca.components().flatten().copied().collect(),
+            directions: pca.components().flatten().map(|of| *of as f32).collect(),
             deviations: vec![1.0; pca.variance_ratio().len()],
             spread: 0.0,
         };
@@ -236,7 +240,7 @@ impl Span {
     }
 }
 
-fn apart(mean: &[f64], directions: &[f64], deviations: &[f64], cells: &[f32]) -> Apart {
+fn apart(mean: &[f64], directions: &[f32], deviations: &[f64], cells: &[f32]) -> Apart {
     let mut centred = centred(mean, cells);
     let width = mean.len();
     let mut along = 0.0;
@@ -256,11 +260,11 @@ fn centred(mean: &[f64], cells: &[f32]) -> Vec<f64> {
 }
 
 /// How far `centred` goes along a direction, which is taken off it.
-fn take_along(centred: &mut [f64], direction: &[f64]) -> f64 {
+fn take_along(centred: &mut [f64], direction: &[f32]) -> f64 {
     let pairs = centred.iter().zip(direction);
-    let along: f64 = pairs.map(|(value, direction)| value * direction).sum();
+    let along: f64 = pairs.map(|(value, of)| value * f64::from(*of)).sum();
     let pairs = centred.iter_mut().zip(direction);
-    pairs.for_each(|(value, direction)| *value -= along * direction);
+    pairs.for_each(|(value, of)| *value -= along * f64::from(*of));
     along
 }
 

@@ -8,7 +8,7 @@ use crate::training::file::tensors::{DEVIATIONS, DIRECTIONS, DISTANCE, MEAN, Raw
 pub(super) fn distance_tensors(distance: &FeatureDistance) -> [Raw; 3] {
     let (count, width) = (distance.deviations.len(), distance.mean.len());
     [
-        Raw::doubles(DIRECTIONS, vec![count, width], &distance.directions),
+        Raw::singles(DIRECTIONS, vec![count, width], &distance.directions),
         Raw::doubles(MEAN, vec![width], &distance.mean),
         Raw::doubles(DEVIATIONS, vec![count], &distance.deviations),
     ]
@@ -29,7 +29,7 @@ pub(super) fn distance_from(stored: &Stored<'_>) -> Result<Option<FeatureDistanc
     let distance = FeatureDistance {
         shape,
         mean: tensors.doubles(MEAN, &[width])?,
-        directions: tensors.doubles(DIRECTIONS, &[count, width])?,
+        directions: tensors.singles(DIRECTIONS, &[count, width])?,
         deviations: tensors.doubles(DEVIATIONS, &[count])?,
         limits: DistanceLimits {
             along: card.along,
@@ -46,12 +46,13 @@ pub(super) fn distance_from(stored: &Stored<'_>) -> Result<Option<FeatureDistanc
 fn is_sound(distance: &FeatureDistance) -> bool {
     let DistanceLimits { along, beside } = distance.limits;
     let is_divisor = |value: &f64| value.is_finite() && *value > 0.0;
-    let mut numbers = distance.mean.iter().chain(&distance.directions);
+    let mut directions = distance.directions.iter();
     !distance.deviations.is_empty()
         && distance
             .deviations
             .iter()
             .chain([&along, &beside])
             .all(is_divisor)
-        && numbers.all(|value| value.is_finite())
+        && directions.all(|number| number.is_finite())
+        && distance.mean.iter().all(|number| number.is_finite())
 }

@@ -13,8 +13,7 @@ use taceva_files::parent_of;
 use crate::digest::Digest;
 use crate::error::DatasetError;
 use crate::file::make_names_durable;
-use crate::header::RecordingFacts;
-use crate::header::{ReducedFrames, ReferenceInfo, StreamFacts};
+use crate::header::{RecordingFacts, ReducedFrames, ReferenceInfo, StreamFacts};
 use crate::journal::{Journal, RecordKind};
 use crate::layout;
 use crate::lock::lock_folder;
@@ -119,7 +118,6 @@ pub struct Recorder {
     finished: HashSet<String>,
     presses: BTreeMap<String, PressOutcome>,
     stream: Option<StreamFacts>,
-    /// The table of what a model predicted, and what the header says of it.
     predictions: Option<PredictedTable>,
     frame_info: Option<FrameInfo>,
     /// From what frames were reduced before they came here.
