@@ -31,7 +31,7 @@ pub struct Model {
     pub(crate) card: ModelCard,
     pub(crate) regressor: ModelRegressor,
     pub(crate) channels: LearntChannels,
-    /// How far features lie from those of the training part.
+    /// The distance of features from those of the training part.
     pub(crate) distance: Option<FeatureDistance>,
 }
 
@@ -250,8 +250,9 @@ impl Model {
         Ok(predictions)
     }
 
-    /// How far samples may lie from the training part; `None` of a model that looks at nothing, was fitted on fewer than 20 samples, or is of before
-    /// models said so.
+    /// The distance of samples from the training part, and its limit.
+    ///
+    /// `None` of a model that looks at nothing, was fitted on fewer than 20 samples, or is of before models said so.
     pub fn feature_distance(&self) -> Option<&FeatureDistance> {
         self.distance.as_ref()
     }

@@ -10,9 +10,9 @@ use taceva_live::{Live, Overlay, PredictedFrames, PredictedValue};
 
 use super::Context;
 
-/// What is asked of most pictures: that they are shown so soon after their stamps, in ms.
+/// The time after their stamps within which most pictures are to be shown, in ms.
 const SOON_MS: usize = 100;
-/// Of most: this share.
+/// Most, as a share.
 const MOST: f64 = 0.95;
 
 /// Reads the model at `path`, before any device is opened for it.
@@ -20,7 +20,7 @@ pub(super) fn read_model(path: &Path, context: &Context) -> anyhow::Result<LiveM
     Ok(LiveModel::new(context.models()?.open(path)?, path)?)
 }
 
-/// Where predictions are shown.
+/// Predictions on a page and on the terminal.
 pub(super) struct LivePredictions<'a> {
     model: &'a LiveModel,
     page: Live,

@@ -1,4 +1,4 @@
-//! How far a sample lies from those of the training part.
+//! The distance of a sample from those of the training part.
 
 use taceva_core::{FeatureShape, Features, ModelError, Progress};
 
@@ -145,7 +145,7 @@ impl FeatureDistance {
         self.shape
     }
 
-    /// Whether a sample at `distance` lies outside what was seen; one that is not a number does.
+    /// True if a sample at `distance` lies outside what was seen; one that is not a number does.
     pub fn is_outside(distance: f64) -> bool {
         distance.is_nan() || distance > 1.0
     }
@@ -157,7 +157,7 @@ impl FeatureDistance {
     }
 }
 
-/// How far a sample goes along the directions of a part, and how far beside them.
+/// The way of a sample along the directions of a part, and beside them.
 #[derive(Clone, Copy, Debug)]
 struct Apart {
     along: f64,
@@ -165,7 +165,7 @@ struct Apart {
 }
 
 impl DistanceLimits {
-    /// Those that 99 of 100 of `apart` keep, of features that spread as much as `spread`.
+    /// Limits that 99 of 100 of `apart` keep, of features that spread as much as `spread`.
     fn of(apart: &[Apart], spread: f64) -> DistanceLimits {
         let along = apart.iter().map(|apart| apart.along);
         let beside = apart.iter().map(|apart| apart.beside);
@@ -202,7 +202,7 @@ struct Span {
 }
 
 impl Span {
-    /// That of `seen`; `None` where nothing varies.
+    /// The span of `seen`; `None` where nothing varies.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "directions are kept in single precision"
@@ -259,7 +259,7 @@ fn centred(mean: &[f64], cells: &[f32]) -> Vec<f64> {
     pairs.map(|(cell, mean)| f64::from(*cell) - mean).collect()
 }
 
-/// How far `centred` goes along a direction, which is taken off it.
+/// Takes off `centred` its way along a direction, and gives that.
 fn take_along(centred: &mut [f64], direction: &[f32]) -> f64 {
     let pairs = centred.iter().zip(direction);
     let along: f64 = pairs.map(|(value, of)| value * f64::from(*of)).sum();

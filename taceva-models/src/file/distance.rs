@@ -42,7 +42,7 @@ pub(super) fn distance_from(stored: &Stored<'_>) -> Result<Option<FeatureDistanc
     }
 }
 
-/// Whether every number is finite, and every divisor above 0.
+/// True if every number is finite, and every divisor above 0.
 fn is_sound(distance: &FeatureDistance) -> bool {
     let DistanceLimits { along, beside } = distance.limits;
     let is_divisor = |value: &f64| value.is_finite() && *value > 0.0;

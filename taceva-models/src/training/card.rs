@@ -52,7 +52,7 @@ pub struct ModelCard {
     /// The angles among what it predicts that have a period.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub angles: Vec<AngleCard>,
-    /// How far its training samples lie from each other; absent of a model that looks at nothing or is of before models said so.
+    /// Limits of the distance from its training samples; absent of a model that looks at nothing or is of before models said so.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub distance: Option<DistanceCard>,
     /// How many samples it was fitted on.

@@ -1,4 +1,4 @@
-//! What a file keeps of the samples that its model has seen.
+//! The distance from the training part in a file.
 
 use std::collections::HashMap;
 

@@ -158,7 +158,7 @@ fn a_card_that_does_not_fit_its_tensors_is_refused() {
     assert!(refused(|card| card["features"]["smell"] = true.into()).contains("smell"));
 }
 
-/// Where the numbers of a tensor end in a file.
+/// The place behind the numbers of a tensor in a file.
 fn end_of(bytes: &[u8], tensor: &str) -> usize {
     let file = safetensors::SafeTensors::deserialize(bytes).expect("a whole file");
     let data = file.tensor(tensor).expect("there").data();

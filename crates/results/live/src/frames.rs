@@ -13,7 +13,7 @@ use crate::sight::Sight;
 
 /// From one picture to the next, at least: 15 a second are what a person sees move.
 const PERIOD: Duration = Duration::from_nanos(1_000_000_000 / 15);
-/// That of pictures with a prediction: 30 a second all pass, whatever their jitter.
+/// The same of pictures with a prediction: 30 a second all pass, whatever their jitter.
 const PREDICTED_PERIOD: Duration = Duration::from_millis(25);
 /// The greatest side of a picture that is shown.
 const SIDE_MAX: usize = 960;
@@ -31,7 +31,7 @@ pub(crate) struct Frames {
 #[derive(Default)]
 struct Newest {
     frame: Option<Frame>,
-    /// What was predicted of it.
+    /// Predictions of it.
     overlay: Option<Overlay>,
     /// When the last was taken away to be encoded.
     taken: Option<Instant>,
@@ -49,7 +49,7 @@ struct Shown {
 pub(crate) struct Picture {
     pub(crate) number: u64,
     pub(crate) jpeg: Arc<[u8]>,
-    /// What was predicted of it.
+    /// Predictions of it.
     pub(crate) overlay: Option<Arc<Overlay>>,
 }
 

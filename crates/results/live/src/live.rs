@@ -26,7 +26,7 @@ pub(crate) struct Shared {
     pub(crate) is_over: AtomicBool,
     /// The last picture with a prediction that went to a browser.
     last_sent: AtomicU64,
-    /// Who hears that it did, by the stamp of its frame in s.
+    /// Listener for that, by the stamp of its frame in s.
     on_sent: OnceLock<Box<dyn Fn(f64) + Send + Sync>>,
 }
 
@@ -91,8 +91,9 @@ impl Live {
         self.shared.inside().state.predicted = Some(frames);
     }
 
-    /// Lets `heard` know, by the stamp of its frame in s, when a picture with a prediction went to a browser: once a picture, however many look. It is
-    /// called on a thread of the page; the first one that is given stays.
+    /// Lets `heard` know, by the stamp of its frame in s, when a picture with a prediction went to a browser: once a picture.
+    ///
+    /// A thread of the page calls it; the first one that is given stays.
     pub fn on_sent(&self, heard: impl Fn(f64) + Send + Sync + 'static) {
         drop(self.shared.on_sent.set(Box::new(heard)));
     }

@@ -1,4 +1,4 @@
-//! What a model predicts of a picture, written over it.
+//! Predictions of a picture, written over it.
 
 use std::fmt::Write as _;
 
@@ -20,9 +20,9 @@ pub struct Overlay {
     pub stamp_s: f64,
     /// The value of each channel.
     pub values: Vec<PredictedValue>,
-    /// How far the picture lies from what the model has seen, 1 at the limit; `None` where the model does not know.
+    /// Distance of the picture from what the model has seen, 1 at the limit; `None` where the model does not know.
     pub distance: Option<f64>,
-    /// Whether that is outside what the model has seen; likewise.
+    /// True outside what the model has seen; likewise.
     pub outside: Option<bool>,
 }
 

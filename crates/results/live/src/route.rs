@@ -24,7 +24,7 @@ const LOOK: Duration = Duration::from_millis(250);
 const TAKING: Duration = Duration::from_secs(5);
 /// What stands between two pictures.
 const BOUNDARY: &str = "taceva-picture";
-/// What a model predicted of a picture stands in the head of its part.
+/// The line with the predictions of a picture, in the head of its part.
 const PREDICTION: &str = "X-Taceva-Prediction";
 
 /// What all connections have in common.

@@ -110,7 +110,7 @@ pub(crate) struct State {
     #[serde(rename = "Pz_mm")]
     pub(crate) depth_mm: Option<f64>,
     pub(crate) limits: Limits,
-    /// Who predicts what is written over pictures, in words.
+    /// The model behind predictions over pictures, in words.
     pub(crate) predicted_by: Option<String>,
     pub(crate) predicted: Option<PredictedFrames>,
     /// Frames that were shown to the page, and a second.

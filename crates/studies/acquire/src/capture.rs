@@ -56,13 +56,13 @@ pub struct CaptureRequest {
     pub frames: Option<u64>,
 }
 
-/// Who looks on while a capture is recorded, and is never waited for.
+/// Onlookers of a capture, which nobody waits for.
 #[derive(Clone, Copy, Default)]
 #[non_exhaustive]
 pub struct Onlookers<'a> {
-    /// Who sees forces, and what was lost.
+    /// A viewer of forces, and of what was lost.
     pub viewer: Option<&'a dyn Viewer>,
-    /// Who predicts frames; its [table](LivePredictor::with_table) is written beside the recording.
+    /// A predictor of frames; its [table](LivePredictor::with_table) is written beside the recording.
     pub predictor: Option<&'a LivePredictor<'a>>,
 }
 

@@ -33,7 +33,7 @@ impl Dataset {
         self.verify_signals()
     }
 
-    /// Whether the table of predictions beside the recording, if there is one, is as it was written.
+    /// Checks that the table of predictions beside the recording, if there is one, is as it was written.
     fn verify_predictions(&self) -> Result<(), DatasetError> {
         let Some(predictions) = &self.header.predictions else {
             return Ok(());

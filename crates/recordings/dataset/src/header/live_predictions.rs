@@ -28,7 +28,7 @@ pub struct LivePredictions {
 }
 
 impl LivePredictions {
-    /// Those in `table`, a line of names and a line a sample, by the model called `by` whose file has the digest `model`.
+    /// Predictions in `table`, a line of names and a line a sample, by the model called `by` whose file has the digest `model`.
     pub fn new(by: impl Into<String>, model: Digest, table: &[u8]) -> LivePredictions {
         let lines = table.iter().filter(|byte| **byte == b'\n').count() as u64;
         LivePredictions {

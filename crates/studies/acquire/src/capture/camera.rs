@@ -36,7 +36,7 @@ pub(super) struct Camera<'a> {
     pub(super) driver: &'a DriverKey,
     pub(super) source: DriverSource,
     pub(super) counts: &'a Counts,
-    /// Who predicts frames, if anybody does.
+    /// A predictor of frames, if there is one.
     pub(super) predictor: Option<&'a LivePredictor<'a>>,
 }
 

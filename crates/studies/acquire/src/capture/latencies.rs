@@ -3,7 +3,7 @@
 /// Longer times are counted together, in ms.
 const MOST_MS: usize = 2_000;
 
-/// How long it took from stamps until frames were shown, counted by whole milliseconds.
+/// Times from stamps until frames were shown, counted by whole milliseconds.
 ///
 /// ```
 /// use taceva_acquire::Latencies;
@@ -17,7 +17,7 @@ const MOST_MS: usize = 2_000;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Latencies {
-    /// How many took up to one millisecond, up to two, and so on; the last counts all longer ones.
+    /// Counts of up to one millisecond, up to two, and so on; the last is of all longer times.
     counts: Vec<u64>,
     total: u64,
 }
@@ -38,7 +38,7 @@ impl Latencies {
         self.total += 1;
     }
 
-    /// How many were counted.
+    /// The number of times.
     pub fn count(&self) -> u64 {
         self.total
     }

@@ -63,17 +63,17 @@ impl LiveModel {
         &self.path
     }
 
-    /// What it predicts.
+    /// The channels that it predicts.
     pub fn channels(&self) -> &Channels {
         self.model.channels()
     }
 
-    /// Whether it knows how far a frame lies from what it has seen.
+    /// True if it knows how far a frame lies from what it has seen.
     pub fn knows_distance(&self) -> bool {
         self.model.feature_distance().is_some()
     }
 
-    /// Whether it needs a frame without contact, which is taken first.
+    /// True if it needs a frame without contact, which is taken first.
     pub fn asks_for_reference(&self) -> bool {
         self.model.card().features.asks_for_reference().is_some()
     }
@@ -91,7 +91,7 @@ impl LiveModel {
         }
     }
 
-    /// What takes its features from frames.
+    /// The extractor of its features from frames.
     pub(super) fn extractor(
         &self,
         info: FrameInfo,

@@ -1,4 +1,4 @@
-//! What a model says of a frame.
+//! The prediction of a frame.
 
 use taceva_models::FeatureDistance;
 
@@ -17,7 +17,7 @@ pub struct Prediction {
     pub stamp_s: f64,
     /// The value of each channel of the model, in the unit of the channel.
     pub values: Vec<f64>,
-    /// How far the frame lies from what the model has seen, 1 at the limit; `None` where the model does not know.
+    /// Distance of the frame from what the model has seen, 1 at the limit; `None` where the model does not know.
     pub distance: Option<f64>,
 }
 
@@ -40,7 +40,7 @@ impl Prediction {
         }
     }
 
-    /// Whether the frame lies outside what the model has seen; `None` where the model does not know.
+    /// True if the frame lies outside what the model has seen; `None` where the model does not know.
     pub fn is_outside(&self) -> Option<bool> {
         self.distance.map(FeatureDistance::is_outside)
     }

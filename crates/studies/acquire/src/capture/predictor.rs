@@ -16,10 +16,10 @@ use super::prediction::Prediction;
 use super::prediction_table::PredictionTable;
 use crate::error::AcquireError;
 
-/// How long somebody waits before looking whether it is over.
+/// Time between two looks at whether it is over.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// What became of the frames that a predictor was offered.
+/// Counts of the frames that a predictor was offered.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct PredictionTally {
@@ -35,7 +35,7 @@ pub struct PredictionTally {
     pub latencies: Latencies,
 }
 
-/// Who hears a prediction, with its frame and what became of all frames so far.
+/// A listener to predictions, each with its frame and the counts so far.
 type Heard<'a> = &'a (dyn Fn(&Frame, &Prediction, &PredictionTally) + Sync);
 
 /// Predicts frames on a thread of its own. It holds one frame, the newest, and nobody waits for it: a capture is as fast as without it.
@@ -62,7 +62,7 @@ struct Offered {
 struct Newest {
     frame: Frame,
     stamp_s: f64,
-    /// Whether the stamp is of this machine's clock.
+    /// True if the stamp is of this machine's clock.
     is_timed: bool,
 }
 
@@ -102,12 +102,12 @@ impl<'a> LivePredictor<'a> {
         self.model
     }
 
-    /// What became of the frames so far.
+    /// Counts of the frames so far.
     pub fn tally(&self) -> PredictionTally {
         lock(&self.tally).clone()
     }
 
-    /// Why it predicts no more, if the model failed.
+    /// The reason why it predicts no more, if the model failed.
     pub fn failure(&self) -> Option<&str> {
         self.failure.get().map(String::as_str)
     }
