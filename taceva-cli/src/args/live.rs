@@ -87,7 +87,7 @@ pub(crate) struct PortArgs {
 const PREVIEW_HELP: &str = "Prints the address of a page on this machine, and shows there what the camera sees: 15 pictures a second, the force, lost frames, the share of saturated
 numbers, and a sharpness that is greatest in focus. Nothing is recorded. Ctrl-C or the button of the page ends it.
 
-With --model a fitted model predicts the newest picture, up to 30 a second, and its newtons and millimetres stand over the picture that they are
+With --model a fitted model predicts the newest picture, up to 60 a second, and its newtons and millimetres stand over the picture that they are
 of, named as predictions; a picture outside what the model has seen says so. Older pictures that it has no time for are left out and counted. At the
 end: frames seen, shown and left out, how long 95 % took from their stamps, and the share outside.
 

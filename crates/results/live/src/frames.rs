@@ -13,8 +13,8 @@ use crate::sight::Sight;
 
 /// From one picture to the next, at least: 15 a second are what a person sees move.
 const PERIOD: Duration = Duration::from_nanos(1_000_000_000 / 15);
-/// The same of pictures with a prediction: 30 a second all pass, whatever their jitter.
-const PREDICTED_PERIOD: Duration = Duration::from_millis(25);
+/// The same of pictures with a prediction: 30 a second all pass, however unevenly they come.
+const PREDICTED_PERIOD: Duration = Duration::from_millis(16);
 /// The greatest side of a picture that is shown.
 const SIDE_MAX: usize = 960;
 const QUALITY: u8 = 80;
@@ -43,6 +43,8 @@ struct Shown {
     jpeg: Option<Arc<[u8]>>,
     overlay: Option<Arc<Overlay>>,
     sight: Option<Sight>,
+    /// When that was looked at.
+    looked: Option<Instant>,
 }
 
 /// A picture that is ready for a browser.
@@ -84,15 +86,20 @@ impl Frames {
         let overlay = newest.overlay.take();
         newest.taken = Some(Instant::now());
         drop(newest);
-        let sight = Sight::of(&frame);
         let jpeg = encode(&frame);
         let mut shown = lock(&self.shown);
         shown.number += 1;
-        shown.sight = Some(sight);
         shown.jpeg = jpeg.map(Arc::from);
         shown.overlay = overlay.map(Arc::new);
+        let is_seen = shown.looked.is_some_and(|looked| looked.elapsed() < PERIOD);
         drop(shown);
         self.encoded.notify_all();
+        // After the picture: nobody sees saturation and sharpness change as fast.
+        if !is_seen {
+            let sight = Sight::of(&frame);
+            let mut shown = lock(&self.shown);
+            (shown.sight, shown.looked) = (Some(sight), Some(Instant::now()));
+        }
     }
 
     /// A picture newer than number `after`, waited for as long as `patience`.
