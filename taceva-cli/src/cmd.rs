@@ -18,6 +18,7 @@ pub(crate) mod evaluate;
 pub(crate) mod export;
 pub(crate) mod fit;
 pub(crate) mod import;
+mod live_predictions;
 pub(crate) mod merge;
 mod on_page;
 mod operator;

@@ -5,6 +5,7 @@ mod cell_features;
 pub(crate) mod choice;
 mod error;
 mod extractor;
+mod feature_distance;
 mod gradients;
 pub(crate) mod gratings;
 mod kinds;
@@ -23,6 +24,8 @@ mod test_pictures;
 
 pub use error::FeatureError;
 pub use extractor::Extractor;
+pub(crate) use feature_distance::DistanceLimits;
+pub use feature_distance::FeatureDistance;
 pub use kinds::{FeatureKind, FeatureKinds};
 pub use markers::{Marker, MarkerTracker, Polarity, Tracked};
 pub use pca::Pca;

@@ -2,6 +2,7 @@
 
 mod bytes;
 mod disk;
+mod distance;
 mod read;
 mod seal;
 

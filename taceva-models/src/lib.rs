@@ -34,8 +34,9 @@ pub use estimators::trees::{GradientBoosting, RandomForest, TreeRegressor};
 pub use features::choice::{FailedFeatures, FeatureChoice, FeatureTrial, OpenFeatures};
 pub use features::gratings::{FourierPlane, RadialSpectrum};
 pub use features::{
-    Color, Extractor, FeatureError, FeatureKind, FeatureKinds, FeatureSpec, FeaturesByRecording,
-    FrameReduction, Marker, MarkerTracker, Pca, Polarity, Preprocessing, RecordedFrames, Tracked,
+    Color, Extractor, FeatureDistance, FeatureError, FeatureKind, FeatureKinds, FeatureSpec,
+    FeaturesByRecording, FrameReduction, Marker, MarkerTracker, Pca, Polarity, Preprocessing,
+    RecordedFrames, Tracked,
 };
 pub use file::ModelFileError;
 pub use model::{CloserFeatures, FitInput, LabelBounds, Model};
@@ -46,8 +47,8 @@ pub use split::{
     SplitError, SplitInput, SplitKind, SplitManifest, SplitSpec,
 };
 pub use training::card::{
-    AngleCard, AutoCard, AutoTrial, ChannelCard, Form, LibraryCard, ModelCard, NetworkCard,
-    PluginCard, Provenance, SampleCounts, Source, SplitCard, Untried, ValidationCard,
+    AngleCard, AutoCard, AutoTrial, ChannelCard, DistanceCard, Form, LibraryCard, ModelCard,
+    NetworkCard, PluginCard, Provenance, SampleCounts, Source, SplitCard, Untried, ValidationCard,
     ValidationScore,
 };
 pub use training::checkpoint::{CheckpointError, Checkpoints, Foreign};

@@ -17,9 +17,9 @@ pub use self::finer_features::CloserFeatures;
 pub use self::input::FitInput;
 use crate::features::choice::FeatureChoice;
 use crate::features::signals::{divided, spread};
-use crate::features::{Extractor, FeatureError, Pca};
+use crate::features::{Extractor, FeatureDistance, FeatureError, Pca};
 use crate::linalg::invalid;
-use crate::training::card::{AngleCard, ChannelCard, ModelCard, ValidationCard};
+use crate::training::card::{AngleCard, ChannelCard, DistanceCard, ModelCard, ValidationCard};
 use crate::training::regressor::ModelRegressor;
 
 /// A fitted model: from pixels, or from signals, to the channels, in their units.
@@ -31,6 +31,8 @@ pub struct Model {
     pub(crate) card: ModelCard,
     pub(crate) regressor: ModelRegressor,
     pub(crate) channels: LearntChannels,
+    /// The distance of features from those of the training part.
+    pub(crate) distance: Option<FeatureDistance>,
 }
 
 impl Model {
@@ -95,6 +97,11 @@ impl Model {
                 Some(Pca::fit(training, count as usize, progress)?)
             }
         };
+        let distance = FeatureDistance::fit(
+            learnt.as_ref().unwrap_or(input.training.features),
+            input.training.groups,
+            progress,
+        )?;
         let seen = |even: Option<Features>, features: &Features| match &pca {
             None => Ok(even),
             Some(pca) => pca.transform(even.as_ref().unwrap_or(features)).map(Some),
@@ -126,6 +133,8 @@ impl Model {
         };
         let auto = chosen.as_ref().map(|chosen| chosen.card.clone());
         let mut card = ModelCard::new(&input, &fit, estimator.name(), auto, kept, spread);
+        let distance = distance.filter(|_| regressor.reads_features());
+        card.distance = distance.as_ref().map(DistanceCard::of);
         let channels = LearntChannels::new(asked, &angles)
             .map_err(|error| invalid(error.to_string()).because(error))?;
         card.angles = angles;
@@ -133,6 +142,7 @@ impl Model {
             card,
             regressor,
             channels,
+            distance,
         })
     }
 
@@ -238,6 +248,25 @@ impl Model {
         let mut predictions = vec![0.0; features.samples() * self.channels.learnt.len()];
         self.regressor.predict(features, &mut predictions)?;
         Ok(predictions)
+    }
+
+    /// The distance of samples from the training part, and its limit.
+    ///
+    /// `None` of a model that looks at nothing, was fitted on fewer than 20 samples, or is of before models said so.
+    pub fn feature_distance(&self) -> Option<&FeatureDistance> {
+        self.distance.as_ref()
+    }
+
+    /// The [distance](FeatureDistance) of every sample of `features`, 1 at the limit, where the model knows it.
+    ///
+    /// # Errors
+    /// [`ModelError`] if the features are of another shape.
+    pub fn distances(&self, features: &Features) -> Result<Option<Vec<f64>>, ModelError> {
+        let Some(distance) = &self.distance else {
+            return Ok(None);
+        };
+        let even = self.even(features)?;
+        distance.of_all(even.as_ref().unwrap_or(features)).map(Some)
     }
 
     /// The standard deviation of every prediction, before bounds; `None` for a model that does not know it.

@@ -5,6 +5,7 @@ mod auto;
 mod blobs;
 mod checkpoints;
 mod every_model;
+mod feature_distance;
 #[cfg(all(feature = "linfa", feature = "smartcore"))]
 mod library;
 mod linear;

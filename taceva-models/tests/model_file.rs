@@ -1,5 +1,6 @@
 //! Models on disk: the same model comes back, and nothing else is taken for one.
 
+mod distance;
 mod kept;
 mod refused;
 mod signals;

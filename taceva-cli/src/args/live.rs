@@ -29,6 +29,12 @@ hand-1, hand-2 …, so that none is both trained and tested on. Between contacts
   taceva check presses                                 lost frames, saturation, timing
   taceva evaluate presses --model ridge --html presses.html
 
+With --model a fitted model predicts frames as they come. Page, terminal and recording call that predictions: they stand in
+OUT/predictions.csv by frame, dataset.toml names the model and its digest, and no label is made of them. The model never slows the capture: a
+frame that it has no time for is left out and counted. Where the model needs a frame without contact, the first is it.
+
+  taceva capture more --rig hand.toml --model presses.taceva    forces measured and predicted, side by side on a page
+
 Ctrl-C ends it; what was recorded is a whole dataset. Frames that found no room in the queue of 8, or that the camera numbered and nobody
 took in time, are counted: on the progress line, in the header, and by `taceva check` (TAC015).
 
@@ -59,8 +65,14 @@ pub(crate) struct Capture {
     /// The id of the gel
     #[arg(long, value_name = "TEXT")]
     pub(crate) gel: Option<String>,
+    /// A fitted model, as `taceva fit` writes it, that predicts every frame it has time for, on a page and into OUT/predictions.csv
+    #[arg(long, value_name = "FILE")]
+    pub(crate) model: Option<PathBuf>,
+    /// The port of the page of --model on 127.0.0.1, 0 for any that is free
+    #[arg(long, value_name = "N", default_value_t = 0, requires = "model")]
+    pub(crate) port: u16,
     /// Open no device: close a capture that a full disk, a power cut or a kill has left open
-    #[arg(long, conflicts_with_all = ["sensor", "force", "rig", "lasts", "frames", "name", "serial", "gel"])]
+    #[arg(long, conflicts_with_all = ["sensor", "force", "rig", "lasts", "frames", "name", "serial", "gel", "model"])]
     pub(crate) close: bool,
 }
 
@@ -75,8 +87,13 @@ pub(crate) struct PortArgs {
 const PREVIEW_HELP: &str = "Prints the address of a page on this machine, and shows there what the camera sees: 15 pictures a second, the force, lost frames, the share of saturated
 numbers, and a sharpness that is greatest in focus. Nothing is recorded. Ctrl-C or the button of the page ends it.
 
+With --model a fitted model predicts the newest picture, up to 60 a second, and its newtons and millimetres stand over the picture that they are
+of, named as predictions; a picture outside what the model has seen says so. Older pictures that it has no time for are left out and counted. At the
+end: frames seen, shown and left out, how long 95 % took from their stamps, and the share outside.
+
   taceva preview --sensor camera/mjpeg:url=http://192.168.1.20:8080/?action=stream
   taceva preview --rig hand.toml
+  taceva preview --rig hand.toml --model presses.taceva
 
 Keep the address to yourself: what stands behind # lets whoever knows it look, and stop. The page answers this machine alone; to look from another one, use
 ssh -L 8000:127.0.0.1:8000 with --port 8000.";
@@ -87,6 +104,9 @@ ssh -L 8000:127.0.0.1:8000 with --port 8000.";
 pub(crate) struct Preview {
     #[command(flatten)]
     pub(crate) live: LiveArgs,
+    /// A fitted model, as `taceva fit` writes it, whose predictions are shown over the picture
+    #[arg(long, value_name = "FILE")]
+    pub(crate) model: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) page: PortArgs,
 }

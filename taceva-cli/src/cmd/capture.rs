@@ -3,13 +3,15 @@
 use std::path::Path;
 
 use taceva_acquire::{
-    CaptureRequest, CaptureStage, CaptureState, Captured, LiveDevices, LiveSpec, capture,
-    close_capture,
+    CaptureRequest, CaptureStage, CaptureState, Captured, LiveDevices, LivePredictor, LiveSpec,
+    Onlookers, Viewer, capture, close_capture,
 };
 use taceva_core::{Axis, shown};
 use taceva_dataset::{Header, SensorFacts};
 
 use super::Context;
+use super::live_predictions::{LivePredictions, read_model};
+use super::on_page::OnPage;
 use crate::args::{Capture, LiveArgs};
 use crate::progress::{self, StatusLine};
 use crate::{exit, stderr};
@@ -24,7 +26,12 @@ pub(crate) fn run(args: &Capture, context: &Context) -> anyhow::Result<u8> {
         ));
         return Ok(exit::DONE);
     }
+    let model = args.model.as_deref();
+    let model = model.map(|path| read_model(path, context)).transpose()?;
     let (spec, mut live) = open(&args.live, context)?;
+    if let Some(model) = &model {
+        model.check(live.frame_info())?;
+    }
     let driver = || spec.sensor().driver().to_owned();
     let mut sensor = SensorFacts::new(args.name.clone().unwrap_or_else(driver));
     if let Some(serial) = &args.serial {
@@ -43,33 +50,89 @@ pub(crate) fn run(args: &Capture, context: &Context) -> anyhow::Result<u8> {
         frames: args.frames,
     };
     let has_force = live.measures(Axis::Fz);
+    let page = match &model {
+        None => None,
+        Some(_) => Some(OnPage::open(
+            &format!("capture of {}", spec.sensor().driver()),
+            args.port,
+        )?),
+    };
+    if let Some(page) = &page {
+        stderr::say(format_args!("page: {}", page.url()));
+    }
+    let shown = model.as_ref().zip(page.as_ref());
+    let shown = shown.map(|(model, page)| LivePredictions::new(model, page.live(), context));
+    let heard = |frame: &_, prediction: &_, tally: &_| {
+        if let Some(shown) = &shown {
+            shown.show(frame, prediction, tally);
+        }
+    };
+    let predictor = model
+        .as_ref()
+        .map(|model| LivePredictor::new(model, &heard).with_table());
+    let viewer = page.as_ref().map(OnPage::viewer);
+    let mut onlookers = Onlookers::none();
+    onlookers.viewer = viewer.as_deref().map(|viewer| viewer as &dyn Viewer);
+    onlookers.predictor = predictor.as_ref();
+    let stage = |words: &str| {
+        if let Some(page) = &page {
+            page.live().stage(words);
+        }
+    };
     let status = StatusLine::new(context.quiet);
     let mut is_begun = false;
     let done = capture(
         &mut live,
         &request,
+        onlookers,
         &context.progress,
-        &mut |stage| match stage {
-            CaptureStage::Zeroing => context.say(format_args!(
-                "touch nothing: the frame without contact{} is taken",
-                if has_force {
-                    " and the zero of the force"
-                } else {
-                    ""
-                }
-            )),
+        &mut |of| match of {
+            CaptureStage::Zeroing => {
+                let zero = match has_force {
+                    true => " and the zero of the force",
+                    false => "",
+                };
+                let words = format!("touch nothing: the frame without contact{zero} is taken");
+                stage(&words);
+                context.say(format_args!("{words}"));
+            }
             CaptureStage::Recording(state) => {
                 if !std::mem::replace(&mut is_begun, true) {
+                    stage("recording: press");
                     context.say(format_args!("press; Ctrl-C ends it"));
                 }
-                status.show(&line(&state, has_force));
+                let predicted = shown
+                    .as_ref()
+                    .map_or_else(String::new, |shown| format!("; {}", shown.line()));
+                status.show(&format!("{}{predicted}", line(&state, has_force)));
             }
             _ => {}
         },
     );
     status.clear();
+    if let Some(page) = &page {
+        page.live().ended(&match &done {
+            Ok(_) => "the capture has ended; what was recorded is whole".to_owned(),
+            Err(error) => error.to_string(),
+        });
+    }
+    if let (Some(shown), Some(predictor)) = (&shown, &predictor) {
+        shown.summarise(&predictor.tally(), context);
+        if let Some(problem) = predictor.failure() {
+            stderr::say(format_args!(
+                "the model failed and predicted no more: {problem}; frames and forces were recorded all the same"
+            ));
+        }
+    }
     let Captured { state, header, .. } = done?;
     summarise(&state, &header, has_force, &args.path, context);
+    if let Some(predictions) = &header.predictions {
+        context.say(format_args!(
+            "{}/predictions.csv: {predictions}, {} frames; labels are in samples.parquet alone",
+            taceva_core::shown(&args.path),
+            predictions.rows
+        ));
+    }
     let was_asked_for = args.lasts.is_some() || args.frames.is_some();
     Ok(match progress::is_stopped() && was_asked_for {
         true => exit::STOPPED,

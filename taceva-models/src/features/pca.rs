@@ -26,6 +26,25 @@ impl Pca {
         count: usize,
         progress: &dyn Progress,
     ) -> Result<Pca, ModelError> {
+        let known = Pca::up_to(count, training, progress)?;
+        match known.variance_ratio.len() {
+            found if found == count => Ok(known),
+            found => Err(invalid(format!(
+                "`pca={count}`: {} training samples vary in {found} directions",
+                training.samples()
+            ))),
+        }
+    }
+
+    /// The first `most` components of `training`, or all where it varies in fewer directions.
+    ///
+    /// # Errors
+    /// As [`fit`](Pca::fit), but for the number of directions.
+    pub(crate) fn up_to(
+        most: usize,
+        training: &Features,
+        progress: &dyn Progress,
+    ) -> Result<Pca, ModelError> {
         if !training.values().iter().all(|value| value.is_finite()) {
             return Err(invalid(
                 "principal components of features that are not finite",
@@ -41,12 +60,7 @@ impl Pca {
             .iter()
             .filter(|&&eigenvalue| eigenvalue > spectrum.noise())
             .count();
-        if count > known {
-            return Err(invalid(format!(
-                "`pca={count}`: {} training samples vary in {known} directions",
-                training.samples()
-            )));
-        }
+        let count = most.min(known);
         let mut vectors = spectrum.leading_feature_vectors(count);
         orthonormalise(&mut vectors);
         let total: f64 = eigenvalues.iter().sum();

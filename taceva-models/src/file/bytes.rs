@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use safetensors::tensor::TensorView;
 
+use super::distance::distance_tensors;
 use super::seal::{digested, seal_over};
 use crate::model::Model;
 use crate::models::Models;
@@ -17,7 +18,8 @@ impl Model {
     /// [`FormatError`] if the card or the weights are larger than a file may be.
     pub fn to_bytes(&self) -> Result<Vec<u8>, FormatError> {
         let card = serde_json::to_string(&self.card)?;
-        let tensors = self.regressor.tensors();
+        let mut tensors = self.regressor.tensors();
+        tensors.extend(self.distance.iter().flat_map(distance_tensors));
         let digested = tensors
             .iter()
             .map(|tensor| digested(&tensor.name, tensor.kind, &tensor.shape, &tensor.bytes));

@@ -5,6 +5,7 @@ use serde::Deserialize;
 use taceva_core::InputInfo;
 
 use super::bytes::check_sizes;
+use super::distance::distance_from;
 use super::seal::check_seal;
 use crate::estimators::plugin::PluginRegressor;
 use crate::model::{Model, channels_of, learnt_channels_of};
@@ -67,10 +68,12 @@ impl Models {
         if regressor.kind() != card.kind() {
             return Err(FormatError::Card);
         }
+        let distance = distance_from(&stored)?;
         Ok(Model {
             card,
             regressor,
             channels: learnt,
+            distance,
         })
     }
 

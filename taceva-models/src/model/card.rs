@@ -43,6 +43,7 @@ impl ModelCard {
                 })
                 .collect(),
             angles: Vec::new(),
+            distance: None,
             samples: SampleCounts {
                 train: input.training.features.samples(),
                 validation: input.validation.map_or(0, |set| set.features.samples()),

@@ -1,6 +1,7 @@
 //! What a model is, what it was fitted on, and how well it did there.
 
 mod auto;
+mod distance;
 mod library;
 mod network;
 mod plugin;
@@ -10,6 +11,7 @@ use taceva_core::{InputInfo, Unit};
 
 pub(crate) use self::auto::FOLDS;
 pub use self::auto::{AutoCard, AutoTrial, Untried};
+pub use self::distance::DistanceCard;
 pub use self::library::LibraryCard;
 pub use self::network::NetworkCard;
 pub use self::plugin::PluginCard;
@@ -50,6 +52,9 @@ pub struct ModelCard {
     /// The angles among what it predicts that have a period.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub angles: Vec<AngleCard>,
+    /// Limits of the distance from its training samples; absent of a model that looks at nothing or is of before models said so.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub distance: Option<DistanceCard>,
     /// How many samples it was fitted on.
     pub samples: SampleCounts,
     /// Where the samples come from.

@@ -24,7 +24,7 @@ fn a_path_that_cannot_be_is_named() {
 }
 
 /// A card with a seal that holds, over the tensors of the file as well.
-fn sealed(card: &str, bytes: &[u8]) -> String {
+pub(crate) fn sealed(card: &str, bytes: &[u8]) -> String {
     use sha2::Digest as _;
     let file = safetensors::SafeTensors::deserialize(bytes).expect("a whole file");
     let digested = |(name, tensor): (String, safetensors::tensor::TensorView<'_>)| {
@@ -158,15 +158,35 @@ fn a_card_that_does_not_fit_its_tensors_is_refused() {
     assert!(refused(|card| card["features"]["smell"] = true.into()).contains("smell"));
 }
 
+/// The place behind the numbers of a tensor in a file.
+fn end_of(bytes: &[u8], tensor: &str) -> usize {
+    let file = safetensors::SafeTensors::deserialize(bytes).expect("a whole file");
+    let data = file.tensor(tensor).expect("there").data();
+    data.as_ptr().addr() - bytes.as_ptr().addr() + data.len()
+}
+
 #[test]
 fn numbers_that_are_not_finite_are_refused() {
-    let mut bytes = fit("ridge", &[], SPEC).0.to_bytes().expect("small");
-    let end = bytes.len();
-    bytes[end - 8..].copy_from_slice(&f64::NAN.to_le_bytes());
-    // With a seal over the new number.
-    let bytes = with_card(&bytes, |_| {});
-    let error = Model::from_bytes(&bytes).expect_err("refused");
-    assert_eq!(error.to_string(), "a weight is not finite");
+    let bytes = fit("ridge", &[], SPEC).0.to_bytes().expect("small");
+    for (tensor, said) in [
+        ("weights", "a weight is not finite"),
+        ("distance.mean", "the card contradicts itself"),
+        ("distance.deviations", "the card contradicts itself"),
+        ("distance.directions", "the card contradicts itself"),
+    ] {
+        let mut bytes = bytes.clone();
+        let end = end_of(&bytes, tensor);
+
+        let nan: &[u8] = match tensor {
+            "distance.directions" => &f32::NAN.to_le_bytes(),
+            _ => &f64::NAN.to_le_bytes(),
+        };
+        bytes[end - nan.len()..end].copy_from_slice(nan);
+        // With a seal over the new number.
+        let bytes = with_card(&bytes, |_| {});
+        let error = Model::from_bytes(&bytes).expect_err("refused").to_string();
+        assert!(error.starts_with(said), "{tensor}: {error}");
+    }
 }
 
 #[test]

@@ -7,6 +7,7 @@ mod extension;
 mod facts;
 mod footprint;
 mod join_mapping;
+mod live_predictions;
 mod map_conflict;
 mod mapping;
 mod omissions;
@@ -40,6 +41,7 @@ pub use extension::Extension;
 pub use facts::{FrameCodec, FramesInfo, Known, ReferenceInfo, SensorFacts, Source, TableInfo};
 pub use footprint::{Footprint, Shape};
 pub use join_mapping::MappedJoin;
+pub use live_predictions::LivePredictions;
 pub use map_conflict::Misread;
 pub use mapping::Mapping;
 pub use omissions::LeftOut;
@@ -135,6 +137,8 @@ pub struct Header {
     pub presses: BTreeMap<PressOutcome, u64>,
     /// What was lost of a stream that was recorded as it came; `None` of anything else.
     pub stream: Option<StreamFacts>,
+    /// Predictions that a model made while it was recorded, which are no labels; `None` where none did.
+    pub predictions: Option<LivePredictions>,
     /// What the numbers of taxels share, and what their file must be; `None` where there are none.
     pub signals: Option<SignalsInfo>,
     /// What the recording was before each time that rows were added to it, the first first; empty of one that is as it was imported or
@@ -173,6 +177,8 @@ struct Written {
     presses: BTreeMap<PressOutcome, u64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     stream: Option<StreamFacts>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    predictions: Option<LivePredictions>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     signals: Option<WrittenSignals>,
     #[serde(default, skip_serializing_if = "LeftOut::is_empty")]
@@ -253,6 +259,7 @@ impl Header {
             frames: written.frames,
             presses: written.presses,
             stream: written.stream,
+            predictions: written.predictions,
             table: written.table,
             digest: written.digest,
             extended: written.extended,
@@ -305,6 +312,7 @@ impl Header {
             frames: self.frames.clone(),
             presses: self.presses.clone(),
             stream: self.stream,
+            predictions: self.predictions.clone(),
             signals: self.signals.as_ref().map(WrittenSignals::from),
             left_out: self.left_out.clone(),
             table: self.table,

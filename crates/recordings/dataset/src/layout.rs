@@ -5,6 +5,7 @@ use std::ops::Range;
 pub const HEADER: &str = "dataset.toml";
 pub const SAMPLES: &str = "samples.parquet";
 pub const SIGNALS: &str = "signals.parquet";
+pub const PREDICTIONS: &str = "predictions.csv";
 pub const FRAMES: &str = "frames";
 pub const JOURNAL: &str = "journal";
 
@@ -12,7 +13,7 @@ pub const JOURNAL: &str = "journal";
 pub const MARK: &str = ".taceva-export";
 
 /// Every name that stands in the folder of a dataset or of a recording.
-pub const ALL: [&str; 5] = [HEADER, SAMPLES, SIGNALS, FRAMES, JOURNAL];
+pub const ALL: [&str; 6] = [HEADER, SAMPLES, SIGNALS, PREDICTIONS, FRAMES, JOURNAL];
 
 /// Frames in one folder: some file systems slow down beyond a few thousand.
 const FRAMES_A_FOLDER: usize = 1_000;

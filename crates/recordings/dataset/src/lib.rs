@@ -46,9 +46,9 @@ pub use digest::{Digest, DigestError};
 pub use error::{DatasetError, Place};
 pub use frame_retries::{add_frame_retries, frame_retries};
 pub use header::{
-    Extension, Footprint, FrameCodec, FramesInfo, Header, Known, LeftOut, MappedClass,
-    MappedColumn, MappedJoin, MappedPictures, RecordingFacts, ReducedFrames, ReferenceInfo,
-    SensorFacts, Shape, Source, StreamFacts, TableInfo,
+    Extension, Footprint, FrameCodec, FramesInfo, Header, Known, LeftOut, LivePredictions,
+    MappedClass, MappedColumn, MappedJoin, MappedPictures, RecordingFacts, ReducedFrames,
+    ReferenceInfo, SensorFacts, Shape, Source, StreamFacts, TableInfo,
 };
 pub use pack::Span;
 pub use quality::names_quality;

@@ -13,8 +13,7 @@ use taceva_files::parent_of;
 use crate::digest::Digest;
 use crate::error::DatasetError;
 use crate::file::make_names_durable;
-use crate::header::RecordingFacts;
-use crate::header::{ReducedFrames, ReferenceInfo, StreamFacts};
+use crate::header::{RecordingFacts, ReducedFrames, ReferenceInfo, StreamFacts};
 use crate::journal::{Journal, RecordKind};
 use crate::layout;
 use crate::lock::lock_folder;
@@ -27,12 +26,14 @@ mod close;
 mod folder;
 mod frames;
 mod payload;
+mod predictions;
 mod press;
 mod replay;
 mod stream;
 
 use folder::{empty_folder, remove_journal};
 use payload::{WrittenFrame, WrittenSample, WrittenStart};
+use predictions::PredictedTable;
 use replay::ReplayError;
 pub use stream::Streamed;
 
@@ -117,6 +118,7 @@ pub struct Recorder {
     finished: HashSet<String>,
     presses: BTreeMap<String, PressOutcome>,
     stream: Option<StreamFacts>,
+    predictions: Option<PredictedTable>,
     frame_info: Option<FrameInfo>,
     /// From what frames were reduced before they came here.
     reduced: Option<ReducedFrames>,
@@ -240,6 +242,7 @@ impl Recorder {
             finished: HashSet::new(),
             presses: BTreeMap::new(),
             stream: None,
+            predictions: None,
             frame_info: None,
             reduced: spec.reduced,
             reference: None,

@@ -9,8 +9,8 @@ use crate::digest::Digest;
 use crate::error::DatasetError;
 use crate::file::write_durable;
 use crate::header::{
-    Extension, FramesInfo, Header, LeftOut, Mapping, RecordingFacts, StreamFacts, TableInfo,
-    dataset_digest,
+    Extension, FramesInfo, Header, LeftOut, LivePredictions, Mapping, RecordingFacts, StreamFacts,
+    TableInfo, dataset_digest,
 };
 use crate::samples::to_parquet;
 use crate::signals::SignalsInfo;
@@ -34,6 +34,8 @@ pub struct Beside {
     pub warnings: Vec<String>,
     /// What was lost of a stream.
     pub stream: Option<StreamFacts>,
+    /// Predictions of a model, which are written already.
+    pub predictions: Option<LivePredictions>,
     /// The file of signals, which is written already.
     pub signals: Option<SignalsInfo>,
     /// What the recording was before rows were added to it.
@@ -83,6 +85,7 @@ pub fn write_table_and_header(
         frames,
         presses: beside.presses,
         stream: beside.stream,
+        predictions: beside.predictions,
         signals: beside.signals,
         extended: beside.extended,
         table: TableInfo {

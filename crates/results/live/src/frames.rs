@@ -1,5 +1,6 @@
 //! From the newest frame to the newest JPEG, on a thread that may be slow.
 
+use std::borrow::Cow;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -7,10 +8,13 @@ use image::codecs::jpeg::JpegEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 use taceva_core::Frame;
 
+use crate::overlay::Overlay;
 use crate::sight::Sight;
 
-/// Pictures a second, at most: what a person sees move.
-const PICTURES_HZ: u32 = 15;
+/// From one picture to the next, at least: 15 a second are what a person sees move.
+const PERIOD: Duration = Duration::from_nanos(1_000_000_000 / 15);
+/// The same of pictures with a prediction: 30 a second all pass, however unevenly they come.
+const PREDICTED_PERIOD: Duration = Duration::from_millis(16);
 /// The greatest side of a picture that is shown.
 const SIDE_MAX: usize = 960;
 const QUALITY: u8 = 80;
@@ -27,6 +31,8 @@ pub(crate) struct Frames {
 #[derive(Default)]
 struct Newest {
     frame: Option<Frame>,
+    /// Predictions of it.
+    overlay: Option<Overlay>,
     /// When the last was taken away to be encoded.
     taken: Option<Instant>,
 }
@@ -35,18 +41,33 @@ struct Newest {
 struct Shown {
     number: u64,
     jpeg: Option<Arc<[u8]>>,
+    overlay: Option<Arc<Overlay>>,
     sight: Option<Sight>,
+    /// When that was looked at.
+    looked: Option<Instant>,
+}
+
+/// A picture that is ready for a browser.
+pub(crate) struct Picture {
+    pub(crate) number: u64,
+    pub(crate) jpeg: Arc<[u8]>,
+    /// Predictions of it.
+    pub(crate) overlay: Option<Arc<Overlay>>,
 }
 
 impl Frames {
-    /// Leaves `frame` for the encoder, unless that has had enough of them.
-    pub(crate) fn offer(&self, frame: &Frame) {
+    /// Leaves `frame`, with what was predicted of it, for the encoder, unless that has had enough of them.
+    pub(crate) fn offer(&self, frame: &Frame, overlay: Option<Overlay>) {
         let mut newest = lock(&self.newest);
-        let period = Duration::from_secs(1) / PICTURES_HZ;
+        let period = match overlay {
+            None => PERIOD,
+            Some(_) => PREDICTED_PERIOD,
+        };
         if newest.taken.is_some_and(|taken| taken.elapsed() < period) {
             return;
         }
         newest.frame = Some(frame.clone());
+        newest.overlay = overlay;
         drop(newest);
         self.came.notify_one();
     }
@@ -62,26 +83,37 @@ impl Frames {
         let Some(frame) = newest.frame.take() else {
             return;
         };
+        let overlay = newest.overlay.take();
         newest.taken = Some(Instant::now());
         drop(newest);
-        let sight = Sight::of(&frame);
         let jpeg = encode(&frame);
         let mut shown = lock(&self.shown);
         shown.number += 1;
-        shown.sight = Some(sight);
         shown.jpeg = jpeg.map(Arc::from);
+        shown.overlay = overlay.map(Arc::new);
+        let is_seen = shown.looked.is_some_and(|looked| looked.elapsed() < PERIOD);
         drop(shown);
         self.encoded.notify_all();
+        // After the picture: nobody sees saturation and sharpness change as fast.
+        if !is_seen {
+            let sight = Sight::of(&frame);
+            let mut shown = lock(&self.shown);
+            (shown.sight, shown.looked) = (Some(sight), Some(Instant::now()));
+        }
     }
 
-    /// A picture newer than number `after`, waited for as long as `patience`, with its number.
-    pub(crate) fn next(&self, after: u64, patience: Duration) -> Option<(u64, Arc<[u8]>)> {
+    /// A picture newer than number `after`, waited for as long as `patience`.
+    pub(crate) fn next(&self, after: u64, patience: Duration) -> Option<Picture> {
         let waited = self
             .encoded
             .wait_timeout_while(lock(&self.shown), patience, |shown| shown.number <= after);
         let (shown, _) = waited.unwrap_or_else(PoisonError::into_inner);
         let jpeg = shown.jpeg.clone().filter(|_| shown.number > after)?;
-        Some((shown.number, jpeg))
+        Some(Picture {
+            number: shown.number,
+            jpeg,
+            overlay: shown.overlay.clone(),
+        })
     }
 
     /// What the last picture showed of its camera.
@@ -101,13 +133,19 @@ fn encode(frame: &Frame) -> Option<Vec<u8>> {
     let step = width.max(height).div_ceil(SIDE_MAX).max(1);
     let (depth, bytes) = (info.format.samples(), info.format.bytes_per_sample());
     let row = width * depth * bytes;
-    let mut pixels = Vec::with_capacity(frame.bytes().len() / (step * step * bytes));
-    for line in frame.bytes().chunks_exact(row.max(1)).step_by(step) {
-        for pixel in line.chunks_exact(depth * bytes).step_by(step) {
-            // Numbers of 16 bits are little-endian: the high byte is the last.
-            pixels.extend(pixel.iter().skip(bytes - 1).step_by(bytes));
+    let pixels = match step == 1 && bytes == 1 {
+        true => Cow::Borrowed(frame.bytes()),
+        false => {
+            let mut pixels = Vec::with_capacity(frame.bytes().len() / (step * step * bytes));
+            for line in frame.bytes().chunks_exact(row.max(1)).step_by(step) {
+                for pixel in line.chunks_exact(depth * bytes).step_by(step) {
+                    // Numbers of 16 bits are little-endian: the high byte is the last.
+                    pixels.extend(pixel.iter().skip(bytes - 1).step_by(bytes));
+                }
+            }
+            Cow::Owned(pixels)
         }
-    }
+    };
     let sides = [width, height].map(|side| u32::try_from(side.div_ceil(step)).ok());
     let [Some(width), Some(height)] = sides else {
         return None;
@@ -158,13 +196,35 @@ mod tests {
             format: PixelFormat::Gray8,
         };
         for level in 0..5 {
-            frames.offer(&Frame::new(info, vec![level; 4]).expect("whole"));
+            frames.offer(&Frame::new(info, vec![level; 4]).expect("whole"), None);
         }
         frames.encode_next(Duration::ZERO);
-        let (number, _) = frames.next(0, Duration::ZERO).expect("one");
+        let Picture { number, .. } = frames.next(0, Duration::ZERO).expect("one");
         assert_eq!(number, 1);
         assert!(frames.next(number, Duration::ZERO).is_none());
         frames.encode_next(Duration::ZERO);
         assert!(frames.next(number, Duration::ZERO).is_none());
+    }
+
+    #[test]
+    fn a_picture_is_shown_with_what_was_predicted_of_it_and_of_no_other() {
+        let frames = Frames::default();
+        let info = FrameInfo {
+            width: 2,
+            height: 2,
+            format: PixelFormat::Gray8,
+        };
+        let frame = Frame::new(info, vec![90; 4]).expect("whole");
+        let overlay = |stamp_s| Some(Overlay::new(stamp_s, Vec::new()));
+        frames.offer(&frame, overlay(1.0));
+        frames.offer(&frame, overlay(2.0));
+        frames.encode_next(Duration::ZERO);
+        let shown = |after| frames.next(after, Duration::ZERO).expect("one").overlay;
+        assert_eq!(shown(0).map(|overlay| overlay.stamp_s), Some(2.0));
+        // What comes after it without a prediction has none.
+        std::thread::sleep(PERIOD);
+        frames.offer(&frame, None);
+        frames.encode_next(Duration::ZERO);
+        assert_eq!(shown(1), None);
     }
 }

@@ -1,14 +1,15 @@
 //! The state that the program with the devices writes and the page reads: the newest value of everything, and no history.
 
-use std::sync::atomic::{AtomicBool, AtomicUsize};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 use taceva_core::{Frame, Pose, Wrench};
 use taceva_protocol::{Answer, Question};
 
 use crate::frames::Frames;
-use crate::state::{Asked, Limits, Place, PlaceState, State};
+use crate::overlay::Overlay;
+use crate::state::{Asked, Limits, Place, PlaceState, PredictedFrames, State};
 
 /// What a page shows, written by the program that runs the devices. Clones share one state; no call waits for a reader.
 #[derive(Clone)]
@@ -23,6 +24,10 @@ pub(crate) struct Shared {
     /// Streams that somebody reads: without any nothing is encoded.
     pub(crate) viewers: AtomicUsize,
     pub(crate) is_over: AtomicBool,
+    /// The last picture with a prediction that went to a browser.
+    last_sent: AtomicU64,
+    /// Listener for that, by the stamp of its frame in s.
+    on_sent: OnceLock<Box<dyn Fn(f64) + Send + Sync>>,
 }
 
 #[derive(Default)]
@@ -57,27 +62,54 @@ impl Live {
                 frames: Frames::default(),
                 viewers: AtomicUsize::new(0),
                 is_over: AtomicBool::new(false),
+                last_sent: AtomicU64::new(0),
+                on_sent: OnceLock::new(),
             }),
         }
     }
 
     /// Shows `frame` as the newest one; frames that come faster than pictures are made of them are counted and not shown.
     pub fn frame(&self, frame: &Frame) {
-        let now = Instant::now();
-        {
-            let mut inside = self.shared.inside();
-            inside.state.frames += 1;
-            inside.recent.push_back(now);
-            while inside
-                .recent
-                .front()
-                .is_some_and(|first| now.duration_since(*first) > RATE_OVER)
-            {
-                inside.recent.pop_front();
-            }
-        }
+        self.count_frame();
         // Even if nobody looks: who comes later sees the last one, which may be all there is for a while.
-        self.shared.frames.offer(frame);
+        self.shared.frames.offer(frame, None);
+    }
+
+    /// Shows `frame` as the newest one, with what a model predicts of it over the picture.
+    pub fn predicted(&self, frame: &Frame, overlay: Overlay) {
+        self.count_frame();
+        self.shared.frames.offer(frame, Some(overlay));
+    }
+
+    /// Says in words whose predictions are written over pictures.
+    pub fn predictor(&self, words: &str) {
+        self.shared.inside().state.predicted_by = Some(words.to_owned());
+    }
+
+    /// Shows how many frames were predicted and left out.
+    pub fn predicted_frames(&self, frames: PredictedFrames) {
+        self.shared.inside().state.predicted = Some(frames);
+    }
+
+    /// Lets `heard` know, by the stamp of its frame in s, when a picture with a prediction went to a browser: once a picture.
+    ///
+    /// A thread of the page calls it; the first one that is given stays.
+    pub fn on_sent(&self, heard: impl Fn(f64) + Send + Sync + 'static) {
+        drop(self.shared.on_sent.set(Box::new(heard)));
+    }
+
+    fn count_frame(&self) {
+        let now = Instant::now();
+        let mut inside = self.shared.inside();
+        inside.state.frames += 1;
+        inside.recent.push_back(now);
+        while inside
+            .recent
+            .front()
+            .is_some_and(|first| now.duration_since(*first) > RATE_OVER)
+        {
+            inside.recent.pop_front();
+        }
     }
 
     /// Shows a reading of the force transducer, tared.
@@ -203,6 +235,14 @@ impl Shared {
         drop(inside);
         self.answered.notify_all();
         true
+    }
+
+    /// Notes that picture `number` went to a browser.
+    pub(crate) fn sent(&self, number: u64, overlay: &Overlay) {
+        let before = self.last_sent.fetch_max(number, Ordering::AcqRel);
+        if let Some(heard) = self.on_sent.get().filter(|_| before < number) {
+            heard(overlay.stamp_s);
+        }
     }
 
     /// Notes that somebody pressed stop.

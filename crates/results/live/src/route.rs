@@ -24,6 +24,8 @@ const LOOK: Duration = Duration::from_millis(250);
 const TAKING: Duration = Duration::from_secs(5);
 /// What stands between two pictures.
 const BOUNDARY: &str = "taceva-picture";
+/// The line with the predictions of a picture, in the head of its part.
+const PREDICTION: &str = "X-Taceva-Prediction";
 
 /// What all connections have in common.
 pub(crate) struct Site {
@@ -161,17 +163,26 @@ fn frames(stream: &mut TcpStream, shared: &Shared) -> io::Result<()> {
     )?;
     let mut last = 0;
     while !shared.is_over.load(Ordering::Acquire) {
-        let Some((number, jpeg)) = shared.frames.next(last, LOOK) else {
+        let Some(picture) = shared.frames.next(last, LOOK) else {
             // A browser that is gone is noticed although nothing new is to be shown.
             put(stream, b"\r\n")?;
             continue;
         };
-        last = number;
+        last = picture.number;
+        let predicted = picture
+            .overlay
+            .as_ref()
+            .map_or_else(String::new, |overlay| {
+                format!("{PREDICTION}: {}\r\n", overlay.header())
+            });
         let head = format!(
-            "--{BOUNDARY}\r\nContent-Type: image/jpeg\r\nContent-Length: {}\r\n\r\n",
-            jpeg.len()
+            "--{BOUNDARY}\r\nContent-Type: image/jpeg\r\nContent-Length: {}\r\n{predicted}\r\n",
+            picture.jpeg.len()
         );
-        put(stream, &[head.as_bytes(), &jpeg, b"\r\n"].concat())?;
+        put(stream, &[head.as_bytes(), &picture.jpeg, b"\r\n"].concat())?;
+        if let Some(overlay) = &picture.overlay {
+            shared.sent(picture.number, overlay);
+        }
     }
     Ok(())
 }

@@ -20,7 +20,14 @@ impl Sight {
     pub(crate) fn of(frame: &Frame) -> Sight {
         let info = frame.info();
         let (depth, top) = (info.format.samples(), info.format.full_scale());
-        let full = frame.samples().filter(|number| *number == top).count();
+        let full = match info.format.bytes_per_sample() {
+            1 => frame
+                .bytes()
+                .iter()
+                .filter(|byte| u16::from(**byte) == top)
+                .count(),
+            _ => frame.samples().filter(|number| *number == top).count(),
+        };
         let [width, height] = [info.width, info.height].map(|side| side as usize);
         let bytes = info.format.bytes_per_sample();
         // The high byte of a number: 8 bits are enough for focus.

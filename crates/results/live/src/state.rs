@@ -55,6 +55,29 @@ pub struct Place {
     pub state: PlaceState,
 }
 
+/// Frames that a model was shown, counted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
+pub struct PredictedFrames {
+    /// Frames that came.
+    pub seen: u64,
+    /// Frames that the model had no time for.
+    pub dropped: u64,
+    /// Predicted frames outside what the model has seen; `None` where it does not know.
+    pub outside: Option<u64>,
+}
+
+impl PredictedFrames {
+    /// So many frames, of which some were left out, and so many lay outside what the model has seen.
+    pub fn new(seen: u64, dropped: u64, outside: Option<u64>) -> PredictedFrames {
+        PredictedFrames {
+            seen,
+            dropped,
+            outside,
+        }
+    }
+}
+
 /// The state of a press.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -87,6 +110,9 @@ pub(crate) struct State {
     #[serde(rename = "Pz_mm")]
     pub(crate) depth_mm: Option<f64>,
     pub(crate) limits: Limits,
+    /// The model behind predictions over pictures, in words.
+    pub(crate) predicted_by: Option<String>,
+    pub(crate) predicted: Option<PredictedFrames>,
     /// Frames that were shown to the page, and a second.
     pub(crate) frames: u64,
     pub(crate) rate_hz: f64,

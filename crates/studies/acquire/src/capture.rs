@@ -7,6 +7,11 @@ mod camera;
 mod contacts;
 mod devices;
 mod labels;
+mod latencies;
+mod live_model;
+mod prediction;
+mod prediction_table;
+mod predictor;
 mod preview;
 mod streams;
 mod track;
@@ -24,9 +29,14 @@ use taceva_dataset::{
 };
 
 use crate::error::AcquireError;
+use crate::viewer::Viewer;
 use contacts::Contacts;
 pub use devices::{LiveDevices, LiveSpec};
 use labels::Labels;
+pub use latencies::Latencies;
+pub use live_model::LiveModel;
+pub use prediction::Prediction;
+pub use predictor::{LivePredictor, PredictionTally};
 pub use preview::preview;
 use streams::Streams;
 
@@ -44,6 +54,41 @@ pub struct CaptureRequest {
     pub lasts: Option<Duration>,
     /// How many frames.
     pub frames: Option<u64>,
+}
+
+/// Onlookers of a capture, which nobody waits for.
+#[derive(Clone, Copy, Default)]
+#[non_exhaustive]
+pub struct Onlookers<'a> {
+    /// A viewer of forces, and of what was lost.
+    pub viewer: Option<&'a dyn Viewer>,
+    /// A predictor of frames; its [table](LivePredictor::with_table) is written beside the recording.
+    pub predictor: Option<&'a LivePredictor<'a>>,
+}
+
+impl<'a> Onlookers<'a> {
+    /// Nobody.
+    pub fn none() -> Onlookers<'a> {
+        Onlookers::default()
+    }
+
+    /// The same, and `viewer`.
+    #[must_use]
+    pub fn with_viewer(self, viewer: &'a dyn Viewer) -> Onlookers<'a> {
+        Onlookers {
+            viewer: Some(viewer),
+            ..self
+        }
+    }
+
+    /// The same, and `predictor`.
+    #[must_use]
+    pub fn with_predictor(self, predictor: &'a LivePredictor<'a>) -> Onlookers<'a> {
+        Onlookers {
+            predictor: Some(predictor),
+            ..self
+        }
+    }
 }
 
 /// What a capture is doing.
@@ -93,10 +138,11 @@ pub struct Captured {
 /// # Errors
 /// [`AcquireError::Device`] if a device failed before there was anything to keep; [`AcquireError::CaptureEnded`] if one failed later: what was
 /// recorded before is a whole recording then. [`AcquireError::CaptureBroken`] if it cannot be written; [`AcquireError::Dataset`] if the folder
-/// is taken.
+/// is taken; [`AcquireError::Model`] if the model does not fit the frames. A model that fails later ends its predictions and no capture.
 pub fn capture(
     live: &mut LiveDevices,
     request: &CaptureRequest,
+    onlookers: Onlookers<'_>,
     progress: &dyn Progress,
     on_stage: &mut dyn FnMut(CaptureStage),
 ) -> Result<Captured, AcquireError> {
@@ -106,10 +152,16 @@ pub fn capture(
         }
         .into());
     }
+    if let Some(predictor) = onlookers.predictor {
+        predictor.model().check(live.frame_info())?;
+    }
     on_stage(CaptureStage::Zeroing);
     let failed = AcquireError::Device;
     live.begin().map_err(failed)?;
     let untouched = live.untouched().map_err(failed)?;
+    if let Some(predictor) = onlookers.predictor {
+        predictor.begin(live.frame_info(), Some(&untouched))?;
+    }
     let channels = channels(live);
     let facts = RecordingFacts::new(source(live), Clock::Monotonic, request.sensor.clone())
         .with_settings(live.settings());
@@ -125,13 +177,25 @@ pub fn capture(
         request,
         labels,
         contacts,
+        viewer: onlookers.viewer,
         state: CaptureState::default(),
         first_s: None,
     };
-    let (done, device) = live.stream(|streams| recording.take_all(streams, progress, on_stage));
+    let (done, device) = live.stream(onlookers.predictor, |streams| {
+        recording.take_all(streams, progress, on_stage)
+    });
     let Recording {
-        recorder, state, ..
+        mut recorder,
+        state,
+        ..
     } = recording;
+    if let Some(predictor) = onlookers.predictor
+        && let Some(table) = predictor.table()
+    {
+        let model = predictor.model();
+        let table = table.csv(recorder.table());
+        recorder.keep_predictions(model.name(), model.digest(), table);
+    }
     match done {
         Err(source) => Err(kept_after(recorder, &request.path, state, source)),
         Ok(()) => {
@@ -166,6 +230,7 @@ struct Recording<'a> {
     request: &'a CaptureRequest,
     labels: Labels,
     contacts: Option<Contacts>,
+    viewer: Option<&'a dyn Viewer>,
     state: CaptureState,
     /// The time of the first frame.
     first_s: Option<f64>,
@@ -202,6 +267,12 @@ impl Recording<'_> {
                 together.push(streamed);
             }
             self.state.stream = streams.facts();
+            if let Some(viewer) = self.viewer {
+                viewer.lost(self.state.stream);
+                if let Some(wrench) = streams.track.and_then(|track| track.newest()) {
+                    viewer.force(&wrench);
+                }
+            }
             if !together.is_empty() {
                 self.recorder.append_stream(&together, self.state.stream)?;
                 self.state.frames += together.len() as u64;

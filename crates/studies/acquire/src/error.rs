@@ -71,6 +71,14 @@ pub enum AcquireError {
         /// What could not be written.
         source: Box<DatasetError>,
     },
+    /// A fitted model that cannot predict what the camera shows.
+    #[error("model {}: {problem}", taceva_core::shown(path))]
+    Model {
+        /// Its file.
+        path: PathBuf,
+        /// Why.
+        problem: String,
+    },
     /// A lock of a device that cannot be taken.
     #[error("{}: {problem}", taceva_core::shown(path))]
     RigLock {

@@ -8,8 +8,9 @@ mod scene;
 mod viewer;
 
 pub use capture::{
-    CaptureRequest, CaptureStage, CaptureState, Captured, LiveDevices, LiveSpec, capture,
-    close_capture, preview,
+    CaptureRequest, CaptureStage, CaptureState, Captured, Latencies, LiveDevices, LiveModel,
+    LivePredictor, LiveSpec, Onlookers, Prediction, PredictionTally, capture, close_capture,
+    preview,
 };
 pub use error::AcquireError;
 pub use presses::{

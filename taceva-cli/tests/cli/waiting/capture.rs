@@ -1,6 +1,7 @@
 //! `taceva capture` on emulated devices, through their sockets.
 
 mod broken;
+mod predicted;
 
 use std::time::Duration;
 

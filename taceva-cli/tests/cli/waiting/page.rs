@@ -12,13 +12,13 @@ use crate::support::emulated::{Emulated, Running};
 
 /// The page of a program that runs: where, and its token.
 #[derive(Clone)]
-struct Page {
+pub(crate) struct Page {
     address: String,
     token: String,
 }
 
 impl Page {
-    fn of(running: &Running) -> Page {
+    pub(crate) fn of(running: &Running) -> Page {
         running.until_it_says("page: http://");
         running.until_it_says("\n");
         let said = running.said();
@@ -53,7 +53,7 @@ impl Page {
         assert_eq!(&answer, b"HTTP/1.1 204");
     }
 
-    fn stop(&self) {
+    pub(crate) fn stop(&self) {
         self.post("/stop", "");
     }
 
@@ -81,7 +81,7 @@ impl Page {
     }
 
     /// Reads a stream until `words` came.
-    fn until(&self, path: &str, words: &[u8]) -> Vec<u8> {
+    pub(crate) fn until(&self, path: &str, words: &[u8]) -> Vec<u8> {
         let mut stream = self.asked(&format!("GET {path}"), "");
         let began = Instant::now();
         let mut read = Vec::new();

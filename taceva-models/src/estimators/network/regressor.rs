@@ -15,7 +15,7 @@ use crate::training::card::NetworkCard;
 use crate::training::file::content::Stored;
 use crate::training::file::error::FormatError;
 use crate::training::file::limits::FILE_MAX;
-use crate::training::file::tensors::{Raw, Tensors};
+use crate::training::file::tensors::{DISTANCE, Raw, Tensors};
 use crate::training::regressor::{FittedModel, ModelRegressor};
 
 /// A fitted network, from features to channels.
@@ -143,9 +143,11 @@ pub(super) const fn picture(shape: FeatureShape) -> Picture {
     }
 }
 
-/// All tensors of a file, which must be of single precision.
+/// All tensors of a file but those of the distance from the training part; they must be of single precision.
 pub(super) fn named_tensors(tensors: &Tensors<'_>) -> Result<Vec<NamedTensor>, FormatError> {
-    let found = tensors.0.tensors().into_iter().map(|(name, tensor)| {
+    let all = tensors.0.tensors().into_iter();
+    let own = all.filter(|(name, _)| !DISTANCE.contains(&name.as_str()));
+    let found = own.map(|(name, tensor)| {
         if tensor.dtype() != Dtype::F32 {
             return Err(FormatError::Type {
                 name,

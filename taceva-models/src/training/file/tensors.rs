@@ -4,6 +4,15 @@ use safetensors::tensor::{Dtype, SafeTensors, TensorView};
 
 use crate::training::file::error::FormatError;
 
+/// Directions in which the features of the training part vary.
+pub(crate) const DIRECTIONS: &str = "distance.directions";
+/// The mean of the features of the training part.
+pub(crate) const MEAN: &str = "distance.mean";
+/// Their standard deviations along the directions.
+pub(crate) const DEVIATIONS: &str = "distance.deviations";
+/// The tensors of the distance from the training part.
+pub(crate) const DISTANCE: [&str; 3] = [DIRECTIONS, MEAN, DEVIATIONS];
+
 /// A tensor as a file keeps it.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Raw {
@@ -47,10 +56,10 @@ impl<'a> Tensors<'a> {
         self.0.tensor(name).is_ok()
     }
 
-    /// Refuses every tensor but `known`.
+    /// Refuses every tensor but `known`, and those of the distance from the training part, which whoever reads the file looks at.
     pub(crate) fn only(&self, known: &[&str]) -> Result<(), FormatError> {
-        let names = self.0.names().into_iter();
-        match names.into_iter().find(|name| !known.contains(name)) {
+        let mut names = self.0.names().into_iter();
+        match names.find(|name| !known.contains(name) && !DISTANCE.contains(name)) {
             None => Ok(()),
             Some(name) => Err(FormatError::Unexpected {
                 name: name.to_owned(),

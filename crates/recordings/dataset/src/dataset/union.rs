@@ -333,6 +333,7 @@ fn joined_header(recordings: &[Dataset], table: &Table) -> Header {
     header.attributes = table.attribute_names().to_vec();
     header.unmentioned_columns.clear();
     header.stream = None;
+    header.predictions = None;
     header.extended.clear();
     header.digest = digest.finish();
     header.table.rows = table.rows() as u64;

@@ -15,7 +15,7 @@ use crate::samples::from_parquet;
 use crate::table::Table;
 
 impl Dataset {
-    /// Reads every frame, and the one without contact, and all signals, and checks that they are those recorded; no frame is decoded.
+    /// Reads every frame, and the one without contact, all signals and predictions, and checks that they are those recorded; no frame is decoded.
     ///
     /// # Errors
     /// As [`frame_bytes`](Dataset::frame_bytes), for the first that is not.
@@ -29,7 +29,19 @@ impl Dataset {
         for entry in frames {
             self.frame_bytes(entry)?;
         }
+        self.verify_predictions()?;
         self.verify_signals()
+    }
+
+    /// Checks that the table of predictions beside the recording, if there is one, is as it was written.
+    fn verify_predictions(&self) -> Result<(), DatasetError> {
+        let Some(predictions) = &self.header.predictions else {
+            return Ok(());
+        };
+        let path = &self.path().join(layout::PREDICTIONS);
+        let (mut file, _) = self.folder.file(layout::PREDICTIONS, limits::TABLE_BYTES)?;
+        let found = Digest::of_reader(&mut file).map_err(DatasetError::io("read", path))?;
+        check_digest(path, predictions.sha256, found)
     }
 
     /// Whether header and table agree. Paths are checked here once, so that reading a frame only joins them.

@@ -72,6 +72,11 @@ fn header() -> Header {
             reference: None,
         }),
         stream: None,
+        predictions: Some(LivePredictions::new(
+            "ridge",
+            Digest::of(b"model"),
+            b"sample\na\n",
+        )),
         signals: None,
         extended: Vec::new(),
         presses: BTreeMap::from([

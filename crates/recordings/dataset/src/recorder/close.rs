@@ -20,6 +20,10 @@ impl Recorder {
     /// [`DatasetError::Damaged`] if what was written does not read back; [`DatasetError::Io`].
     pub fn close(mut self) -> Result<Header, DatasetError> {
         let signals = self.signals.take().map(SignalsWriter::finish).transpose()?;
+        let predictions = self.predictions.take();
+        if let Some(table) = &predictions {
+            table.write(&self.path)?;
+        }
         let name = |name: &str| partial(&self.path, name);
         let (samples, header_path) = (name(layout::SAMPLES), name(layout::HEADER));
         let header = write_table_and_header(
@@ -31,6 +35,7 @@ impl Recorder {
             Beside {
                 presses: self.press_counts(),
                 stream: self.stream,
+                predictions: predictions.map(|table| table.facts),
                 signals,
                 ..Beside::default()
             },
@@ -39,6 +44,9 @@ impl Recorder {
         if let Some(info) = &header.signals {
             self.verify_signals(&name(layout::SIGNALS), info)?;
             self.put_in_place(&name(layout::SIGNALS), layout::SIGNALS)?;
+        }
+        if header.predictions.is_some() {
+            self.put_in_place(&name(layout::PREDICTIONS), layout::PREDICTIONS)?;
         }
         self.put_in_place(&samples, layout::SAMPLES)?;
         self.put_in_place(&header_path, layout::HEADER)?;

@@ -72,6 +72,15 @@
     find('saturated').textContent = state.saturated === null ? '–' : `${(state.saturated * 100).toFixed(1)} %`;
     find('saturated').classList.toggle('bad', state.saturated > 0.02);
     find('sharpness').textContent = number(state.sharpness, 0, '');
+    find('by').textContent = state.predicted_by ? `predicted by ${state.predicted_by}, not measured` : 'predicted, not measured';
+    const frames = state.predicted;
+    find('left-out-fact').hidden = !frames;
+    find('outside-fact').hidden = !frames || frames.outside === null;
+    if (frames) {
+      const predicted = Math.max(1, frames.seen - frames.dropped);
+      find('left-out').textContent = `${frames.dropped} of ${frames.seen}`;
+      find('outside-share').textContent = frames.outside === null ? '–' : `${((100 * frames.outside) / predicted).toFixed(1)} %`;
+    }
     find('presses').textContent = `${state.presses[0]} of ${state.presses[1]}`;
     find('stop').disabled = Boolean(state.ended);
     find('stop').textContent = state.is_stopping && !state.ended ? 'Halt here' : 'Stop';
@@ -134,7 +143,26 @@
     }
   };
 
-  const draw = async (bytes) => {
+  // What a model says of the picture that is drawn: a prediction, named as one.
+  const predict = (said) => {
+    find('predicted').hidden = !said;
+    if (!said) return;
+    const digits = { N: 2, mm: 3 };
+    const rows = said.values.map((value) => {
+      const row = document.createElement('div');
+      const [name, text] = [document.createElement('dt'), document.createElement('dd')];
+      name.textContent = value.channel;
+      text.textContent = number(value.value, digits[value.unit] ?? 3, value.unit === '1' ? '' : ` ${value.unit}`);
+      row.append(name, text);
+      return row;
+    });
+    find('values').replaceChildren(...rows);
+    find('outside').hidden = !said.outside;
+    find('predicted').classList.toggle('outside', Boolean(said.outside));
+    find('outside').textContent = said.outside ? `outside what the model has seen: distance ${number(said.distance, 1, '')}, limit 1` : '';
+  };
+
+  const draw = async (bytes, said) => {
     const picture = await createImageBitmap(new Blob([bytes], { type: 'image/jpeg' }));
     const canvas = find('frame');
     if (canvas.width !== picture.width || canvas.height !== picture.height) {
@@ -143,6 +171,7 @@
     }
     canvas.getContext('2d').drawImage(picture, 0, 0);
     picture.close();
+    predict(said);
     find('waiting').hidden = true;
   };
 
@@ -172,11 +201,13 @@
         while (waiting[0] === 13 || waiting[0] === 10) waiting = waiting.subarray(1);
         const begins = headEnd(waiting);
         if (begins < 0) break;
-        const length = Number(/content-length: (\d+)/i.exec(decoder.decode(waiting.subarray(0, begins)))[1]);
+        const head = decoder.decode(waiting.subarray(0, begins));
+        const length = Number(/content-length: (\d+)/i.exec(head)[1]);
+        const said = /^x-taceva-prediction: (.*)$/im.exec(head);
         if (waiting.length < begins + length) break;
         const bytes = waiting.slice(begins, begins + length);
         waiting = waiting.slice(begins + length);
-        await draw(bytes);
+        await draw(bytes, said && JSON.parse(said[1]));
       }
     }
   };

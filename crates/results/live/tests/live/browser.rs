@@ -12,7 +12,9 @@ use taceva_core::{
     Frame, FrameInfo, GratingKind, Millimetre, Nanometre, Newton, PixelFormat, Pose, Specimen,
     Wrench,
 };
-use taceva_live::{Limits, Live, Page, PageOperator, Place, PlaceState};
+use taceva_live::{
+    Limits, Live, Overlay, Page, PageOperator, Place, PlaceState, PredictedFrames, PredictedValue,
+};
 use taceva_needs::{Browser, Need, skip};
 use taceva_protocol::{Answer, Cancel, Operator, Question};
 
@@ -28,6 +30,10 @@ struct Opened {
 
 impl Opened {
     fn new() -> Option<Opened> {
+        Opened::showing(Opened::press)
+    }
+
+    fn showing(begin: impl FnOnce(&Opened)) -> Option<Opened> {
         let folder = tempfile::tempdir().expect("a folder");
         let Some(browser) = Browser::start(folder.path()) else {
             skip(Need::Browser, "no chromium on the path");
@@ -48,7 +54,7 @@ impl Opened {
             is_over,
             _folder: folder,
         };
-        opened.press();
+        begin(&opened);
         opened.browser.open(&opened.url());
         Some(opened)
     }
@@ -91,6 +97,30 @@ impl Opened {
                 let mut pose = Pose::default();
                 pose.position.z = Millimetre(0.7 * share);
                 live.pose(&pose);
+                number += 1;
+                std::thread::sleep(Duration::from_millis(33));
+            }
+        });
+    }
+
+    /// Lets frames come of which a model says something, every second of which lies outside what it has seen.
+    fn predict(&self) {
+        let live = self.live.clone();
+        live.predictor("ridge sha256:0123456789ab (presses.taceva)");
+        live.predicted_frames(PredictedFrames::new(400, 4, Some(99)));
+        let is_over = Arc::clone(&self.is_over);
+        std::thread::spawn(move || {
+            let mut number = 0_u32;
+            while !is_over.load(Ordering::Acquire) {
+                let values = vec![
+                    PredictedValue::new("Fz", 1.25, "N"),
+                    PredictedValue::new("Pz", 0.4125, "mm"),
+                    PredictedValue::new("<b>µ</b>", -2.0, "1"),
+                ];
+                let outside = number / 10 % 2 == 1;
+                let distance = if outside { 1.75 } else { 0.5 };
+                let overlay = Overlay::new(f64::from(number), values);
+                live.predicted(&gel(0.5), overlay.with_distance(distance, outside));
                 number += 1;
                 std::thread::sleep(Duration::from_millis(33));
             }
@@ -299,4 +329,31 @@ fn without_its_token_it_says_which_address_is_needed() {
         .browser
         .evaluate("document.getElementById('frame').width");
     assert_eq!(seen, json!(4));
+}
+
+#[test]
+fn predictions_stand_over_the_picture_named_as_such_and_say_when_it_is_unlike_the_training() {
+    let Some(mut opened) = Opened::showing(Opened::predict) else {
+        return;
+    };
+    opened.until("!document.getElementById('predicted').hidden");
+    opened.until("document.getElementById('values').innerText.includes('1.25 N')");
+    let values = opened.text("values");
+    for text in ["Fz1.25 N", "Pz0.412 mm", "<b>µ</b>-2.000"] {
+        assert!(values.contains(text), "{values}");
+    }
+    opened.until("document.getElementById('by').textContent.includes('not measured')");
+    assert_eq!(
+        opened.text("by"),
+        "predicted by ridge sha256:0123456789ab (presses.taceva), not measured"
+    );
+    opened.until("!document.getElementById('outside').hidden");
+    opened.shot("predicted");
+    opened.until("document.getElementById('outside').hidden");
+    opened.until("document.getElementById('left-out').textContent === '4 of 400'");
+    assert_eq!(opened.text("outside-share"), "25.0 %");
+    // No gauge of a reading shows a prediction.
+    opened.until("document.getElementById('forces').hidden");
+    opened.is_over.store(true, Ordering::Release);
+    opened.assert_quiet();
 }

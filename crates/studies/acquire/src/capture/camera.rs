@@ -9,6 +9,7 @@ use taceva_core::{
 };
 
 use super::device_error;
+use super::predictor::LivePredictor;
 use super::streams::Counts;
 
 /// Frames that wait for whoever records them.
@@ -35,6 +36,8 @@ pub(super) struct Camera<'a> {
     pub(super) driver: &'a DriverKey,
     pub(super) source: DriverSource,
     pub(super) counts: &'a Counts,
+    /// A predictor of frames, if there is one.
+    pub(super) predictor: Option<&'a LivePredictor<'a>>,
 }
 
 impl Camera<'_> {
@@ -58,6 +61,9 @@ impl Camera<'_> {
                 continue;
             };
             last = number;
+            if let Some(predictor) = self.predictor {
+                predictor.offer(&taken.frame, taken.stamp.valid_s, self.source);
+            }
             if !self.put(queue, taken) {
                 return Ok(());
             }

@@ -15,6 +15,7 @@ use taceva_protocol::{RigFile, Setting, SignedAxes};
 
 use super::camera::{Camera, ROOM};
 use super::device_error;
+use super::predictor::LivePredictor;
 use super::streams::{Counts, Streams};
 use super::track::Track;
 use super::transducer::Transducer;
@@ -260,6 +261,7 @@ impl LiveDevices {
     /// Lets `act` take what comes, while threads read the devices; then the devices are stopped. What ended them, if one failed.
     pub(super) fn stream<T>(
         &mut self,
+        predictor: Option<&LivePredictor<'_>>,
         act: impl FnOnce(&Streams<'_>) -> T,
     ) -> (T, Option<DriverError>) {
         let counts = Counts::of(self.sensor.sequence().is_some());
@@ -281,6 +283,7 @@ impl LiveDevices {
             driver: &self.sensor_driver,
             source: self.sensor_source,
             counts: &counts,
+            predictor,
         };
         let force = self.force.as_mut();
         let (counts, track, fail) = (&counts, track.as_ref(), &fail);
@@ -297,7 +300,14 @@ impl LiveDevices {
                     }
                 });
             }
-            let _over = Over(counts, interrupt);
+            if let Some(predictor) = predictor {
+                scope.spawn(move || predictor.run());
+            }
+            let _over = Over {
+                counts,
+                interrupt,
+                predictor,
+            };
             act(&Streams {
                 queue,
                 track,
@@ -315,13 +325,20 @@ impl LiveDevices {
 }
 
 /// Ends the threads, however the one that takes frames ends.
-struct Over<'a>(&'a Counts, Option<Arc<dyn taceva_core::Interrupt>>);
+struct Over<'a> {
+    counts: &'a Counts,
+    interrupt: Option<Arc<dyn taceva_core::Interrupt>>,
+    predictor: Option<&'a LivePredictor<'a>>,
+}
 
 impl Drop for Over<'_> {
     fn drop(&mut self) {
-        self.0.end();
-        if let Some(interrupt) = &self.1 {
+        self.counts.end();
+        if let Some(interrupt) = &self.interrupt {
             interrupt.interrupt();
+        }
+        if let Some(predictor) = self.predictor {
+            predictor.end();
         }
     }
 }

@@ -100,8 +100,11 @@ fn a_transducer_that_says_nothing_ends_it_too() {
     whole(&bench, "out");
 }
 
-/// A camera that sends `first` frames of one size and then another for ever.
-fn changing_camera(first: usize) -> SocketAddr {
+/// A camera that sends a frame every `period`, as wide as its number says.
+pub(crate) fn camera(
+    period: Duration,
+    width: impl Fn(usize) -> u32 + Send + 'static,
+) -> SocketAddr {
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).expect("a port");
     let address = listener.local_addr().expect("an address");
     std::thread::spawn(move || {
@@ -111,7 +114,7 @@ fn changing_camera(first: usize) -> SocketAddr {
             let _ = stream.read(&mut [0; 1024]);
             let _ = stream.write_all(head.as_bytes());
             for number in 0.. {
-                let width: u32 = if number < first { 32 } else { 48 };
+                let width = width(number);
                 let pixels = vec![u8::try_from(number % 200).expect("small"); 24 * width as usize];
                 let mut jpeg = Vec::new();
                 JpegEncoder::new(&mut jpeg)
@@ -125,11 +128,17 @@ fn changing_camera(first: usize) -> SocketAddr {
                 if stream.write_all(&part).is_err() {
                     break;
                 }
-                std::thread::sleep(Duration::from_millis(20));
+                std::thread::sleep(period);
             }
         }
     });
     address
+}
+
+/// A camera that sends `first` frames of one size and then another for ever.
+pub(crate) fn changing_camera(first: usize) -> SocketAddr {
+    let width = move |number| if number < first { 32 } else { 48 };
+    camera(Duration::from_millis(20), width)
 }
 
 #[test]

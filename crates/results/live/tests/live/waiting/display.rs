@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use taceva_core::{Frame, FrameInfo, Newton, PixelFormat, Wrench};
-use taceva_live::{Limits, PageOperator};
+use taceva_live::{Limits, Overlay, PageOperator, PredictedFrames, PredictedValue};
 use taceva_protocol::{Answer, Cancel, Operator, Question};
 
 use super::support::{Opened, frame, status, until};
@@ -123,4 +123,53 @@ fn the_page_answers_whoever_asks_and_stop_answers_for_it() {
         asking.join().expect("no panic")
     });
     assert_eq!(answers, [Answer::Skip, Answer::Stop]);
+}
+
+#[test]
+fn a_prediction_stands_in_the_head_of_its_picture_and_is_sent_once_however_many_look() {
+    let opened = Opened::new();
+    let (sender, sent) = std::sync::mpsc::channel();
+    opened.live.on_sent(move |stamp_s| {
+        let _ = sender.send(stamp_s);
+    });
+    opened.live.predictor("ridge sha256:0123 (m.taceva)");
+    opened
+        .live
+        .predicted_frames(PredictedFrames::new(30, 2, Some(3)));
+    let mut events = opened.stream("/events");
+    let said = until(
+        &mut events,
+        "\"predicted\":{\"seen\":30,\"dropped\":2,\"outside\":3}",
+    );
+    assert!(
+        said.contains("\"predicted_by\":\"ridge sha256:0123 (m.taceva)\""),
+        "{said}"
+    );
+    let mut looking = [opened.stream("/frames"), opened.stream("/frames")];
+    let values = vec![
+        PredictedValue::new("Fz", 1.25, "N"),
+        PredictedValue::new("Pz", 0.4, "mm"),
+    ];
+    let overlay = Overlay::new(7.5, values).with_distance(1.75, true);
+    opened.live.predicted(&frame(90, 16), overlay);
+    for stream in &mut looking {
+        let head = until(stream, "\r\n\r\n");
+        let head = match head.contains("X-Taceva-Prediction") {
+            true => head,
+            false => until(stream, "X-Taceva-Prediction") + &until(stream, "\r\n\r\n"),
+        };
+        let expected = "X-Taceva-Prediction: {\"t_s\":7.5,\"values\":[{\"channel\":\"Fz\",\"value\":1.25,\"unit\":\"N\"},{\"channel\":\"Pz\",\"value\":0.4,\"unit\":\"mm\"}],\"distance\":1.75,\"outside\":true}\r\n";
+        assert!(head.contains(expected), "{head}");
+    }
+    assert_eq!(sent.recv_timeout(Duration::from_secs(5)), Ok(7.5));
+    assert!(
+        sent.recv_timeout(Duration::from_millis(300)).is_err(),
+        "once"
+    );
+    // A picture of which nothing was predicted says nothing.
+    std::thread::sleep(Duration::from_millis(100));
+    opened.live.frame(&frame(91, 16));
+    let head = until(&mut looking[0], "image/jpeg");
+    let head = head + &until(&mut looking[0], "\r\n\r\n");
+    assert!(!head.contains("X-Taceva-Prediction"), "{head}");
 }

@@ -1,0 +1,48 @@
+//! Predictions that a model made while a recording was made.
+
+use serde::{Deserialize, Serialize};
+
+use crate::digest::Digest;
+
+/// Predictions of a model beside a recording, in `predictions.csv`: made while frames were taken, and no labels.
+///
+/// ```
+/// use taceva_dataset::{Digest, LivePredictions};
+///
+/// let model = Digest::of(b"a model file");
+/// let predictions = LivePredictions::new("ridge", model, b"sample,t_s,distance,Fz\nframe-000001,0.5,0.2,1.25\n");
+/// assert_eq!(predictions.rows, 1);
+/// assert!(predictions.to_string().starts_with("predictions by ridge sha256:"));
+/// ```
+#[non_exhaustive]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct LivePredictions {
+    /// The name of the model.
+    pub by: String,
+    /// The digest of its file.
+    pub model: Digest,
+    /// Samples that were predicted.
+    pub rows: u64,
+    /// The digest of the table of predictions.
+    pub sha256: Digest,
+}
+
+impl LivePredictions {
+    /// Predictions in `table`, a line of names and a line a sample, by the model called `by` whose file has the digest `model`.
+    pub fn new(by: impl Into<String>, model: Digest, table: &[u8]) -> LivePredictions {
+        let lines = table.iter().filter(|byte| **byte == b'\n').count() as u64;
+        LivePredictions {
+            by: by.into(),
+            model,
+            rows: lines.saturating_sub(1),
+            sha256: Digest::of(table),
+        }
+    }
+}
+
+/// `predictions by ridge sha256:…`.
+impl std::fmt::Display for LivePredictions {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "predictions by {} {}", self.by, self.model)
+    }
+}

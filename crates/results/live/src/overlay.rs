@@ -1,0 +1,116 @@
+//! Predictions of a picture, written over it.
+
+use std::fmt::Write as _;
+
+use serde::Serialize;
+
+/// Predictions of a frame, shown over its picture and named as predictions.
+///
+/// ```
+/// use taceva_live::{Overlay, PredictedValue};
+///
+/// let overlay = Overlay::new(12.5, vec![PredictedValue::new("Fz", 1.25, "N")]).with_distance(0.4, false);
+/// assert_eq!(overlay.outside, Some(false));
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Overlay {
+    /// When the frame was true, in s of the clock that stamps frames.
+    #[serde(rename = "t_s")]
+    pub stamp_s: f64,
+    /// The value of each channel.
+    pub values: Vec<PredictedValue>,
+    /// Distance of the picture from what the model has seen, 1 at the limit; `None` where the model does not know.
+    pub distance: Option<f64>,
+    /// True outside what the model has seen; likewise.
+    pub outside: Option<bool>,
+}
+
+/// A predicted number with its unit.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct PredictedValue {
+    /// The channel, such as `Fz`.
+    pub channel: String,
+    /// The number.
+    pub value: f64,
+    /// The symbol of its unit, such as `N`.
+    pub unit: String,
+}
+
+impl PredictedValue {
+    /// A number of `channel` in `unit`.
+    pub fn new(channel: &str, value: f64, unit: &str) -> PredictedValue {
+        PredictedValue {
+            channel: channel.to_owned(),
+            value,
+            unit: unit.to_owned(),
+        }
+    }
+}
+
+impl Overlay {
+    /// Predictions of a frame that was true at `stamp_s`, in s, by a model that does not know what it has seen.
+    pub fn new(stamp_s: f64, values: Vec<PredictedValue>) -> Overlay {
+        Overlay {
+            stamp_s,
+            values,
+            distance: None,
+            outside: None,
+        }
+    }
+
+    /// The same at `distance` from what the model has seen.
+    #[must_use]
+    pub fn with_distance(self, distance: f64, outside: bool) -> Overlay {
+        Overlay {
+            distance: Some(distance),
+            outside: Some(outside),
+            ..self
+        }
+    }
+
+    /// As the value of a header: JSON of ASCII alone, since browsers read headers as Latin-1.
+    pub(crate) fn header(&self) -> String {
+        let json = serde_json::to_string(self).unwrap_or_default();
+        let mut header = String::with_capacity(json.len());
+        for letter in json.chars() {
+            match letter.is_ascii() {
+                true => header.push(letter),
+                false => {
+                    let mut units = [0; 2];
+                    for unit in letter.encode_utf16(&mut units) {
+                        let _ = write!(header, "\\u{unit:04x}");
+                    }
+                }
+            }
+        }
+        header
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_header_is_one_line_of_ascii_that_says_the_same_whatever_a_channel_is_called() {
+        for name in [
+            "Fz",
+            "Kraft µ\u{1F600}",
+            "a\r\nSet-Cookie: b",
+            "\"}",
+            "\u{7f}",
+        ] {
+            let values = vec![PredictedValue::new(name, -0.5, "N")];
+            let header = Overlay::new(1.0, values).with_distance(1.5, true).header();
+            assert!(
+                header.bytes().all(|byte| (b' '..=0x7f).contains(&byte)),
+                "{header}"
+            );
+            let read: serde_json::Value = serde_json::from_str(&header).expect("JSON");
+            assert_eq!(read["values"][0]["channel"], name);
+            assert_eq!(read["outside"], true);
+        }
+    }
+}

@@ -1,0 +1,115 @@
+//! A fitted model that is to predict what a camera shows.
+
+use std::path::{Path, PathBuf};
+
+use taceva_core::{Channels, Frame, FrameInfo, InputInfo};
+use taceva_dataset::Digest;
+use taceva_models::{Extractor, Model};
+
+use crate::error::AcquireError;
+
+/// A fitted model with its file, which a [`LivePredictor`](crate::LivePredictor) predicts by.
+#[derive(Clone, Debug)]
+pub struct LiveModel {
+    model: Model,
+    path: PathBuf,
+    digest: Digest,
+}
+
+impl LiveModel {
+    /// The model that was read from `path`, for frames of a camera.
+    ///
+    /// # Errors
+    /// [`AcquireError::Model`] if it takes no frames, or predicts the same whatever is seen.
+    pub fn new(model: Model, path: &Path) -> Result<LiveModel, AcquireError> {
+        let refused = |problem: String| AcquireError::Model {
+            path: path.to_owned(),
+            problem,
+        };
+        if !model.reads_features() {
+            return Err(refused(format!(
+                "{} predicts the same whatever is seen: nothing could be shown of a picture; fit another, such as --model ridge",
+                model.card().model
+            )));
+        }
+        if let InputInfo::Signals(info) = model.card().input {
+            return Err(refused(format!(
+                "it was fitted on signals of taxels, {info}, and a camera gives frames; fit one on a recording with frames"
+            )));
+        }
+        let digest = model.digest().map_err(|error| refused(error.to_string()))?;
+        let digest = digest
+            .parse()
+            .map_err(|_| refused(format!("the digest {digest}")))?;
+        Ok(LiveModel {
+            model,
+            path: path.to_owned(),
+            digest,
+        })
+    }
+
+    /// The name of the model, such as `ridge`.
+    pub fn name(&self) -> &str {
+        &self.model.card().model
+    }
+
+    /// The digest of its file.
+    pub fn digest(&self) -> Digest {
+        self.digest
+    }
+
+    /// The file.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The channels that it predicts.
+    pub fn channels(&self) -> &Channels {
+        self.model.channels()
+    }
+
+    /// True if it knows how far a frame lies from what it has seen.
+    pub fn knows_distance(&self) -> bool {
+        self.model.feature_distance().is_some()
+    }
+
+    /// True if it needs a frame without contact, which is taken first.
+    pub fn asks_for_reference(&self) -> bool {
+        self.model.card().features.asks_for_reference().is_some()
+    }
+
+    /// Refuses frames of another size or format than those it was fitted on.
+    ///
+    /// # Errors
+    /// [`AcquireError::Model`] with both.
+    pub fn check(&self, found: FrameInfo) -> Result<(), AcquireError> {
+        match self.model.card().input {
+            InputInfo::Frame(expected) if expected != found => Err(self.refused(format!(
+                "it was fitted on frames of {expected} and the camera gives {found}: set the camera as it was then, or fit a model on a recording of this one"
+            ))),
+            _ => Ok(()),
+        }
+    }
+
+    /// The extractor of its features from frames.
+    pub(super) fn extractor(
+        &self,
+        info: FrameInfo,
+        reference: Option<&Frame>,
+    ) -> Result<Extractor, AcquireError> {
+        self.check(info)?;
+        let extractor = self.model.extractor(info, reference.map(Into::into));
+        extractor.map_err(|error| self.refused(error.to_string()))
+    }
+
+    pub(super) fn model(&self) -> &Model {
+        &self.model
+    }
+
+    pub(super) fn refused(&self, problem: String) -> AcquireError {
+        AcquireError::Model {
+            path: self.path.clone(),
+            problem,
+        }
+    }
+}

@@ -1,0 +1,164 @@
+//! Predictions of a fitted model while a camera runs: over the picture of a page, on the terminal, and summed up at the end.
+
+use std::path::Path;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use taceva_acquire::{Latencies, LiveModel, Prediction, PredictionTally};
+use taceva_core::{Channel, Frame, Unit, shown};
+use taceva_drivers::MonotonicClock;
+use taceva_live::{Live, Overlay, PredictedFrames, PredictedValue};
+
+use super::Context;
+
+/// The time after their stamps within which most pictures are to be shown, in ms.
+const SOON_MS: usize = 100;
+/// Most, as a share.
+const MOST: f64 = 0.95;
+
+/// Reads the model at `path`, before any device is opened for it.
+pub(super) fn read_model(path: &Path, context: &Context) -> anyhow::Result<LiveModel> {
+    Ok(LiveModel::new(context.models()?.open(path)?, path)?)
+}
+
+/// Predictions on a page and on the terminal.
+pub(super) struct LivePredictions<'a> {
+    model: &'a LiveModel,
+    page: Live,
+    /// The newest prediction in words.
+    latest: Mutex<String>,
+    /// From the stamps of frames until their pictures went to a browser.
+    sent: Arc<Mutex<Latencies>>,
+}
+
+impl<'a> LivePredictions<'a> {
+    /// Predictions of `model` on `page`, which is told whose they are.
+    pub(super) fn new(model: &'a LiveModel, page: Live, context: &Context) -> LivePredictions<'a> {
+        let words = by(model);
+        page.predictor(&words);
+        let sent: Arc<Mutex<Latencies>> = Arc::default();
+        let heard = Arc::clone(&sent);
+        page.on_sent(move |stamp_s| {
+            lock(&heard).add(MonotonicClock.now_s() - stamp_s);
+        });
+        context.say(format_args!(
+            "predictions, not measurements, are by {words}"
+        ));
+        if !model.knows_distance() {
+            context.say(format_args!(
+                "{} does not know what it has seen (fitted by an earlier TacEva, or on fewer than 20 samples): pictures unlike those are not named; fit it anew",
+                shown(model.path())
+            ));
+        }
+        LivePredictions {
+            model,
+            page,
+            latest: Mutex::default(),
+            sent,
+        }
+    }
+
+    /// Shows a prediction.
+    pub(super) fn show(&self, frame: &Frame, prediction: &Prediction, tally: &PredictionTally) {
+        let channels = self.model.channels().iter().zip(&prediction.values);
+        let values = channels.clone().map(|(channel, value)| {
+            PredictedValue::new(channel.name(), *value, channel.unit().symbol())
+        });
+        let overlay = Overlay::new(prediction.stamp_s, values.collect());
+        let overlay = match (prediction.distance, prediction.is_outside()) {
+            (Some(distance), Some(outside)) => overlay.with_distance(distance, outside),
+            _ => overlay,
+        };
+        self.page.predicted(frame, overlay);
+        let frames = PredictedFrames::new(tally.seen, tally.dropped, tally.outside);
+        self.page.predicted_frames(frames);
+        *lock(&self.latest) = in_words(channels, prediction);
+    }
+
+    /// The newest prediction: `predicted Fz 1.25 N, Pz 0.412 mm`.
+    pub(super) fn line(&self) -> String {
+        lock(&self.latest).clone()
+    }
+
+    /// Says what became of the frames, however the work ended.
+    pub(super) fn summarise(&self, tally: &PredictionTally, context: &Context) {
+        for line in summary(self.model, tally, &lock(&self.sent)) {
+            context.say(format_args!("{line}"));
+        }
+    }
+}
+
+/// `ridge sha256:0123456789ab (presses.taceva)`.
+fn by(model: &LiveModel) -> String {
+    let digest = model.digest().to_string();
+    let short = digest.get(..19).unwrap_or(&digest);
+    format!("{} {short} ({})", model.name(), shown(model.path()))
+}
+
+fn in_words<'c>(
+    channels: impl Iterator<Item = (&'c Channel, &'c f64)>,
+    prediction: &Prediction,
+) -> String {
+    let values: Vec<String> = channels
+        .map(|(channel, value)| {
+            let name = shown(channel.name());
+            match channel.unit() {
+                Unit::Newton => format!("{name} {value:.2} N"),
+                Unit::One => format!("{name} {value:.3}"),
+                unit => format!("{name} {value:.3} {unit}"),
+            }
+        })
+        .collect();
+    let outside = match (prediction.is_outside(), prediction.distance) {
+        (Some(true), Some(distance)) => {
+            format!(", outside what the model has seen: distance {distance:.1}, limit 1")
+        }
+        _ => String::new(),
+    };
+    format!("predicted {}{outside}", values.join(", "))
+}
+
+fn summary(model: &LiveModel, tally: &PredictionTally, sent: &Latencies) -> Vec<String> {
+    let mut lines = vec![format!(
+        "predictions by {}: {} frames seen, {} shown, {} dropped for newer ones",
+        by(model),
+        tally.seen,
+        tally.predicted,
+        tally.dropped
+    )];
+    if tally.latencies.count() > 0 {
+        lines.push(format!("predicted {}", soon(&tally.latencies)));
+    }
+    match sent.count() {
+        0 => lines.push("no picture went to a browser".to_owned()),
+        count => lines.push(format!(
+            "{count} pictures went to a browser, {}",
+            soon(sent)
+        )),
+    }
+    #[expect(clippy::cast_precision_loss, reason = "counts, for people to read")]
+    let share = |outside: u64| 100.0 * outside as f64 / tally.predicted.max(1) as f64;
+    lines.push(match tally.outside {
+        Some(outside) => format!(
+            "{outside} of {} ({:.1} %) lay outside what the model has seen",
+            tally.predicted,
+            share(outside)
+        ),
+        None => "how many lay outside what the model has seen is not known".to_owned(),
+    });
+    lines
+}
+
+/// `95 % within 43 ms of their stamps, 99.8 % within 100 ms`.
+fn soon(latencies: &Latencies) -> String {
+    let within = latencies.within_ms(MOST);
+    let within = within.map_or_else(|| "2 s or longer".to_owned(), |ms| format!("{ms} ms"));
+    let share = 100.0 * latencies.share_within(SOON_MS).unwrap_or_default();
+    format!(
+        "{:.0} % within {within} of their stamps, {share:.1} % within {SOON_MS} ms",
+        100.0 * MOST
+    )
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}

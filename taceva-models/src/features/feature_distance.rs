@@ -1,0 +1,344 @@
+//! The distance of a sample from those of the training part.
+
+use taceva_core::{FeatureShape, Features, ModelError, Progress};
+
+use super::pca::Pca;
+use crate::linalg::invalid;
+
+/// Training samples that are looked at, evenly over the part.
+const SAMPLES_MOST: usize = 256;
+/// Training samples below which no distance is known: the limit would be that of a handful.
+const SAMPLES_LEAST: usize = 20;
+/// Blocks of neighbouring samples that are held out in turn where there are no groups.
+const BLOCKS: usize = 8;
+/// Directions at most.
+const DIRECTIONS_MOST: usize = 16;
+/// Samples that a direction is estimated from, at least.
+const SAMPLES_PER_DIRECTION: usize = 4;
+/// Rows and columns of cells at most: finer pictures are averaged first.
+const SIDE_MOST: usize = 32;
+/// The share of held-out training samples within the limit.
+const WITHIN: f64 = 0.99;
+/// The least limit beside the directions, as a share of the spread of the features: rounding is no novelty.
+const ROUNDING: f64 = 1e-5;
+
+/// Distance of features from those of a training part, in units of the limit that 99 of 100 held-out training samples keep.
+///
+/// The part spans some directions, its leading principal components. One number says how far a sample goes along them, in standard
+/// deviations of the part (Hotelling's T); another, how far it lies beside them (the root of Q, the residual). Each is divided by its limit, and
+/// the greater one is the distance. Limits are quantiles over samples of contact points, or of blocks, that the directions were found without.
+///
+/// ```
+/// use taceva_core::{FeatureShape, Features, SilentProgress};
+/// use taceva_models::FeatureDistance;
+///
+/// // Two numbers that rise together, and a third that never changes.
+/// let rows = (0..60).flat_map(|row| { let at = (row % 10) as f32; [at, 2.0 * at, 5.0] });
+/// let training = Features::new(FeatureShape::flat(3), rows.collect())?;
+/// let distance = FeatureDistance::fit(&training, None, &SilentProgress)?.expect("enough samples");
+/// assert!(!FeatureDistance::is_outside(distance.of(&[4.5, 9.0, 5.0])?));
+/// assert!(FeatureDistance::is_outside(distance.of(&[40.0, 80.0, 5.0])?), "too far along");
+/// assert!(FeatureDistance::is_outside(distance.of(&[4.5, 9.0, 6.0])?), "beside");
+/// # Ok::<(), taceva_core::ModelError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct FeatureDistance {
+    /// The shape of a sample, before cells are averaged.
+    pub(crate) shape: FeatureShape,
+    /// The mean of each averaged feature.
+    pub(crate) mean: Vec<f64>,
+    /// Orthonormal directions, one after the other, in single precision: half the file.
+    pub(crate) directions: Vec<f32>,
+    /// The standard deviation along each.
+    pub(crate) deviations: Vec<f64>,
+    /// The limits that divide the two numbers.
+    pub(crate) limits: DistanceLimits,
+}
+
+/// Limits of the two numbers behind a distance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct DistanceLimits {
+    /// Along the directions, in standard deviations of the part.
+    pub(crate) along: f64,
+    /// Beside them, in units of the features.
+    pub(crate) beside: f64,
+}
+
+impl FeatureDistance {
+    /// The distance from `training`; `None` where that has fewer than 20 samples, or all of them are the same.
+    ///
+    /// `groups` is a number a sample: samples of a group are held out together. Without it blocks of neighbouring samples are.
+    ///
+    /// # Errors
+    /// [`ModelError`] if a feature is not finite, there is not one group a sample, or `progress` was cancelled.
+    pub fn fit(
+        training: &Features,
+        groups: Option<&[u32]>,
+        progress: &dyn Progress,
+    ) -> Result<Option<FeatureDistance>, ModelError> {
+        let samples = training.samples();
+        if let Some(groups) = groups.filter(|groups| groups.len() != samples) {
+            return Err(invalid(format!(
+                "{} groups for {samples} samples",
+                groups.len()
+            )));
+        }
+        if samples < SAMPLES_LEAST || training.shape().is_empty() {
+            return Ok(None);
+        }
+        let count = samples.min(SAMPLES_MOST);
+        let chosen: Vec<usize> = (0..count).map(|place| place * samples / count).collect();
+        let seen = averaged(training.shape(), &training.select(&chosen))?;
+        let halves = halves(&chosen, groups);
+        let mut apart = Vec::with_capacity(count);
+        for [learnt, held] in [[0, 1], [1, 0]] {
+            let Some(half) = Span::of(&seen.select(&halves[learnt]), progress)? else {
+                return Ok(None);
+            };
+            let held = halves[held].iter();
+            apart.extend(held.map(|&sample| half.apart(seen.sample(sample))));
+        }
+        let Some(whole) = Span::of(&seen, progress)? else {
+            return Ok(None);
+        };
+        let limits = DistanceLimits::of(&apart, whole.spread);
+        Ok(Some(FeatureDistance {
+            shape: training.shape(),
+            mean: whole.mean,
+            directions: whole.directions,
+            deviations: whole.deviations,
+            limits,
+        }))
+    }
+
+    /// The distance of one sample: 0 in the middle of the training part, 1 at its limit.
+    ///
+    /// # Errors
+    /// [`ModelError`] if there are more or fewer features.
+    pub fn of(&self, sample: &[f32]) -> Result<f64, ModelError> {
+        if sample.len() != self.shape.len() {
+            return Err(invalid(format!(
+                "{} features for a distance of {}",
+                sample.len(),
+                self.shape.len()
+            )));
+        }
+        let mut cells = Vec::with_capacity(self.mean.len());
+        average(self.shape, sample, &mut cells);
+        let apart = apart(&self.mean, &self.directions, &self.deviations, &cells);
+        Ok(self.limits.distance(apart))
+    }
+
+    /// The distance of every sample of `features`.
+    ///
+    /// # Errors
+    /// As [`of`](FeatureDistance::of).
+    pub fn of_all(&self, features: &Features) -> Result<Vec<f64>, ModelError> {
+        let samples = 0..features.samples();
+        samples
+            .map(|sample| self.of(features.sample(sample)))
+            .collect()
+    }
+
+    /// The shape of a sample.
+    pub fn shape(&self) -> FeatureShape {
+        self.shape
+    }
+
+    /// True if a sample at `distance` lies outside what was seen; one that is not a number does.
+    pub fn is_outside(distance: f64) -> bool {
+        distance.is_nan() || distance > 1.0
+    }
+
+    /// Length of the mean, and of each direction, for samples of `shape`.
+    pub(crate) fn width_of(shape: FeatureShape) -> usize {
+        let [rows, columns] = steps(shape);
+        shape.height.div_ceil(rows) * shape.width.div_ceil(columns) * shape.depth
+    }
+}
+
+/// The way of a sample along the directions of a part, and beside them.
+#[derive(Clone, Copy, Debug)]
+struct Apart {
+    along: f64,
+    beside: f64,
+}
+
+impl DistanceLimits {
+    /// Limits that 99 of 100 of `apart` keep, of features that spread as much as `spread`.
+    fn of(apart: &[Apart], spread: f64) -> DistanceLimits {
+        let along = apart.iter().map(|apart| apart.along);
+        let beside = apart.iter().map(|apart| apart.beside);
+        let limits = DistanceLimits {
+            along: quantile(along.collect()).max(1.0),
+            beside: quantile(beside.collect()).max(ROUNDING * spread),
+        };
+        // Either of two limits is passed more often than one of them.
+        let both = apart.iter().map(|apart| limits.distance(*apart));
+        let both = quantile(both.collect()).max(1.0);
+        DistanceLimits {
+            along: limits.along * both,
+            beside: limits.beside * both,
+        }
+    }
+
+    fn distance(&self, apart: Apart) -> f64 {
+        let [along, beside] = [apart.along / self.along, apart.beside / self.beside];
+        // A maximum would pass over what is not a number.
+        match along.is_nan() || beside.is_nan() {
+            true => f64::NAN,
+            false => along.max(beside),
+        }
+    }
+}
+
+/// The directions in which some samples vary.
+struct Span {
+    mean: Vec<f64>,
+    directions: Vec<f32>,
+    deviations: Vec<f64>,
+    /// The root mean square of the features about their mean.
+    spread: f64,
+}
+
+impl Span {
+    /// The span of `seen`; `None` where nothing varies.
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "directions are kept in single precision"
+    )]
+    fn of(seen: &Features, progress: &dyn Progress) -> Result<Option<Span>, ModelError> {
+        let most = (seen.samples() / SAMPLES_PER_DIRECTION).clamp(1, DIRECTIONS_MOST);
+        let pca = Pca::up_to(most, seen, progress)?;
+        if pca.variance_ratio().is_empty() {
+            return Ok(None);
+        }
+        let mut span = Span {
+            mean: pca.mean().to_vec(),
+            directions: pca.components().flatten().map(|of| *of as f32).collect(),
+            deviations: vec![1.0; pca.variance_ratio().len()],
+            spread: 0.0,
+        };
+        let width = span.mean.len();
+        let count = seen.samples() as f64;
+        let mut squares = vec![0.0; span.deviations.len()];
+        for sample in 0..seen.samples() {
+            let mut centred = centred(&span.mean, seen.sample(sample));
+            let square: f64 = centred.iter().map(|value| value * value).sum();
+            span.spread += square / (count * width as f64);
+            for (square, direction) in squares.iter_mut().zip(span.directions.chunks_exact(width)) {
+                *square += take_along(&mut centred, direction).powi(2) / count;
+            }
+        }
+        span.spread = span.spread.sqrt();
+        span.deviations = squares.into_iter().map(f64::sqrt).collect();
+        Ok(Some(span))
+    }
+
+    fn apart(&self, cells: &[f32]) -> Apart {
+        apart(&self.mean, &self.directions, &self.deviations, cells)
+    }
+}
+
+fn apart(mean: &[f64], directions: &[f32], deviations: &[f64], cells: &[f32]) -> Apart {
+    let mut centred = centred(mean, cells);
+    let width = mean.len();
+    let mut along = 0.0;
+    for (direction, deviation) in directions.chunks_exact(width).zip(deviations) {
+        along += (take_along(&mut centred, direction) / deviation).powi(2);
+    }
+    let beside: f64 = centred.iter().map(|value| value * value).sum();
+    Apart {
+        along: (along / deviations.len() as f64).sqrt(),
+        beside: (beside / width as f64).sqrt(),
+    }
+}
+
+fn centred(mean: &[f64], cells: &[f32]) -> Vec<f64> {
+    let pairs = cells.iter().zip(mean);
+    pairs.map(|(cell, mean)| f64::from(*cell) - mean).collect()
+}
+
+/// Takes off `centred` its way along a direction, and gives that.
+fn take_along(centred: &mut [f64], direction: &[f32]) -> f64 {
+    let pairs = centred.iter().zip(direction);
+    let along: f64 = pairs.map(|(value, of)| value * f64::from(*of)).sum();
+    let pairs = centred.iter_mut().zip(direction);
+    pairs.for_each(|(value, of)| *value -= along * f64::from(*of));
+    along
+}
+
+/// Samples in two halves, by their group, or by blocks where there are no two groups.
+fn halves(chosen: &[usize], groups: Option<&[u32]>) -> [Vec<usize>; 2] {
+    let second = |is_second: &dyn Fn(usize) -> bool| -> [Vec<usize>; 2] {
+        let (second, first) = (0..chosen.len()).partition(|&place| is_second(place));
+        [first, second]
+    };
+    let least = chosen.len() / 4;
+    let by_group = groups.map(|groups| second(&|place| groups[chosen[place]] % 2 == 1));
+    by_group
+        .filter(|halves| halves.iter().all(|half| half.len() >= least))
+        .unwrap_or_else(|| second(&|place| place * BLOCKS / chosen.len() % 2 == 1))
+}
+
+/// The value that 99 of 100 of some keep.
+fn quantile(mut values: Vec<f64>) -> f64 {
+    values.sort_unstable_by(f64::total_cmp);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a place among at most 256"
+    )]
+    let rank = (values.len() as f64 * WITHIN).ceil() as usize;
+    values[rank.clamp(1, values.len()) - 1]
+}
+
+/// Rows and columns of cells that become one; the numbers of a flat list are no neighbours.
+fn steps(shape: FeatureShape) -> [usize; 2] {
+    match shape.height {
+        1 => [1, 1],
+        _ => [shape.height, shape.width].map(|side| side.div_ceil(SIDE_MOST).max(1)),
+    }
+}
+
+/// Samples whose cells are averaged, as flat lists.
+fn averaged(shape: FeatureShape, features: &Features) -> Result<Features, ModelError> {
+    let width = FeatureDistance::width_of(shape);
+    let mut values = Vec::with_capacity(width * features.samples());
+    for sample in 0..features.samples() {
+        average(shape, features.sample(sample), &mut values);
+    }
+    Features::new(FeatureShape::flat(width), values)
+}
+
+/// Appends the means over blocks of cells; a flat list, and what is small enough, stays as it is.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "features are kept in single precision"
+)]
+fn average(shape: FeatureShape, sample: &[f32], into: &mut Vec<f32>) {
+    let FeatureShape {
+        height,
+        width,
+        depth,
+    } = shape;
+    let [rows, columns] = steps(shape);
+    if rows == 1 && columns == 1 {
+        into.extend_from_slice(sample);
+        return;
+    }
+    for top in (0..height).step_by(rows) {
+        let bottom = (top + rows).min(height);
+        for left in (0..width).step_by(columns) {
+            let right = (left + columns).min(width);
+            let count = ((bottom - top) * (right - left)) as f64;
+            for channel in 0..depth {
+                let cells = (top..bottom).flat_map(|y| (left..right).map(move |x| y * width + x));
+                let sum: f64 = cells
+                    .map(|at| f64::from(sample[at * depth + channel]))
+                    .sum();
+                into.push((sum / count) as f32);
+            }
+        }
+    }
+}

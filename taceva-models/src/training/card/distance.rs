@@ -1,0 +1,30 @@
+//! The limits of the distance from the training part.
+
+use serde::{Deserialize, Serialize};
+
+use crate::features::FeatureDistance;
+
+/// The limits beyond which a sample lies outside what a model has seen; see [`FeatureDistance`].
+///
+/// ```
+/// let text = r#"{"along": 2.1, "beside": 0.015}"#;
+/// let card: taceva_models::DistanceCard = serde_json::from_str(text)?;
+/// assert_eq!(card.along, 2.1);
+/// # Ok::<(), serde_json::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct DistanceCard {
+    /// Along the directions of the training part, in its standard deviations.
+    pub along: f64,
+    /// Beside them, in units of the features.
+    pub beside: f64,
+}
+
+impl DistanceCard {
+    pub(crate) fn of(distance: &FeatureDistance) -> DistanceCard {
+        DistanceCard {
+            along: distance.limits.along,
+            beside: distance.limits.beside,
+        }
+    }
+}
