@@ -184,6 +184,23 @@ impl ArrayFile {
             .collect()
     }
 
+    /// Arrays and tables of the file that are not read, each with the reason.
+    ///
+    /// ```no_run
+    /// # fn of(file: &taceva_arrays::ArrayFile) {
+    /// for (array, reason) in file.unread_arrays() {
+    ///     println!("{array}: {reason}");
+    /// }
+    /// # }
+    /// ```
+    #[must_use]
+    pub fn unread_arrays(&self) -> Vec<(String, String)> {
+        let refused = self.store.refused().iter();
+        refused
+            .map(|(array, reason)| (array.clone(), reason.to_string()))
+            .collect()
+    }
+
     /// Checks that no link that leads nowhere is as `pattern`, or above what is, so that [`groups`](ArrayFile::groups) leaves none out.
     ///
     /// ```no_run
@@ -293,7 +310,7 @@ impl ArrayFile {
         let name = name.trim_start_matches('/');
         let is_of = |array: &str| {
             let rest = name.strip_prefix(array.trim_start_matches('/'));
-            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '/']))
         };
         if let Some((_, reason)) = self.store.refused().iter().find(|(array, _)| is_of(array)) {
             return reason.again();
@@ -334,7 +351,9 @@ fn open(path: &Path, format: ArrayFormat) -> Result<Box<dyn Store>, Problem> {
         ArrayFormat::Pickle => Ok(Box::new(Pickle::open(Arc::new(FileBytes::open(path)?), 0)?)),
         ArrayFormat::Zarr => Ok(Box::new(Zarr::open(path)?)),
         #[cfg(feature = "hdf5")]
-        ArrayFormat::Hdf5 => Ok(Box::new(crate::hdf5::Hdf5::open(FileBytes::open(path)?)?)),
+        ArrayFormat::Hdf5 => Ok(crate::hdf5::store(crate::hdf5::Hdf5::open(
+            FileBytes::open(path)?,
+        )?)),
         #[cfg(not(feature = "hdf5"))]
         ArrayFormat::Hdf5 => Err(Problem::unsupported(
             "HDF5, which this program was built without",

@@ -1,35 +1,41 @@
 //! HDF5, by the crate `hdf5-pure`: its structures, chunks and filters. What lies in one piece, and variable-length values, are read here.
 
 mod attribute;
+mod chunk_index;
+mod data_frame;
 mod element;
 mod element_type;
 mod heap;
 mod layout_version;
 mod link;
 mod lookup3;
+mod patched_file;
 mod soft_links;
 mod structures;
 mod tree;
+mod unpacked_sizes;
 mod writer;
 
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use hdf5_pure::{
-    ChunkCacheConfig, Dataset, DatasetAccessProperties, File, FormatError, Layout, Source,
-};
+use hdf5_pure::{ChunkCacheConfig, Dataset, DatasetAccessProperties, File, FormatError, Layout};
 
 use crate::cache::Cache;
 use crate::error::Problem;
 use crate::fields::{Field, Item};
 use crate::limits;
 use crate::source::{ByteSource, FileBytes, bytes_of};
-use crate::store::{Arrays, Store, chunks_of};
+use crate::store::{Arrays, Store};
 use crate::values::ArrayData;
 
+use chunk_index::ChunkIndex;
 use heap::GlobalHeap;
-use soft_links::{LONGEST_PATCH, Patches};
+use patched_file::PatchedFile;
+use soft_links::Patches;
+use unpacked_sizes::UnpackedSizes;
 
+pub(crate) use data_frame::store;
 pub use element_type::WrittenElement;
 pub use writer::Hdf5Writer;
 
@@ -46,6 +52,7 @@ pub(crate) struct Hdf5 {
     /// For each array that is listed, which dataset and which field of it.
     listed: Vec<(usize, usize)>,
     open: Mutex<Cache<usize, Opened>>,
+    unpacked: UnpackedSizes,
     heap: GlobalHeap,
 }
 
@@ -71,7 +78,7 @@ impl Hdf5 {
     pub(crate) fn open(bytes: FileBytes) -> Result<Hdf5, Problem> {
         let bytes = Arc::new(bytes);
         let open = |patches| {
-            let shared = Shared {
+            let shared = PatchedFile {
                 bytes: Arc::clone(&bytes),
                 patches,
             };
@@ -115,6 +122,7 @@ impl Hdf5 {
             nowhere,
             listed,
             open: Mutex::new(Cache::new(limits::HELD_BYTES)),
+            unpacked: UnpackedSizes::default(),
             file,
         })
     }
@@ -124,15 +132,15 @@ impl Hdf5 {
         if let Some(opened) = open.get(&index) {
             return Ok(opened);
         }
-        let listed = &self.datasets[index];
-        let (opened, held_bytes) = self.open_dataset(listed)?;
+        let (opened, held_bytes) = self.open_dataset(index)?;
         let opened = Arc::new(opened);
         open.keep(index, held_bytes, Arc::clone(&opened));
         Ok(opened)
     }
 
     /// The dataset, and how many bytes of its chunks are held.
-    fn open_dataset(&self, listed: &Listed) -> Result<(Opened, u64), Problem> {
+    fn open_dataset(&self, index: usize) -> Result<(Opened, u64), Problem> {
+        let listed = &self.datasets[index];
         let dataset = self.file.dataset(&listed.path).map_err(problem)?;
         let item_bytes = listed.item.bytes as u64;
         match dataset.layout().map_err(problem)? {
@@ -169,6 +177,9 @@ impl Hdf5 {
                         limits::CHUNK_BYTES,
                     )
                 })?;
+                let chunks = ChunkIndex::read(&dataset, &listed.shape, &chunk_shape)?;
+                let written = chunks.map_or(0, |chunks| chunks.written);
+                self.take_unpacked(index, written.saturating_mul(chunk_bytes))?;
                 // Rows that are read one by one find the chunks that they share.
                 let rows_of_chunk = chunk_shape.first().copied().unwrap_or(1);
                 let across = rows_of_chunk
@@ -188,8 +199,19 @@ impl Hdf5 {
                 "a virtual dataset, whose elements lie in other files",
                 "copy it into one: `h5repack`, or `f2['x'] = f['x'][:]` in h5py",
             )),
-            _ => Ok((Opened { dataset, at: None }, 0)),
+            _ => {
+                self.take_unpacked(index, 0)?;
+                Ok((Opened { dataset, at: None }, 0))
+            }
         }
+    }
+
+    /// Counts a dataset towards what the file becomes: its chunks once unpacked, and elements that were never written.
+    fn take_unpacked(&self, index: usize, chunks: u64) -> Result<(), Problem> {
+        let listed = &self.datasets[index];
+        let rows = listed.shape.first().copied().unwrap_or(1);
+        let bytes = chunks.max(rows.saturating_mul(listed.row_bytes));
+        self.unpacked.take(index, bytes, self.bytes.length())
     }
 
     /// The bytes of rows as they are stored, filters undone.
@@ -269,10 +291,8 @@ impl Store for Hdf5 {
         match dataset.layout().map_err(problem)? {
             Layout::Contiguous { address: None, .. } => Ok(u64::from(!listed.shape.contains(&0))),
             Layout::Chunked { chunk_shape, .. } => {
-                // One kind of index cannot be listed by the crate.
-                let there = dataset.chunks().map(|chunks| chunks.len() as u64);
-                let all = chunks_of(&listed.shape, &chunk_shape);
-                Ok(there.map_or(0, |there| all.saturating_sub(there)))
+                let chunks = ChunkIndex::read(&dataset, &listed.shape, &chunk_shape)?;
+                Ok(chunks.map_or(0, |chunks| chunks.absent))
             }
             _ => Ok(0),
         }
@@ -306,51 +326,6 @@ impl Store for Hdf5 {
                 Ok(ArrayData { shape, values })
             }
         }
-    }
-}
-
-/// The file as the crate reads it.
-struct Shared {
-    bytes: Arc<FileBytes>,
-    patches: Patches,
-}
-
-impl Source for Shared {
-    fn len(&self) -> u64 {
-        self.bytes.length()
-    }
-
-    fn read_at(&self, offset: u64, buffer: &mut [u8]) -> Result<(), FormatError> {
-        let end = offset.checked_add(buffer.len() as u64);
-        if end.is_none_or(|end| end > self.bytes.length()) {
-            return Err(FormatError::UnexpectedEof {
-                expected: buffer.len(),
-                available: usize::try_from(self.bytes.length().saturating_sub(offset))
-                    .unwrap_or(usize::MAX),
-            });
-        }
-        self.bytes
-            .read_at(offset, buffer)
-            .map_err(|problem| FormatError::Source(problem.to_string()))?;
-        let end = end.unwrap_or(u64::MAX);
-        let first = offset.saturating_sub(LONGEST_PATCH - 1);
-        for (at, patch) in self.patches.range(first..end) {
-            for (at, byte) in (*at..).zip(patch) {
-                let place = at
-                    .checked_sub(offset)
-                    .and_then(|at| usize::try_from(at).ok());
-                if let Some(read) = place.and_then(|place| buffer.get_mut(place)) {
-                    *read = *byte;
-                }
-            }
-        }
-        Ok(())
-    }
-
-    fn read_metadata_at(&self, offset: u64, length: usize) -> Result<Vec<u8>, FormatError> {
-        let mut block = self.read_exact_at(offset, length)?;
-        layout_version::lower(&mut block);
-        Ok(block)
     }
 }
 

@@ -33,7 +33,12 @@ pub(crate) const DIRECTORY_BYTES: u64 = 64 << 20;
 pub(crate) const DEFLATE_RATIO: u64 = 1_032;
 /// Above so many times its size a member is inflated only if it becomes no more than `INFLATED_BYTES`.
 pub(crate) const USUAL_RATIO: u64 = 200;
-/// See `USUAL_RATIO`.
-pub(crate) const INFLATED_BYTES: u64 = 1 << 30;
+/// See `USUAL_RATIO`; what a small file may become, so that none takes 300 MB or 20 s.
+pub(crate) const INFLATED_BYTES: u64 = 128 << 20;
 /// Members and variables that are inflated as a whole and held, all of one file together.
 pub(crate) const HELD_BYTES: u64 = 64 << 20;
+
+/// Bytes that `stored` ones may become once everything is unpacked.
+pub(crate) fn unpacked_bytes(stored: u64) -> u64 {
+    stored.saturating_mul(USUAL_RATIO).max(INFLATED_BYTES)
+}

@@ -1,6 +1,7 @@
 //! Bytes that lie deflated or as they are within a file: members of an archive, variables of MATLAB.
 
 use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use crc32fast::Hasher;
@@ -99,6 +100,8 @@ pub(crate) struct PackedBytes {
     file: Arc<FileBytes>,
     member: Packed,
     is_held: bool,
+    /// True once its header was read: from here on nothing is given that was not summed, or will be at its end.
+    is_listed: AtomicBool,
     read: Mutex<Read>,
 }
 
@@ -126,7 +129,8 @@ impl ByteSource for PackedBytes {
     }
 
     fn read_at(&self, at: u64, into: &mut [u8]) -> Result<(), Problem> {
-        let is_beginning = at + into.len() as u64 <= BEGINNING_BYTES;
+        let is_beginning =
+            !self.is_listed.load(Ordering::Relaxed) && at + into.len() as u64 <= BEGINNING_BYTES;
         let mut read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
         if self.member.wrapping.is_none() {
             if matches!(*read, Read::Nothing) && !is_beginning {
@@ -166,8 +170,14 @@ impl PackedBytes {
             file: Arc::clone(file),
             member,
             is_held,
+            is_listed: AtomicBool::new(false),
             read: Mutex::new(Read::Nothing),
         }
+    }
+
+    /// Ends the reading of headers, of which the beginning alone is looked at.
+    pub(crate) fn end_listing(&self) {
+        self.is_listed.store(true, Ordering::Relaxed);
     }
 
     fn wrapping(&self) -> Wrapping {
@@ -261,6 +271,7 @@ mod tests {
             member: all.find(|member| member.name == name).expect("listed"),
             file: Arc::new(file),
             is_held,
+            is_listed: AtomicBool::new(false),
             read: Mutex::new(Read::Nothing),
         }
     }

@@ -9,7 +9,7 @@ use crate::error::Problem;
 use crate::member_bytes::{Budget, PackedBytes};
 use crate::npy::NpyArray;
 use crate::scalar::shown;
-use crate::source::FileBytes;
+use crate::source::{ByteSource, FileBytes};
 use crate::store::{Arrays, Store};
 use crate::values::ArrayData;
 
@@ -40,8 +40,9 @@ impl Npz {
                     "each name once",
                 ));
             }
-            let source = PackedBytes::new(&file, member, &mut budget);
-            let array = NpyArray::open(&name, Arc::new(source));
+            let source = Arc::new(PackedBytes::new(&file, member, &mut budget));
+            let array = NpyArray::open(&name, Arc::clone(&source) as Arc<dyn ByteSource>);
+            source.end_listing();
             match array {
                 Ok(array) => arrays.push(array),
                 Err(reason @ (Problem::Unsupported { .. } | Problem::Global { .. })) => {

@@ -91,6 +91,29 @@ impl ArrayValues {
         self.len() == 0
     }
 
+    /// Every `step`-th element from `first` on.
+    #[cfg(feature = "hdf5")]
+    pub(crate) fn every(self, first: usize, step: usize) -> ArrayValues {
+        fn of<T>(all: Vec<T>, first: usize, step: usize) -> Vec<T> {
+            all.into_iter().skip(first).step_by(step.max(1)).collect()
+        }
+        match self {
+            ArrayValues::Bool(all) => ArrayValues::Bool(of(all, first, step)),
+            ArrayValues::U8(all) => ArrayValues::U8(of(all, first, step)),
+            ArrayValues::U16(all) => ArrayValues::U16(of(all, first, step)),
+            ArrayValues::U32(all) => ArrayValues::U32(of(all, first, step)),
+            ArrayValues::U64(all) => ArrayValues::U64(of(all, first, step)),
+            ArrayValues::I8(all) => ArrayValues::I8(of(all, first, step)),
+            ArrayValues::I16(all) => ArrayValues::I16(of(all, first, step)),
+            ArrayValues::I32(all) => ArrayValues::I32(of(all, first, step)),
+            ArrayValues::I64(all) => ArrayValues::I64(of(all, first, step)),
+            ArrayValues::F32(all) => ArrayValues::F32(of(all, first, step)),
+            ArrayValues::F64(all) => ArrayValues::F64(of(all, first, step)),
+            ArrayValues::Text(all) => ArrayValues::Text(of(all, first, step)),
+            ArrayValues::Bytes(all) => ArrayValues::Bytes(of(all, first, step)),
+        }
+    }
+
     /// Numbers as `f64`, true as 1. `None` of text and bytes, and where a number of 64 bits has no exact `f64`.
     #[must_use]
     pub fn to_f64(&self) -> Option<Vec<f64>> {

@@ -9,6 +9,7 @@ mod tree;
 mod version_2;
 mod version_3;
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::ops::Range;
 use std::path::Path;
@@ -43,6 +44,8 @@ pub(crate) struct Zarr {
     attributes: Vec<(String, Value)>,
     refused: Vec<(String, Problem)>,
     chunks: Mutex<Chunks>,
+    /// Arrays whose size was held against what is stored of them.
+    checked: Mutex<BTreeSet<usize>>,
 }
 
 impl Zarr {
@@ -63,6 +66,7 @@ impl Zarr {
             attributes: Vec::new(),
             refused: Vec::new(),
             chunks: Mutex::new(Cache::new(limits::HELD_BYTES)),
+            checked: Mutex::default(),
         };
         zarr.visit(&tree, "", 0)?;
         if zarr.groups.is_empty() && zarr.arrays.is_empty() && zarr.refused.is_empty() {
@@ -126,6 +130,48 @@ impl Zarr {
         Ok(())
     }
 
+    /// Refuses an array that is made to fill a memory or to cost hours: what it becomes is held against what is stored of it.
+    fn check_unpacked(
+        &self,
+        index: usize,
+        folder: &Tree,
+        array: &ZarrArray,
+    ) -> Result<(), Problem> {
+        let mut checked = self.checked.lock().unwrap_or_else(PoisonError::into_inner);
+        if !checked.insert(index) {
+            return Ok(());
+        }
+        let whole = array
+            .shape
+            .iter()
+            .fold(array.item.bytes as u64, |bytes, side| {
+                bytes.saturating_mul(*side)
+            });
+        if whole <= limits::INFLATED_BYTES && array.chunk_bytes() <= Some(limits::INFLATED_BYTES) {
+            return Ok(());
+        }
+        let there = written(folder, array)?;
+        let chunks = there
+            .chunks
+            .saturating_mul(array.chunk_bytes().unwrap_or(u64::MAX));
+        let (all, most) = (whole.max(chunks), limits::unpacked_bytes(there.bytes));
+        match all <= most {
+            true => Ok(()),
+            false => {
+                checked.remove(&index);
+                Err(Problem::too_large(
+                    format!(
+                        "bytes of `{}` once unpacked, {} times as many as its chunks have (write it with less compression, or in several arrays)",
+                        array.name,
+                        all / there.bytes.max(1)
+                    ),
+                    all,
+                    most,
+                ))
+            }
+        }
+    }
+
     /// One chunk, row by row, or `None` where none was written.
     fn chunk(&self, index: usize, place: &[u64]) -> Result<Option<Arc<Vec<u8>>>, Problem> {
         let key = (index, place.to_vec());
@@ -180,14 +226,25 @@ fn is_own_file(folder: &Path, name: &str) -> Result<bool, Problem> {
     }
 }
 
-/// How many chunks of the array in `folder` are there: a file that has the name of one.
-fn written(folder: &Tree, array: &ZarrArray) -> Result<u64, Problem> {
-    let mut there = 0;
+/// Chunks of an array that are there.
+#[derive(Clone, Copy, Debug, Default)]
+struct Written {
+    chunks: u64,
+    /// Bytes as they are stored.
+    bytes: u64,
+}
+
+/// The chunks of the array in `folder`: files that have the name of one.
+fn written(folder: &Tree, array: &ZarrArray) -> Result<Written, Problem> {
+    let mut there = Written::default();
     let mut folders = vec![(folder.clone(), String::new(), 0)];
     while let Some((folder, before, depth)) = folders.pop() {
         let files = folder.files()?;
         let is_key = |name: &&String| array.is_key(&format!("{before}{name}"));
-        there += files.iter().filter(is_key).count() as u64;
+        for name in files.iter().filter(is_key) {
+            there.chunks += 1;
+            there.bytes = there.bytes.saturating_add(folder.file_bytes(name)?);
+        }
         // Of a chunk `c/0/1` each axis may be a folder.
         if depth <= array.shape.len() {
             for name in folder.folders()? {
@@ -234,12 +291,13 @@ impl Store for Zarr {
     fn absent_chunks(&self, index: usize) -> Result<u64, Problem> {
         let (folder, array) = &self.arrays[self.listed[index].0];
         let all = chunks_of(&array.shape, &array.chunk);
-        Ok(all.saturating_sub(written(folder, array)?))
+        Ok(all.saturating_sub(written(folder, array)?.chunks))
     }
 
     fn read(&self, index: usize, rows: Range<u64>) -> Result<ArrayData, Problem> {
         let (index, field) = self.listed[index];
-        let (_, array) = &self.arrays[index];
+        let (folder, array) = &self.arrays[index];
+        self.check_unpacked(index, folder, array)?;
         let grid = Grid::new(array, rows)?;
         let mut raw = grid.filled(array)?;
         for place in grid.places() {

@@ -26,6 +26,8 @@ pub(crate) enum Codec {
     Lz4Hadoop,
     /// Frames of LZ4.
     Lz4Frame,
+    /// A stream of bz2.
+    Bzip2,
     /// A frame of Zstandard.
     Zstd,
 }
@@ -57,6 +59,7 @@ pub(crate) fn unpack(codec: Codec, packed: &[u8], size: usize) -> Result<Vec<u8>
         Codec::Lz4Hadoop => lz4_hadoop(packed, size)?,
         Codec::Lz4Frame => streamed("LZ4", lz4_flex::frame::FrameDecoder::new(packed), size)?,
         Codec::Zstd => zstd(packed, size)?,
+        Codec::Bzip2 => streamed("bz2", bzip2_rs::DecoderReader::new(packed), size)?,
     };
     match unpacked.len() == size {
         true => Ok(unpacked),
@@ -85,7 +88,7 @@ pub(crate) fn stream(
             session: decompressor(u64::from(size))?.into_session(),
         }),
         Codec::Snappy => Box::new(SnappyStream::new(packed, size)?),
-        Codec::Lz4Block | Codec::Lz4Hadoop | Codec::Lz4Frame => {
+        Codec::Lz4Block | Codec::Lz4Hadoop | Codec::Lz4Frame | Codec::Bzip2 => {
             let mut whole = Vec::new();
             let limit = limits::PAGE_BYTES;
             let read = packed.by_ref().take(limit + 1).read_to_end(&mut whole);

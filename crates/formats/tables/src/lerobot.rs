@@ -86,7 +86,11 @@ impl LeRobot {
                     path.map_err(|problem| source.damaged(Place::of("data_path"), problem))
                 };
                 let episodes = episodes::of_lines(folder)?;
-                episodes.into_iter().map(fill).collect::<Result<_, _>>()?
+                let mut paths: Vec<PathBuf> =
+                    episodes.into_iter().map(fill).collect::<Result<_, _>>()?;
+                // A path without a place for the episode is one file.
+                paths.dedup();
+                paths
             }
         };
         let mut files = Vec::with_capacity(paths.len());

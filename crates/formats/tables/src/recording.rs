@@ -1,5 +1,6 @@
 //! Recordings of messages by topics: MCAP, the databases of rosbag2, the bags of ROS 1.
 
+mod embedded_array;
 mod json;
 mod language;
 mod table;

@@ -1,5 +1,6 @@
 //! Recordings of ROS 1 (`.bag`, version 2.0): <http://wiki.ros.org/Bags/Format/2.0>.
 
+mod cut;
 mod record;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -53,17 +54,19 @@ impl Rosbag1 {
                 "no bag: its first record is not that of a bag",
             ));
         };
-        let reindex = "`rosbag reindex FILE` writes a bag of what is whole";
+        let reindex = || cut::remedy(&source);
         if index == 0 {
             let problem = format!(
-                "the recorder did not close it, so that it is cut where it ended: {reindex}"
+                "the recorder did not close it, so that it is cut where it ended: {}",
+                reindex()
             );
             return Err(source.damaged(Place::byte(begin), problem));
         }
         if index > source.length() {
             let problem = format!(
-                "its index is said to begin at byte {index}, the file has {}: it is cut short; {reindex}",
-                source.length()
+                "its index is said to begin at byte {index}, the file has {}: it is cut short; {}",
+                source.length(),
+                reindex()
             );
             return Err(source.damaged(Place::byte(begin), problem));
         }
@@ -116,8 +119,9 @@ impl Rosbag1 {
         }
         if chunks != of_chunks || bag.channels.len() != of_connections as usize {
             let problem = format!(
-                "{chunks} chunks and {} connections, it announces {of_chunks} and {of_connections}: it is cut short or was changed; {reindex}",
-                bag.channels.len()
+                "{chunks} chunks and {} connections, it announces {of_chunks} and {of_connections}: it is cut short or was changed; {}",
+                bag.channels.len(),
+                reindex()
             );
             return Err(source.damaged(Place::byte(begin), problem));
         }
@@ -221,39 +225,42 @@ impl<'a> Records<'a> {
 
     /// The head of the record at `at`, whose data lies within the file.
     fn head(&mut self, at: u64) -> Result<Head, TableError> {
-        let cut = |problem: &str| {
-            let problem = format!(
-                "{problem}: the bag is cut short here; `rosbag reindex FILE` writes a bag of what is whole"
-            );
-            self.source.damaged(Place::byte(at), problem)
+        match self.head_within(at)? {
+            Ok(head) => Ok(head),
+            Err(problem) => {
+                let remedy = cut::remedy(self.source);
+                let problem = format!("{problem}: the bag is cut short here; {remedy}");
+                Err(self.source.damaged(Place::byte(at), problem))
+            }
+        }
+    }
+
+    /// The same, or in words how the file ends before the record does.
+    fn head_within(&mut self, at: u64) -> Result<Result<Head, String>, TableError> {
+        let mut four = |at: u64| {
+            let bytes = self.source.bytes(&mut self.file, at, 4, 4).ok()?;
+            Bytes::new(&bytes).u32().map(u64::from)
         };
-        let four = |records: &mut File, at: u64| -> Result<u64, TableError> {
-            let bytes = self
-                .source
-                .bytes(records, at, 4, 4)
-                .map_err(|_| cut("a record of less than 4 bytes"))?;
-            let length = Bytes::new(&bytes).u32().unwrap_or(0);
-            Ok(u64::from(length))
+        let Some(length) = four(at) else {
+            return Ok(Err("a record of less than 4 bytes".to_owned()));
         };
-        let length = four(&mut self.file, at)?;
         let begin = at + 4;
-        if begin + length + 4 > self.source.length() {
-            return Err(cut(&format!(
+        let Some(data) = four(begin + length) else {
+            return Ok(Err(format!(
                 "a record with a head of {length} bytes, beyond the end of the file"
             )));
-        }
+        };
         let fields = self
             .source
             .bytes(&mut self.file, begin, length, limits::DESCRIPTION_BYTES)?;
-        let data = four(&mut self.file, begin + length)?;
         let data_at = begin + length + 4;
         if data_at + data > self.source.length() {
-            return Err(cut(&format!(
+            return Ok(Err(format!(
                 "a record of {data} bytes, beyond the end of the file"
             )));
         }
         let head = Head::new(fields, data_at, data_at + data);
-        head.ok_or_else(|| {
+        head.map(Ok).ok_or_else(|| {
             self.source
                 .damaged(Place::byte(at), "a head whose fields are longer than it")
         })
@@ -290,9 +297,10 @@ impl<'a> Records<'a> {
         let codec = match head.text("compression").as_deref() {
             Some("none") => Codec::Plain,
             Some("lz4") => Codec::Lz4Frame,
+            Some("bz2") => Codec::Bzip2,
             other => {
                 let problem = format!(
-                    "compressed by `{}`, expected none or lz4: `rosbag decompress FILE` writes it without, and so does `rosbags-convert --src FILE --dst OUT` \
+                    "compressed by `{}`, expected none, lz4 or bz2: `rosbag decompress FILE` writes it without, and so does `rosbags-convert --src FILE --dst OUT` \
                      without ROS",
                     shown(other.unwrap_or_default())
                 );

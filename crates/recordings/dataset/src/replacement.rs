@@ -107,7 +107,7 @@ fn set_aside(target: &Path) -> Option<PathBuf> {
             })
         })
         .map(|entry| entry.path())
-        .filter(|path| is_dataset(path))
+        .filter(|path| !path.is_symlink() && is_dataset(path))
         .collect();
     found.sort();
     found.pop()
@@ -123,7 +123,8 @@ fn is_at_work(partial: &Path) -> bool {
 
 /// Removes the folder at `path` if it is a leftover of ours that no process reads or writes; otherwise leaves it to the next call.
 pub(crate) fn clear(path: &Path) {
-    if let Ok(folder) = File::open(path)
+    if !path.is_symlink()
+        && let Ok(folder) = File::open(path)
         && folder.try_lock().is_ok()
         && is_same(&folder, path)
         && foreign_entry(path).is_none()
@@ -135,6 +136,10 @@ pub(crate) fn clear(path: &Path) {
 
 /// Removes a dataset so that it ceases to be one first.
 pub(crate) fn remove(path: &Path) -> io::Result<()> {
+    // What a link leads to is somebody else's.
+    if path.is_symlink() {
+        return Err(io::Error::other("a link, which is not followed; remove it"));
+    }
     match fs::remove_file(path.join(layout::HEADER)) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
         _ => {}

@@ -210,6 +210,12 @@ pub fn check_place(target: &Path, place: Place) -> Result<(), DatasetError> {
 
 /// Removes the folder that an interrupted import left at `path`; what was set aside and is still read gets out of the way.
 fn remove_leftover(path: &Path, target: &Path) -> Result<(), DatasetError> {
+    if path.is_symlink() {
+        return Err(DatasetError::Request {
+            path: path.to_owned(),
+            problem: "in the way, and a link, which is not followed; remove it".to_owned(),
+        });
+    }
     let is_export = path.join(layout::MARK).is_file();
     if let Some(stranger) = replacement::foreign_entry(path).filter(|_| !is_export) {
         return Err(DatasetError::Request {
@@ -285,6 +291,29 @@ mod tests {
         let message = refused.expect_err("in the way").to_string();
         assert!(message.contains("holds `thesis.tex`"), "{message}");
         assert!(theirs.join("thesis.tex").exists());
+    }
+
+    /// K3.
+    #[cfg(unix)]
+    #[test]
+    fn a_link_at_the_hidden_name_of_a_dataset_is_refused_and_what_it_leads_to_stays() {
+        for name in [".set.partial", ".set.replaced"] {
+            let folder = tempfile::tempdir().expect("a folder");
+            let theirs = tempfile::tempdir().expect("a folder");
+            let theirs = dataset(theirs.path(), "theirs");
+            std::os::unix::fs::symlink(&theirs, folder.path().join(name)).expect("linked");
+            let target = folder.path().join("set");
+            let created = StagedFolder::create(&target, Place::Free).map(drop);
+            assert_eq!(created.is_err(), name == ".set.partial");
+            if let Err(error) = created {
+                assert!(error.to_string().contains("a link"), "{error}");
+            }
+            assert!(!target.exists());
+            dataset(folder.path(), "old");
+            replacement::settle(&target).expect("settled");
+            let header = fs::read_to_string(theirs.join(layout::HEADER));
+            assert_eq!(header.expect("there"), "theirs", "{name}");
+        }
     }
 
     /// A folder called `set` that looks like a dataset.

@@ -84,7 +84,19 @@ impl MapDraft {
         let array = main.filter(|main| most.is_some_and(|most| are_beside(&source, main, most)));
         notes.extend(array.map(map_text::array_beside_pictures));
         let text = match main.filter(|_| array.is_none()) {
-            Some(main) => map_text::of_table(&source, &groups, main, &tables, &notes),
+            Some(main) => {
+                let text = map_text::of_table(&source, &groups, main, &tables, &notes);
+                if let (Some(reason), true) = (main.unread.first(), is_empty(&text)) {
+                    return Err(DatasetError::Request {
+                        path: folder.to_owned(),
+                        problem: format!(
+                            "{} has no picture, no taxel and no number that may be a channel: {reason}",
+                            main.group.first()
+                        ),
+                    });
+                }
+                text
+            }
             None => match most {
                 Some(group) => map_text::of_files(group, &notes),
                 None => {
@@ -113,6 +125,26 @@ impl MapDraft {
     pub fn text(&self) -> &str {
         &self.text
     }
+}
+
+/// Whether a map has no line that an import could read labels, pictures or taxels by.
+fn is_empty(map: &str) -> bool {
+    const READ: [&str; 5] = [
+        "[frame]",
+        "[columns]",
+        "[signals]",
+        "[classes]",
+        "[[matrix]]",
+    ];
+    let mut section = "";
+    let mut lines = map.lines();
+    !lines.any(|line| {
+        if line.starts_with('[') {
+            section = line;
+            return false;
+        }
+        READ.contains(&section) && !line.is_empty() && !line.starts_with('#')
+    })
 }
 
 /// The preset whose layout the folder has, if its map fits: its files are there, and what it names is in them.

@@ -86,9 +86,9 @@ pub(crate) enum TableForm {
     LeRobot,
     /// A shard of WebDataset.
     WebDataset,
-    /// The frames of a clip: so many a second, the first at a time in seconds.
+    /// The frames of a clip: so many a second, or at the times that the clip states; the first at a time in seconds.
     Clip {
-        rate: f64,
+        rate: Option<f64>,
         start_s: f64,
     },
 }

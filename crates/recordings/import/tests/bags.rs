@@ -62,6 +62,7 @@ fn databases_of_rosbag2_and_bags_of_ros_1_are_drafted_and_imported_by_preset() {
         "humble.db3",
         "none.bag",
         "lz4.bag",
+        "bz2.bag",
     ] {
         let folder = lab(&format!("bags/{file}"));
         let draft = MapDraft::of(folder.path()).expect(file).text().to_owned();

@@ -124,6 +124,21 @@ impl Tree {
         Ok(names.into_iter().collect())
     }
 
+    /// Bytes that the file `name` within this folder takes.
+    pub(crate) fn file_bytes(&self, name: &str) -> Result<u64, Problem> {
+        match self {
+            Tree::Folder(folder) => {
+                let metadata = fs::symlink_metadata(folder.join(name));
+                Ok(metadata.map_err(Problem::io("open"))?.len())
+            }
+            Tree::Archive(archive) => {
+                let path = format!("{}{name}", archive.folder);
+                let member = archive.members.get(&path);
+                Ok(member.map_or(0, |member| member.packed_bytes))
+            }
+        }
+    }
+
     /// The names of the files within this folder.
     pub(crate) fn files(&self) -> Result<Vec<String>, Problem> {
         match self {

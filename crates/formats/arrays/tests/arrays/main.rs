@@ -1,11 +1,14 @@
 //! Files that other libraries wrote, read and compared with what those libraries read of them (`tests/data/make.py`).
 
 mod damage;
+#[cfg(feature = "hdf5")]
+mod data_frames;
 mod digest;
 #[cfg(feature = "hdf5")]
 mod hdf5;
 #[cfg(feature = "hdf5")]
 mod hdf5_writer;
+mod held;
 mod matlab;
 mod peers;
 mod pickle;

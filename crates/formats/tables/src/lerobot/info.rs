@@ -28,7 +28,7 @@ pub struct Feature {
     pub shape: Vec<u64>,
     /// What its numbers are called, in order; empty where nothing says it.
     pub names: Vec<String>,
-    /// Frames a second of a video: its own where it states them, else those of the dataset.
+    /// Frames a second of a video: its own where it states them, else those of the dataset; 0 of what is no video where nothing states them.
     pub fps: f64,
     /// True of a depth map: codes of 12 bits, which are no brightness.
     pub is_depth: bool,
@@ -55,7 +55,8 @@ pub(super) fn parse(source: &Source, json: &Value) -> Result<Info, TableError> {
         found.ok_or_else(|| wrong(name, "expected a text".to_owned()))
     };
     let layout = match text("codebase_version")? {
-        "v2.1" => Layout::V21,
+        // tlabel writes its own name before the version.
+        "v2.1" | "lerobot-v2.1" => Layout::V21,
         "v3.0" => Layout::V30,
         other => {
             let problem = format!(
@@ -71,9 +72,7 @@ pub(super) fn parse(source: &Source, json: &Value) -> Result<Info, TableError> {
         Some(_) => Some(pattern("video_path")?),
     };
     let fps = json.get("fps").and_then(Value::as_f64);
-    let fps = fps
-        .filter(|fps| is_rate(*fps))
-        .ok_or_else(|| wrong("fps", "expected frames a second".to_owned()))?;
+    let fps = fps.filter(|fps| is_rate(*fps));
     let listed = json.get("features").and_then(Value::as_object);
     let listed = listed.ok_or_else(|| wrong("features", "expected an object".to_owned()))?;
     let mut features = Vec::with_capacity(listed.len());
@@ -85,6 +84,10 @@ pub(super) fn parse(source: &Source, json: &Value) -> Result<Info, TableError> {
         let own = ["info", "video_info"]
             .iter()
             .find_map(|key| feature.get(*key)?.get("video.fps")?.as_f64());
+        let own = own.filter(|fps| is_rate(*fps)).or(fps);
+        if own.is_none() && dtype == "video" {
+            return Err(wrong("fps", "expected frames a second".to_owned()));
+        }
         let is_depth = ["info", "video_info"].iter().any(|key| {
             let info = feature.get(*key);
             let says = |name: &str| info.and_then(|info| info.get(name)?.as_bool()) == Some(true);
@@ -102,8 +105,11 @@ pub(super) fn parse(source: &Source, json: &Value) -> Result<Info, TableError> {
                 .flatten()
                 .filter_map(Value::as_u64)
                 .collect(),
-            names: feature.get("names").map(names).unwrap_or_default(),
-            fps: own.filter(|fps| is_rate(*fps)).unwrap_or(fps),
+            names: ["names", "feature_names"]
+                .iter()
+                .find_map(|key| feature.get(*key).map(names))
+                .unwrap_or_default(),
+            fps: own.unwrap_or_default(),
             is_depth,
             depth: codes.unwrap_or_default(),
         });

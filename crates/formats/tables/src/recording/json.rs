@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 
+use super::embedded_array;
 use crate::cell::Cell;
 use crate::limits;
 
@@ -10,13 +11,12 @@ pub(super) fn cell(message: &[u8]) -> Result<Cell, String> {
     if message.len() as u64 > limits::JSON_BYTES {
         return Err(format!("{} bytes of JSON", message.len()));
     }
-    serde_json::from_slice(message)
-        .map(of_value)
-        .map_err(|error| format!("no JSON: {error}"))
+    let value = serde_json::from_slice(message);
+    of_value(value.map_err(|error| format!("no JSON: {error}"))?)
 }
 
-fn of_value(value: Value) -> Cell {
-    match value {
+fn of_value(value: Value) -> Result<Cell, String> {
+    Ok(match value {
         Value::Null => Cell::Null,
         Value::Bool(value) => Cell::Bool(value),
         Value::Number(number) => match (number.as_u64(), number.as_i64()) {
@@ -25,13 +25,32 @@ fn of_value(value: Value) -> Cell {
             (None, None) => number.as_f64().map_or(Cell::Null, Cell::Number),
         },
         Value::String(text) => Cell::Text(text),
-        Value::Array(values) => Cell::List(values.into_iter().map(of_value).collect()),
-        Value::Object(members) => Cell::Struct(
-            members
-                .into_iter()
-                .map(|(name, value)| (name, of_value(value)))
-                .collect(),
-        ),
+        Value::Array(values) => {
+            let cells: Result<_, String> = values.into_iter().map(of_value).collect();
+            Cell::List(cells?)
+        }
+        Value::Object(members) => match embedded_array::cell(&members)? {
+            Some(array) => array,
+            None => {
+                let members = members.into_iter();
+                let cells: Result<_, String> = members
+                    .map(|(name, value)| Ok((name, of_value(value)?)))
+                    .collect();
+                Cell::Struct(cells?)
+            }
+        },
+    })
+}
+
+/// Names of members that state the shape of an array and hold none of its numbers.
+pub(super) fn add_absent_arrays(cell: &Cell, above: &str, into: &mut Vec<String>) {
+    let Cell::Struct(members) = cell else { return };
+    for (name, member) in members {
+        let name = format!("{above}{name}");
+        match embedded_array::is_summary(member) {
+            true => into.push(name),
+            false => add_absent_arrays(member, &format!("{name}."), into),
+        }
     }
 }
 

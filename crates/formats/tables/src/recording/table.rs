@@ -99,6 +99,31 @@ impl TopicTable {
         Ok(names)
     }
 
+    /// Fields of the first message of JSON that state the shape of an array and hold none of its numbers.
+    ///
+    /// # Errors
+    /// As [`names`](Self::names).
+    ///
+    /// ```no_run
+    /// # fn of(table: &taceva_tables::TopicTable) -> Result<(), taceva_tables::TableError> {
+    /// for field in table.absent_arrays()? {
+    ///     println!("{field}: a summary alone");
+    /// }
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn absent_arrays(&self) -> Result<Vec<String>, TableError> {
+        let mut names = Vec::new();
+        if let (Language::Json, Some(first)) = (&self.language, self.entries.first()) {
+            let mut reader = self.store.reader()?;
+            self.message(&mut *reader, first, |message| {
+                json::add_absent_arrays(&json::cell(message.bytes())?, "", &mut names);
+                Ok(())
+            })?;
+        }
+        Ok(names)
+    }
+
     /// What is in the columns called `names`, a column each, row by row. The file is read once, whatever their number.
     ///
     /// # Errors

@@ -6,12 +6,13 @@ use std::path::{Path, PathBuf};
 use taceva_tables::{Cell, Picture, Recording, SampleForm, TableError, TopicTable};
 
 /// Recordings with the definitions of their messages.
-const WHOLE: [&str; 5] = [
+const WHOLE: [&str; 6] = [
     "iron.db3",
     "small_pages.db3",
     "messages.db3",
     "none.bag",
     "lz4.bag",
+    "bz2.bag",
 ];
 
 fn data(name: &str) -> PathBuf {
@@ -170,9 +171,20 @@ fn bags_of_other_versions_and_forms_are_refused_with_what_mends_them() {
         fs::write(&path, bytes).expect("written");
         path
     };
+    let packed = fs::read(data("bz2.bag")).expect("there");
+    let place = packed
+        .windows(15)
+        .position(|part| part == b"compression=bz2");
+    let mut other = packed.clone();
+    let place = place.expect("there") + 12;
+    other[place..place + 3].copy_from_slice(b"xz9");
     refused(
-        &data("bz2.bag"),
-        &["compressed by `bz2`", "rosbag decompress"],
+        &at("xz.bag", &other),
+        &[
+            "compressed by `xz9`",
+            "none, lz4 or bz2",
+            "rosbag decompress",
+        ],
     );
     refused(
         &at("a.bag", b"#ROSBAG V1.2\n01234567"),
@@ -206,7 +218,11 @@ fn bags_of_other_versions_and_forms_are_refused_with_what_mends_them() {
     for cut in [whole.len() / 3, whole.len() - 9] {
         refused(
             &at("cut.bag", &whole[..cut]),
-            &["cut short", "rosbag reindex"],
+            &[
+                "cut short",
+                "rosbag reindex",
+                "whole messages lie before the cut",
+            ],
         );
     }
     // A recorder that was killed never wrote where the index begins.
@@ -218,8 +234,38 @@ fn bags_of_other_versions_and_forms_are_refused_with_what_mends_them() {
     open[place + 10..place + 18].fill(0);
     refused(
         &at("open.bag", &open),
-        &["did not close it", "rosbag reindex"],
+        &["did not close it", "rosbag reindex", "16 whole messages"],
     );
+}
+
+#[test]
+fn a_cut_bag_states_how_many_messages_are_whole_before_its_cut() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("cut.bag");
+    let counted = |bytes: &[u8]| {
+        fs::write(&path, bytes).expect("written");
+        let problem = read_all(&path).expect_err("cut").to_string();
+        let words = problem.split(" whole messages lie before").next();
+        let number = words.and_then(|words| words.rsplit([' ', '(']).next()?.parse::<u64>().ok());
+        number.unwrap_or_else(|| panic!("{problem}"))
+    };
+    for (file, is_by_chunk) in [("none.bag", false), ("lz4.bag", true), ("bz2.bag", true)] {
+        let whole = fs::read(data(file)).expect("there");
+        let mut before = 0;
+        let mut steps = std::collections::BTreeSet::new();
+        for cut in (whole.len() / 8..whole.len() - 1).step_by(61) {
+            let messages = counted(&whole[..cut]);
+            assert!(
+                (before..=16).contains(&messages),
+                "{file} cut at {cut}: {messages} after {before}"
+            );
+            before = messages;
+            steps.insert(messages);
+        }
+        assert_eq!(before, 16, "{file}");
+        // Messages of a chunk that is not packed are counted one by one.
+        assert!(is_by_chunk || steps.len() > 8, "{file}: {steps:?}");
+    }
 }
 
 #[test]

@@ -1,9 +1,10 @@
 //! Outcomes of files that other packages wrote, as rows of the table in `docs/your-recording.md`.
 //!
 //! ```text
-//! cargo run -p taceva-import --example formats -- FOLDER
+//! cargo run -p taceva-import --example formats -- FOLDER [DATASETS]
 //! ```
 //!
+//! With DATASETS each dataset is kept there with the map it was made by, for `tests/formats/compare.py`, which reads the files again by the packages.
 //! `packages.json` says which file or folder of FOLDER which package wrote. Each is imported by its map beside this file, or else by a fresh draft whose
 //! units are filled in as a lab would: N, Nm and mm. Clips need ffmpeg on the PATH.
 
@@ -31,10 +32,12 @@ struct Written {
 }
 
 /// The most letters of a refusal that a row shows.
-const SHOWN: usize = 160;
+const SHOWN: usize = 400;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let folder = std::env::args().nth(1).ok_or("expected the FOLDER")?;
+    let mut arguments = std::env::args().skip(1);
+    let folder = arguments.next().ok_or("expected the FOLDER")?;
+    let kept = arguments.next();
     let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/formats");
     let all: Vec<Written> = serde_json::from_str(&fs::read_to_string(own.join("packages.json"))?)?;
     println!("| package | version | files | outcome |\n|---|---|---|---|");
@@ -45,7 +48,13 @@ fn main() -> Result<(), Box<dyn Error>> {
             .map
             .as_ref()
             .map(|map| fs::read_to_string(own.join(map)));
-        let outcome = match imported(lab.path(), map.transpose()?) {
+        let target = tempfile::tempdir()?;
+        let target = match &kept {
+            Some(kept) => Path::new(kept).join(written.path.replace('/', "-")),
+            None => target.path().join("kept"),
+        };
+        fs::create_dir_all(&target)?;
+        let outcome = match imported(lab.path(), map.transpose()?, &target) {
             Ok(outcome) => outcome,
             Err(problem) => format!("refused: {}", short(&problem.to_string(), lab.path())),
         };
@@ -77,8 +86,8 @@ fn copy(from: &Path, to: &Path) -> std::io::Result<()> {
     Ok(())
 }
 
-/// The counts of a dataset that was made of the lab's folder.
-fn imported(lab: &Path, map: Option<String>) -> Result<String, Box<dyn Error>> {
+/// The counts of a dataset that was made of the lab's folder; it and its map are put into `target`.
+fn imported(lab: &Path, map: Option<String>, target: &Path) -> Result<String, Box<dyn Error>> {
     let by = if map.is_some() {
         "by its map"
     } else {
@@ -93,13 +102,13 @@ fn imported(lab: &Path, map: Option<String>) -> Result<String, Box<dyn Error>> {
             filled(draft.text())
         }
     };
+    fs::write(target.join("map.toml"), &text)?;
     let map = ImportMap::parse("map.toml".as_ref(), &text)?;
     let decoders = Decoders {
         ffmpeg: Some("ffmpeg".into()),
         ..Decoders::default()
     };
-    let target = tempfile::tempdir()?;
-    let path = target.path().join("dataset");
+    let path = target.join("dataset");
     let threads = NonZeroUsize::new(2).unwrap_or(NonZeroUsize::MIN);
     ImportPlan::with_decoders(lab, &map, &decoders)?.run(&path, threads, &SilentProgress)?;
     let dataset = Dataset::open(&path)?;

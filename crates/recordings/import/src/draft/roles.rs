@@ -87,6 +87,14 @@ pub(super) fn of_named(column: &str, names: &[String]) -> Option<Role> {
     let mut found: Vec<Candidate> = Vec::new();
     let mut excluded = None;
     for (at, name) in names.iter().enumerate() {
+        // One number that is called a vector is its length.
+        if let Some(word) = words(name).into_iter().find(|word| word == "vector") {
+            excluded = Some(Exclusion::Word {
+                word,
+                said: "the length of a vector",
+            });
+            continue;
+        }
         match Named::within(column, name).candidate(format!("[{at}]")) {
             Some(Ok(candidate)) => found.push(candidate),
             Some(Err(exclusion)) => excluded = Some(exclusion),

@@ -17,7 +17,7 @@ use super::columns::{ColumnSource, PictureColumn, Stated};
 use super::pictures::Pictures;
 use crate::frame_names::FrameNames;
 pub(crate) use attributes::stated;
-use attributes::{absent_chunks, problem};
+use attributes::{absent_chunks, is_data_frame, problem};
 pub(crate) use frames::ArrayPictures;
 use group::{Group, candidates, rows_of};
 
@@ -138,6 +138,16 @@ impl ColumnSource for ArrayRows {
         }
     }
 
+    /// Times of NumPy that pandas stores as integers and says to be times.
+    fn time_unit(&self, name: &str) -> Option<&'static str> {
+        let mut units = self
+            .groups
+            .iter()
+            .map(|group| self.unit_of_times(group, name));
+        let first = units.next()??;
+        units.all(|unit| unit == Some(first)).then_some(first)
+    }
+
     fn holds_integers(&self, name: &str) -> bool {
         self.groups.iter().all(|group| {
             // An attribute of this name comes first, and is a text.
@@ -169,7 +179,10 @@ impl ColumnSource for ArrayRows {
 
     fn unread(&self) -> Vec<String> {
         let links = self.file.dead_links().into_iter();
-        links.map(|(_, reason)| reason).collect()
+        let frames = self.file.unread_arrays().into_iter();
+        let frames = frames.filter(|(name, _)| is_data_frame(&self.file, name));
+        let frames = frames.map(|(name, reason)| format!("`{name}`: {reason}"));
+        links.map(|(_, reason)| reason).chain(frames).collect()
     }
 
     fn absent_chunks(&self, names: &[&str]) -> Result<Vec<(String, u64)>, String> {

@@ -10,14 +10,10 @@ use super::pictures::Pictures;
 use super::said;
 use crate::frame_names::FrameNames;
 
-/// Frames of a clip that come at a steady rate.
+/// Frames of a clip with their times.
 #[derive(Debug)]
 pub(super) struct ClipRows {
-    frames: usize,
-    /// Frames a second.
-    rate: f64,
-    /// Time of the first frame, s.
-    start_s: f64,
+    times_s: Vec<f64>,
 }
 
 /// Columns: the number of a frame from 0, and its time in seconds.
@@ -25,29 +21,48 @@ const INDEX: &str = "index";
 const TIME: &str = "t";
 
 impl ClipRows {
-    /// The frames of the clip at `path`.
+    /// The frames of the clip at `path`, the first at `start_s`; without a rate each at the time that the clip states.
     ///
     /// # Errors
-    /// The words of the reader of the clip; a codec that only ffmpeg decodes is not counted here.
-    pub(super) fn open(path: &Path, rate: f64, start_s: f64) -> Result<ClipRows, String> {
+    /// The words of the reader of the clip; a codec that only ffmpeg decodes is not counted here; a clip that states no times, or none that rise.
+    pub(super) fn open(path: &Path, rate: Option<f64>, start_s: f64) -> Result<ClipRows, String> {
         let video = Video::open(path, &Decoders::default()).map_err(|error| {
             format!(
                 "{}; frames of such a clip are no table: write a CSV with the columns `index` and `t` and name the clip by `video` of [frame]",
                 said(path, &error)
             )
         })?;
-        let frames = usize::try_from(video.info().frames);
-        Ok(ClipRows {
-            frames: frames.map_err(|_| "too many frames".to_owned())?,
-            rate,
-            start_s,
-        })
+        let info = video.info();
+        let times_s = match (rate, &info.times_s) {
+            #[expect(clippy::cast_precision_loss, reason = "frames are far below 2^53")]
+            (Some(rate), _) => (0..info.frames)
+                .map(|frame| start_s + frame as f64 / rate)
+                .collect(),
+            (None, Some(times)) => {
+                let first = times.first().copied().unwrap_or(0.0);
+                if let Some(frame) = times.windows(2).position(|pair| pair[1] <= pair[0]) {
+                    return Err(format!(
+                        "frame {} is stated at {} s, not after the frame before it: `rate = FRAMES_A_SECOND` says when frames were taken",
+                        frame + 1,
+                        times[frame + 1]
+                    ));
+                }
+                times.iter().map(|time| start_s + time - first).collect()
+            }
+            (None, None) => {
+                return Err(
+                    "it states no times of its frames: `rate = FRAMES_A_SECOND` says when they were taken"
+                        .to_owned(),
+                );
+            }
+        };
+        Ok(ClipRows { times_s })
     }
 }
 
 impl ColumnSource for ClipRows {
     fn rows(&self) -> usize {
-        self.frames
+        self.times_s.len()
     }
 
     fn names(&self) -> Vec<String> {
@@ -59,11 +74,10 @@ impl ColumnSource for ClipRows {
     }
 
     fn columns(&self, names: &[&str]) -> Result<Vec<Vec<String>>, String> {
-        #[expect(clippy::cast_precision_loss, reason = "frames are far below 2^53")]
-        let time = |frame: usize| format!("{:?}", self.start_s + frame as f64 / self.rate);
+        let time = |time: &f64| format!("{time:?}");
         let columns = names.iter().map(|name| match *name {
-            TIME => (0..self.frames).map(time).collect(),
-            _ => (0..self.frames).map(|frame| frame.to_string()).collect(),
+            TIME => self.times_s.iter().map(time).collect(),
+            _ => (0..self.rows()).map(|frame| frame.to_string()).collect(),
         });
         Ok(columns.collect())
     }

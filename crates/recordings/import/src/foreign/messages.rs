@@ -76,9 +76,19 @@ impl MessageRows {
         let table = recording
             .table(&topic)
             .map_err(|error| said(path, &error))?;
+        let absent = table
+            .absent_arrays()
+            .map_err(|error| said(path, &error))?
+            .into_iter()
+            .map(|field| {
+                format!(
+                    "topic {topic}: `{field}` states the shape of an array, and its numbers were left out when it was written: write it with them \
+                     (tacstack: `write_episode_mcap(…, embed_payloads=True)`)"
+                )
+            });
         Ok(MessageRows {
             names: table.names().map_err(|error| said(path, &error))?,
-            unread: unread(&recording),
+            unread: unread(&recording).into_iter().chain(absent).collect(),
             table: Arc::new(table),
         })
     }

@@ -13,6 +13,8 @@ const BLOCK: usize = 512;
 const NAME_BYTES: u64 = 64 << 10;
 /// The most members of an archive.
 pub(crate) const MEMBERS: u64 = 1 << 20;
+/// The most members without a byte of their own: a small archive may hold any number of them.
+pub(crate) const EMPTY_MEMBERS: u64 = 20_000;
 
 /// What is wrong with an archive.
 #[derive(Debug, Error)]
@@ -42,6 +44,10 @@ pub(crate) enum TarError {
     LongName(u64),
     #[error("more than the {MEMBERS} members that are accepted")]
     Members,
+    #[error(
+        "more than the {EMPTY_MEMBERS} empty files and folders that are accepted: leave them out, or unpack the archive and import its folder"
+    )]
+    EmptyMembers,
     #[error("`{0}` stands twice in it")]
     Twice(String),
 }
@@ -99,6 +105,8 @@ pub(crate) struct Members<T> {
     /// What of the last member was not read, its filling included.
     left: u64,
     count: u64,
+    /// Files and folders without a byte of their own.
+    empty: u64,
 }
 
 impl<T: Tape> Members<T> {
@@ -108,6 +116,7 @@ impl<T: Tape> Members<T> {
             at: 0,
             left: 0,
             count: 0,
+            empty: 0,
         }
     }
 
@@ -159,6 +168,10 @@ impl<T: Tape> Members<T> {
                 name: String::from_utf8_lossy(error.as_bytes()).into_owned(),
                 problem: "no text of Unicode",
             })?;
+            self.empty += u64::from(size == 0 || kind == b'5');
+            if self.empty > EMPTY_MEMBERS {
+                return Err(TarError::EmptyMembers);
+            }
             match kind {
                 b'0' | 0 | b'7' => {}
                 b'5' => {

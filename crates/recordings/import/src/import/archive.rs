@@ -7,12 +7,15 @@ use std::path::{Path, PathBuf};
 use flate2::read::MultiGzDecoder;
 
 use crate::foreign::tar::{FileTape, Members, Tape, TarError};
-use taceva_dataset::internal::{open_regular, shown_path, staging, staging::StagedFolder};
+use taceva_dataset::internal::{open_regular, shown_path};
 use taceva_dataset::{DatasetError, Place};
+use taceva_files::TemporaryFolder;
 
 /// How many times as large as its file a compressed archive may be, and how many bytes more.
 const GROWTH: u64 = 128;
 const GROWTH_BYTES: u64 = 64 << 20;
+/// Begin of the name of the folder that it is unpacked into.
+const PREFIX: &str = ".taceva-unpacked-";
 /// The first bytes of a gzip file.
 const GZIP: [u8; 2] = [0x1f, 0x8b];
 
@@ -32,7 +35,10 @@ const GZIP: [u8; 2] = [0x1f, 0x8b];
 pub struct UnpackedArchive {
     folder: PathBuf,
     archive: PathBuf,
-    staged: StagedFolder,
+    /// Where its files were written, within `temporary`.
+    content: PathBuf,
+    /// Removed with the archive.
+    _temporary: TemporaryFolder,
 }
 
 impl UnpackedArchive {
@@ -50,7 +56,7 @@ impl UnpackedArchive {
                 .any(|ending| name.ends_with(ending))
     }
 
-    /// Unpacks the archive into a hidden folder in the folder `beside`.
+    /// Unpacks the archive into a hidden folder in the folder `beside`, whose name nobody can foretell; what killed imports left there is removed.
     ///
     /// Of an archive, one header and one name are in memory at a time. If everything in it lies in one folder, that is the recording.
     ///
@@ -59,9 +65,10 @@ impl UnpackedArchive {
     /// size that is not there, above a million members, and of a compressed archive that grows beyond 128 times its size and 64 MiB more;
     /// [`DatasetError::Io`] if the disk is full.
     pub fn open(archive: &Path, beside: &Path) -> Result<UnpackedArchive, DatasetError> {
-        let name = archive.file_name().unwrap_or_default().to_string_lossy();
-        let target = beside.join(format!("{name}.unpacked"));
-        let staged = StagedFolder::create(&target, staging::Place::Free)?;
+        let temporary = TemporaryFolder::create(beside, PREFIX);
+        let temporary = temporary.map_err(DatasetError::io("make a folder in", beside))?;
+        let content = temporary.path().join("content");
+        fs::create_dir(&content).map_err(DatasetError::io("create", &content))?;
         let (mut file, length) = open_regular(archive, u64::MAX)?;
         let mut first = [0; 2];
         let is_packed = file.read_exact(&mut first).is_ok() && first == GZIP;
@@ -73,18 +80,19 @@ impl UnpackedArchive {
                     decoder: MultiGzDecoder::new(file),
                     left: length.saturating_mul(GROWTH).saturating_add(GROWTH_BYTES),
                 },
-                staged.path(),
+                &content,
             ),
-            false => unpack(FileTape { file, length }, staged.path()),
+            false => unpack(FileTape { file, length }, &content),
         };
         outcome.map_err(|error| DatasetError::Table {
             place: Place::file(archive),
             problem: error.to_string(),
         })?;
         Ok(UnpackedArchive {
-            folder: innermost(staged.path())?,
+            folder: innermost(&content)?,
             archive: archive.to_owned(),
-            staged,
+            content,
+            _temporary: temporary,
         })
     }
 
@@ -98,7 +106,7 @@ impl UnpackedArchive {
     /// ```
     #[must_use]
     pub fn named(&self, error: DatasetError) -> DatasetError {
-        let unpacked = self.staged.path();
+        let unpacked = &self.content;
         error.with_paths(
             &|path| {
                 path.strip_prefix(unpacked)
@@ -117,7 +125,9 @@ impl UnpackedArchive {
     /// # Ok::<(), taceva_dataset::DatasetError>(())
     /// ```
     pub fn text_named(&self, text: &str) -> String {
-        let [unpacked, archive] = [self.staged.path(), &self.archive].map(shown_path);
+        let [unpacked, archive] = [&self.content, &self.archive]
+            .map(PathBuf::as_path)
+            .map(shown_path);
         text.replace(&unpacked, &archive)
     }
 

@@ -91,6 +91,8 @@ pub struct ImportMap {
     pub(crate) form: TableForm,
     /// The coordinate frame whose rows of the table are taken alone.
     pub(crate) frame_id: Option<String>,
+    /// Whether elements of HDF5 that were never written are taken as the fill value.
+    pub(crate) is_filled: bool,
     /// Labels in the path of the table, of the file of a row, or of a cell.
     pub(crate) path: Option<PathPattern>,
     pub(crate) joins: Vec<JoinMap>,
@@ -149,6 +151,7 @@ impl ImportMap {
             facts,
             form: TableForm::Delimited(TextForm::new(true)),
             frame_id: None,
+            is_filled: false,
             path: None,
             joins: Vec::new(),
             matrices: Vec::new(),

@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use taceva_arrays::ArrayFormat;
+
 use super::frame_plan::{PlannedFrames, within};
 use super::map::{FrameMap, FrameNames};
 use super::summary::ImportSummary;
@@ -16,6 +18,7 @@ pub(super) fn count(
     folder: &SourceFolder,
     frames: Option<(&FrameMap, &PlannedFrames)>,
     mut absent_chunks: BTreeMap<String, u64>,
+    is_filled: bool,
     summary: &mut ImportSummary,
 ) -> Result<(), DatasetError> {
     if let Some((map, planned)) = frames {
@@ -42,8 +45,25 @@ pub(super) fn count(
             }
         }
     }
+    let mut unwritten = absent_chunks.iter();
+    if let Some((array, count)) = unwritten.find(|(array, _)| !is_filled && is_of_hdf5(array)) {
+        return Err(DatasetError::Request {
+            path: folder.path().join(array),
+            problem: format!(
+                "{count} of its chunks were never written, or are lost with a damaged index: `fill = true` below `map_version` takes their elements as the \
+                 fill value, mostly 0; to see which, `h5dump -H -p`, or read the array by h5py"
+            ),
+        });
+    }
     for (array, absent) in absent_chunks {
         add_left_out(&mut summary.absent_chunks, &array, absent);
     }
     Ok(())
+}
+
+/// Whether the array lies in a file of HDF5. Writers of zarr leave chunks out that hold the fill value alone, those of HDF5 do not.
+fn is_of_hdf5(array: &str) -> bool {
+    let ends = array.match_indices('/').map(|(at, _)| at);
+    let mut files = ends.filter_map(|end| ArrayFormat::of(Path::new(&array[..end])));
+    files.next() == Some(ArrayFormat::Hdf5)
 }

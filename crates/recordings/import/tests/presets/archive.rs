@@ -78,7 +78,7 @@ fn an_error_names_the_archive_and_its_member_and_not_where_it_was_unpacked() {
     let member = |name: &str| plain.join("run").join(name).display().to_string();
     let said = |error| {
         let said = archive.named(error).to_string();
-        assert!(!said.contains(".unpacked"), "{said}");
+        assert!(!said.contains("unpacked-"), "{said}");
         said
     };
     let wrong_cell = ImportPlan::new(archive.folder(), &map("labels.csv")).expect_err("a text");
@@ -263,7 +263,8 @@ fn compressed_bombs_and_cut_ones_are_refused() {
 fn more_than_a_million_members_are_refused() {
     let lab = tempfile::tempdir().expect("a folder");
     let path = lab.path().join("a.tar");
-    let folder = header(b"f/", 0, EntryType::Directory);
+    // Heads that describe all that follows: they count as members, and not as empty files.
+    let folder = header(b"pax_global_header", 0, EntryType::XGlobalHeader);
     {
         let mut file = std::io::BufWriter::new(File::create(&path).expect("created"));
         for _ in 0..=(1 << 20) {

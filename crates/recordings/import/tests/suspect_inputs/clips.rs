@@ -57,10 +57,53 @@ fn frames_of_a_clip_are_joined_to_a_log_by_their_rate_start_and_lag() {
 }
 
 #[test]
-fn a_clip_without_a_rate_or_with_keys_of_tables_is_refused() {
+fn frames_of_a_clip_without_a_rate_come_at_the_times_that_the_clip_states() {
+    let folder = folder(&log());
+    let clip = Video::open(CLIP.as_ref(), &Decoders::default()).expect("a clip");
+    let times = clip.info().times_s.clone().expect("stated");
+    for (form, start) in [
+        ("format = \"clip\"", 0.0),
+        ("format = \"clip\", start_s = 0.25", 0.25),
+    ] {
+        let found = imported(folder.path(), &map(form, "0"), "Fz");
+        assert!(found.len() > 10, "{form}");
+        for (time, force) in times.iter().zip(&found) {
+            let expected = start + time - times[0];
+            assert!(
+                (force - expected).abs() < 1e-9,
+                "{form}: {force} for {expected}"
+            );
+        }
+    }
+    // Frames that are lost leave a gap: an AVI of Motion JPEG whose seventh packet is empty.
+    let avi = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../tests/recordings/avi-mjpeg");
+    let clip = std::fs::read_dir(avi)
+        .expect("listed")
+        .flatten()
+        .map(|entry| entry.path());
+    let clip = clip
+        .filter(|path| path.extension().is_some_and(|ending| ending == "avi"))
+        .min();
+    let clip = clip.expect("a clip");
+    std::fs::copy(&clip, folder.path().join("clip.mp4")).expect("copied");
+    let times = Video::open(&clip, &Decoders::default())
+        .expect("a clip")
+        .info()
+        .times_s
+        .clone();
+    let times = times.expect("stated");
+    let map = map("format = \"clip\"", "0").replace("\"gray\"", "\"rgb\"");
+    let found = imported(folder.path(), &map, "Fz");
+    assert!(found.len() > 3);
+    for (time, force) in times.iter().zip(&found) {
+        assert!((force - time).abs() < 1e-9, "{force} for {time}");
+    }
+}
+
+#[test]
+fn a_clip_with_a_rate_of_zero_or_with_keys_of_tables_is_refused() {
     let folder = folder(&log());
     for form in [
-        "format = \"clip\"",
         "format = \"clip\", rate = 0",
         "format = \"clip\", rate = 30, header = true",
         "rate = 30",
@@ -68,7 +111,7 @@ fn a_clip_without_a_rate_or_with_keys_of_tables_is_refused() {
         let problem = planned(folder.path(), &map(form, "0")).map(|_| ());
         let problem = problem.expect_err("refused");
         assert!(
-            problem.contains("`rate` (frames a second, above 0)"),
+            problem.contains("`rate` (frames a second, above 0;"),
             "{problem}"
         );
     }

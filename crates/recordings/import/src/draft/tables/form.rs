@@ -65,7 +65,9 @@ pub(super) fn form_of(path: &Path, group: &FileGroup) -> Option<(TableForm, Stri
                 is_whole: false,
             };
             let whole = of(None);
-            let table = ForeignTable::read(path, &whole).ok()?;
+            let Ok(table) = ForeignTable::read(path, &whole) else {
+                return plain(whole);
+            };
             let names = table.names();
             let found = match format {
                 ArrayFormat::Pickle | ArrayFormat::Npy => rows_of_dictionaries(&names),

@@ -35,6 +35,22 @@ pub(super) fn absent_chunks<'n>(
     Ok(counted)
 }
 
+/// Whether `name` is a data frame of pandas.
+pub(super) fn is_data_frame(file: &ArrayFile, name: &str) -> bool {
+    file.attribute(name, "pandas_type").is_some()
+}
+
+/// The unit of the times of NumPy that an array of integers holds, where the file says that it holds some.
+pub(super) fn unit_of_times(file: &ArrayFile, array: &str) -> Option<&'static str> {
+    let mut said = ["value_type", "kind"].iter();
+    said.find_map(|name| {
+        let kind = file.attribute(array, name)?;
+        let unit = kind.strip_prefix("datetime64[")?.split([',', ']']).next()?;
+        let known = ["ns", "us", "ms", "s"];
+        known.into_iter().find(|known| *known == unit)
+    })
+}
+
 /// What is wrong, without the path of the file: the error around it names that.
 pub(super) fn problem(error: ArrayError) -> String {
     match error.array {

@@ -1,9 +1,10 @@
 //! Columns of arrays, cell by cell.
 
-use taceva_arrays::ArrayInfo;
+use taceva_arrays::{ArrayInfo, ArrayValues};
+use taceva_tables::Cell;
 
 use super::ArrayRows;
-use super::attributes::problem;
+use super::attributes::{self, problem};
 use super::cells::Texts;
 use super::group::{Group, candidates};
 
@@ -50,6 +51,12 @@ impl ArrayRows {
         self.file.attribute(owner, attribute)
     }
 
+    /// The unit in which the file counts the times in a column, where it says that they are times.
+    pub(super) fn unit_of_times(&self, group: &Group, name: &str) -> Option<&'static str> {
+        let (path, _) = self.info(group, name)?;
+        attributes::unit_of_times(&self.file, &path)
+    }
+
     pub(super) fn cells(&self, group: &Group, name: &str) -> Result<Vec<String>, String> {
         if let Some(text) = self.attribute(group, name) {
             return Ok(vec![text; group.rows]);
@@ -84,6 +91,13 @@ impl ArrayRows {
         let sides = info.shape.iter().skip(1);
         let shape: Result<Vec<usize>, _> = sides.map(|side| usize::try_from(*side)).collect();
         let shape = shape.map_err(|error| error.to_string())?;
+        if let (Some(unit), ArrayValues::I64(times)) =
+            (self.unit_of_times(group, name), &read.values)
+            && !is_scalar
+            && shape.is_empty()
+        {
+            return Ok(times.iter().map(|time| seconds(*time, unit)).collect());
+        }
         let texts = Texts(&read.values);
         let width = usize::try_from(across).map_err(|error| error.to_string())?;
         let cell = |row: usize| texts.packed(row * width, &shape);
@@ -91,5 +105,21 @@ impl ArrayRows {
             true => vec![cell(0); group.rows],
             false => (0..group.rows).map(cell).collect(),
         })
+    }
+}
+
+/// A time of NumPy in seconds, all its digits kept; "not a time" is an empty cell.
+fn seconds(time: i64, unit: &str) -> String {
+    let nanoseconds = match unit {
+        "s" => 1_000_000_000,
+        "ms" => 1_000_000,
+        "us" => 1_000,
+        _ => 1_i128,
+    };
+    match time {
+        i64::MIN => String::new(),
+        time => Cell::Time(i128::from(time) * nanoseconds)
+            .text()
+            .into_owned(),
     }
 }

@@ -53,6 +53,8 @@ pub(super) fn rows_of(file: &ArrayFile, group: &str) -> Result<usize, String> {
             limits::ROWS
         )),
         Some((length, _)) => usize::try_from(*length).map_err(|error| error.to_string()),
+        // What is there and is not read says why.
+        None if unread(file, group).is_some() => Err(unread(file, group).unwrap_or_default()),
         None => Err(format!(
             "no array with rows {}; there are {}",
             match group {
@@ -65,4 +67,17 @@ pub(super) fn rows_of(file: &ArrayFile, group: &str) -> Result<usize, String> {
             }
         )),
     }
+}
+
+/// The reason of what is not read in a group, or above it.
+fn unread(file: &ArrayFile, group: &str) -> Option<String> {
+    let mut unread = file.unread_arrays().into_iter();
+    let is_of = |array: &str| {
+        let inside = array.strip_prefix(group);
+        let above = group.strip_prefix(array);
+        let mut rests = inside.into_iter().chain(above);
+        rests.any(|rest| rest.is_empty() || rest.starts_with(['/', '.']))
+    };
+    let (array, reason) = unread.find(|(array, _)| is_of(array))?;
+    Some(format!("`{array}`: {reason}"))
 }

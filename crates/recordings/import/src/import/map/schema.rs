@@ -28,6 +28,8 @@ struct WrittenMap {
     table: Spanned<WrittenTable>,
     frame_id: Option<String>,
     #[serde(default)]
+    fill: bool,
+    #[serde(default)]
     source: Source,
     rotation: Option<Spanned<WrittenRotations>>,
     frame: Option<Spanned<WrittenFrame>>,
@@ -168,6 +170,7 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
         table,
         form,
         frame_id: written.frame_id,
+        is_filled: written.fill,
         matrices,
         channels,
         columns,

@@ -241,13 +241,12 @@ impl Check<'_> {
 
     /// The frames of a clip as a table.
     fn clip_form(&self, described: &WrittenForm, offset: usize) -> Result<TableForm, DatasetError> {
-        let rate = described
-            .rate
-            .filter(|rate| rate.is_finite() && *rate > 0.0);
+        let rate = described.rate;
         let start_s = described.start_s.unwrap_or(0.0);
-        match (described.format, rate) {
-            (Some(Format::Clip), Some(rate))
-                if start_s.is_finite()
+        match described.format {
+            Some(Format::Clip)
+                if rate.is_none_or(|rate| rate.is_finite() && rate > 0.0)
+                    && start_s.is_finite()
                     && described.rows.is_none()
                     && described.header.is_none()
                     && !described.has_text_keys() =>
@@ -259,8 +258,8 @@ impl Check<'_> {
             }
             _ => Err(self.at(
                 offset,
-                "frames of a clip are a table by `format = \"clip\"`, `rate` (frames a second, above 0) and perhaps `start_s` (time of the first frame), and no \
-                 other key but `file`",
+                "frames of a clip are a table by `format = \"clip\"`, perhaps `rate` (frames a second, above 0; without it the times that the clip states) and \
+                 `start_s` (time of the first frame), and no other key but `file`",
             )),
         }
     }

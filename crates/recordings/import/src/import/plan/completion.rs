@@ -62,6 +62,7 @@ impl Reading<'_> {
             self.folder,
             self.map.frame.as_ref().zip(frames.as_ref()),
             self.absent_chunks,
+            self.map.is_filled,
             &mut self.summary,
         )?;
         let rows_read = self.summary.rows_read;

@@ -1,0 +1,67 @@
+//! Index of the chunks of a dataset, held against its grid and its extent. The library passes over a chunk whose key is damaged, and its elements
+//! become the fill value without a word.
+
+use std::collections::BTreeSet;
+
+use hdf5_pure::Dataset;
+
+use super::problem;
+use crate::error::Problem;
+use crate::store::chunks_of;
+
+/// What an index says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct ChunkIndex {
+    /// Chunks that were written.
+    pub(super) written: u64,
+    /// Chunks that were not, of those that the extent asks for.
+    pub(super) absent: u64,
+}
+
+impl ChunkIndex {
+    /// The index of `dataset`, whose chunks have the lengths `chunk`; none of the one kind of index that is not read here.
+    ///
+    /// # Errors
+    /// [`Problem::Damaged`] of a chunk off the grid, outside the extent or at the place of another; [`Problem::Structure`] if it does not read.
+    pub(super) fn read(
+        dataset: &Dataset,
+        shape: &[u64],
+        chunk: &[u64],
+    ) -> Result<Option<ChunkIndex>, Problem> {
+        let chunks = match dataset.chunks().map_err(problem) {
+            Ok(chunks) => chunks,
+            Err(Problem::Unsupported { .. }) => return Ok(None),
+            Err(problem) => return Err(problem),
+        };
+        let mut places = BTreeSet::new();
+        for found in &chunks {
+            let axes = found.offset.iter().zip(shape).zip(chunk);
+            let is_on_grid = axes
+                .into_iter()
+                .all(|((at, side), length)| at < side && at % (*length).max(1) == 0);
+            if !is_on_grid {
+                return Err(wrong(
+                    found.address,
+                    &found.offset,
+                    "lies off the grid of chunks or outside the extent",
+                ));
+            }
+            if !places.insert(found.offset.as_slice()) {
+                return Err(wrong(found.address, &found.offset, "is there twice"));
+            }
+        }
+        let written = chunks.len() as u64;
+        Ok(Some(ChunkIndex {
+            written,
+            absent: chunks_of(shape, chunk).saturating_sub(written),
+        }))
+    }
+}
+
+fn wrong(address: u64, offset: &[u64], what: &str) -> Problem {
+    Problem::damaged(
+        address,
+        format!("a chunk whose key {offset:?} {what}"),
+        "an index as it was written: it was damaged since, take another copy of the file",
+    )
+}

@@ -1,0 +1,37 @@
+//! Bytes that the datasets of a file become, held against those that the file has.
+
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
+
+use crate::error::Problem;
+use crate::limits;
+
+/// Bytes that the datasets become which were opened so far, each once.
+#[derive(Debug, Default)]
+pub(super) struct UnpackedSizes(Mutex<BTreeMap<usize, u64>>);
+
+impl UnpackedSizes {
+    /// Counts the dataset `index` of `bytes` once unpacked, in a file of `stored`.
+    ///
+    /// # Errors
+    /// [`Problem::TooLarge`] of a file that is made to fill a memory or to cost hours; nothing was unpacked for it.
+    pub(super) fn take(&self, index: usize, bytes: u64, stored: u64) -> Result<(), Problem> {
+        let mut each = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        each.insert(index, bytes);
+        let all = each
+            .values()
+            .fold(0, |all: u64, bytes| all.saturating_add(*bytes));
+        let most = limits::unpacked_bytes(stored);
+        match all <= most {
+            true => Ok(()),
+            false => Err(Problem::too_large(
+                format!(
+                    "bytes of its arrays once unpacked, {} times as many as the file has (write it with less compression, or in several files)",
+                    all / stored.max(1)
+                ),
+                all,
+                most,
+            )),
+        }
+    }
+}

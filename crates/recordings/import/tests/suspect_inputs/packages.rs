@@ -1,0 +1,102 @@
+//! Files of packages of the field that say less, or otherwise, than their names promise.
+
+use super::{FACTS, NO_TIME, case, draft, imported, lab, planned};
+use taceva_import::MapDraft;
+
+/// A copy of a data frame that pandas wrote, as `run.h5`.
+fn data_frame(name: &str) -> tempfile::TempDir {
+    let folder = lab(&[]);
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../formats/arrays/tests/data/pandas")
+        .join(name);
+    std::fs::copy(path, folder.path().join("run.h5")).expect("copied");
+    folder
+}
+
+#[test]
+fn a_data_frame_in_the_fixed_form_of_pandas_is_a_table_of_its_columns() {
+    let folder = data_frame("mixed.h5");
+    let draft = draft(folder.path());
+    for line in ["Fx = { from = ", "Fz = { from = "] {
+        assert!(draft.contains(line), "no `{line}` in\n{draft}");
+    }
+    let map = format!(
+        "map_version = 2\ntable = {{ file = \"run.h5\", rows = \"/run\" }}\n[columns]\nFx = {{ from = \"Fx\", unit = \"N\" }}\nFz = {{ from = \"Fz\", unit = \"N\" }}\n\
+         [attributes]\nobj = \"obj\"\n[time]\ncolumn = \"t\"\nunit = \"s\"\nclock = \"unix\"\n{FACTS}"
+    );
+    let expected: Vec<f64> = (0..24).map(|k| f64::from(k) * 0.25).collect();
+    assert_eq!(imported(folder.path(), &map, "Fz"), expected);
+    let times = imported(folder.path(), &map, "t_s");
+    let expected: Vec<f64> = (0..24_u32)
+        .map(|k| 1_700_000_000.0 + f64::from(k) * 0.033)
+        .collect();
+    for (found, expected) in times.iter().zip(&expected) {
+        assert!((found - expected).abs() < 1e-6, "{found} for {expected}");
+    }
+    // The index is a time where pandas says so, in another unit and another group.
+    let folder = data_frame("timed.h5");
+    let map = format!(
+        "map_version = 2\ntable = {{ file = \"run.h5\", rows = \"/run\" }}\n[columns]\nFz = {{ from = \"Fz\", unit = \"N\" }}\n[time]\ncolumn = \"index\"\nunit = \"s\"\n\
+         clock = \"unix\"\n{FACTS}"
+    );
+    let times = imported(folder.path(), &map, "t_s");
+    assert!(
+        (times[23] - times[0] - 23.0 * 0.02).abs() < 1e-6,
+        "{times:?}"
+    );
+}
+
+#[test]
+fn a_data_frame_that_pandas_stopped_to_write_is_refused_in_the_draft_and_by_the_map() {
+    for (file, word) in [("cut.h5", "block 1 of 2"), ("levels.h5", "several levels")] {
+        let folder = data_frame(file);
+        let problem = MapDraft::of(folder.path()).expect_err(file).to_string();
+        assert!(
+            problem.contains(word) && problem.contains("run.h5"),
+            "{problem}"
+        );
+        let group = if file == "cut.h5" { "/run" } else { "/f" };
+        let map = format!(
+            "map_version = 2\ntable = {{ file = \"run.h5\", rows = \"{group}\" }}\n[columns]\nFz = {{ from = \"Fz\", unit = \"N\" }}\n{NO_TIME}{FACTS}"
+        );
+        let problem = planned(folder.path(), &map).expect_err(file);
+        assert!(problem.contains(word), "{problem}");
+    }
+}
+
+#[test]
+fn messages_with_arrays_within_them_are_taxels_and_those_with_summaries_alone_lead_to_the_call() {
+    let folder = case("embedded-arrays");
+    let found = draft(&folder);
+    assert!(found.contains("from = \"taxels\""), "{found}");
+    let summaries = MapDraft::of(&case("array-summaries"))
+        .expect_err("no numbers")
+        .to_string();
+    for word in [
+        "`taxels`",
+        "shape of an array",
+        "embed_payloads=True",
+        "run.mcap",
+    ] {
+        assert!(summaries.contains(word), "no `{word}` in {summaries}");
+    }
+}
+
+#[test]
+fn a_folder_of_lerobot_whose_version_bears_a_name_is_read_and_the_length_of_a_vector_is_no_force() {
+    let folder = case("lerobot-named-version");
+    let draft = draft(&folder);
+    assert!(
+        draft.contains("format = \"lerobot\" }   # 24 rows"),
+        "{draft}"
+    );
+    assert!(!draft.contains("\nFz = "), "{draft}");
+    assert!(draft.contains("the length of a vector"), "{draft}");
+    let map = format!(
+        "map_version = 2\ntable = {{ file = \".\", format = \"lerobot\" }}\n[columns]\nFz = {{ from = \"observation.tactile[3]\", unit = \"N\" }}\n[time]\n\
+         column = \"timestamp\"\nunit = \"s\"\nclock = \"monotonic\"\n{FACTS}"
+    );
+    let forces = imported(&folder, &map, "Fz");
+    assert_eq!(forces.len(), 24);
+    assert_eq!(forces[4], 6.0);
+}
