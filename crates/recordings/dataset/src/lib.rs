@@ -37,6 +37,7 @@ mod table;
 mod text;
 mod toml_file;
 mod version;
+mod view_names;
 
 #[cfg(feature = "ndarray")]
 pub use arrays::{FrameArray, FrameArrays};
@@ -48,7 +49,7 @@ pub use frame_retries::{add_frame_retries, frame_retries};
 pub use header::{
     Extension, Footprint, FrameCodec, FramesInfo, Header, Known, LeftOut, MappedClass,
     MappedColumn, MappedJoin, MappedPictures, RecordingFacts, ReducedFrames, ReferenceInfo,
-    SensorFacts, Shape, Source, StreamFacts, TableInfo,
+    SensorFacts, Shape, Source, StreamFacts, TableInfo, ViewInfo,
 };
 pub use pack::Span;
 pub use quality::names_quality;
@@ -57,7 +58,7 @@ pub use replacement::settle;
 pub use sensor_file::SensorFile;
 pub use session_table::{RecordedSessions, Session, SessionTable};
 pub use signals::{SignalsInfo, SignalsSpec};
-pub use table::{FrameEntry, Row, Table};
+pub use table::{FrameEntry, Row, RowFrame, Table, ViewFrames};
 pub use toml_file::read_toml;
 pub use version::Version;
 

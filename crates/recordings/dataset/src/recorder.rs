@@ -368,6 +368,7 @@ impl Recorder {
                 .collect(),
             attributes: Vec::new(),
             frame,
+            views: Vec::new(),
         }
     }
 }

@@ -8,6 +8,8 @@ use crate::digest::Digest;
 use crate::layout;
 use crate::pack::Span;
 
+use super::views::RowFrame;
+
 /// Where a frame lies within the dataset, and what its bytes must be.
 ///
 /// ```
@@ -117,6 +119,8 @@ pub struct Row {
     pub attributes: Vec<Option<String>>,
     /// The picture.
     pub frame: Option<FrameEntry>,
+    /// One picture for each view of the table, whose rows then have no other.
+    pub views: Vec<RowFrame>,
 }
 
 impl Row {
