@@ -76,7 +76,9 @@ pub mod internal {
     pub use crate::parallel::{all_cores, each_part, ordered_map};
     pub use crate::signals::{SignalsReader, SignalsWriter};
     pub use crate::store::{Beside, write_table_and_header};
-    pub use crate::table::{Cells, NamedColumn, RESERVED, RowNames, is_attribute_name};
+    pub use crate::table::{
+        Cells, NamedColumn, RESERVED, RowNames, column_kind, column_of, is_attribute_name,
+    };
     pub use crate::text::{listed, shown, shown_path};
     pub use crate::toml_file::{line_of, parse_toml, read_toml_text, toml_error, utf8};
     pub use crate::{layout, limits, staging};

@@ -16,8 +16,8 @@ use crate::digest::{Digest, PartsDigest};
 pub use cells::{Cells, NamedColumn, RESERVED, is_attribute_name};
 pub use row::{FrameEntry, Row};
 pub use row_union::RowNames;
-pub use views::{RowFrame, ViewFrames};
-pub(crate) use views::{column_of, digest_of};
+pub(crate) use views::digest_of;
+pub use views::{RowFrame, ViewFrames, column_kind, column_of};
 
 /// All labels of a recording.
 ///
@@ -329,7 +329,7 @@ impl Table {
             digest.part(channel.unit().symbol().as_bytes());
         }
         for column in self.columns() {
-            if views::kind_of(column.name) == "frame" {
+            if views::column_kind(column.name) == "frame" {
                 continue;
             }
             digest.part(column.name.as_bytes());

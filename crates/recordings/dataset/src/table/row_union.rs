@@ -2,7 +2,7 @@
 
 use taceva_core::Channel;
 
-use super::views::{ViewFrames, kind_of};
+use super::views::{ViewFrames, column_kind};
 use super::{FrameEntry, Row, Table};
 use crate::digest::{Digest, PartsDigest};
 
@@ -70,7 +70,7 @@ impl Table {
         ];
         let mut digests = vec![PartsDigest::default(); self.rows()];
         for column in self.columns() {
-            if NAMES.contains(&kind_of(column.name)) {
+            if NAMES.contains(&column_kind(column.name)) {
                 continue;
             }
             for (row, digest) in digests.iter_mut().enumerate() {

@@ -4,7 +4,7 @@ use super::{Cells, FrameEntry, NamedColumn, Table};
 use crate::digest::{Digest, PartsDigest};
 
 /// Separates the name of a column on disk from the view that it is of; no attribute and no channel contains it.
-const SEPARATOR: char = '.';
+const SEPARATOR: char = ':';
 
 /// The picture of one row in one view.
 ///
@@ -47,12 +47,12 @@ pub struct ViewFrames {
 }
 
 /// The column on disk that is called `column`, of the view called `view`.
-pub(crate) fn column_of(column: &str, view: &str) -> String {
+pub fn column_of(column: &str, view: &str) -> String {
     format!("{column}{SEPARATOR}{view}")
 }
 
 /// What a column on disk holds, whichever view it is of.
-pub(super) fn kind_of(column: &str) -> &str {
+pub fn column_kind(column: &str) -> &str {
     column.split(SEPARATOR).next().unwrap_or(column)
 }
 
