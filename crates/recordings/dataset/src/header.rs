@@ -133,7 +133,7 @@ pub struct Header {
     pub warnings: Vec<String>,
     /// What all frames share; `None` if there is none.
     pub frames: Option<FramesInfo>,
-    /// What the frames of each view share, where samples have several pictures; `frames` is then that of the views by which the dataset is seen.
+    /// Frames of each view, where samples have several pictures; `frames` is then of the views by which the dataset is seen.
     pub views: Vec<ViewInfo>,
     /// How many presses ended in which way, those without a sample too; empty where no protocol pressed.
     pub presses: BTreeMap<PressOutcome, u64>,

@@ -24,7 +24,7 @@ use taceva_files::seal::{Edit, Opened};
 pub struct Beside {
     /// How many presses ended in which way.
     pub presses: BTreeMap<PressOutcome, u64>,
-    /// What the frames of each view share.
+    /// Frames of each view, where samples have several pictures.
     pub views: Vec<ViewInfo>,
     /// Columns that no key of an import names.
     pub unmentioned_columns: Vec<String>,

@@ -5,7 +5,7 @@ use crate::text::shown;
 /// Stands between the names of views whose pictures are put side by side.
 pub(crate) const BESIDE: char = '+';
 
-/// Why a view is not there, or none is meant, in words.
+/// Reason why a view is not there, or none is meant, in words.
 pub(crate) fn wanted_view(asked: Option<&str>, known: &[String]) -> String {
     let quoted = |name: &String| format!("`{}`", shown(name));
     let names: Vec<String> = known.iter().map(quoted).collect();

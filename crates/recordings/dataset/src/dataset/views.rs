@@ -34,7 +34,8 @@ impl Dataset {
 
     /// The same dataset, whose frames are those of the view `view`, or of several side by side: `left+right`.
     ///
-    /// Its digest is a function of that of the dataset and of the view. Labels are the same.
+    /// Its digest is a function of that of the dataset and of the view. Labels are the same. Of several views no file is the picture: entries of
+    /// the table then have no bytes.
     ///
     /// # Errors
     /// [`DatasetError::View`] if there is no such view; [`DatasetError::Request`] if one is named twice, or pictures of unlike height or
@@ -155,7 +156,7 @@ impl Dataset {
     }
 }
 
-/// Where the picture without contact lies.
+/// Place of the picture without contact.
 pub(super) fn reference_entry(reference: &ReferenceInfo) -> FrameEntry {
     FrameEntry {
         path: reference.path.clone(),
@@ -186,7 +187,7 @@ fn info_of(views: &[&ViewInfo]) -> Result<FrameInfo, String> {
     Ok(info)
 }
 
-/// What all frames of `views` side by side share.
+/// Facts that all frames of `views` share once they stand side by side.
 fn frames_of(views: &[&ViewInfo], info: FrameInfo, count: u64) -> FramesInfo {
     let (first, others) = views.split_first().expect("at least one view");
     let mut frames = FramesInfo {

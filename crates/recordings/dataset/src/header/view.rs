@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::FramesInfo;
 
-/// What all frames of one view share: of a finger, an eye, a camera.
+/// Frames of one view, of a finger, an eye or a camera, and what they share.
 ///
 /// ```
 /// let text = "name = \"left\"\ncount = 2\nwidth = 32\nheight = 24\nformat = \"gray8\"\nchannel_order = \"gray\"\n";

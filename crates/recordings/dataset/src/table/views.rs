@@ -51,7 +51,7 @@ pub fn column_of(column: &str, view: &str) -> String {
     format!("{column}{SEPARATOR}{view}")
 }
 
-/// What a column on disk holds, whichever view it is of.
+/// Kind of a column on disk, whichever view it is of.
 pub fn column_kind(column: &str) -> &str {
     column.split(SEPARATOR).next().unwrap_or(column)
 }
@@ -150,8 +150,8 @@ impl Table {
         view.intensity[row] = Some(intensity);
     }
 
-    /// The same table, whose frames are those of the views at `positions`; of several the entry has the place of the first and a digest of all,
-    /// and the intensity is the mean by `widths`.
+    /// The same table, whose frames are those of the views at `positions`. Of several the entry has the place of the first and a digest of all.
+    /// Their intensity is the mean by `widths`.
     pub(crate) fn seen_by(&self, positions: &[usize], widths: &[u32]) -> Table {
         let mut seen = self.clone();
         let views: Vec<&ViewFrames> = positions.iter().map(|at| &self.views[*at]).collect();

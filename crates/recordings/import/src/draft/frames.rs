@@ -46,7 +46,7 @@ pub(super) fn file_column<'t>(
 #[derive(Clone, Copy)]
 pub(super) struct FileColumn<'t> {
     column: &'t SeenColumn,
-    /// Whether its cells are relative to the folder itself and not to that of the table.
+    /// True if its cells are relative to the folder itself and not to that of the table.
     is_below_source: bool,
 }
 

@@ -79,7 +79,7 @@ pub(super) fn write(
     Ok((written, folders))
 }
 
-/// What the feature of these pictures is called.
+/// Name of the feature of these pictures.
 fn picture_name(pictures: &Pictures<'_>) -> String {
     let view = pictures.view();
     format!("{PICTURES}.{}", view.as_deref().unwrap_or("gel"))

@@ -13,7 +13,7 @@ use taceva_dataset::{Footprint, ReducedFrames, SensorFacts};
 pub(super) struct Written {
     /// The value of `table`, as TOML.
     pub(super) table: String,
-    /// Where the pictures of each view are; none without pictures.
+    /// Places of the pictures of each view; none without pictures.
     pub(super) frames: Vec<WrittenFrames>,
     /// The value of `from` of [signals], as TOML; none without signals.
     pub(super) signals: Option<String>,
@@ -23,7 +23,7 @@ pub(super) struct Written {
     pub(super) channels: Vec<String>,
 }
 
-/// Where a form has the pictures of a view.
+/// Place of the pictures of a view in a form.
 pub(super) struct WrittenFrames {
     /// The key and value that name them, as TOML.
     pub(super) key: String,

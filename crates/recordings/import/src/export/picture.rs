@@ -57,7 +57,7 @@ impl<'a> Pictures<'a> {
         }
     }
 
-    /// From what they were reduced before they were recorded.
+    /// Reduction of these pictures before they were recorded.
     pub(super) fn reduced(&self) -> Option<&ReducedFrames> {
         self.dataset.header().frames.as_ref()?.reduced.as_ref()
     }

@@ -42,7 +42,7 @@ pub struct ImportReport {
     pub summary: ImportSummary,
     /// Size and format of the frames; `None` if there is none.
     pub frames: Option<FrameInfo>,
-    /// What the frames of each view share, where samples have several pictures; then `frames` is `None`.
+    /// Frames of each view, where samples have several pictures; then `frames` is `None`.
     pub views: Vec<ViewInfo>,
     /// The digest of the dataset.
     pub digest: Digest,

@@ -91,12 +91,12 @@ pub struct ImportSummary {
 pub struct FrameSummary {
     /// The view; `None` where rows have one picture.
     pub view: Option<String>,
-    /// How the colours of the frames are stored.
+    /// Order of the colours in the files.
     pub channel_order: ChannelOrder,
     /// The frame without contact; `None` if none is known.
     pub reference: Option<PathBuf>,
-    /// How many different frames without contact rows name, where they do not all name the same one: the attribute `reference`, of a view
-    /// `reference_VIEW`, says which, and their pictures are not copied.
+    /// Number of different frames without contact that rows name, where these differ. Their pictures are not copied: the attribute `reference`, of
+    /// a view `reference_VIEW`, names them.
     pub references: u64,
 }
 

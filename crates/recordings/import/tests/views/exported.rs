@@ -111,7 +111,7 @@ fn a_lerobot_dataset_of_two_cameras_and_two_arrays_of_hdf5_are_drafted_as_views(
     }
 }
 
-/// What else a draft leaves open.
+/// Units and colours that a draft leaves open.
 fn with_units(draft: &str) -> String {
     let draft = draft.replace("\nunit = \"?\"", "\nunit = \"s\"");
     let draft = draft.replace("unit = \"?\"", "unit = \"N\"");

@@ -18,7 +18,7 @@ use crate::lab::{png, rgb_png};
 
 pub(super) const ROWS: u32 = 6;
 
-/// What a lab knows of its sensor.
+/// Facts of the sensor.
 pub(super) const FACTS: &str = "[time]\nclock = \"unknown\"\n[sensor]\nmodel = \"gripper\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = \"unknown\"\n";
 
 /// The map of two columns of pictures.
@@ -76,7 +76,7 @@ pub(super) fn import(folder: &Path, map: &str, target: &Path) -> Result<Dataset,
     Dataset::open(target)
 }
 
-/// Why an import is refused.
+/// Reason why an import is refused.
 #[track_caller]
 pub(super) fn refusal(folder: &Path, map: &str) -> String {
     let target = tempfile::tempdir().expect("a folder");

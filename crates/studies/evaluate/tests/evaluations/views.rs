@@ -16,7 +16,7 @@ use crate::taxels::{WORK, evaluated, of, r2, request};
 const ROWS: u32 = 90;
 const SIDE: u32 = 16;
 
-/// What the fingers feel, two numbers from 0 to 1 that say nothing of each other.
+/// Forces that the fingers feel, two numbers from 0 to 1 that say nothing of each other.
 fn felt(row: u32) -> [f64; 2] {
     [row * 37 % 64, row * 53 % 61].map(|number| f64::from(number) / 64.0)
 }

@@ -18,14 +18,14 @@ const COPIES_A_JOB: NonZeroUsize = NonZeroUsize::new(4).expect("four");
 /// Pictures of other files that are held in memory while they are written, bytes.
 const HELD_BYTES: usize = 16 << 20;
 
-/// What was copied.
+/// Copied frames.
 #[derive(Debug, Default)]
 pub(in crate::import) struct CopiedFrames {
-    /// What the frames of rows share that have one picture.
+    /// Those of rows that have one picture.
     pub(in crate::import) frames: Option<FramesInfo>,
-    /// What those of each view share, where rows have several.
+    /// Those of each view, where rows have several.
     pub(in crate::import) views: Vec<ViewInfo>,
-    /// The folders that they lie in.
+    /// Folders that they lie in.
     pub(in crate::import) folders: Vec<String>,
 }
 

@@ -108,7 +108,7 @@ impl WrittenFrames {
         }
     }
 
-    /// Whether the frames without contact of a view may become the attribute `name`.
+    /// True if the frames without contact of a view may become the attribute `name`.
     pub(super) fn has_reference_attribute(&self, name: &str) -> bool {
         self.each().into_iter().any(|frame| {
             let view = frame.name.as_ref().map(|name| name.get_ref().as_str());

@@ -71,7 +71,7 @@ impl MappedView {
 }
 
 impl MappedTable<'_> {
-    /// How the row names its frame in the view at position `view`, and where.
+    /// Name of the frame of a row in the view at position `view`, and its place.
     pub(in crate::import) fn frame_name(
         &self,
         view: usize,
@@ -107,7 +107,7 @@ impl MappedTable<'_> {
         Ok((name, self.table.place(row, column)))
     }
 
-    /// How the row names its frame without contact in a view, and where; `None` if the map names no column of such.
+    /// Name of the frame without contact of a row, and its place; `None` if the map names no column of such.
     pub(in crate::import) fn reference_name(
         &self,
         view: usize,
