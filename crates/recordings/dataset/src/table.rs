@@ -14,10 +14,10 @@ use taceva_core::{
 use crate::digest::{Digest, PartsDigest};
 
 pub use cells::{Cells, NamedColumn, RESERVED, is_attribute_name};
-pub use row::{FrameEntry, Row};
+pub use row::{FrameEntry, Row, RowFrame};
 pub use row_union::RowNames;
 pub(crate) use views::digest_of;
-pub use views::{RowFrame, ViewFrames, column_kind, column_of};
+pub use views::{ViewFrames, column_kind, column_of};
 
 /// All labels of a recording.
 ///

@@ -1,30 +1,10 @@
 //! The pictures of a table whose rows have several: a column of them for each view.
 
-use super::{Cells, FrameEntry, NamedColumn, Table};
+use super::{Cells, FrameEntry, NamedColumn, RowFrame, Table};
 use crate::digest::{Digest, PartsDigest};
 
 /// Separates the name of a column on disk from the view that it is of; no attribute and no channel contains it.
 const SEPARATOR: char = ':';
-
-/// The picture of one row in one view.
-///
-/// ```
-/// use taceva_dataset::{Digest, FrameEntry, RowFrame};
-///
-/// let mut left = RowFrame::default();
-/// left.frame = Some(FrameEntry::at("frames/left/0000/000001.png", Digest::of(b"the bytes of the file")));
-/// assert_eq!(left.intensity, None);
-/// ```
-#[derive(Clone, Debug, Default, PartialEq)]
-#[non_exhaustive]
-pub struct RowFrame {
-    /// The picture as it came, relative to the folder of its lab.
-    pub source_frame: Option<String>,
-    /// Its mean luma, in steps of an 8-bit camera.
-    pub intensity: Option<f64>,
-    /// The picture.
-    pub frame: Option<FrameEntry>,
-}
 
 /// The pictures of one view, a row each.
 ///
