@@ -24,6 +24,8 @@ pub(crate) struct Recording {
 
 impl Recording {
     fn frames_info(&self) -> PyResult<FrameInfo> {
+        let known = self.dataset.require_view();
+        known.map_err(|error| dataset_error(&error))?;
         let frames = self.dataset.header().frames.as_ref();
         frames
             .map(|frames| frames.info)
@@ -58,9 +60,14 @@ fn native(mut bytes: Vec<u8>, number: Number) -> Vec<u8> {
 #[pymethods]
 impl Recording {
     /// Opens the folder at `path`, and checks its seal.
+    /// Of samples with several pictures, those of `view` are seen.
     #[new]
-    fn open(py: Python<'_>, path: PathBuf) -> PyResult<Recording> {
-        let opened = py.detach(|| Dataset::open(&path));
+    #[pyo3(signature = (path, view=None))]
+    fn open(py: Python<'_>, path: PathBuf, view: Option<String>) -> PyResult<Recording> {
+        let opened = py.detach(|| match view {
+            Some(view) => Dataset::open(&path)?.seen(&view),
+            None => Dataset::open(&path),
+        });
         opened
             .map(|dataset| Recording { dataset })
             .map_err(|error| dataset_error(&error))
@@ -72,6 +79,17 @@ impl Recording {
 
     fn path(&self) -> PathBuf {
         self.dataset.path().to_owned()
+    }
+
+    /// The names of the views, where samples have several pictures.
+    fn views(&self) -> Vec<String> {
+        let views = self.dataset.views().into_iter();
+        views.map(str::to_owned).collect()
+    }
+
+    /// The view that was named.
+    fn view(&self) -> Option<String> {
+        self.dataset.view()
     }
 
     fn digest(&self) -> String {

@@ -39,9 +39,9 @@ use std::path::{Path, PathBuf};
 
 use taceva_dataset::Dataset;
 use taceva_evaluate::{DataPart, EvaluateError, FitRequest};
-use taceva_models::{ModelSettings, Models};
+use taceva_models::{Model, ModelSettings, Models};
 
-use crate::args::{Output, PartArg, ScoringArgs, SettingArgs, SplitArgs};
+use crate::args::{Output, PartArg, ScoringArgs, SettingArgs, SplitArgs, ViewArgs};
 use crate::{exit, output};
 
 pub(crate) use crate::context::Context;
@@ -86,6 +86,22 @@ pub(crate) fn open_all(paths: &[PathBuf]) -> anyhow::Result<Dataset> {
     let recordings = paths.iter().map(|path| open(path));
     let recordings = recordings.collect::<anyhow::Result<Vec<_>>>()?;
     Ok(Dataset::joined(recordings)?)
+}
+
+/// The same, seen by the view that the arguments name, or else by that of the model that is used.
+pub(crate) fn open_seen(
+    paths: &[PathBuf],
+    view: &ViewArgs,
+    model: Option<&Model>,
+) -> anyhow::Result<Dataset> {
+    let dataset = open_all(paths)?;
+    let of_model = model.and_then(|model| model.card().provenance.view.as_deref());
+    // A model of one view may well be used on a recording with one picture.
+    let of_model = of_model.filter(|_| !dataset.views().is_empty());
+    Ok(match view.name.as_deref().or(of_model) {
+        Some(view) => dataset.seen(view)?,
+        None => dataset,
+    })
 }
 
 /// Refuses to write over the files that `scoring` and `output` name, before any work is done for them.

@@ -185,7 +185,10 @@ fn code_of(error: &Error) -> u8 {
             return code;
         }
         if let Some(dataset) = cause.downcast_ref::<DatasetError>() {
-            return code_of_kind(dataset.kind());
+            return match dataset {
+                DatasetError::View { .. } => exit::USAGE,
+                other => code_of_kind(other.kind()),
+            };
         }
         if let Some(model) = cause.downcast_ref::<ModelError>() {
             return code_of_kind(model.kind());

@@ -81,6 +81,7 @@ pub(crate) fn fit(name: &str, words: &[&str], spec: FeatureSpec) -> (Model, Feat
         provenance: Provenance {
             data: Some("sha256:00".into()),
             recordings: Vec::new(),
+            view: None,
             source: Source::Synthetic,
             split: Some(SplitCard {
                 split: "random 70/20/10".into(),

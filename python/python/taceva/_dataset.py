@@ -37,13 +37,23 @@ class Dataset:
     It is pickled as its path and its digest; unpickling raises `DatasetError` where the recording at that path is another.
     """
 
-    def __init__(self, path: str | os.PathLike[str]) -> None:
-        self._inner = _taceva.Recording(os.fspath(path))
+    def __init__(self, path: str | os.PathLike[str], view: str | None = None) -> None:
+        self._inner = _taceva.Recording(os.fspath(path), view)
 
     @property
     def path(self) -> str:
         """The folder."""
         return str(self._inner.path())
+
+    @property
+    def views(self) -> tuple[str, ...]:
+        """The views, where each sample has several pictures: ``("left", "right")``; else none."""
+        return tuple(self._inner.views())
+
+    @property
+    def view(self) -> str | None:
+        """The view whose pictures are the frames, as it was named: ``left``, or ``left+right`` side by side."""
+        return self._inner.view()
 
     @property
     def digest(self) -> str:
@@ -245,24 +255,26 @@ class Dataset:
     def __repr__(self) -> str:
         return f"<taceva.Dataset {self.path!r}: {len(self)} rows of {self.sensor}, {self.source}>"
 
-    def __reduce__(self) -> tuple[Any, tuple[int, str, str]]:
-        return _arrived, (PICKLE_VERSION, self.path, self.digest)
+    def __reduce__(self) -> tuple[Any, tuple[int, str, str, str | None]]:
+        return _arrived, (PICKLE_VERSION, self.path, self.digest, self.view)
 
 
-def open(path: str | os.PathLike[str]) -> Dataset:
+def open(path: str | os.PathLike[str], view: str | None = None) -> Dataset:
     """Open the recording in the folder ``path``, which ``taceva import``, ``run`` or ``capture`` wrote.
+
+    Where each sample has several pictures, ``view`` names one (``"left"``) or several that stand side by side (``"left+right"``).
 
     Raises
     ------
     DatasetError
         For a folder that is no recording, or one that was changed after it was sealed.
     """
-    return Dataset(path)
+    return Dataset(path, view)
 
 
-def _arrived(version: object, path: str = "", digest: str = "") -> Dataset:
+def _arrived(version: object, path: str = "", digest: str = "", view: str | None = None) -> Dataset:
     require_version(version)
-    dataset = Dataset(path)
+    dataset = Dataset(path, view)
     if dataset.digest != digest:
         raise _taceva.DatasetError(f"{path}: another recording than the one that was sent, its digest differs")
     return dataset

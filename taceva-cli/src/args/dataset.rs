@@ -100,7 +100,7 @@ pub(crate) struct Reseal {
     pub(crate) reason: String,
 }
 
-/// Every finding has a stable code, from TAC001 to TAC043, and a hint. `--explain` lists the checks and what each looks for: units, copies, doubled and dropped frames,
+/// Every finding has a stable code, from TAC001 to TAC044, and a hint. `--explain` lists the checks and what each looks for: units, copies, doubled and dropped frames,
 /// clocks that jump, lags, blank frames, saturation, leakage between parts, what an import left out, and more. The exit code is 1 if a finding is an error.
 #[derive(Debug, Args)]
 pub(crate) struct Check {

@@ -7,7 +7,8 @@ use taceva_evaluate::{RowKey, Shard};
 use taceva_models::Checkpoints;
 
 use super::{
-    CacheArgs, ModelArgs, OptionalModelArgs, Output, PartArgs, ScoringArgs, SplitArgs, SplitOutArgs,
+    CacheArgs, ModelArgs, OptionalModelArgs, Output, PartArgs, ScoringArgs, SplitArgs,
+    SplitOutArgs, ViewArgs,
 };
 
 /// While a network is trained, a checkpoint is written every half a minute, and when the training is stopped, to the file MODEL.checkpoint;
@@ -17,6 +18,8 @@ pub(crate) struct Fit {
     /// The dataset to train on; several recordings of one kind of sensor are taken as one
     #[arg(required = true, value_name = "DATASET")]
     pub(crate) datasets: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) view: ViewArgs,
     #[command(flatten)]
     pub(crate) model: ModelArgs,
     #[command(flatten)]
@@ -44,6 +47,8 @@ pub(crate) struct Evaluate {
     /// The dataset to evaluate; several recordings of one kind of sensor are taken as one
     #[arg(required = true, value_name = "DATASET")]
     pub(crate) datasets: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) view: ViewArgs,
     /// A fitted model file
     #[arg(long, value_name = "MODEL")]
     pub(crate) with: Option<PathBuf>,
@@ -68,6 +73,8 @@ pub(crate) struct Predict {
     /// The dataset to predict; several recordings of one kind of sensor are taken as one
     #[arg(required = true, value_name = "DATASET")]
     pub(crate) datasets: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) view: ViewArgs,
     /// A fitted model file
     #[arg(long, value_name = "MODEL")]
     pub(crate) with: PathBuf,

@@ -46,6 +46,14 @@ pub(crate) struct SettingArgs {
 }
 
 #[derive(Debug, Args)]
+pub(crate) struct ViewArgs {
+    /// The view of recordings whose samples have several pictures, such as left, or several that stand side by side: left+right [default: the
+    /// only picture, or the view that a fitted model was fitted on]
+    #[arg(id = "view", long = "view", value_name = "VIEW")]
+    pub(crate) name: Option<String>,
+}
+
+#[derive(Debug, Args)]
 pub(crate) struct SplitArgs {
     /// How samples are divided: random, chronological, by-point, by-block, declared, by-column:NAME[=train:1,2;val:3;test:4], or all: every sample
     /// is trained on, for a final model; cv:K or loo, alone or with random, by-point, by-block or by-column:NAME behind it, predicts each sample

@@ -3,7 +3,7 @@
 use taceva_dataset::SensorFile;
 use taceva_evaluate::{DataPart, Effort, EvaluateRequest, ModelChoice, evaluate, evaluate_plan};
 
-use super::{Context, Usage, cache, effort, fit_request, open_all};
+use super::{Context, Usage, cache, effort, fit_request, open_seen};
 use crate::args::Evaluate;
 use crate::{exit, output, report};
 
@@ -38,7 +38,11 @@ pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
             "--split cannot be used with --with: a fitted model knows its own split",
         ));
     }
-    let dataset = open_all(&args.datasets)?;
+    let fitted = match &model {
+        ModelChoice::Fitted(model) => Some(&**model),
+        ModelChoice::Fit(_) => None,
+    };
+    let dataset = open_seen(&args.datasets, &args.view, fitted)?;
     let request = EvaluateRequest {
         model,
         metrics: scoring.metrics.clone(),

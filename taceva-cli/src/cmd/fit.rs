@@ -8,7 +8,7 @@ use anyhow::Context as _;
 use taceva_evaluate::{Effort, Fitted, fit_validated};
 use taceva_models::{Checkpoints, Foreign};
 
-use super::{Context, cache, effort, fit_request, open_all};
+use super::{Context, cache, effort, fit_request, open_seen};
 use crate::args::Fit;
 use crate::{exit, output};
 
@@ -17,7 +17,7 @@ pub(crate) fn run(args: &Fit, context: &Context) -> anyhow::Result<u8> {
     if let Some(path) = &args.split_out.path {
         output::check_free(path, args.force)?;
     }
-    let dataset = open_all(&args.datasets)?;
+    let dataset = open_seen(&args.datasets, &args.view, None)?;
     let models = context.models()?;
     let request = fit_request(&args.model.name, &args.model.settings, &args.split, &models)?;
     let checkpoints = checkpoints(args);

@@ -5,7 +5,7 @@ use taceva_core::shown;
 
 use taceva_evaluate::{DataPart, predict};
 
-use super::{Context, Usage, cache, open_all};
+use super::{Context, Usage, cache, open_seen};
 use crate::args::Predict;
 use crate::{exit, output};
 
@@ -26,8 +26,8 @@ pub(crate) fn run(args: &Predict, context: &Context) -> anyhow::Result<u8> {
     for path in args.truth_out.iter().chain(&args.deviations_out) {
         output::check_free(path, args.force)?;
     }
-    let dataset = open_all(&args.datasets)?;
     let model = context.models()?.open(&args.with)?;
+    let dataset = open_seen(&args.datasets, &args.view, Some(&model))?;
     if args.deviations_out.is_some() && !model.regressor().knows_deviations() {
         return Err(Usage::error(format!(
             "--deviations-out: a model of {} estimates no standard deviations; gaussian-process does",

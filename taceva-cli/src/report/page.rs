@@ -52,6 +52,14 @@ impl Page {
         let recordings: Result<Vec<Dataset>, _> =
             paths.iter().map(|path| Dataset::open(path)).collect();
         let dataset = Dataset::joined(recordings?)?;
+        let dataset = match &report.provenance.view {
+            Some(view) => dataset.seen(view)?,
+            None => dataset,
+        };
+        // Where a sample has several pictures and none was looked at, none is shown.
+        if dataset.require_view().is_err() {
+            return Ok(());
+        }
         self.triples.extend(triple(&dataset, at)?);
         let ids = dataset.table().samples();
         for pick in picks(&self.studies[at]) {

@@ -39,5 +39,6 @@ mod sweep_scenes;
 mod sweep_tables;
 mod taxels;
 mod uncertainty;
+mod views;
 mod waiting;
 mod words;

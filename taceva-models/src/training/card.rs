@@ -168,6 +168,9 @@ pub struct Provenance {
     /// The digest of each recording, in their order, where there were several.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub recordings: Vec<String>,
+    /// The view of its frames, of a recording whose samples have several pictures: `left`, or `left+right` side by side.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub view: Option<String>,
     /// What made the recording.
     pub source: Source,
     /// How it was split.

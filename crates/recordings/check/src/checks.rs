@@ -14,6 +14,7 @@ mod dropped_frames;
 mod duplicate_frames;
 mod equal_channels;
 mod equal_taxels;
+mod equal_views;
 mod implausible_depth;
 mod import_warnings;
 mod label_lag;
@@ -41,7 +42,7 @@ mod zero_shift;
 use crate::finding::Check;
 
 /// Every check, in the order of its code.
-pub static ALL: [&Check; 37] = [
+pub static ALL: [&Check; 38] = [
     &units::CHECK,
     &duplicate_frames::CHECK,
     &channel_order::CHECK,
@@ -79,4 +80,5 @@ pub static ALL: [&Check; 37] = [
     &implausible_depth::CHECK,
     &angle_jumps::CHECK,
     &import_warnings::CHECK,
+    &equal_views::CHECK,
 ];

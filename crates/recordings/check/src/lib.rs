@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod check;
 mod checks;
 mod evidence;
 mod finding;
@@ -8,10 +9,12 @@ mod signal_facts;
 mod stamps;
 mod tiles;
 mod untouched;
+mod views;
 
+pub use check::check;
 pub use checks::ALL;
 pub use evidence::{Evidence, FrameFacts};
 pub use finding::{Check, CheckReport, Finding, Severity};
-pub use run::{CheckRequest, check, check_plan};
+pub use run::{CheckRequest, check_plan};
 pub use signal_facts::{SignalFacts, TaxelFacts};
 pub use tiles::Tiles;

@@ -32,6 +32,10 @@ pub struct CheckRequest {
 /// # Errors
 /// [`EvaluateError::Request`] for a code that does not exist.
 pub fn check_plan(dataset: &Dataset, request: &CheckRequest) -> Result<Plan, EvaluateError> {
+    let seen = dataset.views().first().map(|view| dataset.seen(view));
+    let seen = seen.filter(|_| dataset.view().is_none()).transpose()?;
+    let views = dataset.views().len().max(1);
+    let dataset = seen.as_ref().unwrap_or(dataset);
     let (wanted, skipped) = wanted(dataset, &request.only)?;
     let mut plan = Plan {
         skipped,
@@ -54,7 +58,7 @@ pub fn check_plan(dataset: &Dataset, request: &CheckRequest) -> Result<Plan, Eva
             "decode",
             format!(
                 "{} frames",
-                dataset.table().frames().iter().flatten().count()
+                views * dataset.table().frames().iter().flatten().count()
             ),
         );
     }
@@ -67,11 +71,11 @@ pub fn check_plan(dataset: &Dataset, request: &CheckRequest) -> Result<Plan, Eva
     Ok(plan)
 }
 
-/// Looks for what spoils `dataset`.
+/// Looks for what spoils `dataset`, in the pictures by which it is seen.
 ///
 /// # Errors
 /// [`EvaluateError`] if a code does not exist, the split cannot be made, or a frame is damaged.
-pub fn check(
+pub(crate) fn check_seen(
     dataset: &Dataset,
     request: &CheckRequest,
     progress: &dyn Progress,

@@ -131,6 +131,7 @@ impl Dataset {
     /// # let _ = first_eight;
     /// ```
     pub fn frame_arrays(&self, pass: Pass<'_>) -> Result<FrameArrays, DatasetError> {
+        self.require_view()?;
         let Some(frames) = &self.header().frames else {
             return Err(DatasetError::Request {
                 path: self.path().to_owned(),

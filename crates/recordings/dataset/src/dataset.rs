@@ -5,6 +5,7 @@ mod pass;
 mod signals;
 mod union;
 mod verify;
+mod views;
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -60,6 +61,8 @@ pub struct Dataset {
     signals: Mutex<Option<Arc<SignalsReader>>>,
     /// The recordings that were joined, in the order of their rows; none where this is one recording.
     joined: Vec<JoinedRecording>,
+    /// Positions of the views that its frames are of; none where a row has one picture, or no view was named.
+    seen: Vec<usize>,
 }
 
 impl Dataset {
@@ -90,6 +93,7 @@ impl Dataset {
             firsts: Mutex::default(),
             signals: Mutex::default(),
             joined: Vec::new(),
+            seen: Vec::new(),
         };
         dataset.check_consistency()?;
         Ok(dataset)

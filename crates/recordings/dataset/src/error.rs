@@ -10,6 +10,7 @@ use taceva_files::seal::SealError;
 use crate::digest::Digest;
 use crate::text::{shown, shown_path};
 use crate::version::Version;
+use crate::view_names::wanted_view;
 
 /// Everything that can go wrong with data on disk; each variant says what was met, where, and what would be accepted.
 ///
@@ -155,6 +156,16 @@ pub enum DatasetError {
         /// What was asked for and what there is.
         problem: String,
     },
+    /// A view of pictures that is not there, or none named where samples have several pictures.
+    #[error("{}: {}", shown_path(path), wanted_view(asked.as_deref(), known))]
+    View {
+        /// The dataset.
+        path: PathBuf,
+        /// The view that was asked for; `None` if none was.
+        asked: Option<String>,
+        /// The views that there are.
+        known: Vec<String>,
+    },
     /// Two recordings that cannot be taken as one.
     #[error(
         "{} and {} cannot be taken as one recording: {problem}",
@@ -220,6 +231,7 @@ impl DatasetError {
             | DatasetError::Path { .. }
             | DatasetError::Sample { .. }
             | DatasetError::Unlike { .. }
+            | DatasetError::View { .. }
             | DatasetError::Request { .. } => ErrorKind::InvalidArgument,
             DatasetError::Toml { .. }
             | DatasetError::Table { .. }

@@ -73,6 +73,15 @@ impl HeldFolder {
         }
     }
 
+    /// The same folder, held once more.
+    pub(crate) fn again(&self) -> Result<HeldFolder, DatasetError> {
+        let handle = self.handle.as_ref().map(File::try_clone).transpose();
+        Ok(HeldFolder {
+            path: self.path.clone(),
+            handle: handle.map_err(DatasetError::io("hold", &self.path))?,
+        })
+    }
+
     /// The path that it was opened by.
     pub(crate) fn path(&self) -> &Path {
         &self.path

@@ -17,8 +17,9 @@ mod reduction;
 mod stream;
 #[cfg(test)]
 mod tests;
+mod view;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -50,6 +51,7 @@ pub use picture_mapping::MappedPictures;
 pub use recording_facts::RecordingFacts;
 pub use reduction::ReducedFrames;
 pub use stream::StreamFacts;
+pub use view::ViewInfo;
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 struct ChannelInfo {
@@ -133,6 +135,8 @@ pub struct Header {
     pub warnings: Vec<String>,
     /// What all frames share; `None` if there is none.
     pub frames: Option<FramesInfo>,
+    /// Frames of each view, where samples have several pictures; `frames` is then of the views by which the dataset is seen.
+    pub views: Vec<ViewInfo>,
     /// How many presses ended in which way, those without a sample too; empty where no protocol pressed.
     pub presses: BTreeMap<PressOutcome, u64>,
     /// What was lost of a stream that was recorded as it came; `None` of anything else.
@@ -188,6 +192,8 @@ struct Written {
     extended: Vec<Extension>,
     channels: Vec<ChannelInfo>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    views: Vec<ViewInfo>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     columns: Vec<MappedColumn>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     joins: Vec<MappedJoin>,
@@ -239,6 +245,12 @@ impl Header {
             .map_err(|error| toml_error(path, None, &error.to_string()))?;
         let signals = written.signals.map(SignalsInfo::try_from).transpose();
         let signals = signals.map_err(|problem| toml_error(path, None, &problem))?;
+        let mut names = BTreeSet::new();
+        let twice = written.views.iter();
+        if let Some(view) = { twice }.find(|view| !names.insert(view.name.as_str())) {
+            let problem = format!("two views are called `{}`", view.name);
+            return Err(toml_error(path, None, &problem));
+        }
         Ok(Header {
             format,
             source: written.source,
@@ -257,6 +269,7 @@ impl Header {
             left_out: written.left_out,
             warnings: written.warnings,
             frames: written.frames,
+            views: written.views,
             presses: written.presses,
             stream: written.stream,
             predictions: written.predictions,
@@ -310,6 +323,7 @@ impl Header {
             footprint: self.footprint,
             settings: self.settings.clone(),
             frames: self.frames.clone(),
+            views: self.views.clone(),
             presses: self.presses.clone(),
             stream: self.stream,
             predictions: self.predictions.clone(),

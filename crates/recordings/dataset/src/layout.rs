@@ -23,6 +23,14 @@ pub fn frame_folder(number: usize) -> String {
     format!("{FRAMES}/{:04}", number / FRAMES_A_FOLDER)
 }
 
+/// `path`, a file or a folder of frames, in the folder of the view called so; `path` itself without a view.
+pub fn in_view(view: Option<&str>, path: &str) -> String {
+    match (view, path.strip_prefix(FRAMES)) {
+        (Some(view), Some(rest)) => format!("{FRAMES}/{view}{rest}"),
+        _ => path.to_owned(),
+    }
+}
+
 /// The file of frame `number`, relative to the dataset.
 pub fn frame_path(number: usize, extension: &str) -> String {
     format!("{}/{number:06}.{extension}", frame_folder(number))

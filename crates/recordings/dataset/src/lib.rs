@@ -37,6 +37,7 @@ mod table;
 mod text;
 mod toml_file;
 mod version;
+mod view_names;
 
 #[cfg(feature = "ndarray")]
 pub use arrays::{FrameArray, FrameArrays};
@@ -48,7 +49,7 @@ pub use frame_retries::{add_frame_retries, frame_retries};
 pub use header::{
     Extension, Footprint, FrameCodec, FramesInfo, Header, Known, LeftOut, LivePredictions,
     MappedClass, MappedColumn, MappedJoin, MappedPictures, RecordingFacts, ReducedFrames,
-    ReferenceInfo, SensorFacts, Shape, Source, StreamFacts, TableInfo,
+    ReferenceInfo, SensorFacts, Shape, Source, StreamFacts, TableInfo, ViewInfo,
 };
 pub use pack::Span;
 pub use quality::names_quality;
@@ -57,7 +58,7 @@ pub use replacement::settle;
 pub use sensor_file::SensorFile;
 pub use session_table::{RecordedSessions, Session, SessionTable};
 pub use signals::{SignalsInfo, SignalsSpec};
-pub use table::{FrameEntry, Row, Table};
+pub use table::{FrameEntry, Row, RowFrame, Table, ViewFrames};
 pub use toml_file::read_toml;
 pub use version::Version;
 
@@ -75,7 +76,9 @@ pub mod internal {
     pub use crate::parallel::{all_cores, each_part, ordered_map};
     pub use crate::signals::{SignalsReader, SignalsWriter};
     pub use crate::store::{Beside, write_table_and_header};
-    pub use crate::table::{Cells, NamedColumn, RESERVED, RowNames, is_attribute_name};
+    pub use crate::table::{
+        Cells, NamedColumn, RESERVED, RowNames, column_kind, column_of, is_attribute_name,
+    };
     pub use crate::text::{listed, shown, shown_path};
     pub use crate::toml_file::{line_of, parse_toml, read_toml_text, toml_error, utf8};
     pub use crate::{layout, limits, staging};

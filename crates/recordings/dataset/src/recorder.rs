@@ -371,6 +371,7 @@ impl Recorder {
                 .collect(),
             attributes: Vec::new(),
             frame,
+            views: Vec::new(),
         }
     }
 }

@@ -24,9 +24,10 @@ pub(crate) fn from_parquet(
     file: File,
     channels: &Channels,
     attributes: &[String],
+    views: &[&str],
 ) -> Result<Table, String> {
     let columns = guarded(|| read(file).map_err(|error| error.to_string()))??;
-    assemble(columns, channels, attributes)
+    assemble(columns, channels, attributes, views)
 }
 
 #[cfg(test)]
@@ -65,7 +66,7 @@ mod tests {
         let mut file = tempfile::tempfile().expect("a file");
         file.write_all(bytes).expect("written");
         file.seek(SeekFrom::Start(0)).expect("rewound");
-        from_parquet(file, table.channels(), table.attribute_names())
+        from_parquet(file, table.channels(), table.attribute_names(), &[])
     }
 
     #[test]

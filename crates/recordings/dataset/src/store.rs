@@ -10,7 +10,7 @@ use crate::error::DatasetError;
 use crate::file::write_durable;
 use crate::header::{
     Extension, FramesInfo, Header, LeftOut, LivePredictions, Mapping, RecordingFacts, StreamFacts,
-    TableInfo, dataset_digest,
+    TableInfo, ViewInfo, dataset_digest,
 };
 use crate::samples::to_parquet;
 use crate::signals::SignalsInfo;
@@ -24,6 +24,8 @@ use taceva_files::seal::{Edit, Opened};
 pub struct Beside {
     /// How many presses ended in which way.
     pub presses: BTreeMap<PressOutcome, u64>,
+    /// Frames of each view, where samples have several pictures.
+    pub views: Vec<ViewInfo>,
     /// Columns that no key of an import names.
     pub unmentioned_columns: Vec<String>,
     /// How each map read what it read.
@@ -79,10 +81,12 @@ pub fn write_table_and_header(
         digest: dataset_digest(
             table_digest,
             frames.as_ref(),
+            &beside.views,
             beside.signals.as_ref(),
             &beside.extended,
         ),
         frames,
+        views: beside.views,
         presses: beside.presses,
         stream: beside.stream,
         predictions: beside.predictions,

@@ -4,6 +4,7 @@ mod cells;
 mod fields;
 mod row;
 mod row_union;
+mod views;
 
 use taceva_core::{
     Channels, Column, Field, FieldSet, Frame, GratingKind, Limit, Nanometre, Phase, Readings,
@@ -13,8 +14,10 @@ use taceva_core::{
 use crate::digest::{Digest, PartsDigest};
 
 pub use cells::{Cells, NamedColumn, RESERVED, is_attribute_name};
-pub use row::{FrameEntry, Row};
+pub use row::{FrameEntry, Row, RowFrame};
 pub use row_union::RowNames;
+pub(crate) use views::digest_of;
+pub use views::{ViewFrames, column_kind, column_of};
 
 /// All labels of a recording.
 ///
@@ -54,6 +57,8 @@ pub struct Table {
     attribute_names: Vec<String>,
     attributes: Vec<Vec<Option<String>>>,
     frames: Vec<Option<FrameEntry>>,
+    /// The pictures of rows that have several.
+    views: Vec<ViewFrames>,
 }
 
 impl Table {
@@ -79,7 +84,7 @@ impl Table {
     /// Adds a row.
     ///
     /// # Panics
-    /// If the row does not have one value for each channel and one text for each attribute.
+    /// If the row does not have one value for each channel, one text for each attribute and one picture for each view.
     pub fn push(&mut self, row: Row) {
         assert_eq!(row.truth.len(), self.truth.len(), "a value a channel");
         assert_eq!(
@@ -87,6 +92,7 @@ impl Table {
             self.attributes.len(),
             "a text an attribute"
         );
+        assert_eq!(row.views.len(), self.views.len(), "a picture a view");
         self.sample.push(row.sample);
         self.point_id.push(row.point_id);
         self.unit_id.push(row.unit_id);
@@ -109,6 +115,9 @@ impl Table {
         }
         for (column, text) in self.attributes.iter_mut().zip(row.attributes) {
             column.push(text);
+        }
+        for (view, frame) in self.views.iter_mut().zip(row.views) {
+            view.push(frame);
         }
     }
 
@@ -320,7 +329,7 @@ impl Table {
             digest.part(channel.unit().symbol().as_bytes());
         }
         for column in self.columns() {
-            if column.name == "frame" {
+            if views::column_kind(column.name) == "frame" {
                 continue;
             }
             digest.part(column.name.as_bytes());
@@ -366,6 +375,7 @@ impl Table {
         );
         columns.push(named("frame", Cells::FramePath(&self.frames)));
         columns.push(named("frame_sha256", Cells::FrameDigest(&self.frames)));
+        columns.extend(self.views.iter().flat_map(ViewFrames::named_columns));
         columns.retain(|column| (0..self.rows()).any(|row| column.cells.is_present(row)));
         columns.extend(
             self.channels

@@ -9,6 +9,7 @@ mod path_parts;
 mod roles;
 mod survey;
 mod tables;
+mod views;
 
 use std::path::Path;
 

@@ -16,7 +16,9 @@ use std::path::{Path, PathBuf};
 
 use taceva_core::Progress;
 
-use taceva_dataset::internal::{Cells, staging::Place, staging::StagedFolder, write_durable};
+use taceva_dataset::internal::{
+    Cells, column_kind, staging::Place, staging::StagedFolder, write_durable,
+};
 use taceva_dataset::{Dataset, DatasetError};
 
 use content::Exported;
@@ -52,7 +54,7 @@ const MAP: &str = "map.toml";
 pub struct ExportReport {
     /// How many samples there are.
     pub samples: u64,
-    /// How many of them have a picture.
+    /// How many pictures there are: of each view one for each sample.
     pub pictures: u64,
     /// How many pictures were encoded anew, so that their bytes are not those of the dataset; their pixels are the same.
     pub encoded_anew: u64,
@@ -129,15 +131,27 @@ impl<'a> ExportPlan<'a> {
         let ExportPlan { dataset, form } = self;
         let table = dataset.table();
         let mut columns = table.columns();
-        // An import measures the brightness of each picture again.
+        // An import measures the brightness of each picture again; by which view the dataset is seen here is nothing that it says.
         columns.retain(|column| {
-            column.name != "intensity"
+            let is_seen = column.name == "source_frame" && !table.views().is_empty();
+            column_kind(column.name) != "intensity"
+                && !is_seen
                 && !matches!(column.cells, Cells::FramePath(_) | Cells::FrameDigest(_))
         });
+        let views = dataset.views().into_iter();
+        let views = views.map(|view| dataset.seen(view));
+        let views: Vec<Dataset> = views.collect::<Result<_, _>>()?;
+        let pictures: Vec<Pictures<'_>> = match views.is_empty() {
+            true => Pictures::of(dataset, form).into_iter().collect(),
+            false => {
+                let views = views.iter();
+                views.filter_map(|view| Pictures::of(view, form)).collect()
+            }
+        };
         let exported = Exported {
             dataset,
             columns,
-            pictures: Pictures::of(dataset, form),
+            pictures,
             jobs,
             progress,
         };
@@ -155,11 +169,11 @@ impl<'a> ExportPlan<'a> {
         let map = map::text(&exported, &map);
         write_durable(&staged.path().join(MAP), map.as_bytes())?;
         staged.put_in_place(&folders)?;
-        let pictures = exported.pictures.as_ref();
+        let pictures = exported.pictures.iter();
         Ok(ExportReport {
             samples: table.rows() as u64,
-            pictures: pictures.map_or(0, |pictures| pictures.count()),
-            encoded_anew: pictures.map_or(0, |pictures| pictures.encoded_anew()),
+            pictures: pictures.clone().map(Pictures::count).sum(),
+            encoded_anew: pictures.map(Pictures::encoded_anew).sum(),
             left_out: exported.left_out(),
             is_importable: !exported.is_partly(),
             map: target.join(MAP),

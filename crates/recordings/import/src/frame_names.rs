@@ -3,7 +3,15 @@
 use taceva_dataset::ChannelOrder;
 
 /// The attribute that says which frame without contact a row names, where rows name different ones.
-pub(crate) const REFERENCE_ATTRIBUTE: &str = "reference";
+const REFERENCE_ATTRIBUTE: &str = "reference";
+
+/// The attribute that says which frame without contact of `view` a row names, where rows name different ones.
+pub(crate) fn reference_attribute(view: Option<&str>) -> String {
+    match view {
+        None => REFERENCE_ATTRIBUTE.to_owned(),
+        Some(view) => format!("{REFERENCE_ATTRIBUTE}_{view}"),
+    }
+}
 
 /// The position of a picture where a map names no column for it: the row in its own table, whatever columns that has.
 pub(crate) const OWN_ROW: &str = "the row of its table";
@@ -20,6 +28,8 @@ pub(crate) const OWN_ROW: &str = "the row of its table";
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct FrameMap {
+    /// The view that they are of, such as a finger or an eye; `None` where a row has one picture alone.
+    pub view: Option<String>,
     /// How a row names its frame.
     pub names: FrameNames,
     /// The folder that file names are relative to, relative to the source folder; `None`: that of the table.
@@ -37,6 +47,7 @@ impl FrameMap {
     /// Frames in files relative to the folder of the table, with colours in `channel_order` and without a frame without contact.
     pub fn new(names: FrameNames, channel_order: ChannelOrder) -> FrameMap {
         FrameMap {
+            view: None,
             names,
             folder: None,
             channel_order,

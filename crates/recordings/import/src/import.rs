@@ -28,6 +28,6 @@ pub use map::{
     PixelRange, Placeholder, TimeMap, VideoFrames,
 };
 pub use plan::ImportPlan;
-pub use summary::{Conversion, ImportSummary, JoinSummary, ZeroSummary};
+pub use summary::{Conversion, FrameSummary, ImportSummary, JoinSummary, ZeroSummary};
 pub use suspicion::{Suspicion, magnitude_suspicion};
 pub use warning::ImportWarning;

@@ -21,9 +21,9 @@ pub use draft::MapDraft;
 pub use export::{ExportForm, ExportPlan, ExportReport, export_csv};
 pub use import::{
     Addition, ArrayFrames, ArrayLayout, ColumnMap, Conversion, DropRules, FrameMap, FrameNames,
-    IdMap, ImportMap, ImportPlan, ImportReport, ImportSummary, ImportWarning, JoinSummary,
-    PixelRange, Placeholder, Suspicion, TimeMap, UnpackedArchive, VideoFrames, ZeroSummary,
-    magnitude_suspicion,
+    FrameSummary, IdMap, ImportMap, ImportPlan, ImportReport, ImportSummary, ImportWarning,
+    JoinSummary, PixelRange, Placeholder, Suspicion, TimeMap, UnpackedArchive, VideoFrames,
+    ZeroSummary, magnitude_suspicion,
 };
 pub use layouts::Preset;
 pub use taceva_video::Decoders;

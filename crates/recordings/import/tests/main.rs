@@ -16,3 +16,4 @@ mod round_trip;
 mod support;
 mod suspect_inputs;
 mod tiff;
+mod views;

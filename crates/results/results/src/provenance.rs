@@ -19,6 +19,9 @@ pub struct Provenance {
     /// The recordings that were taken as one, in the order in which they were named; none where there is one.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub recordings: Vec<RecordingProvenance>,
+    /// The view of the frames, of a recording whose samples have several pictures: `left`, or `left+right` side by side.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub view: Option<String>,
     /// The digests of the tables, where there is no dataset.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub tables: BTreeMap<String, String>,
@@ -76,6 +79,7 @@ impl Provenance {
         };
         self.dataset = same(self.dataset, &other.dataset);
         self.split = same(self.split, &other.split);
+        self.view = same(self.view, &other.view);
         self.part = same(self.part, &other.part);
         self.neighbours = same(self.neighbours, &other.neighbours);
         self.seed = self.seed.filter(|seed| other.seed == Some(*seed));

@@ -99,6 +99,7 @@ impl EvaluateError {
         matches!(
             self,
             EvaluateError::Setting(_)
+                | EvaluateError::Dataset(DatasetError::View { .. })
                 | EvaluateError::Metric(_)
                 | EvaluateError::UnknownModel(_)
                 | EvaluateError::Request(_)

@@ -54,6 +54,15 @@ pub enum Note {
         /// The frames as they were kept.
         frames: FramesInfo,
     },
+    /// The view by which frames are seen, of a recording whose samples have several pictures.
+    View {
+        /// The recording, where several were joined.
+        recording: Option<String>,
+        /// The view: `left`, or `left+right` side by side.
+        view: String,
+        /// All views, in words.
+        of: String,
+    },
     /// A warning of the import that made a recording, or what it took from labels.
     Imported {
         /// The recording, where several were joined.
@@ -258,6 +267,18 @@ impl fmt::Display for Note {
                     None => Ok(()),
                 }
             }
+            Note::View {
+                recording,
+                view,
+                of: all,
+            } => write!(
+                f,
+                "{}each sample has several pictures ({}), and those of {} are seen{}",
+                of(recording),
+                shown(all),
+                shown(view),
+                if view.contains('+') { ", side by side" } else { "" }
+            ),
             Note::Imported { recording, words } => {
                 write!(f, "{}import: {}", of(recording), shown(words))
             }

@@ -17,6 +17,7 @@ pub fn of(dataset: &Dataset) -> Provenance {
         taceva: env!("CARGO_PKG_VERSION").to_owned(),
         dataset: Some(dataset.digest().to_string()),
         recordings: recordings::provenance(dataset),
+        view: dataset.view(),
         ..Provenance::default()
     };
     match dataset.recordings() {

@@ -170,6 +170,18 @@ pub fn reduced(dataset: &Dataset) -> Vec<Note> {
     })
 }
 
+/// The view by which frames are seen, of recordings whose samples have several pictures.
+pub(crate) fn viewed(dataset: &Dataset) -> Vec<Note> {
+    of_each(dataset, |recording, name| {
+        let note = recording.view().map(|view| Note::View {
+            recording: name.map(str::to_owned),
+            view,
+            of: recording.views().join(", "),
+        });
+        note.into_iter().collect()
+    })
+}
+
 /// The notes of each recording; those of several name it.
 fn of_each(dataset: &Dataset, of: impl Fn(&Dataset, Option<&str>) -> Vec<Note>) -> Vec<Note> {
     match dataset.recordings() {

@@ -13,6 +13,7 @@ mod streams;
 #[path = "../../../../studies/evaluate/tests/evaluations/taxel_drawing.rs"]
 mod taxel_drawing;
 mod taxels;
+mod views;
 mod zeros;
 
 use std::num::NonZeroUsize;

@@ -6,6 +6,7 @@ use taceva_core::Frame;
 
 use super::Dataset;
 use super::verify::check_digest;
+use super::views::reference_entry;
 use crate::decode::{check_to_the_end, decode, kind_of_whole};
 use crate::difference;
 use crate::digest::Digest;
@@ -20,11 +21,16 @@ impl Dataset {
     ///
     /// # Errors
     /// [`DatasetError::Digest`] if its file is not the one recorded; [`DatasetError::Image`] if it does not decode;
-    /// [`DatasetError::Request`] if there is no such row; [`DatasetError::Io`].
+    /// [`DatasetError::Request`] if there is no such row; [`DatasetError::View`] if rows have several pictures and no view was named;
+    /// [`DatasetError::Io`].
     pub fn frame(&self, row: usize) -> Result<Option<Frame>, DatasetError> {
         self.check_row(row)?;
         if let Some((recording, row)) = self.recording_of(row) {
             return recording.frame(row);
+        }
+        self.require_view()?;
+        if self.seen.len() > 1 {
+            return self.frame_beside(row);
         }
         match (&self.table.frames()[row], &self.header.frames) {
             (Some(entry), Some(info)) => self.read_frame(entry, info).map(Some),
@@ -44,12 +50,18 @@ impl Dataset {
         if let Some((recording, row)) = self.recording_of(row) {
             return recording.damage_inside(row);
         }
-        let Some(entry) = &self.table.frames()[row] else {
-            return Ok(None);
-        };
-        let bytes = self.frame_bytes(entry)?;
-        let whole = kind_of_whole(&bytes).and_then(|kind| check_to_the_end(&bytes, kind));
-        Ok(whole.err())
+        let beside = self.seen.iter().filter(|_| self.seen.len() > 1);
+        let beside = beside.filter_map(|at| self.table.views()[*at].frames()[row].as_ref());
+        let own = self.table.frames()[row].iter();
+        let own = own.filter(|_| self.seen.len() < 2);
+        for entry in own.chain(beside) {
+            let bytes = self.frame_bytes(entry)?;
+            let whole = kind_of_whole(&bytes).and_then(|kind| check_to_the_end(&bytes, kind));
+            if let Err(problem) = whole {
+                return Ok(Some(problem));
+            }
+        }
+        Ok(None)
     }
 
     /// The frame without contact, if the lab knew one; of joined recordings none, because each has its own.
@@ -60,18 +72,25 @@ impl Dataset {
         let Some(info) = &self.header.frames else {
             return Ok(None);
         };
+        if self.joined.is_empty() && self.seen.len() > 1 {
+            return self.reference_beside();
+        }
         let entry = self.reference_entry();
         let frame = entry.map(|entry| self.read_frame(&entry, info));
         frame.transpose()
     }
 
-    /// The bytes of the picture without contact as they were recorded, verified.
+    /// The bytes of the picture without contact as they were recorded, verified; of views side by side there are none.
     pub fn reference_bytes(&self) -> Result<Option<Vec<u8>>, DatasetError> {
         let entry = self.reference_entry();
         entry.map(|entry| self.frame_bytes(&entry)).transpose()
     }
 
-    fn read_frame(&self, entry: &FrameEntry, info: &FramesInfo) -> Result<Frame, DatasetError> {
+    pub(super) fn read_frame(
+        &self,
+        entry: &FrameEntry,
+        info: &FramesInfo,
+    ) -> Result<Frame, DatasetError> {
         let path = self.path().join(&entry.path);
         let bytes = self.frame_bytes(entry)?;
         let first = match entry.is_difference() {
@@ -147,15 +166,12 @@ impl Dataset {
     }
 
     pub(super) fn reference_entry(&self) -> Option<FrameEntry> {
-        if !self.joined.is_empty() {
+        // Of views side by side no file is the picture.
+        if !self.joined.is_empty() || self.seen.len() > 1 {
             return None;
         }
         let reference = self.header.frames.as_ref()?.reference.as_ref()?;
-        Some(FrameEntry {
-            path: reference.path.clone(),
-            span: None,
-            digest: reference.sha256,
-        })
+        Some(reference_entry(reference))
     }
 
     pub(super) fn check_row(&self, row: usize) -> Result<(), DatasetError> {

@@ -93,6 +93,7 @@ impl Dataset {
         }
         let names = names(recordings.iter().map(Dataset::path));
         let table = joined_table(&recordings, &names);
+        let seen = recordings[0].seen.clone();
         let header = joined_header(&recordings, &table);
         let folder = recordings[0].folder.without_files();
         let mut start = 0;
@@ -112,6 +113,7 @@ impl Dataset {
             table,
             firsts: Mutex::default(),
             signals: Mutex::default(),
+            seen,
         })
     }
 

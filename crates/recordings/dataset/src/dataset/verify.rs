@@ -12,7 +12,7 @@ use crate::header::{Header, dataset_digest};
 use crate::layout;
 use crate::limits;
 use crate::samples::from_parquet;
-use crate::table::Table;
+use crate::table::{FrameEntry, Table};
 
 impl Dataset {
     /// Reads every frame, and the one without contact, all signals and predictions, and checks that they are those recorded; no frame is decoded.
@@ -24,9 +24,14 @@ impl Dataset {
             let mut joined = self.joined.iter();
             return joined.try_for_each(|joined| joined.dataset().verify_frames());
         }
-        let reference = self.reference_entry();
-        let frames = self.table.frames().iter().flatten().chain(&reference);
-        for entry in frames {
+        let entries = match self.header.views.is_empty() {
+            true => {
+                let frames = self.table.frames().iter().flatten().cloned();
+                frames.chain(self.reference_entry()).collect()
+            }
+            false => self.entries_of_views(),
+        };
+        for entry in &entries {
             self.frame_bytes(entry)?;
         }
         self.verify_predictions()?;
@@ -69,6 +74,7 @@ impl Dataset {
         let digest = dataset_digest(
             digest,
             self.header.frames.as_ref(),
+            &self.header.views,
             self.header.signals.as_ref(),
             &self.header.extended,
         );
@@ -87,20 +93,22 @@ impl Dataset {
                 format!("{count} frames, the header says {promised}"),
             ));
         }
-        let reference = self
-            .header
-            .frames
-            .as_ref()
-            .and_then(|frames| frames.reference.as_ref())
-            .map(|reference| &reference.path);
-        let paths = self
-            .table
-            .frames()
-            .iter()
-            .flatten()
-            .map(|entry| &entry.path);
-        for path in paths.chain(reference) {
-            check_relative(path).map_err(|problem| DatasetError::Path {
+        for (view, own) in self.header.views.iter().zip(self.table.views()) {
+            let count = own.frames().iter().flatten().count() as u64;
+            if count != view.frames.count {
+                return Err(damaged(
+                    layout::SAMPLES,
+                    format!(
+                        "{count} frames of the view `{}`, the header says {}",
+                        view.name, view.frames.count
+                    ),
+                ));
+            }
+        }
+        let own = self.table.frames().iter().flatten().cloned();
+        let own = own.chain(self.reference_entry());
+        for FrameEntry { path, .. } in own.chain(self.entries_of_views()) {
+            check_relative(&path).map_err(|problem| DatasetError::Path {
                 place: None,
                 written: path.clone(),
                 problem: problem.to_owned(),
@@ -117,7 +125,8 @@ pub(super) fn read_table(folder: &HeldFolder, header: &Header) -> Result<Table, 
     check_digest(path, header.table.sha256, found)?;
     file.seek(SeekFrom::Start(0))
         .map_err(DatasetError::io("read", path))?;
-    from_parquet(file, &header.channels, &header.attributes).map_err(|problem| {
+    let views: Vec<&str> = header.views.iter().map(|view| view.name.as_str()).collect();
+    from_parquet(file, &header.channels, &header.attributes, &views).map_err(|problem| {
         DatasetError::Damaged {
             path: path.to_owned(),
             problem,

@@ -1,6 +1,6 @@
 //! Digest of everything that decides a number computed from a dataset.
 
-use super::{Extension, FramesInfo};
+use super::{Extension, FramesInfo, ViewInfo};
 use crate::digest::{Digest, PartsDigest};
 use crate::signals::SignalsInfo;
 
@@ -9,6 +9,7 @@ use crate::signals::SignalsInfo;
 pub(crate) fn dataset_digest(
     table: Digest,
     frames: Option<&FramesInfo>,
+    views: &[ViewInfo],
     signals: Option<&SignalsInfo>,
     extended: &[Extension],
 ) -> Digest {
@@ -22,6 +23,18 @@ pub(crate) fn dataset_digest(
         }
     }
     let mut whole = digest.finish();
+    if !views.is_empty() {
+        let mut digest = PartsDigest::default();
+        digest.part(b"taceva.dataset/1 with views");
+        digest.fixed(whole.as_bytes());
+        for view in views {
+            digest.part(view.name.as_bytes());
+            digest.part(view.frames.channel_order.name().as_bytes());
+            let reference = view.frames.reference.as_ref();
+            digest.part(reference.map_or(&[], |reference| &reference.sha256.as_bytes()[..]));
+        }
+        whole = digest.finish();
+    }
     if let Some(signals) = signals {
         let mut digest = PartsDigest::default();
         digest.part(b"taceva.dataset/1 with signals");

@@ -32,6 +32,9 @@ pub struct MappedPictures {
     /// The bits of a pixel that numbers in a range became.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bits: Option<u8>,
+    /// The view that they are of, where samples have several pictures.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub view: Option<String>,
 }
 
 impl MappedPictures {
@@ -44,12 +47,14 @@ impl MappedPictures {
             layout: None,
             range: None,
             bits: None,
+            view: None,
         }
     }
 
     /// Whether both read the same: arrays of one name, or clips, which are called otherwise in every recording.
     pub(super) fn is_of(&self, known: &MappedPictures) -> bool {
         self.by == known.by
+            && self.view == known.view
             && match self.by.as_str() {
                 "array" => self.from == known.from,
                 "video" => true,

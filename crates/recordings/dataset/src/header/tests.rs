@@ -29,6 +29,7 @@ fn header() -> Header {
         settings: BTreeMap::from([("exposure_ms".to_owned(), "15.7".to_owned())]),
         channels: Channels::new([Channel::FZ, Channel::PZ, yaw()]).expect("distinct"),
         attributes: vec!["video".to_owned()],
+        views: Vec::new(),
         columns: vec![MappedColumn {
             sign: -1,
             offset: vec![0.1],

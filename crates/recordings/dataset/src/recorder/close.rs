@@ -60,7 +60,8 @@ impl Recorder {
             problem,
         };
         let file = File::open(samples).map_err(DatasetError::io("open", samples))?;
-        let read = from_parquet(file, &header.channels, &header.attributes).map_err(damaged)?;
+        let read =
+            from_parquet(file, &header.channels, &header.attributes, &[]).map_err(damaged)?;
         if read != self.table {
             return Err(damaged(
                 "it does not read back as it was written".to_owned(),

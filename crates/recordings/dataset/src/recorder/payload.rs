@@ -277,6 +277,7 @@ impl WrittenSample {
             frame: self
                 .frame
                 .map(|frame| FrameEntry::at(frame.path, frame.sha256)),
+            views: Vec::new(),
         };
         #[expect(
             clippy::cast_possible_truncation,

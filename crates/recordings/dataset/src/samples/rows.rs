@@ -6,7 +6,7 @@ use taceva_core::{Channels, GratingKind, Limit, MAGNITUDE_MAX, Nanometre, Phase,
 
 use super::read::Stored;
 use crate::digest::Digest;
-use crate::table::{FrameEntry, Row, Table};
+use crate::table::{FrameEntry, Row, RowFrame, Table, column_of};
 
 /// Takes the columns of a file apart by name.
 struct Columns(BTreeMap<String, Stored>);
@@ -18,6 +18,26 @@ impl Columns {
             Some(Stored::Text(cells)) => Ok(cells[row].take()),
             Some(_) => Err(format!("column `{name}` holds numbers, expected text")),
         }
+    }
+
+    fn frame(
+        &mut self,
+        place: &str,
+        digest: &str,
+        row: usize,
+    ) -> Result<Option<FrameEntry>, String> {
+        let place = self.text(place, row)?;
+        let digest = self.text(digest, row)?;
+        frame_entry(row, place, digest)
+    }
+
+    fn view(&mut self, view: &str, row: usize) -> Result<RowFrame, String> {
+        let of = |column| column_of(column, view);
+        let mut frame = RowFrame::default();
+        frame.source_frame = self.text(&of("source_frame"), row)?;
+        frame.intensity = self.number(&of("intensity"), row)?;
+        frame.frame = self.frame(&of("frame"), &of("frame_sha256"), row)?;
+        Ok(frame)
     }
 
     fn number(&self, name: &str, row: usize) -> Result<Option<f64>, String> {
@@ -50,6 +70,7 @@ pub(super) fn assemble(
     columns: BTreeMap<String, Stored>,
     channels: &Channels,
     attributes: &[String],
+    views: &[&str],
 ) -> Result<Table, String> {
     let rows = columns.values().map(Stored::len).max().unwrap_or(0);
     if rows > 0 {
@@ -61,10 +82,12 @@ pub(super) fn assemble(
         }
     }
     let mut columns = Columns(columns);
-    let mut table = Table::new(channels.clone(), attributes.to_vec());
+    let table = Table::new(channels.clone(), attributes.to_vec());
+    let mut table = table.with_views(views.iter().copied());
     for row in 0..rows {
-        let frame = columns.text("frame", row)?;
-        let digest = columns.text("frame_sha256", row)?;
+        let frame = columns.frame("frame", "frame_sha256", row)?;
+        let own = views.iter().map(|view| columns.view(view, row));
+        let own: Vec<RowFrame> = own.collect::<Result<_, _>>()?;
         table.push(Row {
             sample: columns
                 .text("sample", row)?
@@ -101,7 +124,8 @@ pub(super) fn assemble(
                 .iter()
                 .map(|name| columns.text(name, row))
                 .collect::<Result<_, _>>()?,
-            frame: frame_entry(row, frame, digest)?,
+            frame,
+            views: own,
         });
     }
     Ok(table)

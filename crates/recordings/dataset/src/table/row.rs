@@ -63,6 +63,26 @@ impl FrameEntry {
     }
 }
 
+/// The picture of one row in one view.
+///
+/// ```
+/// use taceva_dataset::{Digest, FrameEntry, RowFrame};
+///
+/// let mut left = RowFrame::default();
+/// left.frame = Some(FrameEntry::at("frames/left/0000/000001.png", Digest::of(b"the bytes of the file")));
+/// assert_eq!(left.intensity, None);
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct RowFrame {
+    /// The picture as it came, relative to the folder of its lab.
+    pub source_frame: Option<String>,
+    /// Its mean luma, in steps of an 8-bit camera.
+    pub intensity: Option<f64>,
+    /// The picture.
+    pub frame: Option<FrameEntry>,
+}
+
 /// One row of a [`Table`](super::Table); what is absent is `None`.
 ///
 /// ```
@@ -117,6 +137,8 @@ pub struct Row {
     pub attributes: Vec<Option<String>>,
     /// The picture.
     pub frame: Option<FrameEntry>,
+    /// One picture for each view of the table, whose rows then have no other.
+    pub views: Vec<RowFrame>,
 }
 
 impl Row {

@@ -2,6 +2,7 @@
 
 use taceva_core::Channel;
 
+use super::views::{ViewFrames, column_kind};
 use super::{FrameEntry, Row, Table};
 use crate::digest::{Digest, PartsDigest};
 
@@ -28,6 +29,10 @@ impl Table {
             other.truth[position.expect("a table of the same channels")].get(row)
         };
         let attribute = |name: &String| other.attribute(name).and_then(|cells| cells[row].clone());
+        let view = |view: &ViewFrames| {
+            let own = other.view(view.name());
+            own.map(|own| own.row(row)).unwrap_or_default()
+        };
         let row = Row {
             sample: names.sample,
             point_id: names.point_id,
@@ -48,6 +53,7 @@ impl Table {
             truth: self.channels.iter().map(truth).collect(),
             attributes: self.attribute_names.iter().map(attribute).collect(),
             frame: names.frame,
+            views: self.views.iter().map(view).collect(),
         };
         self.push(row);
     }
@@ -64,7 +70,7 @@ impl Table {
         ];
         let mut digests = vec![PartsDigest::default(); self.rows()];
         for column in self.columns() {
-            if NAMES.contains(&column.name) {
+            if NAMES.contains(&column_kind(column.name)) {
                 continue;
             }
             for (row, digest) in digests.iter_mut().enumerate() {

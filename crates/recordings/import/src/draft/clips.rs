@@ -4,7 +4,7 @@ use std::path::Path;
 
 use taceva_video::{Decoders, Video};
 
-use super::frames::{FrameLines, are_pairs, counted_through};
+use super::frames::{FrameLines, are_pairs, counted_through, of_views};
 use super::roles::Role;
 use super::survey::FileGroup;
 use super::tables::SeenTable;
@@ -19,35 +19,47 @@ pub(super) fn of(
     folder: &SourceFolder,
     groups: &[FileGroup],
     main: &SeenTable<'_>,
-) -> Option<FrameLines> {
+) -> Vec<FrameLines> {
     // Clips of LeRobot are named by their features: one that is not among them is no picture.
     if main.group.first() == "meta/info.json" {
-        return None;
+        return Vec::new();
     }
-    let clips = groups.iter().find(|group| is_clip(&group.ending))?;
+    let Some(clips) = groups.iter().find(|group| is_clip(&group.ending)) else {
+        return Vec::new();
+    };
     let index = main
         .columns
         .iter()
         .find(|column| column.role == Role::Index);
     let index = index.map_or("row", |column| column.name.as_str());
+    let of_one = |clip: &str| {
+        let open = match index {
+            "row" => other_length(&folder.path().join(clip), main.rows),
+            _ => None,
+        };
+        let index = open.unwrap_or_else(|| format!("index = {index:?}"));
+        lines(clip, index)
+    };
     let (file, index) = match clips.paths.as_slice() {
-        [only] if main.group.paths.len() == 1 => {
-            let open = match index {
-                "row" => other_length(&folder.path().join(only), main.rows),
-                _ => None,
-            };
-            let index = open.unwrap_or_else(|| format!("index = {index:?}"));
-            (only.clone(), index)
-        }
+        [only] if main.group.paths.len() == 1 => return vec![of_one(only)],
         [only] => (only.clone(), counted_through(main.group)),
         // A clip a table.
         _ if are_pairs(main.group, clips) => (clips.parts.of_table(), format!("index = {index:?}")),
-        _ => return None,
+        // A clip a finger, an eye or a camera.
+        several if main.group.paths.len() == 1 => {
+            let names: Vec<&str> = several.iter().map(String::as_str).collect();
+            return of_views(&names, |at| of_one(names[at]));
+        }
+        _ => return Vec::new(),
     };
-    Some(FrameLines {
-        lines: vec![format!("video = {file:?}"), index],
+    vec![lines(&file, index)]
+}
+
+fn lines(clip: &str, index: String) -> FrameLines {
+    FrameLines {
+        lines: vec![format!("video = {clip:?}"), index],
         ..FrameLines::default()
-    })
+    }
 }
 
 /// The open line of a clip whose frames are not as many as the rows beside it; `None` where they are, or nothing here counts them.

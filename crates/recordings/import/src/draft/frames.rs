@@ -6,6 +6,7 @@ use std::path::Path;
 
 use super::survey::FileGroup;
 use super::tables::{SeenColumn, SeenTable};
+use super::views::{Sided, sided};
 use crate::source_folder::SourceFolder;
 use picture_lines::in_array;
 use taceva_dataset::ChannelOrder;
@@ -21,6 +22,8 @@ pub(super) fn is_picture(ending: &str) -> bool {
 /// The lines of `[frame]`, with their comments.
 #[derive(Debug, Default)]
 pub(super) struct FrameLines {
+    /// The view that they are of, where rows have several pictures.
+    pub(super) view: Option<String>,
     pub(super) lines: Vec<String>,
     pub(super) is_gray: bool,
     /// The order of the colours, where the file says it.
@@ -35,7 +38,20 @@ pub(super) struct FrameLines {
 pub(super) fn file_column<'t>(
     folder: &SourceFolder,
     table: &'t SeenTable<'_>,
-) -> Option<(&'t SeenColumn, bool)> {
+) -> Option<FileColumn<'t>> {
+    file_columns(folder, table).into_iter().next()
+}
+
+/// A column whose cells name pictures.
+#[derive(Clone, Copy)]
+pub(super) struct FileColumn<'t> {
+    column: &'t SeenColumn,
+    /// True if its cells are relative to the folder itself and not to that of the table.
+    is_below_source: bool,
+}
+
+/// Every such column.
+fn file_columns<'t>(folder: &SourceFolder, table: &'t SeenTable<'_>) -> Vec<FileColumn<'t>> {
     let own = folder.path().join(table.group.first());
     let own = taceva_files::parent_of(&own);
     let names_files = |column: &SeenColumn, base: &Path| {
@@ -54,9 +70,45 @@ pub(super) fn file_column<'t>(
         };
         cells.peek().is_some() && cells.all(is_file)
     };
-    table.columns.iter().find_map(|column| {
+    let columns = table.columns.iter().filter_map(|column| {
         let is_own = names_files(column, own);
-        (is_own || names_files(column, folder.path())).then_some((column, !is_own))
+        let is_named = is_own || names_files(column, folder.path());
+        is_named.then_some(FileColumn {
+            column,
+            is_below_source: !is_own,
+        })
+    });
+    columns.collect()
+}
+
+/// The column whose cells are the names of pictures in folders of several views, and these folders: `left`, `right`.
+fn camera_folders<'t>(
+    folder: &SourceFolder,
+    table: &'t SeenTable<'_>,
+) -> Option<(&'t SeenColumn, Vec<String>)> {
+    let entries = std::fs::read_dir(folder.path()).ok()?.flatten();
+    let names = entries.filter_map(|entry| {
+        let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
+        entry.file_name().into_string().ok().filter(|_| is_folder)
+    });
+    let mut names: Vec<String> = names.collect();
+    names.sort_unstable();
+    table.columns.iter().find_map(|column| {
+        let cells = column.cells.iter().filter(|cell| !cell.is_empty());
+        let cells: Vec<&String> = cells.take(LOOKED_UP).collect();
+        let is_one = |cell: &&String| {
+            let ending = cell.rsplit_once('.').map_or("", |(_, ending)| ending);
+            is_picture(&ending.to_ascii_lowercase())
+        };
+        if cells.is_empty() || !cells.iter().all(is_one) {
+            return None;
+        }
+        let has_all = |name: &&String| {
+            let base = folder.path().join(name);
+            cells.iter().all(|cell| base.join(cell).is_file())
+        };
+        let found: Vec<String> = names.iter().filter(has_all).cloned().collect();
+        (found.len() > 1).then_some((column, found))
     })
 }
 
@@ -152,40 +204,114 @@ fn by_end_of_path(folder: &SourceFolder, main: &SeenTable<'_>) -> Option<FrameLi
     })
 }
 
-/// Place of the frames of `main`; clips have their own function.
+/// Place of the frames of `main`, of each view where rows have several; clips have their own function.
 pub(super) fn of(
     folder: &SourceFolder,
     main: &SeenTable<'_>,
     tables: &[SeenTable<'_>],
-) -> Option<FrameLines> {
-    if let Some((column, is_below_source)) = file_column(folder, main) {
-        let mut lines = vec![format!("column = {:?}", column.name)];
-        if is_below_source && main.group.first().contains('/') {
-            lines.push("folder = \".\"".to_owned());
-        }
-        let base = match is_below_source {
-            true => folder.path().to_owned(),
-            false => taceva_files::parent_of(&folder.path().join(main.group.first())).to_owned(),
+) -> Vec<FrameLines> {
+    let columns = file_columns(folder, main);
+    if let Some(first) = columns.first() {
+        let names: Vec<&str> = columns.iter().map(|own| own.column.name.as_str()).collect();
+        let views = of_views(&names, |at| in_column(folder, main, columns[at]));
+        return match views.is_empty() {
+            true => vec![in_column(folder, main, *first)],
+            false => views,
         };
+    }
+    if let Some((column, folders)) = camera_folders(folder, main) {
+        let names: Vec<&str> = folders.iter().map(String::as_str).collect();
         let first = column.cells.iter().find(|cell| !cell.is_empty());
-        return Some(FrameLines {
-            lines,
-            is_gray: first.is_some_and(|cell| is_gray(&base.join(cell))),
+        let views = of_views(&names, |at| FrameLines {
+            lines: vec![
+                format!("column = {:?}", column.name),
+                format!("folder = {:?}", folders[at]),
+            ],
+            is_gray: first
+                .is_some_and(|cell| is_gray(&folder.path().join(&folders[at]).join(cell))),
             drop: empty_rows(column, main.rows),
             ..FrameLines::default()
         });
+        if !views.is_empty() {
+            return views;
+        }
     }
     if let Some(lines) = by_end_of_path(folder, main) {
-        return Some(lines);
+        return vec![lines];
     }
     if let Some(picture) = main.pictures.first() {
-        return Some(in_array(picture, None, &main.pictures[1..]));
+        let names: Vec<&str> = main.pictures.iter().map(|own| own.name.as_str()).collect();
+        let mut views = of_views(&names, |at| in_array(&main.pictures[at], None, &[]));
+        let is_of = |name: &str, views: &[FrameLines]| {
+            let written = format!("{name:?}");
+            let mut lines = views.iter().flat_map(|view| &view.lines);
+            lines.any(|line| line.contains(&written))
+        };
+        let others: Vec<&str> = names
+            .iter()
+            .copied()
+            .filter(|name| !is_of(name, &views))
+            .collect();
+        return match views.first_mut() {
+            None => vec![in_array(picture, None, &main.pictures[1..])],
+            Some(first) => {
+                if !others.is_empty() {
+                    let others = format!("# Other pictures of a row: {}", others.join(", "));
+                    first.lines.insert(0, others);
+                }
+                views
+            }
+        };
     }
     let with_pictures =
         |table: &&SeenTable<'_>| table.is_single_array && !table.pictures.is_empty();
-    let table = tables.iter().find(with_pictures)?;
-    let beside = Beside::of(main.group, table.group);
-    Some(in_array(&table.pictures[0], Some(beside), &[]))
+    let tables: Vec<&SeenTable<'_>> = tables.iter().filter(with_pictures).collect();
+    let beside = |at: usize| {
+        let table: &SeenTable<'_> = tables[at];
+        let beside = Beside::of(main.group, table.group);
+        in_array(&table.pictures[0], Some(beside), &[])
+    };
+    let names: Vec<&str> = tables.iter().map(|table| table.group.first()).collect();
+    let views = of_views(&names, beside);
+    match (views.is_empty(), tables.is_empty()) {
+        (false, _) => views,
+        (true, false) => vec![beside(0)],
+        (true, true) => Vec::new(),
+    }
+}
+
+/// The lines of those of `names` that are views of one another, as `lines` gives them for each.
+pub(super) fn of_views(names: &[&str], lines: impl Fn(usize) -> FrameLines) -> Vec<FrameLines> {
+    let views = sided(names)
+        .into_iter()
+        .map(|Sided { at, view }| FrameLines {
+            view: Some(view),
+            ..lines(at)
+        });
+    views.collect()
+}
+
+/// The lines of pictures that a column names.
+fn in_column(folder: &SourceFolder, main: &SeenTable<'_>, found: FileColumn<'_>) -> FrameLines {
+    let FileColumn {
+        column,
+        is_below_source,
+    } = found;
+    let mut lines = vec![format!("column = {:?}", column.name)];
+    if is_below_source && main.group.first().contains('/') {
+        lines.push("folder = \".\"".to_owned());
+    }
+    let base = match is_below_source {
+        true => folder.path().to_owned(),
+        false => taceva_files::parent_of(&folder.path().join(main.group.first())).to_owned(),
+    };
+    let first = column.cells.iter().find(|cell| !cell.is_empty());
+    FrameLines {
+        lines,
+        is_gray: first.is_some_and(|cell| is_gray(&base.join(cell))),
+        drop: empty_rows(column, main.rows),
+        ..FrameLines::default()
+    }
 }
 
 /// Whether there is one of `files` for each of `tables`: what varies in the names of both is the same.

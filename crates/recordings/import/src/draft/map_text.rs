@@ -72,8 +72,10 @@ pub(super) fn of_table(
     tables: &[SeenTable<'_>],
     notes: &[String],
 ) -> String {
-    let frame = frames::of(folder, main, tables);
-    let frame = frame.or_else(|| clips::of(folder, groups, main));
+    let mut frames = frames::of(folder, main, tables);
+    if frames.is_empty() {
+        frames = clips::of(folder, groups, main);
+    }
     let joins = joins::of(main, tables);
     let mut text = begun(notes);
     line(
@@ -104,10 +106,10 @@ pub(super) fn of_table(
     let parts = (main.group.paths.len() > 1).then_some(&main.group.parts);
     if let Some(parts) = parts {
         add_path(&mut text, parts);
-    } else if let Some(path) = frame.as_ref().and_then(|frame| frame.path.as_ref()) {
+    } else if let Some(path) = frames.iter().find_map(|frame| frame.path.as_ref()) {
         add_section(&mut text, "path", path);
     }
-    add_frame(&mut text, frame.as_ref());
+    add_frames(&mut text, &frames);
     let columns = table_columns(main, &joins);
     let mut attributes = Lines::default();
     for NamedColumn { name, role, .. } in &columns {
@@ -211,7 +213,7 @@ pub(super) fn of_table(
     let shared = shared_points(main, parts);
     add_section(&mut text, "ids", &format!("{}{shared}", ids.0));
     add_section(&mut text, "attributes", &attributes.0);
-    if let Some(drop) = frame.as_ref().and_then(|frame| frame.drop.as_ref()) {
+    if let Some(drop) = frames.iter().find_map(|frame| frame.drop.as_ref()) {
         add_section(&mut text, "drop", drop);
     }
     let mut classes = Lines::default();
@@ -406,13 +408,11 @@ pub(super) fn of_files(group: &FileGroup, notes: &[String]) -> String {
         })
         .collect();
     let channels = channels::lines(&offered);
-    add_frame(
-        &mut text,
-        Some(&FrameLines {
-            lines: vec!["column = \"file\"".to_owned()],
-            ..FrameLines::default()
-        }),
-    );
+    let frames = FrameLines {
+        lines: vec!["column = \"file\"".to_owned()],
+        ..FrameLines::default()
+    };
+    add_frames(&mut text, &[frames]);
     if channels.is_empty()
         && let Some((name, words)) = group.parts.words.first()
     {
@@ -543,12 +543,20 @@ fn add_path(text: &mut String, parts: &PathParts) {
     add_section(text, "path", &format!("pattern = {:?}\n", parts.pattern));
 }
 
-fn add_frame(text: &mut String, frame: Option<&FrameLines>) {
-    let Some(frame) = frame else {
+fn add_frames(text: &mut String, frames: &[FrameLines]) {
+    if frames.is_empty() {
         line(text, "# No pictures were found that belong to its rows.");
-        return;
-    };
-    let mut lines: String = frame.lines.iter().map(|line| format!("{line}\n")).collect();
+    }
+    for frame in frames {
+        add_frame(text, frame);
+    }
+}
+
+fn add_frame(text: &mut String, frame: &FrameLines) {
+    let name = frame.view.iter();
+    let name = name.map(|view| format!("name = {view:?}   # a guess: a view of each row; [frame] without a name takes one picture alone\n"));
+    let lines = frame.lines.iter().map(|line| format!("{line}\n"));
+    let mut lines: String = name.chain(lines).collect();
     lines += match (frame.is_gray, frame.order) {
         (_, Some(ChannelOrder::Bgr)) => "channel_order = \"bgr\"   # the messages say so\n",
         (_, Some(ChannelOrder::Rgb)) => "channel_order = \"rgb\"   # the messages say so\n",
@@ -558,7 +566,8 @@ fn add_frame(text: &mut String, frame: Option<&FrameLines>) {
         }
     };
     lines += "reference = \"unknown\"   # the picture without contact, if there is one\n";
-    add_section(text, "frame", &lines);
+    let section = frame.view.as_ref().map_or("frame", |_| "[frame]");
+    add_section(text, section, &lines);
 }
 
 fn add_section(text: &mut String, name: &str, lines: &str) {

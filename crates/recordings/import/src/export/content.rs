@@ -12,7 +12,8 @@ use taceva_dataset::{Dataset, DatasetError};
 pub(super) struct Exported<'a> {
     pub(super) dataset: &'a Dataset,
     pub(super) columns: Vec<NamedColumn<'a>>,
-    pub(super) pictures: Option<Pictures<'a>>,
+    /// The pictures of each view.
+    pub(super) pictures: Vec<Pictures<'a>>,
     pub(super) jobs: NonZeroUsize,
     pub(super) progress: &'a dyn Progress,
 }
@@ -49,12 +50,13 @@ impl Exported<'_> {
             (
                 header
                     .frames
-                    .as_ref()
-                    .is_some_and(|frames| frames.codec.is_some()),
+                    .iter()
+                    .chain(header.views.iter().map(|view| &view.frames))
+                    .any(|frames| frames.codec.is_some()),
                 "how the clips were coded",
             ),
             (
-                pictures == 0 && header.frames.is_some(),
+                pictures == 0 && header.views.is_empty() && header.frames.is_some(),
                 "the picture without contact, since no sample has one",
             ),
             (
@@ -89,15 +91,12 @@ impl Exported<'_> {
     pub(super) fn write_reference(
         &self,
         staged: &StagedFolder,
+        pictures: &Pictures<'_>,
     ) -> Result<Option<String>, DatasetError> {
-        let picture = match &self.pictures {
-            Some(pictures) => pictures.reference()?,
-            None => None,
-        };
-        let Some(picture) = picture else {
+        let Some(picture) = pictures.reference()? else {
             return Ok(None);
         };
-        let name = format!("reference.{}", picture.extension);
+        let name = format!("{}.{}", pictures.named("reference"), picture.extension);
         write_durable(&staged.path().join(&name), &picture.bytes)?;
         Ok(Some(name))
     }

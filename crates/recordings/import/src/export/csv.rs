@@ -6,8 +6,8 @@ use std::io::BufWriter;
 use std::num::NonZeroUsize;
 
 use super::content::Exported;
-use super::map::{self, Written, quoted};
-use super::picture::Encoded;
+use super::map::{self, Written, WrittenFrames, quoted};
+use super::picture::{Encoded, Pictures};
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::{layout, ordered_map, staging::StagedFolder, write_durable};
 
@@ -22,30 +22,45 @@ pub(super) fn write(
 ) -> Result<(Written, Vec<String>), DatasetError> {
     let rows = exported.dataset.table().rows();
     let mut folders = Vec::new();
-    let mut frames = None;
-    let mut reference = None;
-    if let Some(pictures) = &exported.pictures {
-        folders.push(layout::FRAMES.to_owned());
-        folders.extend(layout::frame_folders(0..rows));
-        for folder in &folders {
-            staged.create_folder(folder)?;
+    let mut columns = Vec::new();
+    let mut frames = Vec::new();
+    for pictures in &exported.pictures {
+        let view = pictures.view();
+        let in_view = |path: &str| layout::in_view(view.as_deref(), path);
+        let own = layout::frame_folders(0..rows).map(|folder| in_view(&folder));
+        let above = [layout::FRAMES.to_owned(), in_view(layout::FRAMES)];
+        for folder in above.into_iter().chain(own) {
+            staged.ensure_folder(&folder)?;
+            if !folders.contains(&folder) {
+                folders.push(folder);
+            }
         }
-        frames = Some(write_pictures(exported, staged)?);
-        reference = match pictures.reference()? {
+        let name = match view {
+            None => "frame".to_owned(),
+            Some(_) => exported.free_name(&pictures.named("frame")),
+        };
+        let reference = match pictures.reference()? {
             Some(picture) => Some(put(
                 staged,
-                layout::reference_path(picture.extension),
+                in_view(&layout::reference_path(picture.extension)),
                 &picture,
             )?),
             None => None,
         };
+        frames.push(WrittenFrames {
+            key: format!("column = {}", quoted(&name)),
+            reference,
+        });
+        columns.push(PathColumn {
+            name,
+            paths: write_pictures(exported, pictures, staged)?,
+        });
     }
-    write_table(exported, staged, frames.as_deref())?;
+    write_table(exported, staged, &columns)?;
     let signals = exported.dataset.header().signals.as_ref();
     let written = Written {
         table: quoted(TABLE),
-        frame: frames.map(|_| "column = \"frame\"".to_owned()),
-        reference,
+        frames,
         signals: signals.map(|signals| {
             let names: Vec<String> = signals
                 .spec
@@ -60,18 +75,27 @@ pub(super) fn write(
     Ok((written, folders))
 }
 
+/// The column that names the pictures of a view.
+struct PathColumn {
+    name: String,
+    /// Empty where a row has none.
+    paths: Vec<String>,
+}
+
 /// Writes one file for each picture; returns their names, empty where a row has none.
 fn write_pictures(
     exported: &Exported<'_>,
+    pictures: &Pictures<'_>,
     staged: &StagedFolder,
 ) -> Result<Vec<String>, DatasetError> {
-    let Some(pictures) = &exported.pictures else {
-        return Ok(Vec::new());
-    };
     let mut names = Vec::new();
+    let view = pictures.view();
     let jobs = exported.jobs.saturating_mul(PICTURES_A_JOB);
     let work = |row: usize| match pictures.encoded(row)? {
-        Some(picture) => put(staged, layout::frame_path(row, picture.extension), &picture),
+        Some(picture) => {
+            let path = layout::frame_path(row, picture.extension);
+            put(staged, layout::in_view(view.as_deref(), &path), &picture)
+        }
         None => Ok(String::new()),
     };
     ordered_map(
@@ -94,7 +118,7 @@ fn put(staged: &StagedFolder, name: String, picture: &Encoded) -> Result<String,
 fn write_table(
     exported: &Exported<'_>,
     staged: &StagedFolder,
-    frames: Option<&[String]>,
+    frames: &[PathColumn],
 ) -> Result<(), DatasetError> {
     let path = staged.path().join(TABLE);
     let failed = |error: csv::Error| DatasetError::io("write", &path)(error.into());
@@ -105,7 +129,7 @@ fn write_table(
         .iter()
         .map(|column| column.name.to_owned())
         .collect();
-    names.extend(frames.map(|_| "frame".to_owned()));
+    names.extend(frames.iter().map(|column| column.name.clone()));
     let signals = exported.dataset.header().signals.iter();
     names.extend(signals.flat_map(|signals| signals.spec.column_names()));
     let mut known = BTreeSet::new();
@@ -124,10 +148,10 @@ fn write_table(
             .iter()
             .map(|column| column.cells.text(row).unwrap_or_default())
             .collect();
-        cells.extend(frames.map(|frames| frames[row].clone()));
+        cells.extend(frames.iter().map(|column| column.paths[row].clone()));
         cells.extend(exported.signals(row)?.into_iter().map(single));
         writer.write_record(&cells).map_err(failed)?;
-        if frames.is_none() {
+        if frames.is_empty() {
             exported.advance(1)?;
         }
     }

@@ -5,7 +5,8 @@ use taceva_core::PixelFormat;
 
 use super::cells::of_arrays;
 use super::content::Exported;
-use super::map::{self, Written, quoted};
+use super::map::{self, Written, WrittenFrames, quoted};
+use super::picture::Pictures;
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::{Cells, staging::StagedFolder};
 
@@ -50,13 +51,16 @@ pub(super) fn write(
             writer.write(&bytes).map_err(of_arrays)?;
         }
     }
-    let frames = exported
-        .pictures
-        .as_ref()
-        .map(|_| exported.free_name("frames"));
-    if let Some(name) = &frames {
-        write_frames(exported, &mut writer, name)?;
-    } else {
+    let mut frames = Vec::new();
+    for pictures in &exported.pictures {
+        let name = exported.free_name(&pictures.named("frames"));
+        write_frames(exported, pictures, &mut writer, &name)?;
+        frames.push(WrittenFrames {
+            key: format!("array = {}", quoted(&name)),
+            reference: exported.write_reference(staged, pictures)?,
+        });
+    }
+    if exported.pictures.is_empty() {
         exported.advance(rows)?;
     }
     let source = format!("{:?}", header.source).to_lowercase();
@@ -74,8 +78,7 @@ pub(super) fn write(
         .map_err(of_arrays)?;
     let written = Written {
         table: quoted(FILE),
-        frame: frames.map(|name| format!("array = {}", quoted(&name))),
-        reference: exported.write_reference(staged)?,
+        frames,
         signals: taxels.map(|name| {
             format!(
                 "{{ file = {}, path = {} }}",
@@ -180,15 +183,12 @@ fn check_text(
 /// The pixels of every picture, row by row.
 fn write_frames(
     exported: &Exported<'_>,
+    pictures: &Pictures<'_>,
     writer: &mut Hdf5Writer,
     name: &str,
 ) -> Result<(), DatasetError> {
     let rows = exported.dataset.table().rows();
-    let Some((pictures, info)) = exported
-        .pictures
-        .as_ref()
-        .and_then(|pictures| Some((pictures, pictures.info()?)))
-    else {
+    let Some(info) = pictures.info() else {
         return Ok(());
     };
     let element = match info.format {

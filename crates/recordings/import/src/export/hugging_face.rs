@@ -5,7 +5,7 @@ use taceva_tables::{ParquetWriter, WrittenColumn, WrittenKind, huggingface_featu
 use super::cells;
 use super::cells::of_table;
 use super::content::Exported;
-use super::map::{self, Written, quoted};
+use super::map::{self, Written, WrittenFrames, quoted};
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::{staging::StagedFolder, write_durable};
 
@@ -19,10 +19,9 @@ pub(super) fn write(
     staged.create_folder("data")?;
     let dataset = exported.dataset;
     let signals = dataset.header().signals.as_ref();
-    let image = exported
-        .pictures
-        .as_ref()
-        .map(|_| exported.free_name("image"));
+    let images = exported.pictures.iter();
+    let images = images.map(|pictures| exported.free_name(&pictures.named("image")));
+    let images: Vec<String> = images.collect();
     let taxels = signals.map(|_| exported.free_name("signals"));
     let columns = exported.columns.iter();
     let columns = columns.map(|column| WrittenColumn::new(column.name, cells::kind(&column.cells)));
@@ -32,7 +31,7 @@ pub(super) fn write(
         columns.push(WrittenColumn::new(name, kind));
     }
     columns.extend(
-        image
+        images
             .iter()
             .map(|name| WrittenColumn::new(name, WrittenKind::Picture)),
     );
@@ -68,7 +67,7 @@ pub(super) fn write(
         if signals.is_some() {
             cells.push(exported.signals_cell(row)?);
         }
-        if let Some(pictures) = &exported.pictures {
+        for pictures in &exported.pictures {
             let sample = &dataset.table().samples()[row];
             cells.push(cells::picture(pictures.encoded(row)?, sample));
         }
@@ -78,10 +77,16 @@ pub(super) fn write(
     writer.finish().map_err(of_table)?;
     let card = staged.path().join("README.md");
     write_durable(&card, card_of(exported, taxels.as_deref()).as_bytes())?;
+    let mut frames = Vec::new();
+    for (pictures, name) in exported.pictures.iter().zip(&images) {
+        frames.push(WrittenFrames {
+            key: format!("bytes = {}", quoted(&format!("{name}.bytes"))),
+            reference: exported.write_reference(staged, pictures)?,
+        });
+    }
     let written = Written {
         table: quoted(FILE),
-        frame: image.map(|name| format!("bytes = {}", quoted(&format!("{name}.bytes")))),
-        reference: exported.write_reference(staged)?,
+        frames,
         signals: taxels.map(|name| quoted(&name)),
         names: map::bare,
         channels: map::bare_channels(exported),

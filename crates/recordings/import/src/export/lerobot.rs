@@ -14,14 +14,15 @@ use taceva_tables::{
 use super::cells;
 use super::cells::of_table;
 use super::content::Exported;
-use super::map::{Written, quoted};
+use super::map::{Written, WrittenFrames, quoted};
 use super::picture::Pictures;
 use taceva_dataset::internal::{RESERVED, staging::StagedFolder};
 use taceva_dataset::{DatasetError, Table};
 
 const STATE: &str = "observation.state";
 const TAXELS: &str = "observation.tactile";
-const PICTURE: &str = "observation.images.gel";
+/// Pictures of each view are called by it, and those of samples that have one by `gel`.
+const PICTURES: &str = "observation.images";
 /// How many pictures the statistics of all are computed from; LeRobot itself takes about as many.
 const LOOKED_AT: usize = 100;
 
@@ -36,33 +37,36 @@ pub(super) fn write(
     let mut writer = LeRobotWriter::create(staged.path(), model, rate_hz, features(exported))
         .map_err(of_table)?;
     let task = format!("press {model}");
-    let mut stats = exported
-        .pictures
-        .as_ref()
-        .map(|pictures| FeatureStats::new(pictures.colours()));
+    let stats = exported.pictures.iter();
+    let stats = stats.map(|pictures| FeatureStats::new(pictures.colours()));
+    let mut stats: Vec<FeatureStats> = stats.collect();
     let looked_at = table.rows().div_ceil(LOOKED_AT);
     for row in 0..table.rows() {
         if row == 0 || !is_same_press(table, row - 1, row) {
             writer.begin_episode(&task).map_err(of_table)?;
         }
         writer.push(cells_of(exported, row)?).map_err(of_table)?;
-        if let (Some(stats), Some(pictures)) = (&mut stats, &exported.pictures)
-            && row % looked_at == 0
-        {
+        let is_looked_at = row % looked_at == 0;
+        let looked_at = stats.iter_mut().zip(&exported.pictures);
+        for (stats, pictures) in looked_at.filter(|_| is_looked_at) {
             add_picture(stats, &pictures.frame(row)?);
         }
         exported.advance(1)?;
     }
-    let stats = stats.map(|stats| (PICTURE.to_owned(), stats));
-    let stats: BTreeMap<String, FeatureStats> = stats.into_iter().collect();
+    let names = exported.pictures.iter().map(picture_name);
+    let stats: BTreeMap<String, FeatureStats> = names.zip(stats).collect();
     let folders = writer.finish(&stats).map_err(of_table)?;
+    let mut frames = Vec::new();
+    for pictures in &exported.pictures {
+        let name = picture_name(pictures);
+        frames.push(WrittenFrames {
+            key: format!("bytes = {}", quoted(&format!("{name}.bytes"))),
+            reference: exported.write_reference(staged, pictures)?,
+        });
+    }
     let written = Written {
         table: "{ file = \".\", format = \"lerobot\" }".to_owned(),
-        frame: exported
-            .pictures
-            .as_ref()
-            .map(|_| format!("bytes = {}", quoted(&format!("{PICTURE}.bytes")))),
-        reference: exported.write_reference(staged)?,
+        frames,
         signals: header.signals.as_ref().map(|_| quoted(TAXELS)),
         names: name_of,
         channels: match table.channels().len() {
@@ -73,6 +77,12 @@ pub(super) fn write(
         },
     };
     Ok((written, folders))
+}
+
+/// Name of the feature of these pictures.
+fn picture_name(pictures: &Pictures<'_>) -> String {
+    let view = pictures.view();
+    format!("{PICTURES}.{}", view.as_deref().unwrap_or("gel"))
 }
 
 /// What a column is called: attributes stand apart from the columns that LeRobot has.
@@ -96,8 +106,11 @@ fn features(exported: &Exported<'_>) -> Vec<WrittenFeature> {
     let header = exported.dataset.header();
     let channels = &header.channels;
     let mut features = Vec::new();
-    if let Some(info) = exported.pictures.as_ref().and_then(Pictures::info) {
-        let column = WrittenColumn::new(PICTURE, WrittenKind::Picture);
+    for pictures in &exported.pictures {
+        let Some(info) = pictures.info() else {
+            continue;
+        };
+        let column = WrittenColumn::new(picture_name(pictures), WrittenKind::Picture);
         let shape = [
             info.height.into(),
             info.width.into(),
@@ -139,7 +152,7 @@ fn features(exported: &Exported<'_>) -> Vec<WrittenFeature> {
 fn cells_of(exported: &Exported<'_>, row: usize) -> Result<Vec<Cell>, DatasetError> {
     let table = exported.dataset.table();
     let mut row_cells = Vec::new();
-    if let Some(pictures) = &exported.pictures {
+    for pictures in &exported.pictures {
         let encoded = pictures.encoded(row)?.ok_or_else(|| pictures.none(row))?;
         row_cells.push(cells::picture(Some(encoded), &table.samples()[row]));
     }

@@ -6,23 +6,29 @@ use taceva_core::SourceUnit;
 
 use super::content::Exported;
 use crate::unit_suffix::UnitSuffix;
-use taceva_dataset::internal::RESERVED;
-use taceva_dataset::{ChannelOrder, Footprint, ReducedFrames, SensorFacts};
+use taceva_dataset::internal::{RESERVED, column_kind, column_of};
+use taceva_dataset::{Footprint, ReducedFrames, SensorFacts};
 
 /// Where a form has what the map names.
 pub(super) struct Written {
     /// The value of `table`, as TOML.
     pub(super) table: String,
-    /// The key and value that name the pictures, as TOML; none without pictures.
-    pub(super) frame: Option<String>,
-    /// The file of the picture without contact.
-    pub(super) reference: Option<String>,
+    /// Places of the pictures of each view; none without pictures.
+    pub(super) frames: Vec<WrittenFrames>,
     /// The value of `from` of [signals], as TOML; none without signals.
     pub(super) signals: Option<String>,
     /// What the file calls the column of that name, where it has another one there.
     pub(super) names: fn(&str) -> String,
     /// What the file calls each channel.
     pub(super) channels: Vec<String>,
+}
+
+/// Place of the pictures of a view in a form.
+pub(super) struct WrittenFrames {
+    /// The key and value that name them, as TOML.
+    pub(super) key: String,
+    /// The file of the picture without contact.
+    pub(super) reference: Option<String>,
 }
 
 /// The bare names of a table.
@@ -91,20 +97,19 @@ pub(super) fn text(exported: &Exported<'_>, written: &Written) -> String {
     if !rotations.is_empty() {
         line(format_args!("rotation = [{}]", rotations.join(", ")));
     }
-    if let Some(frame) = &written.frame {
-        let order = exported
-            .pictures
-            .as_ref()
-            .map_or(ChannelOrder::Rgb, |pictures| pictures.order);
-        let reference = written.reference.as_deref().unwrap_or("unknown");
+    for (pictures, frame) in exported.pictures.iter().zip(&written.frames) {
+        let reference = frame.reference.as_deref().unwrap_or("unknown");
+        match pictures.view() {
+            None => line(format_args!("\n[frame]")),
+            Some(view) => line(format_args!("\n[[frame]]\nname = {}", quoted(&view))),
+        }
         line(format_args!(
-            "\n[frame]\n{frame}\nchannel_order = {}",
-            quoted(order.name())
+            "{}\nchannel_order = {}",
+            frame.key,
+            quoted(pictures.order.name())
         ));
         line(format_args!("reference = {}", quoted(reference)));
-        let frames = header.frames.as_ref();
-        if let Some(reduced) = frames.and_then(|frames| frames.reduced.as_ref()) {
-            let ReducedFrames { from, by, .. } = reduced;
+        if let Some(ReducedFrames { from, by, .. }) = pictures.reduced() {
             line(format_args!(
                 "# Reduced before they were recorded: {by}, of {from}."
             ));
@@ -138,6 +143,14 @@ pub(super) fn text(exported: &Exported<'_>, written: &Written) -> String {
     for (key, column) in ORIGIN.into_iter().filter(|(_, column)| has(column)) {
         line(format_args!("{key} = {}", quoted(&(written.names)(column))));
     }
+    let views = table.views().iter().map(|view| {
+        let column = column_of("source_frame", view.name());
+        has(&column).then(|| format!("{} = {}", view.name(), quoted(&(written.names)(&column))))
+    });
+    let views: Vec<String> = views.flatten().collect();
+    if !views.is_empty() {
+        line(format_args!("frames = {{ {} }}", views.join(", ")));
+    }
     line(format_args!(
         "\n[time]\nclock = {}",
         quoted(&header.clock.to_string())
@@ -150,7 +163,9 @@ pub(super) fn text(exported: &Exported<'_>, written: &Written) -> String {
     }
     let attributes = exported.columns.iter().map(|column| column.name);
     let attributes: Vec<&str> = attributes
-        .filter(|name| !RESERVED.contains(name) && table.channels().position(name).is_none())
+        .filter(|name| {
+            !RESERVED.contains(&column_kind(name)) && table.channels().position(name).is_none()
+        })
         .collect();
     if !attributes.is_empty() {
         line(format_args!("\n[attributes]"));

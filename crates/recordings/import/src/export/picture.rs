@@ -4,7 +4,7 @@ use taceva_core::{Frame, PixelFormat};
 
 use super::form::ExportForm;
 use taceva_dataset::internal::{ImageKind, encode_png};
-use taceva_dataset::{ChannelOrder, Dataset, DatasetError};
+use taceva_dataset::{ChannelOrder, Dataset, DatasetError, ReducedFrames};
 
 /// The pictures of a dataset that has any.
 pub(super) struct Pictures<'a> {
@@ -42,6 +42,24 @@ impl<'a> Pictures<'a> {
             is_anew,
             is_pixels: form == ExportForm::Hdf5,
         })
+    }
+
+    /// The view that they are of, where samples have several.
+    pub(super) fn view(&self) -> Option<String> {
+        self.dataset.view()
+    }
+
+    /// `name`, and that of the view behind it where there are several.
+    pub(super) fn named(&self, name: &str) -> String {
+        match self.view() {
+            None => name.to_owned(),
+            Some(view) => format!("{name}_{view}"),
+        }
+    }
+
+    /// Reduction of these pictures before they were recorded.
+    pub(super) fn reduced(&self) -> Option<&ReducedFrames> {
+        self.dataset.header().frames.as_ref()?.reduced.as_ref()
     }
 
     /// How many there are.

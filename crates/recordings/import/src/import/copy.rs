@@ -10,11 +10,11 @@ use taceva_core::{FrameInfo, Progress};
 
 use super::plan::ImportPlan;
 use super::summary::ImportSummary;
-pub(super) use frames::copy_frames;
+pub(super) use frames::{CopiedFrames, copy_frames};
 use taceva_dataset::internal::{
     Beside, layout, staging::Place, staging::StagedFolder, write_table_and_header,
 };
-use taceva_dataset::{DatasetError, Digest};
+use taceva_dataset::{DatasetError, Digest, ViewInfo};
 
 /// What an import did.
 ///
@@ -42,6 +42,8 @@ pub struct ImportReport {
     pub summary: ImportSummary,
     /// Size and format of the frames; `None` if there is none.
     pub frames: Option<FrameInfo>,
+    /// Frames of each view, where samples have several pictures; then `frames` is `None`.
+    pub views: Vec<ViewInfo>,
     /// The digest of the dataset.
     pub digest: Digest,
     /// The folder of the dataset.
@@ -92,10 +94,11 @@ impl ImportPlan {
     ) -> Result<ImportReport, DatasetError> {
         let staged = StagedFolder::create(target, place)?;
         let mut table = self.table;
-        let (frames, folders) = match &self.frames {
-            Some(frames) => copy_frames(&staged, frames, 0, &mut table, jobs, progress)?,
-            None => (None, Vec::new()),
-        };
+        let CopiedFrames {
+            frames,
+            views,
+            folders,
+        } = copy_frames(&staged, &self.frames, 0, &mut table, jobs, progress)?;
         let signals = self.signals.as_ref().map(|signals| {
             let path = staged.path().join(layout::SIGNALS);
             signals.write(&path, progress)
@@ -113,6 +116,7 @@ impl ImportPlan {
                 left_out: self.summary.left_out(),
                 warnings: self.summary.warnings_in_words(),
                 signals: signals.transpose()?,
+                views,
                 ..Beside::default()
             },
         )?;
@@ -120,6 +124,7 @@ impl ImportPlan {
         Ok(ImportReport {
             summary: self.summary,
             frames: info,
+            views: header.views,
             digest: header.digest,
             path: target.to_owned(),
         })

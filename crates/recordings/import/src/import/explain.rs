@@ -3,8 +3,9 @@
 use std::fmt;
 
 use super::copy::ImportReport;
+use super::map::reference_attribute;
 use super::plan::ImportPlan;
-use super::summary::{Conversion, ImportSummary, JoinSummary, ZeroSummary};
+use super::summary::{Conversion, FrameSummary, ImportSummary, JoinSummary, ZeroSummary};
 use taceva_dataset::internal::{shown, shown_path};
 use taceva_dataset::names_quality;
 
@@ -57,23 +58,8 @@ impl fmt::Display for ImportSummary {
         for topic in &self.unread_topics {
             writeln!(f, "not read {}", taceva_core::shown(topic))?;
         }
-        let Some(order) = self.channel_order else {
-            return self.write_suspicions(f);
-        };
-        writeln!(
-            f,
-            "frames   {} of them, colours {}",
-            self.rows_kept,
-            order.name()
-        )?;
-        match &self.reference {
-            Some(path) => writeln!(f, "without contact  {}", shown_path(path))?,
-            None if self.references > 0 => writeln!(
-                f,
-                "without contact  {} different pictures, named by the attribute `reference` and not copied",
-                self.references
-            )?,
-            None => writeln!(f, "without contact  unknown")?,
+        for frames in &self.frames {
+            self.write_frames(frames, f)?;
         }
         if self.unnamed_images > 0 || self.has_more_files {
             let more = match self.has_more_files {
@@ -93,6 +79,28 @@ impl fmt::Display for ImportSummary {
 }
 
 impl ImportSummary {
+    /// The frames of a view.
+    fn write_frames(&self, frames: &FrameSummary, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let view = frames.view.iter();
+        let view: String = view.map(|view| format!(" of the view {view}")).collect();
+        writeln!(
+            f,
+            "frames   {} of them{view}, colours {}",
+            self.rows_kept,
+            frames.channel_order.name()
+        )?;
+        match &frames.reference {
+            Some(path) => writeln!(f, "without contact  {}", shown_path(path)),
+            None if frames.references > 0 => writeln!(
+                f,
+                "without contact  {} different pictures, named by the attribute `{}` and not copied",
+                frames.references,
+                reference_attribute(frames.view.as_deref())
+            ),
+            None => writeln!(f, "without contact  unknown"),
+        }
+    }
+
     /// The columns that are left behind; those that rate their rows, one by one.
     fn write_unmentioned(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.unmentioned_columns.is_empty() {
@@ -205,6 +213,11 @@ impl fmt::Display for ImportReport {
         fmt::Display::fmt(&self.summary, f)?;
         if let Some(info) = self.frames {
             writeln!(f, "verified {} frames of {info}", self.summary.rows_kept)?;
+        }
+        for view in &self.views {
+            let (name, info) = (&view.name, view.frames.info);
+            let count = self.summary.rows_kept;
+            writeln!(f, "verified {count} frames of the view {name}, {info}")?;
         }
         writeln!(f, "digest   {}", self.digest)?;
         writeln!(f, "written  {}", shown_path(&self.path))

@@ -9,7 +9,7 @@ use std::path::Path;
 
 use taceva_core::Progress;
 
-use super::copy::{ImportReport, copy_frames};
+use super::copy::{CopiedFrames, ImportReport, copy_frames};
 use super::frame_plan::PlannedFrames;
 use super::plan::ImportPlan;
 use super::signals::PlannedSignals;
@@ -18,9 +18,7 @@ use taceva_dataset::internal::{
     Beside, Difference, Misread, RowNames, SignalsWriter, differences_of_added, layout, limits,
     read_capped, staging::Place, staging::StagedFolder, write_table_and_header,
 };
-use taceva_dataset::{
-    Dataset, DatasetError, Digest, Extension, FramesInfo, Header, SignalsInfo, Table,
-};
+use taceva_dataset::{Dataset, DatasetError, Digest, Extension, Header, SignalsInfo, Table};
 
 /// When rows are added, and from where, as the header of the dataset will say it.
 ///
@@ -94,15 +92,19 @@ impl ImportPlan {
         self.check_alike(&before, None)?;
         let mut folders = share_files(&before, &staged)?;
         let first = before.table().rows();
-        let (frames, new_folders) = match &mut self.frames {
-            Some(frames) => {
-                check_reference(&before, frames)?;
-                copy_frames(&staged, frames, first, &mut self.table, jobs, progress)?
-            }
-            None => (None, Vec::new()),
-        };
-        folders.extend(new_folders);
-        self.check_alike(&before, frames.as_ref())?;
+        for frames in &mut self.frames {
+            check_reference(&before, frames)?;
+        }
+        let frames = copy_frames(
+            &staged,
+            &self.frames,
+            first,
+            &mut self.table,
+            jobs,
+            progress,
+        )?;
+        folders.extend(frames.folders.iter().cloned());
+        self.check_alike(&before, Some(&frames))?;
         let table = self.joined_table(&before);
         let signals = self.signals.as_ref();
         let signals = signals.map(|new| write_signals(&before, new, &staged, progress));
@@ -115,6 +117,7 @@ impl ImportPlan {
         Ok(ImportReport {
             summary: self.summary,
             frames: header.frames.as_ref().map(|frames| frames.info),
+            views: header.views,
             digest: header.digest,
             path: target.to_owned(),
         })
@@ -124,7 +127,7 @@ impl ImportPlan {
     fn check_alike(
         &self,
         before: &Dataset,
-        frames: Option<&FramesInfo>,
+        frames: Option<&CopiedFrames>,
     ) -> Result<(), DatasetError> {
         let header = before.header();
         let refused = |problem: String| DatasetError::Request {
@@ -144,13 +147,45 @@ impl ImportPlan {
         planned.footprint = self.facts.footprint;
         planned.channels = self.table.channels().clone();
         planned.attributes = self.table.attribute_names().to_vec();
-        match (&mut planned.frames, &self.frames) {
-            (Some(own), Some(plan)) => {
-                own.channel_order = plan.order;
-                own.info = frames.map_or(own.info, |frames| frames.info);
+        let views = |names: &mut dyn Iterator<Item = &str>| {
+            let mut names: Vec<&str> = names.collect();
+            names.sort_unstable();
+            match names.is_empty() {
+                true => "one picture".to_owned(),
+                false => names.join(" and "),
             }
-            (None, Some(_)) => return Err(refused(differs("frames", "absent", "there"))),
-            (own, None) => *own = None,
+        };
+        let own = views(&mut header.views.iter().map(|view| view.name.as_str()));
+        let new = views(&mut self.frames.iter().filter_map(|plan| plan.view.as_deref()));
+        if !self.frames.is_empty() && own != new {
+            return Err(refused(differs("frame", &own, &new)));
+        }
+        if self.frames.is_empty() {
+            planned.frames = None;
+            planned.views.clear();
+        }
+        for plan in &self.frames {
+            let (known, info) = match &plan.view {
+                None => (
+                    planned.frames.as_mut(),
+                    frames.and_then(|copied| copied.frames.as_ref()),
+                ),
+                Some(name) => {
+                    let mut known = planned.views.iter_mut();
+                    let known = known.find(|view| view.name == *name);
+                    let mut copied = frames.iter().flat_map(|copied| &copied.views);
+                    let info = copied.find(|view| view.name == *name);
+                    (
+                        known.map(|view| &mut view.frames),
+                        info.map(|view| &view.frames),
+                    )
+                }
+            };
+            let Some(known) = known else {
+                return Err(refused(differs("frames", "absent", "there")));
+            };
+            known.channel_order = plan.order;
+            known.info = info.map_or(known.info, |info| info.info);
         }
         match (&mut planned.signals, &self.signals) {
             (Some(own), Some(plan)) => own.spec = plan.spec().clone(),
@@ -211,9 +246,13 @@ fn differs(key: &str, own: &str, other: &str) -> String {
 /// Gives the frames of `before` a second name in the staged folder, where they then lie as they did; returns the folders that they lie in.
 fn share_files(before: &Dataset, staged: &StagedFolder) -> Result<BTreeSet<String>, DatasetError> {
     let frames = before.table().frames().iter().flatten();
+    let views = before.table().views().iter();
+    let views = views.flat_map(|view| view.frames().iter().flatten());
+    let frames = frames.chain(views);
     let mut files: BTreeSet<&str> = frames.map(|entry| entry.path.as_str()).collect();
-    let reference = before.header().frames.as_ref();
-    files.extend(reference.and_then(|frames| Some(frames.reference.as_ref()?.path.as_str())));
+    let views = before.header().views.iter().map(|view| &view.frames);
+    let infos = before.header().frames.iter().chain(views);
+    files.extend(infos.filter_map(|frames| Some(frames.reference.as_ref()?.path.as_str())));
     let mut folders = BTreeSet::new();
     for relative in files {
         for (at, _) in relative.match_indices('/') {
@@ -234,8 +273,20 @@ fn share_files(before: &Dataset, staged: &StagedFolder) -> Result<BTreeSet<Strin
 
 /// Takes the picture without contact out of `frames`, which must be the one that the dataset has.
 fn check_reference(before: &Dataset, frames: &mut PlannedFrames) -> Result<(), DatasetError> {
-    let known = before.header().frames.as_ref();
+    let header = before.header();
+    let known = match &frames.view {
+        None => header.frames.as_ref(),
+        Some(name) => {
+            let mut views = header.views.iter();
+            let known = views.find(|view| view.name == *name);
+            known.map(|view| &view.frames)
+        }
+    };
     let known = known.and_then(|frames| Some(frames.reference.as_ref()?.sha256));
+    let key = frames.view.as_ref();
+    let key = key.map_or("frames.reference".to_owned(), |view| {
+        format!("views.{view}.reference")
+    });
     let new = frames.reference.take();
     let new = new.map(|path| read_capped(&path, limits::IMAGE_BYTES));
     let new = new.transpose()?.map(|bytes| Digest::of(&bytes));
@@ -246,7 +297,7 @@ fn check_reference(before: &Dataset, frames: &mut PlannedFrames) -> Result<(), D
         |digest: Option<Digest>| digest.map_or("unknown".to_owned(), |digest| digest.to_string());
     Err(DatasetError::Request {
         path: before.path().to_owned(),
-        problem: differs("frames.reference", &word(known), &word(new)),
+        problem: differs(&key, &word(known), &word(new)),
     })
 }
 
@@ -283,16 +334,23 @@ fn write_header(
     staged: &StagedFolder,
     before: &Dataset,
     table: &Table,
-    frames: Option<FramesInfo>,
+    frames: CopiedFrames,
     signals: Option<SignalsInfo>,
     plan: &ImportPlan,
     added: &Addition,
 ) -> Result<Header, DatasetError> {
     let header = before.header();
     let all = header.frames.clone().map(|mut all| {
-        all.count += frames.map_or(0, |new| new.count);
+        all.count += frames.frames.map_or(0, |new| new.count);
         all
     });
+    let mut views = header.views.clone();
+    for new in frames.views {
+        let mut known = views.iter_mut();
+        if let Some(known) = known.find(|known| known.name == new.name) {
+            known.frames.count += new.frames.count;
+        }
+    }
     let mut unmentioned = header.unmentioned_columns.clone();
     for column in plan.summary.columns_left_behind() {
         if !unmentioned.contains(&column) {
@@ -321,6 +379,7 @@ fn write_header(
         all,
         Beside {
             unmentioned_columns: unmentioned,
+            views,
             signals,
             extended,
             mapping: header.mapping().and(&plan.mapping),

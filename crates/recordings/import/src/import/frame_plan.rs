@@ -9,6 +9,8 @@ use taceva_dataset::{ChannelOrder, Place};
 /// Where the frames come from.
 #[derive(Debug)]
 pub(super) struct PlannedFrames {
+    /// The view that they are of, where rows have several pictures.
+    pub(super) view: Option<String>,
     pub(super) order: ChannelOrder,
     pub(super) reference: Option<PathBuf>,
     /// For each kept row.

@@ -28,7 +28,7 @@ use taceva_dataset::DatasetError;
 use taceva_dataset::RecordingFacts;
 use taceva_dataset::internal::read_toml_text;
 
-pub(crate) use crate::frame_names::{OWN_ROW, REFERENCE_ATTRIBUTE};
+pub(crate) use crate::frame_names::{OWN_ROW, reference_attribute};
 pub(crate) use join::{JoinBy, JoinMap, Lag, Pick, TimeJoin, Unmatched};
 pub(crate) use matrix::{MatrixMap, MatrixRows};
 pub(crate) use path_pattern::PathPattern;
@@ -71,8 +71,8 @@ pub use drop::{DropRules, Placeholder};
 pub struct ImportMap {
     /// Table of labels, or a pattern with `*`, relative to the source folder.
     pub table: String,
-    /// Where the frames are; without it the dataset has none.
-    pub frame: Option<FrameMap>,
+    /// Where the frames are, of each view where a row has several; without one the dataset has none.
+    pub frames: Vec<FrameMap>,
     /// The channels, in order.
     pub channels: Channels,
     /// For each channel the column it comes from.
@@ -141,7 +141,7 @@ impl ImportMap {
     pub fn new(table: impl Into<String>, facts: RecordingFacts) -> ImportMap {
         ImportMap {
             table: table.into(),
-            frame: None,
+            frames: Vec::new(),
             channels: Channels::default(),
             columns: Vec::new(),
             ids: IdMap::default(),

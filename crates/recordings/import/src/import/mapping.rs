@@ -22,7 +22,7 @@ pub(super) fn mapping(map: &ImportMap, folder: &SourceFolder) -> Result<Mapping,
     Ok(Mapping {
         columns: columns::columns(map, folder)?,
         joins: map.joins.iter().map(tables::join).collect(),
-        pictures: map.frame.iter().map(tables::pictures).collect(),
+        pictures: map.frames.iter().map(tables::pictures).collect(),
         classes: tables::classes(map),
         rotations: map
             .rotations

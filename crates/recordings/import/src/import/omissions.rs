@@ -16,12 +16,13 @@ use taceva_dataset::internal::add_left_out;
 /// arrays that are no frames.
 pub(super) fn count(
     folder: &SourceFolder,
-    frames: Option<(&FrameMap, &PlannedFrames)>,
+    maps: &[FrameMap],
+    frames: &[PlannedFrames],
     mut absent_chunks: BTreeMap<String, u64>,
     is_filled: bool,
     summary: &mut ImportSummary,
 ) -> Result<(), DatasetError> {
-    if let Some((map, planned)) = frames {
+    for (map, planned) in maps.iter().zip(frames) {
         for (pictures, mut rows) in within(planned) {
             rows.dedup_by_key(|(index, _)| *index);
             let mut used: BTreeMap<&Path, u64> = BTreeMap::new();

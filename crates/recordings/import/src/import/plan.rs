@@ -5,6 +5,8 @@ mod completion;
 mod name_order;
 mod pictures;
 mod reading;
+mod row_frames;
+mod view;
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -44,7 +46,8 @@ pub struct ImportPlan {
     pub(super) summary: ImportSummary,
     pub(super) facts: RecordingFacts,
     pub(super) table: Table,
-    pub(super) frames: Option<PlannedFrames>,
+    /// The pictures of each view.
+    pub(super) frames: Vec<PlannedFrames>,
     pub(super) signals: Option<PlannedSignals>,
     /// How the map reads what it reads.
     pub(super) mapping: Mapping,

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use super::map::REFERENCE_ATTRIBUTE;
+use super::map::reference_attribute;
 use crate::source_folder::SourceFolder;
 use taceva_dataset::{DatasetError, Place, Table};
 
@@ -43,10 +43,11 @@ impl References {
         named.map(|name| folder.path().join(name)).collect()
     }
 
-    /// The one that every row names; where they differ, or some row names none, each becomes an attribute of `table`.
+    /// The one of `view` that every row names; where they differ, or some row names none, each becomes an attribute of `table`.
     pub(super) fn settle(
         self,
         folder: &SourceFolder,
+        view: Option<&str>,
         table: &mut Table,
     ) -> Result<Settled, DatasetError> {
         let named: BTreeSet<&String> = self.of_rows.iter().flatten().collect();
@@ -58,7 +59,7 @@ impl References {
                 different: 0,
             }),
             _ => {
-                table.push_attribute(REFERENCE_ATTRIBUTE.to_owned(), self.of_rows);
+                table.push_attribute(reference_attribute(view), self.of_rows);
                 Ok(Settled {
                     reference: None,
                     different,

@@ -335,11 +335,12 @@ impl Sources<'_> {
             .iter()
             .flat_map(|signals| signals.columns());
         let signals = signals.map(String::as_str);
-        let of_frame = match self.map.frame.as_ref().map(|frame| &frame.names) {
-            Some(FrameNames::Bytes(column)) => Some(column.as_str()),
-            Some(FrameNames::Array(array)) if array.file.is_none() => array.path.as_deref(),
+        let of_frame = self.map.frames.iter();
+        let of_frame = of_frame.filter_map(|frame| match &frame.names {
+            FrameNames::Bytes(column) => Some(column.as_str()),
+            FrameNames::Array(array) if array.file.is_none() => array.path.as_deref(),
             _ => None,
-        };
+        });
         // An array is listed without the slash of the root.
         let of_frame = of_frame.map(|name| name.trim_start_matches('/'));
         let named = named.into_iter().chain(keys).chain(of_path).chain(signals);

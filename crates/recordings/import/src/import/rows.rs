@@ -2,22 +2,21 @@
 
 mod labels;
 mod point;
+mod views;
 mod zero;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
-use super::frame_cells::{FrameCells, FrameName, filled};
-use super::map::{FrameNames, ImportMap};
+use super::map::ImportMap;
 use super::resolve::{
     ClassCells, ColumnSignals, CoordinateFrames, JoinMatches, NamedBy, ResolvedTable, resolve,
 };
 use super::warning::ImportWarning;
-use crate::foreign::{DepthPixels, Pictures, TableForm};
 use crate::source_folder::SourceFolder;
 use taceva_dataset::internal::shown;
 use taceva_dataset::{DatasetError, Place, Row};
+use views::MappedView;
 use zero::Zeros;
 
 /// The rule that leaves rows out in which a taxel measured nothing.
@@ -57,13 +56,8 @@ pub(super) struct MappedTable<'a> {
     /// The columns of the table, the row and the picture that rows first came from.
     origin: [Option<usize>; 3],
     flags: Option<usize>,
-    frame: Option<FrameCells>,
-    /// The column of the frame without contact of each row.
-    reference: Option<usize>,
-    /// The pictures that the table itself holds.
-    pub(super) pictures: Option<Arc<dyn Pictures>>,
-    /// The pixels of a depth map that its clips are.
-    pub(super) depth: Option<DepthPixels>,
+    /// The pictures of each row, those of each view.
+    pub(super) views: Vec<MappedView>,
     /// The numbers of taxels of every row, where they are in columns.
     signals: Option<ColumnSignals>,
     /// The folders of joined tables that name files.
@@ -82,33 +76,9 @@ impl<'a> MappedTable<'a> {
     ) -> Result<MappedTable<'a>, DatasetError> {
         let found = resolve(map, folder, path)?;
         let has_row_column = found.main.has("row");
-        let names = map.frame.as_ref().map(|frame| &frame.names);
-        let clips = match (&map.form, names) {
-            (TableForm::LeRobot, Some(FrameNames::Video(video))) => {
-                Some(found.main.clips(&video.file)?)
-            }
-            _ => None,
-        };
-        let depth = match names {
-            Some(FrameNames::Video(video)) => {
-                let depth = match (found.main.depth(&video.file), video.range) {
-                    (Some(codes), range) => DepthPixels::new(codes, range).map(Some),
-                    (None, None) => Ok(None),
-                    (None, Some(_)) => Err(format!(
-                        "`range` and `bits` are for an `array`, and for a depth map of LeRobot, which `{}` is not",
-                        shown(&video.file)
-                    )),
-                };
-                depth.map_err(|problem| DatasetError::Table {
-                    place: Place::file(path),
-                    problem,
-                })?
-            }
-            _ => None,
-        };
-        let inside = names.filter(|names| names.is_in_table());
-        let pictures = inside.map(|names| found.main.pictures(names)).transpose()?;
         let table = found.table;
+        let views = map.frames.iter();
+        let views = views.map(|frame| MappedView::find(map, frame, &found.main, &table, path));
         let find = |name: &String| table.position(name);
         let find_optional = |name: &Option<String>| name.as_ref().map(find).transpose();
         let ids = &map.ids;
@@ -156,22 +126,7 @@ impl<'a> MappedTable<'a> {
                 None => [None; 3],
             },
             flags: has_flags.then(|| find(&map.drop.flag_column)).transpose()?,
-            frame: map
-                .frame
-                .as_ref()
-                .map(|frame| match clips {
-                    Some(clips) => Ok(FrameCells::Clips(clips)),
-                    None => FrameCells::find(&frame.names, &table),
-                })
-                .transpose()?,
-            reference: map
-                .frame
-                .as_ref()
-                .and_then(|frame| frame.reference_column.as_ref())
-                .map(find)
-                .transpose()?,
-            pictures,
-            depth,
+            views: views.collect::<Result<_, _>>()?,
             signals: found.signals,
             unmentioned: found.unmentioned,
             joins: found.joins,
@@ -238,12 +193,7 @@ impl<'a> MappedTable<'a> {
             })
             .cloned()
             .collect();
-        if let Some(FrameCells::Column(column)) = self.frame {
-            let name = self.table.cell(row, column);
-            if rules.frames_named.iter().any(|known| known == name) {
-                reasons.push(format!("frame `{}`", shown(name)));
-            }
-        }
+        reasons.extend(self.names_left_out(row));
         let is_placeholder = |rule: &super::map::Placeholder| {
             let position = self.map.channels.position(&rule.channel);
             let number = position.map(|position| self.table.number(row, self.truth[position]));
@@ -307,50 +257,6 @@ impl<'a> MappedTable<'a> {
             place: self.table.place(row, column),
             problem: format!("`{}` is the name of an earlier row", shown(name)),
         }
-    }
-
-    /// How the row names its frame, and where; `None` if the map has no frames.
-    pub(super) fn frame_name(
-        &self,
-        row: usize,
-    ) -> Result<Option<(FrameName, Place)>, DatasetError> {
-        let Some(cells) = &self.frame else {
-            return Ok(None);
-        };
-        let (name, column) = match cells {
-            FrameCells::Column(column) => (
-                FrameName::File(self.table.cell(row, *column).to_owned()),
-                *column,
-            ),
-            FrameCells::Pattern(parts) => {
-                let cell = |column| self.table.cell(row, column);
-                (FrameName::File(filled(parts, cell)), usize::MAX)
-            }
-            FrameCells::Within { file, index } => {
-                let at = self.count(row, Some(*index))?.ok_or_else(|| {
-                    self.wrong(row, *index, "empty, expected the position of a frame")
-                })?;
-                let cell = |column| self.table.cell(row, column);
-                let file = file.as_ref().map(|parts| filled(parts, cell));
-                (FrameName::Within(file, u64::from(at)), *index)
-            }
-            FrameCells::Clips(clips) => {
-                let (file, frame) = &clips[row];
-                let file = match self.table.source() {
-                    "" | "." => file.clone(),
-                    folder => format!("{folder}/{file}"),
-                };
-                (FrameName::Within(Some(file), *frame), usize::MAX)
-            }
-            FrameCells::OfRow => (FrameName::Within(None, row as u64), usize::MAX),
-        };
-        Ok(Some((name, self.table.place(row, column))))
-    }
-
-    /// How the row names its frame without contact, and where; `None` if the map names no column of such.
-    pub(super) fn reference_name(&self, row: usize) -> Option<(&str, Place)> {
-        let column = self.reference?;
-        Some((self.table.cell(row, column), self.table.place(row, column)))
     }
 
     /// A count, also where a spreadsheet made `3.0` of it.

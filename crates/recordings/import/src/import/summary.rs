@@ -50,13 +50,8 @@ pub struct ImportSummary {
     pub gravity: Option<String>,
     /// The grid and the unit of the signals; `None` without such.
     pub signals: Option<SignalInfo>,
-    /// How the colours of the frames are stored; `None` without frames.
-    pub channel_order: Option<ChannelOrder>,
-    /// The frame without contact; `None` if none is known.
-    pub reference: Option<PathBuf>,
-    /// How many different frames without contact rows name, where they do not all name the same one: the attribute `reference` says which, and
-    /// their pictures are not copied.
-    pub references: u64,
+    /// The frames of each view; none without frames.
+    pub frames: Vec<FrameSummary>,
     /// Images beside the table that no row names.
     pub unnamed_images: u64,
     /// The first 20 of these images, sorted.
@@ -75,6 +70,34 @@ pub struct ImportSummary {
     pub suspicions: Vec<Suspicion>,
     /// Warnings about the map and what it reads, sorted.
     pub warnings: BTreeSet<ImportWarning>,
+}
+
+/// The frames of one view, or those of rows that have one picture.
+///
+/// ```
+/// # use taceva_import::{ImportMap, ImportPlan};
+/// # let folder = tempfile::tempdir()?;
+/// # image::GrayImage::from_pixel(8, 6, image::Luma([90])).save(folder.path().join("1.png"))?;
+/// std::fs::write(folder.path().join("labels.csv"), "file\n1.png\n")?;
+/// let map = "map_version = 2\ntable = \"labels.csv\"\n[frame]\ncolumn = \"file\"\nchannel_order = \"gray\"\nreference = \"unknown\"\n\
+///     [time]\nclock = \"unknown\"\n[sensor]\nmodel = \"my gel\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = true\n";
+/// let plan = ImportPlan::new(folder.path(), &ImportMap::parse("map.toml".as_ref(), map)?)?;
+/// let frames = &plan.summary().frames[0];
+/// assert_eq!((&frames.view, &frames.reference, frames.references), (&None, &None, 0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct FrameSummary {
+    /// The view; `None` where rows have one picture.
+    pub view: Option<String>,
+    /// Order of the colours in the files.
+    pub channel_order: ChannelOrder,
+    /// The frame without contact; `None` if none is known.
+    pub reference: Option<PathBuf>,
+    /// Number of different frames without contact that rows name, where these differ. Their pictures are not copied: the attribute `reference`, of
+    /// a view `reference_VIEW`, names them.
+    pub references: u64,
 }
 
 /// How many columns that the map does not mention a dataset remembers, and how long their names may be.

@@ -38,7 +38,7 @@ fn imported(named: [&str; 3]) -> Result<(ImportSummary, Dataset, tempfile::TempD
 #[test]
 fn a_reference_that_all_rows_name_is_that_of_the_recording() {
     let (summary, dataset, _target) = imported(["ref_a.png"; 3]).expect("imported");
-    assert_eq!(summary.references, 0);
+    assert_eq!(summary.frames[0].references, 0);
     let reference = dataset.reference().expect("read").expect("there");
     assert_eq!(reference.bytes()[0], 30);
     assert_eq!(dataset.table().attribute_names(), [""; 0]);

@@ -68,6 +68,10 @@ impl<'a> FitPlan<'a> {
             closer,
         } = recipe;
         let model_reads = model.reads_features();
+        let mut words = request.settings.words();
+        if model_reads && !words.any(|word| word == "input=signals") {
+            dataset.require_view()?;
+        }
         let (frame, signals) = kinds(dataset);
         let frames = recorded_frames(dataset);
         let features = by_recording.on(features, frames);

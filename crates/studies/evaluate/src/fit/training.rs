@@ -164,6 +164,7 @@ impl FitPlan<'_> {
                 .into_iter()
                 .map(|own| own.digest)
                 .collect(),
+            view: self.dataset.view(),
             source,
             split: Some(SplitCard {
                 split: self.divided.spec.to_string(),

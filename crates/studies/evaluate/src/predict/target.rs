@@ -1,10 +1,24 @@
 //! Which rows of a dataset are predicted.
 
+use taceva_core::shown;
 use taceva_dataset::Dataset;
 use taceva_models::Model;
 
 use crate::error::EvaluateError;
 use crate::rows::{DataPart, Divided, Need, require_samples, usable};
+
+/// Refuses a model of one view for the pictures of another: its numbers would look like any others.
+fn check_view(dataset: &Dataset, model: &Model) -> Result<(), EvaluateError> {
+    let fitted_on = model.card().provenance.view.as_deref();
+    match (fitted_on, dataset.view()) {
+        (Some(own), Some(seen)) if own != seen => Err(EvaluateError::Unsuited(format!(
+            "it was fitted on the view `{}`, and the pictures are those of `{}`: leave --view out, or fit a model of that view",
+            shown(&own),
+            shown(&seen)
+        ))),
+        _ => Ok(()),
+    }
+}
 
 /// The rows that are predicted, and how that was decided.
 #[derive(Debug)]
@@ -27,6 +41,7 @@ impl Target {
         part: Option<DataPart>,
     ) -> Result<Target, EvaluateError> {
         require_samples(dataset)?;
+        check_view(dataset, model)?;
         let divided = Divided::by_model(dataset, model)?;
         Target::of(dataset, divided, part, model.reads_frames())
     }
@@ -41,6 +56,9 @@ impl Target {
         part: Option<DataPart>,
         reads_frames: bool,
     ) -> Result<Target, EvaluateError> {
+        if reads_frames {
+            dataset.require_view()?;
+        }
         if let (Some(divided), None) = (&divided, part) {
             divided.require_test()?;
         }

@@ -6,3 +6,4 @@ mod networks;
 mod pairing;
 mod taxel_drawing;
 mod taxels;
+mod views;

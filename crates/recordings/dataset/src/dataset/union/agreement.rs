@@ -34,16 +34,21 @@ pub fn differences_of_added(one: &Header, added: &Header) -> impl Iterator<Item 
 fn more(header: &Header) -> [(&'static str, String); 5] {
     let mut attributes = header.attributes.clone();
     attributes.sort();
-    let order = header
-        .frames
-        .as_ref()
-        .map(|frames| frames.channel_order.name());
+    let views = header.views.iter().map(|view| &view.frames);
+    let order = header.frames.iter().chain(views);
+    let order: Vec<&str> = order.map(|frames| frames.channel_order.name()).collect();
     [
         ("sensor.serial", format!("`{}`", header.sensor.serial)),
         ("sensor.gel", format!("`{}`", header.sensor.gel)),
         ("clock", format!("{:?}", header.clock).to_lowercase()),
         ("attributes", format!("[{}]", attributes.join(", "))),
-        ("frames.channel_order", order.unwrap_or("absent").to_owned()),
+        (
+            "frames.channel_order",
+            match order.is_empty() {
+                true => "absent".to_owned(),
+                false => order.join(" and "),
+            },
+        ),
     ]
 }
 
@@ -73,10 +78,13 @@ fn facts(header: &Header) -> [(&'static str, String); 7] {
         ("channels", channels.join(", ")),
         (
             "frames",
-            frames.map_or_else(absent, |frames| match &frames.reduced {
-                None => frames.info.to_string(),
-                Some(reduced) => format!("{}, {} of {}", frames.info, reduced.by, reduced.from),
-            }),
+            frames.map_or_else(
+                || views(header),
+                |frames| match &frames.reduced {
+                    None => frames.info.to_string(),
+                    Some(reduced) => format!("{}, {} of {}", frames.info, reduced.by, reduced.from),
+                },
+            ),
         ),
         (
             "signals",
@@ -86,6 +94,17 @@ fn facts(header: &Header) -> [(&'static str, String); 7] {
             }),
         ),
     ]
+}
+
+/// The pictures of each sample, where there are several and none is chosen.
+fn views(header: &Header) -> String {
+    let views = header.views.iter();
+    let views = views.map(|view| format!("{} {}", view.name, view.frames.info));
+    let views: Vec<String> = views.collect();
+    match views.is_empty() {
+        true => "absent".to_owned(),
+        false => views.join(" and "),
+    }
 }
 
 fn footprint(footprint: Footprint) -> String {

@@ -10,7 +10,7 @@ use super::picture::Copied;
 use crate::foreign::{Picture, Pictures};
 use crate::import::frame_plan::{FrameSource, PlannedFrames, within};
 use taceva_dataset::internal::{ImageKind, layout, ordered_map, staging::StagedFolder};
-use taceva_dataset::{DatasetError, FrameCodec, FramesInfo, ReferenceInfo, Table};
+use taceva_dataset::{DatasetError, FrameCodec, FramesInfo, ReferenceInfo, Table, ViewInfo};
 
 /// Frames copied at a time by each job: most of the time is spent waiting until they are on the disk, and disks write
 /// several files at once faster.
@@ -18,9 +18,47 @@ const COPIES_A_JOB: NonZeroUsize = NonZeroUsize::new(4).expect("four");
 /// Pictures of other files that are held in memory while they are written, bytes.
 const HELD_BYTES: usize = 16 << 20;
 
-/// Copies all frames, that of the first row as frame number `first`; returns what they share and the folders they lie in, which are made where
-/// they are not there.
+/// Copied frames.
+#[derive(Debug, Default)]
+pub(in crate::import) struct CopiedFrames {
+    /// Those of rows that have one picture.
+    pub(in crate::import) frames: Option<FramesInfo>,
+    /// Those of each view, where rows have several.
+    pub(in crate::import) views: Vec<ViewInfo>,
+    /// Folders that they lie in.
+    pub(in crate::import) folders: Vec<String>,
+}
+
+/// Copies the frames of every view, that of the first row as frame number `first`.
 pub(in crate::import) fn copy_frames(
+    staged: &StagedFolder,
+    planned: &[PlannedFrames],
+    first: usize,
+    table: &mut Table,
+    jobs: NonZeroUsize,
+    progress: &dyn Progress,
+) -> Result<CopiedFrames, DatasetError> {
+    let mut copied = CopiedFrames::default();
+    for frames in planned {
+        let (info, folders) = copy_view(staged, frames, first, table, jobs, progress)?;
+        match &frames.view {
+            None => copied.frames = info,
+            Some(view) => {
+                let view = info.map(|info| ViewInfo::new(view, info));
+                copied.views.extend(view);
+            }
+        }
+        for folder in folders {
+            if !copied.folders.contains(&folder) {
+                copied.folders.push(folder);
+            }
+        }
+    }
+    Ok(copied)
+}
+
+/// Copies the frames of one view; returns what they share and the folders they lie in, which are made where they are not there.
+fn copy_view(
     staged: &StagedFolder,
     frames: &PlannedFrames,
     first: usize,
@@ -29,12 +67,21 @@ pub(in crate::import) fn copy_frames(
     progress: &dyn Progress,
 ) -> Result<(Option<FramesInfo>, Vec<String>), DatasetError> {
     let count = frames.of_rows.len();
+    let view = frames.view.as_deref();
     let mut folders = vec![layout::FRAMES.to_owned()];
-    folders.extend(layout::frame_folders(first..first + count));
+    folders.extend(view.map(|view| layout::in_view(Some(view), layout::FRAMES)));
+    let own = layout::frame_folders(first..first + count);
+    folders.extend(own.map(|folder| layout::in_view(view, &folder)));
     for folder in &folders {
         staged.ensure_folder(folder)?;
     }
-    progress.begin("verify and copy frames", Some(count as u64));
+    let stage = "verify and copy frames";
+    let stage = view.map_or(stage.to_owned(), |view| format!("{stage} of {view}"));
+    progress.begin(&stage, Some(count as u64));
+    let position = view.and_then(|view| {
+        let mut views = table.views().iter();
+        views.position(|known| known.name() == view)
+    });
     let mut copying = Copying {
         staged,
         frames,
@@ -42,6 +89,7 @@ pub(in crate::import) fn copy_frames(
         jobs: jobs.saturating_mul(COPIES_A_JOB),
         progress,
         number: first,
+        view: position,
         alike: None,
     };
     let outcome = copying.all();
@@ -83,6 +131,8 @@ struct Copying<'a> {
     progress: &'a dyn Progress,
     /// The number of the frame of the first row.
     number: usize,
+    /// The position of the view in the table, where rows have several pictures.
+    view: Option<usize>,
     /// What every frame is like.
     alike: Option<(ImageKind, FrameInfo)>,
 }
@@ -97,13 +147,14 @@ impl Copying<'_> {
             })
             .collect();
         let (staged, order, number) = (self.staged, self.frames.order, self.number);
+        let view = self.frames.view.as_deref();
         ordered_map(
             files.len(),
             self.jobs,
             |at| {
                 let (row, path) = files[at];
                 Copied::of_file(staged, path, order, |extension| {
-                    layout::frame_path(number + row, extension)
+                    layout::in_view(view, &layout::frame_path(number + row, extension))
                 })
             },
             |at, copied| self.take(files[at].0, copied),
@@ -149,12 +200,15 @@ impl Copying<'_> {
 
     fn write(&mut self, path: &Path, held: Vec<(usize, Arc<Picture>)>) -> Result<(), DatasetError> {
         let (staged, order, number) = (self.staged, self.frames.order, self.number);
+        let view = self.frames.view.as_deref();
         ordered_map(
             held.len(),
             self.jobs,
             |at| {
                 let (row, picture) = &held[at];
-                Copied::of_picture(staged, path, picture, order, number + *row)
+                Copied::of_picture(staged, path, picture, order, |extension| {
+                    layout::in_view(view, &layout::frame_path(number + *row, extension))
+                })
             },
             |at, copied| self.take(held[at].0, copied),
         )
@@ -173,7 +227,10 @@ impl Copying<'_> {
         let found = (copied.kind, copied.info);
         let expected = *self.alike.get_or_insert(found);
         check_alike(self.frames, row, expected, found)?;
-        self.table.set_frame(row, copied.entry, copied.intensity);
+        match self.view {
+            None => self.table.set_frame(row, copied.entry, copied.intensity),
+            Some(view) => (self.table).set_frame_of(view, row, copied.entry, copied.intensity),
+        }
         self.progress.advance(1);
         Ok(())
     }
@@ -185,7 +242,10 @@ fn copy_reference(
     frames: &PlannedFrames,
     expected: FrameInfo,
 ) -> Result<ReferenceInfo, DatasetError> {
-    let copied = Copied::of_file(staged, path, frames.order, layout::reference_path)?;
+    let view = frames.view.as_deref();
+    let copied = Copied::of_file(staged, path, frames.order, |extension| {
+        layout::in_view(view, &layout::reference_path(extension))
+    })?;
     if copied.info != expected {
         return Err(DatasetError::Image {
             place: None,

@@ -6,8 +6,8 @@ use taceva_core::{Frame, FrameInfo};
 
 use crate::foreign::Picture;
 use taceva_dataset::internal::{
-    ImageKind, check_to_the_end, decode, encode_png, layout, limits, read_capped,
-    staging::StagedFolder, write_durable,
+    ImageKind, check_to_the_end, decode, encode_png, limits, read_capped, staging::StagedFolder,
+    write_durable,
 };
 use taceva_dataset::{ChannelOrder, DatasetError, Digest, FrameEntry};
 
@@ -54,18 +54,18 @@ impl Copied {
         Copied::write(staged, place(extension), &bytes, kind, &frame)
     }
 
-    /// Writes a picture found in the file at `path` as frame `number`: its bytes where it was encoded, else as PNG.
+    /// Writes a picture found in the file at `path` where `place` says: its bytes where it was encoded, else as PNG.
     pub(super) fn of_picture(
         staged: &StagedFolder,
         path: &Path,
         picture: &Picture,
         order: ChannelOrder,
-        number: usize,
+        place: impl FnOnce(&str) -> String,
     ) -> Result<Copied, DatasetError> {
         match picture {
             Picture::Encoded(bytes) => {
                 let (kind, frame) = whole(bytes, order).map_err(|problem| wrong(path, problem))?;
-                let relative = layout::frame_path(number, kind.extension());
+                let relative = place(kind.extension());
                 Copied::write(staged, relative, bytes, kind, &frame)
             }
             Picture::Pixels(frame) => {
@@ -79,7 +79,7 @@ impl Copied {
                     return Err(wrong(path, problem));
                 }
                 let bytes = encode_png(frame).map_err(|problem| wrong(path, problem))?;
-                let relative = layout::frame_path(number, ImageKind::Png.extension());
+                let relative = place(ImageKind::Png.extension());
                 Copied::write(staged, relative, &bytes, ImageKind::Png, frame)
             }
         }

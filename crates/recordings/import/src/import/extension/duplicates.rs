@@ -5,7 +5,7 @@ use std::fs::File;
 use std::path::Path;
 
 use taceva_dataset::internal::{PartsDigest, SignalsReader, layout, shown};
-use taceva_dataset::{Dataset, DatasetError, Digest, SignalsInfo, Table};
+use taceva_dataset::{Dataset, DatasetError, Digest, FrameEntry, SignalsInfo, Table, ViewFrames};
 
 /// So many different pictures that come again are no chance: no camera takes a picture twice.
 const SAME_PICTURES: usize = 3;
@@ -60,7 +60,10 @@ pub(super) fn refuse_twice(
         }
     }
     let is_sure = |(row, _): &(usize, usize)| {
-        reader.is_some() || table.frames()[*row].is_some() || table.t_s()[*row].is_some()
+        let mut views = table.views().iter();
+        let has_frame =
+            table.frames()[*row].is_some() || views.any(|view| view.frames()[*row].is_some());
+        reader.is_some() || has_frame || table.t_s()[*row].is_some()
     };
     let is_all = twice.len() == table.rows() - old;
     let first = match is_all {
@@ -68,7 +71,11 @@ pub(super) fn refuse_twice(
         false => twice.iter().find(|pair| is_sure(pair)),
     };
     match first {
-        None => refuse_same_pictures(table, old, refused),
+        None => {
+            let views = table.views().iter().map(ViewFrames::frames);
+            let mut all = [table.frames()].into_iter().chain(views);
+            all.try_for_each(|frames| refuse_same_pictures(table, frames, old, refused))
+        }
         Some((row, before)) => Err(refused(format!(
             "{} says what row {before} of the dataset says, sample `{}`; {} of {} rows are in it already, and the same rows are not added twice",
             origin(table, *row, old),
@@ -82,10 +89,11 @@ pub(super) fn refuse_twice(
 /// Refuses new rows with pictures of old ones under other labels or times, as a second import of the same recording has them.
 fn refuse_same_pictures(
     table: &Table,
+    frames: &[Option<FrameEntry>],
     old: usize,
     refused: impl Fn(String) -> DatasetError,
 ) -> Result<(), DatasetError> {
-    let frames = || table.frames().iter().enumerate();
+    let frames = || frames.iter().enumerate();
     let known = frames().take(old);
     let known: HashMap<Digest, usize> = known
         .filter_map(|(row, frame)| Some((frame.as_ref()?.digest, row)))

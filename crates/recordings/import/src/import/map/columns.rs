@@ -1,5 +1,7 @@
 //! The columns of a table that an import reads.
 
+use std::collections::BTreeMap;
+
 use serde::Deserialize;
 use taceva_core::SourceUnit;
 
@@ -96,12 +98,15 @@ pub(crate) struct OriginMap {
     pub(crate) row: Option<String>,
     /// The picture.
     pub(crate) frame: Option<String>,
+    /// The picture of each view, where rows have several.
+    pub(crate) frames: BTreeMap<String, String>,
 }
 
 impl OriginMap {
     /// The columns that it names.
     pub(crate) fn columns(&self) -> impl Iterator<Item = &String> {
-        [&self.table, &self.row, &self.frame].into_iter().flatten()
+        let own = [&self.table, &self.row, &self.frame].into_iter().flatten();
+        own.chain(self.frames.values())
     }
 }
 

@@ -1,15 +1,30 @@
-//! Where the frames are, as it is written.
+//! Where the frames are, as it is written: one table, or a list of them with a name each.
+
+use std::fmt;
 
 use serde::Deserialize;
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
 use toml::Spanned;
 
 use super::check::{Check, ColumnName};
-use super::{ArrayFrames, ArrayLayout, FrameMap, FrameNames, OWN_ROW, PixelRange, VideoFrames};
+use super::{
+    ArrayFrames, ArrayLayout, FrameMap, FrameNames, OWN_ROW, PixelRange, VideoFrames,
+    reference_attribute,
+};
+use taceva_dataset::internal::is_attribute_name;
 use taceva_dataset::{ChannelOrder, DatasetError};
+
+/// The frames of a row: one, or one for each of several views.
+pub(super) enum WrittenFrames {
+    One(Box<WrittenFrame>),
+    Views(Vec<Spanned<WrittenFrame>>),
+}
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct WrittenFrame {
+    name: Option<Spanned<String>>,
     column: Option<ColumnName>,
     pattern: Option<String>,
     array: Option<WrittenArray>,
@@ -59,24 +74,114 @@ struct WrittenArrayFile {
     path: Option<String>,
 }
 
-impl WrittenFrame {
-    pub(super) fn has_reference_column(&self) -> bool {
-        matches!(self.reference, WrittenReference::Column(_))
+impl<'de> Deserialize<'de> for WrittenFrames {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<WrittenFrames, D::Error> {
+        struct Either;
+
+        impl<'de> Visitor<'de> for Either {
+            type Value = WrittenFrames;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a table, or a list of tables with a `name` each")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<WrittenFrames, A::Error> {
+                let one = WrittenFrame::deserialize(MapAccessDeserializer::new(map))?;
+                Ok(WrittenFrames::One(Box::new(one)))
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<WrittenFrames, A::Error> {
+                let views = Vec::deserialize(SeqAccessDeserializer::new(list))?;
+                Ok(WrittenFrames::Views(views))
+            }
+        }
+
+        deserializer.deserialize_any(Either)
+    }
+}
+
+impl WrittenFrames {
+    fn each(&self) -> Vec<&WrittenFrame> {
+        match self {
+            WrittenFrames::One(frame) => vec![frame],
+            WrittenFrames::Views(views) => views.iter().map(Spanned::get_ref).collect(),
+        }
+    }
+
+    /// True if the frames without contact of a view may become the attribute `name`.
+    pub(super) fn has_reference_attribute(&self, name: &str) -> bool {
+        self.each().into_iter().any(|frame| {
+            let view = frame.name.as_ref().map(|name| name.get_ref().as_str());
+            matches!(frame.reference, WrittenReference::Column(_))
+                && reference_attribute(view) == name
+        })
     }
 
     /// The name of an array, where it is given as a text.
     pub(super) fn array_name(&self) -> Option<&str> {
-        match &self.array {
-            Some(WrittenArray::Name(name)) => Some(name),
-            _ => None,
-        }
+        self.each()
+            .into_iter()
+            .find_map(|frame| match &frame.array {
+                Some(WrittenArray::Name(name)) => Some(name.as_str()),
+                _ => None,
+            })
     }
 }
 
 impl Check<'_> {
-    pub(super) fn frame(&self, written: Spanned<WrittenFrame>) -> Result<FrameMap, DatasetError> {
-        let offset = written.span().start;
-        let written = written.into_inner();
+    /// The frames of each view.
+    pub(super) fn frames(
+        &self,
+        written: Spanned<WrittenFrames>,
+    ) -> Result<Vec<FrameMap>, DatasetError> {
+        let start = written.span().start;
+        let views = match written.into_inner() {
+            WrittenFrames::One(frame) => {
+                if let Some(name) = &frame.name {
+                    return Err(self.at(
+                        name.span().start,
+                        "`name` tells several pictures of a row apart: write [[frame]] for each, or leave it out where a row has one",
+                    ));
+                }
+                return Ok(vec![self.frame(*frame, start)?]);
+            }
+            WrittenFrames::Views(views) => views,
+        };
+        let mut frames: Vec<FrameMap> = Vec::new();
+        let is_one = views.len() < 2;
+        for view in views {
+            let start = view.span().start;
+            let view = view.into_inner();
+            if is_one {
+                return Err(self.at(
+                    start,
+                    "a list of one picture: write [frame], without a `name`",
+                ));
+            }
+            let name = view.name.as_ref().ok_or_else(|| {
+                self.at(start, "a picture of several has a `name`, such as \"left\"")
+            })?;
+            let text = name.get_ref();
+            if !is_attribute_name(text) {
+                return Err(self.at(
+                    name.span().start,
+                    &format!(
+                        "`{text}` is no name of a view: a letter, then letters, digits or `_`"
+                    ),
+                ));
+            }
+            if frames.iter().any(|known| known.view.as_ref() == Some(text)) {
+                return Err(self.at(
+                    name.span().start,
+                    &format!("two views are called `{text}`: each has a `name` of its own"),
+                ));
+            }
+            frames.push(self.frame(view, start)?);
+        }
+        Ok(frames)
+    }
+
+    fn frame(&self, written: WrittenFrame, offset: usize) -> Result<FrameMap, DatasetError> {
         let range = self.range(written.range, written.bits, offset)?;
         let has_index = written.index.is_some();
         let index = written
@@ -141,6 +246,7 @@ impl Check<'_> {
             self.relative(path, offset)?;
         }
         Ok(FrameMap {
+            view: written.name.map(Spanned::into_inner),
             names,
             folder: written.folder,
             channel_order: written.channel_order,

@@ -7,9 +7,8 @@ use serde::Deserialize;
 use taceva_core::{Channel, Channels, Clock, is_scorable};
 use toml::Spanned;
 
-use super::REFERENCE_ATTRIBUTE;
 use super::check::{Check, ColumnName};
-use super::frame_schema::WrittenFrame;
+use super::frame_schema::WrittenFrames;
 use super::rotation::WrittenRotations;
 use super::sections::{WrittenClass, WrittenJoin, WrittenMatrix, WrittenPath};
 use super::signals::WrittenSignals;
@@ -32,7 +31,7 @@ struct WrittenMap {
     #[serde(default)]
     source: Source,
     rotation: Option<Spanned<WrittenRotations>>,
-    frame: Option<Spanned<WrittenFrame>>,
+    frame: Option<Spanned<WrittenFrames>>,
     #[serde(default)]
     columns: BTreeMap<String, Spanned<WrittenColumn>>,
     #[serde(default)]
@@ -123,8 +122,8 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
     let classes = classes.map(|(name, class)| (name, class.span().start));
     for (name, offset) in attributes.chain(classes) {
         let is_twice = written.attributes.contains_key(name) && written.classes.contains_key(name);
-        let is_reference = name == REFERENCE_ATTRIBUTE
-            && (written.frame.as_ref()).is_some_and(|frame| frame.get_ref().has_reference_column());
+        let is_reference = (written.frame.as_ref())
+            .is_some_and(|frames| frames.get_ref().has_reference_attribute(name));
         if is_twice || is_reference || !is_attribute_name(name) || channels.position(name).is_some()
         {
             return Err(check.at(
@@ -156,7 +155,10 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
         rotations,
         zero: zero.transpose()?,
         gravity: gravity.transpose()?,
-        frame: written.frame.map(|frame| check.frame(frame)).transpose()?,
+        frames: match written.frame {
+            Some(frames) => check.frames(frames)?,
+            None => Vec::new(),
+        },
         time: check.time(&written.time)?,
         drop: check.drop(written.drop, &channels)?,
         path: check.path_pattern(written.path)?,
@@ -188,7 +190,7 @@ impl Check<'_> {
     /// Refuses another version than 2, and says of version 1 what to change.
     fn version(&self, written: &WrittenMap) -> Result<(), DatasetError> {
         let array = written.frame.as_ref();
-        let array = array.and_then(|frame| frame.get_ref().array_name());
+        let array = array.and_then(|frames| frames.get_ref().array_name());
         let problem = match (*written.map_version.get_ref(), array) {
             (2, _) => return Ok(()),
             (1, None) => "map version 1 is not read any more: write `map_version = 2`".to_owned(),

@@ -36,7 +36,7 @@ fn a_whole_map_is_understood() {
     assert_eq!(map.ids.point_id, ["x", "y"]);
     assert!(map.columns[0].is_negated && !map.columns[1].is_negated);
     assert_eq!(map.facts.sensor.opaque.known(), None);
-    assert_eq!(map.frame.expect("frames").reference, None);
+    assert_eq!(map.frames[0].reference, None);
 }
 
 #[test]

@@ -51,7 +51,7 @@ pub(super) fn join(map: &JoinMap) -> MappedJoin {
 pub(super) fn pictures(map: &FrameMap) -> MappedPictures {
     let of = |by: &str, from: &str| MappedPictures::new(by, &short_name(from));
     let index = |column: &str| (column != OWN_ROW).then(|| short_name(column).into_owned());
-    match &map.names {
+    let mut pictures = match &map.names {
         FrameNames::Column(column) => of("column", column),
         FrameNames::Pattern(pattern) => of("pattern", pattern),
         FrameNames::Bytes(column) => of("bytes", column),
@@ -70,7 +70,9 @@ pub(super) fn pictures(map: &FrameMap) -> MappedPictures {
             pictures.bits = array.range.map(|range| range.bits());
             pictures
         }
-    }
+    };
+    pictures.view.clone_from(&map.view);
+    pictures
 }
 
 pub(super) fn classes(map: &ImportMap) -> Vec<MappedClass> {

@@ -12,6 +12,7 @@ use crate::import::omissions;
 use crate::import::references::Settled;
 use crate::import::resolve::JoinMatches;
 use crate::import::source::unnamed_images;
+use crate::import::summary::FrameSummary;
 use taceva_dataset::internal::shown;
 use taceva_dataset::{DatasetError, Place};
 
@@ -49,10 +50,7 @@ impl Reading<'_> {
         if let Some(unequal) = self.unequal.take() {
             return Err(unequal);
         }
-        let frames = match &self.map.frame {
-            Some(frame) => Some(self.planned_frames(frame)?),
-            None => None,
-        };
+        let frames = self.planned_frames()?;
         self.describe_channels();
         self.summary.joins = self.joins.iter().map(JoinMatches::summary).collect();
         if let Some(signals) = &self.signals {
@@ -60,7 +58,8 @@ impl Reading<'_> {
         }
         omissions::count(
             self.folder,
-            self.map.frame.as_ref().zip(frames.as_ref()),
+            &self.map.frames,
+            &frames,
             self.absent_chunks,
             self.map.is_filled,
             &mut self.summary,
@@ -80,40 +79,60 @@ impl Reading<'_> {
         })
     }
 
-    fn planned_frames(&mut self, frame: &FrameMap) -> Result<PlannedFrames, DatasetError> {
-        let references = std::mem::take(&mut self.references);
-        let Settled {
-            reference,
-            different,
-        } = match &frame.reference {
-            Some(path) => Settled {
-                reference: Some(self.folder.file(self.folder.path(), path)?),
-                different: 0,
-            },
-            None => {
-                let named = references.paths(self.folder);
-                self.named.extend(named);
-                references.settle(self.folder, &mut self.table)?
-            }
-        };
-        self.summary.references = different as u64;
-        self.named.extend(reference.clone());
-        if matches!(frame.names, FrameNames::Column(_) | FrameNames::Pattern(_)) {
-            let mut unnamed = BTreeSet::new();
-            for base in &self.bases {
-                let found = unnamed_images(base, &self.named);
-                self.summary.has_more_files |= found.has_more;
-                unnamed.extend(found.images);
-            }
-            self.summary.unnamed_images = unnamed.len() as u64;
-            self.summary.first_unnamed_images = unnamed.into_iter().take(LISTED_IMAGES).collect();
+    /// The pictures of each view.
+    fn planned_frames(&mut self) -> Result<Vec<PlannedFrames>, DatasetError> {
+        let mut planned = Vec::new();
+        for view in std::mem::take(&mut self.views) {
+            let map = view.map;
+            let Settled {
+                reference,
+                different,
+            } = match &map.reference {
+                Some(path) => Settled {
+                    reference: Some(self.folder.file(self.folder.path(), path)?),
+                    different: 0,
+                },
+                None => {
+                    let named = view.references.paths(self.folder);
+                    self.named.extend(named);
+                    let name = map.view.as_deref();
+                    view.references.settle(self.folder, name, &mut self.table)?
+                }
+            };
+            self.named.extend(reference.clone());
+            self.summary.frames.push(FrameSummary {
+                view: map.view.clone(),
+                channel_order: map.channel_order,
+                reference: reference.clone(),
+                references: different as u64,
+            });
+            planned.push(PlannedFrames {
+                view: map.view.clone(),
+                order: map.channel_order,
+                reference,
+                of_rows: view.frames,
+            });
         }
-        self.summary.channel_order = Some(frame.channel_order);
-        self.summary.reference.clone_from(&reference);
-        Ok(PlannedFrames {
-            order: frame.channel_order,
-            reference,
-            of_rows: std::mem::take(&mut self.frames),
-        })
+        self.find_unnamed();
+        Ok(planned)
+    }
+
+    /// Looks for images beside those that rows name.
+    fn find_unnamed(&mut self) {
+        let mut frames = self.map.frames.iter();
+        let are_files = |frame: &FrameMap| {
+            matches!(frame.names, FrameNames::Column(_) | FrameNames::Pattern(_))
+        };
+        if !frames.any(are_files) {
+            return;
+        }
+        let mut unnamed = BTreeSet::new();
+        for base in &self.bases {
+            let found = unnamed_images(base, &self.named);
+            self.summary.has_more_files |= found.has_more;
+            unnamed.extend(found.images);
+        }
+        self.summary.unnamed_images = unnamed.len() as u64;
+        self.summary.first_unnamed_images = unnamed.into_iter().take(LISTED_IMAGES).collect();
     }
 }

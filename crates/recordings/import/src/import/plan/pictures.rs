@@ -17,23 +17,25 @@ impl Reading<'_> {
     /// would begin with the first one again.
     pub(super) fn check_counted_once(
         &mut self,
+        view: usize,
         file: &str,
         rows: &MappedTable<'_>,
     ) -> Result<(), DatasetError> {
-        let (key, index) = match self.map.frame.as_ref().map(|frame| &frame.names) {
-            Some(FrameNames::Array(array)) => ("array", &array.index),
-            Some(FrameNames::Video(video)) => ("video", &video.index),
+        let own = &mut self.views[view];
+        let (key, index) = match &own.map.names {
+            FrameNames::Array(array) => ("array", &array.index),
+            FrameNames::Video(video) => ("video", &video.index),
             _ => return Ok(()),
         };
         let is_own_row = index == OWN_ROW || index == "row" && !rows.has_row_column;
         if !is_own_row {
             return Ok(());
         }
-        let first = match self.counted.get(file) {
+        let first = match own.counted.get(file) {
             Some(first) if *first == self.current => return Ok(()),
             Some(first) => first,
             None => {
-                self.counted.insert(file.to_owned(), self.current.clone());
+                own.counted.insert(file.to_owned(), self.current.clone());
                 return Ok(());
             }
         };
@@ -54,10 +56,15 @@ impl Reading<'_> {
 
     /// Remembers that there are more or fewer pictures than rows where nothing in the map says which picture a row has. It is refused once all
     /// tables were read, since what is wrong with one of them says more.
-    pub(super) fn note_unequal(&mut self, pictures: &Arc<dyn Pictures>, rows: &MappedTable<'_>) {
-        let index = match self.map.frame.as_ref().map(|frame| &frame.names) {
-            Some(FrameNames::Array(array)) => &array.index,
-            Some(FrameNames::Video(video)) => &video.index,
+    pub(super) fn note_unequal(
+        &mut self,
+        view: usize,
+        pictures: &Arc<dyn Pictures>,
+        rows: &MappedTable<'_>,
+    ) {
+        let index = match &self.views[view].map.names {
+            FrameNames::Array(array) => &array.index,
+            FrameNames::Video(video) => &video.index,
             _ => return,
         };
         let (count, rows) = (pictures.count(), rows.rows() as u64);
@@ -83,17 +90,18 @@ impl Reading<'_> {
     /// Checks that no two tables name the picture at `path` by the number of their rows.
     pub(super) fn check_named_once(
         &mut self,
+        view: usize,
         path: &Path,
         rows: &MappedTable<'_>,
     ) -> Result<(), DatasetError> {
-        let names = self.map.frame.as_ref().map(|frame| &frame.names);
+        let own = &mut self.views[view];
         let is_by_row =
-            matches!(names, Some(FrameNames::Pattern(pattern)) if pattern.contains("{row}"));
+            matches!(&own.map.names, FrameNames::Pattern(pattern) if pattern.contains("{row}"));
         if !is_by_row || rows.has_row_column || self.count < 2 {
             return Ok(());
         }
         let inside = self.folder.inside(path, "");
-        match self.counted.get(&inside) {
+        match own.counted.get(&inside) {
             Some(first) if *first != self.current => Err(DatasetError::Path {
                 place: None,
                 problem: format!(
@@ -106,16 +114,20 @@ impl Reading<'_> {
             }),
             Some(_) => Ok(()),
             None => {
-                self.counted.insert(inside, self.current.clone());
+                own.counted.insert(inside, self.current.clone());
                 Ok(())
             }
         }
     }
 
     /// The pictures in the file at `relative`, which is opened once; with `*` in it, those of all such files, counted through.
-    pub(super) fn pictures(&mut self, relative: &str) -> Result<Arc<dyn Pictures>, DatasetError> {
+    pub(super) fn pictures(
+        &mut self,
+        view: usize,
+        relative: &str,
+    ) -> Result<Arc<dyn Pictures>, DatasetError> {
         let path = self.folder.path().join(relative);
-        if let Some(known) = self.opened.get(&path) {
+        if let Some(known) = self.views[view].opened.get(&path) {
             return Ok(Arc::clone(known));
         }
         let found = matching_files(self.folder, relative)?;
@@ -132,23 +144,27 @@ impl Reading<'_> {
             });
         }
         let found = found.into_iter();
-        let files = found.map(|file| self.open(&file, relative));
+        let files = found.map(|file| self.open(view, &file, relative));
         let mut files = files.collect::<Result<Vec<_>, _>>()?;
         let pictures = match files.len() {
             1 => files.remove(0),
             _ => Arc::new(SeveralPictures::new(files)),
         };
-        self.opened.insert(path, Arc::clone(&pictures));
+        self.views[view].opened.insert(path, Arc::clone(&pictures));
         Ok(pictures)
     }
 
-    fn open(&self, path: &Path, relative: &str) -> Result<Arc<dyn Pictures>, DatasetError> {
-        Ok(match self.map.frame.as_ref().map(|frame| &frame.names) {
-            Some(names @ FrameNames::Array(array)) => {
-                Arc::new(ArrayPictures::open(path, names, array)?)
-            }
-            Some(FrameNames::Video(_)) => {
-                let depth = self.depth.clone();
+    fn open(
+        &self,
+        view: usize,
+        path: &Path,
+        relative: &str,
+    ) -> Result<Arc<dyn Pictures>, DatasetError> {
+        let own = &self.views[view];
+        Ok(match &own.map.names {
+            names @ FrameNames::Array(array) => Arc::new(ArrayPictures::open(path, names, array)?),
+            FrameNames::Video(_) => {
+                let depth = own.depth.clone();
                 Arc::new(ClipPictures::open(path, self.decoders, depth)?)
             }
             _ => {

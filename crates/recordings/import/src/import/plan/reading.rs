@@ -2,15 +2,13 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use taceva_video::Decoders;
 
-use crate::foreign::{DepthPixels, Pictures, TableForm};
+use super::view::ViewReading;
+use crate::foreign::TableForm;
 use crate::import::frame_cells::FrameName;
-use crate::import::frame_plan::{FrameSource, PlannedFrame};
 use crate::import::map::{GravityMap, ImportMap};
-use crate::import::references::References;
 use crate::import::resolve::{CoordinateFrames, JoinMatches};
 use crate::import::rows::{MappedTable, SIGNAL_PLACEHOLDERS};
 use crate::import::signals::FoundSignals;
@@ -27,18 +25,12 @@ pub(super) struct Reading<'a> {
     pub(super) count: usize,
     /// The table that is being read.
     pub(super) current: PathBuf,
-    /// The pixels of a depth map that the clips of that table are.
-    pub(super) depth: Option<DepthPixels>,
     pub(super) table: Table,
-    /// The files with pictures in them that rows named.
-    pub(super) opened: BTreeMap<PathBuf, Arc<dyn Pictures>>,
-    /// Those of which a row has the picture of its own number, as the map names them, each with the table of these rows.
-    pub(super) counted: BTreeMap<String, PathBuf>,
-    pub(super) frames: Vec<PlannedFrame>,
+    /// The pictures of each view.
+    pub(super) views: Vec<ViewReading<'a>>,
     pub(super) signals: Option<FoundSignals<'a>>,
     /// That there are more or fewer pictures than rows, and nothing says which is whose.
     pub(super) unequal: Option<DatasetError>,
-    pub(super) references: References,
     pub(super) joins: Vec<JoinMatches>,
     /// The frames that labels of all tables are given in.
     pub(super) coordinate_frames: CoordinateFrames,
@@ -66,14 +58,11 @@ impl<'a> Reading<'a> {
             decoders,
             count: 0,
             current: PathBuf::new(),
-            depth: None,
-            opened: BTreeMap::new(),
-            counted: BTreeMap::new(),
-            table: Table::new(map.channels.clone(), attributes),
-            frames: Vec::new(),
+            table: Table::new(map.channels.clone(), attributes)
+                .with_views(map.frames.iter().filter_map(|frame| frame.view.as_deref())),
+            views: map.frames.iter().map(ViewReading::new).collect(),
             signals: None,
             unequal: None,
-            references: References::default(),
             joins: Vec::new(),
             coordinate_frames: CoordinateFrames::default(),
             absent_chunks: BTreeMap::new(),
@@ -87,7 +76,15 @@ impl<'a> Reading<'a> {
     pub(super) fn read(&mut self, path: &Path) -> Result<(), DatasetError> {
         let mut rows = MappedTable::open(self.map, self.folder, path)?;
         path.clone_into(&mut self.current);
-        self.depth = rows.depth.take();
+        let rows_folder = rows.folder();
+        for (own, of_table) in self.views.iter_mut().zip(&mut rows.views) {
+            own.depth = of_table.depth.take();
+            own.base = match &own.map.folder {
+                Some(folder) => self.folder.path().join(folder),
+                None if self.map.form == TableForm::Files => self.folder.path().to_owned(),
+                None => rows_folder.clone(),
+            };
+        }
         self.summary.unmentioned_columns.extend(rows.unmentioned());
         for join in std::mem::take(&mut rows.joins) {
             let mut joins = self.joins.iter_mut();
@@ -107,19 +104,15 @@ impl<'a> Reading<'a> {
             .warnings
             .extend(std::mem::take(&mut rows.warnings));
         self.note_zeros(&rows);
-        let frame = self.map.frame.as_ref();
-        let base = match frame.and_then(|frame| frame.folder.as_ref()) {
-            Some(folder) => self.folder.path().join(folder),
-            None if self.map.form == TableForm::Files => self.folder.path().to_owned(),
-            None => rows.folder(),
-        };
         for row in 0..rows.rows() {
-            self.read_row(&rows, row, &base)?;
+            self.read_row(&rows, row)?;
         }
         self.coordinate_frames
             .add(std::mem::take(&mut rows.coordinate_frames))?;
-        if rows.rows() == 0 || rows.named_by.frame(0).is_none() {
-            self.bases.insert(base);
+        for (view, own) in self.views.iter().enumerate() {
+            if rows.rows() == 0 || rows.named_by.frame(view, 0).is_none() {
+                self.bases.insert(own.base.clone());
+            }
         }
         Ok(())
     }
@@ -152,12 +145,7 @@ impl<'a> Reading<'a> {
         }
     }
 
-    fn read_row(
-        &mut self,
-        rows: &MappedTable<'_>,
-        row: usize,
-        base: &Path,
-    ) -> Result<(), DatasetError> {
+    fn read_row(&mut self, rows: &MappedTable<'_>, row: usize) -> Result<(), DatasetError> {
         let number = self.summary.rows_read;
         self.summary.rows_read += 1;
         let mut reasons = rows.drop_reasons(row);
@@ -165,20 +153,12 @@ impl<'a> Reading<'a> {
         if signals.is_some_and(|signals| signals.is_placeholder(number)) {
             reasons.push(SIGNAL_PLACEHOLDERS.to_owned());
         }
-        // What a table names lies beside it, unless the map says a folder.
-        let says_folder = self
-            .map
-            .frame
-            .as_ref()
-            .and_then(|frame| frame.folder.as_ref());
-        let beside = |named_by: Option<&'_ Path>| match says_folder {
-            None => named_by.unwrap_or(base).to_owned(),
-            Some(_) => base.to_owned(),
-        };
-        let base_of_frame = beside(rows.named_by.frame(row));
         if !reasons.is_empty() {
-            if let Ok(Some((FrameName::File(name), _))) = rows.frame_name(row) {
-                self.named.insert(base_of_frame.join(name));
+            for view in 0..self.views.len() {
+                if let Ok((FrameName::File(name), _)) = rows.frame_name(view, row) {
+                    let base = self.views[view].beside(rows.named_by.frame(view, row));
+                    self.named.insert(base.join(name));
+                }
             }
             for reason in reasons {
                 *self.summary.dropped.entry(reason).or_default() += 1;
@@ -189,18 +169,8 @@ impl<'a> Reading<'a> {
         if !self.samples.insert(labels.sample.clone()) {
             return Err(rows.duplicate(row, &labels.sample));
         }
-        if let Some((name, named_at)) = rows.frame_name(row)? {
-            let from = self
-                .frame_source(rows, &base_of_frame, name)
-                .map_err(|error| error.named_at(named_at.clone()))?;
-            if self.map.origin.is_none() && labels.source_table.is_some() {
-                labels.source_frame = Some(from.origin(self.folder.path()));
-            }
-            self.frames.push(PlannedFrame { from, named_at });
-        }
-        if let Some((name, named_at)) = rows.reference_name(row) {
-            let base = beside(rows.named_by.reference(row));
-            self.references.take(self.folder, &base, name, named_at)?;
+        for view in 0..self.views.len() {
+            self.read_frame(rows, view, row, &mut labels)?;
         }
         if let Some(signals) = &mut self.signals {
             signals.take(rows, row, number)?;
@@ -208,43 +178,5 @@ impl<'a> Reading<'a> {
         self.table.push(labels);
         self.summary.rows_kept += 1;
         Ok(())
-    }
-
-    fn frame_source(
-        &mut self,
-        rows: &MappedTable<'_>,
-        base: &Path,
-        name: FrameName,
-    ) -> Result<FrameSource, DatasetError> {
-        let (pictures, index) = match (name, &rows.pictures) {
-            (FrameName::File(name), _) => {
-                let path = self.folder.file(base, &name)?;
-                self.check_named_once(&path, rows)?;
-                if !self.bases.contains(base) {
-                    self.bases.insert(base.to_owned());
-                }
-                self.named.insert(path.clone());
-                return Ok(FrameSource::File(path));
-            }
-            (FrameName::Within(Some(file), index), _) => {
-                let pictures = self.pictures(&file)?;
-                self.check_counted_once(&file, rows)?;
-                self.note_unequal(&pictures, rows);
-                (pictures, index)
-            }
-            (FrameName::Within(None, index), Some(pictures)) => {
-                self.note_unequal(pictures, rows);
-                (Arc::clone(pictures), index)
-            }
-            (FrameName::Within(None, index), None) => {
-                return Err(DatasetError::Path {
-                    place: None,
-                    written: index.to_string(),
-                    problem: "a position without an array".to_owned(),
-                });
-            }
-        };
-        pictures.check_index(index)?;
-        Ok(FrameSource::Within(pictures, index))
     }
 }

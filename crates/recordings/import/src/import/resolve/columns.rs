@@ -61,20 +61,21 @@ pub(super) fn mentioned(map: &ImportMap) -> Vec<String> {
         let parts = parts.filter_map(|part| part.split_once('}'));
         parts.map(|(name, _)| name.to_owned()).collect()
     };
-    let frame = map.frame.as_ref();
-    names.extend(frame.and_then(|frame| frame.reference_column.clone()));
-    match frame.map(|frame| &frame.names) {
-        Some(FrameNames::Column(column)) => names.push(column.clone()),
-        Some(FrameNames::Pattern(pattern)) => names.extend(of_pattern(pattern)),
-        Some(FrameNames::Array(array)) => {
-            names.push(array.index.clone());
-            names.extend(array.file.iter().flat_map(|file| of_pattern(file)));
+    for frame in &map.frames {
+        names.extend(frame.reference_column.clone());
+        match &frame.names {
+            FrameNames::Column(column) => names.push(column.clone()),
+            FrameNames::Pattern(pattern) => names.extend(of_pattern(pattern)),
+            FrameNames::Array(array) => {
+                names.push(array.index.clone());
+                names.extend(array.file.iter().flat_map(|file| of_pattern(file)));
+            }
+            FrameNames::Video(video) => {
+                names.push(video.index.clone());
+                names.extend(of_pattern(&video.file));
+            }
+            FrameNames::Bytes(_) => {}
         }
-        Some(FrameNames::Video(video)) => {
-            names.push(video.index.clone());
-            names.extend(of_pattern(&video.file));
-        }
-        Some(FrameNames::Bytes(_)) | None => {}
     }
     let mut once: Vec<String> = Vec::with_capacity(names.len());
     for name in names {

@@ -161,14 +161,15 @@ fn labels<'m>(map: &'m ImportMap, main: &ForeignTable, join: Option<&str>) -> Ve
 
 /// True if the map reads `column` as a name of pictures or of samples.
 fn is_name(map: &ImportMap, column: &str) -> bool {
-    let of_frames = match map.frame.as_ref().map(|frame| &frame.names) {
-        Some(FrameNames::Column(name)) => Some(name),
-        Some(FrameNames::Array(array)) => Some(&array.index),
-        Some(FrameNames::Video(video)) => Some(&video.index),
+    let of_frames = map.frames.iter();
+    let of_frames = of_frames.filter_map(|frame| match &frame.names {
+        FrameNames::Column(name) => Some(name),
+        FrameNames::Array(array) => Some(&array.index),
+        FrameNames::Video(video) => Some(&video.index),
         _ => None,
-    };
-    let known = of_frames.into_iter().chain(&map.ids.sample);
-    known.into_iter().any(|known| known == column)
+    });
+    let mut known = of_frames.chain(&map.ids.sample);
+    known.any(|known| known == column)
 }
 
 /// The columns of `table` that name the frames of the numbers in `labels`; counters and names of pictures are none.

@@ -5,9 +5,15 @@ use std::path::{Path, PathBuf};
 use super::Sources;
 use crate::import::map::FrameNames;
 
-/// For each row the folder of the joined table that names its picture, and its picture without contact; none where the main table does.
+/// The folders of the joined tables that name pictures, those of each view.
 #[derive(Debug, Default)]
 pub(in crate::import) struct NamedBy {
+    views: Vec<ViewNamedBy>,
+}
+
+/// For each row the folder of the joined table that names its picture, and its picture without contact; none where the main table does.
+#[derive(Debug)]
+struct ViewNamedBy {
     frames: Option<Vec<PathBuf>>,
     references: Option<Vec<PathBuf>>,
 }
@@ -19,25 +25,26 @@ impl NamedBy {
             let rows = 0..sources.main.rows();
             Some(rows.map(|row| joined.folder(row).to_owned()).collect())
         };
-        let Some(frame) = &sources.map.frame else {
-            return NamedBy::default();
-        };
-        NamedBy {
+        let views = sources.map.frames.iter();
+        let views = views.map(|frame| ViewNamedBy {
             frames: match &frame.names {
                 FrameNames::Column(column) => folders(column),
                 _ => None,
             },
             references: frame.reference_column.as_deref().and_then(folders),
+        });
+        NamedBy {
+            views: views.collect(),
         }
     }
 
-    /// The folder of the joined table that names the picture of `row`.
-    pub(in crate::import) fn frame(&self, row: usize) -> Option<&Path> {
-        Some(self.frames.as_ref()?.get(row)?)
+    /// The folder of the joined table that names the picture of `row` in the view at position `view`.
+    pub(in crate::import) fn frame(&self, view: usize, row: usize) -> Option<&Path> {
+        Some(self.views.get(view)?.frames.as_ref()?.get(row)?)
     }
 
     /// That of its picture without contact.
-    pub(in crate::import) fn reference(&self, row: usize) -> Option<&Path> {
-        Some(self.references.as_ref()?.get(row)?)
+    pub(in crate::import) fn reference(&self, view: usize, row: usize) -> Option<&Path> {
+        Some(self.views.get(view)?.references.as_ref()?.get(row)?)
     }
 }

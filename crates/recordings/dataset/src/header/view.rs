@@ -1,0 +1,33 @@
+//! One of several pictures that every sample has.
+
+use serde::{Deserialize, Serialize};
+
+use super::FramesInfo;
+
+/// Frames of one view, of a finger, an eye or a camera, and what they share.
+///
+/// ```
+/// let text = "name = \"left\"\ncount = 2\nwidth = 32\nheight = 24\nformat = \"gray8\"\nchannel_order = \"gray\"\n";
+/// let view: taceva_dataset::ViewInfo = toml::from_str(text)?;
+/// assert_eq!((view.name.as_str(), view.frames.info.width), ("left", 32));
+/// # Ok::<(), toml::de::Error>(())
+/// ```
+#[non_exhaustive]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ViewInfo {
+    /// The name: a letter, then letters, digits or `_`.
+    pub name: String,
+    /// Size, colours and number of its frames, and its frame without contact.
+    #[serde(flatten)]
+    pub frames: FramesInfo,
+}
+
+impl ViewInfo {
+    /// The view `name` of these frames.
+    pub fn new(name: impl Into<String>, frames: FramesInfo) -> ViewInfo {
+        ViewInfo {
+            name: name.into(),
+            frames,
+        }
+    }
+}

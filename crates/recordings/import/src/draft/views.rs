@@ -1,0 +1,150 @@
+//! Pictures that stand side by side in one row: columns, folders and files whose names differ in a finger, an eye or a number.
+
+use super::roles::words;
+
+/// Words that tell fingers, eyes and cameras of one sensor or gripper apart.
+const SIDES: [&str; 26] = [
+    "left", "right", "l", "r", "top", "bottom", "upper", "lower", "up", "down", "front", "back",
+    "inner", "outer", "first", "second", "thumb", "index", "middle", "ring", "little", "pinky",
+    "a", "b", "one", "two",
+];
+
+/// One of several names that differ in their side alone.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Sided {
+    /// Its position among the names.
+    pub(super) at: usize,
+    /// The name of the view.
+    pub(super) view: String,
+}
+
+/// A stretch of a name.
+struct Stretch<'a> {
+    text: &'a str,
+    /// Position in the name, bytes.
+    start: usize,
+}
+
+/// Those of `names` that differ in one side or number alone, in their order; none where fewer than two do.
+pub(super) fn sided(names: &[&str]) -> Vec<Sided> {
+    let mut groups: Vec<(String, Vec<Sided>)> = Vec::new();
+    for (at, name) in names.iter().enumerate() {
+        for (stem, view) in sides_of(name) {
+            let found = Sided { at, view };
+            match groups.iter_mut().find(|(known, _)| *known == stem) {
+                Some((_, group)) if group.iter().all(|own| own.view != found.view) => {
+                    group.push(found);
+                }
+                Some(_) => {}
+                None => groups.push((stem, vec![found])),
+            }
+        }
+    }
+    groups.retain(|(_, group)| group.len() > 1);
+    // Of two that are as large the first, which is the one of an earlier word.
+    let most = groups.iter().map(|(_, group)| group.len()).max();
+    let largest = groups
+        .into_iter()
+        .find(|(_, group)| Some(group.len()) == most);
+    largest.map(|(_, group)| group).unwrap_or_default()
+}
+
+/// For each word of `name` that may be a side, or number, the name without it, and the view that it names.
+fn sides_of(name: &str) -> Vec<(String, String)> {
+    let stretches = stretches(name);
+    let mut sides = Vec::new();
+    for (position, stretch) in stretches.iter().enumerate() {
+        let word = stretch.text.to_ascii_lowercase();
+        let is_number = word.bytes().all(|byte| byte.is_ascii_digit());
+        if !is_number && !SIDES.contains(&word.as_str()) {
+            continue;
+        }
+        let end = stretch.start + stretch.text.len();
+        let stem = format!("{}*{}", &name[..stretch.start], &name[end..]);
+        let before = stretches[..position].last().map(|before| before.text);
+        let view = match (is_number, before) {
+            (true, Some(before)) if words(before).len() == 1 => {
+                format!("{}{word}", before.to_ascii_lowercase())
+            }
+            (true, _) => format!("view{word}"),
+            (false, _) => word,
+        };
+        sides.push((stem.to_ascii_lowercase(), view));
+    }
+    sides
+}
+
+/// The words and numbers of a name: a word ends where a small letter stands before a capital one.
+fn stretches(name: &str) -> Vec<Stretch<'_>> {
+    let mut found: Vec<Stretch<'_>> = Vec::new();
+    let mut start = None;
+    let mut before = ' ';
+    let mut end_at = |start: &mut Option<usize>, end: usize| {
+        if let Some(start) = start.take() {
+            found.push(Stretch {
+                text: &name[start..end],
+                start,
+            });
+        }
+    };
+    for (at, letter) in name.char_indices() {
+        let is_new = letter.is_ascii_uppercase() && before.is_ascii_lowercase()
+            || letter.is_ascii_digit() != before.is_ascii_digit();
+        if is_new || !letter.is_ascii_alphanumeric() {
+            end_at(&mut start, at);
+        }
+        if letter.is_ascii_alphanumeric() && start.is_none() {
+            start = Some(at);
+        }
+        before = letter;
+    }
+    end_at(&mut start, name.len());
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn views_of(names: &[&str]) -> Vec<String> {
+        let sided = sided(names).into_iter();
+        sided
+            .map(|own| format!("{}={}", own.at, own.view))
+            .collect()
+    }
+
+    #[test]
+    fn names_that_differ_in_a_side_alone_are_views() {
+        for (names, expected) in [
+            (&["left_path", "right_path"][..], &["0=left", "1=right"][..]),
+            (
+                &["observation.images.left", "observation.images.right"],
+                &["0=left", "1=right"],
+            ),
+            (&["note", "imgLeft", "imgRight"], &["1=left", "2=right"]),
+            (&["cam0", "mask", "cam1"], &["0=cam0", "2=cam1"]),
+            (&["cam0_l", "cam0_r"], &["0=l", "1=r"]),
+            (&["runs/left.mp4", "runs/right.mp4"], &["0=left", "1=right"]),
+            (
+                &["thumb_img", "index_img", "middle_img"],
+                &["0=thumb", "1=index", "2=middle"],
+            ),
+        ] {
+            assert_eq!(views_of(names), expected, "{names:?}");
+        }
+    }
+
+    #[test]
+    fn other_pictures_of_a_row_are_no_views() {
+        for names in [
+            &["image", "mask"][..],
+            &["rgb", "depth"],
+            &["left_image", "right_mask"],
+            &["image"],
+            &["observation.images.laptop", "observation.images.phone"],
+            &["leftover", "right"],
+        ] {
+            assert!(views_of(names).is_empty(), "{names:?}");
+        }
+    }
+}

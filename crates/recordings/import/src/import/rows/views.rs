@@ -1,0 +1,142 @@
+//! The pictures of a table: of each view the cells that name them.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::MappedTable;
+use crate::foreign::{DepthPixels, ForeignTable, Pictures, TableForm};
+use crate::import::frame_cells::{FrameCells, FrameName, filled};
+use crate::import::map::{FrameMap, FrameNames, ImportMap};
+use crate::import::resolve::ResolvedTable;
+use taceva_dataset::internal::shown;
+use taceva_dataset::{DatasetError, Place};
+
+/// The pictures of one view, as the rows of a table name them.
+pub(in crate::import) struct MappedView {
+    cells: FrameCells,
+    /// The column of the frame without contact of each row.
+    reference: Option<usize>,
+    /// The column of the picture that rows first came with.
+    pub(super) origin: Option<usize>,
+    /// The pictures that the table itself holds.
+    pub(in crate::import) pictures: Option<Arc<dyn Pictures>>,
+    /// The pixels of a depth map that its clips are.
+    pub(in crate::import) depth: Option<DepthPixels>,
+}
+
+impl MappedView {
+    pub(super) fn find(
+        map: &ImportMap,
+        frame: &FrameMap,
+        main: &ForeignTable,
+        table: &ResolvedTable,
+        path: &Path,
+    ) -> Result<MappedView, DatasetError> {
+        let names = &frame.names;
+        let cells = match (&map.form, names) {
+            (TableForm::LeRobot, FrameNames::Video(video)) => {
+                FrameCells::Clips(main.clips(&video.file)?)
+            }
+            _ => FrameCells::find(names, table)?,
+        };
+        let depth = match names {
+            FrameNames::Video(video) => {
+                let depth = match (main.depth(&video.file), video.range) {
+                    (Some(codes), range) => DepthPixels::new(codes, range).map(Some),
+                    (None, None) => Ok(None),
+                    (None, Some(_)) => Err(format!(
+                        "`range` and `bits` are for an `array`, and for a depth map of LeRobot, which `{}` is not",
+                        shown(&video.file)
+                    )),
+                };
+                depth.map_err(|problem| DatasetError::Table {
+                    place: Place::file(path),
+                    problem,
+                })?
+            }
+            _ => None,
+        };
+        let inside = names.is_in_table().then_some(names);
+        let reference = frame.reference_column.as_ref();
+        let origin = map.origin.as_ref();
+        let origin = origin.and_then(|origin| origin.frames.get(frame.view.as_ref()?));
+        Ok(MappedView {
+            cells,
+            reference: reference.map(|name| table.position(name)).transpose()?,
+            origin: origin.map(|name| table.position(name)).transpose()?,
+            pictures: inside.map(|names| main.pictures(names)).transpose()?,
+            depth,
+        })
+    }
+}
+
+impl MappedTable<'_> {
+    /// Name of the frame of a row in the view at position `view`, and its place.
+    pub(in crate::import) fn frame_name(
+        &self,
+        view: usize,
+        row: usize,
+    ) -> Result<(FrameName, Place), DatasetError> {
+        let (name, column) = match &self.views[view].cells {
+            FrameCells::Column(column) => (
+                FrameName::File(self.table.cell(row, *column).to_owned()),
+                *column,
+            ),
+            FrameCells::Pattern(parts) => {
+                let cell = |column| self.table.cell(row, column);
+                (FrameName::File(filled(parts, cell)), usize::MAX)
+            }
+            FrameCells::Within { file, index } => {
+                let at = self.count(row, Some(*index))?.ok_or_else(|| {
+                    self.wrong(row, *index, "empty, expected the position of a frame")
+                })?;
+                let cell = |column| self.table.cell(row, column);
+                let file = file.as_ref().map(|parts| filled(parts, cell));
+                (FrameName::Within(file, u64::from(at)), *index)
+            }
+            FrameCells::Clips(clips) => {
+                let (file, frame) = &clips[row];
+                let file = match self.table.source() {
+                    "" | "." => file.clone(),
+                    folder => format!("{folder}/{file}"),
+                };
+                (FrameName::Within(Some(file), *frame), usize::MAX)
+            }
+            FrameCells::OfRow => (FrameName::Within(None, row as u64), usize::MAX),
+        };
+        Ok((name, self.table.place(row, column)))
+    }
+
+    /// Name of the frame without contact of a row, and its place; `None` if the map names no column of such.
+    pub(in crate::import) fn reference_name(
+        &self,
+        view: usize,
+        row: usize,
+    ) -> Option<(&str, Place)> {
+        let column = self.views[view].reference?;
+        Some((self.table.cell(row, column), self.table.place(row, column)))
+    }
+
+    /// The picture that the row first came with in a view, where the map of an export says so.
+    pub(in crate::import) fn origin_of(&self, view: usize, row: usize) -> Option<String> {
+        let cell = self.table.cell(row, self.views[view].origin?);
+        (!cell.is_empty()).then(|| cell.to_owned())
+    }
+
+    /// The rules by which the names of the pictures of a row leave it out.
+    pub(super) fn names_left_out(&self, row: usize) -> Vec<String> {
+        let rules = &self.map.drop.frames_named;
+        let views = self.map.frames.iter().zip(&self.views);
+        let reasons = views.filter_map(|(frame, view)| {
+            let FrameCells::Column(column) = view.cells else {
+                return None;
+            };
+            let name = self.table.cell(row, column);
+            let of_view = frame.view.iter();
+            let of_view: String = of_view.map(|view| format!(" of view {view}")).collect();
+            let is_named = rules.iter().any(|known| known == name);
+            is_named.then(|| format!("frame `{}`{of_view}", shown(name)))
+        });
+        reasons.collect()
+    }
+}
